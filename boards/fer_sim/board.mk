@@ -1,0 +1,7 @@
+# A simulated Franka FER in virtual time, on the host.
+ROBOT  := FER
+SRCS   += boards/fer_sim/board.cpp
+LDLIBS += -lmujoco
+
+# What `make run` runs: pipeline, or pipeline:trajectory.
+RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints

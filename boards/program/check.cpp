@@ -1,0 +1,34 @@
+// `tactus check`: the loader, the admission and the generator's own first step, without a robot.
+#include <cstdio>
+
+#include "boards/program/session.hpp"
+#include "boards/program/trajectory_input.hpp"
+
+namespace tactus {
+
+int check(Session& session, const Options& options, const RobotState& initial) {
+  TrajectoryInput input;
+  if (!send_trajectory(session, options, input)) return kRefused;
+  Guard guard;
+  Status status = guard.start(session.pipeline.guard, initial, session.pipeline.robot.period_s());
+  if (status == Status::kOk) status = session.pipeline.start(initial);
+  if (status == Status::kOk) status = session.pipeline.step(initial);
+  if (status != Status::kOk) {
+    std::fprintf(stderr, "%s: refused: %s\n", options.pipeline, name(status));
+    return kRefused;
+  }
+  Report report;
+  while (session.client.poll(report)) {
+    if (report.outcome != Outcome::kRefused) continue;
+    print_verdict(input, report.verdict);
+    return kRefused;
+  }
+  std::printf("%s: accepted", options.pipeline);
+  if (input.trajectory != nullptr)
+    std::printf("; %s: accepted, %d waypoints, %.6g s", input.path.c_str(), input.trajectory->count,
+                input.trajectory->end_s());
+  std::printf("\n");
+  return kSucceeded;
+}
+
+}  // namespace tactus

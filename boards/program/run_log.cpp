@@ -1,0 +1,82 @@
+#include "boards/program/run_log.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <string_view>
+
+#include "kernel/ini.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kFewWaypoints = 200;
+constexpr std::size_t kNumberLength = 32;  // of the shortest text that gives the same double
+
+void write_names(std::FILE* file, const PortEntry& port) {
+  const QuantityInfo& quantity = info(port.quantity);
+  std::string_view words = quantity.components;
+  for (int i = 0; i < quantity.recorded; ++i) {
+    std::fprintf(file, ",%s.%s_", port.block.c_str(), port.port);
+    const std::string_view word = take_word(words);
+    if (word.empty())
+      std::fprintf(file, "%d", i + 1);
+    else
+      std::fprintf(file, "%.*s", static_cast<int>(word.size()), word.data());
+  }
+}
+
+}  // namespace
+
+bool RunLog::open(const char* path, const Recording& recording) {
+  file_ = std::fopen(path, "wb");
+  if (file_ == nullptr) {
+    std::fprintf(stderr, "%s: %s\n", path, std::strerror(errno));
+    return false;
+  }
+  width_ = recording.width();
+  std::fprintf(file_, "time_s");
+  for (int i = 0; i < recording.signal_count; ++i) {
+    write_names(file_, *recording.signals[static_cast<std::size_t>(i)]);
+  }
+  std::fprintf(file_, "\n");
+  return true;
+}
+
+void RunLog::drain(Recorder& recorder) {
+  while (recorder.take(row_.data())) write_row(row_.data());
+}
+
+void RunLog::write_row(const double* row) {
+  std::array<char, kMaxWidth * kNumberLength> text;
+  char* to = text.data();
+  for (std::size_t i = 0; i < width_; ++i) {
+    if (i > 0) *to++ = ',';
+    to = std::to_chars(to, text.data() + text.size(), row[i]).ptr;
+  }
+  *to++ = '\n';
+  std::fwrite(text.data(), 1, static_cast<std::size_t>(to - text.data()), file_);
+}
+
+bool RunLog::close() {
+  const bool failed = std::ferror(file_) != 0;
+  return std::fclose(file_) == 0 && !failed;
+}
+
+bool write_waypoints(const char* path, const Trajectory<JointSpace>& trajectory,
+                     const PortEntry& reference) {
+  if (trajectory.count > kFewWaypoints) return true;
+  std::FILE* file = std::fopen(path, "wb");
+  if (file == nullptr) return false;
+  std::fprintf(file, "time_s");
+  write_names(file, reference);
+  std::fprintf(file, "\n");
+  for (int i = 0; i < trajectory.count; ++i) {
+    std::fprintf(file, "%.9g", trajectory.waypoints[i].time_s);
+    for (int j = 0; j < kDof; ++j) std::fprintf(file, ",%.9g", trajectory.waypoints[i].point.q[j]);
+    std::fprintf(file, "\n");
+  }
+  return std::fclose(file) == 0;
+}
+
+}  // namespace tactus

@@ -1,0 +1,36 @@
+// Session: the objects of a board as the program's verbs see them. The board owns them all.
+#pragma once
+
+#include <string_view>
+
+#include "boards/program/options.hpp"
+#include "gateway/gateway_section.hpp"
+#include "gateway/reference_client.hpp"
+#include "kernel/executive.hpp"
+
+namespace tactus {
+
+struct Session {
+  const char* board;
+  std::size_t static_bytes;  ///< of all objects of the kernel and the gateway on this board
+  std::string_view text;     ///< of the pipeline file
+  Pipeline& pipeline;
+  Executive& executive;
+  Recorder& recorder;
+  ReferenceClient& client;
+  const GatewaySection& gateway;
+};
+
+/// `tactus run`: runs the pipeline in lock-step with the plant's virtual time and writes log,
+/// summary and figure. Returns the exit code.
+int run(Session& session, const Options& options);
+
+/// `tactus check`: judges pipeline and trajectory as `run` would, from `initial` on; nothing moves.
+/// Returns the exit code.
+int check(Session& session, const Options& options, const RobotState& initial);
+
+/// `tactus ports`: prints every block, port, unit, setting, default and range as Markdown. Returns
+/// the exit code.
+int print_ports(const char* board, const Capabilities& offered);
+
+}  // namespace tactus

@@ -1,0 +1,108 @@
+#include "boards/program/summary.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+
+namespace tactus {
+namespace {
+
+void write_numbers(std::FILE* file, const char* key, const TrackingError& error,
+                   double (*number)(const TrackingError&, int)) {
+  std::fprintf(file, ", \"%s\": [", key);
+  for (int i = 0; i < error.components(); ++i) {
+    std::fprintf(file, "%s%.9g", i > 0 ? ", " : "", number(error, i));
+  }
+  std::fprintf(file, "]");
+}
+
+void write_tracking(std::FILE* file, const RunResult& result) {
+  std::fprintf(file, "  \"tracking\": [");
+  for (int i = 0; i < result.tracking_count; ++i) {
+    const TrackingError& error = result.tracking[static_cast<std::size_t>(i)];
+    const PortEntry &reference = *error.tracking().reference,
+                    &measured = *error.tracking().measured;
+    const QuantityInfo& quantity = info(reference.quantity);
+    std::fprintf(file, "%s\n    {\"reference\": \"%s.%s\", \"measured\": \"%s.%s\", ",
+                 i > 0 ? "," : "", reference.block.c_str(), reference.port, measured.block.c_str(),
+                 measured.port);
+    std::fprintf(file, "\"quantity\": \"%s\", \"unit\": \"%s\"", quantity.name, quantity.unit);
+    write_numbers(file, "rms", error, [](const TrackingError& e, int c) { return e.rms(c); });
+    write_numbers(file, "max", error, [](const TrackingError& e, int c) { return e.max(c); });
+    write_numbers(file, "final", error, [](const TrackingError& e, int c) { return e.last(c); });
+    std::fprintf(file, "}");
+  }
+  std::fprintf(file, "\n  ],\n");
+}
+
+void write_timing(std::FILE* file, const Executive& executive) {
+  std::fprintf(file, "  \"timing\": {");
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const Histogram& times = executive.times(static_cast<Stage>(i));
+    std::fprintf(file,
+                 "%s\n    \"%s\": {\"p50_ns\": %.0f, \"p99_ns\": %.0f, \"max_ns\": %" PRIu64 "}",
+                 i > 0 ? "," : "", kStageNames[i], times.percentile(0.5), times.percentile(0.99),
+                 times.max());
+  }
+  std::fprintf(file, "\n  },\n");
+}
+
+double realtime_factor(const RunResult& result) {
+  return result.wall_s > 0.0 ? result.simulated_s / result.wall_s : 0.0;
+}
+
+}  // namespace
+
+bool write_summary(const char* path, std::string_view pipeline, const Session& session,
+                   const RunResult& result) {
+  std::FILE* file = std::fopen(path, "wb");
+  if (file == nullptr) return false;
+  const Executive::Telemetry& telemetry = session.executive.telemetry();
+  const Guard::Telemetry& guard = session.executive.guard().telemetry();
+  std::fprintf(file, "{\n  \"pipeline\": \"%.*s\",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n",
+               static_cast<int>(pipeline.size()), pipeline.data(), Robot::kName, session.board);
+  std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
+               1.0 / session.pipeline.robot.period_s(), telemetry.cycles, result.seed);
+  std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
+  std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
+  write_tracking(file, result);
+  write_timing(file, session.executive);
+  std::fprintf(file, "  \"slips\": %" PRId64 ",\n  \"overruns\": %" PRId64 ",\n", telemetry.slips,
+               telemetry.overruns);
+  std::fprintf(file, "  \"guard\": {\"limited\": %u, \"tripped\": %d},\n", guard.limited_cycles,
+               guard.tripped_joint >= 0 ? 1 : 0);
+  std::fprintf(file, "  \"recorder_dropped\": %u,\n", session.recorder.dropped());
+  std::fprintf(file, "  \"heap_allocations_in_cycle\": %" PRIu64 ",\n  \"static_bytes\": %zu,\n",
+               result.heap_allocations, session.static_bytes);
+  std::fprintf(file, "  \"realtime_factor\": %.4g\n}\n", realtime_factor(result));
+  return std::fclose(file) == 0;
+}
+
+void print_table(std::string_view pipeline, const Session& session, const RunResult& result) {
+  const Executive& executive = session.executive;
+  std::printf("\n%.*s on %s, %.6g Hz: %s\n", static_cast<int>(pipeline.size()), pipeline.data(),
+              session.board, 1.0 / session.pipeline.robot.period_s(), result.name);
+  for (int i = 0; i < result.tracking_count; ++i) {
+    const TrackingError& error = result.tracking[static_cast<std::size_t>(i)];
+    const PortEntry &reference = *error.tracking().reference,
+                    &measured = *error.tracking().measured;
+    std::printf("\n  %s.%s - %s.%s (%s)\n  %9s %12s %12s %12s\n", reference.block.c_str(),
+                reference.port, measured.block.c_str(), measured.port,
+                info(reference.quantity).unit, "component", "rms", "max", "final");
+    for (int c = 0; c < error.components(); ++c)
+      std::printf("  %9d %12.3e %12.3e %12.3e\n", c + 1, error.rms(c), error.max(c), error.last(c));
+  }
+  std::printf("\n  %9s %12s %12s %12s\n", "stage", "p50 us", "p99 us", "max us");
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const Histogram& times = executive.times(static_cast<Stage>(i));
+    std::printf("  %9s %12.2f %12.2f %12.2f\n", kStageNames[i], times.percentile(0.5) * 1e-3,
+                times.percentile(0.99) * 1e-3, static_cast<double>(times.max()) * 1e-3);
+  }
+  std::printf("\n  %" PRId64 " cycles, %" PRId64
+              " slips, %u limited by the guard, "
+              "%" PRIu64 " heap allocations in the cycle, %.3g s in %.3g s (%.0f x real time)\n",
+              executive.telemetry().cycles, executive.telemetry().slips,
+              executive.guard().telemetry().limited_cycles, result.heap_allocations,
+              result.simulated_s, result.wall_s, realtime_factor(result));
+}
+
+}  // namespace tactus

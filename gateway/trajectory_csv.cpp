@@ -1,0 +1,136 @@
+#include "gateway/trajectory_csv.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "gateway/trajectory_columns.hpp"
+#include "kernel/ini.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr std::size_t kMaxRowLength = 4096;
+
+/// Cuts the first cell off `row`; false when there is none left.
+bool take_cell(std::string_view& row, bool& more, std::string_view& cell) {
+  if (!more) return false;
+  const std::size_t comma = row.find(',');
+  more = comma != std::string_view::npos;
+  cell = trim(row.substr(0, comma));
+  row.remove_prefix(more ? comma + 1 : row.size());
+  return true;
+}
+
+bool refuse(CsvError& error, int line, int column, std::string_view header,
+            std::string_view reason) {
+  error.line = line;
+  error.column = column;
+  error.header = Name(header);
+  error.reason = Message(reason);
+  return false;
+}
+
+bool read_number(std::string_view cell, double& value) {
+  if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
+  const char* end = cell.data() + cell.size();
+  const auto [stop, code] = std::from_chars(cell.data(), end, value);
+  return code == std::errc() && stop == end && std::isfinite(value);
+}
+
+bool read_header(std::string_view row, int line, Columns& columns, CsvError& error) {
+  bool more = true;
+  std::string_view cell;
+  for (int column = 1; take_cell(row, more, cell); ++column) {
+    Message reason;
+    if (!columns.add(cell, reason)) return refuse(error, line, column, cell, reason);
+  }
+  Message reason;
+  return columns.complete(reason) || refuse(error, line, 0, {}, reason);
+}
+
+bool read_row(std::string_view row, int line, const Columns& columns,
+              Waypoint<JointSpace>& waypoint, CsvError& error) {
+  waypoint = {};
+  bool more = true;
+  std::string_view cell;
+  int column = 0;
+  while (take_cell(row, more, cell)) {
+    if (++column > columns.count()) {
+      return refuse(error, line, column, {},
+                    Message("more cells than the ") << columns.count() << " of the header");
+    }
+    const std::string_view header = columns.name(column - 1);
+    if (cell.empty()) return refuse(error, line, column, header, "the cell is empty");
+    if (!read_number(cell, columns.value(column - 1, waypoint)))
+      return refuse(error, line, column, header,
+                    Message("'") << cell << "' is not a finite number");
+  }
+  if (column == columns.count()) return true;
+  return refuse(error, line, 0, {},
+                Message("") << column << " cells, the header has " << columns.count());
+}
+
+/// One line without its end; false at the end of the file. `fits` tells whether the whole line was
+/// read.
+bool read_line(std::FILE* file, std::array<char, kMaxRowLength>& buffer, std::string_view& line,
+               bool& fits) {
+  if (std::fgets(buffer.data(), static_cast<int>(buffer.size()), file) == nullptr) return false;
+  line = std::string_view(buffer.data(), std::strlen(buffer.data()));
+  fits = (!line.empty() && line.back() == '\n') || std::feof(file) != 0;
+  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+  return true;
+}
+
+bool read_file(std::FILE* file, Trajectory<JointSpace>& trajectory, CsvError& error) {
+  std::array<char, kMaxRowLength> buffer;
+  std::string_view row;
+  bool fits = true;
+  Columns columns;
+  trajectory.count = 0;
+  int line = 0;
+  while (read_line(file, buffer, row, fits)) {
+    ++line;
+    if (!fits)
+      return refuse(error, line, 0, {}, Message("the line is longer than ") << kMaxRowLength - 2);
+    if (trim(row).empty() || row.front() == '#') continue;
+    if (columns.count() == 0) {
+      if (!read_header(row, line, columns, error)) return false;
+      continue;
+    }
+    if (trajectory.count == trajectory.capacity)
+      return refuse(error, line, 0, {},
+                    Message("more than the ")
+                        << trajectory.capacity << " waypoints there is room for");
+    if (!read_row(row, line, columns, trajectory.waypoints[trajectory.count], error)) return false;
+    ++trajectory.count;
+  }
+  if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file is empty: it has no header");
+  if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoint");
+  trajectory.fields = columns.fields();
+  return true;
+}
+
+}  // namespace
+
+Message CsvError::message() const {
+  Message text;
+  if (line > 0) text << line << ":";
+  if (column > 0) text << column << ":";
+  if (line > 0) text << " ";
+  if (!header.empty()) text << header << ": ";
+  return text << reason, text;
+}
+
+bool read_trajectory(const char* path, Trajectory<JointSpace>& trajectory, CsvError& error) {
+  error = {};
+  std::FILE* file = std::fopen(path, "rb");
+  if (file == nullptr) return refuse(error, 0, 0, {}, std::strerror(errno));
+  const bool read = read_file(file, trajectory, error);
+  const bool whole = std::ferror(file) == 0;
+  std::fclose(file);
+  return whole ? read : refuse(error, 0, 0, {}, "the file cannot be read to its end");
+}
+
+}  // namespace tactus

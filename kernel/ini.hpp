@@ -1,0 +1,56 @@
+// The text of a pipeline file as a fixed table of entries. Sections "[name]", lines "key = value",
+// comments from '#'. Checks the form of the file; what the keys mean is the loader's business.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "kernel/load_error.hpp"
+
+namespace tactus {
+
+inline constexpr int kMaxSections = 24;
+inline constexpr int kMaxEntries = 256;
+inline constexpr std::size_t kMaxLineLength = 240;
+
+struct IniEntry {
+  int line = 0;
+  std::string_view key, value;  ///< into the text, which must outlive the table
+};
+
+struct IniSection {
+  int line = 0;
+  std::string_view name;
+  int first = 0, count = 0;  ///< its entries
+};
+
+class Ini {
+ public:
+  /// Splits `text`. On refusal says why in `error` and the table is not to be used. [init]
+  Status parse(std::string_view text, LoadError& error);
+
+  int section_count() const { return section_count_; }
+  const IniSection& section(int index) const { return sections_[static_cast<std::size_t>(index)]; }
+  const IniEntry& entry(int index) const { return entries_[static_cast<std::size_t>(index)]; }
+  /// The section of that name, or null. [init]
+  const IniSection* find(std::string_view name) const;
+  /// The entry of that key in a section, or null. [init]
+  const IniEntry* find(const IniSection& section, std::string_view key) const;
+
+ private:
+  Status parse_line(std::string_view line, int number, LoadError& error);
+  Status add_section(std::string_view name, int number, LoadError& error);
+  Status add_entry(std::string_view key, std::string_view value, int number, LoadError& error);
+
+  std::array<IniSection, kMaxSections> sections_;
+  std::array<IniEntry, kMaxEntries> entries_;
+  int section_count_ = 0, entry_count_ = 0;
+};
+
+/// Without blanks at either end. [any]
+std::string_view trim(std::string_view text);
+
+/// Cuts the first word off `text`; empty when there is none left. [any]
+std::string_view take_word(std::string_view& text);
+
+}  // namespace tactus

@@ -1,0 +1,43 @@
+// LoadError: why a pipeline file was refused, and where. The program puts the file's name in front.
+#pragma once
+
+#include "kernel/status.hpp"
+#include "kernel/text.hpp"
+
+namespace tactus {
+
+inline constexpr std::size_t kMaxNameLength = 31;    ///< section, key and port names
+inline constexpr std::size_t kMaxValueLength = 191;  ///< the right-hand side of a line
+
+using Name = Text<kMaxNameLength>;
+using Value = Text<kMaxValueLength>;
+using Message = Text<383>;
+
+struct LoadError {
+  Status status = Status::kOk;
+  int line = 0;  ///< from 1; 0 = the file as a whole
+  Name section, key;
+  Message reason;
+
+  /// Fills in the error and returns its status, for `return error.refuse(...)`. [init]
+  Status refuse(Status code, int at_line, std::string_view in_section, std::string_view at_key,
+                std::string_view why) {
+    status = code;
+    line = at_line;
+    section = Name(in_section);
+    key = Name(at_key);
+    reason = Message(why);
+    return code;
+  }
+
+  /// "line: [section] key: reason", without the parts that are empty. [init]
+  Message message() const {
+    Message text;
+    if (line > 0) text << line << ": ";
+    if (!section.empty()) text << "[" << section << "] ";
+    if (!key.empty()) text << key << ": ";
+    return text << reason, text;
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,95 @@
+// Forward kinematics and geometric Jacobian of the tool tip, in the base frame: one sweep out for
+// the joint axes, one sweep back for the lever arms (Siciliano et al., Robotics, 2.8 and 3.1):
+//   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)
+//   d_i = d_(i+1) + R_i offset_(i+1)       from the origin of frame i to the tip
+//   J_i = [z_i x d_i; z_i]                 column of revolute joint i
+#pragma once
+
+#include "kernel/model/joint_trig.hpp"
+#include "kernel/types.hpp"
+
+namespace tactus {
+
+template <class R>
+using JacobianOf = Eigen::Matrix<double, 6, R::kDof>;
+
+/// The columns of a rotation matrix: axes of a frame, in the axes of the base.
+template <class X, class Y, class Z>
+struct FrameAxes {
+  X x;
+  Y y;
+  Z z;
+};
+template <class X, class Y, class Z>
+FrameAxes(X, Y, Z) -> FrameAxes<X, Y, Z>;
+
+/// R RotX(k pi/2)
+template <int k, class X, class Y, class Z>
+auto rolled(const FrameAxes<X, Y, Z>& r) {
+  if constexpr (k == 0) {
+    return r;
+  } else if constexpr (k == 1) {
+    return FrameAxes{r.x, r.z, -r.y};
+  } else if constexpr (k == -1) {
+    return FrameAxes{r.x, -r.z, r.y};
+  } else {
+    return FrameAxes{r.x, -r.y, -r.z};
+  }
+}
+
+/// R RotZ(q)
+template <class X, class Y, class Z>
+auto turned(const FrameAxes<X, Y, Z>& r, const SinCos& q) {
+  return FrameAxes{q.cos * r.x + q.sin * r.y, q.cos * r.y - q.sin * r.x, r.z};
+}
+
+/// R v
+template <class X, class Y, class Z, class V>
+auto rotated(const FrameAxes<X, Y, Z>& r, const V& v) {
+  return v.x * r.x + v.y * r.y + v.z * r.z;
+}
+
+template <class X, class Y, class Z>
+Vector3 dense(const TypedVector<X, Y, Z>& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// The flange carries the tool: fills the orientation and returns the lever from frame kDof-1.
+template <class R, class A>
+auto tip_from_last_link(const A& link, const Pose& tip, Pose& x) {
+  const auto flange = rolled<R::kFlange.roll_quarter_turns>(link);
+  Matrix3 rotation;
+  rotation << dense(flange.x), dense(flange.y), dense(flange.z);
+  x.r = Eigen::Quaterniond(rotation) * tip.r;
+  return rotated(link, from_flange<R>(tip.p));
+}
+
+/// Fills columns i and up of J; returns the lever from the origin of frame i-1 to the tip, m.
+template <class R, int i, class A>
+auto tip_from(const A& parent, const JointTrig<R>& trig, const Pose& tip, Pose& x,
+              JacobianOf<R>& J) {
+  if constexpr (i == R::kDof) {
+    return tip_from_last_link<R>(parent, tip, x);
+  } else {
+    const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
+    const auto d = tip_from<R, i + 1>(link, trig, tip, x, J);
+    J.col(i) << dense(cross(link.z, d)), dense(link.z);
+    return rotated(parent, offset<R, i>()) + d;
+  }
+}
+
+/// Pose of the tool tip in the base frame, and J with [v; w] = J dq at the tip, in the axes of the
+/// base, linear part first. `tip` is the tip frame in the flange frame. [cyclic]
+// flatten: the recursion over the joints becomes one straight line of arithmetic.
+template <class R>
+[[gnu::flatten]] Pose forward_kinematics(const JointTrig<R>& trig, const Pose& tip,
+                                         JacobianOf<R>& J) {
+  constexpr auto kBase =
+      FrameAxes{TypedVector{1.0, Zero{}, Zero{}}, TypedVector{Zero{}, 1.0, Zero{}},
+                TypedVector{Zero{}, Zero{}, 1.0}};
+  Pose x;
+  x.p = dense(tip_from<R, 0>(kBase, trig, tip, x, J));
+  return x;
+}
+
+}  // namespace tactus

@@ -1,0 +1,38 @@
+// Joint efforts that hold the arm against gravity, by composite first moments:
+//   a_i = R^T a_(i-1)                                   minus the gravity acceleration, a_(-1) = g
+//   e_z h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)    first moment of link i and all it
+//   carries g_i = e_z . (h_i x a_i)
+// with M_i the mass of link i and all it carries; the tool is a point mass on the last link.
+#pragma once
+
+#include "kernel/model/joint_trig.hpp"
+#include "kernel/model/link.hpp"
+#include "kernel/types.hpp"
+
+namespace tactus {
+
+/// Fills g from joint i up. Returns the first moment of link i and all it carries about the origin
+/// and in the axes of frame i-1, kg m; `a_parent` is in the same axes.
+template <class R, int i, class A>
+auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& tool,
+                      JointsOf<R>& g) {
+  if constexpr (i == R::kDof) {
+    return tool.mass_kg * from_flange<R>(tool.com);
+  } else {
+    const auto a = to_child<R, i>(trig[i], a_parent);
+    const auto h = first_moment<R, i>() + composite_moment<R, i + 1>(a, trig, tool, g);
+    g[i] = cross(h, a).z;
+    const double mass = carried_mass<R, i>() + tool.mass_kg;
+    return to_parent<R, i>(trig[i], h) + mass * offset<R, i>();
+  }
+}
+
+/// g(q) in N m, the base upright: the gradient of the potential energy. [cyclic]
+template <class R>
+[[gnu::flatten]] JointsOf<R> gravity(const JointTrig<R>& trig, const Tool& tool) {
+  JointsOf<R> g;
+  composite_moment<R, 0>(TypedVector{Zero{}, Zero{}, kGravity_m_s2}, trig, tool, g);
+  return g;
+}
+
+}  // namespace tactus

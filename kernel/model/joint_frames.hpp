@@ -1,0 +1,75 @@
+// Changes of frame along the arm, specialised by the compiler for one robot table. Frame i is fixed
+// to link i and joint i turns about its z; frame -1 is the base, frame kDof the flange:
+//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(q_i).
+// RotX by quarter turns only permutes components and signs, so a change of frame costs one planar
+// rotation. Vectors are TypedVectors; their zeros cost nothing.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "kernel/math/sincos.hpp"
+#include "kernel/math/typed_vector.hpp"
+#include "kernel/model/robot_table.hpp"
+
+namespace tactus {
+
+/// One number per joint of robot R.
+template <class R>
+using JointsOf = Eigen::Matrix<double, R::kDof, 1>;
+
+/// Frame i of the table in frame i-1; the flange when i = kDof.
+template <class R, int i>
+constexpr JointFrame joint_frame() {
+  if constexpr (i == R::kDof) {
+    return R::kFlange;
+  } else {
+    return R::kJoints[i];
+  }
+}
+
+/// Origin of frame i in the axes of frame i-1, m. [any]
+template <class R, int i>
+constexpr auto offset() {
+  return TypedVector{typed([] { return joint_frame<R, i>().x; }),
+                     typed([] { return joint_frame<R, i>().y; }),
+                     typed([] { return joint_frame<R, i>().z; })};
+}
+
+/// RotX(k pi/2) v. [any]
+template <int k, class V>
+constexpr auto quarter_turns(const V& v) {
+  static_assert(k >= -2 && k <= 2, "a joint frame is rolled by -1, 0, 1 or 2 quarter turns");
+  if constexpr (k == 0) {
+    return v;
+  } else if constexpr (k == 1) {
+    return TypedVector{v.x, -v.z, v.y};
+  } else if constexpr (k == -1) {
+    return TypedVector{v.x, v.z, -v.y};
+  } else {
+    return TypedVector{v.x, -v.y, -v.z};
+  }
+}
+
+/// Components in frame i of a vector given in the axes of frame i-1: RotZ(-q) RotX(-k pi/2) v.
+/// [any]
+template <class R, int i, class V>
+constexpr auto to_child(const SinCos& q, const V& v) {
+  const auto u = quarter_turns<-joint_frame<R, i>().roll_quarter_turns>(v);
+  return TypedVector{q.cos * u.x + q.sin * u.y, q.cos * u.y - q.sin * u.x, u.z};
+}
+
+/// Components in the axes of frame i-1 of a vector given in frame i: RotX(k pi/2) RotZ(q) v. [any]
+template <class R, int i, class V>
+constexpr auto to_parent(const SinCos& q, const V& v) {
+  const auto u = TypedVector{q.cos * v.x - q.sin * v.y, q.sin * v.x + q.cos * v.y, v.z};
+  return quarter_turns<joint_frame<R, i>().roll_quarter_turns>(u);
+}
+
+/// A point of the flange frame in the frame of the last link, m. [any]
+template <class R>
+auto from_flange(const Eigen::Matrix<double, 3, 1>& p) {
+  return quarter_turns<R::kFlange.roll_quarter_turns>(TypedVector{p.x(), p.y(), p.z()}) +
+         offset<R, R::kDof>();
+}
+
+}  // namespace tactus

@@ -1,0 +1,36 @@
+// The vocabulary of a robot's constant table: what fer.hpp and its kin fill in, and nothing of how
+// it is used.
+#pragma once
+
+namespace tactus {
+
+/// Where joint frame i stands in joint frame i-1 at q = 0; the joint turns about its own z.
+/// T(i-1, i) = Trans(x, y, z) * RotX(roll) * RotZ(q_i), which holds every arm whose axes are
+/// parallel or perpendicular.
+struct JointFrame {
+  double x, y, z;          ///< m, in frame i-1
+  int roll_quarter_turns;  ///< roll about x in units of pi/2: -1, 0, 1 or 2
+};
+
+/// Mass distribution of a link in the axes of its joint frame; the tensor is about the centre of
+/// mass.
+struct LinkInertia {
+  double mass;                    ///< kg
+  double cx, cy, cz;              ///< centre of mass, m
+  double xx, xy, xz, yy, yz, zz;  ///< kg m^2
+};
+
+/// Bounds of one joint. The torque rate is that of the command.
+struct JointLimit {
+  double q_min, q_max;  ///< rad
+  double dq_max;        ///< rad/s
+  double ddq_max;       ///< rad/s^2
+  double dddq_max;      ///< rad/s^3
+  double tau_max;       ///< N m
+  double dtau_max;      ///< N m/s
+};
+
+/// Standard gravity used by every model and by the plant, m/s^2 along -z of the base frame.
+inline constexpr double kGravity_m_s2 = 9.81;
+
+}  // namespace tactus

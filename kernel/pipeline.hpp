@@ -1,0 +1,54 @@
+// Pipeline: the chain of blocks that a file describes, in fixed memory. Types closed here,
+// composition open at load, nothing decided in the cycle.
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <variant>
+
+#include "kernel/control/pd_gravity.hpp"
+#include "kernel/guard/guard.hpp"
+#include "kernel/model/robot_model.hpp"
+#include "kernel/recorder.hpp"
+#include "kernel/reference/joint_reference_generator.hpp"
+#include "kernel/settings.hpp"
+
+namespace tactus {
+
+/// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
+using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator, PdGravity>;
+
+/// The word for each kind in "type = ...", in the order of Block.
+inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
+    "", "robot_model", "joint_reference_generator", "pd_gravity"};
+
+inline constexpr int kMaxBlocks = 12;
+
+class Pipeline {
+ public:
+  RobotSection robot;
+  Guard::Params guard;
+  ExecutiveSection executive;
+  RecorderSection recorder;
+  Recording recording;
+  PortTable ports;
+
+  /// An empty slot at the end of the chain, or null if all are taken. [init]
+  Block* append() {
+    return count_ < kMaxBlocks ? &blocks_[static_cast<std::size_t>(count_++)] : nullptr;
+  }
+
+  /// Starts every block in order, from the measured state. The first Status that is not kOk. [init]
+  Status start(const RobotState& measured);
+  /// Steps every block in order. The first Status that is not kOk. [cyclic]
+  Status step(const RobotState& measured);
+
+ private:
+  std::array<Block, kMaxBlocks> blocks_;
+  int count_ = 0;
+};
+
+static_assert(std::is_trivially_destructible_v<Pipeline>,
+              "a pipeline owns nothing but its own bytes");
+
+}  // namespace tactus

@@ -1,0 +1,63 @@
+#include "kernel/recorder.hpp"
+
+#include <algorithm>
+
+namespace tactus {
+
+std::size_t Recording::width() const {
+  std::size_t width = 1;
+  for (int i = 0; i < signal_count; ++i) {
+    width +=
+        static_cast<std::size_t>(info(signals[static_cast<std::size_t>(i)]->quantity).recorded);
+  }
+  return width;
+}
+
+int flatten(const PortEntry& port, double* to) {
+  const int count = info(port.quantity).recorded;
+  if (port.quantity == Quantity::kPose) {
+    const Pose& pose = *static_cast<const Pose*>(port.value);
+    const double numbers[] = {pose.p.x(), pose.p.y(), pose.p.z(), pose.r.w(),
+                              pose.r.x(), pose.r.y(), pose.r.z()};
+    std::copy(numbers, numbers + count, to);
+  } else if (port.quantity == Quantity::kTwist) {
+    const Vector6& twist = *static_cast<const Vector6*>(port.value);
+    std::copy(twist.data(), twist.data() + count, to);
+  } else if (count > 0) {
+    const JointVector& joints = *static_cast<const JointVector*>(port.value);
+    std::copy(joints.data(), joints.data() + count, to);
+  }
+  return count;
+}
+
+void Recorder::start(const Recording& recording) {
+  recording_ = recording;
+  width_ = recording.width();
+  rows_ = static_cast<std::uint32_t>(size_ / width_);
+  head_ = tail_ = dropped_ = 0;
+}
+
+void Recorder::record(double time_s) {
+  const std::uint32_t head = head_.load(std::memory_order_relaxed);
+  if (head - tail_.load(std::memory_order_acquire) >= rows_) {
+    dropped_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  double* to = storage_ + (head % rows_) * width_;
+  *to++ = time_s;
+  for (int i = 0; i < recording_.signal_count; ++i) {
+    to += flatten(*recording_.signals[static_cast<std::size_t>(i)], to);
+  }
+  head_.store(head + 1, std::memory_order_release);
+}
+
+bool Recorder::take(double* row) {
+  const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
+  if (tail == head_.load(std::memory_order_acquire)) return false;
+  const double* from = storage_ + (tail % rows_) * width_;
+  std::copy(from, from + width_, row);
+  tail_.store(tail + 1, std::memory_order_release);
+  return true;
+}
+
+}  // namespace tactus

@@ -1,0 +1,109 @@
+#include "kernel/reference/joint_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus {
+namespace {
+
+// Peaks of the quintic that takes a unit of position, velocity or acceleration to zero in one
+// second, by the extrema of its Hermite basis: h_p = 1 - 10 t^3 + 15 t^4 - 6 t^5, h_v = t - 6 t^3 +
+// 8 t^4 - 3 t^5, h_a = (t^2 - 3 t^3 + 3 t^4 - t^5) / 2.
+constexpr double kPeakVelocityOfPosition = 1.875;       // |h_p'| at t = 1/2
+constexpr double kPeakAccelerationOfPosition = 5.7736;  // |h_p''| = 10 / sqrt(3)
+constexpr double kPeakAccelerationOfVelocity = 3.9412;  // |h_v''| at t = 0.2427
+constexpr double kPeakAccelerationOfStop = 1.5;         // of 1 - 3 t^2 + 2 t^3 at t = 1/2
+// Jerk: with accelerations as bounded here, |60 dp / T^3| + |36 dv / T^2| + |9 da / T| <= 28
+// ddq_max / T.
+constexpr double kJerkTime = 28.0;
+
+double jerk_time_s(const JointLimits& limits, int joint) {
+  return kJerkTime * limits.ddq_max[joint] / limits.dddq_max[joint];
+}
+
+}  // namespace
+
+bool JointSpace::Point::finite() const {
+  return q.allFinite() && dq.allFinite() && ddq.allFinite() && tau.allFinite();
+}
+
+JointSpace::Point JointSpace::Point::at_rest() const {
+  Point rest;
+  rest.q = q;
+  return rest;
+}
+
+JointSpace::Segment::Segment(const Point& from, const Point& to, double T, Interpolation how,
+                             Fields fields)
+    : duration_(T) {
+  const bool velocity = fields & kVelocityField;
+  const bool acceleration = velocity && (fields & kAccelerationField);
+  const auto join = how == Interpolation::kLinear    ? tactus::linear
+                    : how == Interpolation::kCubic   ? tactus::cubic
+                    : how == Interpolation::kQuintic ? tactus::quintic
+                    : acceleration                   ? tactus::quintic
+                    : velocity                       ? tactus::cubic
+                                                     : tactus::linear;
+  linear_ = join == tactus::linear;
+  for (int i = 0; i < kDof; ++i) {
+    q_[static_cast<std::size_t>(i)] =
+        join({from.q[i], from.dq[i], from.ddq[i]}, {to.q[i], to.dq[i], to.ddq[i]}, T);
+  }
+  tau_from_ = from.tau;
+  tau_to_ = to.tau;
+}
+
+JointSpace::Point JointSpace::Segment::at(double t) const {
+  Point point;
+  for (int i = 0; i < kDof; ++i) {
+    const Polynomial& q = position(i);
+    const Polynomial dq = q.derivative();
+    point.q[i] = q.at(t);
+    point.dq[i] = dq.at(t);
+    point.ddq[i] = dq.derivative().at(t);
+  }
+  point.tau = tau_from_ + (t / duration_) * (tau_to_ - tau_from_);
+  return point;
+}
+
+JointSpace::Point JointSpace::difference(const Point& a, const Point& b) {
+  return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq, a.tau - b.tau};
+}
+
+JointSpace::Point JointSpace::sum(const Point& a, const Point& b) {
+  return {a.q + b.q, a.dq + b.dq, a.ddq + b.ddq, a.tau + b.tau};
+}
+
+double JointSpace::bridge_time_s(const Point& difference, const JointLimits& limits) {
+  double time = 0.0;
+  for (int j = 0; j < kDof; ++j) {
+    const double dp = std::abs(difference.q[j]), dv = std::abs(difference.dq[j]);
+    const double a = 0.5 * limits.ddq_max[j], v = 0.5 * limits.dq_max[j];
+    // a T^2 = kPeakAccelerationOfVelocity dv T + kPeakAccelerationOfPosition dp
+    const double half = 0.5 * kPeakAccelerationOfVelocity * dv;
+    const double for_acceleration =
+        (half + std::sqrt(half * half + a * kPeakAccelerationOfPosition * dp)) / a;
+    const double for_velocity = kPeakVelocityOfPosition * dp / v;
+    time = std::max({time, for_acceleration, for_velocity, jerk_time_s(limits, j)});
+  }
+  return time;
+}
+
+double JointSpace::brake_time_s(const Point& moving, const JointLimits& limits) {
+  double time = 0.0;
+  for (int j = 0; j < kDof; ++j) {
+    const double a = 0.5 * limits.ddq_max[j];
+    const double for_acceleration = kPeakAccelerationOfStop * std::abs(moving.dq[j]) / a;
+    time = std::max({time, for_acceleration, jerk_time_s(limits, j)});
+  }
+  return time;
+}
+
+JointSpace::Point JointSpace::stop(const Point& moving, double T, const JointLimits& limits) {
+  Point rest;
+  rest.q = moving.q + moving.dq * (T / 2.0) + moving.ddq * (T * T / 12.0);
+  rest.q = rest.q.cwiseMax(limits.q_min).cwiseMin(limits.q_max);
+  return rest;
+}
+
+}  // namespace tactus

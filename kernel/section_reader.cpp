@@ -1,0 +1,154 @@
+#include "kernel/section_reader.hpp"
+
+#include <cmath>
+
+#include "kernel/number.hpp"
+
+namespace tactus {
+
+void SectionReader::refuse(Status status, const char* key, std::string_view reason) {
+  if (failed()) return;  // the first error is the one to report
+  const IniEntry* entry = find(key);
+  static_cast<void>(
+      error_.refuse(status, entry ? entry->line : section_.line, section_.name, key, reason));
+}
+
+const IniEntry* SectionReader::find(const char* key) const {
+  return ini_.find(section_, key);
+}
+
+bool SectionReader::numbers(const char* key, double* values, int count, const char* unit) {
+  const IniEntry* entry = find(key);
+  if (entry == nullptr) {
+    if (!std::isnan(values[0])) return true;
+    refuse(Status::kMissingKey, key, Message("the key is missing (") << unit << ")");
+    return false;
+  }
+  std::string_view rest = entry->value;
+  int found = 0;
+  for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), ++found) {
+    double value = 0.0;
+    if (!parse_number(word, value)) {
+      refuse(Status::kBadValue, key, Message("'") << word << "' is not a finite number");
+      return false;
+    }
+    if (found < count) values[found] = value;
+  }
+  if (found == 1) {
+    for (int i = 1; i < count; ++i) values[i] = values[0];
+  } else if (found != count) {
+    refuse(Status::kBadValue, key,
+           Message("") << found << " numbers, expected " << count << " or 1");
+    return false;
+  }
+  return true;
+}
+
+void SectionReader::param(const char* key, double& value, const Range& range, const char* unit) {
+  double read = value;
+  if (!numbers(key, &read, 1, unit)) return;
+  if (!range.contains(read))
+    return refuse(Status::kBadValue, key,
+                  Message("") << read << " " << unit << " must be " << range);
+  value = read;
+}
+
+void SectionReader::param(const char* key, int& value, const Range& range, const char* unit) {
+  const IniEntry* entry = find(key);
+  int read = value;
+  if (entry == nullptr && value == kRequiredInt)
+    return refuse(Status::kMissingKey, key, Message("the key is missing (") << unit << ")");
+  if (entry != nullptr && !parse_number(entry->value, read))
+    return refuse(Status::kBadValue, key,
+                  Message("'") << entry->value << "' is not a whole number");
+  if (!range.contains(read))
+    return refuse(Status::kBadValue, key,
+                  Message("") << read << " " << unit << " must be " << range);
+  value = read;
+}
+
+void SectionReader::param(const char* key, JointVector& value, const Range& range,
+                          const char* unit) {
+  JointVector read = value;
+  if (!numbers(key, read.data(), kDof, unit)) return;
+  for (int i = 0; i < kDof; ++i) {
+    if (!range.contains(read[i]))
+      return refuse(Status::kBadValue, key,
+                    Message("joint ")
+                        << i + 1 << ": " << read[i] << " " << unit << " must be " << range);
+  }
+  value = read;
+}
+
+void SectionReader::param(const char* key, Vector3& value, const Range& range, const char* unit) {
+  Vector3 read = value;
+  if (!numbers(key, read.data(), 3, unit)) return;
+  for (int i = 0; i < 3; ++i) {
+    if (!range.contains(read[i]))
+      return refuse(Status::kBadValue, key,
+                    Message("") << read[i] << " " << unit << " must be " << range);
+  }
+  value = read;
+}
+
+void SectionReader::limit(const char* key, JointVector& value, const char* unit) {
+  JointVector read = value;
+  if (!numbers(key, read.data(), kDof, unit)) return;
+  for (int i = 0; i < kDof; ++i) {
+    if (!(read[i] > 0.0 && read[i] <= value[i]))
+      return refuse(Status::kBadValue, key,
+                    Message("joint ") << i + 1 << ": " << read[i] << " " << unit
+                                      << " must be > 0 and at most the robot's " << value[i]);
+  }
+  value = read;
+}
+
+int SectionReader::choose(const char* key, const char* const* words, std::size_t count) {
+  const IniEntry* entry = find(key);
+  if (entry == nullptr) return -1;
+  Message reason("'");
+  reason << entry->value << "' is none of";
+  for (std::size_t i = 0; i < count; ++i) {
+    if (entry->value == words[i]) return static_cast<int>(i);
+    reason << (i == 0 ? " " : ", ") << words[i];
+  }
+  refuse(Status::kBadValue, key, reason);
+  return -1;
+}
+
+const void* SectionReader::source(const char* key, Quantity quantity, bool required) {
+  const IniEntry* entry = find(key);
+  if (entry == nullptr) {
+    if (required)
+      refuse(Status::kNotConnected, key,
+             Message("the input is not connected (") << info(quantity).name << ")");
+    return nullptr;
+  }
+  const PortEntry* port = ports_.find(entry->value);
+  if (port == nullptr) {
+    refuse(Status::kUnknownPort, key,
+           Message("'") << entry->value << "' is no output of [robot] or of a block above");
+    return nullptr;
+  }
+  if (port->quantity != quantity) {
+    refuse(Status::kWrongQuantity, key,
+           Message("") << entry->value << " is a " << info(port->quantity).name
+                       << ", the input takes a " << info(quantity).name);
+    return nullptr;
+  }
+  return port->value;
+}
+
+void SectionReader::add_output(const PortEntry& entry) {
+  if (!ports_.add(entry))
+    refuse(Status::kTooLarge, entry.port, Message("more than ") << kMaxPorts << " outputs");
+}
+
+void SectionReader::channel(ReferenceChannel<JointSpace>*& channel) {
+  channel = offered_;
+  channel_taken_ = true;
+  if (channel == nullptr)
+    refuse(Status::kTooLarge, "type", "the board serves one joint reference generator");
+}
+
+}  // namespace tactus

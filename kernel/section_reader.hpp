@@ -1,0 +1,120 @@
+// SectionReader: the visitor that fills one block, or one section of settings, from the text of its
+// section and binds its inputs to the outputs above it. The first thing that is wrong is kept as
+// the error and ends the reading.
+#pragma once
+
+#include <string_view>
+
+#include "kernel/ini.hpp"
+#include "kernel/port.hpp"
+#include "kernel/port_table.hpp"
+#include "kernel/reference/messages.hpp"
+
+namespace tactus {
+
+class SectionReader {
+ public:
+  SectionReader(const Ini& ini, const IniSection& section, PortTable& ports, LoadError& error)
+      : ini_(ini), section_(section), ports_(ports), error_(error) {}
+
+  void param(const char* key, double& value, const Range& range, const char* unit);
+  void param(const char* key, int& value, const Range& range, const char* unit);
+  void param(const char* key, JointVector& value, const Range& range, const char* unit);
+  void param(const char* key, Vector3& value, const Range& range, const char* unit);
+  /// A limit per joint that may be tightened, not widened, from the value it has.
+  void limit(const char* key, JointVector& value, const char* unit);
+  template <std::size_t N>
+  void text(const char* key, Text<N>& value) {
+    if (const IniEntry* entry = find(key)) value = Text<N>(entry->value);
+  }
+  template <class Enum, std::size_t N>
+  void choice(const char* key, Enum& value, const std::array<const char*, N>& words) {
+    const int chosen = choose(key, words.data(), N);
+    if (chosen >= 0) value = static_cast<Enum>(chosen);
+  }
+
+  template <Quantity Q>
+  void in(const char* key, In<Q>& port) {
+    bind(key, port, true);
+  }
+  template <Quantity Q>
+  void optional(const char* key, In<Q>& port) {
+    bind(key, port, false);
+  }
+  template <Quantity Q>
+  void out(const char* port, Out<Q>& out) {
+    add_output({Name(section_.name), port, Q, &out.value});
+  }
+  /// The board's channel is handed to the first generator that asks.
+  void channel(ReferenceChannel<JointSpace>*& channel);
+  void offer(ReferenceChannel<JointSpace>* channel) { offered_ = channel; }
+  bool channel_taken() const { return channel_taken_; }
+
+  /// Resolves the source named by `key` to an output of quantity Q that stands above. Null on
+  /// refusal or absence.
+  const void* source(const char* key, Quantity quantity, bool required);
+  bool failed() const { return error_.status != Status::kOk; }
+
+ private:
+  template <Quantity Q>
+  void bind(const char* key, In<Q>& port, bool required) {
+    if (const void* value = source(key, Q, required))
+      port.source = static_cast<const ValueOf<Q>*>(value);
+  }
+  void add_output(const PortEntry& entry);
+  const IniEntry* find(const char* key) const;
+  int choose(const char* key, const char* const* words, std::size_t count);
+  /// Reads one number for all of `values`, or one for each. Nothing given: the defaults stay, if
+  /// they are there.
+  bool numbers(const char* key, double* values, int count, const char* unit);
+  void refuse(Status status, const char* key, std::string_view reason);
+
+  const Ini& ini_;
+  const IniSection& section_;
+  PortTable& ports_;
+  LoadError& error_;
+  ReferenceChannel<JointSpace>* offered_ = nullptr;
+  bool channel_taken_ = false;
+};
+
+/// The visitor that asks whether a key is one of the names a section has.
+class KeyFinder {
+ public:
+  explicit KeyFinder(std::string_view key) : key_(key) {}
+  template <class... Ignored>
+  void param(const char* key, Ignored&&...) {
+    found_ = found_ || key_ == key;
+  }
+  template <class... Ignored>
+  void limit(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void text(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void choice(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void in(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void optional(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void out(Ignored&&...) {}
+  template <class... Ignored>
+  void channel(Ignored&&...) {}
+
+  bool found() const { return found_; }
+
+ private:
+  std::string_view key_;
+  bool found_ = false;
+};
+
+}  // namespace tactus

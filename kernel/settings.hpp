@@ -1,0 +1,87 @@
+// The sections of a pipeline file that are not blocks: [robot], [executive], [recorder]. ([guard]
+// is Guard::Params.)
+#pragma once
+
+#include "kernel/describe.hpp"
+#include "kernel/hal.hpp"
+#include "kernel/load_error.hpp"
+#include "kernel/port.hpp"
+
+namespace tactus {
+
+/// [robot]: the cycle, the tool, what was measured as outputs for the blocks, and the one command
+/// as an input.
+struct RobotSection {
+  Name name;                           ///< the robot the file is written for; must be the board's
+  int period_us = kRequiredInt;        ///< cycle period
+  double tool_mass = 0.0;              ///< kg
+  Vector3 tool_com = Vector3::Zero();  ///< m, flange frame
+  Vector3 tool_tip = Vector3::Zero();  ///< m, flange frame; axes parallel to the flange's
+
+  Out<Quantity::kJointPosition> q;
+  Out<Quantity::kJointVelocity> dq;
+  Out<Quantity::kJointEffort> tau;
+  Out<Quantity::kTool> tool;
+
+  In<Quantity::kJointPosition> q_c;
+  In<Quantity::kJointVelocity> dq_c;
+  In<Quantity::kJointEffort> tau_c;
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.text("name", name);
+    visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
+    visit.param("tool_mass", tool_mass, Range{0.0, 100.0}, "kg");
+    visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
+    visit.param("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
+    visit.out("q", q), visit.out("dq", dq), visit.out("tau", tau), visit.out("tool", tool);
+  }
+  /// The command, bound after the last block; exactly one of them is given.
+  template <class Visitor>
+  void describe_command(Visitor& visit) {
+    visit.optional("q_c", q_c), visit.optional("dq_c", dq_c), visit.optional("tau_c", tau_c);
+  }
+
+  /// [cyclic]
+  void set_measured(const RobotState& state) {
+    q.value = state.q;
+    dq.value = state.dq;
+    tau.value = state.tau;
+  }
+  CommandMode mode() const {
+    return tau_c.wired()  ? CommandMode::kEffort
+           : dq_c.wired() ? CommandMode::kVelocity
+                          : CommandMode::kPosition;
+  }
+  /// The value of the wired command. [cyclic]
+  RobotCommand command() const {
+    return {mode(), tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c};
+  }
+  double period_s() const { return period_us * 1e-6; }
+};
+
+/// [executive]
+struct ExecutiveSection {
+  int max_slip = 3;  ///< missed periods in a row that are bridged; more stop the robot
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("max_slip", max_slip, Range{0.0, 1000.0}, "cycles");
+  }
+};
+
+/// [recorder]
+struct RecorderSection {
+  int divisor = 1;  ///< every how many cycles a row is recorded
+  Value signals;    ///< outputs to record; none named: all
+  Value tracking;   ///< pairs "reference measured" whose difference is reported
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("divisor", divisor, Range{1.0, 1000.0}, "cycles");
+    visit.text("signals", signals);
+    visit.text("tracking", tracking);
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,61 @@
+#include "kernel/status.hpp"
+
+#include <array>
+
+namespace tactus {
+namespace {
+
+struct StatusName {
+  Status status;
+  const char* name;
+};
+
+constexpr std::array<StatusName, 36> kStatusNames = {{
+    {Status::kOk, "kOk"},
+    {Status::kMissingKey, "kMissingKey"},
+    {Status::kUnknownKey, "kUnknownKey"},
+    {Status::kBadValue, "kBadValue"},
+    {Status::kUnknownPort, "kUnknownPort"},
+    {Status::kWrongQuantity, "kWrongQuantity"},
+    {Status::kNotConnected, "kNotConnected"},
+    {Status::kBadSyntax, "kBadSyntax"},
+    {Status::kDuplicate, "kDuplicate"},
+    {Status::kUnknownType, "kUnknownType"},
+    {Status::kTooLarge, "kTooLarge"},
+    {Status::kNotOffered, "kNotOffered"},
+    {Status::kReferenceSize, "kReferenceSize"},
+    {Status::kReferenceNotFinite, "kReferenceNotFinite"},
+    {Status::kPositionLimit, "kPositionLimit"},
+    {Status::kReferenceTime, "kReferenceTime"},
+    {Status::kVelocityLimit, "kVelocityLimit"},
+    {Status::kAccelerationLimit, "kAccelerationLimit"},
+    {Status::kEffortLimit, "kEffortLimit"},
+    {Status::kNotAtRest, "kNotAtRest"},
+    {Status::kStartTolerance, "kStartTolerance"},
+    {Status::kFieldsDiffer, "kFieldsDiffer"},
+    {Status::kNothingToCancel, "kNothingToCancel"},
+    {Status::kNoFreeStore, "kNoFreeStore"},
+    {Status::kMailboxFull, "kMailboxFull"},
+    {Status::kStateNotFinite, "kStateNotFinite"},
+    {Status::kReferenceFault, "kReferenceFault"},
+    {Status::kCommandNotFinite, "kCommandNotFinite"},
+    {Status::kMeasuredPositionLimit, "kMeasuredPositionLimit"},
+    {Status::kMeasuredVelocityLimit, "kMeasuredVelocityLimit"},
+    {Status::kSlip, "kSlip"},
+    {Status::kClock, "kClock"},
+    {Status::kNotStarted, "kNotStarted"},
+    {Status::kBusTimeout, "kBusTimeout"},
+    {Status::kDriveFault, "kDriveFault"},
+    {Status::kConnectionLost, "kConnectionLost"},
+}};
+
+}  // namespace
+
+const char* name(Status status) {
+  for (const StatusName& entry : kStatusNames) {
+    if (entry.status == status) return entry.name;
+  }
+  return "unknown";
+}
+
+}  // namespace tactus

@@ -1,0 +1,62 @@
+// Status: the one result type of the kernel. The numbers are stable for ever: operators, logs and
+// clients use them.
+#pragma once
+
+#include <cstdint>
+
+namespace tactus {
+
+enum class [[nodiscard]] Status : std::uint8_t{
+    kOk = 0,
+    // 1..31 configuration: the program refuses to start
+    kMissingKey = 1,
+    kUnknownKey = 2,
+    kBadValue = 3,
+    kUnknownPort = 4,
+    kWrongQuantity = 5,
+    kNotConnected = 6,
+    kBadSyntax = 7,
+    kDuplicate = 8,
+    kUnknownType = 9,
+    kTooLarge = 10,
+    kNotOffered = 11,
+    // 32..63 reference: the request is refused, the robot keeps its reference
+    kReferenceSize = 32,
+    kReferenceNotFinite = 33,
+    kPositionLimit = 34,
+    kReferenceTime = 35,
+    kVelocityLimit = 36,
+    kAccelerationLimit = 37,
+    kEffortLimit = 38,
+    kNotAtRest = 39,
+    kStartTolerance = 40,
+    kFieldsDiffer = 41,
+    kNothingToCancel = 42,
+    kNoFreeStore = 43,
+    kMailboxFull = 44,
+    // 64..95 cycle: the robot stops, the code is latched
+    kStateNotFinite = 64,
+    kReferenceFault = 65,
+    kCommandNotFinite = 66,
+    kMeasuredPositionLimit = 67,
+    kMeasuredVelocityLimit = 68,
+    kSlip = 69,
+    kClock = 70,
+    kNotStarted = 71,
+    // 96..127 wire
+    kBusTimeout = 96,
+    kDriveFault = 97,
+    kConnectionLost = 98,
+};
+
+/// The name of a status as operators and logs see it, for example "kSlip". Never null. [any]
+const char* name(Status status);
+
+}  // namespace tactus
+
+/// Leaves the calling function with the first Status that is not kOk.
+#define TRY(expression)                                                                  \
+  do {                                                                                   \
+    if (const ::tactus::Status status_ = (expression); status_ != ::tactus::Status::kOk) \
+      return status_;                                                                    \
+  } while (false)

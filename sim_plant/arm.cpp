@@ -1,0 +1,130 @@
+#include "sim_plant/arm.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "sim_plant/fer_mjcf.hpp"
+
+namespace tactus {
+namespace {
+
+static_assert(std::is_same_v<mjtNum, double>, "MuJoCo of double precision");
+static_assert(kDof == 7, "fer_mjcf.cpp describes an arm of seven joints");
+
+constexpr double kMaxInnerStep_s = 1e-3;
+
+/// Visitor of PlantParams::describe: do all settings lie in their ranges?
+struct RangeCheck {
+  bool ok = true;
+
+  void param(const char*, double value, Range range, const char*) {
+    ok = ok && range.contains(value);
+  }
+  template <int N>
+  void param(const char* name, const Eigen::Matrix<double, N, 1>& value, Range range,
+             const char* unit) {
+    for (int i = 0; i < N; ++i) param(name, value[i], range, unit);
+  }
+};
+
+double sigmoid(double x) {
+  return 1.0 / (1.0 + std::exp(-x));
+}
+
+/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator. The
+/// parameters travel with the model: see jnt_user in fer_mjcf.hpp.
+void add_friction(const mjModel* model, mjData* data) {
+  if (model->nuser_jnt < 3) return;  // a model without friction parameters
+  for (int i = 0; i < model->njnt; ++i) {
+    const double* abc = model->jnt_user + i * model->nuser_jnt;
+    const double a = abc[0], b = abc[1], c = abc[2];
+    const int dof = model->jnt_dofadr[i];
+    data->qfrc_passive[dof] -= a * (sigmoid(b * (data->qvel[dof] + c)) - sigmoid(b * c));
+  }
+}
+
+/// MuJoCo's own handler writes a log file into the working directory. Warnings are counted in
+/// mjData all the same, which is where diverged() looks.
+void stay_silent(const char*) {}
+
+/// Puts the settings into the compiled model and derives its constants anew.
+void apply(const PlantParams& params, mjModel* model, mjData* scratch) {
+  for (int i = 0; i < kDof; ++i) {
+    model->dof_armature[i] = params.rotor_inertia[i];
+    model->jnt_user[i * model->nuser_jnt] *= params.friction;  // a
+  }
+  const int payload = mj_name2id(model, mjOBJ_BODY, "payload");
+  model->body_mass[payload] = params.payload_kg;
+  // The body is moved, not the centre of mass within it: the compiler has noted that the two
+  // coincide, and MuJoCo relies on that note (body_sameframe).
+  Eigen::Map<Vector3>(model->body_pos + 3 * payload) = params.payload_com;
+  mj_setConst(model, scratch);
+}
+
+}  // namespace
+
+Arm::~Arm() {
+  mj_deleteData(data_);
+  mj_deleteModel(model_);
+}
+
+Status Arm::load(const PlantParams& params) {
+  RangeCheck check;
+  PlantParams(params).describe(check);
+  if (!check.ok) return Status::kBadValue;
+
+  mj_deleteData(data_);
+  mj_deleteModel(model_);
+  model_ = compile_fer();
+  data_ = model_ != nullptr ? mj_makeData(model_) : nullptr;
+  if (data_ == nullptr) return Status::kTooLarge;
+
+  mjcb_passive = add_friction;  // hooks of the whole process; every arm sets the same
+  mju_user_warning = stay_silent;
+  apply(params, model_, data_);
+  mj_resetData(model_, data_);
+  Eigen::Map<JointVector>(data_->qpos) = params.initial_q;
+  return Status::kOk;
+}
+
+JointVector Arm::stand() {
+  Eigen::Map<JointVector>(data_->qvel).setZero();
+  mj_fwdPosition(model_, data_);
+  mj_fwdVelocity(model_, data_);
+  return Eigen::Map<const JointVector>(data_->qfrc_bias);
+}
+
+void Arm::step(const JointVector& tau, double dt_s) {
+  // A hair is taken off, so that 1 ms with a rounding error is one inner step and not two.
+  const int steps = static_cast<int>(std::ceil(dt_s / kMaxInnerStep_s - 1e-9));
+  model_->opt.timestep = dt_s / steps;
+  Eigen::Map<JointVector>(data_->ctrl) = tau;
+  for (int i = 0; i < steps; ++i) mj_step(model_, data_);
+}
+
+bool Arm::diverged() const {
+  for (const mjWarningStat& warning : data_->warning)
+    if (warning.number > 0) return true;
+  return !q().allFinite() || !dq().allFinite();
+}
+
+JointVector Arm::q() const {
+  return Eigen::Map<const JointVector>(data_->qpos);
+}
+
+JointVector Arm::dq() const {
+  return Eigen::Map<const JointVector>(data_->qvel);
+}
+
+double Arm::energy() const {
+  mj_kinematics(model_, data_);  // a step leaves these at its last stage
+  mj_comPos(model_, data_);
+  mj_crb(model_, data_);
+  mj_energyPos(model_, data_);  // these two need the flag energy="enable" of the model
+  mj_energyVel(model_, data_);
+  return data_->energy[0] + data_->energy[1];
+}
+
+}  // namespace tactus

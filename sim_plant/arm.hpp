@@ -1,0 +1,56 @@
+// Arm: the rigid-body plant alone. Torque in, motion out; MuJoCo integrates the FER of fer_mjcf.cpp
+//
+//   (M(q) + diag(rotor_inertia)) ddq + C(q, dq) dq + g(q) + friction(dq) = tau
+//
+// by the classical Runge-Kutta method of fourth order. The friction is that of Gaz et al., RA-L
+// 2019, a sigmoid without a dead zone, evaluated in every stage:
+//
+//   friction_i(dq) = a_i / (1 + exp(-b_i (dq + c_i))) - a_i / (1 + exp(-b_i c_i))
+#pragma once
+
+#include "kernel/status.hpp"
+#include "kernel/types.hpp"
+#include "sim_plant/plant_params.hpp"
+
+struct mjModel_;
+struct mjData_;
+
+namespace tactus {
+
+class Arm {
+ public:
+  Arm() = default;
+  Arm(const Arm&) = delete;
+  Arm& operator=(const Arm&) = delete;
+  ~Arm();
+
+  /// Builds the arm and stands it at `initial_q`; an arm loaded before is dropped. kBadValue when
+  /// a setting is outside its range. All memory is taken here. [init]
+  Status load(const PlantParams& params);
+
+  /// Closes the brakes: dq = 0. Returns the torque that takes over from them without a motion, g(q)
+  /// of arm and payload, N m. The arm is loaded. [any]
+  JointVector stand();
+
+  /// Holds the joint torque `tau` (N m) for `dt_s` > 0, in equal inner steps of at most 1 ms.
+  /// The arm is loaded. [cyclic]
+  void step(const JointVector& tau, double dt_s);
+
+  bool loaded() const { return data_ != nullptr; }  ///< [any]
+
+  /// True once a torque or the motion was beyond what can be simulated; q and dq then mean nothing
+  /// until the next load. [any]
+  bool diverged() const;
+
+  JointVector q() const;   ///< true joint positions, rad [any]
+  JointVector dq() const;  ///< true joint velocities, rad/s [any]
+
+  /// Kinetic energy, rotors included, and potential energy of arm and payload, J. [any]
+  double energy() const;
+
+ private:
+  mjModel_* model_ = nullptr;  // owned
+  mjData_* data_ = nullptr;    // owned
+};
+
+}  // namespace tactus

@@ -1,0 +1,250 @@
+// The plant behind the Hal: attaching, measuring, commanding and stopping.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "sim_plant/sim_hal.hpp"
+#include "tests/heap_counter.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+
+RobotCommand effort(const JointVector& tau) {
+  return {CommandMode::kEffort, tau};
+}
+
+/// One robot, started anew by each test; MuJoCo's memory outlives a failed assertion.
+struct Bench {
+  SimHal hal;
+  RobotState state;
+  JointVector hold;  // N m, the torque found at the start
+
+  void start(const PlantParams& params, std::uint64_t seed = 1) {
+    ASSERT_OK(hal.load(params, seed));
+    hal.set_period(kPeriod_s);
+    ASSERT_OK(hal.start(CommandMode::kEffort, state));
+    hold = state.tau;
+  }
+  /// One cycle with `tau` on top of the torque that held the arm at the start.
+  void cycle(const JointVector& tau) {
+    ASSERT_OK(hal.read(state));
+    ASSERT_OK(hal.write(effort(hold + tau)));
+  }
+};
+
+Bench g_bench, g_twin;
+
+PlantParams noisy() {
+  PlantParams params;
+  params.position_noise_rad = 1e-4;
+  params.velocity_noise_rad_s = 1e-2;
+  return params;
+}
+
+bool same_bytes(const JointVector& a, const JointVector& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(JointVector)) == 0;
+}
+
+/// A torque that changes from cycle to cycle, N m.
+JointVector wave(int k) {
+  return JointVector::Constant(2.0 * std::sin(0.05 * k));
+}
+
+void a_mode_or_period_that_is_not_offered_is_refused(void**) {
+  Bench& b = g_bench;
+  ASSERT_OK(b.hal.load(PlantParams(), 1));
+  b.hal.set_period(kPeriod_s);
+  ASSERT_STATUS(b.hal.start(CommandMode::kPosition, b.state), Status::kNotOffered);
+  ASSERT_STATUS(b.hal.start(CommandMode::kVelocity, b.state), Status::kNotOffered);
+  for (const double period_s : {0.0, 99e-6, 10001e-6, std::nan("")}) {
+    b.hal.set_period(period_s);
+    ASSERT_STATUS(b.hal.start(CommandMode::kEffort, b.state), Status::kNotOffered);
+  }
+  for (const int period_us : {100, 10000}) {
+    b.hal.set_period(period_us * 1e-6);
+    ASSERT_OK(b.hal.start(CommandMode::kEffort, b.state));
+  }
+}
+
+void before_the_start_nothing_is_measured_and_nothing_is_taken(void**) {
+  static SimHal hal;
+  RobotState state;
+  hal.set_period(kPeriod_s);
+  hal.stop();
+  ASSERT_STATUS(hal.start(CommandMode::kEffort, state), Status::kNotStarted);
+  ASSERT_OK(hal.load(PlantParams(), 1));
+  ASSERT_STATUS(hal.read(state), Status::kNotStarted);
+  ASSERT_STATUS(hal.write(effort(JointVector::Zero())), Status::kNotStarted);
+}
+
+void commanding_the_torque_found_at_the_start_moves_nothing(void**) {
+  Bench& b = g_bench;
+  PlantParams params;
+  params.friction = 0.0;
+  params.rotor_inertia.setZero();
+  params.payload_kg = 3.0;
+  params.payload_com = Vector3(0.1, 0.0, 0.05);
+  b.start(params);
+  for (int k = 0; k < 1000; ++k) b.cycle(JointVector::Zero());
+  ASSERT_NEAR((b.hal.arm().q() - params.initial_q).norm(), 0.0, 1e-12);
+  assert_true(b.hold.norm() > 10.0);
+}
+
+void each_write_holds_the_torque_for_one_period(void**) {
+  static Arm arm;
+  Bench& b = g_bench;
+  ASSERT_OK(arm.load(PlantParams()));
+  b.start(PlantParams());
+  arm.stand();
+  for (int k = 0; k < 100; ++k) {
+    b.cycle(wave(k));
+    arm.step(b.hold + wave(k), kPeriod_s);
+  }
+  ASSERT_OK(b.hal.read(b.state));
+  assert_true(same_bytes(b.state.q, arm.q()));
+  assert_true(same_bytes(b.state.dq, arm.dq()));
+  assert_true(same_bytes(b.state.tau, b.hold + wave(99)));
+  assert_int_equal(b.hal.time_ns(), 100 * 1000 * 1000);
+}
+
+void the_measured_state_is_late_by_the_cycles_stated(void**) {
+  Bench& b = g_bench;
+  static RobotState truth[40];  // of each cycle
+  for (int delay = 0; delay <= kMaxDelayCycles; ++delay) {
+    PlantParams params;
+    params.delay_cycles = delay;
+    b.start(params);
+    for (int k = 0; k < 40; ++k) {
+      truth[k] = {b.hal.arm().q(), b.hal.arm().dq(), b.hold + wave(k)};
+      b.cycle(wave(k + 1));  // reads, then moves on
+      const RobotState& then = truth[std::max(k - delay, 0)];
+      assert_true(same_bytes(b.state.q, then.q) && same_bytes(b.state.dq, then.dq));
+      assert_true(same_bytes(b.state.tau, then.tau));
+    }
+  }
+}
+
+void the_noise_has_no_mean_and_the_deviation_stated(void**) {
+  Bench& b = g_bench;
+  constexpr int kCycles = 4000;
+  const double n = kCycles * kDof;
+  b.start(noisy());
+  double q_sum = 0.0, dq_sum = 0.0, q_squares = 0.0, dq_squares = 0.0, product = 0.0;
+  for (int k = 0; k < kCycles; ++k) {
+    const JointVector true_q = b.hal.arm().q(), true_dq = b.hal.arm().dq();
+    b.cycle(JointVector::Zero());
+    const JointVector q = (b.state.q - true_q) / 1e-4, dq = (b.state.dq - true_dq) / 1e-2;
+    q_sum += q.sum(), dq_sum += dq.sum(), product += q.dot(dq);
+    q_squares += q.squaredNorm(), dq_squares += dq.squaredNorm();
+  }
+  // Four standard errors of the estimates from n numbers.
+  for (const double sum : {q_sum, dq_sum, product}) ASSERT_NEAR(sum / n, 0.0, 4.0 / std::sqrt(n));
+  for (const double squares : {q_squares, dq_squares})
+    ASSERT_NEAR(std::sqrt(squares / n), 1.0, 4.0 / std::sqrt(2.0 * n));
+}
+
+void the_same_seed_gives_the_same_bytes_and_another_only_other_noise(void**) {
+  for (const std::uint64_t seed : {7u, 8u}) {
+    g_bench.start(noisy(), 7);
+    g_twin.start(noisy(), seed);
+    g_twin.hold = g_bench.hold;
+    for (int k = 0; k < 200; ++k) {
+      g_bench.cycle(wave(k));
+      g_twin.cycle(wave(k));
+      assert_true(same_bytes(g_bench.state.q, g_twin.state.q) == (seed == 7));
+      assert_true(same_bytes(g_bench.state.dq, g_twin.state.dq) == (seed == 7));
+      assert_true(same_bytes(g_bench.hal.arm().q(), g_twin.hal.arm().q()));
+    }
+  }
+}
+
+void reading_twice_measures_once(void**) {
+  Bench& b = g_bench;
+  RobotState again;
+  b.start(noisy());
+  ASSERT_OK(b.hal.read(b.state));
+  ASSERT_OK(b.hal.read(again));
+  assert_true(same_bytes(b.state.q, again.q) && same_bytes(b.state.dq, again.dq));
+}
+
+void a_command_that_cannot_be_executed_closes_the_brakes(void**) {
+  Bench& b = g_bench;
+  JointVector nan = JointVector::Zero(), infinite = nan;
+  nan[6] = std::nan(""), infinite[0] = std::numeric_limits<double>::infinity();
+  const RobotCommand velocity = {CommandMode::kVelocity, JointVector::Zero()};
+  for (const RobotCommand& command : {effort(nan), effort(infinite), velocity}) {
+    b.start(PlantParams());
+    for (int k = 0; k < 100; ++k) b.cycle(wave(k));
+    const JointVector q = b.hal.arm().q();
+    ASSERT_STATUS(b.hal.write(command), Status::kDriveFault);
+    ASSERT_STATUS(b.hal.write(effort(b.hold)), Status::kDriveFault);
+    assert_true(same_bytes(b.hal.arm().q(), q) && b.hal.arm().dq().isZero(0.0));
+    ASSERT_OK(b.hal.start(CommandMode::kEffort, b.state));
+  }
+}
+
+void a_plant_that_diverges_is_a_fault_until_it_is_loaded_again(void**) {
+  Bench& b = g_bench;
+  b.start(PlantParams());
+  ASSERT_STATUS(b.hal.write(effort(JointVector::Constant(1e12))), Status::kDriveFault);
+  ASSERT_STATUS(b.hal.read(b.state), Status::kDriveFault);
+  ASSERT_STATUS(b.hal.start(CommandMode::kEffort, b.state), Status::kDriveFault);
+  b.start(PlantParams());
+}
+
+void after_a_stop_the_arm_stands_and_can_be_started_again(void**) {
+  Bench& b = g_bench;
+  b.start(PlantParams());
+  for (int k = 0; k < 100; ++k) b.cycle(wave(k));
+  const JointVector q = b.hal.arm().q();
+  b.hal.stop();
+  b.hal.stop();
+  ASSERT_STATUS(b.hal.write(effort(b.hold)), Status::kDriveFault);
+  ASSERT_OK(b.hal.read(b.state));
+  assert_true(same_bytes(b.state.q, q));
+  assert_true(b.state.dq.isZero(0.0) && b.state.tau.isZero(0.0));
+  assert_int_equal(b.hal.time_ns(), 100 * 1000 * 1000);
+
+  ASSERT_OK(b.hal.start(CommandMode::kEffort, b.state));
+  assert_true(same_bytes(b.state.q, q));
+  ASSERT_OK(b.hal.write(effort(b.state.tau)));
+  ASSERT_NEAR((b.hal.arm().q() - q).norm(), 0.0, 1e-12);
+}
+
+void the_cycle_does_not_touch_the_heap(void**) {
+  Bench& b = g_bench;
+  const long before_load = heap_allocations();
+  b.start(noisy());
+  const long before = heap_allocations();
+  for (int k = 0; k < 200; ++k) b.cycle(wave(k));
+  (void)b.hal.write(effort(JointVector::Constant(1e12)));  // a plant that diverges
+  b.hal.stop();
+  assert_int_equal(heap_allocations(), before);
+  if (kHeapIsCounted) assert_true(before > before_load);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_mode_or_period_that_is_not_offered_is_refused),
+      cmocka_unit_test(before_the_start_nothing_is_measured_and_nothing_is_taken),
+      cmocka_unit_test(commanding_the_torque_found_at_the_start_moves_nothing),
+      cmocka_unit_test(each_write_holds_the_torque_for_one_period),
+      cmocka_unit_test(the_measured_state_is_late_by_the_cycles_stated),
+      cmocka_unit_test(the_noise_has_no_mean_and_the_deviation_stated),
+      cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_only_other_noise),
+      cmocka_unit_test(reading_twice_measures_once),
+      cmocka_unit_test(a_command_that_cannot_be_executed_closes_the_brakes),
+      cmocka_unit_test(a_plant_that_diverges_is_a_fault_until_it_is_loaded_again),
+      cmocka_unit_test(after_a_stop_the_arm_stands_and_can_be_started_again),
+      cmocka_unit_test(the_cycle_does_not_touch_the_heap),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
