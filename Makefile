@@ -2,7 +2,8 @@
 BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
-B     := build/$(BOARD)$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
+ARCH  ?= host
+B     := build/$(BOARD)$(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
 
 SRCS   :=
 LDLIBS :=
@@ -17,6 +18,16 @@ SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
 SEAMFLAGS := -std=c++17 -g $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
              -DTACTUS_ROBOT_$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
+
+# The machines the kernel is built for: host, arm64, m7 (bare metal, linked with no C library).
+CROSS_arm64 := aarch64-linux-gnu-
+CROSS_m7    := arm-none-eabi-
+FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
+               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections
+CXX      := $(CROSS_$(ARCH))g++
+AR       := $(CROSS_$(ARCH))ar
+NM       := $(CROSS_$(ARCH))nm
+CXXFLAGS += $(FLAGS_$(ARCH))
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp)
@@ -48,7 +59,13 @@ clean:                                        ## remove everything that was buil
 help:                                         ## this list
 	$(Q)grep -hE '^[a-z_.]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories run-tests
+.PHONY: trajectories run-tests kernel
+kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
+	$(Q)scripts/no_heap $< $(NM)
+$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
+	$(Q)$(CROSS_m7)size $@
 trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)

@@ -1,5 +1,6 @@
 #include "gateway/trajectory_csv.hpp"
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +13,7 @@ namespace tactus {
 namespace {
 
 constexpr std::size_t kMaxRowLength = 4096;
+using Row = std::array<char, kMaxRowLength>;
 
 /// Cuts the first cell off `row`; false when there is none left.
 bool take_cell(std::string_view& row, bool& more, std::string_view& cell) {
@@ -33,7 +35,7 @@ bool refuse(CsvError& error, int line, int column, std::string_view header,
 }
 
 bool read_number(std::string_view cell, double& value) {
-  if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
+  if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
   const char* end = cell.data() + cell.size();
   const auto [stop, code] = std::from_chars(cell.data(), end, value);
   return code == std::errc() && stop == end && std::isfinite(value);
@@ -72,39 +74,50 @@ bool read_row(std::string_view row, int line, const Columns& columns,
                 Message("") << column << " cells, the header has " << columns.count());
 }
 
-/// One line without its end; false at the end of the file. `fits` tells whether the whole line was
-/// read.
-bool read_line(std::FILE* file, std::array<char, kMaxRowLength>& buffer, std::string_view& line,
-               bool& fits) {
-  if (std::fgets(buffer.data(), static_cast<int>(buffer.size()), file) == nullptr) return false;
-  line = std::string_view(buffer.data(), std::strlen(buffer.data()));
-  fits = (!line.empty() && line.back() == '\n') || std::feof(file) != 0;
-  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+/// One line without its end, as far as the buffer holds it; false at the end of the file. `fits`
+/// tells whether that was the whole line.
+bool read_line(std::FILE* file, Row& buffer, std::string_view& line, bool& fits) {
+  std::size_t size = 0;
+  fits = true;
+  int c = std::getc(file);
+  if (c == EOF) return false;
+  for (; c != EOF && c != '\n'; c = std::getc(file)) {
+    fits = size < buffer.size();
+    if (!fits) break;
+    buffer[size++] = static_cast<char>(c);
+  }
+  line = std::string_view(buffer.data(), size);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return true;
+}
+
+/// Takes the header, or the next waypoint.
+bool take_row(std::string_view row, int line, Columns& columns, Trajectory<JointSpace>& trajectory,
+              CsvError& error) {
+  if (columns.count() == 0) return read_header(row, line, columns, error);
+  if (trajectory.count == trajectory.capacity)
+    return refuse(error, line, 0, {},
+                  Message("more than the ")
+                      << trajectory.capacity << " waypoints there is room for");
+  if (!read_row(row, line, columns, trajectory.waypoints[trajectory.count], error)) return false;
+  ++trajectory.count;
   return true;
 }
 
 bool read_file(std::FILE* file, Trajectory<JointSpace>& trajectory, CsvError& error) {
-  std::array<char, kMaxRowLength> buffer;
+  Row buffer;
   std::string_view row;
   bool fits = true;
   Columns columns;
-  trajectory.count = 0;
-  int line = 0;
-  while (read_line(file, buffer, row, fits)) {
-    ++line;
+  for (int line = 1; read_line(file, buffer, row, fits); ++line) {
     if (!fits)
-      return refuse(error, line, 0, {}, Message("the line is longer than ") << kMaxRowLength - 2);
-    if (trim(row).empty() || row.front() == '#') continue;
-    if (columns.count() == 0) {
-      if (!read_header(row, line, columns, error)) return false;
-      continue;
-    }
-    if (trajectory.count == trajectory.capacity)
       return refuse(error, line, 0, {},
-                    Message("more than the ")
-                        << trajectory.capacity << " waypoints there is room for");
-    if (!read_row(row, line, columns, trajectory.waypoints[trajectory.count], error)) return false;
-    ++trajectory.count;
+                    Message("the line is longer than ") << kMaxRowLength << " characters");
+    if (!is_text(row)) return refuse(error, line, 0, {}, "the line holds bytes that are not text");
+    if (line == 1) row = without_byte_order_mark(row);
+    row = trim(row);
+    if (row.empty() || row.front() == '#') continue;
+    if (!take_row(row, line, columns, trajectory, error)) return false;
   }
   if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file is empty: it has no header");
   if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoint");
@@ -114,8 +127,8 @@ bool read_file(std::FILE* file, Trajectory<JointSpace>& trajectory, CsvError& er
 
 }  // namespace
 
-Message CsvError::message() const {
-  Message text;
+PlacedMessage CsvError::message() const {
+  PlacedMessage text;
   if (line > 0) text << line << ":";
   if (column > 0) text << column << ":";
   if (line > 0) text << " ";
@@ -125,12 +138,13 @@ Message CsvError::message() const {
 
 bool read_trajectory(const char* path, Trajectory<JointSpace>& trajectory, CsvError& error) {
   error = {};
+  trajectory.count = 0;
   std::FILE* file = std::fopen(path, "rb");
   if (file == nullptr) return refuse(error, 0, 0, {}, std::strerror(errno));
   const bool read = read_file(file, trajectory, error);
-  const bool whole = std::ferror(file) == 0;
+  const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
-  return whole ? read : refuse(error, 0, 0, {}, "the file cannot be read to its end");
+  return failure == 0 ? read : refuse(error, 0, 0, {}, std::strerror(failure));
 }
 
 }  // namespace tactus

@@ -1,5 +1,5 @@
 // Trajectory files: CSV with one header row that names quantity and unit. Columns in any order, '#'
-// begins a comment line.
+// begins a comment line, empty lines are skipped.
 //
 //   time_s, q1_rad ... q7_rad [, dq1_rad_s ...] [, ddq1_rad_s2 ...] [, tau1_Nm ...]
 //
@@ -20,7 +20,7 @@ struct CsvError {
   Message reason;
 
   /// "line:column: header: reason" without the parts that are empty.
-  Message message() const;
+  PlacedMessage message() const;
 };
 
 /// Fills `trajectory` from the file at `path`. False: refused, the trajectory is not to be used.

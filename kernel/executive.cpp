@@ -4,7 +4,8 @@ namespace tactus {
 
 Status Executive::add(const Row& row) {
   if (row_count_ == kMaxRows) return Status::kTooLarge;
-  if (row.divisor < 1 || row.offset < 0 || row.offset >= row.divisor) return Status::kBadValue;
+  if (row.divisor < 1 || row.offset < 0 || row.offset >= row.divisor || row.run == nullptr)
+    return Status::kBadValue;
   rows_[row_count_++] = row;
   return Status::kOk;
 }
@@ -12,6 +13,7 @@ Status Executive::add(const Row& row) {
 Status Executive::start() {
   period_ns_ = std::int64_t{1000} * pipeline_.robot.period_us;
   telemetry_ = {};
+  for (Histogram& times : times_) times = {};
   latched_ = hal_.start(pipeline_.robot.mode(), measured_);
   if (latched_ == Status::kOk)
     latched_ = guard_.start(pipeline_.guard, measured_, pipeline_.robot.period_s());
@@ -57,12 +59,12 @@ Status Executive::run(const CycleTime& now) {
 /// up in a burst. Too many missed periods in a row, or a clock that stands or runs backwards, stop
 /// the robot.
 Status Executive::check_clock(const CycleTime& now) {
-  const std::int64_t elapsed_ns = now.stamp_ns - stamp_ns_;
+  const std::int64_t before_ns = stamp_ns_;
   stamp_ns_ = now.stamp_ns;
   if (telemetry_.cycles++ == 0) return Status::kOk;
-  if (elapsed_ns <= 0) return Status::kClock;
-  const std::int64_t missed = (elapsed_ns + period_ns_ / 2) / period_ns_ - 1;
-  if (missed > 0) telemetry_.slips += missed;
+  if (now.stamp_ns <= before_ns) return Status::kClock;
+  const std::int64_t missed = (now.stamp_ns - before_ns - period_ns_ / 2) / period_ns_;
+  telemetry_.slips += missed;
   return missed > pipeline_.executive.max_slip ? Status::kSlip : Status::kOk;
 }
 

@@ -46,11 +46,12 @@ class Executive {
   Executive(Hal& hal, Pipeline& pipeline, Stopwatch stopwatch)
       : hal_(hal), pipeline_(pipeline), stopwatch_(stopwatch) {}
 
-  /// Adds a row; kTooLarge if there is no place, kBadValue unless 0 <= offset < divisor. [init]
+  /// Adds a row; kTooLarge if there is no place, kBadValue unless 0 <= offset < divisor and there
+  /// is something to run. [init]
   Status add(const Row& row);
 
   /// Attaches to the robot and starts guard and blocks from the state it holds: nothing moves.
-  /// [init]
+  /// Telemetry and times begin anew. [init]
   Status start();
 
   /// One cycle: read, step, guard, write, rows. Bounded; never blocks, allocates or throws.

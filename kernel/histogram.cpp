@@ -1,17 +1,16 @@
 #include "kernel/histogram.hpp"
 
+#include <algorithm>
+
 namespace tactus {
 
-// Values below 32 have a bucket each. Above, with 2^(k+4) <= value < 2^(k+5), the top five bits
-// after the leading one choose among the 32 buckets of doubling k.
+// Values below 32 have a bucket each. Above, with 2^(k+5) <= value < 2^(k+6), the five bits after the
+// leading one choose among the 32 buckets of doubling k.
 std::size_t Histogram::bucket(std::uint64_t value_ns) {
+  const std::uint64_t value = std::min(value_ns, kLongest_ns);
   std::size_t doubling = 0;
-  while (doubling + 1 < kDoublings && (value_ns >> doubling) >= 2 * kPerDoubling) ++doubling;
-  if (value_ns < kPerDoubling) return static_cast<std::size_t>(value_ns);
-  const std::uint64_t top = value_ns >> doubling;  // 32..63 unless too long
-  const std::size_t within = top >= 2 * kPerDoubling ? kPerDoubling - 1 : top - kPerDoubling;
-  const std::size_t index = (doubling + 1) * kPerDoubling + within;
-  return index < kPerDoubling * kDoublings ? index : kPerDoubling * kDoublings - 1;
+  while ((value >> doubling) >= 2 * kPerDoubling) ++doubling;  // bounded by kLongest_ns
+  return doubling * kPerDoubling + static_cast<std::size_t>(value >> doubling);
 }
 
 double Histogram::middle(std::size_t bucket) {
@@ -42,9 +41,7 @@ double Histogram::percentile(double fraction) const {
   for (std::size_t i = 0; i < buckets_.size(); ++i) {
     seen += buckets_[i];
     if (seen > 0 && static_cast<double>(seen) >= wanted) {
-      const double value = middle(i);
-      const double largest = static_cast<double>(max_);
-      return value < largest ? value : largest;
+      return std::clamp(middle(i), static_cast<double>(min_), static_cast<double>(max_));
     }
   }
   return static_cast<double>(max_);

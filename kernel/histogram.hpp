@@ -23,12 +23,14 @@ class Histogram {
 
  private:
   static constexpr std::size_t kPerDoubling = 32;
-  static constexpr std::size_t kDoublings = 31;  // up to 2^35 ns = 34 s; longer counts as that
+  static constexpr std::size_t kDoublings = 31;
+  // 2^35 - 1 ns = 34 s; longer counts as that in percentiles.
+  static constexpr std::uint64_t kLongest_ns = (std::uint64_t{kPerDoubling} << kDoublings) / 2 - 1;
 
   static std::size_t bucket(std::uint64_t value_ns);
   static double middle(std::size_t bucket);
 
-  std::array<std::uint32_t, kPerDoubling * kDoublings> buckets_{};
+  std::array<std::uint64_t, kPerDoubling * kDoublings> buckets_{};
   std::uint64_t count_ = 0, sum_ = 0, last_ = 0, max_ = 0;
   std::uint64_t min_ = UINT64_MAX;
 };

@@ -19,15 +19,6 @@ bool is_name(std::string_view text) {
   return true;
 }
 
-/// UTF-8 text is welcome in comments; control characters are not, anywhere.
-bool is_text(std::string_view line) {
-  for (const char c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\t') || byte == 0x7f) return false;
-  }
-  return true;
-}
-
 std::string_view prefix(std::string_view text, std::size_t size) {
   text.remove_suffix(text.size() - size);
   return text;
@@ -51,6 +42,21 @@ std::string_view without_comment(std::string_view line) {
 }
 
 }  // namespace
+
+bool is_text(std::string_view line) {
+  for (const char c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x20 && c != '\t') || byte == 0x7f) return false;
+  }
+  return true;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (text.size() >= kMark.size() && prefix(text, kMark.size()) == kMark)
+    text.remove_prefix(kMark.size());
+  return text;
+}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -84,6 +90,7 @@ const IniEntry* Ini::find(const IniSection& section, std::string_view key) const
 Status Ini::parse(std::string_view text, LoadError& error) {
   section_count_ = entry_count_ = 0;
   int number = 0;
+  text = without_byte_order_mark(text);
   while (!text.empty()) {
     TRY(parse_line(take_line(text), ++number, error));
   }
@@ -134,7 +141,7 @@ Status Ini::add_section(std::string_view name, int number, LoadError& error) {
     return error.refuse(Status::kDuplicate, number, name, {}, reason);
   }
   if (section_count_ == kMaxSections) {
-    return error.refuse(Status::kTooLarge, number, {}, {},
+    return error.refuse(Status::kTooLarge, number, name, {},
                         Message("more than ") << kMaxSections << " sections");
   }
   IniSection& section = sections_[static_cast<std::size_t>(section_count_++)];

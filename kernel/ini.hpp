@@ -47,6 +47,12 @@ class Ini {
   int section_count_ = 0, entry_count_ = 0;
 };
 
+/// UTF-8 is welcome; false if the line holds a control character. [any]
+bool is_text(std::string_view line);
+
+/// Without the byte order mark some editors begin a file with. [any]
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Without blanks at either end. [any]
 std::string_view trim(std::string_view text);
 

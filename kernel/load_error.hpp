@@ -12,6 +12,7 @@ inline constexpr std::size_t kMaxValueLength = 191;  ///< the right-hand side of
 using Name = Text<kMaxNameLength>;
 using Value = Text<kMaxValueLength>;
 using Message = Text<383>;
+using PlacedMessage = Text<479>;  ///< a message with its place in front
 
 struct LoadError {
   Status status = Status::kOk;
@@ -31,8 +32,8 @@ struct LoadError {
   }
 
   /// "line: [section] key: reason", without the parts that are empty. [init]
-  Message message() const {
-    Message text;
+  PlacedMessage message() const {
+    PlacedMessage text;
     if (line > 0) text << line << ": ";
     if (!section.empty()) text << "[" << section << "] ";
     if (!key.empty()) text << key << ": ";

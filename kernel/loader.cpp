@@ -50,6 +50,11 @@ void describe_block(Block& block, Visitor& visitor) {
       block);
 }
 
+int line_of(const Ini& ini, const IniSection& section, const char* key) {
+  const IniEntry* entry = ini.find(section, key);
+  return entry ? entry->line : section.line;
+}
+
 Message block_types() {
   Message words;
   for (std::size_t i = 1; i < kBlockTypes.size(); ++i)
@@ -74,8 +79,9 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
     return error.refuse(Status::kMissingKey, 0, "robot", {}, "the section is missing");
   TRY(load_sections(ini, pipeline, error));
   TRY(load_command(ini, *robot, pipeline, error));
-  TRY(check_robot(ini, *robot, pipeline, error));
+  TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
+  pipeline.takes_references = next_channel_ == nullptr;
   channel_->settings = {pipeline.guard.effective(), pipeline.robot.period_s()};
   return Status::kOk;
 }
@@ -97,7 +103,8 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     }));
     SectionReader reader(ini, section, ports, error);
     pipeline.robot.describe(reader);
-    return error.status;
+    if (reader.failed()) return error.status;
+    return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);
   if (section.name == "executive")
@@ -154,26 +161,27 @@ Status Loader::load_command(const Ini& ini, const IniSection& section, Pipeline&
   return Status::kOk;
 }
 
-Status Loader::check_robot(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+Status Loader::check_robot(const Ini& ini, const IniSection& section, const RobotSection& robot,
                            LoadError& error) const {
-  const RobotSection& robot = pipeline.robot;
-  const auto line_of = [&](const char* key) {
-    const IniEntry* entry = ini.find(section, key);
-    return entry ? entry->line : section.line;
-  };
   if (robot.name.empty())
     return error.refuse(Status::kMissingKey, section.line, section.name, "name",
                         "the key is missing (the robot the file is written for)");
   if (std::string_view(robot.name) != Robot::kName)
-    return error.refuse(Status::kNotOffered, line_of("name"), section.name, "name",
+    return error.refuse(Status::kNotOffered, line_of(ini, section, "name"), section.name, "name",
                         Message("'")
                             << robot.name << "', this program is built for " << Robot::kName);
   if (robot.period_us < offered_.min_period_us || robot.period_us > offered_.max_period_us)
-    return error.refuse(Status::kNotOffered, line_of("period_us"), section.name, "period_us",
+    return error.refuse(Status::kNotOffered, line_of(ini, section, "period_us"), section.name,
+                        "period_us",
                         Message("") << robot.period_us << " us, the robot offers "
                                     << static_cast<int>(offered_.min_period_us) << " to "
                                     << static_cast<int>(offered_.max_period_us));
-  const CommandMode mode = robot.mode();
+  return Status::kOk;
+}
+
+Status Loader::check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+                             LoadError& error) const {
+  const CommandMode mode = pipeline.robot.mode();
   const bool offered = mode == CommandMode::kEffort     ? offered_.effort
                        : mode == CommandMode::kVelocity ? offered_.velocity
                                                         : offered_.position;
@@ -181,7 +189,7 @@ Status Loader::check_robot(const Ini& ini, const IniSection& section, const Pipe
                     : mode == CommandMode::kVelocity ? "dq_c"
                                                      : "q_c";
   if (!offered)
-    return error.refuse(Status::kNotOffered, line_of(key), section.name, key,
+    return error.refuse(Status::kNotOffered, line_of(ini, section, key), section.name, key,
                         "the robot does not take this kind of command");
   return Status::kOk;
 }

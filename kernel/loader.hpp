@@ -49,8 +49,10 @@ class Loader {
                     LoadError& error);
   Status load_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                       LoadError& error);
-  Status check_robot(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+  Status check_robot(const Ini& ini, const IniSection& section, const RobotSection& robot,
                      LoadError& error) const;
+  Status check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+                       LoadError& error) const;
 
   ReferenceChannel<JointSpace>* channel_;
   ReferenceChannel<JointSpace>* next_channel_;

@@ -3,17 +3,15 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace tactus {
 namespace {
 
-// Powers of ten that a double holds exactly.
-constexpr std::array<double, 23> kPowersOfTen = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                 1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr int kLargestPower = static_cast<int>(kPowersOfTen.size()) - 1;
-constexpr int kLargestExponent = 400;
+// Bounds of the exponent of ten: a whole number times 10^309 is infinite; 10^18, the largest
+// mantissa, times 10^-343 is below half of the smallest double.
+constexpr int kLargestExponent = 308, kSmallestExponent = -342;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -36,7 +34,7 @@ bool take_mantissa(std::string_view& text, std::uint64_t& mantissa, int& exponen
     }
     if (!is_digit(c)) break;
     any = true;
-    if (mantissa < 100'000'000'000'000'000U) {  // 18 digits fit; more only shift
+    if (mantissa < 100'000'000'000'000'000U) {  // 18 digits are kept; more only shift
       mantissa = mantissa * 10 + static_cast<std::uint64_t>(c - '0');
       exponent -= point ? 1 : 0;
     } else {
@@ -53,24 +51,73 @@ bool take_exponent(std::string_view& text, int& exponent) {
   if (text.empty() || !is_digit(text.front())) return false;
   int value = 0;
   for (; !text.empty() && is_digit(text.front()); text.remove_prefix(1)) {
-    if (value < kLargestExponent) value = value * 10 + (text.front() - '0');
+    if (value < 10'000) value = value * 10 + (text.front() - '0');
   }
   exponent += negative ? -value : value;
   return true;
 }
 
-/// value * 10^exponent in steps that are exact powers; one step, hence one rounding, within +-22.
-double scale(double value, int exponent) {
-  const bool up = exponent > 0;
-  int left = up ? exponent : -exponent;
-  constexpr int kMaxSteps = 2 * kLargestExponent / kLargestPower;
-  for (int i = 0; i < kMaxSteps && left > 0; ++i) {
-    const int step = left < kLargestPower ? left : kLargestPower;
-    const double power = kPowersOfTen[static_cast<std::size_t>(step)];
-    value = up ? value * power : value / power;
-    left -= step;
+/// A whole number of 1152 bits, lowest limb first: room for every finite double.
+using Wide = std::array<std::uint32_t, 36>;
+constexpr int kLimbBits = 32;
+
+void multiply_by_ten(Wide& number) {
+  std::uint64_t carry = 0;
+  for (std::uint32_t& limb : number) {
+    carry += std::uint64_t{10} * limb;
+    limb = static_cast<std::uint32_t>(carry);
+    carry >>= kLimbBits;
   }
+}
+
+/// Returns the remainder.
+std::uint64_t divide_by_ten(Wide& number) {
+  std::uint64_t rest = 0;
+  for (std::size_t i = number.size(); i-- > 0;) {
+    rest = rest << kLimbBits | number[i];
+    number[i] = static_cast<std::uint32_t>(rest / 10);
+    rest %= 10;
+  }
+  return rest;
+}
+
+bool bit(const Wide& number, int index) {
+  return (number[static_cast<std::size_t>(index / kLimbBits)] >> index % kLimbBits & 1U) != 0;
+}
+
+/// The double nearest to number * 2^unit, to the even one of two; `cut` tells that the number lies
+/// a fraction above. `unit` is so low that whatever is rounded off stands in the number.
+double nearest(const Wide& number, int unit, bool cut) {
+  constexpr int kDigits = 53, kSmallest = -1074, kLargest = 971;  // of a double: bits, their unit
+  int length = kLimbBits * static_cast<int>(number.size());
+  while (length > 0 && !bit(number, length - 1)) --length;
+  int last = length - kDigits;  // place in `number` of the last bit that is kept
+  if (last + unit < kSmallest) last = kSmallest - unit;
+  if (last + unit > kLargest) return std::numeric_limits<double>::infinity();
+  std::uint64_t kept = 0;
+  for (int i = length - 1; i >= last; --i) kept = kept << 1 | (bit(number, i) ? 1U : 0U);
+  for (int i = 0; i < last - 1 && !cut; ++i) cut = bit(number, i);
+  if (bit(number, last - 1) && (cut || (kept & 1U) != 0)) ++kept;
+  // The exponent field counts from 1 where the leading bit, which is not stored, adds the one.
+  const std::uint64_t pattern = (static_cast<std::uint64_t>(last + unit - kSmallest) << 52) + kept;
+  double value = 0.0;
+  std::memcpy(&value, &pattern, sizeof value);
   return value;
+}
+
+/// mantissa * 10^exponent, rounded once.
+double scale(std::uint64_t mantissa, int exponent) {
+  if (mantissa == 0 || exponent < kSmallestExponent) return 0.0;
+  if (exponent > kLargestExponent) return std::numeric_limits<double>::infinity();
+  // The mantissa stands two limbs from below where it grows, two from above where it shrinks.
+  Wide number{};
+  const std::size_t low = exponent >= 0 ? 2 : number.size() - 2;
+  number[low] = static_cast<std::uint32_t>(mantissa);
+  number[low + 1] = static_cast<std::uint32_t>(mantissa >> kLimbBits);
+  bool cut = false;
+  for (int i = 0; i < exponent; ++i) multiply_by_ten(number);
+  for (int i = exponent; i < 0; ++i) cut |= divide_by_ten(number) != 0;
+  return nearest(number, -kLimbBits * static_cast<int>(low), cut);
 }
 
 }  // namespace
@@ -81,7 +128,7 @@ bool parse_number(std::string_view text, double& value) {
   int exponent = 0;
   if (!take_mantissa(text, mantissa, exponent) || !take_exponent(text, exponent)) return false;
   if (!text.empty()) return false;
-  const double magnitude = scale(static_cast<double>(mantissa), exponent);
+  const double magnitude = scale(mantissa, exponent);
   if (!std::isfinite(magnitude)) return false;
   value = negative ? -magnitude : magnitude;
   return true;

@@ -6,12 +6,13 @@
 
 namespace tactus {
 
-/// Decimal text to double. Correctly rounded up to 15 digits with an exponent within +-22, within 1
-/// ulp beyond. False, and `value` untouched, unless the whole text is a finite number: "nan",
-/// "inf", "1e999" and "0x10" are none. [init]
+/// Decimal text to double, correctly rounded up to 18 digits and within 1 ulp beyond; what is too
+/// small for a double is zero. False, and `value` untouched, unless the whole text is a finite
+/// number: "nan", "inf", "1e999" and "0x10" are none. [init]
 bool parse_number(std::string_view text, double& value);
 
-/// Decimal text to int; false unless the whole text is one that fits. [init]
+/// Decimal text to int; false, and `value` untouched, unless the whole text is one that fits.
+/// [init]
 bool parse_number(std::string_view text, int& value);
 
 }  // namespace tactus

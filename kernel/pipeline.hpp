@@ -32,6 +32,7 @@ class Pipeline {
   RecorderSection recorder;
   Recording recording;
   PortTable ports;
+  bool takes_references = false;  ///< a block answers what arrives through the board's channel
 
   /// An empty slot at the end of the chain, or null if all are taken. [init]
   Block* append() {

@@ -39,24 +39,25 @@ void Recorder::start(const Recording& recording) {
 
 void Recorder::record(double time_s) {
   const std::uint32_t head = head_.load(std::memory_order_relaxed);
-  if (head - tail_.load(std::memory_order_acquire) >= rows_) {
-    dropped_.fetch_add(1, std::memory_order_relaxed);
+  const std::uint32_t tail = tail_.load(std::memory_order_acquire);
+  if ((head >= tail ? head - tail : head + 2 * rows_ - tail) == rows_) {
+    dropped_.store(dropped() + 1, std::memory_order_relaxed);  // one writer
     return;
   }
-  double* to = storage_ + (head % rows_) * width_;
+  double* to = slot(head);
   *to++ = time_s;
   for (int i = 0; i < recording_.signal_count; ++i) {
     to += flatten(*recording_.signals[static_cast<std::size_t>(i)], to);
   }
-  head_.store(head + 1, std::memory_order_release);
+  head_.store(next(head), std::memory_order_release);
 }
 
 bool Recorder::take(double* row) {
   const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
   if (tail == head_.load(std::memory_order_acquire)) return false;
-  const double* from = storage_ + (tail % rows_) * width_;
+  const double* from = slot(tail);
   std::copy(from, from + width_, row);
-  tail_.store(tail + 1, std::memory_order_release);
+  tail_.store(next(tail), std::memory_order_release);
   return true;
 }
 

@@ -50,13 +50,22 @@ class Recorder {
   std::uint32_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
+  std::uint32_t next(std::uint32_t position) const {
+    return position + 1 == 2 * rows_ ? 0 : position + 1;
+  }
+  double* slot(std::uint32_t position) const {
+    return storage_ + (position < rows_ ? position : position - rows_) * width_;
+  }
+
   double* storage_;
   std::size_t size_;
   Recording recording_;
   std::size_t width_ = 1;
-  std::uint32_t rows_ = 0;              // the ring holds this many
-  std::atomic<std::uint32_t> head_{0};  // rows written, by the cycle
-  std::atomic<std::uint32_t> tail_{0};  // rows read, by the reader
+  std::uint32_t rows_ = 0;  // the ring holds this many
+  // Positions count rows over two rounds of the ring, then begin again: equal means empty, one
+  // round apart full.
+  std::atomic<std::uint32_t> head_{0};  // where the cycle writes
+  std::atomic<std::uint32_t> tail_{0};  // where the reader reads
   std::atomic<std::uint32_t> dropped_{0};
 };
 

@@ -10,7 +10,11 @@ struct Place {
   Status refuse(Status status, const char* key, std::string_view reason) const {
     const IniSection* section = ini.find("recorder");
     const IniEntry* entry = section ? ini.find(*section, key) : nullptr;
-    return error.refuse(status, entry ? entry->line : 0, "recorder", key, reason);
+    return error.refuse(status,
+                        entry     ? entry->line
+                        : section ? section->line
+                                  : 0,
+                        "recorder", key, reason);
   }
 };
 
@@ -29,7 +33,12 @@ Status find_output(const PortTable& ports, std::string_view name, const char* ke
 Status add_signal(Recording& recording, const PortEntry* port, const Place& place) {
   if (recording.signal_count == kMaxSignals)
     return place.refuse(Status::kTooLarge, "signals",
-                        Message("more than ") << kMaxSignals << " signals");
+                        Message("more than ") << kMaxSignals << " outputs to record");
+  for (int i = 0; i < recording.signal_count; ++i) {
+    if (recording.signals[static_cast<std::size_t>(i)] == port)
+      return place.refuse(Status::kDuplicate, "signals",
+                          Message("") << port->block << "." << port->port << " is named twice");
+  }
   recording.signals[static_cast<std::size_t>(recording.signal_count++)] = port;
   return Status::kOk;
 }
@@ -51,17 +60,31 @@ Status read_all_signals(const PortTable& ports, Recording& recording, const Plac
   return Status::kOk;
 }
 
+Status check_pair(const Tracking& pair, const Place& place) {
+  const PortEntry &reference = *pair.reference, &measured = *pair.measured;
+  Message reason;
+  reason << reference.block << "." << reference.port;
+  if (pair.reference == pair.measured)
+    return place.refuse(Status::kBadValue, "tracking", reason << " is compared with itself");
+  if (reference.quantity != measured.quantity)
+    return place.refuse(Status::kWrongQuantity, "tracking",
+                        reason << " is a " << info(reference.quantity).name << ", "
+                               << measured.block << "." << measured.port << " a "
+                               << info(measured.quantity).name);
+  return Status::kOk;
+}
+
 Status read_tracking(std::string_view list, const PortTable& ports, Recording& recording,
                      const Place& place) {
   for (std::string_view word = take_word(list); !word.empty(); word = take_word(list)) {
     Tracking pair;
     TRY(find_output(ports, word, "tracking", place, pair.reference));
-    TRY(find_output(ports, take_word(list), "tracking", place, pair.measured));
-    if (pair.reference->quantity != pair.measured->quantity)
-      return place.refuse(Status::kWrongQuantity, "tracking",
-                          Message("")
-                              << word << " is a " << info(pair.reference->quantity).name
-                              << ", its measurement a " << info(pair.measured->quantity).name);
+    const std::string_view measured = take_word(list);
+    if (measured.empty())
+      return place.refuse(Status::kBadValue, "tracking",
+                          Message("") << word << " has no measurement to go with it");
+    TRY(find_output(ports, measured, "tracking", place, pair.measured));
+    TRY(check_pair(pair, place));
     if (recording.tracking_count == kMaxTracking)
       return place.refuse(Status::kTooLarge, "tracking",
                           Message("more than ") << kMaxTracking << " pairs");

@@ -5,6 +5,17 @@
 #include "kernel/number.hpp"
 
 namespace tactus {
+namespace {
+
+/// A decimal number without point and exponent, however large.
+bool is_whole(std::string_view text) {
+  double value = 0.0;
+  bool digits = parse_number(text, value);
+  for (const char c : text) digits = digits && ((c >= '0' && c <= '9') || c == '+' || c == '-');
+  return digits;
+}
+
+}  // namespace
 
 void SectionReader::refuse(Status status, const char* key, std::string_view reason) {
   if (failed()) return;  // the first error is the one to report
@@ -17,11 +28,29 @@ const IniEntry* SectionReader::find(const char* key) const {
   return ini_.find(section_, key);
 }
 
-bool SectionReader::numbers(const char* key, double* values, int count, const char* unit) {
+void SectionReader::refuse_length(const char* key, std::size_t length, std::size_t limit) {
+  refuse(Status::kTooLarge, key,
+         Message("the value has ") << length << " characters, the limit is " << limit);
+}
+
+void SectionReader::refuse_missing(const char* key, const char* unit) {
+  refuse(Status::kMissingKey, key, Message("the key is missing (") << unit << ")");
+}
+
+std::string_view SectionReader::written(const char* key, int index) const {
+  const IniEntry* entry = find(key);
+  std::string_view rest = entry != nullptr ? entry->value : std::string_view();
+  std::string_view word = take_word(rest);
+  for (int i = 0; i < index && !rest.empty(); ++i) word = take_word(rest);
+  return word;
+}
+
+bool SectionReader::numbers(const char* key, double* values, int count, bool joints,
+                            const char* unit) {
   const IniEntry* entry = find(key);
   if (entry == nullptr) {
     if (!std::isnan(values[0])) return true;
-    refuse(Status::kMissingKey, key, Message("the key is missing (") << unit << ")");
+    refuse_missing(key, unit);
     return false;
   }
   std::string_view rest = entry->value;
@@ -34,70 +63,73 @@ bool SectionReader::numbers(const char* key, double* values, int count, const ch
     }
     if (found < count) values[found] = value;
   }
-  if (found == 1) {
+  if (found == count) return true;
+  if (joints && found == 1) {
     for (int i = 1; i < count; ++i) values[i] = values[0];
-  } else if (found != count) {
-    refuse(Status::kBadValue, key,
-           Message("") << found << " numbers, expected " << count << " or 1");
-    return false;
+    return true;
   }
-  return true;
+  refuse(Status::kBadValue, key,
+         Message("") << found << (found == 1 ? " number" : " numbers") << ", expected " << count
+                     << (joints ? " or 1" : ""));
+  return false;
 }
 
 void SectionReader::param(const char* key, double& value, const Range& range, const char* unit) {
   double read = value;
-  if (!numbers(key, &read, 1, unit)) return;
+  if (!numbers(key, &read, 1, false, unit)) return;
   if (!range.contains(read))
     return refuse(Status::kBadValue, key,
-                  Message("") << read << " " << unit << " must be " << range);
+                  Message("") << written(key, 0) << " " << unit << " must be " << range);
   value = read;
 }
 
 void SectionReader::param(const char* key, int& value, const Range& range, const char* unit) {
   const IniEntry* entry = find(key);
-  int read = value;
-  if (entry == nullptr && value == kRequiredInt)
-    return refuse(Status::kMissingKey, key, Message("the key is missing (") << unit << ")");
-  if (entry != nullptr && !parse_number(entry->value, read))
+  if (entry == nullptr) {
+    if (value == kRequiredInt) refuse_missing(key, unit);
+    return;
+  }
+  if (!is_whole(entry->value))
     return refuse(Status::kBadValue, key,
                   Message("'") << entry->value << "' is not a whole number");
-  if (!range.contains(read))
+  int read = 0;
+  if (!parse_number(entry->value, read) || !range.contains(read))
     return refuse(Status::kBadValue, key,
-                  Message("") << read << " " << unit << " must be " << range);
+                  Message("") << entry->value << " " << unit << " must be " << range);
   value = read;
 }
 
 void SectionReader::param(const char* key, JointVector& value, const Range& range,
                           const char* unit) {
   JointVector read = value;
-  if (!numbers(key, read.data(), kDof, unit)) return;
+  if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
     if (!range.contains(read[i]))
       return refuse(Status::kBadValue, key,
                     Message("joint ")
-                        << i + 1 << ": " << read[i] << " " << unit << " must be " << range);
+                        << i + 1 << ": " << written(key, i) << " " << unit << " must be " << range);
   }
   value = read;
 }
 
 void SectionReader::param(const char* key, Vector3& value, const Range& range, const char* unit) {
   Vector3 read = value;
-  if (!numbers(key, read.data(), 3, unit)) return;
+  if (!numbers(key, read.data(), 3, false, unit)) return;
   for (int i = 0; i < 3; ++i) {
     if (!range.contains(read[i]))
       return refuse(Status::kBadValue, key,
-                    Message("") << read[i] << " " << unit << " must be " << range);
+                    Message("") << written(key, i) << " " << unit << " must be " << range);
   }
   value = read;
 }
 
 void SectionReader::limit(const char* key, JointVector& value, const char* unit) {
   JointVector read = value;
-  if (!numbers(key, read.data(), kDof, unit)) return;
+  if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
     if (!(read[i] > 0.0 && read[i] <= value[i]))
       return refuse(Status::kBadValue, key,
-                    Message("joint ") << i + 1 << ": " << read[i] << " " << unit
+                    Message("joint ") << i + 1 << ": " << written(key, i) << " " << unit
                                       << " must be > 0 and at most the robot's " << value[i]);
   }
   value = read;

@@ -25,7 +25,10 @@ class SectionReader {
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>
   void text(const char* key, Text<N>& value) {
-    if (const IniEntry* entry = find(key)) value = Text<N>(entry->value);
+    const IniEntry* entry = find(key);
+    if (entry == nullptr) return;
+    if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);
+    value = Text<N>(entry->value);
   }
   template <class Enum, std::size_t N>
   void choice(const char* key, Enum& value, const std::array<const char*, N>& words) {
@@ -64,10 +67,14 @@ class SectionReader {
   void add_output(const PortEntry& entry);
   const IniEntry* find(const char* key) const;
   int choose(const char* key, const char* const* words, std::size_t count);
-  /// Reads one number for all of `values`, or one for each. Nothing given: the defaults stay, if
-  /// they are there.
-  bool numbers(const char* key, double* values, int count, const char* unit);
+  /// Reads as many numbers as there are values; for joints also one number for all. Nothing given:
+  /// the defaults stay, if they are there.
+  bool numbers(const char* key, double* values, int count, bool joints, const char* unit);
+  /// The word in the file that gave value `index`.
+  std::string_view written(const char* key, int index) const;
   void refuse(Status status, const char* key, std::string_view reason);
+  void refuse_length(const char* key, std::size_t length, std::size_t limit);
+  void refuse_missing(const char* key, const char* unit);
 
   const Ini& ini_;
   const IniSection& section_;

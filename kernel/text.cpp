@@ -6,17 +6,33 @@ namespace tactus {
 namespace {
 
 constexpr int kSignificant = 6;  // digits of a double in a message
+// Decimal places before the point between which a number is written plainly: 0.00001 to 999999000.
+constexpr int kSmallestPlain = -4, kLargestPlain = 9;
 
-/// Scales a positive finite value to a kSignificant-digit integer; returns its decimal exponent.
-int to_decimal(double value, long long& digits) {
-  int exponent = 0;
-  double limit = 1.0;
-  for (int i = 0; i < kSignificant; ++i) limit *= 10.0;
-  for (int i = 0; i < 330 && value >= limit; ++i, ++exponent) value /= 10.0;
-  for (int i = 0; i < 330 && value < limit / 10.0; ++i, --exponent) value *= 10.0;
-  digits = static_cast<long long>(value + 0.5);
-  return exponent;
-}
+/// The decimal digits of a positive finite value, 0.d1 d2 d3 ... * 10^point, without zeros at the
+/// end.
+struct Decimal {
+  char digits[kSignificant];
+  int count = kSignificant, point = kSignificant;
+
+  explicit Decimal(double value) {
+    double limit = 1.0;
+    for (int i = 0; i < kSignificant; ++i) limit *= 10.0;
+    for (int i = 0; i < 330 && value >= limit; ++i, ++point) value /= 10.0;
+    for (int i = 0; i < 330 && value < limit / 10.0; ++i, --point) value *= 10.0;
+    auto rounded = static_cast<long>(value + 0.5);
+    if (rounded >= static_cast<long>(limit)) rounded /= 10, ++point;
+    for (int i = kSignificant; i-- > 0; rounded /= 10)
+      digits[i] = static_cast<char>('0' + rounded % 10);
+    while (count > 1 && digits[count - 1] == '0') --count;
+  }
+  /// The digits from one place after the leading one up to another; zeros where there are none.
+  std::size_t append(char* buffer, std::size_t size, std::size_t capacity, int from, int to) const {
+    for (int i = from; i < to; ++i)
+      size = append_text(buffer, size, capacity, {i >= 0 && i < count ? &digits[i] : "0", 1});
+    return size;
+  }
+};
 
 }  // namespace
 
@@ -54,28 +70,18 @@ std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, 
   if (std::isinf(value)) return append_text(buffer, size, capacity, "inf");
   if (value == 0.0) return append_text(buffer, size, capacity, "0");
 
-  long long digits = 0;
-  int exponent = to_decimal(value, digits);  // value = digits * 10^exponent
-  for (int i = 0; i < kSignificant && digits % 10 == 0; ++i, ++exponent) digits /= 10;
-  if (exponent > 0 && exponent <= 3) {
-    for (; exponent > 0; --exponent) digits *= 10;
+  const Decimal decimal(value);
+  const bool plain = decimal.point >= kSmallestPlain && decimal.point <= kLargestPlain;
+  const int whole = plain ? decimal.point : 1;  // digits before the point
+  if (whole <= 0) size = append_text(buffer, size, capacity, "0");
+  size = decimal.append(buffer, size, capacity, 0, whole);
+  if (decimal.count > whole) {
+    size = append_text(buffer, size, capacity, ".");
+    size = decimal.append(buffer, size, capacity, whole, decimal.count);
   }
-  if (exponent > 0 || exponent < -kSignificant - 3) {  // scientific
-    size = append_int(buffer, size, capacity, digits);
-    size = append_text(buffer, size, capacity, "e");
-    return append_int(buffer, size, capacity, exponent);
-  }
-  long long unit = 1;
-  for (int i = exponent; i < 0; ++i) unit *= 10;
-  size = append_int(buffer, size, capacity, digits / unit);
-  if (exponent == 0) return size;
-  size = append_text(buffer, size, capacity, ".");
-  for (long long rest = digits % unit; unit > 1; rest %= unit) {
-    unit /= 10;
-    const char digit = static_cast<char>('0' + rest / unit);
-    size = append_text(buffer, size, capacity, {&digit, 1});
-  }
-  return size;
+  if (plain) return size;
+  size = append_text(buffer, size, capacity, "e");
+  return append_int(buffer, size, capacity, decimal.point - 1);
 }
 
 }  // namespace tactus

@@ -13,7 +13,7 @@ namespace tactus {
 /// Appends to `size` characters of `buffer`; returns the new size, at most `capacity`. [any]
 std::size_t append_text(char* buffer, std::size_t size, std::size_t capacity,
                         std::string_view text);
-/// The same for an integer, and for a double with six significant digits.
+/// The same for an integer, and for a double with six significant digits: "0.785398", "1.5e-6".
 std::size_t append_int(char* buffer, std::size_t size, std::size_t capacity, long long value);
 std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, double value);
 
@@ -42,11 +42,12 @@ class Text {
     size_ = append_double(buffer_.data(), size_, N, value);
     return *this;
   }
-  /// Words the range as a requirement: "> 0", ">= 0", "in [0, 16]".
+  /// Words the range as a requirement: "> 0", ">= 0", "> 0 and at most 1", "in [0, 16]".
   Text& operator<<(const Range& range) {
-    if (range.hi == kInfinity && range.lo == kPositive.lo) return *this << "> 0";
+    const bool positive = range.lo == kPositive.lo;
     if (range.hi == kInfinity && range.lo == -kInfinity) return *this << "finite";
-    if (range.hi == kInfinity) return *this << ">= " << range.lo;
+    if (range.hi == kInfinity) return positive ? *this << "> 0" : *this << ">= " << range.lo;
+    if (positive) return *this << "> 0 and at most " << range.hi;
     return *this << "in [" << range.lo << ", " << range.hi << "]";
   }
 

@@ -14,7 +14,7 @@ int check(Session& session, const Options& options, const RobotState& initial) {
   if (status == Status::kOk) status = session.pipeline.start(initial);
   if (status == Status::kOk) status = session.pipeline.step(initial);
   if (status != Status::kOk) {
-    std::fprintf(stderr, "%s: refused: %s\n", options.pipeline, name(status));
+    print_stop(options.pipeline, "refused", status, guard.telemetry());
     return kRefused;
   }
   Report report;

@@ -18,13 +18,14 @@ bool read_text(const char* path, std::string_view& text) {
     return false;
   }
   const std::size_t size = std::fread(pipeline_text.data(), 1, pipeline_text.size(), file);
-  const bool failed = std::ferror(file) != 0;
+  const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
-  if (failed || size > kMaxPipelineBytes) {
-    std::fprintf(
-        stderr,
-        failed ? "%s: the file cannot be read\n" : "%s: the file is larger than %zu bytes\n", path,
-        kMaxPipelineBytes);
+  if (failure != 0) {
+    std::fprintf(stderr, "%s: %s\n", path, std::strerror(failure));
+    return false;
+  }
+  if (size > kMaxPipelineBytes) {
+    std::fprintf(stderr, "%s: the file is larger than %zu bytes\n", path, kMaxPipelineBytes);
     return false;
   }
   text = std::string_view(pipeline_text.data(), size);

@@ -7,7 +7,7 @@
 
 namespace tactus {
 
-using Path = Text<511>;
+using Path = Text<1023>;  ///< room for two joined: those given are shorter than 512
 
 inline constexpr std::size_t kMaxPipelineBytes = 65536;
 

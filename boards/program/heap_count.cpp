@@ -8,10 +8,6 @@ namespace {
 thread_local bool watching = false;
 thread_local std::uint64_t allocations = 0;
 
-void count() {
-  if (watching) ++allocations;
-}
-
 }  // namespace
 
 namespace tactus {
@@ -30,12 +26,24 @@ std::uint64_t heap_allocations() {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
+namespace {
+
+void count() {
+  if (watching) ++allocations;
+}
+
+}  // namespace
+
 // The C library's own allocator, by the names glibc exports it under.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+static void count() {
+  if (watching) ++allocations;
+}
 
 void* malloc(std::size_t size) {
   count();

@@ -7,6 +7,13 @@
 
 namespace tactus {
 
+/// False where nothing is counted.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kHeapIsCounted = false;
+#else
+inline constexpr bool kHeapIsCounted = true;
+#endif
+
 /// Counts between construction and destruction, in this thread.
 class HeapWatch {
  public:

@@ -1,7 +1,9 @@
 // `tactus run`: cycles in lock-step with the plant's virtual time, as fast as the host can.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -21,6 +23,11 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void on_signal(int) {
   interrupted = 1;
+}
+
+void end_with(RunResult& result, int code, const char* name) {
+  result.code = code;
+  result.name = name;
 }
 
 double wall_s() {
@@ -51,52 +58,47 @@ class Progress {
 };
 
 /// What the reports say of the trajectory; a run succeeds when it has one and that succeeds, or has
-/// none.
-void follow(Session& session, const TrajectoryInput& input, RunResult& result) {
+/// none. False: there is nothing to go on for.
+bool follow(Session& session, const TrajectoryInput& input, RunResult& result) {
   Report report;
   while (session.client.poll(report)) {
     if (report.id != input.id || report.outcome == Outcome::kStarted) continue;
-    result.name = name(report.outcome);
-    result.code =
-        report.outcome == Outcome::kSucceeded ? 0 : static_cast<int>(report.verdict.status);
-    if (report.outcome == Outcome::kRefused) {
-      print_verdict(input, report.verdict);
-      interrupted = 1;
-    }
+    const bool refused = report.outcome == Outcome::kRefused;
+    end_with(result,
+             refused                                 ? static_cast<int>(report.verdict.status)
+             : report.outcome == Outcome::kSucceeded ? 0
+                                                     : kEndedOtherwise,
+             name(report.outcome));
+    if (!refused) continue;
+    print_verdict(input, report.verdict);
+    return false;
   }
+  return true;
 }
 
 void cycle_through(Session& session, double duration_s, const TrajectoryInput& input, RunLog& log,
                    Progress& progress, RunResult& result) {
   const double period_s = session.pipeline.robot.period_s();
   const std::int64_t period_ns = std::int64_t{1000} * session.pipeline.robot.period_us;
-  const auto cycles = static_cast<std::int64_t>(duration_s / period_s + 0.5);
+  const auto cycles = std::max(std::int64_t{1}, std::llround(duration_s / period_s));
   Status status = Status::kOk;
-  for (std::int64_t k = 0; k < cycles && status == Status::kOk && interrupted == 0; ++k) {
+  bool goes_on = true;
+  for (std::int64_t k = 0; k < cycles && goes_on && status == Status::kOk; ++k) {
     {
       const HeapWatch watch;
       status = session.executive.cycle({k * period_ns});
     }
     for (int i = 0; i < result.tracking_count; ++i)
       result.tracking[static_cast<std::size_t>(i)].add();
-    follow(session, input, result);
+    goes_on = follow(session, input, result);
+    if (interrupted != 0) {
+      end_with(result, kEndedOtherwise, "interrupted");
+      goes_on = false;
+    }
     log.drain(session.recorder);
     progress.update(static_cast<double>(k) * period_s);
   }
-  if (status != Status::kOk) {
-    result.code = static_cast<int>(status);
-    result.name = name(status);
-  }
-}
-
-void print_trip(const Session& session, Status status) {
-  const Guard::Telemetry& guard = session.executive.guard().telemetry();
-  std::fprintf(stderr, "stopped: %s", name(status));
-  if (guard.tripped_joint >= 0)
-    std::fprintf(stderr, ", joint %d (%s): value %.9g, limit %.9g", guard.tripped_joint + 1,
-                 Robot::kJointNames[static_cast<std::size_t>(guard.tripped_joint)],
-                 guard.tripped_value, guard.tripped_limit);
-  std::fprintf(stderr, "\n");
+  if (status != Status::kOk) end_with(result, static_cast<int>(status), name(status));
 }
 
 double planned_duration(const Session& session, const Options& options,
@@ -112,18 +114,17 @@ Path in_folder(const Path& folder, const char* file) {
 }
 
 /// Runs the loop between start and stop, and the times and counters around it.
-void execute(Session& session, double duration_s, const TrajectoryInput& input, RunLog& log,
-             std::string_view pipeline, RunResult& result) {
-  Progress progress(pipeline, duration_s);
+void execute(Session& session, const Options& options, const TrajectoryInput& input, RunLog& log,
+             RunResult& result) {
+  const double duration_s = planned_duration(session, options, input);
+  Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
   const Status started = session.executive.start();
-  if (input.trajectory != nullptr) result.code = kEndedOtherwise, result.name = "unfinished";
-  if (started == Status::kOk) {
+  if (input.trajectory != nullptr) end_with(result, kEndedOtherwise, "unfinished");
+  if (started == Status::kOk)
     cycle_through(session, duration_s, input, log, progress, result);
-  } else {
-    result.code = static_cast<int>(started);
-    result.name = name(started);
-  }
+  else
+    end_with(result, static_cast<int>(started), name(started));
   const Status latched = session.executive.latched();
   session.executive.stop();
   result.wall_s = wall_s() - begin_s;
@@ -131,10 +132,22 @@ void execute(Session& session, double duration_s, const TrajectoryInput& input, 
       static_cast<double>(session.executive.telemetry().cycles) * session.pipeline.robot.period_s();
   result.heap_allocations = heap_allocations();
   progress.end();
-  if (latched != Status::kOk) print_trip(session, latched);
+  if (latched != Status::kOk)
+    print_stop(options.pipeline, started == Status::kOk ? "stopped" : "refused", latched,
+               session.executive.guard().telemetry());
 }
 
 }  // namespace
+
+void print_stop(const char* subject, const char* event, Status status,
+                const Guard::Telemetry& guard) {
+  std::fprintf(stderr, "%s: %s: %s", subject, event, name(status));
+  if (guard.tripped_joint >= 0)
+    std::fprintf(stderr, ", joint %d (%s): value %.9g, limit %.9g", guard.tripped_joint + 1,
+                 Robot::kJointNames[static_cast<std::size_t>(guard.tripped_joint)],
+                 guard.tripped_value, guard.tripped_limit);
+  std::fprintf(stderr, "\n");
+}
 
 int run(Session& session, const Options& options) {
   const std::string_view pipeline = stem(options.pipeline);
@@ -155,15 +168,14 @@ int run(Session& session, const Options& options) {
     result.tracking[i].start(recording.tracking[i]);
   }
   session.recorder.start(recording);
-  const Row row = {"recorder", session.pipeline.recorder.divisor, 0,
-                   [](void* recorder, double time_s) {
-                     static_cast<Recorder*>(recorder)->record(time_s);
-                   },
-                   &session.recorder};
+  const Row row = {
+      "recorder", session.pipeline.recorder.divisor, 0,
+      [](void* recorder, double time_s) { static_cast<Recorder*>(recorder)->record(time_s); },
+      &session.recorder};
   if (session.executive.add(row) != Status::kOk) return kRefused;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  execute(session, planned_duration(session, options, input), input, log, pipeline, result);
+  execute(session, options, input, log, result);
 
   bool written = log.close();
   written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
@@ -174,6 +186,7 @@ int run(Session& session, const Options& options) {
   if (!written) std::fprintf(stderr, "%s: not everything could be written\n", folder.c_str());
   if (options.figure && written) draw_figure(folder.c_str());
   std::printf("  written to %s\n", folder.c_str());
+  if (session.executive.telemetry().cycles == 0) return kRefused;
   return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
 }
 

@@ -33,4 +33,8 @@ int check(Session& session, const Options& options, const RobotState& initial);
 /// the exit code.
 int print_ports(const char* board, const Capabilities& offered);
 
+/// Prints "subject: event: status" and, if it was the guard's, joint, value and limit.
+void print_stop(const char* subject, const char* event, Status status,
+                const Guard::Telemetry& guard);
+
 }  // namespace tactus

@@ -1,6 +1,7 @@
 #include "boards/program/summary.hpp"
 
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 
 namespace tactus {
@@ -10,7 +11,8 @@ void write_numbers(std::FILE* file, const char* key, const TrackingError& error,
                    double (*number)(const TrackingError&, int)) {
   std::fprintf(file, ", \"%s\": [", key);
   for (int i = 0; i < error.components(); ++i) {
-    std::fprintf(file, "%s%.9g", i > 0 ? ", " : "", number(error, i));
+    const double value = number(error, i);
+    std::fprintf(file, std::isfinite(value) ? "%s%.9g" : "%snull", i > 0 ? ", " : "", value);
   }
   std::fprintf(file, "]");
 }
@@ -22,8 +24,11 @@ void write_tracking(std::FILE* file, const RunResult& result) {
     const PortEntry &reference = *error.tracking().reference,
                     &measured = *error.tracking().measured;
     const QuantityInfo& quantity = info(reference.quantity);
-    std::fprintf(file, "%s\n    {\"reference\": \"%s.%s\", \"measured\": \"%s.%s\", ",
+    std::fprintf(file,
+                 "%s\n    {\"signal\": \"%s.%s - %s.%s\", \"reference\": \"%s.%s\", "
+                 "\"measured\": \"%s.%s\", ",
                  i > 0 ? "," : "", reference.block.c_str(), reference.port, measured.block.c_str(),
+                 measured.port, reference.block.c_str(), reference.port, measured.block.c_str(),
                  measured.port);
     std::fprintf(file, "\"quantity\": \"%s\", \"unit\": \"%s\"", quantity.name, quantity.unit);
     write_numbers(file, "rms", error, [](const TrackingError& e, int c) { return e.rms(c); });

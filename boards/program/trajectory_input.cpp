@@ -25,6 +25,11 @@ bool send_trajectory(Session& session, const Options& options, TrajectoryInput& 
   } else {
     return true;
   }
+  if (!session.pipeline.takes_references) {
+    std::fprintf(stderr, "%s: refused: the pipeline has no reference generator\n",
+                 input.path.c_str());
+    return false;
+  }
   Trajectory<JointSpace>* trajectory = session.client.acquire();
   CsvError error;
   if (!read_trajectory(input.path.c_str(), *trajectory, error)) {

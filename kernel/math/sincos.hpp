@@ -65,14 +65,14 @@ inline SinCos sincos(double x) {
   constexpr double kRounder = 0x1.8p52;  // adding it rounds to an integer, which the last bits hold
 
   const double shifted = x * kTwoOverPi + kRounder;
-  const double n = shifted - kRounder;
+  const double n = shifted - kRounder;              // multiples of pi/2 in x
   const std::uint64_t quadrant = bits_of(shifted);  // only its last two bits count
 
   const double a = x - n * kHalfPi1;  // exact
   const double w = n * kHalfPi2;      // exact
   const double b = a - w;
-  const double rest =
-      n * kHalfPi3 - ((a - b) - w);  // the bracket is the rounding error of b, exact
+  const double lost = (a - b) - w;  // what the rounding of b took away, exact
+  const double rest = n * kHalfPi3 - lost;
   const double r = b - rest;
   const double r_low = (b - r) - rest;
 

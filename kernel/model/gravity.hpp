@@ -1,8 +1,9 @@
 // Joint efforts that hold the arm against gravity, by composite first moments:
-//   a_i = R^T a_(i-1)                                   minus the gravity acceleration, a_(-1) = g
-//   e_z h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)    first moment of link i and all it
-//   carries g_i = e_z . (h_i x a_i)
-// with M_i the mass of link i and all it carries; the tool is a point mass on the last link.
+//   a_i = R^T a_(i-1)                                   a_(-1) = 9.81 m/s^2 upwards
+//   h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)
+//   g_i = e_z . (h_i x a_i)
+// h_i is the first moment of link i and all it carries about the origin of frame i, M_i their mass;
+// the tool is a point mass on the last link. Vectors are in the axes of their link.
 #pragma once
 
 #include "kernel/model/joint_trig.hpp"
@@ -28,6 +29,7 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
 }
 
 /// g(q) in N m, the base upright: the gradient of the potential energy. [cyclic]
+// flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> gravity(const JointTrig<R>& trig, const Tool& tool) {
   JointsOf<R> g;

@@ -10,7 +10,7 @@
 
 namespace tactus {
 
-/// LinkMotion of a link in its own axes. Gravity enters as an upward acceleration of the base.
+/// Motion of a link in its own axes. Gravity enters as an upward acceleration of the base.
 template <class W, class Dw, class A>
 struct LinkMotion {
   W w;    ///< angular velocity, rad/s
@@ -36,7 +36,7 @@ auto swing(const M& link, const P& p) {
   return cross(link.dw, p) + cross(link.w, cross(link.w, p));
 }
 
-/// LinkMotion of link i from that of link i-1.
+/// Motion of link i from that of link i-1, the joint adding its own.
 template <class R, int i, class M>
 auto motion_of_link(const M& parent, const SinCos& q, double dq, double ddq) {
   const TypedVector z_dq{Zero{}, Zero{}, dq}, z_ddq{Zero{}, Zero{}, ddq};
@@ -47,7 +47,8 @@ auto motion_of_link(const M& parent, const SinCos& q, double dq, double ddq) {
   return LinkMotion{w, dw, a};
 }
 
-/// Newton and Euler: what it takes to move link i as it moves.
+/// Newton, f = m a_com, and Euler, n = I dw + w x I w, about the origin of the link's frame instead
+/// of its centre of mass: with the first moment h = m c, and I about that origin.
 template <class R, int i, class M>
 auto load_of_link(const M& link) {
   const auto h = first_moment<R, i>();
@@ -94,6 +95,7 @@ auto newton_euler(const M& parent, const JointMotion<R>& joints, const Tool& too
 
 /// Joint efforts in N m that give ddq [rad/s^2] at q and dq [rad/s], the base upright and at rest.
 /// [cyclic]
+// flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> inverse_dynamics(const JointTrig<R>& trig, const JointsOf<R>& dq,
                                               const JointsOf<R>& ddq, const Tool& tool) {

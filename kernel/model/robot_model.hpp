@@ -1,5 +1,4 @@
-// Block: what the other blocks know of the arm. Everything is of the tool tip and in the base
-// frame.
+// Block: what the other blocks know of the arm, at the tool tip and in the base frame.
 #pragma once
 
 #include "kernel/port.hpp"

@@ -13,9 +13,20 @@ constexpr double kPeakVelocityOfPosition = 1.875;       // |h_p'| at t = 1/2
 constexpr double kPeakAccelerationOfPosition = 5.7736;  // |h_p''| = 10 / sqrt(3)
 constexpr double kPeakAccelerationOfVelocity = 3.9412;  // |h_v''| at t = 0.2427
 constexpr double kPeakAccelerationOfStop = 1.5;         // of 1 - 3 t^2 + 2 t^3 at t = 1/2
+// The swing to the other side, beyond which a velocity or acceleration is no larger than at t = 0.
+constexpr double kSwingOfVelocity = 0.512;            // |h_v'| at t = 3/5
+constexpr double kSwingOfAcceleration = 0.374;        // |h_a''| at t = 0.3551
+constexpr double kSwingOfStopAcceleration = 0.33334;  // of 1 - 4 t + 3 t^2 at t = 2/3
 // Jerk: with accelerations as bounded here, |60 dp / T^3| + |36 dv / T^2| + |9 da / T| <= 28
 // ddq_max / T.
 constexpr double kJerkTime = 28.0;
+
+/// What a bound leaves to the peaks if the motion begins with `start` and swings to the other side.
+/// Wherever it does not swing, the start leaves at least as much, because its share falls from one
+/// faster than the peaks rise.
+double left(double bound, double start, double swing) {
+  return bound - swing * std::min(start, bound);
+}
 
 double jerk_time_s(const JointLimits& limits, int joint) {
   return kJerkTime * limits.ddq_max[joint] / limits.dddq_max[joint];
@@ -78,7 +89,9 @@ double JointSpace::bridge_time_s(const Point& difference, const JointLimits& lim
   double time = 0.0;
   for (int j = 0; j < kDof; ++j) {
     const double dp = std::abs(difference.q[j]), dv = std::abs(difference.dq[j]);
-    const double a = 0.5 * limits.ddq_max[j], v = 0.5 * limits.dq_max[j];
+    const double da = std::abs(difference.ddq[j]);
+    const double v = left(0.5 * limits.dq_max[j], dv, kSwingOfVelocity);
+    const double a = left(0.5 * limits.ddq_max[j], da, kSwingOfAcceleration);
     // a T^2 = kPeakAccelerationOfVelocity dv T + kPeakAccelerationOfPosition dp
     const double half = 0.5 * kPeakAccelerationOfVelocity * dv;
     const double for_acceleration =
@@ -92,7 +105,8 @@ double JointSpace::bridge_time_s(const Point& difference, const JointLimits& lim
 double JointSpace::brake_time_s(const Point& moving, const JointLimits& limits) {
   double time = 0.0;
   for (int j = 0; j < kDof; ++j) {
-    const double a = 0.5 * limits.ddq_max[j];
+    const double a =
+        left(0.5 * limits.ddq_max[j], std::abs(moving.ddq[j]), kSwingOfStopAcceleration);
     const double for_acceleration = kPeakAccelerationOfStop * std::abs(moving.dq[j]) / a;
     time = std::max({time, for_acceleration, jerk_time_s(limits, j)});
   }

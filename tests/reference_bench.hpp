@@ -1,0 +1,94 @@
+// A reference generator with its client and stores, and a record of what it puts out: the bench of
+// the generator's tests.
+#pragma once
+
+#include <array>
+
+#include "gateway/reference_client.hpp"
+#include "kernel/reference/reference_generator.hpp"
+
+namespace tactus {
+
+/// Repeatable random numbers; the state is the seed.
+struct Random {
+  std::uint64_t state;
+  /// Uniform in [lo, hi].
+  double uniform(double lo, double hi) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return lo + (hi - lo) * static_cast<double>(state >> 11) * 0x1p-53;
+  }
+  int below(int n) { return static_cast<int>(uniform(0.0, n - 1e-9)); }
+};
+
+inline JointVector middle_of_range() {
+  const JointLimits limits;
+  return 0.5 * (limits.q_min + limits.q_max);
+}
+
+struct ReferenceBench {
+  static constexpr int kWaypoints = 64;
+  static constexpr double kPeriod_s = 1e-3;
+
+  ReferenceChannel<JointSpace> channel;
+  std::array<std::array<Waypoint<JointSpace>, kWaypoints>, kStores> waypoints;
+  ReferenceClient client{channel};
+  ReferenceGenerator<JointSpace> generator;
+  JointVector home = middle_of_range();
+
+  ReferenceBench() {
+    channel.settings.period_s = kPeriod_s;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      channel.stores[i].waypoints = waypoints[i].data();
+      channel.stores[i].capacity = kWaypoints;
+    }
+    static_cast<void>(start(home));
+  }
+  Status start(const JointVector& q) {
+    JointSpace::Point measured;
+    measured.q = q;
+    return generator.start(channel, JointVector::Constant(0.01), measured);
+  }
+  Status step(double dt_s = kPeriod_s) { return generator.step(dt_s); }
+  const JointSpace::Point& out() const { return generator.reference(); }
+
+  /// An empty trajectory that gives `fields` at each waypoint; null when no store is free.
+  Trajectory<JointSpace>* trajectory(Fields fields) {
+    Trajectory<JointSpace>* empty = client.acquire();
+    if (empty == nullptr) return nullptr;
+    empty->count = 0;
+    empty->fields = fields;
+    empty->interpolation = Interpolation::kByFields;
+    return empty;
+  }
+  /// Appends a waypoint at `offset` rad from home on every joint.
+  void add(Trajectory<JointSpace>& trajectory, double time_s, double offset, double dq = 0.0) {
+    Waypoint<JointSpace>& waypoint = trajectory.waypoints[trajectory.count++];
+    waypoint = {};
+    waypoint.time_s = time_s;
+    waypoint.point.q = home + JointVector::Constant(offset);
+    waypoint.point.dq = JointVector::Constant(dq);
+  }
+  /// Sends one segment from wherever the reference is to `offset` in `time_s`.
+  std::uint32_t go(double offset, double time_s, Fields fields) {
+    Trajectory<JointSpace>* motion = trajectory(fields);
+    add(*motion, time_s, offset);
+    std::uint32_t id = 0;
+    return client.send(*motion, id).ok() ? id : 0;
+  }
+  /// Steps n cycles; the worst Status is returned by the last that is not kOk.
+  Status run(int cycles) {
+    for (int k = 0; k < cycles; ++k) TRY(step());
+    return Status::kOk;
+  }
+  /// The final report of request `id`, taking every report there is; kStarted if there is none yet.
+  Report final_of(std::uint32_t id) {
+    Report found, report;
+    found.outcome = Outcome::kStarted;
+    while (client.poll(report)) {
+      if (report.id == id && report.outcome != Outcome::kStarted) found = report;
+    }
+    return found;
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,169 @@
+// What must hold of the reference generator whatever is sent to it and whenever: seeded random
+// clients.
+#include "tests/reference_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr Fields kCubic = kVelocityField, kQuintic = kVelocityField | kAccelerationField;
+constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
+
+/// A random reachable motion to be started now; 0 if no store is free or it was not admitted.
+std::uint32_t send_motion(ReferenceBench& bench, Random& random, Fields fields) {
+  Trajectory<JointSpace>* motion = bench.trajectory(fields);
+  if (motion == nullptr) return 0;
+  double time_s = 0.0;
+  const int count = 1 + random.below(4);
+  for (int i = 0; i < count; ++i) {
+    time_s += random.uniform(0.8, 2.0);
+    const bool last = i + 1 == count;
+    bench.add(*motion, time_s, random.uniform(-0.4, 0.4), last ? 0.0 : random.uniform(-0.2, 0.2));
+  }
+  std::uint32_t id = 0;
+  return bench.client.send(*motion, id).ok() ? id : 0;
+}
+
+/// Position, velocity and acceleration must belong together: what one period brings is what they
+/// promise, up to a jerk within the bound.
+void assert_continuous(const JointSpace::Point& before, const JointSpace::Point& after,
+                       const JointLimits& limits) {
+  for (int j = 0; j < kDof; ++j) {
+    const double jerk = 3.0 * limits.dddq_max[j];
+    const double dt = kPeriod_s;
+    ASSERT_NEAR(after.ddq[j], before.ddq[j], jerk * dt);
+    ASSERT_NEAR(after.dq[j], before.dq[j] + 0.5 * dt * (before.ddq[j] + after.ddq[j]),
+                jerk * dt * dt);
+    ASSERT_NEAR(after.q[j], before.q[j] + 0.5 * dt * (before.dq[j] + after.dq[j]),
+                jerk * dt * dt * dt);
+  }
+}
+
+void no_replacement_and_no_cancel_ever_makes_the_reference_step(void**) {
+  static ReferenceBench bench;
+  Random random{20261120};
+  ASSERT_OK(bench.step());
+  int accepted = 0;
+  for (int motion = 0; motion < 1000; ++motion) {
+    if (random.below(4) == 0) {
+      std::uint32_t id = 0;
+      static_cast<void>(bench.client.cancel(id));
+    } else {
+      accepted += send_motion(bench, random, kQuintic) != 0;
+    }
+    const int cycles = 1 + random.below(1500);
+    for (int k = 0; k < cycles; ++k) {
+      const JointSpace::Point before = bench.out();
+      ASSERT_OK(bench.step());
+      assert_continuous(before, bench.out(), bench.channel.settings.limits);
+    }
+    static_cast<void>(bench.final_of(0));
+  }
+  assert_true(accepted > 500);
+}
+
+void every_request_ends_in_exactly_one_final_report(void**) {
+  static ReferenceBench bench;
+  static std::array<int, 40000> finals;
+  finals.fill(0);
+  Random random{7};
+  std::uint32_t sent = 0;
+  const auto collect = [&] {
+    Report report;
+    while (bench.client.poll(report)) {
+      if (report.outcome != Outcome::kStarted) ++finals[report.id];
+    }
+  };
+  for (int k = 0; k < 20000; ++k) {
+    for (int i = random.below(4); i > 0; --i) {
+      std::uint32_t id = 0;
+      JointSpace::Point point;
+      point.q = bench.home + JointVector::Constant(random.uniform(-0.2, 0.2));
+      const int kind = random.below(8);
+      if (kind == 0)
+        id = send_motion(bench, random, kCubic);
+      else if (kind == 1)
+        id = bench.client.cancel(id).ok() ? id : 0;
+      else
+        id = bench.client.send(point, id).ok() ? id : 0;
+      if (id != 0) sent = id;
+    }
+    ASSERT_OK(bench.step());
+    if (random.below(20) == 0) collect();  // a client that reads seldom
+  }
+  collect();
+  ASSERT_OK(bench.run(10000));
+  collect();
+  assert_true(sent > 10000 && sent < finals.size());
+  for (std::uint32_t id = 1; id <= sent; ++id) assert_int_equal(finals[id], 1);
+}
+
+void a_client_that_reads_no_reports_loses_none(void**) {
+  static ReferenceBench bench;
+  int sent = 0, reported = 0;
+  for (int k = 0; k < 1000; ++k) {
+    JointSpace::Point point;
+    point.q = bench.home;
+    std::uint32_t id = 0;
+    sent += bench.client.send(point, id).ok();
+    ASSERT_OK(bench.step());
+  }
+  assert_true(sent < 100);  // the mailboxes are full and say so
+  Report report;
+  for (int k = 0; k < 100; ++k) {
+    while (bench.client.poll(report)) ++reported;
+    ASSERT_OK(bench.step());
+  }
+  while (bench.client.poll(report)) ++reported;
+  assert_int_equal(reported, sent);
+}
+
+/// Largest value of a polynomial and its derivatives over many samples.
+double sampled_peak(const Polynomial& polynomial, double T) {
+  double peak = 0.0;
+  for (int i = 0; i <= 2000; ++i) {
+    peak = std::fmax(peak, std::fabs(polynomial.at(T * i / 2000.0)));
+  }
+  return peak;
+}
+
+void whatever_is_admitted_stays_within_limits_between_its_waypoints(void**) {
+  static ReferenceBench bench;
+  const JointLimits& limits = bench.channel.settings.limits;
+  Random random{42};
+  int admitted = 0, refused = 0;
+  for (int n = 0; n < 3000; ++n) {
+    Trajectory<JointSpace>* motion = bench.trajectory(random.below(2) ? kQuintic : kCubic);
+    bench.add(*motion, 0.0, 0.0);
+    bench.add(*motion, random.uniform(0.2, 1.5), random.uniform(-1.0, 1.0));
+    for (int j = 0; j < kDof; ++j) motion->waypoints[0].point.dq[j] = random.uniform(-2.0, 2.0);
+    const Verdict verdict = admit(*motion, bench.channel.settings);
+    const JointSpace::Segment segment = motion->segment(1);
+    bool within = true;
+    for (int j = 0; j < kDof; ++j) {
+      const Polynomial q = segment.position(j), dq = q.derivative(), ddq = dq.derivative();
+      within = within && sampled_peak(dq, segment.duration()) <= limits.dq_max[j] + 1e-8 &&
+               sampled_peak(ddq, segment.duration()) <= limits.ddq_max[j] + 1e-8;
+      for (int i = 0; i <= 2000; ++i) {
+        const double at = q.at(segment.duration() * i / 2000.0);
+        within = within && at <= limits.q_max[j] + 1e-8 && at >= limits.q_min[j] - 1e-8;
+      }
+    }
+    if (verdict.ok()) assert_true(within);
+    (verdict.ok() ? admitted : refused) += 1;
+  }
+  assert_true(admitted > 100 && refused > 100);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(no_replacement_and_no_cancel_ever_makes_the_reference_step),
+      cmocka_unit_test(every_request_ends_in_exactly_one_final_report),
+      cmocka_unit_test(a_client_that_reads_no_reports_loses_none),
+      cmocka_unit_test(whatever_is_admitted_stays_within_limits_between_its_waypoints),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
