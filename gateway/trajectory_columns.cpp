@@ -7,8 +7,7 @@ struct GroupWords {
   std::string_view prefix, suffix, meaning;
 };
 
-// In the order of Columns::Group.
-// "q1".
+// In the order of Columns::Group; the joint stands between prefix and suffix.
 constexpr std::array<GroupWords, 5> kGroupWords = {{
     {"time", "_s", "time"},
     {"q", "_rad", "position"},
@@ -86,7 +85,7 @@ bool Columns::complete(Message& reason) const {
     const bool required = group <= kPosition;
     if (found == whole || (found == 0 && !required)) continue;
     reason << kGroupWords[static_cast<std::size_t>(group)].meaning << ": " << found
-           << " columns, expected " << whole;
+           << (found == 1 ? " column" : " columns") << ", expected " << whole;
     return false;
   }
   if (given(kAcceleration) > 0 && given(kVelocity) == 0) {

@@ -12,6 +12,7 @@ Status Executive::add(const Row& row) {
 
 Status Executive::start() {
   period_ns_ = std::int64_t{1000} * pipeline_.robot.period_us;
+  stamp_ns_ = -1;  // before any clock
   telemetry_ = {};
   for (Histogram& times : times_) times = {};
   latched_ = hal_.start(pipeline_.robot.mode(), measured_);
@@ -61,8 +62,9 @@ Status Executive::run(const CycleTime& now) {
 Status Executive::check_clock(const CycleTime& now) {
   const std::int64_t before_ns = stamp_ns_;
   stamp_ns_ = now.stamp_ns;
-  if (telemetry_.cycles++ == 0) return Status::kOk;
+  const bool first = telemetry_.cycles++ == 0;
   if (now.stamp_ns <= before_ns) return Status::kClock;
+  if (first) return Status::kOk;
   const std::int64_t missed = (now.stamp_ns - before_ns - period_ns_ / 2) / period_ns_;
   telemetry_.slips += missed;
   return missed > pipeline_.executive.max_slip ? Status::kSlip : Status::kOk;

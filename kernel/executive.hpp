@@ -13,7 +13,8 @@
 
 namespace tactus {
 
-/// When a cycle began, by the clock that triggers it. The kernel reads no clock of its own.
+/// When a cycle began, by the clock that triggers it, which is never negative. The kernel reads no
+/// clock of its own.
 struct CycleTime {
   std::int64_t stamp_ns = 0;
 };

@@ -4,8 +4,8 @@
 
 namespace tactus {
 
-// Values below 32 have a bucket each. Above, with 2^(k+5) <= value < 2^(k+6), the five bits after the
-// leading one choose among the 32 buckets of doubling k.
+// Values below 32 have a bucket each. Above, with 2^(k+5) <= value < 2^(k+6), the five bits after
+// the leading one choose among the 32 buckets of doubling k.
 std::size_t Histogram::bucket(std::uint64_t value_ns) {
   const std::uint64_t value = std::min(value_ns, kLongest_ns);
   std::size_t doubling = 0;

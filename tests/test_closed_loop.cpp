@@ -13,6 +13,8 @@ void make_ideal(PlantParams& plant) {
   plant.rotor_inertia = JointVector::Constant(0.1);
 }
 
+// Proves SIM-4, EXE-2.
+
 void attaching_moves_nothing(void**) {
   static ClosedLoop loop;
   make_ideal(loop.plant);
@@ -20,6 +22,8 @@ void attaching_moves_nothing(void**) {
   ASSERT_OK(loop.run(1.0));
   for (int j = 0; j < kDof; ++j) ASSERT_NEAR(loop.hal.arm().q()[j], loop.plant.initial_q[j], 1e-9);
 }
+
+// Proves LOOP-1.
 
 void at_rest_gravity_compensation_is_exact(void**) {
   static ClosedLoop loop;
@@ -53,6 +57,8 @@ void an_unknown_payload_sags_by_what_the_stiffness_predicts(void**) {
   assert_true(std::fabs(loop.q_d()[3] - q[3]) > 1e-3);
 }
 
+// Proves MOD-2.
+
 void the_tool_of_the_file_compensates_the_same_payload(void**) {
   static ClosedLoop loop;
   make_ideal(loop.plant);
@@ -66,6 +72,8 @@ void the_tool_of_the_file_compensates_the_same_payload(void**) {
   ASSERT_OK(loop.run(3.0));
   for (int j = 0; j < kDof; ++j) ASSERT_NEAR(loop.hal.arm().q()[j], loop.plant.initial_q[j], 1e-9);
 }
+
+// Proves LOOP-2.
 
 void halving_the_period_does_not_change_the_picture(void**) {
   static ClosedLoop slow, fast;
@@ -96,6 +104,8 @@ std::uint64_t hash_of_run(ClosedLoop& loop, std::uint64_t seed) {
   return hash;
 }
 
+// Proves SIM-3.
+
 void the_same_seed_gives_the_same_bytes_and_another_seed_other_noise(void**) {
   static ClosedLoop first, second, other;
   for (ClosedLoop* loop : {&first, &second, &other}) loop->plant.position_noise_rad = 1e-5;
@@ -110,6 +120,8 @@ void without_noise_the_seed_changes_nothing(void**) {
   const std::uint64_t hash = hash_of_run(first, 1);
   assert_true(hash != 0 && hash_of_run(other, 2) == hash);
 }
+
+// Proves EXE-8.
 
 void a_cycle_allocates_nothing(void**) {
   static ClosedLoop loop;

@@ -9,6 +9,8 @@
 namespace tactus {
 namespace {
 
+// Proves KER-4.
+
 void a_new_mailbox_is_empty(void**) {
   Mailbox<int, 4> box;
   int message = 7;

@@ -15,6 +15,8 @@ KdlTool kdl_tool(const Tool& tool) {
   return {tool.mass_kg, {tool.com.x(), tool.com.y(), tool.com.z()}};
 }
 
+// Proves MOD-1.
+
 void pose_of_the_flange_is_that_of_kdl(void**) {
   RandomStates state;
   double worst = 0.0;

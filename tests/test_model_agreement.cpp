@@ -118,6 +118,8 @@ void assert_the_three_agree(Array Model::*quantity) {
   ASSERT_NEAR(worst_difference(by_mujoco, by_kdl, quantity), 0.0, kTolerance);
 }
 
+// Proves MOD-1.
+
 void three_codes_agree_on_the_pose_of_the_flange(void**) {
   assert_the_three_agree(&Model::p);
   assert_the_three_agree(&Model::R);

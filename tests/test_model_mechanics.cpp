@@ -31,6 +31,8 @@ double energy(const JointVector& q, const JointVector& dq, const Tool& tool) {
   return 0.5 * dq.dot(mass_matrix(q, tool) * dq) + potential_energy(q, tool);
 }
 
+// Proves MOD-1.
+
 void jacobian_is_the_derivative_of_the_pose_of_the_tip(void**) {
   const Pose tip = skew_tool().tip;
   const double h = 1e-5;
@@ -48,6 +50,8 @@ void jacobian_is_the_derivative_of_the_pose_of_the_tip(void**) {
     for (int i = 0; i < 3; ++i) ASSERT_NEAR(w[i], twist[3 + i], 1e-7);
   }
 }
+
+// Proves MOD-2.
 
 void tip_frame_is_fixed_in_the_flange_frame(void**) {
   const Pose tip = skew_tool().tip;
@@ -92,6 +96,8 @@ void a_tool_adds_its_weight_through_the_jacobian_of_its_centre_of_mass(void**) {
     assert_true((added - expected).cwiseAbs().maxCoeff() < 1e-13);
   }
 }
+
+// Proves MOD-1.
 
 void at_rest_inverse_dynamics_is_gravity(void**) {
   const Tool tool = skew_tool();

@@ -22,6 +22,8 @@ struct Bench {
   }
 };
 
+// Proves LAW-1.
+
 void at_rest_on_the_reference_the_torque_is_gravity(void**) {
   Bench bench;
   bench.q_d = bench.q = ones, bench.g = 3.0 * ones;

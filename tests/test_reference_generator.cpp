@@ -12,6 +12,8 @@ constexpr Fields kQuintic = kVelocityField | kAccelerationField;
 #define ASSERT_OUTCOME(report, expected) \
   assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
 
+// Proves EXE-2.
+
 void the_first_reference_is_the_measured_position_at_rest(void**) {
   static ReferenceBench bench;
   ASSERT_OK(bench.step());
@@ -21,12 +23,16 @@ void the_first_reference_is_the_measured_position_at_rest(void**) {
   }
 }
 
+// Proves RG-9.
+
 void a_measured_position_that_is_not_finite_refuses_to_start(void**) {
   static ReferenceBench bench;
   JointVector q = bench.home;
   q[3] = NAN;
   ASSERT_STATUS(bench.start(q), Status::kStateNotFinite);
 }
+
+// Proves RG-3.
 
 void a_point_is_forwarded_as_it_came_and_held(void**) {
   static ReferenceBench bench;
@@ -41,6 +47,8 @@ void a_point_is_forwarded_as_it_came_and_held(void**) {
   }
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kExecuted);
 }
+
+// Proves RG-5.
 
 void of_two_points_in_one_cycle_the_later_counts_and_both_are_reported(void**) {
   static ReferenceBench bench;
@@ -58,6 +66,8 @@ void of_two_points_in_one_cycle_the_later_counts_and_both_are_reported(void**) {
   ASSERT_OUTCOME(report, Outcome::kExecuted);
   assert_false(bench.client.poll(report));
 }
+
+// Proves RG-2.
 
 void positions_alone_are_joined_by_straight_lines(void**) {
   static ReferenceBench bench;
@@ -89,6 +99,8 @@ void accelerations_too_are_joined_by_quintics(void**) {
   ASSERT_NEAR(bench.out().ddq[0], 5.625 * 0.5, 1e-12);
 }
 
+// Proves RG-5.
+
 void a_completed_trajectory_holds_its_last_waypoint_and_succeeds(void**) {
   static ReferenceBench bench;
   const std::uint32_t id = bench.go(0.3, 0.5, kCubic);
@@ -102,6 +114,8 @@ void a_completed_trajectory_holds_its_last_waypoint_and_succeeds(void**) {
   assert_int_equal(static_cast<int>(bench.generator.state()),
                    static_cast<int>(ReferenceState::kOnlineReference));
 }
+
+// Proves RG-7.
 
 void a_first_waypoint_at_zero_must_be_near_the_reference(void**) {
   static ReferenceBench bench;
@@ -137,6 +151,8 @@ void a_small_start_offset_is_bridged_without_a_step(void**) {
   ASSERT_NEAR(last - bench.home[0], 0.009, 1e-12);
 }
 
+// Proves RG-6.
+
 void the_way_to_the_first_waypoint_is_judged_when_it_begins(void**) {
   static ReferenceBench bench;
   const std::uint32_t id = bench.go(1.0, 0.2, kCubic);  // 1 rad in 0.2 s: 7.5 rad/s
@@ -148,6 +164,8 @@ void the_way_to_the_first_waypoint_is_judged_when_it_begins(void**) {
   assert_int_equal(report.verdict.waypoint, 0);
   ASSERT_NEAR(report.verdict.value, 7.5, 1e-9);
 }
+
+// Proves RG-5.
 
 void a_new_trajectory_preempts_the_old_one_and_is_told(void**) {
   static ReferenceBench bench;
@@ -180,6 +198,8 @@ void a_point_aborts_a_running_trajectory(void**) {
   assert_true(bench.out().q == bench.home);
 }
 
+// Proves RG-4.
+
 void a_cancelled_trajectory_brakes_to_rest_and_holds(void**) {
   static ReferenceBench bench;
   const std::uint32_t id = bench.go(0.8, 1.0, kQuintic);
@@ -196,6 +216,8 @@ void a_cancelled_trajectory_brakes_to_rest_and_holds(void**) {
   assert_true(bench.out().q[0] > before);
 }
 
+// Proves RG-5.
+
 void a_cancel_with_nothing_to_cancel_is_refused(void**) {
   static ReferenceBench bench;
   std::uint32_t id = 0;
@@ -205,6 +227,8 @@ void a_cancel_with_nothing_to_cancel_is_refused(void**) {
   ASSERT_OUTCOME(report, Outcome::kRefused);
   ASSERT_STATUS(report.verdict.status, Status::kNothingToCancel);
 }
+
+// Proves RG-8.
 
 void the_reference_does_not_depend_on_the_period(void**) {
   static ReferenceBench coarse, fine;

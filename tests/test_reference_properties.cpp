@@ -40,6 +40,8 @@ void assert_continuous(const JointSpace::Point& before, const JointSpace::Point&
   }
 }
 
+// Proves RG-4.
+
 void no_replacement_and_no_cancel_ever_makes_the_reference_step(void**) {
   static ReferenceBench bench;
   Random random{20261120};
@@ -62,6 +64,8 @@ void no_replacement_and_no_cancel_ever_makes_the_reference_step(void**) {
   }
   assert_true(accepted > 500);
 }
+
+// Proves RG-5.
 
 void every_request_ends_in_exactly_one_final_report(void**) {
   static ReferenceBench bench;
@@ -127,6 +131,8 @@ double sampled_peak(const Polynomial& polynomial, double T) {
   }
   return peak;
 }
+
+// Proves RG-6.
 
 void whatever_is_admitted_stays_within_limits_between_its_waypoints(void**) {
   static ReferenceBench bench;

@@ -11,6 +11,8 @@ namespace {
 constexpr ReferenceState kStates[] = {ReferenceState::kOnlineReference,
                                       ReferenceState::kTrajectoryExecution};
 
+// Proves RG-1.
+
 void whatever_the_state_an_accepted_trajectory_is_executed(void**) {
   for (const ReferenceState from : kStates)
     assert_true(next(from, ReferenceEvent::kTrajectoryAccepted) ==

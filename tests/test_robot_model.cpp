@@ -37,6 +37,8 @@ constexpr Published kPublished[] = {
 };
 // clang-format on
 
+// Proves MOD-1.
+
 void flange_and_gravity_are_the_published_ones(void**) {
   for (const Published& row : kPublished) {
     const JointVector q(row.q);

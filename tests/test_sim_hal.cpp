@@ -54,6 +54,8 @@ JointVector wave(int k) {
   return JointVector::Constant(2.0 * std::sin(0.05 * k));
 }
 
+// Proves SIM-4.
+
 void a_mode_or_period_that_is_not_offered_is_refused(void**) {
   Bench& b = g_bench;
   ASSERT_OK(b.hal.load(PlantParams(), 1));
@@ -93,6 +95,8 @@ void commanding_the_torque_found_at_the_start_moves_nothing(void**) {
   ASSERT_NEAR((b.hal.arm().q() - params.initial_q).norm(), 0.0, 1e-12);
   assert_true(b.hold.norm() > 10.0);
 }
+
+// Proves SIM-2.
 
 void each_write_holds_the_torque_for_one_period(void**) {
   static Arm arm;
@@ -147,6 +151,8 @@ void the_noise_has_no_mean_and_the_deviation_stated(void**) {
     ASSERT_NEAR(std::sqrt(squares / n), 1.0, 4.0 / std::sqrt(2.0 * n));
 }
 
+// Proves SIM-3.
+
 void the_same_seed_gives_the_same_bytes_and_another_only_other_noise(void**) {
   for (const std::uint64_t seed : {7u, 8u}) {
     g_bench.start(noisy(), 7);
@@ -162,6 +168,8 @@ void the_same_seed_gives_the_same_bytes_and_another_only_other_noise(void**) {
   }
 }
 
+// Proves SIM-2.
+
 void reading_twice_measures_once(void**) {
   Bench& b = g_bench;
   RobotState again;
@@ -170,6 +178,8 @@ void reading_twice_measures_once(void**) {
   ASSERT_OK(b.hal.read(again));
   assert_true(same_bytes(b.state.q, again.q) && same_bytes(b.state.dq, again.dq));
 }
+
+// Proves SIM-4.
 
 void a_command_that_cannot_be_executed_closes_the_brakes(void**) {
   Bench& b = g_bench;
@@ -214,6 +224,8 @@ void after_a_stop_the_arm_stands_and_can_be_started_again(void**) {
   ASSERT_OK(b.hal.write(effort(b.state.tau)));
   ASSERT_NEAR((b.hal.arm().q() - q).norm(), 0.0, 1e-12);
 }
+
+// Proves EXE-8.
 
 void the_cycle_does_not_touch_the_heap(void**) {
   Bench& b = g_bench;

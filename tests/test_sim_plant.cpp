@@ -75,6 +75,8 @@ struct Reference {
      {0, -13.885631930, -4.286601610, 8.162908066, 0.412329069, -1.522871901, -0.064970161}},
 };
 
+// Proves MOD-1.
+
 void flange_and_gravity_are_those_of_the_reference(void**) {
   for (const Reference& row : kReference) {
     const Model model(joints(row.q));
@@ -96,6 +98,8 @@ void the_coriolis_torque_is_that_of_the_reference(void**) {
                     joints({0.5, -0.4, 0.3, 0.6, -0.7, 0.2, 1.0}));
   for (int i = 0; i < kDof; ++i) ASSERT_NEAR(model.c[i], c[i], 5e-5);
 }
+
+// Proves SIM-1.
 
 void a_free_swing_without_friction_keeps_its_energy(void**) {
   static Arm arm;
@@ -174,6 +178,8 @@ void a_long_step_is_cut_into_steps_of_at_most_a_millisecond(void**) {
   whole.step(JointVector::Zero(), 8e-3);
   assert_memory_equal(cut.q().data(), whole.q().data(), sizeof(JointVector));
 }
+
+// Proves SIM-2.
 
 void a_payload_weighs_its_mass_times_its_lever(void**) {
   static Arm arm;

@@ -33,6 +33,8 @@ double worst_error_ulp(double x) {
   return std::max(error_ulp(ours.sin, sin_x), error_ulp(ours.cos, cos_x));
 }
 
+// Proves KER-3.
+
 void the_sine_of_zero_is_zero_with_its_sign_and_the_cosine_one(void**) {
   assert_true(sincos(0.0).sin == 0.0 && !std::signbit(sincos(0.0).sin));
   assert_true(sincos(-0.0).sin == 0.0 && std::signbit(sincos(-0.0).sin));

@@ -28,6 +28,8 @@ void plant(const char* path, const char* text, char (&folder)[64]) {
   return std::system(text) == 0;
 }
 
+// Proves KER-2.
+
 void the_tree_keeps_its_layers(void**) {
   assert_int_equal(std::system("scripts/layers"), 0);
 }
@@ -55,6 +57,8 @@ void an_allowed_include_is_not_complained_of(void**) {
   plant("kernel/control/law.hpp", "#include <array>\n#include \"kernel/port.hpp\"\n", folder);
   assert_true(passes("scripts/layers %s", folder));
 }
+
+// Proves KER-1.
 
 void a_heap_call_in_an_archive_is_found(void**) {
   const char* violations[] = {

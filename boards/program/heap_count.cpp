@@ -41,10 +41,6 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
-static void count() {
-  if (watching) ++allocations;
-}
-
 void* malloc(std::size_t size) {
   count();
   return __libc_malloc(size);

@@ -80,7 +80,7 @@ void cycle_through(Session& session, double duration_s, const TrajectoryInput& i
                    Progress& progress, RunResult& result) {
   const double period_s = session.pipeline.robot.period_s();
   const std::int64_t period_ns = std::int64_t{1000} * session.pipeline.robot.period_us;
-  const auto cycles = std::max(std::int64_t{1}, std::llround(duration_s / period_s));
+  const auto cycles = std::max(1LL, std::llround(duration_s / period_s));
   Status status = Status::kOk;
   bool goes_on = true;
   for (std::int64_t k = 0; k < cycles && goes_on && status == Status::kOk; ++k) {

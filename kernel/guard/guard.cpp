@@ -17,6 +17,10 @@ Status Guard::start(const Params& params, const RobotState& state, double period
   max_step_ = limits_.dtau_max * period_s;
   telemetry_ = {};
   TRY(check(state));
+  for (int i = 0; i < kDof; ++i) {
+    if (std::abs(state.tau[i]) > limits_.tau_max[i])
+      return trip(Status::kEffortLimit, i, state.tau[i], limits_.tau_max[i]);
+  }
   last_ = state.tau;
   return Status::kOk;
 }

@@ -38,7 +38,9 @@ class Guard {
     double tripped_value = 0.0, tripped_limit = 0.0;
   };
 
-  /// Takes the limits and the torque the actuators hold now, from which the rate is counted. [init]
+  /// Takes the limits and the torque the actuators hold now, from which the rate is counted; if
+  /// that is beyond its limit, no command could keep both limits: kEffortLimit. Else as check().
+  /// [init]
   Status start(const Params& params, const RobotState& state, double period_s);
 
   /// Measured state: finite, within position and velocity limits.

@@ -57,11 +57,15 @@ struct JointSpace {
   static Point sum(const Point& a, const Point& b);
 
   /// Seconds in which a quintic takes `difference` to zero with at most half of each velocity and
-  /// acceleration limit, so that the other half is left to the motion underneath. [any]
+  /// acceleration limit, or what the difference begins with where that is more; the other half is
+  /// left to the motion underneath. An acceleration it begins with adds up to 0.068 ddq T to the
+  /// velocity. [any]
   static double bridge_time_s(const Point& difference, const JointLimits& limits);
-  /// Seconds in which all joints stop together with at most half of each acceleration limit. [any]
+  /// Seconds in which all joints stop together with at most half of each acceleration limit, or
+  /// what they begin with where that is more. [any]
   static double brake_time_s(const Point& moving, const JointLimits& limits);
-  /// Where a stop from `moving` in T seconds comes to rest, velocity being a cubic in time. [any]
+  /// Where a stop from `moving` in T seconds comes to rest, velocity being a cubic in time; cut to
+  /// the position limits. [any]
   static Point stop(const Point& moving, double T, const JointLimits& limits);
 };
 

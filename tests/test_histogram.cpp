@@ -1,0 +1,125 @@
+// Execution times in fixed memory: counts and extremes are exact, percentiles known to 1.6 %.
+#include "kernel/histogram.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kPromised = 0.016;  // of the value
+constexpr unsigned kSeed = 20260303;
+constexpr std::uint64_t kHuge = UINT64_MAX;
+
+// Proves EXE-7.
+
+void an_empty_histogram_is_all_zero(void**) {
+  const Histogram times;
+  assert_int_equal(times.count(), 0);
+  assert_int_equal(times.last(), 0);
+  assert_int_equal(times.min(), 0);
+  assert_int_equal(times.max(), 0);
+  assert_true(times.mean() == 0.0);
+  for (const double fraction : {0.0, 0.5, 1.0}) assert_true(times.percentile(fraction) == 0.0);
+}
+
+void count_extremes_mean_and_last_are_exact(void**) {
+  Histogram times;
+  for (const std::uint64_t value : {300, 100, 800}) times.add(value);
+  assert_int_equal(times.count(), 3);
+  assert_int_equal(times.min(), 100);
+  assert_int_equal(times.max(), 800);
+  assert_int_equal(times.last(), 800);
+  assert_true(times.mean() == 400.0);
+}
+
+void a_single_value_is_every_percentile(void**) {
+  for (const std::uint64_t value : {std::uint64_t{0}, std::uint64_t{65}, kHuge}) {
+    Histogram times;
+    times.add(value);
+    for (const double fraction : {0.0, 0.5, 1.0})
+      assert_true(times.percentile(fraction) == static_cast<double>(value));
+  }
+}
+
+/// The median of {0, value, value, long}, of which neither end can help to hide a wrong bucket.
+double median_among_others(std::uint64_t value) {
+  Histogram times;
+  for (const std::uint64_t added : {std::uint64_t{0}, value, value, kHuge}) times.add(added);
+  return times.percentile(0.5);
+}
+
+void values_below_64_ns_are_exact(void**) {
+  for (std::uint64_t value = 0; value < 64; ++value)
+    assert_true(median_among_others(value) == static_cast<double>(value));
+  ASSERT_NEAR(median_among_others(64), 64.5, 0.0);  // two values share a bucket from here on
+}
+
+void next_to_every_power_of_two_the_error_is_as_promised(void**) {
+  for (std::uint64_t power = 64; power <= std::uint64_t{1} << 34; power *= 2) {
+    for (const std::uint64_t value : {power - 1, power, power + 1, power + power / 2}) {
+      const double exact = static_cast<double>(value);
+      ASSERT_NEAR(median_among_others(value), exact, kPromised * exact);
+    }
+  }
+}
+
+void what_is_longer_than_34_s_counts_as_34_s(void**) {
+  for (const std::uint64_t value : {std::uint64_t{1} << 35, std::uint64_t{1} << 36, kHuge - 1})
+    ASSERT_NEAR(median_among_others(value), 34.36e9, kPromised * 34.36e9);
+  Histogram times;
+  times.add(1);
+  times.add(kHuge);
+  assert_true(times.max() == kHuge && times.last() == kHuge);
+}
+
+void percentiles_are_those_of_the_sorted_values(void**) {
+  static std::array<std::uint64_t, 100000> sorted;
+  print_message("seed %u\n", kSeed);
+  std::mt19937_64 bits(kSeed);
+  std::uniform_real_distribution<double> exponent(0.0, 10.5);  // 1 ns to 32 s
+  Histogram times;
+  for (std::uint64_t& value : sorted) {
+    value = static_cast<std::uint64_t>(std::pow(10.0, exponent(bits)));
+    times.add(value);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (const std::size_t thousandth : {0, 1, 10, 100, 250, 500, 750, 900, 990, 999, 1000}) {
+    const std::size_t rank = std::max<std::size_t>(thousandth * sorted.size() / 1000, 1);
+    const double exact = static_cast<double>(sorted[rank - 1]);
+    const double fraction = static_cast<double>(thousandth) / 1000.0;
+    ASSERT_NEAR(times.percentile(fraction), exact, kPromised * exact);
+  }
+}
+
+void percentiles_stay_between_the_extremes_and_grow_with_the_fraction(void**) {
+  Histogram times;
+  times.add(65), times.add(1000), times.add(1001), times.add(70000);
+  double before = static_cast<double>(times.min());
+  for (int hundredth = 0; hundredth <= 100; ++hundredth) {
+    const double value = times.percentile(hundredth / 100.0);
+    assert_true(value >= before);
+    before = value;
+  }
+  assert_true(before <= static_cast<double>(times.max()));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(an_empty_histogram_is_all_zero),
+      cmocka_unit_test(count_extremes_mean_and_last_are_exact),
+      cmocka_unit_test(a_single_value_is_every_percentile),
+      cmocka_unit_test(values_below_64_ns_are_exact),
+      cmocka_unit_test(next_to_every_power_of_two_the_error_is_as_promised),
+      cmocka_unit_test(what_is_longer_than_34_s_counts_as_34_s),
+      cmocka_unit_test(percentiles_are_those_of_the_sorted_values),
+      cmocka_unit_test(percentiles_stay_between_the_extremes_and_grow_with_the_fraction),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
