@@ -36,7 +36,7 @@ TESTS    := $(patsubst %.cpp,$(B)/%,$(wildcard tests/test_*.cpp))
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath
 obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
 
-.PHONY: all run test check bench setup format clean help
+.PHONY: docs all run test check bench setup format clean help
 all: $(B)/tactus                              ## build the program of BOARD
 
 run: setup                                    ## run every pipeline; results in out/
@@ -46,6 +46,8 @@ test: setup                                   ## build and run all tests
 	$(Q)$(MAKE) --no-print-directory -j2 all trajectories run-tests
 check: setup                                  ## what must hold before a change lands, tests included
 	$(Q)scripts/check
+docs: $(B)/tactus                             ## write the documents that are generated
+	$(Q)$(B)/tactus ports > docs/ports.md
 bench: $(B)/bench                             ## time per call beside Orocos KDL, in one run
 	$(Q)$(B)/bench
 setup:                                        ## install the Debian packages that are missing

@@ -65,13 +65,12 @@ void starting_on_the_measured_position_is_bumpless(void**) {
 }
 
 void a_number_that_is_not_finite_never_becomes_a_torque(void**) {
-  for (JointVector Bench::*input : {&Bench::q_d, &Bench::q, &Bench::dq, &Bench::g}) {
+  for (JointVector Bench::*input : {&Bench::q_d, &Bench::q, &Bench::dq, &Bench::g})
     for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
       Bench bench;
       (bench.*input)[kDof - 1] = bad;
       ASSERT_STATUS(bench.pd.step(1e-3), Status::kCommandNotFinite);
     }
-  }
 }
 
 }  // namespace

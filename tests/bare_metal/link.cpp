@@ -1,5 +1,6 @@
-// The whole kernel linked for a bare Cortex-M7 with no C library on the link line, so that any call to the heap, to
-// exceptions or to an operating system is a link error. Not a program to run: a board adds start-up code and a Hal.
+// The whole kernel linked for a bare Cortex-M7 with no C library on the link line, so that any call
+// to the heap, to exceptions or to an operating system is a link error. Not a program to run: a
+// board adds start-up code and a Hal.
 #include <cstddef>
 
 #include "kernel/executive.hpp"
@@ -69,7 +70,8 @@ constexpr const char* kText =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\nkp = 100\nkd = 10\n";
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\nkp = 100\nkd "
+    "= 10\n";
 
 StandingHal hal;
 ReferenceChannel<JointSpace> channel;

@@ -1,0 +1,70 @@
+// A pipeline file that uses every kind of section and block, and what a board with a simulated
+// robot loads it into: the bench of the loader's tests.
+#pragma once
+
+#include "gateway/gateway_section.hpp"
+#include "kernel/loader.hpp"
+#include "sim_plant/plant_params.hpp"
+
+namespace tactus {
+
+inline constexpr std::string_view kValid =
+    "# Arm -> PD -> arm\n"
+    "[robot]\nname = fer\nperiod_us = 2000\ntau_c = stiff.tau\ntool_com = 0.1 0 -0.2\n"
+    "[guard]\nmax_velocity = 1\nmax_torque = 80 70 60 50 10 9 8\nposition_margin = 0.1\n"
+    "[plant]\ndelay_cycles = 3\nfriction = 0\n"
+    "[gateway]\ninterpolation = quintic\ntrajectory = a b.csv\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+    "[soft]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 10\nkd = 1 2 3 4 5 6 7\n"
+    "[stiff]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = soft.tau\n"
+    "kp = 100\nkd = 1e1\n"
+    "[executive]\nmax_slip = 7\n"
+    "[recorder]\ndivisor = 5\nsignals = robot.q stiff.tau model.x\ntracking = jrg.q_d robot.q\n";
+
+inline constexpr Capabilities kTorqueRobot = {false, false, true, 100, 10000};
+
+/// What a board with a simulated robot loads into.
+struct LoaderBench {
+  ReferenceChannel<JointSpace> channel;
+  Pipeline pipeline;
+  PlantParams plant;
+  GatewaySection gateway;
+  LoadError error;
+
+  Status load(std::string_view text, const Capabilities& offered = kTorqueRobot) {
+    channel.settings = {};
+    pipeline = Pipeline();
+    plant = PlantParams();
+    gateway = GatewaySection();
+    Loader loader(channel, offered);
+    loader.add(board_section("plant", plant));
+    loader.add(board_section("gateway", gateway));
+    return loader.load(text, pipeline, error);
+  }
+  const JointVector& joints(const char* port) const {
+    return *static_cast<const JointVector*>(pipeline.ports.find(port)->value);
+  }
+};
+
+/// `text` with the first `from` in it replaced, in memory of its own.
+inline std::string_view edit(std::string_view text, std::string_view from, std::string_view to) {
+  static std::array<char, 4096> edited;
+  const std::size_t at = text.find(from);
+  if (at == std::string_view::npos) return {};
+  std::size_t size = 0;
+  for (const std::string_view part : {text.substr(0, at), to, text.substr(at + from.size())})
+    size = append_text(edited.data(), size, edited.size() - 1, part);
+  return {edited.data(), size};
+}
+
+/// The ready pose with every joint moved.
+inline RobotState state_at(double q, double dq) {
+  RobotState state;
+  state.q = ready_pose() + JointVector::Constant(q);
+  state.dq = JointVector::Constant(dq);
+  return state;
+}
+
+}  // namespace tactus

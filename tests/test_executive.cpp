@@ -1,0 +1,242 @@
+// The executive: what a cycle does and in which order, what a late one does, what stops the robot.
+#include "kernel/executive.hpp"
+
+#include <limits>
+
+#include "tests/executive_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+using Bench = ExecutiveBench;
+
+Bench& started_bench() {
+  Bench& b = fresh_bench();
+  ASSERT_OK(b.executive.start());
+  static_cast<void>(b.hal.diary());
+  return b;
+}
+
+/// The robot was stopped once for `status`, and from now on nothing is asked of it.
+void assert_stopped(Bench& b, Status status) {
+  assert_int_equal(b.hal.stops, 1);
+  ASSERT_STATUS(b.executive.latched(), status);
+  const int reads = b.hal.reads, writes = b.hal.writes;
+  for (int i = 0; i < 3; ++i) ASSERT_STATUS(b.cycle(), status);
+  assert_true(b.hal.reads == reads && b.hal.writes == writes && b.hal.stops == 1);
+}
+
+// Proves EXE-1.
+
+void a_cycle_reads_then_writes_then_runs_the_rows_once_each(void**) {
+  Bench& b = started_bench();
+  RowProbe first = {&b.hal, '1'}, second = {&b.hal, '2'};
+  ASSERT_OK(b.executive.add({"first", 1, 0, RowProbe::run, &first}));
+  ASSERT_OK(b.executive.add({"second", 1, 0, RowProbe::run, &second}));
+  ASSERT_OK(b.cycle());
+  assert_string_equal(b.hal.diary(), "rw12");
+}
+
+void what_is_written_comes_from_the_state_read_in_the_same_cycle(void**) {
+  Bench& b = started_bench();
+  b.hal.state.q[0] -= 0.005;  // 100 * 0.005 = 0.5 N m back
+  ASSERT_OK(b.cycle());
+  assert_true(b.hal.command.mode == CommandMode::kEffort);
+  ASSERT_NEAR(b.hal.command.value[0], 0.5, 1e-12);
+}
+
+// Proves EXE-1, GRD-3.
+
+void what_is_written_has_passed_the_guard(void**) {
+  Bench& b = started_bench();
+  b.hal.state.q[0] -= 1.0;  // 100 N m wanted, 1 N m per cycle allowed
+  ASSERT_OK(b.cycle());
+  ASSERT_NEAR(b.hal.command.value[0], 1.0, 1e-12);
+  assert_int_equal(b.executive.guard().telemetry().limited_cycles, 1);
+}
+
+// Proves EXE-2.
+
+void a_start_attaches_and_moves_nothing(void**) {
+  Bench& b = fresh_bench();
+  ASSERT_OK(b.executive.start());
+  assert_string_equal(b.hal.diary(), "s");
+  ASSERT_OK(b.cycle());
+  assert_true(b.reference() == b.hal.state.q[0]);
+  assert_true(b.hal.command.value.isZero(0.0));
+}
+
+void before_the_start_and_after_a_stop_cycles_do_nothing(void**) {
+  Bench& b = fresh_bench();
+  ASSERT_STATUS(b.cycle(), Status::kNotStarted);
+  assert_string_equal(b.hal.diary(), "");
+  ASSERT_OK(b.executive.start());
+  ASSERT_OK(b.cycle());
+  b.executive.stop();
+  ASSERT_STATUS(b.cycle(), Status::kNotStarted);
+  assert_string_equal(b.hal.diary(), "srwx");
+}
+
+void after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_void(void**) {
+  Bench& b = started_bench();
+  assert_true(b.send_line());
+  for (int i = 0; i < 10; ++i) ASSERT_OK(b.cycle());
+  assert_true(b.reference() > b.hal.state.q[0]);
+  ASSERT_STATUS(b.cycle(100.0), Status::kSlip);
+
+  b.hal.state.q[0] += 0.3;  // pushed while it was off
+  b.now_ns = 0;             // and the clock began anew
+  ASSERT_OK(b.executive.start());
+  assert_int_equal(b.executive.telemetry().slips, 0);
+  assert_int_equal(b.executive.times(Stage::kCycle).count(), 0);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_OK(b.cycle());
+    assert_true(b.reference() == b.hal.state.q[0]);
+    assert_true(b.hal.command.value.isZero(0.0));
+  }
+}
+
+// Proves EXE-3.
+
+void after_any_number_of_missed_periods_the_reference_moves_on_by_one(void**) {
+  Bench& b = started_bench();
+  assert_true(b.send_line());
+  for (int i = 0; i < 5; ++i) ASSERT_OK(b.cycle());
+  std::int64_t slips = 0;
+  for (int missed = 1; missed <= 50; ++missed) {
+    for (const double periods : {1.0 + missed, 1.0}) {  // late, then on time again
+      const double before = b.reference();
+      ASSERT_OK(b.cycle(periods));
+      ASSERT_NEAR(b.reference() - before, Bench::kPeriod_s, 1e-12);  // at 1 rad/s
+    }
+    slips += missed;
+    assert_int_equal(b.executive.telemetry().slips, slips);
+  }
+  assert_int_equal(b.executive.telemetry().cycles, 5 + 2 * 50);
+  assert_int_equal(b.hal.writes, 5 + 2 * 50);
+}
+
+void less_than_half_a_period_of_jitter_is_no_slip(void**) {
+  Bench& b = started_bench();
+  for (const double periods : {7.0, 1.49, 0.51, 0.01, 1.49}) ASSERT_OK(b.cycle(periods));
+  assert_int_equal(b.executive.telemetry().slips, 0);
+  ASSERT_OK(b.cycle(1.51));
+  assert_int_equal(b.executive.telemetry().slips, 1);
+}
+
+// Proves EXE-4, EXE-5.
+
+void more_missed_periods_than_allowed_stop_the_robot(void**) {
+  for (const int allowed : {0, 3, 50}) {
+    Bench& b = started_bench();
+    b.pipeline.executive.max_slip = allowed;
+    ASSERT_OK(b.cycle());
+    ASSERT_OK(b.cycle(1.0 + allowed));
+    ASSERT_STATUS(b.cycle(2.0 + allowed), Status::kSlip);
+    assert_int_equal(b.executive.telemetry().slips, 2 * allowed + 1);
+    assert_stopped(b, Status::kSlip);
+  }
+}
+
+void a_clock_that_stands_or_runs_backwards_stops_the_robot(void**) {
+  for (const double periods : {0.0, -0.001, -1.0, -1e9}) {
+    Bench& b = started_bench();
+    for (int i = 0; i < 3; ++i) ASSERT_OK(b.cycle());
+    ASSERT_STATUS(b.cycle(periods), Status::kClock);
+    assert_stopped(b, Status::kClock);
+  }
+}
+
+void a_clock_that_reads_nonsense_stops_the_robot(void**) {
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  Bench& from_zero = started_bench();
+  ASSERT_OK(from_zero.executive.cycle({0}));
+  ASSERT_STATUS(from_zero.executive.cycle({kLast}), Status::kSlip);
+  Bench& backwards = started_bench();
+  ASSERT_OK(backwards.executive.cycle({kLast}));
+  ASSERT_STATUS(backwards.executive.cycle({kFirst}), Status::kClock);
+  Bench& negative = started_bench();
+  ASSERT_STATUS(negative.executive.cycle({kFirst}), Status::kClock);
+}
+
+// Proves EXE-5, GRD-1.
+
+void a_measured_number_that_is_not_finite_stops_the_robot_at_any_joint(void**) {
+  for (JointVector RobotState::*field : {&RobotState::q, &RobotState::dq, &RobotState::tau}) {
+    for (int i = 0; i < kDof; ++i) {
+      Bench& b = started_bench();
+      ASSERT_OK(b.cycle());
+      (b.hal.state.*field)[i] = std::nan("");
+      ASSERT_STATUS(b.cycle(), Status::kStateNotFinite);
+      assert_string_equal(b.hal.diary(), "rwrx");
+      assert_int_equal(b.executive.guard().telemetry().tripped_joint, i);
+      assert_stopped(b, Status::kStateNotFinite);
+    }
+  }
+}
+
+// Proves EXE-5.
+
+void an_error_of_the_wire_is_latched(void**) {
+  Bench& reading = started_bench();
+  reading.hal.read_status = Status::kConnectionLost;
+  ASSERT_STATUS(reading.cycle(), Status::kConnectionLost);
+  assert_string_equal(reading.hal.diary(), "rx");
+  reading.hal.read_status = Status::kOk;
+  assert_stopped(reading, Status::kConnectionLost);
+
+  Bench& writing = started_bench();
+  writing.hal.write_status = Status::kBusTimeout;
+  ASSERT_STATUS(writing.cycle(), Status::kBusTimeout);
+  assert_string_equal(writing.hal.diary(), "rwx");
+  assert_stopped(writing, Status::kBusTimeout);
+}
+
+void a_robot_that_cannot_be_started_is_stopped_and_stays_so(void**) {
+  Bench& refusing = fresh_bench();
+  refusing.hal.start_status = Status::kDriveFault;
+  ASSERT_STATUS(refusing.executive.start(), Status::kDriveFault);
+  assert_string_equal(refusing.hal.diary(), "sx");
+  assert_stopped(refusing, Status::kDriveFault);
+
+  Bench& outside = fresh_bench();
+  outside.hal.state.q[3] = 1.0;  // beyond its upper limit of -0.0698
+  ASSERT_STATUS(outside.executive.start(), Status::kMeasuredPositionLimit);
+  assert_stopped(outside, Status::kMeasuredPositionLimit);
+}
+
+void a_stop_by_hand_keeps_the_cause_of_an_earlier_one(void**) {
+  Bench& b = started_bench();
+  b.hal.read_status = Status::kConnectionLost;
+  ASSERT_STATUS(b.cycle(), Status::kConnectionLost);
+  b.executive.stop();
+  ASSERT_STATUS(b.cycle(), Status::kConnectionLost);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_cycle_reads_then_writes_then_runs_the_rows_once_each),
+      cmocka_unit_test(what_is_written_comes_from_the_state_read_in_the_same_cycle),
+      cmocka_unit_test(what_is_written_has_passed_the_guard),
+      cmocka_unit_test(a_start_attaches_and_moves_nothing),
+      cmocka_unit_test(before_the_start_and_after_a_stop_cycles_do_nothing),
+      cmocka_unit_test(
+          after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_void),
+      cmocka_unit_test(after_any_number_of_missed_periods_the_reference_moves_on_by_one),
+      cmocka_unit_test(less_than_half_a_period_of_jitter_is_no_slip),
+      cmocka_unit_test(more_missed_periods_than_allowed_stop_the_robot),
+      cmocka_unit_test(a_clock_that_stands_or_runs_backwards_stops_the_robot),
+      cmocka_unit_test(a_clock_that_reads_nonsense_stops_the_robot),
+      cmocka_unit_test(a_measured_number_that_is_not_finite_stops_the_robot_at_any_joint),
+      cmocka_unit_test(an_error_of_the_wire_is_latched),
+      cmocka_unit_test(a_robot_that_cannot_be_started_is_stopped_and_stays_so),
+      cmocka_unit_test(a_stop_by_hand_keeps_the_cause_of_an_earlier_one),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,160 @@
+// The executive's rows, and the times it keeps of every stage.
+#include "kernel/executive.hpp"
+
+#include "tests/executive_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+using Bench = ExecutiveBench;
+
+Bench& started_bench() {
+  Bench& b = fresh_bench();
+  ASSERT_OK(b.executive.start());
+  return b;
+}
+
+// Proves EXE-6.
+
+void a_row_runs_in_exactly_its_cycles(void**) {
+  constexpr struct {
+    int divisor, offset;
+    const char* cycles;  // of the first twelve, x where the row runs
+  } kRows[] = {{1, 0, "xxxxxxxxxxxx"}, {3, 0, "x..x..x..x.."},   {3, 2, "..x..x..x..x"},
+               {5, 4, "....x....x.."}, {100, 0, "x..........."}, {100, 99, "............"}};
+  for (const auto& row : kRows) {
+    Bench& b = started_bench();
+    RowProbe probe = {&b.hal, '1'};
+    ASSERT_OK(b.executive.add({"probe", row.divisor, row.offset, RowProbe::run, &probe}));
+    for (int number = 0; number < 12; ++number) {
+      probe.time_s = -1.0;
+      ASSERT_OK(b.cycle(number == 6 ? 4.0 : 1.0));  // a slip does not disturb the count
+      const double time_s = row.cycles[number] == 'x' ? number * Bench::kPeriod_s : -1.0;
+      ASSERT_NEAR(probe.time_s, time_s, 1e-12);
+    }
+  }
+}
+
+void rows_run_in_the_order_they_were_added(void**) {
+  Bench& b = fresh_bench();
+  RowProbe probes[] = {{&b.hal, '1'}, {&b.hal, '2'}, {&b.hal, '3'}};
+  ASSERT_OK(b.executive.add({"first", 1, 0, RowProbe::run, &probes[0]}));
+  ASSERT_OK(b.executive.add({"second", 2, 1, RowProbe::run, &probes[1]}));
+  ASSERT_OK(b.executive.add({"third", 1, 0, RowProbe::run, &probes[2]}));
+  ASSERT_OK(b.executive.start());
+  ASSERT_OK(b.cycle());
+  ASSERT_OK(b.cycle());
+  assert_string_equal(b.hal.diary(), "srw13rw123");
+}
+
+void no_row_runs_in_a_cycle_that_stops_the_robot(void**) {
+  Bench& b = started_bench();
+  RowProbe probe = {&b.hal, '1'};
+  ASSERT_OK(b.executive.add({"probe", 1, 0, RowProbe::run, &probe}));
+  b.hal.write_status = Status::kBusTimeout;
+  ASSERT_STATUS(b.cycle(), Status::kBusTimeout);
+  assert_string_equal(b.hal.diary(), "srwx");
+}
+
+void a_row_that_could_never_run_is_refused(void**) {
+  Bench& b = fresh_bench();
+  RowProbe probe = {&b.hal, '1'};
+  constexpr int kBad[][2] = {{0, 0}, {-1, 0}, {1, 1}, {1, -1}, {3, 3}, {3, -1}};
+  for (const auto& [divisor, offset] : kBad)
+    ASSERT_STATUS(b.executive.add({"bad", divisor, offset, RowProbe::run, &probe}),
+                  Status::kBadValue);
+  ASSERT_STATUS(b.executive.add({"nothing", 1, 0, nullptr, &probe}), Status::kBadValue);
+  ASSERT_OK(b.executive.start());
+  ASSERT_OK(b.cycle());
+  assert_string_equal(b.hal.diary(), "srw");
+}
+
+void a_ninth_row_is_refused_and_the_eight_run(void**) {
+  Bench& b = fresh_bench();
+  RowProbe probe = {&b.hal, '1'};
+  for (int i = 0; i < 8; ++i) ASSERT_OK(b.executive.add({"row", 1, 0, RowProbe::run, &probe}));
+  ASSERT_STATUS(b.executive.add({"row", 1, 0, RowProbe::run, &probe}), Status::kTooLarge);
+  ASSERT_OK(b.executive.start());
+  ASSERT_OK(b.cycle());
+  assert_string_equal(b.hal.diary(), "srw11111111");
+}
+
+// Proves EXE-7.
+
+void every_stage_is_charged_the_time_it_took(void**) {
+  Bench& b = fresh_bench();
+  RowProbe probe = {&b.hal, '1'};
+  probe.takes_ns = 300;
+  ASSERT_OK(b.executive.add({"probe", 1, 0, RowProbe::run, &probe}));
+  ASSERT_OK(b.executive.start());
+  b.hal.read_ns = 100, b.hal.write_ns = 200;
+  for (int i = 0; i < 3; ++i) ASSERT_OK(b.cycle());
+  constexpr std::uint64_t kExpected[] = {100, 0, 0, 200, 300, 600};  // in the order of Stage
+  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
+    const Histogram& times = b.executive.times(static_cast<Stage>(i));
+    assert_int_equal(times.count(), 3);
+    assert_int_equal(times.min(), kExpected[i]);
+    assert_int_equal(times.max(), kExpected[i]);
+  }
+}
+
+void a_cycle_that_fails_is_timed_as_far_as_it_went(void**) {
+  Bench& b = started_bench();
+  b.hal.read_ns = 100, b.hal.write_ns = 200;
+  b.hal.write_status = Status::kBusTimeout;
+  ASSERT_STATUS(b.cycle(), Status::kBusTimeout);
+  ASSERT_STATUS(b.cycle(), Status::kBusTimeout);  // latched: no cycle any more
+  constexpr std::uint64_t kCounts[] = {1, 1, 1, 0, 0, 1};
+  for (std::size_t i = 0; i < kStageNames.size(); ++i)
+    assert_int_equal(b.executive.times(static_cast<Stage>(i)).count(), kCounts[i]);
+  assert_int_equal(b.executive.times(Stage::kCycle).last(), 300);
+}
+
+void a_cycle_longer_than_the_period_is_an_overrun(void**) {
+  Bench& b = started_bench();
+  constexpr std::uint64_t kPeriod_ns = Bench::kPeriod_ns;
+  const std::uint64_t takes_ns[] = {0, kPeriod_ns, kPeriod_ns + 1, 10 * kPeriod_ns, 5};
+  for (const std::uint64_t read_ns : takes_ns) {
+    b.hal.read_ns = read_ns;
+    ASSERT_OK(b.cycle());
+  }
+  assert_int_equal(b.executive.telemetry().overruns, 2);
+  assert_int_equal(b.executive.times(Stage::kCycle).count(), 5);
+  ASSERT_OK(b.executive.start());
+  assert_int_equal(b.executive.telemetry().overruns, 0);
+  assert_int_equal(b.executive.times(Stage::kCycle).count(), 0);
+}
+
+void without_a_stopwatch_nothing_is_timed_and_everything_runs(void**) {
+  Bench& b = fresh_bench();
+  static std::optional<Executive> untimed;
+  untimed.emplace(b.hal, b.pipeline, nullptr);
+  ASSERT_OK(untimed->start());
+  b.hal.read_ns = 2 * Bench::kPeriod_ns;
+  ASSERT_OK(untimed->cycle({0}));
+  assert_string_equal(b.hal.diary(), "srw");
+  assert_int_equal(untimed->telemetry().cycles, 1);
+  assert_int_equal(untimed->telemetry().overruns, 0);
+  for (std::size_t i = 0; i < kStageNames.size(); ++i)
+    assert_int_equal(untimed->times(static_cast<Stage>(i)).count(), 0);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_row_runs_in_exactly_its_cycles),
+      cmocka_unit_test(rows_run_in_the_order_they_were_added),
+      cmocka_unit_test(no_row_runs_in_a_cycle_that_stops_the_robot),
+      cmocka_unit_test(a_row_that_could_never_run_is_refused),
+      cmocka_unit_test(a_ninth_row_is_refused_and_the_eight_run),
+      cmocka_unit_test(every_stage_is_charged_the_time_it_took),
+      cmocka_unit_test(a_cycle_that_fails_is_timed_as_far_as_it_went),
+      cmocka_unit_test(a_cycle_longer_than_the_period_is_an_overrun),
+      cmocka_unit_test(without_a_stopwatch_nothing_is_timed_and_everything_runs),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
