@@ -13,7 +13,7 @@ include boards/$(BOARD)/board.mk
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
 SEAMS     := boards/program/options.cpp tests/oracles/kdl.cpp tests/bench/kdl_peer.cpp
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
-NUMERICS  := -O3 -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
+NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
 SEAMFLAGS := -std=c++17 -g $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
              -DTACTUS_ROBOT_$(ROBOT)
@@ -72,8 +72,8 @@ trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
-run-tests: $(TESTS)
-	$(Q)scripts/run_tests $^
+run-tests: $(B)/tactus $(TESTS)
+	$(Q)scripts/run_tests $(TESTS)
 
 $(call obj,$(SEAMS)): CXXFLAGS := $(SEAMFLAGS)
 $(B)/libkernel.a: $(call obj,$(KERNEL))

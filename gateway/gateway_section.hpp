@@ -17,7 +17,7 @@ struct GatewaySection {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.text("trajectory", trajectory);
+    visit.text("trajectory", trajectory, "default trajectory file");
     visit.choice("interpolation", interpolation, kInterpolationWords);
     visit.param("settle_s", settle_s, Range{0.0, 3600.0}, "s");
   }

@@ -9,10 +9,14 @@ Trajectory<JointSpace>* ReferenceClient::acquire() {
   return nullptr;
 }
 
+Verdict ReferenceClient::judge(const Trajectory<JointSpace>& trajectory) const {
+  return admit(trajectory, channel_.settings);
+}
+
 Verdict ReferenceClient::send(Trajectory<JointSpace>& trajectory, std::uint32_t& id) {
   const auto store = static_cast<std::size_t>(&trajectory - channel_.stores.data());
   if (store >= away_.size() || away_[store]) return {Status::kNoFreeStore};
-  Verdict verdict = admit(trajectory, channel_.settings);
+  Verdict verdict = judge(trajectory);
   if (!verdict.ok()) return verdict;
   Request<JointSpace> request;
   request.kind = RequestKind::kTrajectory;

@@ -15,6 +15,8 @@ class ReferenceClient {
   /// A store to fill with waypoints, or null while all are on their way. Yours until sent.
   Trajectory<JointSpace>* acquire();
 
+  /// What `send` would say of a trajectory, but for the way from the robot to its first waypoint.
+  Verdict judge(const Trajectory<JointSpace>& trajectory) const;
   /// Admits and sends an acquired trajectory; `id` comes back in its reports. When refused the
   /// store stays yours.
   Verdict send(Trajectory<JointSpace>& trajectory, std::uint32_t& id);

@@ -5,7 +5,7 @@
 //
 // by calling on the visitor:
 //   param(name, value, range, unit)   a setting: double, int, bool, JointVector or Vector3
-//   text(name, value)                 a setting that is a word or a path
+//   text(name, value, meaning)        a setting that is a word or a path
 //   choice(name, value, words)        a setting that is one of a fixed list of words
 //   in(name, port), optional(name, port), out(name, port)
 //   channel(name, pointer)            the mailboxes and stores through which references arrive

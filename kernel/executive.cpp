@@ -14,6 +14,7 @@ Status Executive::start() {
   period_ns_ = std::int64_t{1000} * pipeline_.robot.period_us;
   stamp_ns_ = -1;  // before any clock
   telemetry_ = {};
+  early_ = 0;
   for (Histogram& times : times_) times = {};
   latched_ = hal_.start(pipeline_.robot.mode(), measured_);
   if (latched_ == Status::kOk)
@@ -57,15 +58,18 @@ Status Executive::run(const CycleTime& now) {
 }
 
 /// A late cycle is counted and bridged: the blocks always move by one period, so nothing is caught
-/// up in a burst. Too many missed periods in a row, or a clock that stands or runs backwards, stop
-/// the robot.
+/// up in a burst. Too many missed periods in a row, or a clock that stands, runs backwards or too
+/// fast, stop the robot. One early cycle may follow a late one; a second in a row is a burst.
 Status Executive::check_clock(const CycleTime& now) {
   const std::int64_t before_ns = stamp_ns_;
   stamp_ns_ = now.stamp_ns;
   const bool first = telemetry_.cycles++ == 0;
   if (now.stamp_ns <= before_ns) return Status::kClock;
   if (first) return Status::kOk;
-  const std::int64_t missed = (now.stamp_ns - before_ns - period_ns_ / 2) / period_ns_;
+  const std::int64_t elapsed_ns = now.stamp_ns - before_ns;
+  early_ = elapsed_ns < period_ns_ / 2 ? early_ + 1 : 0;
+  if (early_ > 1) return Status::kClock;
+  const std::int64_t missed = (elapsed_ns - period_ns_ / 2) / period_ns_;
   telemetry_.slips += missed;
   return missed > pipeline_.executive.max_slip ? Status::kSlip : Status::kOk;
 }

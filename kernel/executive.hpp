@@ -82,6 +82,7 @@ class Executive {
   RobotState measured_;
   Status latched_ = Status::kNotStarted;
   std::int64_t period_ns_ = 0, stamp_ns_ = 0;
+  int early_ = 0;  // cycles in a row that began less than half a period after the last
   std::array<Row, kMaxRows> rows_;
   std::size_t row_count_ = 0;
   Telemetry telemetry_;

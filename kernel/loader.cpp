@@ -71,7 +71,7 @@ void Loader::add(const BoardSection& section) {
 
 Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error) {
   error = {};
-  next_channel_ = channel_;
+  next_channel_ = &channel_;
   Ini ini;
   TRY(ini.parse(text, error));
   const IniSection* robot = ini.find("robot");
@@ -82,7 +82,7 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
   pipeline.takes_references = next_channel_ == nullptr;
-  channel_->settings = {pipeline.guard.effective(), pipeline.robot.period_s()};
+  channel_.settings = {pipeline.guard.effective(), pipeline.robot.period_s()};
   return Status::kOk;
 }
 

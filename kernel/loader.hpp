@@ -32,7 +32,7 @@ class Loader {
   /// `channel` goes to the pipeline's reference generator; `offered` is what the robot and its wire
   /// can do. [init]
   Loader(ReferenceChannel<JointSpace>& channel, const Capabilities& offered)
-      : channel_(&channel), next_channel_(&channel), offered_(offered) {}
+      : channel_(channel), next_channel_(&channel), offered_(offered) {}
 
   /// Makes a section of the board's known; at most four. [init]
   void add(const BoardSection& section);
@@ -54,7 +54,7 @@ class Loader {
   Status check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
                        LoadError& error) const;
 
-  ReferenceChannel<JointSpace>* channel_;
+  ReferenceChannel<JointSpace>& channel_;
   ReferenceChannel<JointSpace>* next_channel_;
   Capabilities offered_;
   std::array<BoardSection, 4> board_sections_;

@@ -36,6 +36,11 @@ class Mailbox {
     return true;
   }
 
+  /// Messages that wait; the producer can only make it more. [any, consumer only]
+  std::size_t size() const {
+    return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_relaxed);
+  }
+
   /// Messages that can be posted for certain; the consumer can only make it more. [any, producer
   /// only]
   std::size_t space() const {

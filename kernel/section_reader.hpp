@@ -24,7 +24,7 @@ class SectionReader {
   /// A limit per joint that may be tightened, not widened, from the value it has.
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>
-  void text(const char* key, Text<N>& value) {
+  void text(const char* key, Text<N>& value, const char* /*meaning*/) {
     const IniEntry* entry = find(key);
     if (entry == nullptr) return;
     if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);

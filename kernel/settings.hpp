@@ -29,7 +29,7 @@ struct RobotSection {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.text("name", name);
+    visit.text("name", name, "the robot the file is written for");
     visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
     visit.param("tool_mass", tool_mass, Range{0.0, 100.0}, "kg");
     visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
@@ -79,8 +79,8 @@ struct RecorderSection {
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("divisor", divisor, Range{1.0, 1000.0}, "cycles");
-    visit.text("signals", signals);
-    visit.text("tracking", tracking);
+    visit.text("signals", signals, "outputs to record; none named: all");
+    visit.text("tracking", tracking, "pairs: reference measured");
   }
 };
 

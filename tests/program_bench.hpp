@@ -25,7 +25,7 @@ namespace tactus {
 using Line = Text<1023>;
 
 inline char program[PATH_MAX];
-inline char folder[] = "/tmp/tactus-program-XXXXXX";  // for everything these tests write
+inline char scratch[] = "/tmp/tactus-program-XXXXXX";  // for everything these tests write
 
 inline constexpr const char* kPipeline =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
@@ -42,7 +42,7 @@ inline constexpr const char* kHeader = "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_ra
 inline constexpr const char* kReady = "0.02,0,-0.785398,0,-2.356194,0,1.570796,0.785398\n";
 
 inline Line in_folder(const char* name) {
-  Line path(folder);
+  Line path(scratch);
   return path << "/" << name, path;
 }
 
@@ -123,11 +123,11 @@ inline bool find_program(const char* test) {
   if (realpath(test, program) == nullptr) return false;
   for (int i = 0; i < 2; ++i) *std::strrchr(program, '/') = '\0';
   std::snprintf(parent, sizeof parent, "%s/tactus", program);
-  return realpath(parent, program) != nullptr && mkdtemp(folder) != nullptr;
+  return realpath(parent, program) != nullptr && mkdtemp(scratch) != nullptr;
 }
 
 inline int remove_folder(void**) {
-  return std::system((Line("rm -r ") << folder).c_str());
+  return std::system((Line("rm -r ") << scratch).c_str());
 }
 
 /// Runs the tests in a fresh folder for their files; the exit code of main().

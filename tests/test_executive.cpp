@@ -148,6 +148,12 @@ void a_clock_that_stands_or_runs_backwards_stops_the_robot(void**) {
   }
 }
 
+void one_early_cycle_follows_a_late_one_but_a_burst_stops_the_robot(void**) {
+  Bench& b = started_bench();
+  for (const double periods : {1.0, 1.7, 0.3, 1.0, 1.8, 0.2}) ASSERT_OK(b.cycle(periods));
+  ASSERT_STATUS(b.cycle(0.1), Status::kClock);
+}
+
 void a_clock_that_reads_nonsense_stops_the_robot(void**) {
   constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
@@ -232,6 +238,7 @@ int main() {
       cmocka_unit_test(less_than_half_a_period_of_jitter_is_no_slip),
       cmocka_unit_test(more_missed_periods_than_allowed_stop_the_robot),
       cmocka_unit_test(a_clock_that_stands_or_runs_backwards_stops_the_robot),
+      cmocka_unit_test(one_early_cycle_follows_a_late_one_but_a_burst_stops_the_robot),
       cmocka_unit_test(a_clock_that_reads_nonsense_stops_the_robot),
       cmocka_unit_test(a_measured_number_that_is_not_finite_stops_the_robot_at_any_joint),
       cmocka_unit_test(an_error_of_the_wire_is_latched),

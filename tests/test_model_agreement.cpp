@@ -113,9 +113,13 @@ double worst_difference(Model (*model_a)(const State&), Model (*model_b)(const S
 
 template <class Array>
 void assert_the_three_agree(Array Model::*quantity) {
-  ASSERT_NEAR(worst_difference(by_kernel, by_mujoco, quantity), 0.0, kTolerance);
-  ASSERT_NEAR(worst_difference(by_kernel, by_kdl, quantity), 0.0, kTolerance);
-  ASSERT_NEAR(worst_difference(by_mujoco, by_kdl, quantity), 0.0, kTolerance);
+  const double mujoco = worst_difference(by_kernel, by_mujoco, quantity);
+  const double kdl = worst_difference(by_kernel, by_kdl, quantity);
+  const double oracles = worst_difference(by_mujoco, by_kdl, quantity);
+  print_message("largest difference from MuJoCo %.2g, from KDL %.2g\n", mujoco, kdl);
+  ASSERT_NEAR(mujoco, 0.0, kTolerance);
+  ASSERT_NEAR(kdl, 0.0, kTolerance);
+  ASSERT_NEAR(oracles, 0.0, kTolerance);
 }
 
 // Proves MOD-1.

@@ -62,9 +62,6 @@ void check_says_accepted_moves_nothing_and_writes_nothing(void**) {
 }
 
 void run_and_check_refuse_the_same_start_in_the_same_words(void**) {
-  const Line low = write(
-      "low.ini", {kPipeline, "[guard]\nposition_margin = 0.5\n", "[executive]\nmax_slip = 0\n"});
-  assert_int_equal(tactus_run({"check", low.c_str()}), 0);
   const Line path = write("start.ini", {kWithoutGenerator, "[plant]\ninitial_q = 0\n"});
   const Line expected = Line(path) << ": refused: kMeasuredPositionLimit, joint 4 (fer_joint4): "
                                       "value 0, limit -0.0698\n";
@@ -139,7 +136,9 @@ void a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished
 
 void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
   const Line pipeline =
-      write("weak.ini", {kWithoutGenerator, "[guard]\nmax_velocity = 1e-3\nmax_torque = 1\n"});
+      write("weak.ini", {"[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+                         "[pd]\ntype = pd_gravity\nq_d = robot.q\nq = robot.q\ndq = robot.dq\n"
+                         "kp = 1\nkd = 1\n[guard]\nmax_velocity = 1e-3\n"});
   assert_int_equal(run_into("weak", pipeline.c_str()), 1);
   assert_true(has(errors(), "weak.ini: stopped: kMeasuredVelocityLimit, joint "));
   assert_true(has(file_of("weak/summary.json"), "\"name\": \"kMeasuredVelocityLimit\""));

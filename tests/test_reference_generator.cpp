@@ -153,6 +153,25 @@ void a_new_trajectory_preempts_the_old_one_and_is_told(void**) {
   ASSERT_NEAR(bench.out().q[2] - bench.home[2], -0.3, 1e-12);
 }
 
+void a_restart_aborts_what_ran_and_refuses_what_waited(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t running = bench.go(0.5, 1.0, kCubic);
+  ASSERT_OK(bench.run(100));
+  const std::uint32_t waiting = bench.go(-0.5, 1.0, kCubic);
+  ASSERT_OK(bench.start(bench.home));
+  ASSERT_OK(bench.step());
+  Report report;
+  assert_true(bench.client.poll(report) && report.id == running);
+  ASSERT_OUTCOME(report, Outcome::kStarted);
+  assert_true(bench.client.poll(report) && report.id == running);
+  ASSERT_OUTCOME(report, Outcome::kAborted);
+  assert_true(bench.client.poll(report) && report.id == waiting);
+  ASSERT_OUTCOME(report, Outcome::kRefused);
+  ASSERT_STATUS(report.verdict.status, Status::kNotStarted);
+  assert_true(bench.out().q == bench.home);
+  assert_true(bench.go(0.1, 1.0, kCubic) != 0);  // every store is free again
+}
+
 void a_point_aborts_a_running_trajectory(void**) {
   static ReferenceBench bench;
   const std::uint32_t id = bench.go(0.5, 1.0, kCubic);
@@ -209,6 +228,7 @@ int main() {
       cmocka_unit_test(a_small_start_offset_is_bridged_without_a_step),
       cmocka_unit_test(the_way_to_the_first_waypoint_is_judged_when_it_begins),
       cmocka_unit_test(a_new_trajectory_preempts_the_old_one_and_is_told),
+      cmocka_unit_test(a_restart_aborts_what_ran_and_refuses_what_waited),
       cmocka_unit_test(a_point_aborts_a_running_trajectory),
       cmocka_unit_test(a_cancelled_trajectory_brakes_to_rest_and_holds),
       cmocka_unit_test(a_cancel_with_nothing_to_cancel_is_refused),

@@ -8,10 +8,11 @@ namespace tactus {
 
 int check(Session& session, const Options& options, const RobotState& initial) {
   TrajectoryInput input;
-  if (!send_trajectory(session, options, input)) return kRefused;
+  if (!read_input(session, options, input)) return kRefused;
   Guard guard;
   Status status = guard.start(session.pipeline.guard, initial, session.pipeline.robot.period_s());
   if (status == Status::kOk) status = session.pipeline.start(initial);
+  if (status == Status::kOk && !send_input(session, input)) return kRefused;
   if (status == Status::kOk) status = session.pipeline.step(initial);
   if (status != Status::kOk) {
     print_stop(options.pipeline, "refused", status, guard.telemetry());

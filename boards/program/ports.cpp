@@ -29,8 +29,8 @@ class PortPrinter {
                 vector(value.data(), kDof).c_str());
   }
   template <std::size_t N>
-  void text(const char* key, const Text<N>&) {
-    std::printf("| `%s` | text | | | |\n", key);
+  void text(const char* key, const Text<N>&, const char* meaning) {
+    std::printf("| `%s` | text: %s | | | |\n", key, meaning);
   }
   template <class Enum, std::size_t N>
   void choice(const char* key, Enum& value, const std::array<const char*, N>& words) {

@@ -114,17 +114,17 @@ Path in_folder(const Path& folder, const char* file) {
 }
 
 /// Runs the loop between start and stop, and the times and counters around it.
-void execute(Session& session, const Options& options, const TrajectoryInput& input, RunLog& log,
+void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
              RunResult& result) {
   const double duration_s = planned_duration(session, options, input);
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
   const Status started = session.executive.start();
   if (input.trajectory != nullptr) end_with(result, kEndedOtherwise, "unfinished");
-  if (started == Status::kOk)
-    cycle_through(session, duration_s, input, log, progress, result);
-  else
+  if (started != Status::kOk)
     end_with(result, static_cast<int>(started), name(started));
+  else if (send_input(session, input))
+    cycle_through(session, duration_s, input, log, progress, result);
   const Status latched = session.executive.latched();
   session.executive.stop();
   result.wall_s = wall_s() - begin_s;
@@ -154,7 +154,7 @@ int run(Session& session, const Options& options) {
   Path folder(options.out);
   if (folder.empty()) folder << "out/" << pipeline;
   TrajectoryInput input;
-  if (!send_trajectory(session, options, input)) return kRefused;
+  if (!read_input(session, options, input)) return kRefused;
   if (!make_folder(folder)) return kRefused;
   const Recording& recording = session.pipeline.recording;
   RunLog log;

@@ -17,7 +17,7 @@ void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
   std::fprintf(stderr, ": value %.9g, limit %.9g\n", verdict.value, verdict.limit);
 }
 
-bool send_trajectory(Session& session, const Options& options, TrajectoryInput& input) {
+bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {
   if (options.trajectory[0] != '\0') {
     input.path = Path(options.trajectory);
   } else if (!session.gateway.trajectory.empty()) {
@@ -39,7 +39,14 @@ bool send_trajectory(Session& session, const Options& options, TrajectoryInput& 
   }
   trajectory->interpolation = session.gateway.interpolation;
   input.trajectory = trajectory;
-  const Verdict verdict = session.client.send(*trajectory, input.id);
+  const Verdict verdict = session.client.judge(*trajectory);
+  if (!verdict.ok()) print_verdict(input, verdict);
+  return verdict.ok();
+}
+
+bool send_input(Session& session, TrajectoryInput& input) {
+  if (input.trajectory == nullptr) return true;
+  const Verdict verdict = session.client.send(*input.trajectory, input.id);
   if (!verdict.ok()) print_verdict(input, verdict);
   return verdict.ok();
 }

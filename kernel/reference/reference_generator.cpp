@@ -16,8 +16,11 @@ template <class Space>
 Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel,
                                         const JointVector& start_tolerance, const Point& measured) {
   if (!measured.finite()) return Status::kStateNotFinite;
+  if (channel_ == &channel && executing())
+    report(execution_.id, Outcome::kAborted, execution_.store);
   *this = ReferenceGenerator();
   channel_ = &channel;
+  void_requests_ = channel.requests.size();
   start_tolerance_ = start_tolerance;
   reference_ = held_ = measured.at_rest();
   return Status::kOk;
@@ -72,6 +75,10 @@ typename Space::Point ReferenceGenerator<Space>::base() {
 
 template <class Space>
 void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
+  if (void_requests_ > 0) {
+    --void_requests_;
+    return report(request.id, Outcome::kRefused, request.store, {Status::kNotStarted});
+  }
   switch (request.kind) {
     case RequestKind::kPoint:
       return take_point(request);

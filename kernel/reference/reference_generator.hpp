@@ -19,9 +19,10 @@ class ReferenceGenerator {
   using Point = typename Space::Point;
   using Segment = typename Space::Segment;
 
-  /// Holds `measured` until told otherwise. A trajectory whose first waypoint is at t = 0 must
-  /// begin within `start_tolerance` (rad) of the reference. kStateNotFinite if `measured` is not
-  /// finite. [init]
+  /// Holds `measured` until told otherwise. What ran before is aborted, and requests that came
+  /// before are refused: after a start old targets are void. A trajectory whose first waypoint is
+  /// at t = 0 must begin within `start_tolerance` (rad) of the reference. kStateNotFinite if
+  /// `measured` is not finite. [init]
   Status start(ReferenceChannel<Space>& channel, const JointVector& start_tolerance,
                const Point& measured);
 
@@ -68,6 +69,8 @@ class ReferenceGenerator {
   Segment bridge_;
   double bridge_time_s_ = 0.0;
   bool bridging_ = false;
+
+  std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
 
   bool point_pending_ = false;  // a point was taken in this cycle and is not yet put out
   std::uint32_t point_id_ = 0;
