@@ -8,30 +8,38 @@
 
 namespace tactus {
 
+template <class Space>
 class ReferenceClient {
  public:
-  explicit ReferenceClient(ReferenceChannel<JointSpace>& channel) : channel_(channel) {}
+  explicit ReferenceClient(ReferenceChannel<Space>& channel) : channel_(channel) {}
 
   /// A store to fill with waypoints, or null while all are on their way. Yours until sent.
-  Trajectory<JointSpace>* acquire();
+  Trajectory<Space>* acquire();
 
   /// What `send` would say of a trajectory, but for the way from the robot to its first waypoint.
-  Verdict judge(const Trajectory<JointSpace>& trajectory) const;
+  Verdict judge(Trajectory<Space>& trajectory) const;
   /// Admits and sends an acquired trajectory; `id` comes back in its reports. When refused the
   /// store stays yours.
-  Verdict send(Trajectory<JointSpace>& trajectory, std::uint32_t& id);
+  Verdict send(Trajectory<Space>& trajectory, std::uint32_t& id);
   /// Admits and sends one online point.
-  Verdict send(const JointSpace::Point& point, std::uint32_t& id);
-  /// Asks for the running trajectory to be cancelled.
-  Verdict cancel(std::uint32_t& id);
+  Verdict send(const typename Space::Point& point, std::uint32_t& id);
+  /// Asks for the running trajectory to be stopped on its path and given up.
+  Verdict cancel(std::uint32_t& id) { return ask(RequestKind::kCancel, id); }
 
-  /// The next report, if there is one. A final report of a trajectory frees its store.
+  /// Trajectories pass at `rate`, 0..1, of their speed from now on.
+  Verdict set_override(double rate, std::uint32_t& id);
+  /// Stops on the path and keeps the trajectory alive; goes on with it.
+  Verdict pause(std::uint32_t& id) { return ask(RequestKind::kPause, id); }
+  Verdict resume(std::uint32_t& id) { return ask(RequestKind::kResume, id); }
+
+  /// The next report, if there is one. A report that gives a store back frees it.
   bool poll(Report& report);
 
  private:
-  Verdict post(Request<JointSpace> request, std::uint32_t& id);
+  Verdict ask(RequestKind kind, std::uint32_t& id);
+  Verdict post(Request<Space> request, std::uint32_t& id);
 
-  ReferenceChannel<JointSpace>& channel_;
+  ReferenceChannel<Space>& channel_;
   std::array<bool, kStores> away_{};  // sent and not yet reported final
   std::uint32_t next_id_ = 1;
 };

@@ -15,6 +15,15 @@ struct JointLimits {
   JointVector tau_max;       ///< N m
   JointVector dtau_max;      ///< N m/s
 
+  /// The same with velocity, acceleration and jerk times `share`. [any]
+  JointLimits scaled(double share) const {
+    JointLimits limits = *this;
+    limits.dq_max *= share;
+    limits.ddq_max *= share;
+    limits.dddq_max *= share;
+    return limits;
+  }
+
   /// The limits of the board's robot table.
   JointLimits() {
     for (int i = 0; i < kDof; ++i) {

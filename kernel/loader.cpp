@@ -82,7 +82,8 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
   pipeline.takes_references = next_channel_ == nullptr;
-  channel_.settings = {pipeline.guard.effective(), pipeline.robot.period_s()};
+  channel_.settings = {pipeline.guard.effective(), pipeline.robot.period_s(),
+                       pipeline.guard.stop_reserve};
   return Status::kOk;
 }
 

@@ -8,6 +8,7 @@
 #include "kernel/ini.hpp"
 #include "kernel/port.hpp"
 #include "kernel/port_table.hpp"
+#include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/messages.hpp"
 
 namespace tactus {

@@ -10,7 +10,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 36> kStatusNames = {{
+constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -36,6 +36,14 @@ constexpr std::array<StatusName, 36> kStatusNames = {{
     {Status::kNothingToCancel, "kNothingToCancel"},
     {Status::kNoFreeStore, "kNoFreeStore"},
     {Status::kMailboxFull, "kMailboxFull"},
+    {Status::kJerkLimit, "kJerkLimit"},
+    {Status::kVelocityStep, "kVelocityStep"},
+    {Status::kQuaternion, "kQuaternion"},
+    {Status::kWorkspace, "kWorkspace"},
+    {Status::kPathTolerance, "kPathTolerance"},
+    {Status::kGoalTolerance, "kGoalTolerance"},
+    {Status::kStreamTimeout, "kStreamTimeout"},
+    {Status::kBadOverride, "kBadOverride"},
     {Status::kStateNotFinite, "kStateNotFinite"},
     {Status::kReferenceFault, "kReferenceFault"},
     {Status::kCommandNotFinite, "kCommandNotFinite"},

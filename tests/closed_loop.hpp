@@ -30,7 +30,7 @@ struct ClosedLoop {
   PlantParams plant;
   SimHal hal;
   Executive executive{hal, pipeline, nullptr};
-  ReferenceClient client{channel};
+  ReferenceClient<JointSpace> client{channel};
   LoadError error;
   std::int64_t cycles = 0;
 

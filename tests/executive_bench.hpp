@@ -88,7 +88,7 @@ struct ExecutiveBench {
   FakeHal hal;
   std::array<Waypoint<JointSpace>, 2> waypoints;
   ReferenceChannel<JointSpace> channel;
-  ReferenceClient client{channel};
+  ReferenceClient<JointSpace> client{channel};
   Pipeline pipeline;
   Executive executive{hal, pipeline, stopwatch};
   std::int64_t now_ns = 0;

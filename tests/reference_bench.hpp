@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gateway/reference_client.hpp"
+#include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/reference_generator.hpp"
 
 namespace tactus {
@@ -31,8 +32,9 @@ struct ReferenceBench {
 
   ReferenceChannel<JointSpace> channel;
   std::array<std::array<Waypoint<JointSpace>, kWaypoints>, kStores> waypoints;
-  ReferenceClient client{channel};
+  ReferenceClient<JointSpace> client{channel};
   ReferenceGenerator<JointSpace> generator;
+  ReferenceGenerator<JointSpace>::Params params;
   JointVector home = middle_of_range();
 
   ReferenceBench() {
@@ -46,7 +48,7 @@ struct ReferenceBench {
   Status start(const JointVector& q) {
     JointSpace::Point measured;
     measured.q = q;
-    return generator.start(channel, JointVector::Constant(0.01), measured);
+    return generator.start(channel, params, measured);
   }
   Status step(double dt_s = kPeriod_s) { return generator.step(dt_s); }
   const JointSpace::Point& out() const { return generator.reference(); }

@@ -15,8 +15,8 @@ LoaderBench bench;
 std::array<std::array<Waypoint<JointSpace>, kCapacity>, kStores> storage;
 
 /// A channel, its client and the pipeline at the ready pose, all new.
-ReferenceClient& start() {
-  static ReferenceClient client(bench.channel);
+ReferenceClient<JointSpace>& start() {
+  static ReferenceClient<JointSpace> client(bench.channel);
   ASSERT_OK(
       bench.load("[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n"
                  "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"));
@@ -29,7 +29,7 @@ ReferenceClient& start() {
 }
 
 /// The verdict of the client or, if it lets the trajectory pass, of the generator's next cycle.
-Verdict judge(ReferenceClient& client, Trajectory<JointSpace>& trajectory) {
+Verdict judge(ReferenceClient<JointSpace>& client, Trajectory<JointSpace>& trajectory) {
   std::uint32_t id = 0;
   Verdict verdict = client.send(trajectory, id);
   if (!verdict.ok()) return verdict;
@@ -44,14 +44,14 @@ Verdict judge(ReferenceClient& client, Trajectory<JointSpace>& trajectory) {
 Message words(const Verdict& verdict) {
   Message text(name(verdict.status));
   if (verdict.waypoint >= 0) text << " waypoint " << verdict.waypoint + 1;
-  if (verdict.joint >= 0) text << " joint " << verdict.joint + 1;
+  if (verdict.axis >= 0) text << " joint " << verdict.axis + 1;
   return text;
 }
 
 // Proves RG-6, RG-7.
 
 void every_trajectory_that_breaks_a_limit_is_refused_with_its_verdict(void**) {
-  ReferenceClient& client = start();
+  ReferenceClient<JointSpace>& client = start();
   const auto refused = [&](const RefusedFile& file) {
     Trajectory<JointSpace>* trajectory = client.acquire();
     CsvError error;
@@ -62,7 +62,7 @@ void every_trajectory_that_breaks_a_limit_is_refused_with_its_verdict(void**) {
   assert_true(judge_refused_files("tests/refused/admission", ".csv", refused) >= 25);
 }
 
-Trajectory<JointSpace>& two_waypoints(ReferenceClient& client) {
+Trajectory<JointSpace>& two_waypoints(ReferenceClient<JointSpace>& client) {
   Trajectory<JointSpace>& trajectory = *client.acquire();
   trajectory.count = 2;
   trajectory.fields = 0;
@@ -74,7 +74,7 @@ Trajectory<JointSpace>& two_waypoints(ReferenceClient& client) {
 }
 
 void a_count_that_is_none_or_more_than_the_store_holds_is_refused(void**) {
-  ReferenceClient& client = start();
+  ReferenceClient<JointSpace>& client = start();
   for (const int count : {0, -1, kCapacity + 1}) {
     Trajectory<JointSpace>& trajectory = two_waypoints(client);
     trajectory.count = count;
@@ -85,7 +85,7 @@ void a_count_that_is_none_or_more_than_the_store_holds_is_refused(void**) {
 // Proves RG-9.
 
 void a_number_that_is_not_finite_is_refused_wherever_it_stands(void**) {
-  ReferenceClient& client = start();
+  ReferenceClient<JointSpace>& client = start();
   for (const double bad : {kRequired, kInfinity, -kInfinity}) {
     for (int field = 0; field < 4; ++field) {
       Trajectory<JointSpace>& trajectory = two_waypoints(client);
@@ -104,7 +104,7 @@ void a_number_that_is_not_finite_is_refused_wherever_it_stands(void**) {
 // Proves RG-6.
 
 void what_touches_its_limits_and_no_more_is_admitted(void**) {
-  ReferenceClient& client = start();
+  ReferenceClient<JointSpace>& client = start();
   const JointLimits limits;
   Trajectory<JointSpace>& trajectory = two_waypoints(client);
   trajectory.waypoints[0].time_s = 10.0;

@@ -111,7 +111,7 @@ void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
 
 void tightened_limits_are_those_references_are_judged_by(void**) {
   ASSERT_OK(bench.load(kValid));
-  const AdmissionSettings& settings = bench.channel.settings;
+  const AdmissionSettings<JointSpace>& settings = bench.channel.settings;
   assert_true(settings.limits.dq_max == JointVector::Constant(1.0));
   ASSERT_NEAR(settings.limits.q_max[0], 2.8973 - 0.1, 1e-15);
   ASSERT_NEAR(settings.limits.q_min[3], -3.0718 + 0.1, 1e-15);

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
 
   static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
   static Executive executive(hal, memory.pipeline, stopwatch_ns);
-  static ReferenceClient client(memory.channel);
+  static ReferenceClient<JointSpace> client(memory.channel);
   const std::size_t static_bytes =
       sizeof memory + sizeof recorder + sizeof executive + sizeof client;
   Session session{kBoard,    static_bytes, text,   memory.pipeline,

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "kernel/recorder.hpp"
+#include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/trajectory.hpp"
 
 namespace tactus {

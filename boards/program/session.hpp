@@ -17,7 +17,7 @@ struct Session {
   Pipeline& pipeline;
   Executive& executive;
   Recorder& recorder;
-  ReferenceClient& client;
+  ReferenceClient<JointSpace>& client;
   const GatewaySection& gateway;
 };
 

@@ -11,9 +11,9 @@ void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
   if (verdict.waypoint >= 0)
     std::fprintf(stderr, ", waypoint %d (t = %.6g s)", verdict.waypoint + 1,
                  input.trajectory->waypoints[verdict.waypoint].time_s);
-  if (verdict.joint >= 0)
-    std::fprintf(stderr, ", joint %d (%s)", verdict.joint + 1,
-                 Robot::kJointNames[static_cast<std::size_t>(verdict.joint)]);
+  if (verdict.axis >= 0)
+    std::fprintf(stderr, ", joint %d (%s)", verdict.axis + 1,
+                 Robot::kJointNames[static_cast<std::size_t>(verdict.axis)]);
   std::fprintf(stderr, ": value %.9g, limit %.9g\n", verdict.value, verdict.limit);
 }
 

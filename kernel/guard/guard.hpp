@@ -16,6 +16,9 @@ class Guard {
   struct Params {
     JointLimits limits;
     JointVector position_margin = JointVector::Zero();  ///< rad, taken off both position limits
+    /// Fraction of acceleration and jerk limits that a trajectory must leave free, so that it can
+    /// be stopped on its path at any time.
+    double stop_reserve = 0.1;
 
     template <class Visitor>
     void describe(Visitor& visit) {
@@ -24,6 +27,7 @@ class Guard {
       visit.limit("max_jerk", limits.dddq_max, "rad/s^3");
       visit.limit("max_torque", limits.tau_max, "N m");
       visit.limit("max_torque_rate", limits.dtau_max, "N m/s");
+      visit.param("stop_reserve", stop_reserve, Range{0.01, 0.9}, "1");
       visit.param("position_margin", position_margin, Range{0.0, 0.5}, "rad");
     }
     /// The limits with the margin taken off. [init]

@@ -1,9 +1,8 @@
-// Admission: is this reference one the robot can follow? Runs outside the cycle, except for the one
-// segment that begins where the robot happens to be. Limits are checked at the extrema of every
-// polynomial, not at samples.
+// Admission: is this trajectory one the robot can follow? Runs outside the cycle. Limits are
+// checked at the extrema of every polynomial, not at samples; what they mean is the business of the
+// space.
 #pragma once
 
-#include "kernel/joint_limits.hpp"
 #include "kernel/reference/messages.hpp"
 
 namespace tactus {
@@ -13,18 +12,10 @@ namespace tactus {
 inline constexpr int kMaxSegmentsPerCycle = 16;
 
 /// Judges a whole trajectory but for the way from the robot to its first waypoint: count, times,
-/// finite numbers, limits of every segment, rest at the end. The first violation is the verdict.
-/// [any, not cyclic: proportional to its length]
-Verdict admit(const Trajectory<JointSpace>& trajectory, const AdmissionSettings& settings);
-
-/// Judges one online point: finite and within position, velocity and effort limits. [cyclic]
-Verdict admit(const JointSpace::Point& point, const JointLimits& limits);
-
-/// Judges one segment at its extrema; the verdict names `waypoint`. [cyclic, a few microseconds]
-Verdict admit(const JointSpace::Segment& segment, int waypoint, const JointLimits& limits);
-
-/// Distance of two positions against a tolerance per joint, rad. [cyclic]
-Verdict within(const JointSpace::Point& a, const JointSpace::Point& b,
-               const JointVector& tolerance);
+/// finite numbers, limits of every waypoint and segment, rest at the end. The first violation is
+/// the verdict. Notes in the trajectory what it takes of the limits. [any, not cyclic: proportional
+/// to its length]
+template <class Space>
+Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings);
 
 }  // namespace tactus

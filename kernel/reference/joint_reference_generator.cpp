@@ -5,7 +5,8 @@ namespace tactus {
 Status JointReferenceGenerator::start() {
   JointSpace::Point measured;
   measured.q = *q;
-  TRY(generator_.start(*channel, params.start_tolerance, measured));
+  TRY(generator_.start(
+      *channel, {{params.start_tolerance}, params.online, params.timeout_ms * 1e-3}, measured));
   write();
   return Status::kOk;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernel/port.hpp"
+#include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/reference_generator.hpp"
 
 namespace tactus {
@@ -11,6 +12,8 @@ namespace tactus {
 struct JointReferenceGenerator {
   struct Params {
     JointVector start_tolerance = JointVector::Constant(0.01);  ///< rad
+    OnlineMode online = OnlineMode::kForward;
+    double timeout_ms = 0.0;  ///< of a stream of online points; 0: none
   } params;
   In<Quantity::kJointPosition> q;  // measured: the reference at start
   Out<Quantity::kJointPosition> q_d;
@@ -21,6 +24,8 @@ struct JointReferenceGenerator {
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("start_tolerance", params.start_tolerance, Range{0.0, 0.5}, "rad");
+    visit.choice("online", params.online, kOnlineModeWords);
+    visit.param("timeout_ms", params.timeout_ms, kNonNegative, "ms");
     visit.in("q", q);
     visit.out("q_d", q_d), visit.out("dq_d", dq_d), visit.out("ddq_d", ddq_d);
     visit.out("tau_d", tau_d);

@@ -12,14 +12,12 @@ namespace {
 constexpr double kPeakVelocityOfPosition = 1.875;       // |h_p'| at t = 1/2
 constexpr double kPeakAccelerationOfPosition = 5.7736;  // |h_p''| = 10 / sqrt(3)
 constexpr double kPeakAccelerationOfVelocity = 3.9412;  // |h_v''| at t = 0.2427
-constexpr double kPeakAccelerationOfStop = 1.5;         // of 1 - 3 t^2 + 2 t^3 at t = 1/2
 // The swing to the other side, beyond which a velocity or acceleration is no larger than at t = 0.
-constexpr double kSwingOfVelocity = 0.512;            // |h_v'| at t = 3/5
-constexpr double kSwingOfAcceleration = 0.374;        // |h_a''| at t = 0.3551
-constexpr double kSwingOfStopAcceleration = 0.33334;  // of 1 - 4 t + 3 t^2 at t = 2/3
+constexpr double kSwingOfVelocity = 0.512;      // |h_v'| at t = 3/5
+constexpr double kSwingOfAcceleration = 0.374;  // |h_a''| at t = 0.3551
 // Jerk: with accelerations as bounded here, |60 dp / T^3| + |36 dv / T^2| + |9 da / T| <= 28
-// ddq_max / T.
-constexpr double kJerkTime = 28.0;
+// ddq_max / T, which is to be half of the limit.
+constexpr double kJerkTime = 56.0;
 
 /// What a bound leaves to the peaks if the motion begins with `start` and swings to the other side.
 /// Wherever it does not swing, the start leaves at least as much, because its share falls from one
@@ -44,24 +42,43 @@ JointSpace::Point JointSpace::Point::at_rest() const {
   return rest;
 }
 
+bool JointSpace::Point::standing() const {
+  return dq == JointVector::Zero() && ddq == JointVector::Zero();
+}
+
+bool JointSpace::Point::idle() const {
+  return standing() && tau == JointVector::Zero();
+}
+
+JointSpace::Point JointSpace::Point::stopped() const {
+  Point still = at_rest();
+  still.tau = tau;
+  return still;
+}
+
+JointSpace::Point JointSpace::Point::at_rate(double rate, double slope) const {
+  return {q, rate * dq, (rate * rate) * ddq + slope * dq, tau};
+}
+
 JointSpace::Segment::Segment(const Point& from, const Point& to, double T, Interpolation how,
                              Fields fields)
-    : duration_(T) {
-  const bool velocity = fields & kVelocityField;
-  const bool acceleration = velocity && (fields & kAccelerationField);
-  const auto join = how == Interpolation::kLinear    ? tactus::linear
-                    : how == Interpolation::kCubic   ? tactus::cubic
-                    : how == Interpolation::kQuintic ? tactus::quintic
-                    : acceleration                   ? tactus::quintic
-                    : velocity                       ? tactus::cubic
-                                                     : tactus::linear;
-  linear_ = join == tactus::linear;
+    : duration_(T), order_(order_of(how, fields)) {
+  const auto join = order_ == Interpolation::kLinear  ? tactus::linear
+                    : order_ == Interpolation::kCubic ? tactus::cubic
+                                                      : tactus::quintic;
   for (int i = 0; i < kDof; ++i) {
     q_[static_cast<std::size_t>(i)] =
         join({from.q[i], from.dq[i], from.ddq[i]}, {to.q[i], to.dq[i], to.ddq[i]}, T);
   }
   tau_from_ = from.tau;
   tau_to_ = to.tau;
+}
+
+JointSpace::Point JointSpace::Segment::corner() const {
+  Point begin = at(0.0);
+  if (order_ == Interpolation::kLinear) begin.dq.setZero();
+  if (order_ != Interpolation::kQuintic) begin.ddq.setZero();
+  return begin;
 }
 
 JointSpace::Point JointSpace::Segment::at(double t) const {
@@ -77,15 +94,15 @@ JointSpace::Point JointSpace::Segment::at(double t) const {
   return point;
 }
 
-JointSpace::Point JointSpace::difference(const Point& a, const Point& b) {
+JointSpace::Difference JointSpace::difference(const Point& a, const Point& b) {
   return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq, a.tau - b.tau};
 }
 
-JointSpace::Point JointSpace::sum(const Point& a, const Point& b) {
-  return {a.q + b.q, a.dq + b.dq, a.ddq + b.ddq, a.tau + b.tau};
+JointSpace::Point JointSpace::sum(const Point& b, const Difference& d) {
+  return {b.q + d.q, b.dq + d.dq, b.ddq + d.ddq, b.tau + d.tau};
 }
 
-double JointSpace::bridge_time_s(const Point& difference, const JointLimits& limits) {
+double JointSpace::bridge_time_s(const Difference& difference, const Limits& limits) {
   double time = 0.0;
   for (int j = 0; j < kDof; ++j) {
     const double dp = std::abs(difference.q[j]), dv = std::abs(difference.dq[j]);
@@ -100,24 +117,6 @@ double JointSpace::bridge_time_s(const Point& difference, const JointLimits& lim
     time = std::max({time, for_acceleration, for_velocity, jerk_time_s(limits, j)});
   }
   return time;
-}
-
-double JointSpace::brake_time_s(const Point& moving, const JointLimits& limits) {
-  double time = 0.0;
-  for (int j = 0; j < kDof; ++j) {
-    const double a =
-        left(0.5 * limits.ddq_max[j], std::abs(moving.ddq[j]), kSwingOfStopAcceleration);
-    const double for_acceleration = kPeakAccelerationOfStop * std::abs(moving.dq[j]) / a;
-    time = std::max({time, for_acceleration, jerk_time_s(limits, j)});
-  }
-  return time;
-}
-
-JointSpace::Point JointSpace::stop(const Point& moving, double T, const JointLimits& limits) {
-  Point rest;
-  rest.q = moving.q + moving.dq * (T / 2.0) + moving.ddq * (T * T / 12.0);
-  rest.q = rest.q.cwiseMax(limits.q_min).cwiseMin(limits.q_max);
-  return rest;
 }
 
 }  // namespace tactus

@@ -1,23 +1,25 @@
 // JointSpace: what a reference generator needs to know of the space it moves in, here the joints.
+// Every space has the same members; task_space.hpp is the other one.
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "kernel/joint_limits.hpp"
+#include "kernel/reference/interpolation.hpp"
+#include "kernel/reference/path_use.hpp"
 #include "kernel/reference/polynomial.hpp"
-#include "kernel/types.hpp"
+#include "kernel/reference/verdict.hpp"
 
 namespace tactus {
 
-/// Which fields of a waypoint are given; the position always is.
-enum Field : std::uint8_t { kVelocityField = 1, kAccelerationField = 2, kEffortField = 4 };
-using Fields = std::uint8_t;
-
-/// How waypoints are joined: by the fields both ends have, or forced.
-enum class Interpolation : std::uint8_t { kByFields, kLinear, kCubic, kQuintic };
-
 struct JointSpace {
+  using Limits = JointLimits;
+
+  /// How far beside the reference a trajectory may begin.
+  struct Tolerance {
+    JointVector q = JointVector::Constant(0.01);  ///< rad
+  };
+
   /// A reference of all joints.
   struct Point {
     JointVector q = JointVector::Zero();    ///< rad
@@ -27,9 +29,19 @@ struct JointSpace {
 
     /// False if any number is NaN or infinite. [any]
     bool finite() const;
+    /// True if velocity and acceleration are exactly zero. [any]
+    bool standing() const;
+    /// True if there is no feed-forward either. [any]
+    bool idle() const;
     /// The same position, at rest, without feed-forward. [any]
     Point at_rest() const;
+    /// The same position and feed-forward, at rest. [any]
+    Point stopped() const;
+    /// A point p(s), p', p'' of a path as it is passed at the rate r = ds/dt with slope dr/dt.
+    /// [any]
+    Point at_rate(double rate, double slope) const;
   };
+  using Difference = Point;  ///< of two references, in every field
 
   /// Motion between two points in a given time: position by one polynomial per joint, velocity and
   /// acceleration its exact derivatives, effort linear.
@@ -41,32 +53,52 @@ struct JointSpace {
 
     Point at(double t) const;
     double duration() const { return duration_; }
-    bool linear() const { return linear_; }
+    /// Its beginning without what steps there by nature: the velocity of a straight line, the
+    /// acceleration of a cubic. [any]
+    Point corner() const;
     const Polynomial& position(int joint) const { return q_[static_cast<std::size_t>(joint)]; }
 
    private:
     std::array<Polynomial, kDof> q_;
     JointVector tau_from_ = JointVector::Zero(), tau_to_ = JointVector::Zero();
     double duration_ = 1.0;
-    bool linear_ = true;
+    Interpolation order_ = Interpolation::kLinear;
   };
 
-  /// Difference of two references in position, velocity, acceleration and effort, and its inverse.
-  /// [any]
-  static Point difference(const Point& a, const Point& b);
-  static Point sum(const Point& a, const Point& b);
+  /// A difference that goes to zero in a given time, with its velocity and acceleration.
+  class Bridge {
+   public:
+    Bridge() = default;
+    Bridge(const Difference& from, double T)
+        : segment_(from, Difference(), T, Interpolation::kQuintic, 0) {}
+    Difference at(double t) const { return segment_.at(t); }
+    double duration() const { return segment_.duration(); }
 
-  /// Seconds in which a quintic takes `difference` to zero with at most half of each velocity and
-  /// acceleration limit, or what the difference begins with where that is more; the other half is
-  /// left to the motion underneath. An acceleration it begins with adds up to 0.068 ddq T to the
-  /// velocity. [any]
-  static double bridge_time_s(const Point& difference, const JointLimits& limits);
-  /// Seconds in which all joints stop together with at most half of each acceleration limit, or
-  /// what they begin with where that is more. [any]
-  static double brake_time_s(const Point& moving, const JointLimits& limits);
-  /// Where a stop from `moving` in T seconds comes to rest, velocity being a cubic in time; cut to
-  /// the position limits. [any]
-  static Point stop(const Point& moving, double T, const JointLimits& limits);
+   private:
+    Segment segment_;
+  };
+
+  /// Judges one online point: finite and within position, velocity and effort limits. [cyclic]
+  static Verdict judge(const Point& point, const Limits& limits);
+  /// Judges one segment at its extrema, acceleration and jerk against the fraction `share` of their
+  /// limits. [cyclic, some microseconds]
+  static Verdict judge(const Segment& segment, const Limits& limits, double share);
+  /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
+  static Verdict judge_end(const Point& end);
+  /// Judges the distance of two positions against a tolerance. [cyclic]
+  static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
+  /// What a segment takes of the limits at its extrema; as `known` where it takes no more. [cyclic]
+  static PathUse use(const Segment& segment, const Limits& limits, const PathUse& known);
+
+  /// a - b, and b + difference = a. [any]
+  static Difference difference(const Point& a, const Point& b);
+  static Point sum(const Point& b, const Difference& difference);
+
+  /// Seconds in which a quintic takes `difference` to zero with at most half of each velocity,
+  /// acceleration and jerk limit, or what the difference begins with where that is more; the other
+  /// half is left to the motion underneath. An acceleration it begins with adds up to 0.068 ddq T
+  /// to the velocity. [any]
+  static double bridge_time_s(const Difference& difference, const Limits& limits);
 };
 
 }  // namespace tactus

@@ -5,14 +5,20 @@
 #include <array>
 #include <cstdint>
 
-#include "kernel/joint_limits.hpp"
 #include "kernel/mailbox.hpp"
 #include "kernel/reference/trajectory.hpp"
-#include "kernel/status.hpp"
+#include "kernel/reference/verdict.hpp"
 
 namespace tactus {
 
-enum class RequestKind : std::uint8_t { kPoint, kTrajectory, kCancel };
+enum class RequestKind : std::uint8_t {
+  kPoint,       ///< this reference from now on
+  kTrajectory,  ///< follow the trajectory in a store
+  kCancel,      ///< stop on the path and hold
+  kOverride,    ///< pass trajectories at a fraction of their speed
+  kPause,       ///< stop on the path, the trajectory stays alive
+  kResume,      ///< go on after a pause
+};
 
 template <class Space>
 struct Request {
@@ -20,6 +26,7 @@ struct Request {
   RequestKind kind = RequestKind::kPoint;
   int store = -1;               ///< kTrajectory: which store it lies in
   typename Space::Point point;  ///< kPoint
+  double rate = 1.0;            ///< kOverride: 0..1
 };
 
 enum class Outcome : std::uint8_t {
@@ -28,37 +35,33 @@ enum class Outcome : std::uint8_t {
   kPreempted,   ///< final: a newer trajectory took its place
   kAborted,     ///< final: an online point took its place
   kCanceled,    ///< final: a client cancelled the trajectory
-  kExecuted,    ///< final: a point became the reference, a cancel took effect
+  kExecuted,    ///< final: a point became the reference; a cancel, override, pause or resume took
+                ///< effect
   kSuperseded,  ///< final: a newer point took its place before it was ever written
   kRefused,     ///< final: not accepted; the verdict says why
+  kReleased,    ///< a store is the client's again, after a final report that did not give it back
 };
 
 /// The name of an outcome, for example "succeeded". Never null. [any]
 const char* name(Outcome outcome);
 
-/// Why something was refused: which waypoint and joint (-1: none in particular), the value and the
-/// limit it broke.
-struct Verdict {
-  Status status = Status::kOk;
-  int waypoint = -1;
-  int joint = -1;
-  double value = 0.0, limit = 0.0;
-
-  bool ok() const { return status == Status::kOk; }
-};
-
 struct Report {
   std::uint32_t id = 0;
   Outcome outcome = Outcome::kRefused;
-  int store = -1;  ///< a trajectory's store, which is the client's again after a final report
+  int store =
+      -1;  ///< a store that is the client's again; -1 while the arm still brakes on its path
   Verdict verdict;
 };
 
 /// What admission goes by: the same values on both sides of the channel, set when the pipeline is
 /// loaded.
+template <class Space>
 struct AdmissionSettings {
-  JointLimits limits;
+  typename Space::Limits limits;
   double period_s = 0.0;
+  /// Fraction of acceleration and jerk limits that a trajectory must leave free, so that it can be
+  /// stopped on its path at any time.
+  double stop_reserve = 0.1;
 };
 
 inline constexpr int kStores = 3;  ///< one running, one in the mailbox, one being filled
@@ -67,7 +70,7 @@ inline constexpr int kStores = 3;  ///< one running, one in the mailbox, one bei
 /// generator.
 template <class Space>
 struct ReferenceChannel {
-  AdmissionSettings settings;
+  AdmissionSettings<Space> settings;
   Mailbox<Request<Space>, 16> requests;
   Mailbox<Report, 64> reports;
   std::array<Trajectory<Space>, kStores> stores;

@@ -1,76 +1,47 @@
 #include "kernel/reference/reference_generator.hpp"
 
+#include "kernel/reference/joint_space.hpp"
+
 namespace tactus {
 namespace {
 
-// One request causes at most three reports in its cycle, and what it leaves running two more later.
-// A request waits in its mailbox until there is room for all of them, so no report is ever lost.
-constexpr std::size_t kReportsPerRequest = 6;
-// Times are sums of periods; a billionth of a second is far below any period and far above their
-// rounding.
-constexpr double kTimeRounding_s = 1e-9;
+// One request causes at most four reports in its cycle (a superseded point, a trajectory that ends,
+// a store released, its own), and what it leaves running three more later. A request waits in its
+// mailbox until there is room for all of them, so no report is ever lost.
+constexpr std::size_t kReportsPerRequest = 8;
 
 }  // namespace
 
 template <class Space>
-Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel,
-                                        const JointVector& start_tolerance, const Point& measured) {
+Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const Params& params,
+                                        const Point& measured) {
   if (!measured.finite()) return Status::kStateNotFinite;
-  if (channel_ == &channel && executing())
-    report(execution_.id, Outcome::kAborted, execution_.store);
+  if (channel_ == &channel) {
+    end_execution(ReferenceEvent::kNewReference, Outcome::kAborted, true);
+  }
   *this = ReferenceGenerator();
   channel_ = &channel;
+  params_ = params;
   void_requests_ = channel.requests.size();
-  start_tolerance_ = start_tolerance;
-  reference_ = held_ = measured.at_rest();
+  motion_.start(measured, channel.settings);
   return Status::kOk;
 }
 
 template <class Space>
 Status ReferenceGenerator<Space>::step(double dt_s) {
   if (channel_ == nullptr) return Status::kNotStarted;
-  move_on(dt_s);
+  motion_.move_on(dt_s);
+  if (executing() && !motion_.on_path())
+    end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
+  watch_stream(dt_s);
   Request<Space> request;
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
     if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
     answer(request);
   }
   settle_point(Outcome::kExecuted);
-  return reference_.finite() ? Status::kOk : Status::kReferenceFault;
-}
-
-template <class Space>
-void ReferenceGenerator<Space>::move_on(double dt_s) {
-  execution_.time_s += dt_s;
-  bridge_time_s_ += dt_s;
-  reference_ = base();
-  bridging_ = bridging_ && bridge_time_s_ < bridge_.duration();
-  if (bridging_) reference_ = Space::sum(reference_, bridge_.at(bridge_time_s_));
-}
-
-/// The running trajectory at its present time, or the point that is held. Ends a trajectory whose
-/// time is up.
-template <class Space>
-typename Space::Point ReferenceGenerator<Space>::base() {
-  if (!executing()) return held_;
-  Execution& now = execution_;
-  const Trajectory<Space>& trajectory = *now.trajectory;
-  const double due_s = now.time_s + kTimeRounding_s;
-  if (due_s >= trajectory.end_s()) {
-    held_ = trajectory.waypoints[trajectory.count - 1].point.at_rest();
-    end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded);
-    return held_;
-  }
-  int target = now.target;
-  for (int i = 0; i < kMaxSegmentsPerCycle && due_s >= trajectory.waypoints[target].time_s; ++i) {
-    ++target;
-  }
-  if (target != now.target) {
-    now.target = target;
-    now.segment = trajectory.segment(target);
-    now.segment_start_s = trajectory.waypoints[target - 1].time_s;
-  }
-  return now.segment.at(now.time_s - now.segment_start_s);
+  release_store();
+  return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 
 template <class Space>
@@ -86,85 +57,99 @@ void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
       return take_trajectory(request);
     case RequestKind::kCancel:
       return take_cancel(request);
+    case RequestKind::kOverride:
+      return take_override(request);
+    case RequestKind::kPause:
+    case RequestKind::kResume:
+      return take_pause(request);
   }
 }
 
-/// An online point is forwarded as it came; what ran before ends.
+/// A point ends what ran before it, whatever it was: the paper's rule.
 template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
-  const Verdict verdict = admit(request.point, channel_->settings.limits);
+  const Verdict verdict = Space::judge(request.point, channel_->settings.limits);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   settle_point(Outcome::kSuperseded);
-  end_execution(ReferenceEvent::kNewReference, Outcome::kAborted);
-  reference_ = held_ = request.point;
-  bridging_ = false;
+  if (params_.online == OnlineMode::kForward)
+    motion_.forward(request.point);
+  else
+    motion_.shape(request.point);
+  end_execution(ReferenceEvent::kNewReference, Outcome::kAborted, true);
+  point_age_s_ = 0.0;
   point_pending_ = true;
   point_id_ = request.id;
 }
 
 template <class Space>
 void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
-  Execution execution;
-  const Verdict verdict = prepare(request, execution);
+  const bool known = request.store >= 0 && request.store < kStores && request.store != store_;
+  const Trajectory<Space>* trajectory =
+      known ? &channel_->stores[static_cast<std::size_t>(request.store)] : nullptr;
+  if (trajectory == nullptr || trajectory->count < 1)
+    return report(request.id, Outcome::kRefused, -1, {Status::kReferenceSize});
+  const Verdict verdict = motion_.follow(*trajectory, params_.start_tolerance);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, request.store, verdict);
-  end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted);
-  execution_ = execution;
-  Point begin = execution.segment.at(0.0);
-  // Where a straight line begins its velocity steps by nature; the bridge ends the old motion only.
-  if (execution.segment.linear()) begin = begin.at_rest();
-  bridge_to(begin,
-            Space::bridge_time_s(Space::difference(reference_, begin), channel_->settings.limits));
-  report(request.id, Outcome::kStarted, request.store);
+  end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);
+  trajectory_id_ = request.id;
+  store_ = request.store;
+  motion_.set_rate(paused_ ? 0.0 : override_);
+  report(request.id, Outcome::kStarted);
 }
 
 template <class Space>
 void ReferenceGenerator<Space>::take_cancel(const Request<Space>& request) {
   if (!executing()) return report(request.id, Outcome::kRefused, -1, {Status::kNothingToCancel});
-  end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kCanceled);
-  const JointLimits& limits = channel_->settings.limits;
-  const double brake_s = Space::brake_time_s(reference_, limits);
-  held_ = Space::stop(reference_, brake_s, limits);
-  bridge_to(held_, brake_s);
+  motion_.brake();
+  end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kCanceled, false);
   report(request.id, Outcome::kExecuted);
 }
 
-/// The first segment of a trajectory: from the present reference if the first waypoint lies in the
-/// future, else from that waypoint, which must then be near.
 template <class Space>
-Verdict ReferenceGenerator<Space>::prepare(const Request<Space>& request,
-                                           Execution& execution) const {
-  if (request.store < 0 || request.store >= kStores) return {Status::kReferenceSize};
-  const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(request.store)];
-  if (trajectory.count < 1) return {Status::kReferenceSize};
-  execution.trajectory = &trajectory;
-  execution.id = request.id;
-  execution.store = request.store;
-  const Waypoint<Space>& first = trajectory.waypoints[0];
-  if (first.time_s > 0.0) {
-    execution.segment =
-        Segment(reference_, first.point, first.time_s, trajectory.interpolation, trajectory.fields);
-    return admit(execution.segment, 0, channel_->settings.limits);
-  }
-  execution.target = trajectory.count > 1 ? 1 : 0;
-  execution.segment = trajectory.count > 1
-                          ? trajectory.segment(1)
-                          : Segment(first.point, first.point, 1.0, Interpolation::kLinear, 0);
-  return within(first.point, reference_, start_tolerance_);
+void ReferenceGenerator<Space>::take_override(const Request<Space>& request) {
+  if (!(request.rate >= 0.0 && request.rate <= 1.0))
+    return report(request.id, Outcome::kRefused, -1,
+                  {Status::kBadOverride, -1, -1, request.rate, 1.0});
+  override_ = request.rate;
+  if (!paused_) motion_.set_rate(override_);
+  report(request.id, Outcome::kExecuted);
 }
 
 template <class Space>
-void ReferenceGenerator<Space>::end_execution(ReferenceEvent event, Outcome outcome) {
-  if (executing()) report(execution_.id, outcome, execution_.store);
+void ReferenceGenerator<Space>::take_pause(const Request<Space>& request) {
+  paused_ = request.kind == RequestKind::kPause;
+  motion_.set_rate(paused_ ? 0.0 : override_);
+  report(request.id, Outcome::kExecuted);
+}
+
+/// A stream of points that dries up must not leave the arm with a velocity or an effort.
+template <class Space>
+void ReferenceGenerator<Space>::watch_stream(double dt_s) {
+  point_age_s_ += dt_s;
+  if (executing() || params_.timeout_s <= 0.0 || point_age_s_ < params_.timeout_s) return;
+  if (!motion_.standing() || reference().idle()) return;
+  motion_.shape(reference());
+}
+
+/// The trajectory being executed, if there is one, is reported as ended. Its store goes back as
+/// soon as the motion has left its path.
+template <class Space>
+void ReferenceGenerator<Space>::end_execution(ReferenceEvent event, Outcome outcome,
+                                              bool path_left) {
+  if (executing())
+    report(trajectory_id_, outcome, path_left ? store_ : -1);
+  else if (path_left && store_ >= 0)
+    report(0, Outcome::kReleased, store_);
+  if (path_left) store_ = -1;
   state_ = next(state_, event);
 }
 
-/// Joins the present reference to a base that begins at `base`.
+/// Gives back the store of a path that came to rest after its final report.
 template <class Space>
-void ReferenceGenerator<Space>::bridge_to(const Point& base, double duration_s) {
-  const Point difference = Space::difference(reference_, base);
-  bridge_ = Segment(difference, Point(), duration_s, Interpolation::kQuintic, 0);
-  bridge_time_s_ = 0.0;
-  bridging_ = true;
+void ReferenceGenerator<Space>::release_store() {
+  if (store_ < 0 || executing() || motion_.on_path()) return;
+  report(0, Outcome::kReleased, store_);
+  store_ = -1;
 }
 
 template <class Space>

@@ -4,7 +4,8 @@
 
 #include <cstdint>
 
-#include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/interpolation.hpp"
+#include "kernel/reference/path_use.hpp"
 
 namespace tactus {
 
@@ -21,6 +22,7 @@ struct Trajectory {
   int count = 0;
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
+  PathUse use;  ///< noted by admission
 
   double end_s() const { return waypoints[count - 1].time_s; }
   /// The segment that ends at waypoint `index` >= 1. [any]

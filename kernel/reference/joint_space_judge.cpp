@@ -1,0 +1,111 @@
+// What the limits of the joints mean for a point and for a segment.
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/reference/joint_space.hpp"
+
+namespace tactus {
+namespace {
+
+// Numbers in a file are rounded to some ten digits; a limit reached exactly must not be refused for
+// that.
+constexpr double kRounding = 1e-9;
+// Largest velocity or acceleration that still counts as standing, rad/s and rad/s^2.
+constexpr double kRest = 1e-6;
+
+/// Written so that NaN exceeds every limit.
+bool exceeds(double value, double limit) {
+  return !(value <= limit + kRounding);
+}
+
+/// Range of one polynomial against lo and hi, both of which it may touch.
+Verdict bounded(const Polynomial& polynomial, double T, double lo, double hi, Status status,
+                int axis) {
+  const Extremes outer = hull(polynomial, T);
+  if (outer.max <= hi && outer.min >= lo) return {};
+  const Extremes found = extremes(polynomial, T);
+  if (exceeds(found.max, hi)) return {status, -1, axis, found.max, hi};
+  if (exceeds(-found.min, -lo)) return {status, -1, axis, found.min, lo};
+  return {};
+}
+
+Verdict symmetric(const Polynomial& polynomial, double T, double limit, Status status, int axis) {
+  return bounded(polynomial, T, -limit, limit, status, axis);
+}
+
+/// Largest magnitude of a polynomial on [0, T] over `limit`, exact where it is more than `known`.
+double ratio(const Polynomial& polynomial, double T, double limit, double known) {
+  const auto largest = [](const Extremes& e) { return std::max(-e.min, e.max); };
+  if (largest(hull(polynomial, T)) <= known * limit) return known;
+  return std::max(known, largest(extremes(polynomial, T)) / limit);
+}
+
+}  // namespace
+
+Verdict JointSpace::judge(const Point& point, const Limits& limits) {
+  for (int j = 0; j < kDof; ++j) {
+    for (const double value : {point.q[j], point.dq[j], point.ddq[j], point.tau[j]}) {
+      if (!std::isfinite(value)) return {Status::kReferenceNotFinite, -1, j, value, 0.0};
+    }
+    const double q = point.q[j], dq = point.dq[j], tau = point.tau[j];
+    if (exceeds(q, limits.q_max[j])) return {Status::kPositionLimit, -1, j, q, limits.q_max[j]};
+    if (exceeds(-q, -limits.q_min[j])) return {Status::kPositionLimit, -1, j, q, limits.q_min[j]};
+    if (exceeds(std::abs(dq), limits.dq_max[j]))
+      return {Status::kVelocityLimit, -1, j, dq, limits.dq_max[j]};
+    if (exceeds(std::abs(tau), limits.tau_max[j]))
+      return {Status::kEffortLimit, -1, j, tau, limits.tau_max[j]};
+  }
+  return {};
+}
+
+Verdict JointSpace::judge(const Segment& segment, const Limits& limits, double share) {
+  const double T = segment.duration();
+  for (int j = 0; j < kDof; ++j) {
+    const Polynomial& q = segment.position(j);
+    const Polynomial dq = q.derivative(), ddq = dq.derivative(), dddq = ddq.derivative();
+    Verdict verdict = bounded(q, T, limits.q_min[j], limits.q_max[j], Status::kPositionLimit, j);
+    if (verdict.ok()) verdict = symmetric(dq, T, limits.dq_max[j], Status::kVelocityLimit, j);
+    if (verdict.ok())
+      verdict = symmetric(ddq, T, share * limits.ddq_max[j], Status::kAccelerationLimit, j);
+    if (verdict.ok())
+      verdict = symmetric(dddq, T, share * limits.dddq_max[j], Status::kJerkLimit, j);
+    if (!verdict.ok()) return verdict;
+  }
+  return {};
+}
+
+Verdict JointSpace::judge_end(const Point& end) {
+  for (int j = 0; j < kDof; ++j) {
+    if (exceeds(std::abs(end.dq[j]), kRest)) return {Status::kNotAtRest, -1, j, end.dq[j], 0.0};
+    if (exceeds(std::abs(end.ddq[j]), kRest)) return {Status::kNotAtRest, -1, j, end.ddq[j], 0.0};
+  }
+  return {};
+}
+
+Verdict JointSpace::judge_near(const Point& a, const Point& b, const Tolerance& tolerance) {
+  for (int j = 0; j < kDof; ++j) {
+    const double distance = std::abs(a.q[j] - b.q[j]);
+    if (!(distance <= tolerance.q[j]))
+      return {Status::kStartTolerance, -1, j, distance, tolerance.q[j]};
+  }
+  return {};
+}
+
+PathUse JointSpace::use(const Segment& segment, const Limits& limits, const PathUse& known) {
+  const double T = segment.duration();
+  PathUse use = known;
+  for (int j = 0; j < kDof; ++j) {
+    const Polynomial dq = segment.position(j).derivative();
+    const Polynomial ddq = dq.derivative(), dddq = ddq.derivative();
+    const double v = limits.dq_max[j], a = limits.ddq_max[j], jerk = limits.dddq_max[j];
+    use.velocity = ratio(dq, T, v, use.velocity);
+    use.velocity_by_a = ratio(dq, T, a, use.velocity_by_a);
+    use.velocity_by_j = ratio(dq, T, jerk, use.velocity_by_j);
+    use.acceleration = ratio(ddq, T, a, use.acceleration);
+    use.acceleration_by_j = ratio(ddq, T, jerk, use.acceleration_by_j);
+    use.jerk = ratio(dddq, T, jerk, use.jerk);
+  }
+  return use;
+}
+
+}  // namespace tactus

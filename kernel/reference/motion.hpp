@@ -1,0 +1,75 @@
+// Motion: where the reference goes. Nothing of messages here, only of continuity.
+//
+// The reference is the sum of a base and a bridge. The base is a path, run through at the rate of a
+// time law, or a point that is held. The bridge is a quintic that takes the difference between
+// where the reference was and where its new base begins to zero. Stop, pause, resume and override
+// are rates of the one time law, so they never leave the path.
+#pragma once
+
+#include "kernel/reference/admission.hpp"
+#include "kernel/reference/time_law.hpp"
+
+namespace tactus {
+
+template <class Space>
+class Motion {
+ public:
+  using Point = typename Space::Point;
+  using Segment = typename Space::Segment;
+  using Settings = AdmissionSettings<Space>;
+
+  /// Holds `point`, at rest; moves by `settings`, which must outlive the motion. [init]
+  void start(const Point& point, const Settings& settings);
+  /// One period further: along the path, or at rest where it was. [cyclic]
+  void move_on(double dt_s);
+
+  /// Puts out `point` as it is and holds it; the path is left at once. [cyclic]
+  void forward(const Point& point);
+  /// Goes to `point` within limits and holds it; the path is left at once. [cyclic]
+  void shape(const Point& point);
+  /// Leaves whatever it follows for a trajectory: by one segment to its first waypoint if that lies
+  /// in the future, else by a bridge to it. Refused, and nothing changes, if that segment breaks a
+  /// limit or the waypoint is not near. [cyclic]
+  Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance);
+  /// From now on the path is passed at `rate`, 0..1, reached as fast as limits allow. [cyclic]
+  void set_rate(double rate);
+  /// Stops on the path, then leaves it. [cyclic]
+  void brake();
+
+  const Point& reference() const { return reference_; }
+  /// A trajectory is still read. False once its end is reached or a brake has come to rest.
+  bool on_path() const { return path_.trajectory != nullptr; }
+  bool braking() const { return braking_; }
+  /// The reference does not move, and will not unless told to.
+  bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
+  double path_time_s() const { return law_.s(); }  ///< from the start of the trajectory
+  double rate() const { return law_.rate(); }
+
+ private:
+  /// A trajectory and the place reached on it.
+  struct Path {
+    const Trajectory<Space>* trajectory = nullptr;
+    int target = 0;  // waypoint at which the present segment ends
+    double segment_start_s = 0.0;
+    Segment segment;
+    PathUse use;
+  };
+
+  Point base();
+  void leave_path();
+  void bridge_from(const typename Space::Difference& difference, double share);
+  RateBounds rate_bounds() const { return path_.use.rate_bounds(bridging_ ? 0.5 : 1.0); }
+
+  const Settings* settings_ = nullptr;
+  Point reference_;  // put out in this cycle
+  Point held_;       // the base off the path
+  Path path_;        // the base on it
+  TimeLaw law_;
+  bool braking_ = false;
+
+  typename Space::Bridge bridge_;
+  double bridge_time_s_ = 0.0;
+  bool bridging_ = false;
+};
+
+}  // namespace tactus
