@@ -1,6 +1,7 @@
 #include "gateway/reference_client.hpp"
 
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/task_space.hpp"
 
 namespace tactus {
 
@@ -72,5 +73,6 @@ bool ReferenceClient<Space>::poll(Report& report) {
 }
 
 template class ReferenceClient<JointSpace>;
+template class ReferenceClient<TaskSpace>;
 
 }  // namespace tactus

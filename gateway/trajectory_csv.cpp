@@ -41,7 +41,8 @@ bool read_number(std::string_view cell, double& value) {
   return code == std::errc() && stop == end && std::isfinite(value);
 }
 
-bool read_header(std::string_view row, int line, Columns& columns, CsvError& error) {
+template <class Space>
+bool read_header(std::string_view row, int line, Columns<Space>& columns, CsvError& error) {
   bool more = true;
   std::string_view cell;
   for (int column = 1; take_cell(row, more, cell); ++column) {
@@ -52,8 +53,9 @@ bool read_header(std::string_view row, int line, Columns& columns, CsvError& err
   return columns.complete(reason) || refuse(error, line, 0, {}, reason);
 }
 
-bool read_row(std::string_view row, int line, const Columns& columns,
-              Waypoint<JointSpace>& waypoint, CsvError& error) {
+template <class Space>
+bool read_row(std::string_view row, int line, const Columns<Space>& columns,
+              Waypoint<Space>& waypoint, CsvError& error) {
   waypoint = {};
   bool more = true;
   std::string_view cell;
@@ -92,8 +94,9 @@ bool read_line(std::FILE* file, Row& buffer, std::string_view& line, bool& fits)
 }
 
 /// Takes the header, or the next waypoint.
-bool take_row(std::string_view row, int line, Columns& columns, Trajectory<JointSpace>& trajectory,
-              CsvError& error) {
+template <class Space>
+bool take_row(std::string_view row, int line, Columns<Space>& columns,
+              Trajectory<Space>& trajectory, CsvError& error) {
   if (columns.count() == 0) return read_header(row, line, columns, error);
   if (trajectory.count == trajectory.capacity)
     return refuse(error, line, 0, {},
@@ -104,11 +107,12 @@ bool take_row(std::string_view row, int line, Columns& columns, Trajectory<Joint
   return true;
 }
 
-bool read_file(std::FILE* file, Trajectory<JointSpace>& trajectory, CsvError& error) {
+template <class Space>
+bool read_file(std::FILE* file, Trajectory<Space>& trajectory, CsvError& error) {
   Row buffer;
   std::string_view row;
   bool fits = true;
-  Columns columns;
+  Columns<Space> columns;
   for (int line = 1; read_line(file, buffer, row, fits); ++line) {
     if (!fits)
       return refuse(error, line, 0, {},
@@ -136,7 +140,8 @@ PlacedMessage CsvError::message() const {
   return text << reason, text;
 }
 
-bool read_trajectory(const char* path, Trajectory<JointSpace>& trajectory, CsvError& error) {
+template <class Space>
+bool read_trajectory(const char* path, Trajectory<Space>& trajectory, CsvError& error) {
   error = {};
   trajectory.count = 0;
   std::FILE* file = std::fopen(path, "rb");
@@ -146,5 +151,8 @@ bool read_trajectory(const char* path, Trajectory<JointSpace>& trajectory, CsvEr
   std::fclose(file);
   return failure == 0 ? read : refuse(error, 0, 0, {}, std::strerror(failure));
 }
+
+template bool read_trajectory(const char*, Trajectory<JointSpace>&, CsvError&);
+template bool read_trajectory(const char*, Trajectory<TaskSpace>&, CsvError&);
 
 }  // namespace tactus

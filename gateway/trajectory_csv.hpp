@@ -1,13 +1,22 @@
 // Trajectory files: CSV with one header row that names quantity and unit. Columns in any order, '#'
-// begins a comment line, empty lines are skipped.
+// begins a comment line, empty lines are skipped. Of the joints, whose names may stand for their
+// numbers (q_fer_joint1_rad):
 //
 //   time_s, q1_rad ... q7_rad [, dq1_rad_s ...] [, ddq1_rad_s2 ...] [, tau1_Nm ...]
 //
-// Joint names of the robot may stand for the numbers (q_fer_joint1_rad). A group is given for all
-// joints or left out.
+// and of the tool tip in the base frame, the wrench being what the environment exerts on the tool:
+//
+//   time_s, x_m, y_m, z_m, qw, qx, qy, qz
+//   [, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s]
+//   [, ax_m_s2, ay_m_s2, az_m_s2, alphax_rad_s2, alphay_rad_s2, alphaz_rad_s2]
+//   [, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm]
+//
+// A group in brackets is given whole or left out.
 #pragma once
 
 #include "kernel/load_error.hpp"
+#include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/task_space.hpp"
 #include "kernel/reference/trajectory.hpp"
 
 namespace tactus {
@@ -26,6 +35,7 @@ struct CsvError {
 /// Fills `trajectory` from the file at `path`. False: refused, the trajectory is not to be used.
 /// A cell that is empty, no number, NaN or infinite is refused, and so are more waypoints than the
 /// store holds.
-bool read_trajectory(const char* path, Trajectory<JointSpace>& trajectory, CsvError& error);
+template <class Space>
+bool read_trajectory(const char* path, Trajectory<Space>& trajectory, CsvError& error);
 
 }  // namespace tactus

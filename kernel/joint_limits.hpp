@@ -14,6 +14,8 @@ struct JointLimits {
   JointVector dddq_max;      ///< rad/s^3
   JointVector tau_max;       ///< N m
   JointVector dtau_max;      ///< N m/s
+  /// Largest step in velocity where straight lines meet, rad/s; a quarter of the velocity limit.
+  JointVector velocity_step;
 
   /// The same with velocity, acceleration and jerk times `share`. [any]
   JointLimits scaled(double share) const {
@@ -35,6 +37,7 @@ struct JointLimits {
       dddq_max[i] = joint.dddq_max;
       tau_max[i] = joint.tau_max;
       dtau_max[i] = joint.dtau_max;
+      velocity_step[i] = 0.25 * joint.dq_max;
     }
   }
 };

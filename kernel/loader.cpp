@@ -71,7 +71,7 @@ void Loader::add(const BoardSection& section) {
 
 Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error) {
   error = {};
-  next_channel_ = &channel_;
+  left_ = channels_;
   Ini ini;
   TRY(ini.parse(text, error));
   const IniSection* robot = ini.find("robot");
@@ -81,9 +81,12 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(load_command(ini, *robot, pipeline, error));
   TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
-  pipeline.takes_references = next_channel_ == nullptr;
-  channel_.settings = {pipeline.guard.effective(), pipeline.robot.period_s(),
-                       pipeline.guard.stop_reserve};
+  const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
+  pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
+  pipeline.takes_poses = channels_.task != nullptr && left_.task == nullptr;
+  if (pipeline.takes_joints)
+    channels_.joint->settings = {pipeline.guard.effective(), period_s, reserve};
+  if (pipeline.takes_poses) channels_.task->settings = {pipeline.task_limits, period_s, reserve};
   return Status::kOk;
 }
 
@@ -108,6 +111,8 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);
+  if (section.name == "task_limits")
+    return read_settings(ini, section, ports, error, pipeline.task_limits);
   if (section.name == "executive")
     return read_settings(ini, section, ports, error, pipeline.executive);
   if (section.name == "recorder")
@@ -142,9 +147,8 @@ Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& p
     describe_block(*block, finder);
   }));
   SectionReader reader(ini, section, pipeline.ports, error);
-  reader.offer(next_channel_);
+  reader.offer(left_);
   describe_block(*block, reader);
-  if (reader.channel_taken()) next_channel_ = nullptr;
   return error.status;
 }
 

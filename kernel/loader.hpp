@@ -29,10 +29,10 @@ BoardSection board_section(std::string_view name, Settings& settings) {
 
 class Loader {
  public:
-  /// `channel` goes to the pipeline's reference generator; `offered` is what the robot and its wire
-  /// can do. [init]
-  Loader(ReferenceChannel<JointSpace>& channel, const Capabilities& offered)
-      : channel_(channel), next_channel_(&channel), offered_(offered) {}
+  /// `channels` go to the generators of the pipeline; `offered` is what the robot and its wire can
+  /// do. [init]
+  Loader(const Channels& channels, const Capabilities& offered)
+      : channels_(channels), offered_(offered) {}
 
   /// Makes a section of the board's known; at most four. [init]
   void add(const BoardSection& section);
@@ -54,8 +54,7 @@ class Loader {
   Status check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
                        LoadError& error) const;
 
-  ReferenceChannel<JointSpace>& channel_;
-  ReferenceChannel<JointSpace>* next_channel_;
+  Channels channels_, left_;  // all, and those no generator has taken yet
   Capabilities offered_;
   std::array<BoardSection, 4> board_sections_;
   std::size_t board_section_count_ = 0;

@@ -11,16 +11,18 @@
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
 #include "kernel/reference/joint_reference_generator.hpp"
+#include "kernel/reference/task_reference_generator.hpp"
 #include "kernel/settings.hpp"
 
 namespace tactus {
 
 /// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
-using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator, PdGravity>;
+using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator,
+                           TaskReferenceGenerator, PdGravity>;
 
 /// The word for each kind in "type = ...", in the order of Block.
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "", "robot_model", "joint_reference_generator", "pd_gravity"};
+    "", "robot_model", "joint_reference_generator", "task_reference_generator", "pd_gravity"};
 
 inline constexpr int kMaxBlocks = 12;
 
@@ -28,11 +30,12 @@ class Pipeline {
  public:
   RobotSection robot;
   Guard::Params guard;
+  TaskLimits task_limits;
   ExecutiveSection executive;
   RecorderSection recorder;
   Recording recording;
   PortTable ports;
-  bool takes_references = false;  ///< a block answers what arrives through the board's channel
+  bool takes_joints = false, takes_poses = false;  ///< which references its generators take
 
   /// An empty slot at the end of the chain, or null if all are taken. [init]
   Block* append() {

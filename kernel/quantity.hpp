@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernel/types.hpp"
 
@@ -16,6 +17,9 @@ enum class Quantity : std::uint8_t {
   kJointEffort,
   kPose,
   kTwist,
+  kTaskAcceleration,
+  kWrench,
+  kWrenchRate,
   kJacobian,
   kTool,
 };
@@ -28,14 +32,18 @@ struct QuantityInfo {
   int recorded;    ///< numbers per value in the recorder; 0 = not recorded
 };
 
-/// Poses and twists are of the tool tip, in the base frame. Indexed by Quantity.
-inline constexpr std::array<QuantityInfo, 8> kQuantities = {{
+/// Poses, twists and wrenches are of the tool tip, in the base frame; a wrench is what the
+/// environment exerts on the tool. Indexed by Quantity.
+inline constexpr std::array<QuantityInfo, 11> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
     {"joint effort", "N m", "", kDof},
     {"pose", "m, quaternion", "x y z qw qx qy qz", 7},
     {"twist", "m/s, rad/s", "vx vy vz wx wy wz", 6},
+    {"task acceleration", "m/s^2, rad/s^2", "ax ay az alphax alphay alphaz", 6},
+    {"wrench", "N, N m", "fx fy fz mx my mz", 6},
+    {"wrench rate", "N/s, N m/s", "dfx dfy dfz dmx dmy dmz", 6},
     {"jacobian", "m, 1", "", 0},
     {"tool", "kg, m", "", 0},
 }};
@@ -45,21 +53,21 @@ constexpr const QuantityInfo& info(Quantity quantity) {
   return kQuantities[static_cast<std::size_t>(quantity)];
 }
 
+/// Whether the value is a Vector6, linear part or force first.
+constexpr bool is_task_vector(Quantity quantity) {
+  return quantity >= Quantity::kTwist && quantity <= Quantity::kWrenchRate;
+}
+
 /// Value type of a quantity and its neutral value: zero, the identity, no tool.
-template <Quantity>
+template <Quantity Q>
 struct QuantityValue {
-  using Type = JointVector;
-  static Type neutral() { return JointVector::Zero(); }
+  using Type = std::conditional_t<is_task_vector(Q), Vector6, JointVector>;
+  static Type neutral() { return Type::Zero(); }
 };
 template <>
 struct QuantityValue<Quantity::kPose> {
   using Type = Pose;
   static Type neutral() { return {}; }
-};
-template <>
-struct QuantityValue<Quantity::kTwist> {
-  using Type = Vector6;
-  static Type neutral() { return Vector6::Zero(); }
 };
 template <>
 struct QuantityValue<Quantity::kJacobian> {

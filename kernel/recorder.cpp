@@ -20,9 +20,9 @@ int flatten(const PortEntry& port, double* to) {
     const double numbers[] = {pose.p.x(), pose.p.y(), pose.p.z(), pose.r.w(),
                               pose.r.x(), pose.r.y(), pose.r.z()};
     std::copy(numbers, numbers + count, to);
-  } else if (port.quantity == Quantity::kTwist) {
-    const Vector6& twist = *static_cast<const Vector6*>(port.value);
-    std::copy(twist.data(), twist.data() + count, to);
+  } else if (is_task_vector(port.quantity)) {
+    const Vector6& vector = *static_cast<const Vector6*>(port.value);
+    std::copy(vector.data(), vector.data() + count, to);
   } else if (count > 0) {
     const JointVector& joints = *static_cast<const JointVector*>(port.value);
     std::copy(joints.data(), joints.data() + count, to);

@@ -176,11 +176,4 @@ void SectionReader::add_output(const PortEntry& entry) {
     refuse(Status::kTooLarge, entry.port, Message("more than ") << kMaxPorts << " outputs");
 }
 
-void SectionReader::channel(ReferenceChannel<JointSpace>*& channel) {
-  channel = offered_;
-  channel_taken_ = true;
-  if (channel == nullptr)
-    refuse(Status::kTooLarge, "type", "the board serves one joint reference generator");
-}
-
 }  // namespace tactus

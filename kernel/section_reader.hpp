@@ -5,11 +5,10 @@
 
 #include <string_view>
 
+#include "kernel/channels.hpp"
 #include "kernel/ini.hpp"
 #include "kernel/port.hpp"
 #include "kernel/port_table.hpp"
-#include "kernel/reference/joint_space.hpp"
-#include "kernel/reference/messages.hpp"
 
 namespace tactus {
 
@@ -49,10 +48,11 @@ class SectionReader {
   void out(const char* port, Out<Q>& out) {
     add_output({Name(section_.name), port, Q, &out.value});
   }
-  /// The board's channel is handed to the first generator that asks.
-  void channel(ReferenceChannel<JointSpace>*& channel);
-  void offer(ReferenceChannel<JointSpace>* channel) { offered_ = channel; }
-  bool channel_taken() const { return channel_taken_; }
+  /// The board's channel of a space goes to the first generator that asks for it.
+  void channel(ReferenceChannel<JointSpace>*& channel) { take(channel, &Channels::joint); }
+  void channel(ReferenceChannel<TaskSpace>*& channel) { take(channel, &Channels::task); }
+  /// What is still there for the taking; must outlive the reader.
+  void offer(Channels& channels) { offered_ = &channels; }
 
   /// Resolves the source named by `key` to an output of quantity Q that stands above. Null on
   /// refusal or absence.
@@ -64,6 +64,13 @@ class SectionReader {
   void bind(const char* key, In<Q>& port, bool required) {
     if (const void* value = source(key, Q, required))
       port.source = static_cast<const ValueOf<Q>*>(value);
+  }
+  template <class Space>
+  void take(ReferenceChannel<Space>*& channel, ReferenceChannel<Space>* Channels::*which) {
+    channel = offered_ != nullptr ? offered_->*which : nullptr;
+    if (channel == nullptr)
+      return refuse(Status::kTooLarge, "type", "the board has no channel left for this generator");
+    offered_->*which = nullptr;
   }
   void add_output(const PortEntry& entry);
   const IniEntry* find(const char* key) const;
@@ -81,8 +88,7 @@ class SectionReader {
   const IniSection& section_;
   PortTable& ports_;
   LoadError& error_;
-  ReferenceChannel<JointSpace>* offered_ = nullptr;
-  bool channel_taken_ = false;
+  Channels* offered_ = nullptr;
 };
 
 /// The visitor that asks whether a key is one of the names a section has.

@@ -44,7 +44,7 @@ struct ClosedLoop {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = 16;
     }
-    Loader loader(channel, hal.capabilities());
+    Loader loader({&channel}, hal.capabilities());
     TRY(loader.load(text.data(), pipeline, error));
     hal.set_period(pipeline.robot.period_s());
     TRY(hal.load(plant, seed));

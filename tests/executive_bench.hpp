@@ -97,7 +97,7 @@ struct ExecutiveBench {
     hal.state.q = 0.5 * (pipeline.guard.limits.q_min + pipeline.guard.limits.q_max);
     channel.stores[0].waypoints = waypoints.data();
     channel.stores[0].capacity = static_cast<int>(waypoints.size());
-    Loader loader(channel, hal.capabilities());
+    Loader loader({&channel}, hal.capabilities());
     LoadError error;
     if (loader.load(kExecutivePipeline, pipeline, error) == Status::kOk) return;
     std::fprintf(stderr, "%s\n", error.message().c_str());

@@ -38,7 +38,7 @@ struct LoaderBench {
     pipeline = Pipeline();
     plant = PlantParams();
     gateway = GatewaySection();
-    Loader loader(channel, offered);
+    Loader loader({&channel}, offered);
     loader.add(board_section("plant", plant));
     loader.add(board_section("gateway", gateway));
     return loader.load(text, pipeline, error);

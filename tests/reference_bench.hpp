@@ -50,7 +50,11 @@ struct ReferenceBench {
     measured.q = q;
     return generator.start(channel, params, measured);
   }
-  Status step(double dt_s = kPeriod_s) { return generator.step(dt_s); }
+  /// One cycle of a robot that is where the reference was, unless the test says where it is.
+  Status step(double dt_s = kPeriod_s) { return generator.step(dt_s, out()); }
+  Status step_measured(const JointSpace::Point& measured) {
+    return generator.step(kPeriod_s, measured);
+  }
   const JointSpace::Point& out() const { return generator.reference(); }
 
   /// An empty trajectory that gives `fields` at each waypoint; null when no store is free.

@@ -107,11 +107,11 @@ void what_touches_its_limits_and_no_more_is_admitted(void**) {
   ReferenceClient<JointSpace>& client = start();
   const JointLimits limits;
   Trajectory<JointSpace>& trajectory = two_waypoints(client);
-  trajectory.waypoints[0].time_s = 10.0;
+  trajectory.waypoints[0].time_s = 100.0;
   trajectory.waypoints[0].point.q = limits.q_max;
   trajectory.waypoints[0].point.tau = limits.tau_max;
   trajectory.waypoints[1].point.q = limits.q_max - limits.dq_max;
-  trajectory.waypoints[1].time_s = 11.0;
+  trajectory.waypoints[1].time_s = 105.0;
   assert_string_equal(words(judge(client, trajectory)).c_str(), "kOk");
 }
 

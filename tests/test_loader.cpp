@@ -76,9 +76,9 @@ void an_optional_input_left_out_reads_zero(void**) {
 
 void the_generator_gets_the_channel_of_the_board(void**) {
   ASSERT_OK(bench.load(kValid));
-  assert_true(bench.pipeline.takes_references);
+  assert_true(bench.pipeline.takes_joints);
   ASSERT_OK(bench.load("[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n"));
-  assert_false(bench.pipeline.takes_references);
+  assert_false(bench.pipeline.takes_joints);
 }
 
 void a_robot_is_commanded_in_what_it_takes(void**) {

@@ -52,6 +52,10 @@ void the_five_waypoints_succeed_within_all_limits(void**) {
       "pipelines/fer_jrg_pdgc.ini --trajectory pipelines/trajectories/fer_five_waypoints.csv");
 }
 
+void the_square_of_poses_succeeds_within_all_limits(void**) {
+  assert_flawless("pipelines/fer_trg_log.ini");
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -62,6 +66,7 @@ int main(int, char** argv) {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_excitation_trajectory_succeeds_within_all_limits),
       cmocka_unit_test(the_five_waypoints_succeed_within_all_limits),
+      cmocka_unit_test(the_square_of_poses_succeeds_within_all_limits),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -138,10 +138,12 @@ void a_pose_is_x_y_z_qw_qx_qy_qz(void**) {
 void a_twist_is_linear_part_first_and_joints_are_in_order(void**) {
   const Vector6 twist = Vector6::LinSpaced(1.0, 6.0);
   const JointVector q = JointVector::LinSpaced(1.0, kDof);
-  const PortEntry of_twist = {Name("model"), "v", Quantity::kTwist, &twist};
   double numbers[kDof];
-  assert_int_equal(flatten(of_twist, numbers), 6);
-  for (int i = 0; i < 6; ++i) assert_true(numbers[i] == i + 1);
+  for (const Quantity of_tip :
+       {Quantity::kTwist, Quantity::kTaskAcceleration, Quantity::kWrench, Quantity::kWrenchRate}) {
+    assert_int_equal(flatten({Name("model"), "v", of_tip, &twist}, numbers), 6);
+    for (int i = 0; i < 6; ++i) assert_true(numbers[i] == i + 1);
+  }
   for (const Quantity joints : {Quantity::kJointPosition, Quantity::kJointVelocity,
                                 Quantity::kJointAcceleration, Quantity::kJointEffort}) {
     assert_int_equal(flatten({Name("robot"), "q", joints, &q}, numbers), kDof);

@@ -12,6 +12,7 @@ namespace {
 using namespace tactus;
 
 constexpr const char* kBoard = "fer_sim";
+constexpr int kMaxPoses = 1 << 12;
 constexpr int kMaxWaypoints = 1 << 15;             // 32 s at 1 kHz
 constexpr std::size_t kRecorderNumbers = 1 << 14;  // drained after every cycle here
 
@@ -19,7 +20,9 @@ constexpr std::size_t kRecorderNumbers = 1 << 14;  // drained after every cycle 
 struct Memory {
   std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
   std::array<double, kRecorderNumbers> recorder_ring;
+  std::array<std::array<Waypoint<TaskSpace>, kMaxPoses>, kStores> poses;
   ReferenceChannel<JointSpace> channel;
+  ReferenceChannel<TaskSpace> task_channel;
   Pipeline pipeline;
   PlantParams plant;
   GatewaySection gateway;
@@ -43,9 +46,11 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < kStores; ++i) {
     memory.channel.stores[i].waypoints = memory.waypoints[i].data();
     memory.channel.stores[i].capacity = kMaxWaypoints;
+    memory.task_channel.stores[i].waypoints = memory.poses[i].data();
+    memory.task_channel.stores[i].capacity = kMaxPoses;
   }
 
-  Loader loader(memory.channel, hal.capabilities());
+  Loader loader({&memory.channel, &memory.task_channel}, hal.capabilities());
   loader.add(board_section("plant", memory.plant));
   loader.add(board_section("gateway", memory.gateway));
   std::string_view text;
@@ -54,10 +59,11 @@ int main(int argc, char** argv) {
   static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
   static Executive executive(hal, memory.pipeline, stopwatch_ns);
   static ReferenceClient<JointSpace> client(memory.channel);
+  static ReferenceClient<TaskSpace> task_client(memory.task_channel);
   const std::size_t static_bytes =
-      sizeof memory + sizeof recorder + sizeof executive + sizeof client;
-  Session session{kBoard,    static_bytes, text,   memory.pipeline,
-                  executive, recorder,     client, memory.gateway};
+      sizeof memory + sizeof recorder + sizeof executive + sizeof client + sizeof task_client;
+  Session session{kBoard,   static_bytes, text,        memory.pipeline, executive,
+                  recorder, client,       task_client, memory.gateway};
   if (options.verb == Verb::kCheck) {
     RobotState initial;
     initial.q = memory.plant.initial_q;

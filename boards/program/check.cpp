@@ -19,15 +19,15 @@ int check(Session& session, const Options& options, const RobotState& initial) {
     return kRefused;
   }
   Report report;
-  while (session.client.poll(report)) {
+  while (poll_report(session, input, report)) {
     if (report.outcome != Outcome::kRefused) continue;
     print_verdict(input, report.verdict);
     return kRefused;
   }
   std::printf("%s: accepted", options.pipeline);
-  if (input.trajectory != nullptr)
-    std::printf("; %s: accepted, %d waypoints, %.6g s", input.path.c_str(), input.trajectory->count,
-                input.trajectory->end_s());
+  if (input.given())
+    std::printf("; %s: accepted, %d waypoints, %.6g s", input.path.c_str(), input.count(),
+                input.end_s());
   std::printf("\n");
   return kSucceeded;
 }

@@ -50,7 +50,8 @@ class PortPrinter {
   void out(const char* key, Out<Q>&) {
     port(key, "output", Q, "");
   }
-  void channel(ReferenceChannel<JointSpace>*&) {}
+  template <class Space>
+  void channel(ReferenceChannel<Space>*&) {}
 
  private:
   static Message vector(const double* values, int count) {
@@ -103,6 +104,7 @@ int print_ports(const char* board, const Capabilities& offered) {
   PortPrinter printer;
   robot.describe_command(printer);
   print_section("[guard]", Guard::Params());
+  print_section("[task_limits]", TaskLimits());
   print_section("[executive]", ExecutiveSection());
   print_section("[recorder]", RecorderSection());
   print_section("[gateway]", GatewaySection());

@@ -13,6 +13,7 @@
 #include "boards/program/session.hpp"
 #include "boards/program/summary.hpp"
 #include "boards/program/trajectory_input.hpp"
+#include "boards/program/waypoint_log.hpp"
 
 namespace tactus {
 namespace {
@@ -61,7 +62,7 @@ class Progress {
 /// none. False: there is nothing to go on for.
 bool follow(Session& session, const TrajectoryInput& input, RunResult& result) {
   Report report;
-  while (session.client.poll(report)) {
+  while (poll_report(session, input, report)) {
     if (report.id != input.id || report.outcome == Outcome::kStarted) continue;
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result,
@@ -104,8 +105,8 @@ void cycle_through(Session& session, double duration_s, const TrajectoryInput& i
 double planned_duration(const Session& session, const Options& options,
                         const TrajectoryInput& input) {
   if (options.duration_s > 0.0) return options.duration_s;
-  if (input.trajectory == nullptr) return kDefaultDuration_s;
-  return input.trajectory->end_s() + session.gateway.settle_s;
+  if (!input.given()) return kDefaultDuration_s;
+  return input.end_s() + session.gateway.settle_s;
 }
 
 Path in_folder(const Path& folder, const char* file) {
@@ -120,7 +121,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
   const Status started = session.executive.start();
-  if (input.trajectory != nullptr) end_with(result, kEndedOtherwise, "unfinished");
+  if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   if (started != Status::kOk)
     end_with(result, static_cast<int>(started), name(started));
   else if (send_input(session, input))
@@ -179,8 +180,8 @@ int run(Session& session, const Options& options) {
 
   bool written = log.close();
   written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
-  if (input.trajectory != nullptr && recording.tracking_count > 0)
-    written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), *input.trajectory,
+  if (input.given() && recording.tracking_count > 0)
+    written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
                                *recording.tracking[0].reference);
   print_table(pipeline, session, result);
   if (!written) std::fprintf(stderr, "%s: not everything could be written\n", folder.c_str());

@@ -10,8 +10,9 @@
 namespace tactus {
 namespace {
 
-constexpr int kFewWaypoints = 200;
 constexpr std::size_t kNumberLength = 32;  // of the shortest text that gives the same double
+
+}  // namespace
 
 void write_names(std::FILE* file, const PortEntry& port) {
   const QuantityInfo& quantity = info(port.quantity);
@@ -25,8 +26,6 @@ void write_names(std::FILE* file, const PortEntry& port) {
       std::fprintf(file, "%.*s", static_cast<int>(word.size()), word.data());
   }
 }
-
-}  // namespace
 
 bool RunLog::open(const char* path, const Recording& recording) {
   file_ = std::fopen(path, "wb");
@@ -61,22 +60,6 @@ void RunLog::write_row(const double* row) {
 bool RunLog::close() {
   const bool failed = std::ferror(file_) != 0;
   return std::fclose(file_) == 0 && !failed;
-}
-
-bool write_waypoints(const char* path, const Trajectory<JointSpace>& trajectory,
-                     const PortEntry& reference) {
-  if (trajectory.count > kFewWaypoints) return true;
-  std::FILE* file = std::fopen(path, "wb");
-  if (file == nullptr) return false;
-  std::fprintf(file, "time_s");
-  write_names(file, reference);
-  std::fprintf(file, "\n");
-  for (int i = 0; i < trajectory.count; ++i) {
-    std::fprintf(file, "%.9g", trajectory.waypoints[i].time_s);
-    for (int j = 0; j < kDof; ++j) std::fprintf(file, ",%.9g", trajectory.waypoints[i].point.q[j]);
-    std::fprintf(file, "\n");
-  }
-  return std::fclose(file) == 0;
 }
 
 }  // namespace tactus

@@ -1,15 +1,15 @@
-// RunLog: log.csv, one row for every row the recorder took, and waypoints.csv for a sparse
-// trajectory.
+// RunLog: log.csv, one row for every row the recorder took.
 #pragma once
 
 #include <array>
 #include <cstdio>
 
 #include "kernel/recorder.hpp"
-#include "kernel/reference/joint_space.hpp"
-#include "kernel/reference/trajectory.hpp"
 
 namespace tactus {
+
+/// Writes ",block.port_component" for every recorded component of an output.
+void write_names(std::FILE* file, const PortEntry& port);
 
 class RunLog {
  public:
@@ -28,10 +28,5 @@ class RunLog {
   std::size_t width_ = 0;
   std::array<double, kMaxWidth> row_{};
 };
-
-/// The waypoints of a trajectory short enough to be looked at; longer ones are left out.
-/// The columns are called after `reference`, the output that follows them.
-bool write_waypoints(const char* path, const Trajectory<JointSpace>& trajectory,
-                     const PortEntry& reference);
 
 }  // namespace tactus

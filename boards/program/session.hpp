@@ -18,6 +18,7 @@ struct Session {
   Executive& executive;
   Recorder& recorder;
   ReferenceClient<JointSpace>& client;
+  ReferenceClient<TaskSpace>& task_client;
   const GatewaySection& gateway;
 };
 

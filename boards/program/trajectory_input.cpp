@@ -5,15 +5,61 @@
 #include "gateway/trajectory_csv.hpp"
 
 namespace tactus {
+namespace {
+
+constexpr std::array<const char*, 6> kTaskAxes = {"x",          "y",          "z",
+                                                  "rotation x", "rotation y", "rotation z"};
+
+/// Calls `act` with the trajectory, whatever its space, or returns `none` if there is none.
+template <class Result, class Act>
+Result with_trajectory(const TrajectoryInput& input, Result none, Act act) {
+  if (const auto* joints = std::get_if<1>(&input.trajectory)) return act(**joints);
+  if (const auto* poses = std::get_if<2>(&input.trajectory)) return act(**poses);
+  return none;
+}
+
+void print_axis(const TrajectoryInput& input, int axis) {
+  const auto index = static_cast<std::size_t>(axis);
+  if (input.trajectory.index() == 2)
+    std::fprintf(stderr, ", axis %s", kTaskAxes[index]);
+  else
+    std::fprintf(stderr, ", joint %d (%s)", axis + 1, Robot::kJointNames[index]);
+}
+
+template <class Space>
+bool read_and_judge(ReferenceClient<Space>& client, Interpolation interpolation,
+                    TrajectoryInput& input) {
+  Trajectory<Space>* trajectory = client.acquire();
+  CsvError error;
+  if (!read_trajectory(input.path.c_str(), *trajectory, error)) {
+    std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), error.line > 0 ? "" : " ",
+                 error.message().c_str());
+    return false;
+  }
+  trajectory->interpolation = interpolation;
+  input.trajectory = trajectory;
+  const Verdict verdict = client.judge(*trajectory);
+  if (!verdict.ok()) print_verdict(input, verdict);
+  return verdict.ok();
+}
+
+}  // namespace
+
+int TrajectoryInput::count() const {
+  return with_trajectory(*this, 0, [](const auto& motion) { return motion.count; });
+}
+
+double TrajectoryInput::time_s(int waypoint) const {
+  return with_trajectory(
+      *this, 0.0, [waypoint](const auto& motion) { return motion.waypoints[waypoint].time_s; });
+}
 
 void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
   std::fprintf(stderr, "%s: refused: %s", input.path.c_str(), name(verdict.status));
   if (verdict.waypoint >= 0)
     std::fprintf(stderr, ", waypoint %d (t = %.6g s)", verdict.waypoint + 1,
-                 input.trajectory->waypoints[verdict.waypoint].time_s);
-  if (verdict.axis >= 0)
-    std::fprintf(stderr, ", joint %d (%s)", verdict.axis + 1,
-                 Robot::kJointNames[static_cast<std::size_t>(verdict.axis)]);
+                 input.time_s(verdict.waypoint));
+  if (verdict.axis >= 0) print_axis(input, verdict.axis);
   std::fprintf(stderr, ": value %.9g, limit %.9g\n", verdict.value, verdict.limit);
 }
 
@@ -25,30 +71,27 @@ bool read_input(const Session& session, const Options& options, TrajectoryInput&
   } else {
     return true;
   }
-  if (!session.pipeline.takes_references) {
-    std::fprintf(stderr, "%s: refused: the pipeline has no reference generator\n",
-                 input.path.c_str());
-    return false;
-  }
-  Trajectory<JointSpace>* trajectory = session.client.acquire();
-  CsvError error;
-  if (!read_trajectory(input.path.c_str(), *trajectory, error)) {
-    std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), error.line > 0 ? "" : " ",
-                 error.message().c_str());
-    return false;
-  }
-  trajectory->interpolation = session.gateway.interpolation;
-  input.trajectory = trajectory;
-  const Verdict verdict = session.client.judge(*trajectory);
+  const Interpolation how = session.gateway.interpolation;
+  if (session.pipeline.takes_poses) return read_and_judge(session.task_client, how, input);
+  if (session.pipeline.takes_joints) return read_and_judge(session.client, how, input);
+  std::fprintf(stderr, "%s: refused: the pipeline has no reference generator\n",
+               input.path.c_str());
+  return false;
+}
+
+bool send_input(Session& session, TrajectoryInput& input) {
+  Verdict verdict;
+  if (auto* joints = std::get_if<1>(&input.trajectory))
+    verdict = session.client.send(**joints, input.id);
+  else if (auto* poses = std::get_if<2>(&input.trajectory))
+    verdict = session.task_client.send(**poses, input.id);
   if (!verdict.ok()) print_verdict(input, verdict);
   return verdict.ok();
 }
 
-bool send_input(Session& session, TrajectoryInput& input) {
-  if (input.trajectory == nullptr) return true;
-  const Verdict verdict = session.client.send(*input.trajectory, input.id);
-  if (!verdict.ok()) print_verdict(input, verdict);
-  return verdict.ok();
+bool poll_report(Session& session, const TrajectoryInput& input, Report& report) {
+  return input.trajectory.index() == 2 ? session.task_client.poll(report)
+                                       : session.client.poll(report);
 }
 
 }  // namespace tactus

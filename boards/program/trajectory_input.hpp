@@ -7,11 +7,16 @@
 
 namespace tactus {
 
-/// What became of the trajectory before the first cycle.
+/// The trajectory of a run, of the space whose references the pipeline takes.
 struct TrajectoryInput {
   Path path;  ///< empty: the run has none
-  Trajectory<JointSpace>* trajectory = nullptr;
+  std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
+
+  bool given() const { return trajectory.index() != 0; }
+  int count() const;                  ///< waypoints
+  double time_s(int waypoint) const;  ///< of a waypoint
+  double end_s() const { return given() ? time_s(count() - 1) : 0.0; }
 };
 
 /// Reads and judges the trajectory of the command line or, without one, the pipeline's own; nothing
@@ -20,6 +25,9 @@ bool read_input(const Session& session, const Options& options, TrajectoryInput&
 
 /// Sends what was read, if anything, to a generator that has started. False: refused, as above.
 bool send_input(Session& session, TrajectoryInput& input);
+
+/// The next report of whoever got the trajectory.
+bool poll_report(Session& session, const TrajectoryInput& input, Report& report);
 
 /// Prints why a trajectory was refused.
 void print_verdict(const TrajectoryInput& input, const Verdict& verdict);

@@ -25,6 +25,7 @@ class Guard {
       visit.limit("max_velocity", limits.dq_max, "rad/s");
       visit.limit("max_acceleration", limits.ddq_max, "rad/s^2");
       visit.limit("max_jerk", limits.dddq_max, "rad/s^3");
+      visit.limit("max_velocity_step", limits.velocity_step, "rad/s");
       visit.limit("max_torque", limits.tau_max, "N m");
       visit.limit("max_torque_rate", limits.dtau_max, "N m/s");
       visit.param("stop_reserve", stop_reserve, Range{0.01, 0.9}, "1");

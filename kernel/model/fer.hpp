@@ -1,10 +1,13 @@
 // Franka Emika Robot (FER, "Panda"): the constant table.
 //
 // Kinematics: Franka's Craig DH table in its URDF form, as in franka_description 0.4.0,
-// robots/fer/kinematics.yaml. Limits: franka_description fer/joint_limits.yaml; acceleration, jerk
-// and torque rate from libfranka 0.9.2 rate_limiting.h (the FER generation of that file). Inertias:
-// Gaz, Cognetti, Oliva, Robuffo Giordano, De Luca, RA-L 2019, identified on a real arm; numbers as
-// in franka_ros 0.10.2 common/inertial.yaml.
+// robots/fer/kinematics.yaml. Limits: franka_description fer/joint_limits.yaml; acceleration, jerk,
+// torque rate and the Cartesian limits from libfranka 0.9.2 rate_limiting.h (the FER generation of
+// that file). Inertias: Gaz, Cognetti, Oliva, Robuffo Giordano, De Luca, RA-L 2019, identified on a
+// real arm; numbers as in franka_ros 0.10.2 common/inertial.yaml.
+//
+// Force and moment of the tip follow from the joint torques: 87 N m of the shoulder at the longest
+// reach of 0.855 m (data sheet) is 102 N, and a wrist joint gives 12 N m about its own axis.
 #pragma once
 
 #include <array>
@@ -56,6 +59,9 @@ struct Fer {
       {-0.0175,  3.7525, 2.61,  20.0, 10000.0, 12.0, 1000.0},
       {-2.8973,  2.8973, 2.61,  20.0, 10000.0, 12.0, 1000.0},
   }};
+
+  //                                         v    a     j       w    alpha dalpha   force  moment
+  static constexpr TaskLimit kTaskLimit = {2.0, 13.0, 6500.0, 2.5, 25.0, 12500.0, 100.0, 12.0};
   // clang-format on
 };
 

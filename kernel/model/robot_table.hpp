@@ -30,6 +30,18 @@ struct JointLimit {
   double dtau_max;      ///< N m/s
 };
 
+/// Bounds of the tool tip's reference in the base frame; each of a vector's length.
+struct TaskLimit {
+  double v_max;       ///< m/s
+  double a_max;       ///< m/s^2
+  double j_max;       ///< m/s^3
+  double w_max;       ///< rad/s
+  double alpha_max;   ///< rad/s^2
+  double dalpha_max;  ///< rad/s^3
+  double force_max;   ///< N
+  double moment_max;  ///< N m
+};
+
 /// Standard gravity used by every model and by the plant, m/s^2 along -z of the base frame.
 inline constexpr double kGravity_m_s2 = 9.81;
 

@@ -3,18 +3,26 @@
 namespace tactus {
 
 Status JointReferenceGenerator::start() {
-  JointSpace::Point measured;
-  measured.q = *q;
-  TRY(generator_.start(
-      *channel, {{params.start_tolerance}, params.online, params.timeout_ms * 1e-3}, measured));
+  auto settings = params.generator.params<JointSpace>();
+  settings.start_tolerance.q = params.start_tolerance;
+  settings.tolerances.path.q = params.path_tolerance;
+  settings.tolerances.goal.q = params.goal_tolerance;
+  TRY(generator_.start(*channel, settings, measured()));
   write();
   return Status::kOk;
 }
 
 Status JointReferenceGenerator::step(double dt_s) {
-  TRY(generator_.step(dt_s));
+  TRY(generator_.step(dt_s, measured()));
   write();
   return Status::kOk;
+}
+
+JointSpace::Point JointReferenceGenerator::measured() const {
+  JointSpace::Point point;
+  point.q = *q;
+  point.dq = *dq;
+  return point;
 }
 
 void JointReferenceGenerator::write() {

@@ -4,18 +4,20 @@
 #pragma once
 
 #include "kernel/port.hpp"
+#include "kernel/reference/generator_settings.hpp"
 #include "kernel/reference/joint_space.hpp"
-#include "kernel/reference/reference_generator.hpp"
 
 namespace tactus {
 
 struct JointReferenceGenerator {
   struct Params {
     JointVector start_tolerance = JointVector::Constant(0.01);  ///< rad
-    OnlineMode online = OnlineMode::kForward;
-    double timeout_ms = 0.0;  ///< of a stream of online points; 0: none
+    JointVector path_tolerance = JointVector::Zero();           ///< rad; 0: not checked
+    JointVector goal_tolerance = JointVector::Constant(0.01);   ///< rad; 0: not checked
+    GeneratorSettings generator;
   } params;
-  In<Quantity::kJointPosition> q;  // measured: the reference at start
+  In<Quantity::kJointPosition> q;   // measured: the reference at start
+  In<Quantity::kJointVelocity> dq;  // measured, for the goal
   Out<Quantity::kJointPosition> q_d;
   Out<Quantity::kJointVelocity> dq_d;
   Out<Quantity::kJointAcceleration> ddq_d;
@@ -24,9 +26,11 @@ struct JointReferenceGenerator {
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("start_tolerance", params.start_tolerance, Range{0.0, 0.5}, "rad");
-    visit.choice("online", params.online, kOnlineModeWords);
-    visit.param("timeout_ms", params.timeout_ms, kNonNegative, "ms");
+    visit.param("path_tolerance", params.path_tolerance, kNonNegative, "rad");
+    visit.param("goal_tolerance", params.goal_tolerance, kNonNegative, "rad");
+    params.generator.describe(visit, "rad/s");
     visit.in("q", q);
+    visit.optional("dq", dq);
     visit.out("q_d", q_d), visit.out("dq_d", dq_d), visit.out("ddq_d", ddq_d);
     visit.out("tau_d", tau_d);
     visit.channel(channel);
@@ -40,6 +44,7 @@ struct JointReferenceGenerator {
   ReferenceChannel<JointSpace>* channel = nullptr;  ///< bound by the loader
 
  private:
+  JointSpace::Point measured() const;
   void write();
 
   ReferenceGenerator<JointSpace> generator_;

@@ -32,6 +32,12 @@ double jerk_time_s(const JointLimits& limits, int joint) {
 
 }  // namespace
 
+JointSpace::Band JointSpace::Band::merged(const Band& goal, const Band& defaults) {
+  Band band;
+  for (int j = 0; j < kDof; ++j) band.q[j] = merge_tolerance(goal.q[j], defaults.q[j]);
+  return band;
+}
+
 bool JointSpace::Point::finite() const {
   return q.allFinite() && dq.allFinite() && ddq.allFinite() && tau.allFinite();
 }

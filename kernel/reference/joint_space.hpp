@@ -8,6 +8,7 @@
 #include "kernel/reference/interpolation.hpp"
 #include "kernel/reference/path_use.hpp"
 #include "kernel/reference/polynomial.hpp"
+#include "kernel/reference/tolerance.hpp"
 #include "kernel/reference/verdict.hpp"
 
 namespace tactus {
@@ -18,6 +19,12 @@ struct JointSpace {
   /// How far beside the reference a trajectory may begin.
   struct Tolerance {
     JointVector q = JointVector::Constant(0.01);  ///< rad
+  };
+
+  /// Largest position error per joint, rad; 0 is not checked.
+  struct Band {
+    JointVector q = JointVector::Zero();
+    static Band merged(const Band& goal, const Band& defaults);
   };
 
   /// A reference of all joints.
@@ -87,6 +94,16 @@ struct JointSpace {
   static Verdict judge_end(const Point& end);
   /// Judges the distance of two positions against a tolerance. [cyclic]
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
+  /// Judges the step in velocity from one segment's end to the next one's beginning. [cyclic]
+  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits);
+  /// Judges whether `to` can be put out one period after `from`: kVelocityLimit if not. [cyclic]
+  static Verdict judge_reach(const Point& from, const Point& to, const Limits& limits, double dt_s);
+  /// Judges a position error; the verdict has `code`. An error that is NaN exceeds every band.
+  /// [cyclic]
+  static Verdict judge_error(const Point& desired, const Point& measured, const Band& band,
+                             Status code);
+  /// Judges a measured velocity against one limit for all joints, rad/s; 0: not checked. [cyclic]
+  static Verdict judge_stopped(const Point& measured, double limit);
   /// What a segment takes of the limits at its extrema; as `known` where it takes no more. [cyclic]
   static PathUse use(const Segment& segment, const Limits& limits, const PathUse& known);
 

@@ -91,6 +91,42 @@ Verdict JointSpace::judge_near(const Point& a, const Point& b, const Tolerance& 
   return {};
 }
 
+Verdict JointSpace::judge_step(const Point& before, const Point& after, const Limits& limits) {
+  for (int j = 0; j < kDof; ++j) {
+    const double step = after.dq[j] - before.dq[j];
+    if (exceeds(std::abs(step), limits.velocity_step[j]))
+      return {Status::kVelocityStep, -1, j, step, limits.velocity_step[j]};
+  }
+  return {};
+}
+
+Verdict JointSpace::judge_reach(const Point& from, const Point& to, const Limits& limits,
+                                double dt_s) {
+  for (int j = 0; j < kDof; ++j) {
+    const double velocity = (to.q[j] - from.q[j]) / dt_s;
+    if (exceeds(std::abs(velocity), limits.dq_max[j]))
+      return {Status::kVelocityLimit, -1, j, velocity, limits.dq_max[j]};
+  }
+  return {};
+}
+
+Verdict JointSpace::judge_error(const Point& desired, const Point& measured, const Band& band,
+                                Status code) {
+  for (int j = 0; j < kDof; ++j) {
+    const double error = std::abs(desired.q[j] - measured.q[j]);
+    if (band.q[j] > 0.0 && !(error <= band.q[j])) return {code, -1, j, error, band.q[j]};
+  }
+  return {};
+}
+
+Verdict JointSpace::judge_stopped(const Point& measured, double limit) {
+  for (int j = 0; j < kDof; ++j) {
+    const double speed = std::abs(measured.dq[j]);
+    if (limit > 0.0 && !(speed <= limit)) return {Status::kGoalTolerance, -1, j, speed, limit};
+  }
+  return {};
+}
+
 PathUse JointSpace::use(const Segment& segment, const Limits& limits, const PathUse& known) {
   const double T = segment.duration();
   PathUse use = known;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/task_space.hpp"
 
 namespace tactus {
 namespace {
@@ -105,6 +106,7 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
         reference_.standing() ? trajectory.interpolation : Interpolation::kQuintic;
     path.segment = Segment(reference_, first.point, first.time_s, how, trajectory.fields);
     verdict = Space::judge(path.segment, settings.limits, 1.0 - 0.5 * settings.stop_reserve);
+    if (verdict.ok()) verdict = judge_corners(path.segment, trajectory);
     path.use = Space::use(path.segment, settings.limits, path.use);
   } else {
     path.target = trajectory.count > 1 ? 1 : 0;
@@ -127,6 +129,18 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   return {};
 }
 
+/// The steps in velocity at both ends of the way to the first waypoint.
+template <class Space>
+Verdict Motion<Space>::judge_corners(const Segment& way,
+                                     const Trajectory<Space>& trajectory) const {
+  const typename Space::Limits& limits = settings_->limits;
+  const Verdict verdict = Space::judge_step(reference_, way.at(0.0), limits);
+  if (!verdict.ok()) return verdict;
+  const Point arrival = way.at(way.duration());
+  const Point onward = trajectory.count > 1 ? trajectory.segment(1).at(0.0) : arrival.at_rest();
+  return Space::judge_step(arrival, onward, limits);
+}
+
 template <class Space>
 void Motion<Space>::set_rate(double rate) {
   if (on_path() && !braking_) law_.plan(rate, rate_bounds());
@@ -140,5 +154,6 @@ void Motion<Space>::brake() {
 }
 
 template class Motion<JointSpace>;
+template class Motion<TaskSpace>;
 
 }  // namespace tactus

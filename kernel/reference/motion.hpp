@@ -56,6 +56,7 @@ class Motion {
   };
 
   Point base();
+  Verdict judge_corners(const Segment& way, const Trajectory<Space>& trajectory) const;
   void leave_path();
   void bridge_from(const typename Space::Difference& difference, double share);
   RateBounds rate_bounds() const { return path_.use.rate_bounds(bridging_ ? 0.5 : 1.0); }

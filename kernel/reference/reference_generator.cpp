@@ -1,6 +1,7 @@
 #include "kernel/reference/reference_generator.hpp"
 
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/task_space.hpp"
 
 namespace tactus {
 namespace {
@@ -24,15 +25,16 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   params_ = params;
   void_requests_ = channel.requests.size();
   motion_.start(measured, channel.settings);
+  monitor_.start(measured, params.latency_cycles);
   return Status::kOk;
 }
 
 template <class Space>
-Status ReferenceGenerator<Space>::step(double dt_s) {
+Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if (channel_ == nullptr) return Status::kNotStarted;
+  period_s_ = dt_s;
   motion_.move_on(dt_s);
-  if (executing() && !motion_.on_path())
-    end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
+  watch_goal(dt_s, measured);
   watch_stream(dt_s);
   Request<Space> request;
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
@@ -41,6 +43,7 @@ Status ReferenceGenerator<Space>::step(double dt_s) {
   }
   settle_point(Outcome::kExecuted);
   release_store();
+  monitor_.put_out(reference());
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 
@@ -65,16 +68,24 @@ void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
   }
 }
 
+template <class Space>
+Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
+  const typename Space::Limits& limits = channel_->settings.limits;
+  const Verdict verdict = Space::judge(point, limits);
+  if (!verdict.ok() || params_.online != OnlineMode::kRefuse) return verdict;
+  return Space::judge_reach(reference(), point, limits, period_s_);
+}
+
 /// A point ends what ran before it, whatever it was: the paper's rule.
 template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
-  const Verdict verdict = Space::judge(request.point, channel_->settings.limits);
+  const Verdict verdict = judge_point(request.point);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   settle_point(Outcome::kSuperseded);
-  if (params_.online == OnlineMode::kForward)
-    motion_.forward(request.point);
-  else
+  if (params_.online == OnlineMode::kLimit)
     motion_.shape(request.point);
+  else
+    motion_.forward(request.point);
   end_execution(ReferenceEvent::kNewReference, Outcome::kAborted, true);
   point_age_s_ = 0.0;
   point_pending_ = true;
@@ -93,6 +104,7 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
   end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);
   trajectory_id_ = request.id;
   store_ = request.store;
+  monitor_.begin(Tolerances<Space>::merged(trajectory->tolerances, params_.tolerances));
   motion_.set_rate(paused_ ? 0.0 : override_);
   report(request.id, Outcome::kStarted);
 }
@@ -101,7 +113,7 @@ template <class Space>
 void ReferenceGenerator<Space>::take_cancel(const Request<Space>& request) {
   if (!executing()) return report(request.id, Outcome::kRefused, -1, {Status::kNothingToCancel});
   motion_.brake();
-  end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kCanceled, false);
+  end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kCanceled, !motion_.on_path());
   report(request.id, Outcome::kExecuted);
 }
 
@@ -122,6 +134,23 @@ void ReferenceGenerator<Space>::take_pause(const Request<Space>& request) {
   report(request.id, Outcome::kExecuted);
 }
 
+/// A goal ends when the robot is where it should be, or when it cannot be said to follow any more:
+/// then the arm is brought to rest where it is measured to be, because holding the reference would
+/// keep pushing towards it.
+template <class Space>
+void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
+  if (!executing()) return;
+  using Arrival = typename ToleranceMonitor<Space>::Arrival;
+  Verdict why = monitor_.follows(measured);
+  if (why.ok() && motion_.on_path()) return;
+  const Arrival arrival = why.ok() ? monitor_.arrived(measured, dt_s, why) : Arrival::kLate;
+  if (arrival == Arrival::kWaiting) return;
+  if (arrival == Arrival::kArrived)
+    return end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
+  if (measured.finite()) motion_.shape(measured);
+  end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
+}
+
 /// A stream of points that dries up must not leave the arm with a velocity or an effort.
 template <class Space>
 void ReferenceGenerator<Space>::watch_stream(double dt_s) {
@@ -134,10 +163,10 @@ void ReferenceGenerator<Space>::watch_stream(double dt_s) {
 /// The trajectory being executed, if there is one, is reported as ended. Its store goes back as
 /// soon as the motion has left its path.
 template <class Space>
-void ReferenceGenerator<Space>::end_execution(ReferenceEvent event, Outcome outcome,
-                                              bool path_left) {
+void ReferenceGenerator<Space>::end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
+                                              const Verdict& verdict) {
   if (executing())
-    report(trajectory_id_, outcome, path_left ? store_ : -1);
+    report(trajectory_id_, outcome, path_left ? store_ : -1, verdict);
   else if (path_left && store_ >= 0)
     report(0, Outcome::kReleased, store_);
   if (path_left) store_ = -1;
@@ -166,5 +195,6 @@ void ReferenceGenerator<Space>::report(std::uint32_t id, Outcome outcome, int st
 }
 
 template class ReferenceGenerator<JointSpace>;
+template class ReferenceGenerator<TaskSpace>;
 
 }  // namespace tactus

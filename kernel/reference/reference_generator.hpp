@@ -5,6 +5,7 @@
 
 #include "kernel/reference/motion.hpp"
 #include "kernel/reference/reference_state.hpp"
+#include "kernel/reference/tolerance_monitor.hpp"
 
 namespace tactus {
 
@@ -12,9 +13,10 @@ namespace tactus {
 enum class OnlineMode : std::uint8_t {
   kForward,  ///< put out as it came
   kLimit,    ///< gone to within velocity, acceleration and jerk limits
+  kRefuse,   ///< put out as it came, but refused if that takes more than the velocity limits
 };
 
-inline constexpr std::array<const char*, 2> kOnlineModeWords = {"forward", "limit"};
+inline constexpr std::array<const char*, 3> kOnlineModeWords = {"forward", "limit", "refuse"};
 
 template <class Space>
 class ReferenceGenerator {
@@ -22,11 +24,13 @@ class ReferenceGenerator {
   using Point = typename Space::Point;
 
   struct Params {
-    typename Space::Tolerance
-        start_tolerance;  ///< of a trajectory whose first waypoint is at t = 0
+    /// How far beside the reference a trajectory may begin whose first waypoint is at t = 0.
+    typename Space::Tolerance start_tolerance;
+    Tolerances<Space> tolerances;  ///< of goals that give none of their own
+    int latency_cycles = 0;        ///< 0..16; 0: measured in the next cycle
     OnlineMode online = OnlineMode::kForward;
-    double timeout_s =
-        0.0;  ///< without a new point for so long, a moving online reference is stopped; 0: never
+    /// Without a new point for so long, an online reference that moves is stopped; 0: never.
+    double timeout_s = 0.0;
   };
 
   /// Holds `measured` until told otherwise. What ran before is aborted, and requests that came
@@ -34,9 +38,9 @@ class ReferenceGenerator {
   /// finite. [init]
   Status start(ReferenceChannel<Space>& channel, const Params& params, const Point& measured);
 
-  /// Moves on by one period, then answers requests. kReferenceFault if the reference is not finite.
-  /// [cyclic]
-  Status step(double dt_s);
+  /// Moves on by one period, compares with what was measured, then answers requests.
+  /// kReferenceFault if the reference is not finite. [cyclic]
+  Status step(double dt_s, const Point& measured);
 
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
@@ -44,13 +48,16 @@ class ReferenceGenerator {
  private:
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
   void answer(const Request<Space>& request);
+  Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
   void take_cancel(const Request<Space>& request);
   void take_override(const Request<Space>& request);
   void take_pause(const Request<Space>& request);
+  void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
-  void end_execution(ReferenceEvent event, Outcome outcome, bool path_left);
+  void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
+                     const Verdict& verdict = {});
   void release_store();
   void settle_point(Outcome outcome);
   void report(std::uint32_t id, Outcome outcome, int store = -1, const Verdict& verdict = {});
@@ -59,8 +66,10 @@ class ReferenceGenerator {
   Params params_;
   std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
 
+  double period_s_ = 0.0;
   ReferenceState state_ = ReferenceState::kOnlineReference;
   Motion<Space> motion_;
+  ToleranceMonitor<Space> monitor_;
   double override_ = 1.0;
   bool paused_ = false;
 

@@ -6,6 +6,7 @@
 
 #include "kernel/reference/interpolation.hpp"
 #include "kernel/reference/path_use.hpp"
+#include "kernel/reference/tolerance.hpp"
 
 namespace tactus {
 
@@ -15,6 +16,26 @@ struct Waypoint {
   typename Space::Point point;
 };
 
+/// When a goal is followed, and when it is reached. In a goal, a value > 0 holds for it, 0 keeps
+/// the generator's default, and a negative one switches the check off; as a default, 0 is off.
+template <class Space>
+struct Tolerances {
+  typename Space::Band path;      ///< largest error on the way
+  typename Space::Band goal;      ///< largest error at the end
+  double stopped_velocity = 0.0;  ///< largest velocity at the end
+  double dwell_s = 0.0;           ///< how long the end must be kept
+  double goal_time_s = 0.0;       ///< how long after the last waypoint the end may be reached
+
+  /// Those of a goal, completed by the defaults. [cyclic]
+  static Tolerances merged(const Tolerances& goal, const Tolerances& defaults) {
+    return {Space::Band::merged(goal.path, defaults.path),
+            Space::Band::merged(goal.goal, defaults.goal),
+            merge_tolerance(goal.stopped_velocity, defaults.stopped_velocity),
+            merge_tolerance(goal.dwell_s, defaults.dwell_s),
+            merge_tolerance(goal.goal_time_s, defaults.goal_time_s)};
+  }
+};
+
 template <class Space>
 struct Trajectory {
   Waypoint<Space>* waypoints = nullptr;  ///< storage, owned by the board
@@ -22,6 +43,7 @@ struct Trajectory {
   int count = 0;
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
+  Tolerances<Space> tolerances;
   PathUse use;  ///< noted by admission
 
   double end_s() const { return waypoints[count - 1].time_s; }

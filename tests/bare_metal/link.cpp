@@ -86,7 +86,7 @@ int main() {
     channel.stores[i].waypoints = waypoints[i];
     channel.stores[i].capacity = 32;
   }
-  Loader loader(channel, hal.capabilities());
+  Loader loader({&channel}, hal.capabilities());
   LoadError error;
   Status status = loader.load(kText, pipeline, error);
   if (status == Status::kOk) status = executive.start();

@@ -1,0 +1,46 @@
+#include "boards/program/waypoint_log.hpp"
+
+#include <cstdio>
+
+#include "boards/program/run_log.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kFewWaypoints = 200;
+
+/// The positions of one waypoint, as an output of their quantity holds them.
+PortEntry position_of(const TrajectoryInput& input, int waypoint) {
+  PortEntry entry;
+  if (const auto* joints = std::get_if<1>(&input.trajectory)) {
+    entry.quantity = Quantity::kJointPosition;
+    entry.value = &(*joints)->waypoints[waypoint].point.q;
+  } else if (const auto* poses = std::get_if<2>(&input.trajectory)) {
+    entry.quantity = Quantity::kPose;
+    entry.value = &(*poses)->waypoints[waypoint].point.x;
+  }
+  return entry;
+}
+
+}  // namespace
+
+bool write_waypoints(const char* path, const TrajectoryInput& input, const PortEntry& reference) {
+  if (input.count() > kFewWaypoints || position_of(input, 0).quantity != reference.quantity)
+    return true;
+  std::FILE* file = std::fopen(path, "wb");
+  if (file == nullptr) return false;
+  std::fprintf(file, "time_s");
+  write_names(file, reference);
+  std::fprintf(file, "\n");
+  for (int i = 0; i < input.count(); ++i) {
+    std::array<double, 16> numbers{};
+    const int count = flatten(position_of(input, i), numbers.data());
+    std::fprintf(file, "%.9g", input.time_s(i));
+    for (int n = 0; n < count; ++n)
+      std::fprintf(file, ",%.9g", numbers[static_cast<std::size_t>(n)]);
+    std::fprintf(file, "\n");
+  }
+  return std::fclose(file) == 0;
+}
+
+}  // namespace tactus

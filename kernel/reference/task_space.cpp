@@ -1,0 +1,196 @@
+#include "kernel/reference/task_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/math/so3.hpp"
+#include "kernel/reference/bridge_time.hpp"
+
+namespace tactus {
+namespace {
+
+/// A vector and its first two derivatives at one end.
+struct VectorEnd {
+  Vector3 p, v, a;
+};
+
+using Join = Polynomial (*)(const Boundary&, const Boundary&, double);
+
+VectorPolynomial joined(Join join, const VectorEnd& from, const VectorEnd& to, double T) {
+  VectorPolynomial path;
+  for (int i = 0; i < 3; ++i) {
+    path.axis[static_cast<std::size_t>(i)] =
+        join({from.p[i], from.v[i], from.a[i]}, {to.p[i], to.v[i], to.a[i]}, T);
+  }
+  return path;
+}
+
+VectorEnd translation_of(const TaskSpace::Point& point) {
+  return {point.x.p, point.v.head<3>(), point.a.head<3>()};
+}
+
+RotationBoundary rotation_of(const TaskSpace::Point& point) {
+  return {point.x.r, point.v.tail<3>(), point.a.tail<3>()};
+}
+
+/// r, if its length is one to rounding; else made so.
+Eigen::Quaterniond unit(const Eigen::Quaterniond& r) {
+  constexpr double kRounding = 2e-15;
+  return std::abs(r.squaredNorm() - 1.0) <= kRounding ? r : r.normalized();
+}
+
+}  // namespace
+
+Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quaterniond& last) {
+  const Eigen::Quaterniond now = unit(r);
+  if (!(now.dot(last) < 0.0)) return now;
+  return {-now.w(), -now.x(), -now.y(), -now.z()};
+}
+
+TaskSpace::Band TaskSpace::Band::merged(const Band& goal, const Band& defaults) {
+  return {merge_tolerance(goal.position_m, defaults.position_m),
+          merge_tolerance(goal.angle_rad, defaults.angle_rad)};
+}
+
+bool TaskSpace::Point::finite() const {
+  return x.p.allFinite() && x.r.coeffs().allFinite() && v.allFinite() && a.allFinite() &&
+         h.allFinite() && dh.allFinite();
+}
+
+bool TaskSpace::Point::standing() const {
+  return v == Vector6::Zero() && a == Vector6::Zero();
+}
+
+bool TaskSpace::Point::idle() const {
+  return standing() && h == Vector6::Zero() && dh == Vector6::Zero();
+}
+
+TaskSpace::Point TaskSpace::Point::at_rest() const {
+  Point rest;
+  rest.x = {x.p, unit(x.r)};
+  return rest;
+}
+
+TaskSpace::Point TaskSpace::Point::stopped() const {
+  Point still = at_rest();
+  still.h = h;
+  return still;
+}
+
+TaskSpace::Point TaskSpace::Point::at_rate(double rate, double slope) const {
+  return {x, rate * v, (rate * rate) * a + slope * v, h, rate * dh};
+}
+
+TaskSpace::Segment::Segment(const Point& from, const Point& to, double T, Interpolation how,
+                            Fields fields)
+    : order_(order_of(how, fields)) {
+  using Order = RotationSegment::Order;
+  const bool line = order_ == Interpolation::kLinear, cubics = order_ == Interpolation::kCubic;
+  p_ = joined(line     ? tactus::linear
+              : cubics ? cubic
+                       : quintic,
+              translation_of(from), translation_of(to), T);
+  rotation_ = RotationSegment(rotation_of(from), rotation_of(to), T,
+                              line     ? Order::kLinear
+                              : cubics ? Order::kCubic
+                                       : Order::kQuintic);
+  h_ = from.h;
+  dh_ = (to.h - from.h) / T;
+}
+
+TaskSpace::Point TaskSpace::Segment::corner() const {
+  Point begin = at(0.0);
+  if (order_ == Interpolation::kLinear) begin.v.setZero();
+  if (order_ != Interpolation::kQuintic) begin.a.setZero();
+  return begin;
+}
+
+TaskSpace::Point TaskSpace::Segment::at(double t) const {
+  const VectorPolynomial dp = p_.derivative();
+  const RotationBoundary rotation = rotation_.at(t);
+  Point point;
+  point.x = {p_.at(t), rotation.r};
+  point.v.head<3>() = dp.at(t);
+  point.v.tail<3>() = rotation.w;
+  point.a.head<3>() = dp.derivative().at(t);
+  point.a.tail<3>() = rotation.alpha;
+  point.h = h_ + t * dh_;
+  point.dh = dh_;
+  return point;
+}
+
+TaskSpace::Bridge::Bridge(const Difference& from, double T) : h_(from.h), duration_(T) {
+  const VectorEnd zero = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  p_ = joined(quintic, {from.p, from.dp, from.ddp}, zero, T);
+  phi_ = joined(quintic, {from.phi, from.dphi, from.ddphi}, zero, T);
+  left_ = quintic({1.0, 0.0, 0.0}, {}, T);
+}
+
+TaskSpace::Difference TaskSpace::Bridge::at(double t) const {
+  const VectorPolynomial dp = p_.derivative(), dphi = phi_.derivative();
+  return {p_.at(t),
+          dp.at(t),
+          dp.derivative().at(t),
+          phi_.at(t),
+          dphi.at(t),
+          dphi.derivative().at(t),
+          left_.at(t) * h_,
+          left_.derivative().at(t) * h_};
+}
+
+// With R_a = R_b exp(phi), w = J_r(phi) dphi the turning of exp(phi) in a's frame and u = R_a w the
+// same in the base frame,
+//   omega_a = omega_b + u,
+//   alpha_a = alpha_b + omega_a x u + R_a dw/dt = alpha_b + omega_b x u + R_a dw/dt,
+//   dw/dt = J_r ddphi + dJ_r/dt dphi.
+
+TaskSpace::Point TaskSpace::sum(const Point& b, const Difference& d) {
+  const RightJacobian j(d.phi);
+  const Vector3 omega = b.v.tail<3>();
+  Point a;
+  a.x = {b.x.p + d.p, unit(b.x.r) * exp_so3(d.phi)};
+  const Vector3 u = a.x.r * j.times(d.dphi);
+  const Vector3 dw = j.times(d.ddphi) + j.rate_times(d.dphi, d.dphi);
+  a.v.head<3>() = b.v.head<3>() + d.dp;
+  a.v.tail<3>() = omega + u;
+  a.a.head<3>() = b.a.head<3>() + d.ddp;
+  a.a.tail<3>() = b.a.tail<3>() + omega.cross(u) + a.x.r * dw;
+  a.h = b.h + d.h;
+  a.dh = b.dh + d.dh;
+  return a;
+}
+
+TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
+  const Eigen::Quaterniond base_in_a = unit(a.x.r).conjugate();
+  const Vector3 omega = b.v.tail<3>();
+  Difference d;
+  d.p = a.x.p - b.x.p;
+  d.dp = a.v.head<3>() - b.v.head<3>();
+  d.ddp = a.a.head<3>() - b.a.head<3>();
+  d.phi = log_so3(b.x.r.conjugate() * a.x.r);
+  const RightJacobian j(d.phi);
+  const Vector3 u = a.v.tail<3>() - omega;
+  const Vector3 dw = base_in_a * (a.a.tail<3>() - b.a.tail<3>() - omega.cross(u));
+  d.dphi = j.inverse_times(base_in_a * u);
+  d.ddphi = j.inverse_times(dw - j.rate_times(d.dphi, d.dphi));
+  d.h = a.h - b.h;
+  d.dh = a.dh - b.dh;
+  return d;
+}
+
+double TaskSpace::bridge_time_s(const Difference& d, const Limits& limits) {
+  const double translation = tactus::bridge_time_s({d.p.norm(), d.dp.norm(), d.ddp.norm()},
+                                                   0.5 * limits.v_max, 0.5 * limits.a_max);
+  // |u| <= |dphi| and |dw/dt| <= |ddphi| + |dphi|^2 / 2, to which the base, turning at no more than
+  // the robot may, adds |omega_b| |dphi|. With |dphi| bounded by w, 3/16 of alpha_max or more are
+  // left to ddphi.
+  constexpr double kFastest = Robot::kTaskLimit.w_max;
+  const double w = std::min(0.5 * limits.w_max, 0.25 * limits.alpha_max / kFastest);
+  const double alpha = 0.5 * limits.alpha_max - w * (0.5 * w + kFastest);
+  const double rotation =
+      tactus::bridge_time_s({d.phi.norm(), d.dphi.norm(), d.ddphi.norm()}, w, alpha);
+  return std::max({translation, rotation, bridge_jerk_time_s(limits.a_max, limits.j_max),
+                   bridge_jerk_time_s(limits.alpha_max, limits.dalpha_max)});
+}
+
+}  // namespace tactus

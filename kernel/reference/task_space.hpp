@@ -1,0 +1,149 @@
+// TaskSpace: what a reference generator needs to know of the space it moves in, here that of the
+// tool tip in the base frame. The same members as JointSpace's.
+//
+// Orientations are unit quaternions; one that is off by no more than admission lets pass is made
+// unit by whatever uses it. Its sign means nothing to any of this: see unit_beside().
+#pragma once
+
+#include "kernel/reference/interpolation.hpp"
+#include "kernel/reference/path_use.hpp"
+#include "kernel/reference/rotation_segment.hpp"
+#include "kernel/reference/tolerance.hpp"
+#include "kernel/reference/verdict.hpp"
+#include "kernel/task_limits.hpp"
+
+namespace tactus {
+
+/// r as a unit quaternion, of its two signs the one nearer to `last`; a unit quaternion keeps its
+/// bits. [any]
+Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quaterniond& last);
+
+struct TaskSpace {
+  using Limits = TaskLimits;
+
+  /// How far beside the reference a trajectory may begin.
+  struct Tolerance {
+    double position_m = 0.005, angle_rad = 0.02;
+  };
+
+  /// Largest distance and angle between desired and measured pose; 0 is not checked.
+  struct Band {
+    double position_m = 0.0, angle_rad = 0.0;
+    static Band merged(const Band& goal, const Band& defaults);
+  };
+
+  /// A reference of the tool tip, in the base frame; linear part and force first.
+  struct Point {
+    Pose x;
+    Vector6 v = Vector6::Zero();   ///< m/s, rad/s
+    Vector6 a = Vector6::Zero();   ///< m/s^2, rad/s^2
+    Vector6 h = Vector6::Zero();   ///< N, N m: what the environment is to exert on the tool
+    Vector6 dh = Vector6::Zero();  ///< N/s, N m/s
+
+    /// False if any number is NaN or infinite. [any]
+    bool finite() const;
+    /// True if velocity and acceleration are exactly zero. [any]
+    bool standing() const;
+    /// True if also the wrench and its rate are. [any]
+    bool idle() const;
+    /// The same pose, at rest, without feed-forward. [any]
+    Point at_rest() const;
+    /// The same pose, at rest, the wrench kept. [any]
+    Point stopped() const;
+    /// A point p(s), p', p'' of a path as it is passed at the rate r = ds/dt with slope dr/dt.
+    /// [any]
+    Point at_rate(double rate, double slope) const;
+  };
+
+  /// a - b of two references. The orientation is a path phi(t) of which sum() makes R_a = R_b
+  /// exp(phi) and its exact derivatives.
+  struct Difference {
+    Vector3 p = Vector3::Zero(), dp = Vector3::Zero(), ddp = Vector3::Zero();  ///< m, m/s, m/s^2
+    Vector3 phi = Vector3::Zero();                            ///< rad, rotation vector in b's frame
+    Vector3 dphi = Vector3::Zero(), ddphi = Vector3::Zero();  ///< its derivatives
+    Vector6 h = Vector6::Zero(), dh = Vector6::Zero();        ///< N, N m; N/s, N m/s
+  };
+
+  /// Motion between two points in a given time: position by one polynomial per axis, orientation by
+  /// a RotationSegment, velocity and acceleration their exact derivatives, wrench linear. Linear is
+  /// a straight line and slerp.
+  class Segment {
+   public:
+    Segment() = default;
+    /// `fields` are those both ends have; T > 0 in seconds. The orientation begins with the sign of
+    /// from's, the sign of to's is ignored. [any]
+    Segment(const Point& from, const Point& to, double T, Interpolation how, Fields fields);
+
+    Point at(double t) const;
+    double duration() const { return rotation_.duration(); }
+    /// Its beginning without what steps there by nature: the velocity of a straight line, the
+    /// acceleration of a cubic. [any]
+    Point corner() const;
+    const VectorPolynomial& translation() const { return p_; }
+    const RotationSegment& rotation() const { return rotation_; }
+
+   private:
+    VectorPolynomial p_;
+    RotationSegment rotation_;
+    Vector6 h_ = Vector6::Zero(), dh_ = Vector6::Zero();  // wrench at the start, and its rate
+    Interpolation order_ = Interpolation::kLinear;
+  };
+
+  /// A difference that goes to zero in a given time, with its velocity and acceleration: quintics
+  /// of position and rotation vector. The wrench falls without overshoot, from rate zero to rate
+  /// zero.
+  class Bridge {
+   public:
+    Bridge() = default;
+    Bridge(const Difference& from, double T);
+    Difference at(double t) const;
+    double duration() const { return duration_; }
+
+   private:
+    VectorPolynomial p_, phi_;
+    Vector6 h_ = Vector6::Zero();
+    Polynomial left_;  // of the wrench: 1 to 0
+    double duration_ = 1.0;
+  };
+
+  // Axes of a verdict: 0, 1, 2 are x, y, z, and 3, 4, 5 the rotations about them. Where a vector's
+  // length counts it is 0 for translation and force, 3 for rotation and moment.
+
+  /// Judges one online point: finite, unit quaternion within 1e-3, workspace, speeds, wrench.
+  /// [cyclic]
+  static Verdict judge(const Point& point, const Limits& limits);
+  /// Judges one segment: the position at its extrema, the lengths of velocity, acceleration and
+  /// jerk by bounds from outside (translation_bounds.hpp, rotation_segment.hpp), so that none
+  /// beyond a limit is accepted; acceleration and jerk against the fraction `share` of their
+  /// limits. The jerk of the rotation is not judged. The wrench between ends within limits is
+  /// within them. [cyclic, some microseconds]
+  static Verdict judge(const Segment& segment, const Limits& limits, double share);
+  /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
+  static Verdict judge_end(const Point& end);
+  /// Judges distance and angle of two poses against a tolerance. [cyclic]
+  static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
+  /// Judges the step in velocity from one segment's end to the next one's beginning. [cyclic]
+  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits);
+  /// Judges whether `to` can be put out one period after `from`: kVelocityLimit if not. [cyclic]
+  static Verdict judge_reach(const Point& from, const Point& to, const Limits& limits, double dt_s);
+  /// Judges a pose error; the verdict has `code`. An error that is NaN exceeds every band. [cyclic]
+  static Verdict judge_error(const Point& desired, const Point& measured, const Band& band,
+                             Status code);
+  /// Judges a measured twist, m/s and rad/s against the one `limit`; 0: not checked. [cyclic]
+  static Verdict judge_stopped(const Point& measured, double limit);
+  /// What a segment takes of the limits, by the same bounds as judge(); as `known` where it takes
+  /// no more. [cyclic]
+  static PathUse use(const Segment& segment, const Limits& limits, const PathUse& known);
+
+  /// a - b along the shortest arc, and b + difference = a but for the quaternion's sign. [any]
+  static Difference difference(const Point& a, const Point& b);
+  static Point sum(const Point& b, const Difference& difference);
+
+  /// Seconds in which a bridge takes `difference` to zero with at most half of each velocity,
+  /// acceleration and jerk limit, or what the difference begins with where that is more; the other
+  /// half is left to the motion underneath. Counted are lengths, and of the angular acceleration
+  /// also what arises because the difference turns and its base turns with it. [any]
+  static double bridge_time_s(const Difference& difference, const Limits& limits);
+};
+
+}  // namespace tactus

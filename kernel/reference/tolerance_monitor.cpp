@@ -1,0 +1,53 @@
+#include "kernel/reference/tolerance_monitor.hpp"
+
+#include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/task_space.hpp"
+
+namespace tactus {
+
+template <class Space>
+void ToleranceMonitor<Space>::start(const Point& reference, int latency_cycles) {
+  *this = ToleranceMonitor();
+  line_.fill(reference);
+  latency_ = static_cast<std::size_t>(latency_cycles);
+}
+
+template <class Space>
+void ToleranceMonitor<Space>::begin(const Tolerances<Space>& tolerances) {
+  tolerances_ = tolerances;
+  waiting_s_ = inside_s_ = 0.0;
+}
+
+template <class Space>
+void ToleranceMonitor<Space>::put_out(const Point& reference) {
+  newest_ = (newest_ + 1) % line_.size();
+  line_[newest_] = reference;
+}
+
+/// What the robot should have reached by now.
+template <class Space>
+const typename Space::Point& ToleranceMonitor<Space>::expected() const {
+  return line_[(newest_ + line_.size() - latency_) % line_.size()];
+}
+
+template <class Space>
+Verdict ToleranceMonitor<Space>::follows(const Point& measured) const {
+  return Space::judge_error(expected(), measured, tolerances_.path, Status::kPathTolerance);
+}
+
+template <class Space>
+typename ToleranceMonitor<Space>::Arrival ToleranceMonitor<Space>::arrived(const Point& measured,
+                                                                           double dt_s,
+                                                                           Verdict& why) {
+  why = Space::judge_error(expected(), measured, tolerances_.goal, Status::kGoalTolerance);
+  if (why.ok()) why = Space::judge_stopped(measured, tolerances_.stopped_velocity);
+  inside_s_ = why.ok() ? inside_s_ + dt_s : 0.0;
+  if (why.ok() && inside_s_ >= tolerances_.dwell_s) return Arrival::kArrived;
+  waiting_s_ += dt_s;
+  return waiting_s_ > tolerances_.goal_time_s ? Arrival::kLate : Arrival::kWaiting;
+}
+
+template class ToleranceMonitor<JointSpace>;
+template class ToleranceMonitor<TaskSpace>;
+
+}  // namespace tactus

@@ -1,0 +1,44 @@
+// ToleranceMonitor: does the robot follow, and has it arrived? Compares what was put out some
+// cycles ago, by the robot's known latency, with what is measured now. A comparison with NaN
+// violates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "kernel/reference/messages.hpp"
+
+namespace tactus {
+
+inline constexpr int kMaxLatencyCycles = 16;
+
+template <class Space>
+class ToleranceMonitor {
+ public:
+  using Point = typename Space::Point;
+
+  /// Nothing was put out before `reference`. [init]
+  void start(const Point& reference, int latency_cycles);
+  /// A goal begins, with the tolerances that hold for it. [cyclic]
+  void begin(const Tolerances<Space>& tolerances);
+  /// The reference of this cycle. [cyclic]
+  void put_out(const Point& reference);
+
+  /// On the way: kPathTolerance with axis, value and limit, or kOk. [cyclic]
+  Verdict follows(const Point& measured) const;
+
+  enum class Arrival { kWaiting, kArrived, kLate };
+  /// After the end: in the goal band and stopped for the dwell time; late once the goal time has
+  /// passed. `why` names what was still outside. [cyclic]
+  Arrival arrived(const Point& measured, double dt_s, Verdict& why);
+
+ private:
+  const Point& expected() const;
+
+  Tolerances<Space> tolerances_;
+  std::array<Point, kMaxLatencyCycles + 1> line_;
+  std::size_t newest_ = 0, latency_ = 0;
+  double waiting_s_ = 0.0, inside_s_ = 0.0;
+};
+
+}  // namespace tactus
