@@ -61,7 +61,7 @@ clean:                                        ## remove everything that was buil
 help:                                         ## this list
 	$(Q)grep -hE '^[a-z_.]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories run-tests kernel
+.PHONY: trajectories run-tests run-thread-tests kernel
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
 $(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a
@@ -72,6 +72,8 @@ trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
+run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads)
+	$(Q)scripts/run_tests $^
 run-tests: $(B)/tactus $(TESTS)
 	$(Q)scripts/run_tests $(TESTS)
 

@@ -9,11 +9,15 @@ namespace tactus {
 int check(Session& session, const Options& options, const RobotState& initial) {
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
-  Guard guard;
-  Status status = guard.start(session.pipeline.guard, initial, session.pipeline.robot.period_s());
-  if (status == Status::kOk) status = session.pipeline.start(initial);
+  Pipeline& pipeline = session.pipeline;
+  Status status = pipeline.start(initial);
   if (status == Status::kOk && !send_input(session, input)) return kRefused;
-  if (status == Status::kOk) status = session.pipeline.step(initial);
+  if (status == Status::kOk) status = pipeline.step(initial);
+  // A robot at rest on its reference holds itself with what is commanded first.
+  RobotState held = initial;
+  if (pipeline.robot.mode() == CommandMode::kEffort) held.tau = pipeline.robot.command().value;
+  Guard guard;
+  if (status == Status::kOk) status = guard.start(pipeline.guard, held, pipeline.robot.period_s());
   if (status != Status::kOk) {
     print_stop(options.pipeline, "refused", status, guard.telemetry());
     return kRefused;

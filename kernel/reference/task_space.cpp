@@ -42,7 +42,7 @@ Eigen::Quaterniond unit(const Eigen::Quaterniond& r) {
 }  // namespace
 
 Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quaterniond& last) {
-  const Eigen::Quaterniond now = unit(r);
+  Eigen::Quaterniond now = unit(r);
   if (!(now.dot(last) < 0.0)) return now;
   return {-now.w(), -now.x(), -now.y(), -now.z()};
 }

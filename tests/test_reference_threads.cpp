@@ -1,0 +1,106 @@
+// A client that never sleeps, in a thread of its own, against the generator's cycle: nothing torn,
+// nothing lost. Meant to be run under the thread sanitizer too.
+#include <atomic>
+#include <thread>
+
+#include "tests/reference_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr int kMaxCycles = 20000000;
+constexpr std::uint32_t kEnough = 20000;  // requests
+constexpr std::size_t kMaxRequests = 1 << 20;
+
+struct Shared {
+  ReferenceBench bench;
+  std::atomic<bool> running{true};
+  std::atomic<std::uint32_t> sent{0};
+  std::array<std::uint8_t, kMaxRequests> finals{};  // the client's until it has ended
+};
+
+void collect(Shared& shared) {
+  Report report;
+  while (shared.bench.client.poll(report)) {
+    if (report.outcome != Outcome::kStarted && report.outcome != Outcome::kReleased)
+      ++shared.finals[report.id];
+  }
+}
+
+/// One random request; the id the client gave it, 0 if it did not leave.
+std::uint32_t ask(ReferenceBench& bench, Random& random) {
+  std::uint32_t id = 0;
+  switch (random.below(6)) {
+    case 0:
+      return bench.client.cancel(id).ok() ? id : 0;
+    case 1:
+      return bench.client.set_override(random.uniform(0.0, 1.0), id).ok() ? id : 0;
+    case 2: {
+      JointSpace::Point point;
+      // Every joint has the same offset: a torn point would show.
+      point.q = bench.home + JointVector::Constant(random.uniform(-0.3, 0.3));
+      return bench.client.send(point, id).ok() ? id : 0;
+    }
+    default:
+      break;
+  }
+  Trajectory<JointSpace>* motion = bench.trajectory(kVelocityField);
+  if (motion == nullptr) return 0;
+  for (int i = 1 + random.below(8); i > 0; --i)
+    bench.add(*motion, 2.0 * (motion->count + 1), random.uniform(-0.3, 0.3));
+  return bench.client.send(*motion, id).ok() ? id : 0;
+}
+
+void run_client(Shared& shared) {
+  Random random{99};
+  while (shared.running.load(std::memory_order_relaxed) && shared.sent + 1 < kMaxRequests) {
+    if (const std::uint32_t id = ask(shared.bench, random); id != 0) shared.sent = id;
+    collect(shared);
+  }
+}
+
+// Proves KER-4, RG-5.
+
+void a_client_that_never_sleeps_neither_tears_nor_loses_anything(void**) {
+  static Shared shared;
+  std::thread client(run_client, std::ref(shared));
+  bool whole = true;
+  Status status = Status::kOk;
+  for (int k = 0; k < kMaxCycles && shared.sent < kEnough && status == Status::kOk; ++k) {
+    status = shared.bench.step();
+    if (shared.bench.channel.requests.size() == 0) std::this_thread::yield();
+    const JointSpace::Point& out = shared.bench.out();
+    for (int j = 1; j < kDof; ++j) {
+      const double offset = out.q[j] - shared.bench.home[j];
+      whole = whole && std::abs(offset - (out.q[0] - shared.bench.home[0])) < 1e-9;
+    }
+  }
+  shared.running = false;
+  client.join();
+  ASSERT_OK(status);
+  assert_true(whole);
+  for (int k = 0; k < 50000; ++k) {
+    ASSERT_OK(shared.bench.step());
+    collect(shared);
+  }
+  std::uint32_t id = 0;
+  assert_true(shared.bench.client.set_override(1.0, id).ok());
+  shared.sent = id;
+  for (int k = 0; k < 50000; ++k) {
+    ASSERT_OK(shared.bench.step());
+    collect(shared);
+  }
+  assert_true(shared.sent >= kEnough);
+  for (std::uint32_t i = 1; i <= shared.sent; ++i) assert_int_equal(shared.finals[i], 1);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_client_that_never_sleeps_neither_tears_nor_loses_anything),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
