@@ -20,16 +20,57 @@ Verdict ReferenceClient<Space>::judge(Trajectory<Space>& trajectory) const {
 
 template <class Space>
 Verdict ReferenceClient<Space>::send(Trajectory<Space>& trajectory, std::uint32_t& id) {
-  const auto store = static_cast<std::size_t>(&trajectory - channel_.stores.data());
+  const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || away_[store]) return {Status::kNoFreeStore};
   Verdict verdict = judge(trajectory);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kTrajectory;
   request.store = static_cast<int>(store);
+  channel_.needed[store].store(0, std::memory_order_relaxed);
+  const int last = trajectory.count - 1;
+  streams_[store] = {trajectory.count, trajectory.at(last).point, {}};
   verdict = post(request, id);
   away_[store] = verdict.ok();
   return verdict;
+}
+
+template <class Space>
+Verdict ReferenceClient<Space>::append(const Trajectory<Space>& trajectory,
+                                       const Waypoint<Space>& waypoint) {
+  const std::size_t store = index_of(trajectory);
+  if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
+  Stream& stream = streams_[store];
+  const int needed = channel_.needed[store].load(std::memory_order_acquire);
+  if (stream.count - needed >= trajectory.capacity) return {Status::kWindowFull};
+  const double earliest =
+      trajectory.at(stream.count - 1).time_s + channel_.settings.period_s / kMaxSegmentsPerCycle;
+  if (!(waypoint.time_s >= earliest))
+    return {Status::kReferenceTime, stream.count, -1, waypoint.time_s, earliest};
+  trajectory.waypoints[stream.count % trajectory.capacity] = waypoint;
+  const Verdict verdict =
+      admit_waypoint(trajectory, stream.count, channel_.settings, stream.end, stream.use);
+  stream.count += verdict.ok() ? 1 : 0;
+  return verdict;
+}
+
+template <class Space>
+Verdict ReferenceClient<Space>::flush(const Trajectory<Space>& trajectory, bool last,
+                                      std::uint32_t& id) {
+  const std::size_t store = index_of(trajectory);
+  if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
+  Stream& stream = streams_[store];
+  const Verdict verdict =
+      last ? admit_end(trajectory, stream.count - 1, channel_.settings, stream.end) : Verdict();
+  if (!verdict.ok()) return verdict;
+  Request<Space> request;
+  request.kind = RequestKind::kAppend;
+  request.store = static_cast<int>(store);
+  request.count = stream.count;
+  request.last = last;
+  request.use = stream.use;
+  stream.use = {};
+  return post(request, id);
 }
 
 template <class Space>

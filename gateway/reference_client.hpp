@@ -21,6 +21,11 @@ class ReferenceClient {
   /// Admits and sends an acquired trajectory; `id` comes back in its reports. When refused the
   /// store stays yours.
   Verdict send(Trajectory<Space>& trajectory, std::uint32_t& id);
+  /// Judges one more waypoint of an open trajectory that was sent and puts it behind the others.
+  /// kWindowFull while the motion still needs all that are there; the trajectory is then unchanged.
+  Verdict append(const Trajectory<Space>& trajectory, const Waypoint<Space>& waypoint);
+  /// Tells the generator of what was appended; after the `last` no more can be.
+  Verdict flush(const Trajectory<Space>& trajectory, bool last, std::uint32_t& id);
   /// Admits and sends one online point.
   Verdict send(const typename Space::Point& point, std::uint32_t& id);
   /// Asks for the running trajectory to be stopped on its path and given up.
@@ -36,11 +41,23 @@ class ReferenceClient {
   bool poll(Report& report);
 
  private:
+  /// The client's own account of an open trajectory, whose count is the generator's once it is
+  /// sent.
+  struct Stream {
+    int count = 0;
+    typename Space::Point end;  // of the last segment
+    PathUse use;                // of what is not yet flushed
+  };
+
+  std::size_t index_of(const Trajectory<Space>& trajectory) const {
+    return static_cast<std::size_t>(&trajectory - channel_.stores.data());
+  }
   Verdict ask(RequestKind kind, std::uint32_t& id);
   Verdict post(Request<Space> request, std::uint32_t& id);
 
   ReferenceChannel<Space>& channel_;
   std::array<bool, kStores> away_{};  // sent and not yet reported final
+  std::array<Stream, kStores> streams_{};
   std::uint32_t next_id_ = 1;
 };
 

@@ -10,7 +10,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 44> kStatusNames = {{
+constexpr std::array<StatusName, 46> kStatusNames = {{
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -44,6 +44,8 @@ constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kGoalTolerance, "kGoalTolerance"},
     {Status::kStreamTimeout, "kStreamTimeout"},
     {Status::kBadOverride, "kBadOverride"},
+    {Status::kNothingToExtend, "kNothingToExtend"},
+    {Status::kWindowFull, "kWindowFull"},
     {Status::kStateNotFinite, "kStateNotFinite"},
     {Status::kReferenceFault, "kReferenceFault"},
     {Status::kCommandNotFinite, "kCommandNotFinite"},

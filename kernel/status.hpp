@@ -42,6 +42,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kGoalTolerance = 50,
     kStreamTimeout = 51,
     kBadOverride = 52,
+    kNothingToExtend = 53,
+    kWindowFull = 54,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

@@ -16,7 +16,7 @@ Verdict admit_times(const Trajectory<Space>& trajectory, double period_s) {
   const double spacing = period_s / kMaxSegmentsPerCycle;
   double earliest = 0.0;
   for (int i = 0; i < trajectory.count; ++i) {
-    const double time = trajectory.waypoints[i].time_s;
+    const double time = trajectory.at(i).time_s;
     if (!std::isfinite(time)) return {Status::kReferenceNotFinite, i, -1, time, 0.0};
     if (time < earliest - kRounding_s) return {Status::kReferenceTime, i, -1, time, earliest};
     earliest = time + spacing;
@@ -29,23 +29,39 @@ Verdict at_waypoint(Verdict verdict, int waypoint) {
   return verdict;
 }
 
-/// One waypoint and the segment that ends there; `before` is where the last one ended, and becomes
-/// where this one does.
+}  // namespace
+
 template <class Space>
-Verdict admit_waypoint(Trajectory<Space>& trajectory, int index,
-                       const AdmissionSettings<Space>& settings, typename Space::Point& before) {
-  const typename Space::Point& point = trajectory.waypoints[index].point;
-  Verdict verdict = Space::judge(point, settings.limits);
-  if (!verdict.ok() || index == 0) return verdict;
-  const typename Space::Segment segment = trajectory.segment(index);
-  verdict = Space::judge(segment, settings.limits, 1.0 - settings.stop_reserve);
-  if (verdict.ok()) verdict = Space::judge_step(before, segment.at(0.0), settings.limits);
-  if (verdict.ok()) trajectory.use = Space::use(segment, settings.limits, trajectory.use);
-  before = segment.at(segment.duration());
-  return verdict;
+Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
+                       const AdmissionSettings<Space>& settings, typename Space::Point& before,
+                       PathUse& use) {
+  Verdict verdict = Space::judge(trajectory.at(index).point, settings.limits);
+  if (verdict.ok() && index > 0) {
+    const typename Space::Segment segment = trajectory.segment(index);
+    verdict = Space::judge(segment, settings.limits, 1.0 - settings.stop_reserve);
+    if (verdict.ok()) verdict = Space::judge_step(before, segment.at(0.0), settings.limits);
+    if (verdict.ok()) use = Space::use(segment, settings.limits, use);
+    if (verdict.ok()) before = segment.at(segment.duration());
+  }
+  return at_waypoint(verdict, index);
 }
 
-}  // namespace
+template <class Space>
+Verdict admit_end(const Trajectory<Space>& trajectory, int last,
+                  const AdmissionSettings<Space>& settings, const typename Space::Point& before) {
+  const typename Space::Point& end = trajectory.at(last).point;
+  Verdict verdict = Space::judge_end(end);
+  if (verdict.ok() && last > 0) verdict = Space::judge_step(before, end.at_rest(), settings.limits);
+  return at_waypoint(verdict, last);
+}
+
+template <class Space>
+typename Space::Point before_first(const Trajectory<Space>& trajectory) {
+  // A first waypoint at zero is left from rest; the way to a later one is judged when it begins.
+  if (trajectory.count < 2) return trajectory.at(0).point.at_rest();
+  const typename Space::Segment first = trajectory.segment(1);
+  return trajectory.at(0).time_s > 0.0 ? first.at(0.0) : first.corner();
+}
 
 template <class Space>
 Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings) {
@@ -55,24 +71,24 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   Verdict verdict = admit_times(trajectory, settings.period_s);
   if (!verdict.ok()) return verdict;
   trajectory.use = {};
-  // A first waypoint at zero is left from rest; the way to a later one is judged when it begins.
-  typename Space::Point before = trajectory.waypoints[0].point.at_rest();
-  if (trajectory.count > 1) {
-    const typename Space::Segment first = trajectory.segment(1);
-    before = trajectory.waypoints[0].time_s > 0.0 ? first.at(0.0) : first.corner();
-  }
+  typename Space::Point before = before_first(trajectory);
   for (int i = 0; i < trajectory.count; ++i) {
-    verdict = at_waypoint(admit_waypoint(trajectory, i, settings, before), i);
+    verdict = admit_waypoint(trajectory, i, settings, before, trajectory.use);
     if (!verdict.ok()) return verdict;
   }
-  const int last = trajectory.count - 1;
-  const typename Space::Point& end = trajectory.waypoints[last].point;
-  verdict = Space::judge_end(end);
-  if (verdict.ok() && last > 0) verdict = Space::judge_step(before, end.at_rest(), settings.limits);
-  return at_waypoint(verdict, last);
+  if (trajectory.open) return {};
+  return admit_end(trajectory, trajectory.count - 1, settings, before);
 }
 
 template Verdict admit(Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&);
+template Verdict admit_waypoint(const Trajectory<JointSpace>&, int,
+                                const AdmissionSettings<JointSpace>&, JointSpace::Point&, PathUse&);
+template Verdict admit_end(const Trajectory<JointSpace>&, int, const AdmissionSettings<JointSpace>&,
+                           const JointSpace::Point&);
 template Verdict admit(Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&);
+template Verdict admit_waypoint(const Trajectory<TaskSpace>&, int,
+                                const AdmissionSettings<TaskSpace>&, TaskSpace::Point&, PathUse&);
+template Verdict admit_end(const Trajectory<TaskSpace>&, int, const AdmissionSettings<TaskSpace>&,
+                           const TaskSpace::Point&);
 
 }  // namespace tactus

@@ -18,4 +18,16 @@ inline constexpr int kMaxSegmentsPerCycle = 16;
 template <class Space>
 Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings);
 
+/// One more waypoint of an open trajectory and the segment that ends there. `before` is where the
+/// segment before ended and becomes where this one does; `use` grows by what it takes. [any]
+template <class Space>
+Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
+                       const AdmissionSettings<Space>& settings, typename Space::Point& before,
+                       PathUse& use);
+
+/// The last waypoint of a trajectory: whoever arrives there must stand. [any]
+template <class Space>
+Verdict admit_end(const Trajectory<Space>& trajectory, int last,
+                  const AdmissionSettings<Space>& settings, const typename Space::Point& before);
+
 }  // namespace tactus

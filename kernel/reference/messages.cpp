@@ -20,6 +20,8 @@ const char* name(Outcome outcome) {
       return "superseded";
     case Outcome::kRefused:
       return "refused";
+    case Outcome::kStarved:
+      return "starved";
     case Outcome::kReleased:
       return "released";
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "kernel/mailbox.hpp"
@@ -18,6 +19,7 @@ enum class RequestKind : std::uint8_t {
   kOverride,    ///< pass trajectories at a fraction of their speed
   kPause,       ///< stop on the path, the trajectory stays alive
   kResume,      ///< go on after a pause
+  kAppend,      ///< the open trajectory in a store has become longer
 };
 
 template <class Space>
@@ -27,6 +29,9 @@ struct Request {
   int store = -1;               ///< kTrajectory: which store it lies in
   typename Space::Point point;  ///< kPoint
   double rate = 1.0;            ///< kOverride: 0..1
+  int count = 0;                ///< kAppend: waypoints so far
+  bool last = false;            ///< kAppend: none will follow
+  PathUse use;                  ///< kAppend: what the new part takes of the limits
 };
 
 enum class Outcome : std::uint8_t {
@@ -39,7 +44,9 @@ enum class Outcome : std::uint8_t {
                 ///< effect
   kSuperseded,  ///< final: a newer point took its place before it was ever written
   kRefused,     ///< final: not accepted; the verdict says why
-  kReleased,    ///< a store is the client's again, after a final report that did not give it back
+  kStarved,   ///< an open trajectory ran out of waypoints: the arm stops on the path and waits for
+              ///< more
+  kReleased,  ///< a store is the client's again, after a final report that did not give it back
 };
 
 /// The name of an outcome, for example "succeeded". Never null. [any]
@@ -74,6 +81,8 @@ struct ReferenceChannel {
   Mailbox<Request<Space>, 16> requests;
   Mailbox<Report, 64> reports;
   std::array<Trajectory<Space>, kStores> stores;
+  /// First waypoint of each store that the motion still needs; those before may be overwritten.
+  std::array<std::atomic<int>, kStores> needed{};
 };
 
 }  // namespace tactus

@@ -25,11 +25,33 @@ void Motion<Space>::start(const Point& point, const Settings& settings) {
 
 template <class Space>
 void Motion<Space>::move_on(double dt_s) {
+  watch_end(dt_s);
   law_.advance(dt_s);
   bridge_time_s_ += dt_s;
   reference_ = base();
   bridging_ = bridging_ && bridge_time_s_ < bridge_.duration();
   if (bridging_) reference_ = Space::sum(reference_, bridge_.at(bridge_time_s_));
+}
+
+/// A path that is not yet whole is never run to where it ends so far: the arm stops before, and
+/// goes on when there is room for twice the way that a stop takes.
+template <class Space>
+void Motion<Space>::watch_end(double dt_s) {
+  if (!on_path() || braking_) return;
+  const RateBounds bounds = rate_bounds();
+  const double left_s = path_.trajectory->end_s() - law_.s();
+  const bool open = path_.trajectory->open;
+  if (!starving_ && open && left_s <= law_.stopping_s(bounds) + 2.0 * law_.rate() * dt_s) {
+    starving_ = true;
+    law_.plan(0.0, bounds);
+    return;
+  }
+  TimeLaw again;
+  again.start(rate_);
+  if (starving_ && (!open || left_s > 2.0 * again.stopping_s(bounds) + 4.0 * dt_s)) {
+    starving_ = false;
+    law_.plan(rate_, bounds);
+  }
 }
 
 /// The path at its present time, or the point that is held. Leaves a path that has come to its end
@@ -39,22 +61,22 @@ typename Space::Point Motion<Space>::base() {
   if (!on_path()) return held_;
   const Trajectory<Space>& trajectory = *path_.trajectory;
   const double due_s = law_.s() + kTimeRounding_s;
-  const bool ended = due_s >= trajectory.end_s();
+  const bool ended = !trajectory.open && due_s >= trajectory.end_s();
   int target = path_.target;
   for (int i = 0; i < kMaxSegmentsPerCycle && target + 1 < trajectory.count &&
-                  due_s >= trajectory.waypoints[target].time_s;
+                  due_s >= trajectory.at(target).time_s;
        ++i) {
     ++target;
   }
   if (target != path_.target) {
     path_.target = target;
     path_.segment = trajectory.segment(target);
-    path_.segment_start_s = trajectory.waypoints[target - 1].time_s;
+    path_.segment_start_s = trajectory.at(target - 1).time_s;
   }
   const double t = std::min(law_.s() - path_.segment_start_s, path_.segment.duration());
   const Point point = path_.segment.at(t).at_rate(law_.rate(), law_.slope());
   if (!ended && !(braking_ && law_.standing())) return point;
-  held_ = ended ? trajectory.waypoints[trajectory.count - 1].point.at_rest() : point.at_rest();
+  held_ = ended ? trajectory.at(trajectory.count - 1).point.at_rest() : point.at_rest();
   leave_path();
   // The position is held from now on; what the path fed forward is taken to zero.
   if (!bridging_) bridge_from(Space::difference(point.stopped(), point.at_rest()), 1.0);
@@ -64,7 +86,7 @@ typename Space::Point Motion<Space>::base() {
 template <class Space>
 void Motion<Space>::leave_path() {
   path_.trajectory = nullptr;
-  braking_ = false;
+  braking_ = starving_ = false;
   law_.start(0.0);
 }
 
@@ -95,7 +117,7 @@ template <class Space>
 Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
                               const typename Space::Tolerance& tolerance) {
   const Settings& settings = *settings_;
-  const Waypoint<Space>& first = trajectory.waypoints[0];
+  const Waypoint<Space>& first = trajectory.at(0);
   Path path;
   path.trajectory = &trajectory;
   path.use = trajectory.use;
@@ -124,7 +146,7 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   // only.
   bridge_from(Space::difference(reference_, path.segment.corner()), std::max(left, kLeastShare));
   path_ = path;
-  braking_ = false;
+  braking_ = starving_ = false;
   law_.start(1.0);
   return {};
 }
@@ -143,7 +165,8 @@ Verdict Motion<Space>::judge_corners(const Segment& way,
 
 template <class Space>
 void Motion<Space>::set_rate(double rate) {
-  if (on_path() && !braking_) law_.plan(rate, rate_bounds());
+  rate_ = rate;
+  if (on_path() && !braking_ && !starving_) law_.plan(rate, rate_bounds());
 }
 
 template <class Space>
@@ -151,6 +174,11 @@ void Motion<Space>::brake() {
   if (!on_path()) return;
   law_.plan(0.0, rate_bounds());
   braking_ = true;
+}
+
+template <class Space>
+void Motion<Space>::extend() {
+  if (on_path()) path_.use = PathUse::largest(path_.use, path_.trajectory->use);
 }
 
 template class Motion<JointSpace>;

@@ -33,6 +33,8 @@ class Motion {
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance);
   /// From now on the path is passed at `rate`, 0..1, reached as fast as limits allow. [cyclic]
   void set_rate(double rate);
+  /// The open trajectory it follows has become longer. [cyclic]
+  void extend();
   /// Stops on the path, then leaves it. [cyclic]
   void brake();
 
@@ -40,6 +42,10 @@ class Motion {
   /// A trajectory is still read. False once its end is reached or a brake has come to rest.
   bool on_path() const { return path_.trajectory != nullptr; }
   bool braking() const { return braking_; }
+  /// An open trajectory has run out of waypoints: the arm stops, or stands, on the path.
+  bool starving() const { return starving_; }
+  /// First waypoint it still needs.
+  int needed() const { return path_.target > 0 ? path_.target - 1 : 0; }
   /// The reference does not move, and will not unless told to.
   bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
   double path_time_s() const { return law_.s(); }  ///< from the start of the trajectory
@@ -55,6 +61,7 @@ class Motion {
     PathUse use;
   };
 
+  void watch_end(double dt_s);
   Point base();
   Verdict judge_corners(const Segment& way, const Trajectory<Space>& trajectory) const;
   void leave_path();
@@ -66,7 +73,8 @@ class Motion {
   Point held_;       // the base off the path
   Path path_;        // the base on it
   TimeLaw law_;
-  bool braking_ = false;
+  double rate_ = 1.0;  // wanted, and taken up again after starving
+  bool braking_ = false, starving_ = false;
 
   typename Space::Bridge bridge_;
   double bridge_time_s_ = 0.0;

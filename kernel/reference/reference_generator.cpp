@@ -34,6 +34,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if (channel_ == nullptr) return Status::kNotStarted;
   period_s_ = dt_s;
   motion_.move_on(dt_s);
+  watch_supply();
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
   Request<Space> request;
@@ -51,7 +52,9 @@ template <class Space>
 void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
   if (void_requests_ > 0) {
     --void_requests_;
-    return report(request.id, Outcome::kRefused, request.store, {Status::kNotStarted});
+    const bool carries_store = request.kind == RequestKind::kTrajectory;
+    return report(request.id, Outcome::kRefused, carries_store ? request.store : -1,
+                  {Status::kNotStarted});
   }
   switch (request.kind) {
     case RequestKind::kPoint:
@@ -65,6 +68,8 @@ void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
     case RequestKind::kPause:
     case RequestKind::kResume:
       return take_pause(request);
+    case RequestKind::kAppend:
+      return take_append(request);
   }
 }
 
@@ -132,6 +137,32 @@ void ReferenceGenerator<Space>::take_pause(const Request<Space>& request) {
   paused_ = request.kind == RequestKind::kPause;
   motion_.set_rate(paused_ ? 0.0 : override_);
   report(request.id, Outcome::kExecuted);
+}
+
+/// Waypoints that the client has put behind those of the trajectory being executed.
+template <class Space>
+void ReferenceGenerator<Space>::take_append(const Request<Space>& request) {
+  const bool known = executing() && request.store == store_ && motion_.on_path();
+  Trajectory<Space>* trajectory =
+      known ? &channel_->stores[static_cast<std::size_t>(store_)] : nullptr;
+  if (trajectory == nullptr || !trajectory->open || request.count < trajectory->count)
+    return report(request.id, Outcome::kRefused, -1, {Status::kNothingToExtend});
+  trajectory->count = request.count;
+  trajectory->open = !request.last;
+  trajectory->use = PathUse::largest(trajectory->use, request.use);
+  motion_.extend();
+  report(request.id, Outcome::kExecuted);
+}
+
+/// Tells the client how far the motion is, and once that it has run out of waypoints.
+template <class Space>
+void ReferenceGenerator<Space>::watch_supply() {
+  if (!executing() || !motion_.on_path()) return;
+  channel_->needed[static_cast<std::size_t>(store_)].store(motion_.needed(),
+                                                           std::memory_order_release);
+  const bool told = starving_ || channel_->reports.space() <= kReportsPerRequest;
+  if (motion_.starving() && !told) report(trajectory_id_, Outcome::kStarved);
+  starving_ = motion_.starving();
 }
 
 /// A goal ends when the robot is where it should be, or when it cannot be said to follow any more:

@@ -54,6 +54,8 @@ class ReferenceGenerator {
   void take_cancel(const Request<Space>& request);
   void take_override(const Request<Space>& request);
   void take_pause(const Request<Space>& request);
+  void take_append(const Request<Space>& request);
+  void watch_supply();
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
@@ -74,6 +76,7 @@ class ReferenceGenerator {
   bool paused_ = false;
 
   std::uint32_t trajectory_id_ = 0;  // of the trajectory being executed
+  bool starving_ = false;            // and the client has been told
   int store_ = -1;                   // of the trajectory the motion still reads
 
   double point_age_s_ = 0.0;    // since the last online point

@@ -40,17 +40,19 @@ template <class Space>
 struct Trajectory {
   Waypoint<Space>* waypoints = nullptr;  ///< storage, owned by the board
   int capacity = 0;
-  int count = 0;
+  int count = 0;      ///< waypoints so far; an open trajectory has had more than fit at a time
+  bool open = false;  ///< more waypoints follow, over those that the motion has passed
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
   Tolerances<Space> tolerances;
   PathUse use;  ///< noted by admission
 
-  double end_s() const { return waypoints[count - 1].time_s; }
+  const Waypoint<Space>& at(int index) const { return waypoints[index % capacity]; }
+  double end_s() const { return at(count - 1).time_s; }
   /// The segment that ends at waypoint `index` >= 1. [any]
   typename Space::Segment segment(int index) const {
-    const Waypoint<Space>& from = waypoints[index - 1];
-    const Waypoint<Space>& to = waypoints[index];
+    const Waypoint<Space>& from = at(index - 1);
+    const Waypoint<Space>& to = at(index);
     return {from.point, to.point, to.time_s - from.time_s, interpolation, fields};
   }
 };
