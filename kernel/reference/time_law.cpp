@@ -35,8 +35,16 @@ void TimeLaw::plan(double target, const RateBounds& bounds) {
   phase_time_s_ = 0.0;
 }
 
+/// Compensated summation (Kahan 1965).
+void TimeLaw::pass(double path_time_s) {
+  const double corrected = path_time_s - carry_;
+  const double sum = s_ + corrected;
+  carry_ = (sum - s_) - corrected;
+  s_ = sum;
+}
+
 void TimeLaw::move(double dt_s, double curvature) {
-  s_ += dt_s * (rate_ + dt_s * (slope_ / 2.0 + dt_s * curvature / 6.0));
+  pass(dt_s * (rate_ + dt_s * (slope_ / 2.0 + dt_s * curvature / 6.0)));
   rate_ += dt_s * (slope_ + dt_s * curvature / 2.0);
   slope_ += dt_s * curvature;
 }
@@ -58,7 +66,7 @@ void TimeLaw::advance(double dt_s) {
       slope_ = 0.0;
     }
   }
-  s_ += dt_s * rate_;
+  pass(dt_s * rate_);
 }
 
 double TimeLaw::stopping_s(const RateBounds& bounds) const {

@@ -45,7 +45,9 @@ class TimeLaw {
     double duration_s = 0.0, curvature = 0.0;
   };
   void move(double dt_s, double curvature);
+  void pass(double path_time_s);
 
+  double carry_ = 0.0;  // what s_ has lost to rounding, of millions of periods added up
   double s_ = 0.0, rate_ = 0.0, slope_ = 0.0, target_ = 0.0;
   std::array<Phase, 3> phases_;
   std::size_t phase_ = 3;      // the one in progress; 3: the target is reached
