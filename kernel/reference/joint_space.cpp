@@ -3,34 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/reference/bridge_time.hpp"
+
 namespace tactus {
-namespace {
-
-// Peaks of the quintic that takes a unit of position, velocity or acceleration to zero in one
-// second, by the extrema of its Hermite basis: h_p = 1 - 10 t^3 + 15 t^4 - 6 t^5, h_v = t - 6 t^3 +
-// 8 t^4 - 3 t^5, h_a = (t^2 - 3 t^3 + 3 t^4 - t^5) / 2.
-constexpr double kPeakVelocityOfPosition = 1.875;       // |h_p'| at t = 1/2
-constexpr double kPeakAccelerationOfPosition = 5.7736;  // |h_p''| = 10 / sqrt(3)
-constexpr double kPeakAccelerationOfVelocity = 3.9412;  // |h_v''| at t = 0.2427
-// The swing to the other side, beyond which a velocity or acceleration is no larger than at t = 0.
-constexpr double kSwingOfVelocity = 0.512;      // |h_v'| at t = 3/5
-constexpr double kSwingOfAcceleration = 0.374;  // |h_a''| at t = 0.3551
-// Jerk: with accelerations as bounded here, |60 dp / T^3| + |36 dv / T^2| + |9 da / T| <= 28
-// ddq_max / T, which is to be half of the limit.
-constexpr double kJerkTime = 56.0;
-
-/// What a bound leaves to the peaks if the motion begins with `start` and swings to the other side.
-/// Wherever it does not swing, the start leaves at least as much, because its share falls from one
-/// faster than the peaks rise.
-double left(double bound, double start, double swing) {
-  return bound - swing * std::min(start, bound);
-}
-
-double jerk_time_s(const JointLimits& limits, int joint) {
-  return kJerkTime * limits.ddq_max[joint] / limits.dddq_max[joint];
-}
-
-}  // namespace
 
 JointSpace::Band JointSpace::Band::merged(const Band& goal, const Band& defaults) {
   Band band;
@@ -111,16 +86,11 @@ JointSpace::Point JointSpace::sum(const Point& b, const Difference& d) {
 double JointSpace::bridge_time_s(const Difference& difference, const Limits& limits) {
   double time = 0.0;
   for (int j = 0; j < kDof; ++j) {
-    const double dp = std::abs(difference.q[j]), dv = std::abs(difference.dq[j]);
-    const double da = std::abs(difference.ddq[j]);
-    const double v = left(0.5 * limits.dq_max[j], dv, kSwingOfVelocity);
-    const double a = left(0.5 * limits.ddq_max[j], da, kSwingOfAcceleration);
-    // a T^2 = kPeakAccelerationOfVelocity dv T + kPeakAccelerationOfPosition dp
-    const double half = 0.5 * kPeakAccelerationOfVelocity * dv;
-    const double for_acceleration =
-        (half + std::sqrt(half * half + a * kPeakAccelerationOfPosition * dp)) / a;
-    const double for_velocity = kPeakVelocityOfPosition * dp / v;
-    time = std::max({time, for_acceleration, for_velocity, jerk_time_s(limits, j)});
+    const BridgeStart start = {std::abs(difference.q[j]), std::abs(difference.dq[j]),
+                               std::abs(difference.ddq[j])};
+    const double a = limits.ddq_max[j];
+    time = std::max({time, tactus::bridge_time_s(start, 0.5 * limits.dq_max[j], 0.5 * a),
+                     bridge_jerk_time_s(a, limits.dddq_max[j])});
   }
   return time;
 }

@@ -3,31 +3,10 @@
 #include <cmath>
 
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/limit_check.hpp"
 
 namespace tactus {
 namespace {
-
-// Numbers in a file are rounded to some ten digits; a limit reached exactly must not be refused for
-// that.
-constexpr double kRounding = 1e-9;
-// Largest velocity or acceleration that still counts as standing, rad/s and rad/s^2.
-constexpr double kRest = 1e-6;
-
-/// Written so that NaN exceeds every limit.
-bool exceeds(double value, double limit) {
-  return !(value <= limit + kRounding);
-}
-
-/// Range of one polynomial against lo and hi, both of which it may touch.
-Verdict bounded(const Polynomial& polynomial, double T, double lo, double hi, Status status,
-                int axis) {
-  const Extremes outer = hull(polynomial, T);
-  if (outer.max <= hi && outer.min >= lo) return {};
-  const Extremes found = extremes(polynomial, T);
-  if (exceeds(found.max, hi)) return {status, -1, axis, found.max, hi};
-  if (exceeds(-found.min, -lo)) return {status, -1, axis, found.min, lo};
-  return {};
-}
 
 Verdict symmetric(const Polynomial& polynomial, double T, double limit, Status status, int axis) {
   return bounded(polynomial, T, -limit, limit, status, axis);
