@@ -112,14 +112,14 @@ struct ExecutiveBench {
   double reference() const {
     return (*static_cast<const JointVector*>(pipeline.ports.find("jrg.q_d")->value))[0];
   }
-  /// Sends a straight line of joint 1, at 1 rad/s for one second; it begins with the next cycle.
+  /// Sends a straight line of joint 1, at 0.5 rad/s for two seconds; it begins with the next cycle.
   bool send_line() {
     Trajectory<JointSpace>* line = client.acquire();
     if (line == nullptr) return false;
     line->count = 2;
     line->fields = 0;
     for (Waypoint<JointSpace>& waypoint : waypoints) waypoint.point.q = hal.state.q;
-    waypoints[1].time_s = 1.0;
+    waypoints[1].time_s = 2.0;
     waypoints[1].point.q[0] += 1.0;
     std::uint32_t id = 0;
     return client.send(*line, id).ok();
