@@ -147,7 +147,8 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   bridge_from(Space::difference(reference_, path.segment.corner()), std::max(left, kLeastShare));
   path_ = path;
   braking_ = starving_ = false;
-  law_.start(1.0);
+  // Out of a motion the first segment is met at full rate; from rest any rate meets it.
+  law_.start(reference_.standing() ? rate_ : 1.0);
   return {};
 }
 
