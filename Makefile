@@ -33,10 +33,11 @@ KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(patsubst %.cpp,$(B)/%,$(wildcard tests/test_*.cpp))
+LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath
 obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
 
-.PHONY: docs all run test check bench setup format clean help
+.PHONY: docs all run test test-long check bench setup format clean help
 all: $(B)/tactus                              ## build the program of BOARD
 
 run: setup                                    ## run every pipeline; results in out/
@@ -44,6 +45,9 @@ run: setup                                    ## run every pipeline; results in 
 	$(Q)scripts/run_all $(B)/tactus $(RUNS)
 test: setup                                   ## build and run all tests
 	$(Q)$(MAKE) --no-print-directory -j2 all trajectories run-tests
+test-long: setup                              ## the long random tests at full count
+	$(Q)$(MAKE) --no-print-directory -j2 $(LONG)
+	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
 check: setup                                  ## what must hold before a change lands, tests included
 	$(Q)scripts/check
 docs: $(B)/tactus                             ## write the documents that are generated
@@ -59,7 +63,7 @@ compile_commands.json:                        ## for editors and clang-tidy
 clean:                                        ## remove everything that was built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## this list
-	$(Q)grep -hE '^[a-z_.]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
+	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories run-tests run-thread-tests kernel
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)

@@ -85,6 +85,21 @@ void a_paused_arm_takes_a_trajectory_and_does_not_move(void**) {
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
 }
 
+void at_any_rate_a_trajectory_whose_first_waypoint_moves_is_joined_without_a_step(void**) {
+  static ReferenceBench benches[3];
+  for (const int half : {0, 1, 2}) {
+    ReferenceBench& bench = benches[half];
+    std::uint32_t id = 0;
+    assert_true(bench.client.set_override(0.5 * half, id).ok());
+    Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
+    bench.add(*motion, 0.0, 0.0, 0.3);
+    bench.add(*motion, 1.0, 0.2);
+    assert_true(bench.client.send(*motion, id).ok());
+    ASSERT_OK(bench.run(2));
+    ASSERT_NEAR(bench.out().dq[0], 0.0, 1e-3);
+  }
+}
+
 void at_half_override_a_trajectory_takes_twice_its_time(void**) {
   static ReferenceBench full, half;
   std::uint32_t request = 0;
@@ -199,6 +214,8 @@ int main() {
       cmocka_unit_test(a_cancel_stops_on_the_path_and_gives_the_store_back_at_rest),
       cmocka_unit_test(a_pause_keeps_the_trajectory_and_a_resume_finishes_it),
       cmocka_unit_test(a_paused_arm_takes_a_trajectory_and_does_not_move),
+      cmocka_unit_test(
+          at_any_rate_a_trajectory_whose_first_waypoint_moves_is_joined_without_a_step),
       cmocka_unit_test(at_half_override_a_trajectory_takes_twice_its_time),
       cmocka_unit_test(an_override_scales_velocity_once_and_acceleration_twice),
       cmocka_unit_test(an_override_that_is_no_fraction_is_refused),

@@ -142,13 +142,14 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
     return verdict;
   }
   const double left = 1.0 - std::max({path.use.velocity, path.use.acceleration, path.use.jerk});
-  // Where a path begins with a step by nature, that is its own; the bridge ends the old motion
-  // only.
-  bridge_from(Space::difference(reference_, path.segment.corner()), std::max(left, kLeastShare));
+  // Out of a motion the first segment is met at full rate; from rest any rate meets it. Where a
+  // path begins with a step by nature, that is its own; the bridge ends the old motion only.
+  const double rate = reference_.standing() ? rate_ : 1.0;
+  const Point begin = path.segment.corner().at_rate(rate, 0.0);
+  bridge_from(Space::difference(reference_, begin), std::max(left, kLeastShare));
   path_ = path;
   braking_ = starving_ = false;
-  // Out of a motion the first segment is met at full rate; from rest any rate meets it.
-  law_.start(reference_.standing() ? rate_ : 1.0);
+  law_.start(rate);
   return {};
 }
 
