@@ -10,7 +10,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 46> kStatusNames = {{
+constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -32,7 +32,6 @@ constexpr std::array<StatusName, 46> kStatusNames = {{
     {Status::kEffortLimit, "kEffortLimit"},
     {Status::kNotAtRest, "kNotAtRest"},
     {Status::kStartTolerance, "kStartTolerance"},
-    {Status::kFieldsDiffer, "kFieldsDiffer"},
     {Status::kNothingToCancel, "kNothingToCancel"},
     {Status::kNoFreeStore, "kNoFreeStore"},
     {Status::kMailboxFull, "kMailboxFull"},
@@ -42,7 +41,6 @@ constexpr std::array<StatusName, 46> kStatusNames = {{
     {Status::kWorkspace, "kWorkspace"},
     {Status::kPathTolerance, "kPathTolerance"},
     {Status::kGoalTolerance, "kGoalTolerance"},
-    {Status::kStreamTimeout, "kStreamTimeout"},
     {Status::kBadOverride, "kBadOverride"},
     {Status::kNothingToExtend, "kNothingToExtend"},
     {Status::kWindowFull, "kWindowFull"},
