@@ -41,15 +41,12 @@ class Motion {
   const Point& reference() const { return reference_; }
   /// A trajectory is still read. False once its end is reached or a brake has come to rest.
   bool on_path() const { return path_.trajectory != nullptr; }
-  bool braking() const { return braking_; }
   /// An open trajectory has run out of waypoints: the arm stops, or stands, on the path.
   bool starving() const { return starving_; }
   /// First waypoint it still needs.
   int needed() const { return path_.target > 0 ? path_.target - 1 : 0; }
   /// The reference does not move, and will not unless told to.
   bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
-  double path_time_s() const { return law_.s(); }  ///< from the start of the trajectory
-  double rate() const { return law_.rate(); }
 
  private:
   /// A trajectory and the place reached on it.
