@@ -17,6 +17,8 @@ struct RobotState {
   JointVector q = JointVector::Zero();    ///< rad
   JointVector dq = JointVector::Zero();   ///< rad/s
   JointVector tau = JointVector::Zero();  ///< N m, what the actuators exert
+  Vector6 ft = Vector6::Zero();  ///< N, N m: what environment and tool exert on a sensor at the
+                                 ///< flange, at its origin and in its axes; zero without a sensor
 };
 
 /// What is sent at the end of a cycle: rad, rad/s or N m, as the mode says.
@@ -28,6 +30,7 @@ struct RobotCommand {
 /// What a robot and its wire can do; compared with the pipeline file before anything starts.
 struct Capabilities {
   bool position = false, velocity = false, effort = false;  ///< command modes it takes
+  bool wrench = false;  ///< it has a force/torque sensor at the flange
   std::int64_t min_period_us = 0, max_period_us = 0;        ///< cycle periods it can serve
 };
 

@@ -20,6 +20,7 @@ enum class Quantity : std::uint8_t {
   kTaskAcceleration,
   kWrench,
   kWrenchRate,
+  kSensorWrench,
   kJacobian,
   kTool,
 };
@@ -33,8 +34,9 @@ struct QuantityInfo {
 };
 
 /// Poses, twists and wrenches are of the tool tip, in the base frame; a wrench is what the
-/// environment exerts on the tool. Indexed by Quantity.
-inline constexpr std::array<QuantityInfo, 11> kQuantities = {{
+/// environment exerts on the tool. A sensor wrench is as a force/torque sensor at the flange gives
+/// it: at the flange's origin, in its axes, the tool's own weight included. Indexed by Quantity.
+inline constexpr std::array<QuantityInfo, 12> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
@@ -44,6 +46,7 @@ inline constexpr std::array<QuantityInfo, 11> kQuantities = {{
     {"task acceleration", "m/s^2, rad/s^2", "ax ay az alphax alphay alphaz", 6},
     {"wrench", "N, N m", "fx fy fz mx my mz", 6},
     {"wrench rate", "N/s, N m/s", "dfx dfy dfz dmx dmy dmz", 6},
+    {"sensor wrench", "N, N m", "fx fy fz mx my mz", 6},
     {"jacobian", "m, 1", "", 0},
     {"tool", "kg, m", "", 0},
 }};
@@ -55,7 +58,7 @@ constexpr const QuantityInfo& info(Quantity quantity) {
 
 /// Whether the value is a Vector6, linear part or force first.
 constexpr bool is_task_vector(Quantity quantity) {
-  return quantity >= Quantity::kTwist && quantity <= Quantity::kWrenchRate;
+  return quantity >= Quantity::kTwist && quantity <= Quantity::kSensorWrench;
 }
 
 /// Value type of a quantity and its neutral value: zero, the identity, no tool.

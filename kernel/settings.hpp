@@ -21,6 +21,7 @@ struct RobotSection {
   Out<Quantity::kJointPosition> q;
   Out<Quantity::kJointVelocity> dq;
   Out<Quantity::kJointEffort> tau;
+  Out<Quantity::kSensorWrench> ft;  ///< zero without a sensor
   Out<Quantity::kTool> tool;
 
   In<Quantity::kJointPosition> q_c;
@@ -35,6 +36,7 @@ struct RobotSection {
     visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
     visit.param("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
     visit.out("q", q), visit.out("dq", dq), visit.out("tau", tau), visit.out("tool", tool);
+    visit.out("ft", ft);
   }
   /// The command, bound after the last block; exactly one of them is given.
   template <class Visitor>
@@ -47,6 +49,7 @@ struct RobotSection {
     q.value = state.q;
     dq.value = state.dq;
     tau.value = state.tau;
+    ft.value = state.ft;
   }
   CommandMode mode() const {
     return tau_c.wired()  ? CommandMode::kEffort
