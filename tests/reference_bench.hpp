@@ -64,6 +64,8 @@ struct ReferenceBench {
     empty->count = 0;
     empty->fields = fields;
     empty->interpolation = Interpolation::kByFields;
+    empty->terms = {};
+    empty->start_s = kAtOnce;
     return empty;
   }
   /// Appends a waypoint at `offset` rad from home on every joint.

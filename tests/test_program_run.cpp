@@ -155,6 +155,36 @@ void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void*
   assert_true(has(errors(), "not everything could be written\n"));
 }
 
+// Proves RG-19.
+
+/// The tip moves by 0.1 m along the x of a frame that is turned by a right angle: along y.
+void a_trajectory_may_be_given_in_a_frame_of_the_pipeline(void**) {
+  constexpr const char* kTask =
+      "[wall]\ntype = frame\nposition = 0.5 0 0.5\nrotation = 0 0 1.57079632679\n"
+      "[trg]\ntype = task_reference_generator\nx = model.x\n"
+      "goal_position_tolerance = 0\ngoal_angle_tolerance = 0\n[gateway]\nmotion_frame = ";
+  constexpr const char* kPath =
+      "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n6,0,0,0,0,1,0,0\n9,0.1,0,0,0,1,0,0\n";
+  const Line path = write("t.csv", {kPath});
+  const auto run_in = [&](const char* frame) {
+    const Line pipeline = write("f.ini", {kPipeline, "signals = trg.x_d\n", kTask, frame, "\n"});
+    return tactus_run({"run", pipeline.c_str(), "--trajectory", path.c_str(), "--no-figure",
+                       "--out", in_folder("f").c_str()});
+  };
+  assert_int_equal(run_in("wall.x"), 0);
+  const std::string_view text = file_of("f/log.csv");
+  const std::string_view last = text.substr(text.rfind('\n', text.size() - 2) + 1);
+  double time_s = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  assert_int_equal(std::sscanf(Line(last).c_str(), "%lf,%lf,%lf,%lf", &time_s, &x, &y, &z), 4);
+  ASSERT_NEAR(x, 0.5, 1e-9);
+  ASSERT_NEAR(y, 0.1, 1e-9);
+  ASSERT_NEAR(z, 0.5, 1e-9);
+  assert_int_equal(run_in("Wall.x"), 2);
+  assert_true(has(errors(), "[gateway] motion_frame: 'Wall.x' is no output of this pipeline\n"));
+  assert_int_equal(run_in("model.v"), 2);
+  assert_true(has(errors(), "[gateway] motion_frame: 'model.v' is no pose\n"));
+}
+
 void an_interrupt_ends_the_run_with_its_files_written(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("c");
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -198,6 +228,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished),
       cmocka_unit_test(a_fault_ends_the_run_with_its_code_and_the_files_are_written),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success),
+      cmocka_unit_test(a_trajectory_may_be_given_in_a_frame_of_the_pipeline),
       cmocka_unit_test(an_interrupt_ends_the_run_with_its_files_written),
       cmocka_unit_test(the_same_seed_writes_the_same_bytes_and_another_does_not),
   };

@@ -26,29 +26,39 @@ void print_axis(const TrajectoryInput& input, int axis) {
     std::fprintf(stderr, ", joint %d (%s)", axis + 1, Robot::kJointNames[index]);
 }
 
-/// The pose that the pipeline calls `name`; null for none. False: it has none of that name.
-bool find_frame(const Options& options, const PortTable& ports, const Value& name,
-                const Pose*& frame) {
-  if (name.empty()) return true;
-  const PortEntry* port = ports.find(name);
-  if (port != nullptr && port->quantity == Quantity::kPose) {
-    frame = static_cast<const Pose*>(port->value);
-    return true;
-  }
-  std::fprintf(stderr, "%s: refused: [gateway]: frame '%s' is %s\n", options.pipeline, name.c_str(),
-               port == nullptr ? "no output of this pipeline" : "no pose");
+bool refuse_frame(const Options& options, const char* key, const Value& name, const char* why) {
+  std::fprintf(stderr, "%s: refused: [gateway] %s: '%s' %s\n", options.pipeline, key, name.c_str(),
+               why);
   return false;
 }
 
-bool set_terms(const Session&, const Options&, Trajectory<JointSpace>&) {
+/// The pose that the pipeline calls `name`; null for none. False: it has none of that name.
+bool find_frame(const Options& options, const PortTable& ports, const char* key, const Value& name,
+                const Pose*& frame) {
+  if (name.empty()) return true;
+  const PortEntry* port = ports.find(name);
+  if (port == nullptr) return refuse_frame(options, key, name, "is no output of this pipeline");
+  if (port->quantity != Quantity::kPose) return refuse_frame(options, key, name, "is no pose");
+  frame = static_cast<const Pose*>(port->value);
+  return true;
+}
+
+bool set_terms(const Session& session, const Options& options, Trajectory<JointSpace>&) {
+  const GatewaySection& gateway = session.gateway;
+  constexpr const char* kWhy = "is given, but joints have no frame";
+  if (!gateway.motion_frame.empty())
+    return refuse_frame(options, "motion_frame", gateway.motion_frame, kWhy);
+  if (!gateway.wrench_frame.empty())
+    return refuse_frame(options, "wrench_frame", gateway.wrench_frame, kWhy);
   return true;
 }
 
 bool set_terms(const Session& session, const Options& options, Trajectory<TaskSpace>& trajectory) {
   const PortTable& ports = session.pipeline.ports;
-  trajectory.terms = {};
-  return find_frame(options, ports, session.gateway.motion_frame, trajectory.terms.motion) &&
-         find_frame(options, ports, session.gateway.wrench_frame, trajectory.terms.wrench);
+  const GatewaySection& gateway = session.gateway;
+  TaskSpace::Terms& terms = trajectory.terms;
+  return find_frame(options, ports, "motion_frame", gateway.motion_frame, terms.motion) &&
+         find_frame(options, ports, "wrench_frame", gateway.wrench_frame, terms.wrench);
 }
 
 template <class Space>

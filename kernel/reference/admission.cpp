@@ -38,7 +38,9 @@ Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
                        typename Space::Use& use) {
   const typename Space::Limits limits = Space::known_limits(trajectory.terms, settings.limits);
   const typename Space::Latched terms = Space::anywhere(trajectory.terms, limits);
-  Verdict verdict = Space::judge(trajectory.point(index, terms), limits);
+  const typename Space::Point point = trajectory.point(index, terms);
+  Verdict verdict = Space::judge(point, limits);
+  if (verdict.ok()) use = Space::Use::largest(use, Space::use(point));
   if (verdict.ok() && index > 0) {
     const typename Space::Segment segment = trajectory.segment(index, terms);
     verdict = Space::judge(segment, limits, 1.0 - settings.stop_reserve);

@@ -1,0 +1,257 @@
+// References given in frames of the client's own, or of some joints only.
+#include "kernel/reference/reference_generator.hpp"
+#include "kernel/reference/task_space.hpp"
+#include "tests/reference_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr Fields kQuintic = kVelocityField | kAccelerationField;
+constexpr std::uint32_t kAllButThird = ((1U << kDof) - 1U) & ~4U;
+
+Vector3 any_vector(Random& random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+Pose any_pose(Random& random, double size) {
+  const Vector3 turn = any_vector(random, 1.5);
+  return {any_vector(random, size),
+          Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()))};
+}
+
+Vector6 any_six(Random& random, double size) {
+  Vector6 six;
+  six << any_vector(random, size), any_vector(random, size);
+  return six;
+}
+
+Eigen::Isometry3d transform(const Pose& pose) {
+  return Eigen::Translation3d(pose.p) * pose.r;
+}
+
+/// A generator of the tip with room for a few waypoints.
+struct TaskBench {
+  ReferenceChannel<TaskSpace> channel;
+  std::array<std::array<Waypoint<TaskSpace>, 8>, kStores> waypoints;
+  ReferenceClient<TaskSpace> client{channel};
+  ReferenceGenerator<TaskSpace> generator;
+
+  explicit TaskBench(const TaskSpace::Point& measured = {}) {
+    channel.settings.period_s = 1e-3;
+    for (std::size_t i = 0; i < kStores; ++i) {
+      channel.stores[i].waypoints = waypoints[i].data();
+      channel.stores[i].capacity = 8;
+    }
+    ASSERT_OK(generator.start(channel, {}, measured));
+  }
+  Trajectory<TaskSpace>& add(double time_s, const TaskSpace::Point& point) {
+    Trajectory<TaskSpace>& motion = *client.acquire();
+    motion.fields = kQuintic;
+    motion.waypoints[motion.count++] = {time_s, point};
+    return motion;
+  }
+  void run(int cycles) {
+    for (int k = 0; k < cycles; ++k) ASSERT_OK(generator.step(1e-3, generator.reference()));
+  }
+  /// The last report.
+  Report report() {
+    Report last;
+    while (client.poll(last)) {
+    }
+    return last;
+  }
+};
+
+// Proves RG-19.
+
+void a_pose_and_its_motion_are_those_of_the_frame_they_are_given_in(void**) {
+  Random random{1};
+  for (int i = 0; i < 200; ++i) {
+    const Pose frame = any_pose(random, 1.0);
+    TaskSpace::Point given;
+    given.x = any_pose(random, 1.0);
+    given.v = any_six(random, 1.0);
+    given.a = any_six(random, 1.0);
+    given.h = any_six(random, 10.0);
+    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({&frame, {}}, {}));
+    const Eigen::Isometry3d expected = transform(frame) * transform(given.x);
+    assert_true(transform(placed.x).isApprox(expected, 1e-13));
+    // After a short time, the pose of the moving tip taken along with its frame.
+    const double dt = 1e-6;
+    const Vector3 later = transform(frame) * (given.x.p + dt * given.v.head<3>());
+    ASSERT_NEAR((later - (placed.x.p + dt * placed.v.head<3>())).norm(), 0.0, 1e-14);
+    ASSERT_NEAR((placed.a.tail<3>() - transform(frame).linear() * given.a.tail<3>()).norm(), 0.0,
+                1e-14);
+    assert_true(placed.h == given.h);
+  }
+}
+
+/// The power of a wrench on a moving body is the same wherever the wrench and the velocity are
+/// referred to.
+void a_wrench_about_its_frame_does_the_same_work_at_the_tip(void**) {
+  Random random{2};
+  for (int i = 0; i < 200; ++i) {
+    const Pose frame = any_pose(random, 1.0);
+    TaskSpace::Point given;
+    given.x = any_pose(random, 1.0);
+    given.h = any_six(random, 10.0);
+    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({{}, &frame}, {}));
+    const Vector6 twist = any_six(random, 1.0);  // of the body, at the tip, in the base frame
+    const Eigen::Matrix3d to_frame = transform(frame).linear().transpose();
+    const Vector3 w = twist.tail<3>();
+    const Vector3 v_there = twist.head<3>() + w.cross(frame.p - given.x.p);
+    const double there =
+        given.h.head<3>().dot(to_frame * v_there) + given.h.tail<3>().dot(to_frame * w);
+    ASSERT_NEAR(placed.h.dot(twist), there, 1e-12);
+  }
+}
+
+/// h(t) of a tip that moves at v, by differences.
+void the_rate_of_a_wrench_counts_the_tip_that_moves(void**) {
+  Random random{3};
+  for (int i = 0; i < 50; ++i) {
+    const Pose frame = any_pose(random, 1.0);
+    const TaskSpace::Latched terms = TaskSpace::latch({{}, &frame}, {});
+    TaskSpace::Point given;
+    given.x = any_pose(random, 1.0);
+    given.v = any_six(random, 1.0);
+    given.h = any_six(random, 10.0);
+    given.dh = any_six(random, 10.0);
+    const double dt = 1e-4;
+    TaskSpace::Point before = given, after = given;
+    before.x.p -= dt * given.v.head<3>(), after.x.p += dt * given.v.head<3>();
+    before.h -= dt * given.dh, after.h += dt * given.dh;
+    const Vector6 rate =
+        (TaskSpace::placed(after, terms).h - TaskSpace::placed(before, terms).h) / (2.0 * dt);
+    ASSERT_NEAR((TaskSpace::placed(given, terms).dh - rate).norm(), 0.0, 1e-8);
+  }
+}
+
+void a_trajectory_is_followed_in_its_frame_as_it_stood_at_acceptance(void**) {
+  static TaskBench bench;
+  Random random{4};
+  Pose frame = any_pose(random, 0.3);
+  TaskSpace::Point goal;
+  goal.x = any_pose(random, 0.3);
+  Trajectory<TaskSpace>& motion = bench.add(4.0, goal);
+  motion.terms.motion = &frame;
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(motion, id).ok());
+  const Eigen::Isometry3d expected = transform(frame) * transform(goal.x);
+  bench.run(1500);
+  frame = any_pose(random, 0.3);  // it moves on; the trajectory does not
+  bench.run(2600);
+  assert_true(transform(bench.generator.reference().x).isApprox(expected, 1e-12));
+  assert_int_equal(static_cast<int>(bench.report().outcome), static_cast<int>(Outcome::kSucceeded));
+}
+
+void a_point_is_put_out_in_its_frame(void**) {
+  static TaskBench bench;
+  Random random{5};
+  const Pose frame = any_pose(random, 0.3);
+  TaskSpace::Point point;
+  point.x = any_pose(random, 0.3);
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(point, id, {&frame, nullptr}).ok());
+  bench.run(1);
+  const Eigen::Isometry3d expected = transform(frame) * transform(point.x);
+  assert_true(transform(bench.generator.reference().x).isApprox(expected, 1e-12));
+}
+
+void a_frame_that_puts_a_path_outside_is_refused_when_it_is_met(void**) {
+  static TaskBench bench;
+  const Pose frame = {Vector3(1.5, 0.0, 0.0), Eigen::Quaterniond::Identity()};
+  TaskSpace::Point point;
+  point.x.p = {0.6, 0.0, 0.0};
+  Trajectory<TaskSpace>& motion = bench.add(3.0, {});
+  bench.add(6.0, point);
+  motion.terms.motion = &frame;
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(motion, id).ok());
+  bench.run(1);
+  const Verdict verdict = bench.report().verdict;
+  ASSERT_STATUS(verdict.status, Status::kWorkspace);
+  assert_int_equal(verdict.axis, 0);
+  ASSERT_NEAR(verdict.value, 2.1, 1e-12);
+  assert_true(bench.generator.reference().standing());
+}
+
+void a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met(void**) {
+  static TaskBench bench;
+  const Pose frame = {Vector3(0.0, 1.0, 0.0), Eigen::Quaterniond::Identity()};
+  TaskSpace::Point point;
+  point.h[0] = 0.9 * TaskLimits().moment_max;  // on an arm of 1 m, and 1.2 m at the other end
+  Trajectory<TaskSpace>& motion = bench.add(3.0, point);
+  point.x.p = {0.0, -0.2, 0.0};
+  bench.add(6.0, point);
+  motion.terms.wrench = &frame;
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(motion, id).ok());
+  bench.run(1);
+  ASSERT_STATUS(bench.report().verdict.status, Status::kEffortLimit);
+}
+
+void joints_that_are_not_given_hold_where_they_are(void**) {
+  static ReferenceBench bench;
+  Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
+  for (const double t : {1.0, 2.0}) {
+    bench.add(*motion, t, 0.1 * t);
+    JointVector& q = motion->waypoints[motion->count - 1].point.q;
+    for (int j = 0; j < kDof; ++j)
+      q[j] = j == 2 ? q[j] : 99.0;  // beyond every limit, not looked at
+  }
+  motion->terms.held = kAllButThird;
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(*motion, id).ok());
+  for (int k = 0; k < 2100; ++k) {
+    ASSERT_OK(bench.step());
+    for (int j = 0; j < kDof; ++j) assert_true(j == 2 || bench.out().q[j] == bench.home[j]);
+  }
+  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.2, 1e-12);
+}
+
+void joints_that_are_not_given_and_move_come_to_rest(void**) {
+  static ReferenceBench bench;
+  assert_true(bench.go(0.4, 2.0, kQuintic) != 0);
+  ASSERT_OK(bench.run(1000));
+  const double at_acceptance = bench.out().q[0];
+  Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
+  bench.add(*motion, 2.0, 0.1);
+  motion->terms.held = kAllButThird;
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(*motion, id).ok());
+  ASSERT_OK(bench.run(2100));
+  ASSERT_NEAR(bench.out().q[0], at_acceptance, 1e-3);  // it is accepted one cycle later
+  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.1, 1e-12);
+}
+
+void a_point_of_some_joints_leaves_the_others(void**) {
+  static ReferenceBench bench;
+  JointSpace::Point point;
+  point.q = bench.home + JointVector::Constant(0.3);
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(point, id, {kAllButThird}).ok());
+  ASSERT_OK(bench.step());
+  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.3, 1e-12);
+  assert_true(bench.out().q[3] == bench.home[3]);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_pose_and_its_motion_are_those_of_the_frame_they_are_given_in),
+      cmocka_unit_test(a_wrench_about_its_frame_does_the_same_work_at_the_tip),
+      cmocka_unit_test(the_rate_of_a_wrench_counts_the_tip_that_moves),
+      cmocka_unit_test(a_trajectory_is_followed_in_its_frame_as_it_stood_at_acceptance),
+      cmocka_unit_test(a_point_is_put_out_in_its_frame),
+      cmocka_unit_test(a_frame_that_puts_a_path_outside_is_refused_when_it_is_met),
+      cmocka_unit_test(a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met),
+      cmocka_unit_test(joints_that_are_not_given_hold_where_they_are),
+      cmocka_unit_test(joints_that_are_not_given_and_move_come_to_rest),
+      cmocka_unit_test(a_point_of_some_joints_leaves_the_others),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
