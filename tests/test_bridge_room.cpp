@@ -69,9 +69,10 @@ void with_room_to_spare_it_stops(void**) {
 void a_robot_that_stops_following_near_a_limit_is_braked_on_the_path(void**) {
   static ReferenceBench bench;
   bench.params.tolerances.path.q.setConstant(0.02);
+  bench.channel.settings.limits.ddq_max.setConstant(4.0);
   stand_near_limit(bench, 0.6);
-  const std::uint32_t id = bench.go(0.6, 0.75, kQuintic);
-  ASSERT_OK(bench.run(440));
+  const std::uint32_t id = bench.go(0.59, 1.2, kQuintic);
+  ASSERT_OK(bench.run(720));
   JointSpace::Point stuck = bench.out();
   stuck.q.array() -= 0.03;
   for (int k = 0; k < 2000; ++k) {
@@ -81,6 +82,7 @@ void a_robot_that_stops_following_near_a_limit_is_braked_on_the_path(void**) {
   assert_int_equal(static_cast<int>(bench.final_of(id).outcome),
                    static_cast<int>(Outcome::kAborted));
   assert_true(bench.out().standing());
+  assert_true(bench.out().q[0] - bench.home[0] < 0.58);  // the path went on to 0.59
 }
 
 /// Something random: a path by way of its first waypoint or at once, a point, a cancel.

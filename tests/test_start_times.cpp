@@ -99,6 +99,8 @@ void a_first_waypoint_that_is_still_ahead_is_reached_in_time(void**) {
 void one_that_runs_already_is_joined_where_it_would_be(void**) {
   static ReferenceBench on_time, late;
   for (ReferenceBench* bench : {&on_time, &late}) {
+    // The path takes 0.4 of it: to be caught within limits it must be met far ahead.
+    bench->channel.settings.limits.ddq_max.setConstant(0.5);
     const int cycles = bench == &late ? 400 : 1;
     ASSERT_OK(bench->run(cycles));
     Trajectory<JointSpace>* motion = bench->trajectory(kCubic);
@@ -115,10 +117,10 @@ void one_that_runs_already_is_joined_where_it_would_be(void**) {
     ASSERT_OK(late.step());
     assert_true(std::abs(late.out().q[0] - before.q[0]) < 2.0 * kPeriod_s);
     const bool here = (late.out().q - on_time.out().q).cwiseAbs().maxCoeff() < 1e-12;
-    assert_true(here || cycle < 1500);
+    assert_true(here || cycle == 402 + apart);  // once there, it stays there
     apart += !here;
   }
-  assert_true(apart > 50 && apart < 1000);
+  assert_true(apart > 1000 && apart < 2000);
   ASSERT_OUTCOME(late.final_of(1), Outcome::kSucceeded);
 }
 
