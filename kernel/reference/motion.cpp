@@ -10,8 +10,6 @@ namespace {
 
 // A bridge always gets at least this share of the limits, even beside a path that leaves nothing.
 constexpr double kLeastShare = 0.02;
-// How often a trajectory joined late is met later still, each time after twice the time.
-constexpr int kAttempts = 4;
 
 }  // namespace
 
@@ -148,19 +146,12 @@ Verdict Motion<Space>::meet(Path<Space>& path, const typename Space::Tolerance& 
   return verdict;
 }
 
-/// To the first waypoint that is as far ahead as a bridge to where the path is now would take, or
-/// farther if that breaks a limit.
+/// To the first waypoint that is as far ahead as a bridge to where the path is now would take.
 template <class Space>
 Verdict Motion<Space>::catch_up(Path<Space>& path, double elapsed_s) const {
   path.enter(elapsed_s);
-  double ahead_s = bridge_to(path.at(elapsed_s), 1.0).duration();
-  Verdict verdict;
-  for (int i = 0; i < kAttempts; ++i, ahead_s *= 2.0) {
-    const int target = path.waypoint_from(elapsed_s + ahead_s);
-    verdict = path.lead_in(reference_, elapsed_s, target, *settings_);
-    if (verdict.ok()) break;
-  }
-  return verdict;
+  const double ahead_s = bridge_to(path.at(elapsed_s), 1.0).duration();
+  return path.lead_in(reference_, elapsed_s, path.waypoint_from(elapsed_s + ahead_s), *settings_);
 }
 
 template <class Space>
