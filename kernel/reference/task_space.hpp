@@ -115,8 +115,7 @@ struct TaskSpace {
   /// Judges one segment: the position at its extrema, the lengths of velocity, acceleration and
   /// jerk by bounds from outside (translation_bounds.hpp, rotation_segment.hpp), so that none
   /// beyond a limit is accepted; acceleration and jerk against the fraction `share` of their
-  /// limits. The jerk of the rotation is not judged. The wrench between ends within limits is
-  /// within them. [cyclic, some microseconds]
+  /// limits. The wrench between ends within limits is within them. [cyclic, some microseconds]
   static Verdict judge(const Segment& segment, const Limits& limits, double share);
   /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
   static Verdict judge_end(const Point& end);
