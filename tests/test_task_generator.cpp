@@ -213,6 +213,22 @@ void a_limit_of_the_rotations_jerk_is_kept_at_any_instant_too(void**) {
   assert_true(started > 50 && started < 300);
 }
 
+// Proves RG-13.
+
+void a_force_sensor_that_fails_does_not_keep_the_arm_from_stopping(void**) {
+  static TaskBench bench;
+  const Vector6 failed = Vector6::Constant(std::nan(""));
+  bench.block.params.path_tolerance.position_m = 0.01;
+  ASSERT_OK(bench.block.start());
+  Trajectory<TaskSpace>* line = bench.trajectory(0);
+  bench.add(*line, 2.0, {0.3, 0.0, 0.0}, Vector3::Zero());
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(*line, id).ok());
+  bench.block.h.source = &failed;
+  for (int k = 0; k < 3000; ++k) ASSERT_OK(bench.block.step(kPeriod_s));  // the robot stands still
+  assert_true(bench.out().x.p == bench.x.p && bench.out().standing());
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -225,6 +241,7 @@ int main() {
       cmocka_unit_test(a_cancel_stops_on_the_straight_line),
       cmocka_unit_test(no_request_at_any_instant_breaks_a_limit),
       cmocka_unit_test(a_limit_of_the_rotations_jerk_is_kept_at_any_instant_too),
+      cmocka_unit_test(a_force_sensor_that_fails_does_not_keep_the_arm_from_stopping),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -7,6 +7,8 @@ Status JointReferenceGenerator::start() {
   settings.start_tolerance.q = params.start_tolerance;
   settings.tolerances.path.q = params.path_tolerance;
   settings.tolerances.goal.q = params.goal_tolerance;
+  settings.measured =
+      static_cast<Fields>((dq.wired() ? kVelocityField : 0) | (tau.wired() ? kEffortField : 0));
   TRY(generator_.start(*channel, settings, measured()));
   write();
   return Status::kOk;
@@ -22,6 +24,7 @@ JointSpace::Point JointReferenceGenerator::measured() const {
   JointSpace::Point point;
   point.q = *q;
   point.dq = *dq;
+  point.tau = *tau;
   return point;
 }
 

@@ -17,7 +17,8 @@ struct JointReferenceGenerator {
     GeneratorSettings generator;
   } params;
   In<Quantity::kJointPosition> q;   // measured: the reference at start
-  In<Quantity::kJointVelocity> dq;  // measured, for the goal
+  In<Quantity::kJointVelocity> dq;  // measured, for the goal and feedback
+  In<Quantity::kJointEffort> tau;   // measured, for feedback
   Out<Quantity::kJointPosition> q_d;
   Out<Quantity::kJointVelocity> dq_d;
   Out<Quantity::kJointAcceleration> ddq_d;
@@ -31,6 +32,7 @@ struct JointReferenceGenerator {
     params.generator.describe(visit, "rad/s");
     visit.in("q", q);
     visit.optional("dq", dq);
+    visit.optional("tau", tau);
     visit.out("q_d", q_d), visit.out("dq_d", dq_d), visit.out("ddq_d", ddq_d);
     visit.out("tau_d", tau_d);
     visit.channel(channel);

@@ -20,7 +20,10 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   if (channel_ == &channel) {
     end_execution(ReferenceEvent::kNewReference, Outcome::kAborted, true);
   }
+  FeedbackPublisher<Space> feedback = feedback_;
+  feedback.start(params.feedback_divisor, params.measured);
   *this = ReferenceGenerator();
+  feedback_ = feedback;
   channel_ = &channel;
   params_ = params;
   void_requests_ = channel.requests.size();
@@ -45,6 +48,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   settle_point(Outcome::kExecuted);
   release_store();
   monitor_.put_out(reference());
+  feedback_.step(dt_s, executing() ? trajectory_id_ : 0, reference(), measured, channel_->feedback);
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 
@@ -178,7 +182,7 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   if (arrival == Arrival::kWaiting) return;
   if (arrival == Arrival::kArrived)
     return end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
-  if (measured.finite()) motion_.shape(measured);
+  if (measured.at_rest().finite()) motion_.shape(measured);
   end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
 }
 
