@@ -55,7 +55,7 @@ class RotationSegment {
   };
   /// From outside: linear is exact; cubic and quintic are at most 2 % (jerk: 5 %) above what occurs
   /// from rest to rest, 2 % (w), 5 % (alpha) and 15 % (jerk) with ends that move at up to 5 rad per
-  /// duration, and looser for segments of many turns. Takes 40 times as long as at(). [any]
+  /// duration, and looser for segments of many turns. Takes 44 times as long as at(). [any]
   Bounds bounds() const;
 
  private:
