@@ -40,6 +40,8 @@ class ReferenceClient {
 
   /// The next report, if there is one. A report that gives a store back frees it.
   bool poll(Report& report);
+  /// The oldest message of feedback that waits, if there is one.
+  bool poll_feedback(Feedback<Space>& feedback) { return channel_.feedback.take(feedback); }
 
  private:
   /// The client's own account of an open trajectory, whose count is the generator's once it is

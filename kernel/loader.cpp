@@ -111,8 +111,10 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);
-  if (section.name == "task_limits")
-    return read_settings(ini, section, ports, error, pipeline.task_limits);
+  if (section.name == "task_limits") {
+    TRY(read_settings(ini, section, ports, error, pipeline.task_limits));
+    return check_workspace(ini, section, pipeline.task_limits, error);
+  }
   if (section.name == "executive")
     return read_settings(ini, section, ports, error, pipeline.executive);
   if (section.name == "recorder")
@@ -181,6 +183,19 @@ Status Loader::check_robot(const Ini& ini, const IniSection& section, const Robo
                         Message("") << robot.period_us << " us, the robot offers "
                                     << static_cast<int>(offered_.min_period_us) << " to "
                                     << static_cast<int>(offered_.max_period_us));
+  return Status::kOk;
+}
+
+/// A box that holds no point would refuse every reference.
+Status Loader::check_workspace(const Ini& ini, const IniSection& section, const TaskLimits& limits,
+                               LoadError& error) {
+  for (int i = 0; i < 3; ++i) {
+    if (limits.p_min[i] <= limits.p_max[i]) continue;
+    return error.refuse(
+        Status::kBadValue, line_of(ini, section, "max_position"), section.name, "max_position",
+        Message("axis ") << i + 1 << ": " << limits.p_max[i] << " m is below min_position, "
+                         << limits.p_min[i] << " m");
+  }
   return Status::kOk;
 }
 

@@ -51,6 +51,8 @@ class Loader {
                       LoadError& error);
   Status check_robot(const Ini& ini, const IniSection& section, const RobotSection& robot,
                      LoadError& error) const;
+  static Status check_workspace(const Ini& ini, const IniSection& section, const TaskLimits& limits,
+                                LoadError& error);
   Status check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
                        LoadError& error) const;
 

@@ -27,7 +27,7 @@ struct TaskLimits {
   double force_max = Robot::kTaskLimit.force_max;    ///< N, of a feed-forward wrench
   double moment_max = Robot::kTaskLimit.moment_max;  ///< N m, likewise
 
-  /// A box whose minimum is above its maximum holds no point: every reference is refused.
+  /// The loader refuses a box whose minimum is above its maximum.
   template <class Visitor>
   void describe(Visitor& visit) {
     const TaskLimits robot;

@@ -4,11 +4,9 @@
 
 #include <quadmath.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "kernel/math/sincos.hpp"
 #include "tests/rotation_cases.hpp"
@@ -32,7 +30,7 @@ constexpr double kAngles[] = {0.0,        1e-310,      1e-200,    1e-160, 1e-100
 void the_stumpff_functions_are_those_of_quad_precision(void**) {
   for (double s = 1e-30; s < 400.0; s *= 1.07) {
     const Stumpff c = stumpff(s);
-    const std::array<double, 6> ours = {c.c0, c.c1, c.c2, c.c3, c.c4, c.c5};
+    const std::array<double, 8> ours = {c.c0, c.c1, c.c2, c.c3, c.c4, c.c5, c.c6, c.c7};
     for (std::size_t n = 0; n < ours.size(); ++n) {
       Quad term = 1, sum = 0;
       for (std::size_t k = 2; k <= n; ++k) term /= k;
@@ -154,8 +152,10 @@ void what_is_no_rotation_has_no_logarithm_and_no_exponential(void**) {
       assert_true(exp_so3(phi).coeffs().array().isNaN().all());
       const RightJacobian j(phi);
       assert_true(j.matrix().array().isNaN().all());
-      assert_true(j.inverse_times(Vector3::Ones()).array().isNaN().all());
-      assert_true(j.rate_times(Vector3::Ones(), Vector3::Ones()).array().isNaN().all());
+      const Vector3 one = Vector3::Ones();
+      for (const Vector3& v :
+           {j.inverse_times(one), j.rate_times(one, one), j.second_rate(one, one, one)})
+        assert_true(v.array().isNaN().all());
     }
   }
 }
@@ -199,6 +199,23 @@ void the_rate_of_the_right_jacobian_is_its_derivative_in_time(void**) {
   }
 }
 
+void the_second_rate_is_the_derivative_of_the_angular_acceleration(void**) {
+  Random random;
+  for (int i = 0; i < 20; ++i) {
+    for (const double angle : kAngles) {
+      const Vector3 phi = angle * random.axis();
+      const Vector3 dphi = random.vector(), ddphi = random.vector(), dddphi = random.vector();
+      const auto alpha = [&](double t) -> Vector3 {
+        const Vector3 rate = dphi + t * ddphi + t * t / 2.0 * dddphi;
+        const RightJacobian j(phi + t * dphi + t * t / 2.0 * ddphi + t * t * t / 6.0 * dddphi);
+        return j.times(ddphi + t * dddphi) + j.rate_times(rate, rate);
+      };
+      assert_close(RightJacobian(phi).second_rate(dphi, ddphi, dddphi),
+                   first_derivative(alpha, 0.02), 1e-12 * (1.0 + angle));
+    }
+  }
+}
+
 void about_a_fixed_axis_the_angular_velocity_is_the_rate_itself(void**) {
   for (const double angle : kAngles) {
     const Vector3 axis(0.6, 0.0, -0.8);
@@ -226,6 +243,7 @@ int main() {
       cmocka_unit_test(the_right_jacobian_gives_the_angular_velocity_in_the_rotated_frame),
       cmocka_unit_test(the_inverse_takes_back_the_right_jacobian),
       cmocka_unit_test(the_rate_of_the_right_jacobian_is_its_derivative_in_time),
+      cmocka_unit_test(the_second_rate_is_the_derivative_of_the_angular_acceleration),
       cmocka_unit_test(about_a_fixed_axis_the_angular_velocity_is_the_rate_itself),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -182,22 +182,51 @@ bool ask_something(TaskBench& bench, Random& random) {
   return bench.client.send(*motion, id).ok();
 }
 
-void no_request_at_any_instant_breaks_a_limit(void**) {
-  static TaskBench bench;
+/// Asks at random instants for whatever there is; how many trajectories were started.
+int ask_at_random(TaskBench& bench, int requests) {
+  const TaskLimits& limits = bench.channel.settings.limits;
   Random random;
   int started = 0;
-  for (int request = 0; request < 3000; ++request) {
+  for (int request = 0; request < requests; ++request) {
     ask_something(bench, random);
     for (int k = static_cast<int>(random.between(1.0, 600.0)); k > 0; --k) {
       const TaskPoint before = bench.out();
       ASSERT_OK(bench.step());
-      assert_smooth(before, bench.out(), kLimits);
+      assert_smooth(before, bench.out(), limits);
     }
     Report report;
     while (bench.client.poll(report)) started += report.outcome == Outcome::kStarted;
   }
   print_message("%d trajectories started\n", started);
-  assert_true(started > 400);
+  return started;
+}
+
+void no_request_at_any_instant_breaks_a_limit(void**) {
+  static TaskBench bench;
+  assert_true(ask_at_random(bench, 3000) > 400);
+}
+
+void a_limit_of_the_rotations_jerk_is_kept_at_any_instant_too(void**) {
+  static TaskBench bench;
+  bench.channel.settings.limits.dalpha_max = 60.0;  // among what those trajectories take
+  const int started = ask_at_random(bench, 1000);
+  assert_true(started > 50 && started < 300);
+}
+
+// Proves RG-13.
+
+void a_force_sensor_that_fails_does_not_keep_the_arm_from_stopping(void**) {
+  static TaskBench bench;
+  const Vector6 failed = Vector6::Constant(std::nan(""));
+  bench.block.params.path_tolerance.position_m = 0.01;
+  ASSERT_OK(bench.block.start());
+  Trajectory<TaskSpace>* line = bench.trajectory(0);
+  bench.add(*line, 2.0, {0.3, 0.0, 0.0}, Vector3::Zero());
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(*line, id).ok());
+  bench.block.h.source = &failed;
+  for (int k = 0; k < 3000; ++k) ASSERT_OK(bench.block.step(kPeriod_s));  // the robot stands still
+  assert_true(bench.out().x.p == bench.x.p && bench.out().standing());
 }
 
 }  // namespace
@@ -211,6 +240,8 @@ int main() {
       cmocka_unit_test(whatever_signs_the_waypoints_have_the_reference_keeps_its_own),
       cmocka_unit_test(a_cancel_stops_on_the_straight_line),
       cmocka_unit_test(no_request_at_any_instant_breaks_a_limit),
+      cmocka_unit_test(a_limit_of_the_rotations_jerk_is_kept_at_any_instant_too),
+      cmocka_unit_test(a_force_sensor_that_fails_does_not_keep_the_arm_from_stopping),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

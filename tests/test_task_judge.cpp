@@ -21,7 +21,7 @@ void assert_refused(const Verdict& verdict, Status status, int axis, double valu
 
 /// Largest of what the limits are about, at many times.
 struct Sampled {
-  double v = 0.0, a = 0.0, j = 0.0, w = 0.0, alpha = 0.0, outside = 0.0;
+  double v = 0.0, a = 0.0, j = 0.0, w = 0.0, alpha = 0.0, dalpha = 0.0, outside = 0.0;
 
   explicit Sampled(const TaskSegment& segment) {
     constexpr int kSamples = 200;
@@ -35,18 +35,26 @@ struct Sampled {
       outside = std::max(
           {outside, (now.x.p - kLimits.p_max).maxCoeff(), (kLimits.p_min - now.x.p).maxCoeff()});
     }
+    const double T = segment.duration(), h = 0.01 / std::max({w, std::sqrt(alpha), 20.0 / T});
+    const auto alpha_at = [&](double t) -> Vector3 { return segment.at(t).a.tail<3>(); };
+    for (int k = 0; k <= kSamples; ++k) {
+      const double t = 4.0 * h + (T - 8.0 * h) * k / kSamples;
+      const auto beside = [&](double dt) { return alpha_at(t + dt); };
+      dalpha = std::max(dalpha, first_derivative(beside, h).norm());
+    }
   }
   bool within(const TaskLimits& limits, double share) const {
     constexpr double k = 1.0 + 1e-8;
     return v <= k * limits.v_max && w <= k * limits.w_max && a <= k * share * limits.a_max &&
            alpha <= k * share * limits.alpha_max && j <= k * share * limits.j_max &&
-           outside <= 1e-8;
+           dalpha <= k * share * limits.dalpha_max && outside <= 1e-8;
   }
   /// What a verdict on a segment speaks of.
   double of(const Verdict& verdict) const {
     const bool rotation = verdict.axis == 3;
     return verdict.status == Status::kVelocityLimit       ? rotation ? w : v
            : verdict.status == Status::kAccelerationLimit ? rotation ? alpha : a
+           : rotation                                     ? dalpha
                                                           : j;
   }
 };
@@ -64,12 +72,13 @@ TaskEnds close_ends(Random& random, int kind) {
 
 /// The robot's limits, or so that only one of them counts.
 TaskLimits limits_of(int i) {
-  constexpr double TaskLimits::*kOnes[] = {&TaskLimits::v_max, &TaskLimits::a_max,
-                                           &TaskLimits::j_max, &TaskLimits::w_max,
-                                           &TaskLimits::alpha_max};
-  if (i % 6 == 5) return kLimits;
+  constexpr double TaskLimits::*kOnes[] = {&TaskLimits::v_max,     &TaskLimits::a_max,
+                                           &TaskLimits::j_max,     &TaskLimits::w_max,
+                                           &TaskLimits::alpha_max, &TaskLimits::dalpha_max};
+  const int one = i % 7;
+  if (one == 6) return kLimits;
   TaskLimits limits = kLimits.scaled(1e3);
-  limits.*kOnes[i % 6] = i % 6 == 2 ? 100.0 : 1e-3 * limits.*kOnes[i % 6];
+  limits.*kOnes[one] = one == 2 || one == 5 ? 100.0 : 1e-3 * limits.*kOnes[one];
   return limits;
 }
 
@@ -81,7 +90,7 @@ void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
   for (int i = 0; i < 6000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const double share = i % 2 == 0 ? 1.0 : 0.9;
-    const TaskLimits limits = limits_of(i / 6);
+    const TaskLimits limits = limits_of(i / 7);
     if (!TaskSpace::judge(segment, limits, share).ok()) continue;
     ++accepted;
     assert_true(Sampled(segment).within(limits, share));
@@ -95,7 +104,7 @@ void a_refused_segment_is_hardly_below_the_limit(void**) {
   double loosest[2][3] = {};  // by vector and derivative
   for (int i = 0; i < 6000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
-    const Verdict verdict = TaskSpace::judge(segment, limits_of(i / 6), 1.0);
+    const Verdict verdict = TaskSpace::judge(segment, limits_of(i / 7), 1.0);
     if (verdict.ok() || verdict.status == Status::kWorkspace) continue;
     const double seen = Sampled(segment).of(verdict);
     assert_true(verdict.value > verdict.limit && seen <= verdict.value * (1.0 + 1e-9));
@@ -104,11 +113,13 @@ void a_refused_segment_is_hardly_below_the_limit(void**) {
                                                                                              : 2];
     worst = std::max(worst, verdict.value / seen);
   }
-  print_message("at most what occurs times: %.4f (v) %.4f (a) %.4f (j) %.4f (w) %.4f (alpha)\n",
-                loosest[0][0], loosest[0][1], loosest[0][2], loosest[1][0], loosest[1][1]);
+  print_message(
+      "at most what occurs times: %.4f (v) %.4f (a) %.4f (j) %.4f (w) %.4f (alpha) %.4f (jerk)\n",
+      loosest[0][0], loosest[0][1], loosest[0][2], loosest[1][0], loosest[1][1], loosest[1][2]);
   for (const double looseness : {loosest[0][0], loosest[0][1], loosest[0][2], loosest[1][0]})
     assert_true(looseness > 1.0 && looseness < 1.03);
   assert_true(loosest[1][1] > 1.0 && loosest[1][1] < 1.1);
+  assert_true(loosest[1][2] > 1.0 && loosest[1][2] < 1.15);
 }
 
 void the_bounds_hold_where_no_time_is_looked_at(void**) {
@@ -179,7 +190,7 @@ void the_use_of_the_limits_is_what_the_segment_takes_or_more(void**) {
     const TaskLimits& l = kLimits;
     assert_true(covers(use.velocity, most.v, l.v_max, most.w, l.w_max));
     assert_true(covers(use.acceleration, most.a, l.a_max, most.alpha, l.alpha_max));
-    assert_true(covers(use.jerk, most.j, l.j_max, 0.0, 1.0));
+    assert_true(covers(use.jerk, most.j, l.j_max, most.dalpha, l.dalpha_max));
     assert_true(covers(use.velocity_by_a, most.v, l.a_max, most.w, l.alpha_max));
     assert_true(covers(use.velocity_by_j, most.v, l.j_max, most.w, l.dalpha_max));
     assert_true(covers(use.acceleration_by_j, most.a, l.j_max, most.alpha, l.dalpha_max));

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t kTerms = 8;  // for s < 1: what is left out, 1 / 20!, is 2^-56 of c_4
+constexpr std::size_t kTerms = 8;  // for s < 1: what is left out, 1 / 22!, is 2^-60 of c_6
 
-constexpr std::array<double, 2 * kTerms + 4> inverse_factorials() {
-  std::array<double, 2 * kTerms + 4> inverse{};
+constexpr std::array<double, 2 * kTerms + 6> inverse_factorials() {
+  std::array<double, 2 * kTerms + 6> inverse{};
   double factorial = 1.0;  // exact up to 22!
   for (std::size_t n = 0; n < inverse.size(); ++n) {
     if (n > 0) factorial *= static_cast<double>(n);
@@ -26,7 +26,7 @@ constexpr std::array<double, 2 * kTerms + 4> inverse_factorials() {
 }
 constexpr auto kInverseFactorial = inverse_factorials();
 
-/// The power series of c_n, for 0 <= s < 1 and n <= 5.
+/// The power series of c_n, for 0 <= s < 1 and n <= 7.
 double series(std::size_t n, double s) {
   double sum = 0.0;
   for (std::size_t k = kTerms; k-- > 0;) sum = kInverseFactorial[2 * k + n] - s * sum;
@@ -46,8 +46,10 @@ double sign_of_first(const Eigen::Quaterniond& r) {
 Stumpff stumpff(double s) {
   Stumpff c;
   if (s < 1.0) {  // c_n = 1/n! - s c_(n+2): downwards nothing cancels
-    c.c5 = series(5, s);
-    c.c4 = series(4, s);
+    c.c7 = series(7, s);
+    c.c6 = series(6, s);
+    c.c5 = kInverseFactorial[5] - s * c.c7;
+    c.c4 = kInverseFactorial[4] - s * c.c6;
     c.c3 = kInverseFactorial[3] - s * c.c5;
     c.c2 = kInverseFactorial[2] - s * c.c4;
     c.c1 = 1.0 - s * c.c3;
@@ -61,6 +63,8 @@ Stumpff stumpff(double s) {
     c.c3 = (1.0 - c.c1) / s;
     c.c4 = (kInverseFactorial[2] - c.c2) / s;
     c.c5 = (kInverseFactorial[3] - c.c3) / s;
+    c.c6 = (kInverseFactorial[4] - c.c4) / s;
+    c.c7 = (kInverseFactorial[5] - c.c5) / s;
   }
   return c;
 }
@@ -108,6 +112,22 @@ Vector3 RightJacobian::rate_times(const Vector3& dphi, const Vector3& v) const {
   const double dc3 = half_ds * (3.0 * c_.c5 - c_.c4);
   const Vector3 x = phi_.cross(v), dx = dphi.cross(v);
   return -dc2 * x - c_.c2 * dx + dc3 * phi_.cross(x) + c_.c3 * (dphi.cross(x) + phi_.cross(dx));
+}
+
+Vector3 RightJacobian::second_rate(const Vector3& dphi, const Vector3& ddphi,
+                                   const Vector3& dddphi) const {
+  // J_r dphi = dphi - c_2 x + c_3 m with x = phi x dphi and m = phi x x; each product derived twice
+  const Vector3 x = phi_.cross(dphi), dx = phi_.cross(ddphi);
+  const Vector3 ddx = dphi.cross(ddphi) + phi_.cross(dddphi);
+  const Vector3 m = phi_.cross(x), dm = dphi.cross(x) + phi_.cross(dx);
+  const Vector3 ddm = ddphi.cross(x) + 2.0 * dphi.cross(dx) + phi_.cross(ddx);
+  // dc_n/dt = h (n c_(n+2) - c_(n+1)) with h = (ds/dt) / 2
+  const double h = phi_.dot(dphi), dh = dphi.squaredNorm() + phi_.dot(ddphi);
+  const double k2 = 2.0 * c_.c4 - c_.c3, k3 = 3.0 * c_.c5 - c_.c4;
+  const double ddc2 = dh * k2 + h * h * (8.0 * c_.c6 - 5.0 * c_.c5 + c_.c4);
+  const double ddc3 = dh * k3 + h * h * (15.0 * c_.c7 - 7.0 * c_.c6 + c_.c5);
+  return dddphi - (ddc2 * x + 2.0 * h * k2 * dx + c_.c2 * ddx) +
+         (ddc3 * m + 2.0 * h * k3 * dm + c_.c3 * ddm);
 }
 
 }  // namespace tactus

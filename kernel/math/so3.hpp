@@ -22,9 +22,9 @@ Eigen::Quaterniond exp_so3(const Vector3& phi);
 /// length of r does not matter between 1/2 and 2; beyond, NaN. [any]
 Vector3 log_so3(const Eigen::Quaterniond& r);
 
-/// c_0 ... c_5 at one s >= 0.
+/// c_0 ... c_7 at one s >= 0.
 struct Stumpff {
-  double c0, c1, c2, c3, c4, c5;
+  double c0, c1, c2, c3, c4, c5, c6, c7;
 };
 /// [any]
 Stumpff stumpff(double s);
@@ -44,6 +44,9 @@ class RightJacobian {
   /// (dJ_r/dt) v while phi changes at dphi: J_r ddphi + (dJ_r/dt) dphi is the angular acceleration
   /// in the rotated frame. [any]
   Vector3 rate_times(const Vector3& dphi, const Vector3& v) const;
+  /// d^2/dt^2 (J_r dphi) along a path phi(t): the second derivative of the components of the
+  /// angular velocity in the rotated frame. [any]
+  Vector3 second_rate(const Vector3& dphi, const Vector3& ddphi, const Vector3& dddphi) const;
 
  private:
   Vector3 phi_;

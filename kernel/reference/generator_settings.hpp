@@ -14,6 +14,7 @@ struct GeneratorSettings {
   double dwell_ms = 0.0;      ///< how long the goal must be kept
   double goal_time_s = 10.0;  ///< how long after the last waypoint it may be reached
   int latency_cycles = 0;     ///< of the measured motion; 0: it is there in the next cycle
+  int feedback_divisor = 10;  ///< cycles between two messages of feedback; 0: none
 
   template <class Visitor>
   void describe(Visitor& visit, const char* velocity_unit) {
@@ -23,6 +24,7 @@ struct GeneratorSettings {
     visit.param("dwell_ms", dwell_ms, kNonNegative, "ms");
     visit.param("goal_time_s", goal_time_s, kNonNegative, "s");
     visit.param("latency_cycles", latency_cycles, Range{0.0, kMaxLatencyCycles}, "cycles");
+    visit.param("feedback_divisor", feedback_divisor, Range{0.0, 100000.0}, "cycles");
   }
 
   /// The generator's parameters, tolerances of the space left to the block. [init]
@@ -32,6 +34,7 @@ struct GeneratorSettings {
     params.online = online;
     params.timeout_s = timeout_ms * 1e-3;
     params.latency_cycles = latency_cycles;
+    params.feedback_divisor = feedback_divisor;
     params.tolerances.stopped_velocity = stopped_velocity;
     params.tolerances.dwell_s = dwell_ms * 1e-3;
     params.tolerances.goal_time_s = goal_time_s;

@@ -1,5 +1,8 @@
 #include "kernel/reference/joint_reference_generator.hpp"
 
+#include "kernel/model/forward_kinematics.hpp"
+#include "kernel/reference/task_space.hpp"
+
 namespace tactus {
 
 Status JointReferenceGenerator::start() {
@@ -7,7 +10,10 @@ Status JointReferenceGenerator::start() {
   settings.start_tolerance.q = params.start_tolerance;
   settings.tolerances.path.q = params.path_tolerance;
   settings.tolerances.goal.q = params.goal_tolerance;
+  settings.measured =
+      static_cast<Fields>((dq.wired() ? kVelocityField : 0) | (tau.wired() ? kEffortField : 0));
   TRY(generator_.start(*channel, settings, measured()));
+  x_d.value = {};
   write();
   return Status::kOk;
 }
@@ -22,6 +28,7 @@ JointSpace::Point JointReferenceGenerator::measured() const {
   JointSpace::Point point;
   point.q = *q;
   point.dq = *dq;
+  point.tau = *tau;
   return point;
 }
 
@@ -31,6 +38,10 @@ void JointReferenceGenerator::write() {
   dq_d.value = reference.dq;
   ddq_d.value = reference.ddq;
   tau_d.value = reference.tau;
+  Jacobian J;
+  const Pose x = forward_kinematics<Robot>(joint_trig<Robot>(reference.q), tool->tip, J);
+  x_d.value = {x.p, unit_beside(x.r, x_d.value.r)};
+  v_d.value = J * reference.dq;
 }
 
 }  // namespace tactus

@@ -1,6 +1,7 @@
 // JRG: the joint-space reference generator as a block. What the references may be and how they are
-// interpolated is in reference_generator.hpp; this file is its ports.   [Risi et al. 2026, section
-// II]
+// interpolated is in reference_generator.hpp; this file is its ports. The same reference comes out
+// as pose and twist of the tool tip too, for a chain of Cartesian blocks.   [Risi et al. 2026,
+// section II]
 #pragma once
 
 #include "kernel/port.hpp"
@@ -17,11 +18,15 @@ struct JointReferenceGenerator {
     GeneratorSettings generator;
   } params;
   In<Quantity::kJointPosition> q;   // measured: the reference at start
-  In<Quantity::kJointVelocity> dq;  // measured, for the goal
+  In<Quantity::kJointVelocity> dq;  // measured, for the goal and feedback
+  In<Quantity::kJointEffort> tau;   // measured, for feedback
+  In<Quantity::kTool> tool;         // without it the tip is the flange
   Out<Quantity::kJointPosition> q_d;
   Out<Quantity::kJointVelocity> dq_d;
   Out<Quantity::kJointAcceleration> ddq_d;
   Out<Quantity::kJointEffort> tau_d;
+  Out<Quantity::kPose> x_d;   ///< of the tip at q_d; the quaternion's sign never jumps
+  Out<Quantity::kTwist> v_d;  ///< J(q_d) dq_d
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -31,8 +36,11 @@ struct JointReferenceGenerator {
     params.generator.describe(visit, "rad/s");
     visit.in("q", q);
     visit.optional("dq", dq);
+    visit.optional("tau", tau);
+    visit.optional("tool", tool);
     visit.out("q_d", q_d), visit.out("dq_d", dq_d), visit.out("ddq_d", ddq_d);
     visit.out("tau_d", tau_d);
+    visit.out("x_d", x_d), visit.out("v_d", v_d);
     visit.channel(channel);
   }
 

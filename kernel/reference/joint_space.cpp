@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/reference/bridge_time.hpp"
 
@@ -35,6 +36,12 @@ JointSpace::Point JointSpace::Point::stopped() const {
   Point still = at_rest();
   still.tau = tau;
   return still;
+}
+
+JointSpace::Point JointSpace::Point::as_measured(Fields fields) const {
+  const JointVector none = JointVector::Constant(std::numeric_limits<double>::quiet_NaN());
+  return {q, fields & kVelocityField ? dq : none, fields & kAccelerationField ? ddq : none,
+          fields & kEffortField ? tau : none};
 }
 
 JointSpace::Point JointSpace::Point::at_rate(double rate, double slope) const {

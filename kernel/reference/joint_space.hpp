@@ -45,6 +45,8 @@ struct JointSpace {
     Point at_rest() const;
     /// The same position and feed-forward, at rest. [any]
     Point stopped() const;
+    /// The position and the `fields`, NaN in all others. [any]
+    Point as_measured(Fields fields) const;
     /// A point p(s), p', p'' of a path as it is passed at the rate r = ds/dt with slope dr/dt.
     /// [any]
     Point at_rate(double rate, double slope) const;
@@ -70,6 +72,7 @@ struct JointSpace {
     /// Of a path of two parts. [any]
     static Use largest(const Use& a, const Use& b);
   };
+  using Error = Point;  ///< desired - actual, likewise
 
   /// Motion between two points in a given time: position by one polynomial per joint, velocity and
   /// acceleration its exact derivatives, effort linear.
@@ -157,6 +160,10 @@ struct JointSpace {
   /// a - b, and b + difference = a. [any]
   static Difference difference(const Point& a, const Point& b);
   static Point sum(const Point& b, const Difference& difference);
+  /// [any]
+  static Error error(const Point& desired, const Point& actual) {
+    return difference(desired, actual);
+  }
 
   /// Seconds in which a quintic takes `difference` to zero with at most half of each velocity,
   /// acceleration and jerk limit, or what the difference begins with where that is more; the other

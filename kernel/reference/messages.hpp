@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "kernel/mailbox.hpp"
+#include "kernel/reference/feedback.hpp"
 #include "kernel/reference/trajectory.hpp"
 #include "kernel/reference/verdict.hpp"
 
@@ -85,6 +86,7 @@ struct ReferenceChannel {
   AdmissionSettings<Space> settings;
   Mailbox<Request<Space>, 16> requests;
   Mailbox<Report, 64> reports;
+  FeedbackMailbox<Space> feedback;
   std::array<Trajectory<Space>, kStores> stores;
   /// First waypoint of each store that the motion still needs; those before may be overwritten.
   std::array<std::atomic<int>, kStores> needed{};

@@ -30,8 +30,8 @@ class Motion {
   Verdict shape(const Point& point);
   /// Leaves whatever it follows for a trajectory that began `elapsed_s` ago: by one segment to its
   /// first waypoint if that lies ahead; by a bridge to it if that is now; else by one segment to
-  /// the first waypoint ahead that can be reached within limits. Refused, and nothing changes, if a
-  /// limit is in the way or a waypoint that is now is not near. [cyclic]
+  /// the first waypoint that is as far ahead as such a bridge would take. Refused, and nothing
+  /// changes, if a limit is in the way or a waypoint that is now is not near. [cyclic]
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
                  double elapsed_s = 0.0);
   /// From now on the path is passed at `rate`, 0..1, reached as fast as limits allow. [cyclic]

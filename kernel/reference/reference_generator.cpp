@@ -22,7 +22,10 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
     end_execution(ReferenceEvent::kNewReference, Outcome::kAborted, true);
     end_waiting(Outcome::kAborted);
   }
+  FeedbackPublisher<Space> feedback = feedback_;
+  feedback.start(params.feedback_divisor, params.measured);
   *this = ReferenceGenerator();
+  feedback_ = feedback;
   channel_ = &channel;
   params_ = params;
   void_requests_ = channel.requests.size();
@@ -49,6 +52,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   settle_point(Outcome::kExecuted);
   release_store();
   monitor_.put_out(reference());
+  feedback_.step(dt_s, executing() ? running_.id : 0, reference(), measured, channel_->feedback);
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 
@@ -76,7 +80,7 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   if (arrival == Arrival::kWaiting) return;
   if (arrival == Arrival::kArrived)
     return end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
-  if (!measured.finite() || !motion_.shape(measured).ok()) motion_.brake();
+  if (!measured.at_rest().finite() || !motion_.shape(measured).ok()) motion_.brake();
   end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
 }
 

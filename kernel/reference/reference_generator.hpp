@@ -31,6 +31,8 @@ class ReferenceGenerator {
     OnlineMode online = OnlineMode::kForward;
     /// Without a new point for so long, an online reference that moves is stopped; 0: never.
     double timeout_s = 0.0;
+    int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none
+    Fields measured = 0;       ///< what step() is given beside the position, for feedback
   };
 
   /// Holds `measured` until told otherwise. What ran before is aborted, and requests that came
@@ -38,7 +40,7 @@ class ReferenceGenerator {
   /// finite. [init]
   Status start(ReferenceChannel<Space>& channel, const Params& params, const Point& measured);
 
-  /// Moves on by one period, compares with what was measured, then answers requests.
+  /// Moves on by one period, compares with what was measured, answers requests, publishes feedback.
   /// kReferenceFault if the reference is not finite. [cyclic]
   Status step(double dt_s, const Point& measured);
 
@@ -84,6 +86,7 @@ class ReferenceGenerator {
   ReferenceState state_ = ReferenceState::kOnlineReference;
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
+  FeedbackPublisher<Space> feedback_;
   double override_ = 1.0;
   bool paused_ = false;
 

@@ -38,52 +38,62 @@ double smaller(double a, double b) {
   return a < b ? a : b <= a ? b : a + b;
 }
 
-/// Norms of the derivatives of phi (v, a, jerk, snap: first to fourth) and of the body motion,
-/// at one time or as bounds between two.
-struct Norms {
-  double v, a, jerk, snap, w, alpha;
-};
+using Bounds = RotationSegment::Bounds;
 
 /// phi and its derivatives, by number.
 using Derivatives = std::array<VectorPolynomial, Polynomial::kOrder + 1>;
 
+/// Norms at one time: of the first four derivatives of phi, and of the motion.
+struct Norms {
+  double v, a, p, snap;
+  Bounds motion;
+};
+
 Norms norms_at(const Derivatives& phi, double t) {
-  const Vector3 dphi = phi[1].at(t), ddphi = phi[2].at(t);
-  const BodyMotion motion = body_motion(phi[0].at(t), dphi, ddphi);
-  return {dphi.norm(),         ddphi.norm(),    phi[3].at(t).norm(),
-          phi[4].at(t).norm(), motion.w.norm(), motion.alpha.norm()};
+  const Vector3 dphi = phi[1].at(t), ddphi = phi[2].at(t), dddphi = phi[3].at(t);
+  const RightJacobian j(phi[0].at(t));
+  const Vector3 w = j.times(dphi), alpha = j.times(ddphi) + j.rate_times(dphi, dphi);
+  // in the rotated frame, where w x w is zero and w x alpha is not
+  const Vector3 jerk = j.second_rate(dphi, ddphi, dddphi) + w.cross(alpha);
+  return {dphi.norm(),
+          ddphi.norm(),
+          dddphi.norm(),
+          phi[4].at(t).norm(),
+          {w.norm(), alpha.norm(), jerk.norm()}};
 }
 
 // Bounds between two times h apart. A function f of time stays within h^2/8 max |f''| of its chord,
 // and the chord's norm is largest at an end, hence
 //   |f| <= max(|f| at the ends) + h^2/8 max |f''|.                                              (1)
-// From the constant fifth derivative of phi, (1) bounds the fourth, third, second and first: snap
-// S, jerk P, a A, v V.
+// From F, the constant fifth derivative of phi, (1) bounds the fourth, third, second and first:
+// S, P, A, V.
 //
-// J_r = integral over u in [0, 1] of exp(-u [phi]x) du. The n-th derivative of exp at a skew matrix
-// in directions H_1 ... H_n is a mean of products of rotations and of the H_i, so its norm is at
-// most the product of the |H_i|. Along phi(t), by the chain rule and with the factors u^n
-// integrated,
-//   |J_r| <= 1,  |J_r'| <= V/2,  |J_r''| <= A/2 + V^2/3,  |J_r'''| <= P/2 + V A + V^3/4.
-// The body motion is w = J_r phi', alpha = w' = J_r phi'' + J_r' phi'. Therefore
-//   |w| <= V,  |alpha| <= A + V^2/2,                                                            (2)
-//   |w''| <= P + 3/2 V A + V^3/3,
-//   |alpha''| <= S + 2 V P + 3/2 A^2 + 2 V^2 A + V^4/4,
-// the last two to be used in (1). The smaller of (1) and (2) holds.
-Norms bounds_between(const Norms& x, const Norms& y, double fifth, double h) {
+// In axes that do not turn, those of the start, the motion is w = J phi' and its derivatives, with
+// the left Jacobian J(phi) = J_r(-phi) = integral over u in [0, 1] of exp(u [phi]x) du. The n-th
+// derivative of exp at a skew matrix in directions H_1 ... H_n is a mean of products of rotations
+// and of the H_i, so its norm is at most the product of the |H_i|. Along phi(t), by the chain rule
+// and with the factors u^n integrated,
+//   |J| <= 1,  |J'| <= V/2,  |J''| <= A/2 + V^2/3,  |J'''| <= P/2 + V A + V^3/4,
+//   |J''''| <= S/2 + 4/3 V P + A^2 + 3/2 V^2 A + V^4/5.
+// Therefore, by Leibniz' rule for J phi',
+//   |w| <= V,  |w'| <= A + V^2/2,  |w''| <= P + 3/2 V A + V^3/3,                                (2)
+//   |w'''| <= S + 2 V P + 3/2 A^2 + 2 V^2 A + V^4/4,
+//   |w''''| <= F + 5/2 V S + 5 A P + 10/3 V^2 P + 5 V A^2 + 5/2 V^3 A + V^5/5,
+// the last three to be used in (1) for w, alpha = w' and the jerk w''. The smaller of (1) and (2)
+// holds.
+Bounds bounds_between(const Norms& x, const Norms& y, double fifth, double h) {
   const double k = h * h / 8.0;
-  Norms most;
-  most.snap = larger(x.snap, y.snap);  // linear in time
-  most.jerk = larger(x.jerk, y.jerk) + k * fifth;
-  most.a = larger(x.a, y.a) + k * most.snap;
-  most.v = larger(x.v, y.v) + k * most.jerk;
-  const double v = most.v, vv = v * v, a = most.a;
-  const double ddw = most.jerk + 1.5 * v * a + vv * v / 3.0;
-  const double ddalpha =
-      most.snap + 2.0 * v * most.jerk + 1.5 * a * a + 2.0 * vv * a + 0.25 * vv * vv;
-  most.w = smaller(v, larger(x.w, y.w) + k * ddw);
-  most.alpha = smaller(a + 0.5 * vv, larger(x.alpha, y.alpha) + k * ddalpha);
-  return most;
+  const double s = larger(x.snap, y.snap);  // linear in time
+  const double p = larger(x.p, y.p) + k * fifth;
+  const double a = larger(x.a, y.a) + k * s;
+  const double v = larger(x.v, y.v) + k * p, vv = v * v;
+  const double w2 = p + 1.5 * v * a + vv * v / 3.0;
+  const double w3 = s + 2.0 * v * p + 1.5 * a * a + 2.0 * vv * a + 0.25 * vv * vv;
+  const double w4 = fifth + 2.5 * v * s + 5.0 * a * p + 10.0 / 3.0 * vv * p + 5.0 * v * a * a +
+                    2.5 * vv * v * a + 0.2 * vv * vv * v;
+  return {smaller(v, larger(x.motion.w, y.motion.w) + k * w2),
+          smaller(a + 0.5 * vv, larger(x.motion.alpha, y.motion.alpha) + k * w3),
+          smaller(w2, larger(x.motion.jerk, y.motion.jerk) + k * w4)};
 }
 
 }  // namespace
@@ -124,16 +134,16 @@ RotationSegment::Bounds RotationSegment::bounds() const {
   for (std::size_t i = 1; i < phi.size(); ++i) phi[i] = phi[i - 1].derivative();
   if (linear_) {
     const double w = phi[1].at(0.0).norm();
-    return {w, 0.0 * w};  // NaN if w is
+    return {w, 0.0 * w, 0.0 * w};  // NaN if w is
   }
   const double fifth = phi[5].at(0.0).norm(), h = duration_ / kPieces;
   Norms last = norms_at(phi, 0.0);
-  Bounds most = {last.w, last.alpha};
+  Bounds most = last.motion;
   for (int i = 1; i <= kPieces; ++i) {
     const Norms next = norms_at(phi, h * i);
-    const Norms between = bounds_between(last, next, fifth, h);
-    most.w = larger(most.w, between.w);
-    most.alpha = larger(most.alpha, between.alpha);
+    const Bounds between = bounds_between(last, next, fifth, h);
+    most = {larger(most.w, between.w), larger(most.alpha, between.alpha),
+            larger(most.jerk, between.jerk)};
     last = next;
   }
   return most;

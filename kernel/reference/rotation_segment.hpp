@@ -49,13 +49,13 @@ class RotationSegment {
   RotationBoundary at(double t) const;
   double duration() const { return duration_; }
 
-  /// No |w| [rad/s] and no |alpha| [rad/s^2] on [0, T] is larger, to rounding.
+  /// No |w| [rad/s], |alpha| [rad/s^2] and |dalpha/dt| [rad/s^3] on [0, T] is larger, to rounding.
   struct Bounds {
-    double w, alpha;
+    double w, alpha, jerk;
   };
-  /// From outside: linear is exact; cubic and quintic are at most 2 % above what occurs from rest
-  /// to rest, 2 % (w) and 5 % (alpha) with ends that move at up to 5 rad per duration, and looser
-  /// for segments of many turns. Takes 33 times as long as at(). [any]
+  /// From outside: linear is exact; cubic and quintic are at most 2 % (jerk: 5 %) above what occurs
+  /// from rest to rest, 2 % (w), 5 % (alpha) and 15 % (jerk) with ends that move at up to 5 rad per
+  /// duration, and looser for segments of many turns. Takes 44 times as long as at(). [any]
   Bounds bounds() const;
 
  private:

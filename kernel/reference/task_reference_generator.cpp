@@ -7,6 +7,8 @@ Status TaskReferenceGenerator::start() {
   settings.start_tolerance = params.start_tolerance;
   settings.tolerances.path = params.path_tolerance;
   settings.tolerances.goal = params.goal_tolerance;
+  settings.measured =
+      static_cast<Fields>((v.wired() ? kVelocityField : 0) | (h.wired() ? kEffortField : 0));
   TRY(generator_.start(*channel, settings, measured()));
   write(x->r);
   return Status::kOk;
@@ -22,6 +24,7 @@ TaskSpace::Point TaskReferenceGenerator::measured() const {
   TaskSpace::Point point;
   point.x = *x;
   point.v = *v;
+  point.h = *h;
   return point;
 }
 

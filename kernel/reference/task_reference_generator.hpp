@@ -17,7 +17,8 @@ struct TaskReferenceGenerator {
     GeneratorSettings generator;
   } params;
   In<Quantity::kPose> x;     // measured: the reference at start
-  In<Quantity::kTwist> v;    // measured, for the goal
+  In<Quantity::kTwist> v;    // measured, for the goal and feedback
+  In<Quantity::kWrench> h;   // measured, for feedback
   Out<Quantity::kPose> x_d;  ///< the quaternion is unit and its sign never jumps
   Out<Quantity::kTwist> v_d;
   Out<Quantity::kTaskAcceleration> a_d;
@@ -36,6 +37,7 @@ struct TaskReferenceGenerator {
     p.generator.describe(visit, "m/s");
     visit.in("x", x);
     visit.optional("v", v);
+    visit.optional("h", h);
     visit.out("x_d", x_d), visit.out("v_d", v_d), visit.out("a_d", a_d);
     visit.out("h_d", h_d), visit.out("dh_d", dh_d);
     visit.channel(channel);

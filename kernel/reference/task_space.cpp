@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/math/so3.hpp"
 #include "kernel/reference/bridge_time.hpp"
@@ -75,6 +76,12 @@ TaskSpace::Point TaskSpace::Point::stopped() const {
   Point still = at_rest();
   still.h = h;
   return still;
+}
+
+TaskSpace::Point TaskSpace::Point::as_measured(Fields fields) const {
+  const Vector6 none = Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
+  return {x, fields & kVelocityField ? v : none, fields & kAccelerationField ? a : none,
+          fields & kEffortField ? h : none, none};
 }
 
 TaskSpace::Point TaskSpace::Point::at_rate(double rate, double slope) const {
@@ -176,6 +183,12 @@ TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
   d.h = a.h - b.h;
   d.dh = a.dh - b.dh;
   return d;
+}
+
+TaskSpace::Error TaskSpace::error(const Point& desired, const Point& actual) {
+  return {desired.x.p - actual.x.p, log_so3(desired.x.r * actual.x.r.conjugate()),
+          desired.v - actual.v,     desired.a - actual.a,
+          desired.h - actual.h,     desired.dh - actual.dh};
 }
 
 double TaskSpace::bridge_time_s(const Difference& d, const Limits& limits) {

@@ -51,6 +51,8 @@ struct TaskSpace {
     Point at_rest() const;
     /// The same pose, at rest, the wrench kept. [any]
     Point stopped() const;
+    /// The pose and the `fields`, NaN in all others; the rate of a wrench is never measured. [any]
+    Point as_measured(Fields fields) const;
     /// A point p(s), p', p'' of a path as it is passed at the rate r = ds/dt with slope dr/dt.
     /// [any]
     Point at_rate(double rate, double slope) const;
@@ -87,6 +89,16 @@ struct TaskSpace {
     Vector3 phi = Vector3::Zero();                            ///< rad, rotation vector in b's frame
     Vector3 dphi = Vector3::Zero(), ddphi = Vector3::Zero();  ///< its derivatives
     Vector6 h = Vector6::Zero(), dh = Vector6::Zero();        ///< N, N m; N/s, N m/s
+  };
+
+  /// desired - actual, in the base frame.
+  struct Error {
+    Vector3 p = Vector3::Zero();    ///< m
+    Vector3 phi = Vector3::Zero();  ///< rad, rotation vector log(r_d r^-1) along the shortest arc
+    Vector6 v = Vector6::Zero();    ///< m/s, rad/s
+    Vector6 a = Vector6::Zero();    ///< m/s^2, rad/s^2
+    Vector6 h = Vector6::Zero();    ///< N, N m
+    Vector6 dh = Vector6::Zero();   ///< N/s, N m/s
   };
 
   /// Motion between two points in a given time: position by one polynomial per axis, orientation by
@@ -141,8 +153,7 @@ struct TaskSpace {
   /// Judges one segment: the position at its extrema, the lengths of velocity, acceleration and
   /// jerk by bounds from outside (translation_bounds.hpp, rotation_segment.hpp), so that none
   /// beyond a limit is accepted; acceleration and jerk against the fraction `share` of their
-  /// limits. The jerk of the rotation is not judged. The wrench between ends within limits is
-  /// within them. [cyclic, some microseconds]
+  /// limits. The wrench between ends within limits is within them. [cyclic, some microseconds]
   static Verdict judge(const Segment& segment, const Limits& limits, double share);
   /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
   static Verdict judge_end(const Point& end);
@@ -189,6 +200,8 @@ struct TaskSpace {
   /// a - b along the shortest arc, and b + difference = a but for the quaternion's sign. [any]
   static Difference difference(const Point& a, const Point& b);
   static Point sum(const Point& b, const Difference& difference);
+  /// [any]
+  static Error error(const Point& desired, const Point& actual);
 
   /// Seconds in which a bridge takes `difference` to zero with at most half of each velocity,
   /// acceleration and jerk limit, or what the difference begins with where that is more; the other

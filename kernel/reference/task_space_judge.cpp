@@ -93,7 +93,8 @@ Verdict TaskSpace::judge(const Segment& segment, const Limits& limits, double sh
                    at_most(r.w, limits.w_max, Status::kVelocityLimit, kRotation),
                    at_most(p.a, share * limits.a_max, kA, kTranslation),
                    at_most(r.alpha, share * limits.alpha_max, kA, kRotation),
-                   at_most(p.j, share * limits.j_max, Status::kJerkLimit, kTranslation)});
+                   at_most(p.j, share * limits.j_max, Status::kJerkLimit, kTranslation),
+                   at_most(r.jerk, share * limits.dalpha_max, Status::kJerkLimit, kRotation)});
 }
 
 Verdict TaskSpace::judge_end(const Point& end) {
@@ -158,9 +159,9 @@ TaskSpace::Use TaskSpace::use(const Segment& segment, const Limits& limits, cons
   const RotationSegment::Bounds r = segment.rotation().bounds();
   const PathUse translation = {p.v / limits.v_max, p.a / limits.a_max, p.j / limits.j_max,
                                p.v / limits.a_max, p.v / limits.j_max, p.a / limits.j_max};
-  const PathUse rotation = {
-      r.w / limits.w_max,     r.alpha / limits.alpha_max, 0.0,
-      r.w / limits.alpha_max, r.w / limits.dalpha_max,    r.alpha / limits.dalpha_max};
+  const PathUse rotation = {r.w / limits.w_max,         r.alpha / limits.alpha_max,
+                            r.jerk / limits.dalpha_max, r.w / limits.alpha_max,
+                            r.w / limits.dalpha_max,    r.alpha / limits.dalpha_max};
   // The wrench, being linear, is largest at an end.
   Use own = Use::largest(use(segment.at(0.0)), use(segment.at(segment.duration())));
   static_cast<PathUse&>(own) = PathUse::largest(translation, rotation);
