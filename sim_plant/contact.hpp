@@ -31,7 +31,7 @@ struct Box {
 
 struct Material {
   double stiffness = 1e5;    ///< k, N/m
-  double dissipation = 1.0;  ///< d, s/m
+  double dissipation = 1.0;  ///< d, s/m; a ball that meets it at v leaves at v (1 - 2/3 d v)
   double friction = 0.3;     ///< mu
 
   /// k_t, N/m. Between two bodies of the same elastic material it is 2 (1 - nu) / (2 - nu) of the
