@@ -3,7 +3,6 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
 #include "sim_plant/fer_mjcf.hpp"
@@ -51,19 +50,10 @@ void add_friction(const mjModel* model, mjData* data) {
   }
 }
 
-/// The contact of this arm stands as a pointer in its user data; null after a reset.
-void add_contact(const mjModel* model, mjData* data) {
-  if (model->nuserdata < 1) return;  // a model without contact
-  const TipContact* contact = nullptr;
-  static_assert(sizeof contact <= sizeof(mjtNum));
-  std::memcpy(&contact, data->userdata, sizeof contact);
-  if (contact != nullptr) contact->add_torque(model, data, data->qfrc_passive);
-}
-
 /// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator.
 void add_forces(const mjModel* model, mjData* data) {
   add_friction(model, data);
-  add_contact(model, data);
+  TipContact::add_attached(model, data);
 }
 
 /// MuJoCo's own handler writes a log file into the working directory. Warnings are counted in
@@ -99,7 +89,7 @@ Status Arm::load(const PlantParams& params) {
   mj_deleteData(data_);
   mj_deleteModel(model_);
   model_ = compile_fer();
-  if (model_ != nullptr) model_->nuserdata = 1;  // room for a pointer, see add_contact
+  if (model_ != nullptr) model_->nuserdata = 1;  // see TipContact::attach
   data_ = model_ != nullptr ? mj_makeData(model_) : nullptr;
   if (data_ == nullptr) return Status::kTooLarge;
 
@@ -111,8 +101,7 @@ Status Arm::load(const PlantParams& params) {
   contact_.load(make_scene(params.scene, params.scene_offset, params.tip_radius), params.material,
                 mj_name2id(model_, mjOBJ_BODY, "flange"), params.payload_tip, params.tip_radius);
   carries_ = params.payload_kg > 0.0;
-  const TipContact* contact = &contact_;
-  std::memcpy(data_->userdata, &contact, sizeof contact);
+  contact_.attach(data_);
   stand();
   return Status::kOk;
 }

@@ -2,6 +2,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <cstring>
+
 namespace tactus {
 namespace {
 
@@ -27,6 +29,20 @@ void TipContact::load(const Scene& scene, const Material& material, int body, co
   body_ = body;
   centre_ = centre;
   radius_ = radius;
+}
+
+void TipContact::attach(mjData* data) const {
+  const void* self = this;
+  static_assert(sizeof self <= sizeof(mjtNum));
+  std::memcpy(data->userdata, &self, sizeof self);
+}
+
+void TipContact::add_attached(const mjModel* model, mjData* data) {
+  if (model->nuserdata < 1) return;
+  const void* attached = nullptr;  // and after a reset of the data
+  std::memcpy(&attached, data->userdata, sizeof attached);
+  if (attached != nullptr)
+    static_cast<const TipContact*>(attached)->add_torque(model, data, data->qfrc_passive);
 }
 
 void TipContact::begin(const mjModel* model, mjData* data, double h_s) {

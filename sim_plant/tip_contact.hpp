@@ -27,16 +27,18 @@ class TipContact {
   /// A ball in the frame of `body`: its centre, m, and radius, m. Nothing touches yet. [init]
   void load(const Scene& scene, const Material& material, int body, const Vector3& centre,
             double radius);
+  /// Puts a pointer to this object into the user data of `data`, whose model has room for one
+  /// number, for MuJoCo's callback to find it. [init]
+  void attach(mjData_* data) const;
+  /// The callback: adds the joint torques of what is attached, if anything is, to the passive ones.
+  /// The poses in `data` are up to date. [cyclic]
+  static void add_attached(const mjModel_* model, mjData_* data);
   /// True if there is nothing to touch. [any]
   bool none() const { return scene_.count == 0; }
 
   /// The state in `data` is where an inner step begins; the last one took `h_s`, 0 if there was
   /// none. Brings the poses in `data` up to date. [cyclic]
   void begin(const mjModel_* model, mjData_* data, double h_s);
-
-  /// Adds the joint torques of the contact to `tau`, N m, at a state within the step; the poses in
-  /// `data` are up to date. [cyclic]
-  void add_torque(const mjModel_* model, const mjData_* data, double* tau) const;
 
   /// What the scene exerts on the ball, at the origin of the body and in the base frame, N and N m,
   /// at a state within the step; the poses in `data` are up to date. [cyclic]
@@ -60,6 +62,7 @@ class TipContact {
   };
 
   Force find_force(const mjModel_* model, const mjData_* data, int i) const;
+  void add_torque(const mjModel_* model, const mjData_* data, double* tau) const;
   void slip(const Touch& touch, const Force& force, double h_s, Contact& contact) const;
 
   Scene scene_;

@@ -99,13 +99,13 @@ void a_sensor_the_robot_does_not_have_is_not_read(void**) {
   ASSERT_OK(bench.load(recorded, sensing));
   ASSERT_STATUS(bench.load(recorded, kTorqueRobot), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
-                      "40: [recorder] signals: robot.ft: the robot has no such sensor");
+                      "45: [recorder] signals: robot.ft: the robot has no such sensor");
   // No block of the kernel takes a sensor's wrench for a joint vector either way.
   const std::string_view wired = with("q = robot.q", "q = robot.ft");
   ASSERT_STATUS(bench.load(wired, sensing), Status::kWrongQuantity);
   ASSERT_STATUS(bench.load(wired, kTorqueRobot), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
-                      "18: [model] q: robot.ft: the robot has no such sensor");
+                      "19: [model] q: robot.ft: the robot has no such sensor");
 }
 
 void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
