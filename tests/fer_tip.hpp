@@ -1,6 +1,8 @@
 // A point of the FER's flange by Orocos KDL, for tests that look at a tool's tip.
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "kernel/types.hpp"
 #include "tests/oracles/kdl.hpp"
 
