@@ -108,6 +108,7 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     SectionReader reader(ini, section, ports, error);
     pipeline.robot.describe(reader);
     if (reader.failed()) return error.status;
+    if (!offered_.wrench) ports.withhold(&pipeline.robot.ft.value);
     return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);

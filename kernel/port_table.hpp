@@ -17,6 +17,7 @@ struct PortEntry {
   const char* port = "";
   Quantity quantity = Quantity::kJointPosition;
   const void* value = nullptr;  ///< a ValueOf<quantity>
+  bool offered = true;          ///< false: nobody fills it, and nobody may read it
 };
 
 class PortTable {
@@ -26,6 +27,11 @@ class PortTable {
     if (count_ == kMaxPorts) return false;
     entries_[static_cast<std::size_t>(count_++)] = entry;
     return true;
+  }
+  /// Says of the output that holds `value` that the robot does not offer it. [init]
+  void withhold(const void* value) {
+    for (PortEntry& entry : entries_)
+      if (entry.value == value) entry.offered = false;
   }
   /// The output called "block.port", or null. [init]
   const PortEntry* find(std::string_view name) const {

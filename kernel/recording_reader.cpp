@@ -23,6 +23,9 @@ Status find_output(const PortTable& ports, std::string_view name, const char* ke
   port = ports.find(name);
   if (port == nullptr)
     return place.refuse(Status::kUnknownPort, key, Message("'") << name << "' is no output");
+  if (!port->offered)
+    return place.refuse(Status::kNotOffered, key,
+                        Message("") << name << ": the robot has no such sensor");
   if (info(port->quantity).recorded == 0)
     return place.refuse(
         Status::kWrongQuantity, key,
@@ -55,7 +58,8 @@ Status read_signals(std::string_view list, const PortTable& ports, Recording& re
 
 Status read_all_signals(const PortTable& ports, Recording& recording, const Place& place) {
   for (int i = 0; i < ports.count(); ++i) {
-    if (info(ports[i].quantity).recorded > 0) TRY(add_signal(recording, &ports[i], place));
+    if (ports[i].offered && info(ports[i].quantity).recorded > 0)
+      TRY(add_signal(recording, &ports[i], place));
   }
   return Status::kOk;
 }

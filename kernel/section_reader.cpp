@@ -162,6 +162,11 @@ const void* SectionReader::source(const char* key, Quantity quantity, bool requi
            Message("'") << entry->value << "' is no output of [robot] or of a block above");
     return nullptr;
   }
+  if (!port->offered) {
+    refuse(Status::kNotOffered, key,
+           Message("") << entry->value << ": the robot has no such sensor");
+    return nullptr;
+  }
   if (port->quantity != quantity) {
     refuse(Status::kWrongQuantity, key,
            Message("") << entry->value << " is a " << info(port->quantity).name

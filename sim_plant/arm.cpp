@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "sim_plant/fer_mjcf.hpp"
+#include "sim_plant/flange_wrench.hpp"
 
 namespace tactus {
 namespace {
@@ -14,6 +15,7 @@ static_assert(std::is_same_v<mjtNum, double>, "MuJoCo of double precision");
 static_assert(kDof == 7, "fer_mjcf.cpp describes an arm of seven joints");
 
 constexpr double kMaxInnerStep_s = 1e-3;
+constexpr double kMaxContactStep_s = 0.25e-3;
 
 /// Visitor of PlantParams::describe: do all settings lie in their ranges?
 struct RangeCheck {
@@ -27,14 +29,17 @@ struct RangeCheck {
              const char* unit) {
     for (int i = 0; i < N; ++i) param(name, value[i], range, unit);
   }
+  template <class Enum, std::size_t N>
+  void choice(const char*, Enum value, const std::array<const char*, N>&) {
+    ok = ok && static_cast<std::size_t>(value) < N;
+  }
 };
 
 double sigmoid(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator. The
-/// parameters travel with the model: see jnt_user in fer_mjcf.hpp.
+/// The parameters travel with the model: see jnt_user in fer_mjcf.hpp.
 void add_friction(const mjModel* model, mjData* data) {
   if (model->nuser_jnt < 3) return;  // a model without friction parameters
   for (int i = 0; i < model->njnt; ++i) {
@@ -43,6 +48,12 @@ void add_friction(const mjModel* model, mjData* data) {
     const int dof = model->jnt_dofadr[i];
     data->qfrc_passive[dof] -= a * (sigmoid(b * (data->qvel[dof] + c)) - sigmoid(b * c));
   }
+}
+
+/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator.
+void add_forces(const mjModel* model, mjData* data) {
+  add_friction(model, data);
+  TipContact::add_attached(model, data);
 }
 
 /// MuJoCo's own handler writes a log file into the working directory. Warnings are counted in
@@ -78,30 +89,53 @@ Status Arm::load(const PlantParams& params) {
   mj_deleteData(data_);
   mj_deleteModel(model_);
   model_ = compile_fer();
+  if (model_ != nullptr) model_->nuserdata = 1;  // see TipContact::attach
   data_ = model_ != nullptr ? mj_makeData(model_) : nullptr;
   if (data_ == nullptr) return Status::kTooLarge;
 
-  mjcb_passive = add_friction;  // hooks of the whole process; every arm sets the same
+  mjcb_passive = add_forces;  // hooks of the whole process; every arm sets the same
   mju_user_warning = stay_silent;
   apply(params, model_, data_);
   mj_resetData(model_, data_);
   Eigen::Map<JointVector>(data_->qpos) = params.initial_q;
+  contact_.load(make_scene(params.scene, params.scene_offset, params.tip_radius), params.material,
+                mj_name2id(model_, mjOBJ_BODY, "flange"), params.payload_tip, params.tip_radius);
+  carries_ = params.payload_kg > 0.0;
+  contact_.attach(data_);
+  stand();
   return Status::kOk;
 }
 
 JointVector Arm::stand() {
   Eigen::Map<JointVector>(data_->qvel).setZero();
+  contact_.begin(model_, data_, 0.0);
   mj_fwdPosition(model_, data_);
   mj_fwdVelocity(model_, data_);
-  return Eigen::Map<const JointVector>(data_->qfrc_bias);
+  Eigen::Map<JointVector>(data_->qacc).setZero();
+  sense();
+  return Eigen::Map<const JointVector>(data_->qfrc_bias) -
+         Eigen::Map<const JointVector>(data_->qfrc_passive);
 }
 
 void Arm::step(const JointVector& tau, double dt_s) {
   // A hair is taken off, so that 1 ms with a rounding error is one inner step and not two.
-  const int steps = static_cast<int>(std::ceil(dt_s / kMaxInnerStep_s - 1e-9));
+  const double longest_s = contact_.none() ? kMaxInnerStep_s : kMaxContactStep_s;
+  const int steps = static_cast<int>(std::ceil(dt_s / longest_s - 1e-9));
   model_->opt.timestep = dt_s / steps;
   Eigen::Map<JointVector>(data_->ctrl) = tau;
-  for (int i = 0; i < steps; ++i) mj_step(model_, data_);
+  for (int i = 0; i < steps; ++i) {
+    mj_step(model_, data_);
+    contact_.begin(model_, data_, model_->opt.timestep);
+  }
+  if (carries_ || !contact_.none()) mj_forward(model_, data_);  // a step ends at its last stage
+  sense();
+}
+
+/// Needs poses, velocities and accelerations of one state.
+void Arm::sense() {
+  contact_wrench_ = contact_.wrench(model_, data_);
+  ft_ = carries_ || !contact_.none() ? flange_wrench(model_, data_, contact_wrench_)
+                                     : Vector6(Vector6::Zero());
 }
 
 bool Arm::diverged() const {
@@ -124,7 +158,7 @@ double Arm::energy() const {
   mj_crb(model_, data_);
   mj_energyPos(model_, data_);  // these two need the flag energy="enable" of the model
   mj_energyVel(model_, data_);
-  return data_->energy[0] + data_->energy[1];
+  return data_->energy[0] + data_->energy[1] + contact_.energy();
 }
 
 }  // namespace tactus

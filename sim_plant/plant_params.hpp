@@ -4,6 +4,7 @@
 
 #include "kernel/describe.hpp"
 #include "kernel/types.hpp"
+#include "sim_plant/scene.hpp"
 
 namespace tactus {
 
@@ -38,9 +39,25 @@ struct PlantParams {
 
   int delay_cycles = 0;  ///< whole cycles by which the measured state is late
 
-  /// A point mass on the flange that the controller need not know of.
+  /// What hangs on the flange, of which the controller need not know: a point mass, and a ball
+  /// that meets the scene.
   double payload_kg = 0.0;
   Vector3 payload_com = Vector3::Zero();  ///< m, flange frame
+  Vector3 payload_tip = Vector3::Zero();  ///< centre of the ball, m, flange frame
+  double tip_radius = 0.01;               ///< of the ball, m
+
+  /// What stands around the robot (scene.hpp), moved by an offset.
+  SceneKind scene = SceneKind::kNone;
+  Vector3 scene_offset = Vector3::Zero();  ///< m, base frame
+  Material material;                       ///< of all that stands there
+
+  /// The force/torque sensor at the flange: standard deviation of its white noise, what it shows
+  /// without load, and how often it has a new value; 0: in every cycle.
+  double ft_noise_force_N = 0.0;
+  double ft_noise_moment_Nm = 0.0;
+  Vector3 ft_bias_force_N = Vector3::Zero();
+  Vector3 ft_bias_moment_Nm = Vector3::Zero();
+  double ft_rate_hz = 0.0;
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -52,6 +69,18 @@ struct PlantParams {
     visit.param("delay_cycles", delay_cycles, Range{0.0, kMaxDelayCycles}, "cycles");
     visit.param("payload_kg", payload_kg, Range{0.0, 20.0}, "kg");
     visit.param("payload_com", payload_com, Range{-1.0, 1.0}, "m");
+    visit.param("payload_tip", payload_tip, Range{-2.0, 2.0}, "m");
+    visit.param("tip_radius", tip_radius, Range{0.0, 0.1}, "m");
+    visit.choice("scene", scene, kSceneWords);
+    visit.param("scene_offset", scene_offset, Range{-2.0, 2.0}, "m");
+    visit.param("contact_stiffness", material.stiffness, Range{1e3, 1e6}, "N/m");
+    visit.param("contact_dissipation", material.dissipation, Range{0.0, 100.0}, "s/m");
+    visit.param("contact_friction", material.friction, Range{0.0, 2.0}, "1");
+    visit.param("ft_noise_force_N", ft_noise_force_N, Range{0.0, 100.0}, "N");
+    visit.param("ft_noise_moment_Nm", ft_noise_moment_Nm, Range{0.0, 10.0}, "N m");
+    visit.param("ft_bias_force_N", ft_bias_force_N, Range{-1000.0, 1000.0}, "N");
+    visit.param("ft_bias_moment_Nm", ft_bias_moment_Nm, Range{-100.0, 100.0}, "N m");
+    visit.param("ft_rate_hz", ft_rate_hz, Range{0.0, 10000.0}, "Hz");
   }
 };
 

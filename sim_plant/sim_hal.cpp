@@ -2,25 +2,9 @@
 
 #include <cmath>
 
+#include "sim_plant/normal_noise.hpp"
+
 namespace tactus {
-namespace {
-
-struct NormalPair {
-  double first, second;
-};
-
-/// Two independent numbers of the standard normal distribution (Box and Muller 1958). Not
-/// std::normal_distribution: what that draws is left to the library.
-NormalPair draw_normal(std::mt19937_64& random) {
-  constexpr double kTwoPi = 6.28318530717958647693;
-  constexpr double kUlp = 0x1p-53;
-  const double u = static_cast<double>((random() >> 11) + 1) * kUlp;  // in (0, 1]
-  const double v = static_cast<double>(random() >> 11) * kUlp;        // in [0, 1)
-  const double radius = std::sqrt(-2.0 * std::log(u));
-  return {radius * std::cos(kTwoPi * v), radius * std::sin(kTwoPi * v)};
-}
-
-}  // namespace
 
 Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
   started_ = enabled_ = false;
@@ -29,6 +13,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
   velocity_noise_rad_s_ = params.velocity_noise_rad_s;
   delay_cycles_ = params.delay_cycles;
   random_.seed(seed);
+  ft_sensor_.load(params, seed);
   time_ns_ = 0;
   return Status::kOk;
 }
@@ -36,6 +21,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
 Capabilities SimHal::capabilities() const {
   Capabilities offered;
   offered.effort = true;
+  offered.wrench = true;
   offered.min_period_us = 100;
   offered.max_period_us = 10000;
   return offered;
@@ -92,7 +78,7 @@ void SimHal::stop() {
 void SimHal::measure() {
   newest_ = (newest_ + 1) % static_cast<int>(line_.size());
   RobotState& sample = line_[static_cast<std::size_t>(newest_)];
-  sample = {arm_.q(), arm_.dq(), tau_};
+  sample = {arm_.q(), arm_.dq(), tau_, ft_sensor_.measure(arm_.ft(), time_ns_)};
   for (int i = 0; i < kDof; ++i) {
     const NormalPair noise = draw_normal(random_);
     sample.q[i] += position_noise_rad_ * noise.first;

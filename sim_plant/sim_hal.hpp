@@ -8,6 +8,7 @@
 
 #include "kernel/hal.hpp"
 #include "sim_plant/arm.hpp"
+#include "sim_plant/ft_sensor.hpp"
 #include "sim_plant/plant_params.hpp"
 
 namespace tactus {
@@ -20,7 +21,7 @@ class SimHal final : public Hal {
   /// The cycle period, s; start() judges it. [init]
   void set_period(double period_s) { period_s_ = period_s; }
 
-  /// Effort only, 100 us to 10 ms. [any]
+  /// Effort only, 100 us to 10 ms; a force/torque sensor. [any]
   Capabilities capabilities() const override;
   /// Enables the drives; the brakes open with the first write. state.tau is the torque that holds
   /// the arm: commanding it moves nothing. kNotOffered for another mode or period, kNotStarted
@@ -47,6 +48,7 @@ class SimHal final : public Hal {
   const RobotState& measured() const;
 
   Arm arm_;
+  FtSensor ft_sensor_;
   double position_noise_rad_ = 0.0, velocity_noise_rad_s_ = 0.0;
   int delay_cycles_ = 0;
   double period_s_ = 0.0;

@@ -92,6 +92,22 @@ void a_robot_is_commanded_in_what_it_takes(void**) {
                       "5: [robot] tau_c: the robot does not take this kind of command");
 }
 
+void a_sensor_the_robot_does_not_have_is_not_read(void**) {
+  Capabilities sensing = kTorqueRobot;
+  sensing.wrench = true;
+  const std::string_view recorded = with("signals = robot.q", "signals = robot.ft");
+  ASSERT_OK(bench.load(recorded, sensing));
+  ASSERT_STATUS(bench.load(recorded, kTorqueRobot), Status::kNotOffered);
+  assert_string_equal(bench.error.message().c_str(),
+                      "45: [recorder] signals: robot.ft: the robot has no such sensor");
+  // No block of the kernel takes a sensor's wrench for a joint vector either way.
+  const std::string_view wired = with("q = robot.q", "q = robot.ft");
+  ASSERT_STATUS(bench.load(wired, sensing), Status::kWrongQuantity);
+  ASSERT_STATUS(bench.load(wired, kTorqueRobot), Status::kNotOffered);
+  assert_string_equal(bench.error.message().c_str(),
+                      "19: [model] q: robot.ft: the robot has no such sensor");
+}
+
 void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
   const std::string_view plain = "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
   for (const std::string_view text :
@@ -171,6 +187,7 @@ int main() {
       cmocka_unit_test(an_optional_input_left_out_reads_zero),
       cmocka_unit_test(the_generator_gets_the_channel_of_the_board),
       cmocka_unit_test(a_robot_is_commanded_in_what_it_takes),
+      cmocka_unit_test(a_sensor_the_robot_does_not_have_is_not_read),
       cmocka_unit_test(line_ends_blanks_marks_and_comments_make_no_difference),
       cmocka_unit_test(tightened_limits_are_those_references_are_judged_by),
       cmocka_unit_test(every_file_with_a_mistake_is_refused_with_its_message),

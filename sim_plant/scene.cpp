@@ -1,0 +1,52 @@
+// Sources of the numbers: the simulated worlds and trajectories of the paper's demo repository.
+//
+// Wall and ramp stand there as boxes in the world of the simulator. With the wall, the robot's base
+// is at the world's origin. With the ramp it is 1 m above it, which is why 1 m is taken off here
+// (the trajectory, z = -0.133 m, is in the base frame).
+//
+// Where the real blackboard stood is not published. Its trajectory begins at x = 0.730 m, goes to
+// x = 0.750 m, and slides at y = 0.385 m from z = 0.798 m to z = 0.598 m. The board stands so that
+// the tip meets it at x = 0.731 m: 1 mm, by our choice, after the beginning, which is free.
+#include "sim_plant/scene.hpp"
+
+#include <cmath>
+
+namespace tactus {
+namespace {
+
+/// A box by its centre and its full size, m, turned by `pitch` about y, rad.
+Box box(const Vector3& centre, const Vector3& size, double pitch = 0.0) {
+  Box result;
+  result.pose.p = centre;
+  result.pose.r = Eigen::Quaterniond(std::cos(pitch / 2.0), 0.0, std::sin(pitch / 2.0), 0.0);
+  result.half_extents = size / 2.0;
+  return result;
+}
+
+}  // namespace
+
+Scene make_scene(SceneKind kind, const Vector3& offset, double tip_radius) {
+  Scene scene;
+  switch (kind) {
+    case SceneKind::kNone:
+      break;
+    case SceneKind::kWall:  // face y = 0.80 m
+      scene = {{box({0.0, 0.85, 0.5}, {0.50, 0.10, 1.00})}, 1};
+      break;
+    case SceneKind::kBlackboard: {
+      constexpr double kMeets_m = 0.731, kThickness_m = 0.02;
+      const double x = kMeets_m + tip_radius + kThickness_m / 2.0;
+      scene = {{box({x, 0.385, 0.7}, {kThickness_m, 1.2, 1.0})}, 1};
+      break;
+    }
+    case SceneKind::kRamp:  // and the plateau it leads to
+      scene = {{box({0.18, 0.70, 0.84 - 1.0}, {1.0, 0.3, 0.01}, 0.21),
+                box({-0.8, 0.35, 0.45 - 1.0}, {1.0, 1.0, 1.0})},
+               2};
+      break;
+  }
+  for (int i = 0; i < scene.count; ++i) scene.boxes[static_cast<std::size_t>(i)].pose.p += offset;
+  return scene;
+}
+
+}  // namespace tactus

@@ -1,0 +1,26 @@
+// Scene: what stands around the simulated arm, as boxes in the robot's base frame (x forward, z up,
+// the base_link of a ROS description).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "sim_plant/contact.hpp"
+
+namespace tactus {
+
+enum class SceneKind : std::uint8_t { kNone, kWall, kBlackboard, kRamp };
+inline constexpr std::array<const char*, 4> kSceneWords = {"none", "wall", "blackboard", "ramp"};
+
+inline constexpr int kMaxBoxes = 2;
+
+struct Scene {
+  std::array<Box, kMaxBoxes> boxes;
+  int count = 0;
+};
+
+/// The boxes of a scene, all moved by `offset`, m. The blackboard stands off by the radius of the
+/// tip's ball, m, so that the ball meets it at a place of the tip. [init]
+Scene make_scene(SceneKind kind, const Vector3& offset, double tip_radius);
+
+}  // namespace tactus
