@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/math/decay.hpp"
+#include "kernel/math/exponential.hpp"
 
 namespace tactus {
 namespace {
@@ -81,7 +81,7 @@ JointVector Pid::filtered(const JointVector& rate, double dt_s) const {
   JointVector slow = rate;
   for (int i = 0; i < kDof; ++i) {
     const double time_constant = params.derivative_time_constant[i];
-    if (time_constant > 0.0) slow[i] += decay(dt_s / time_constant) * (de_[i] - rate[i]);
+    if (time_constant > 0.0) slow[i] += exponential(-dt_s / time_constant) * (de_[i] - rate[i]);
   }
   return slow;
 }
@@ -97,7 +97,7 @@ double Pid::integrated(int i, double e, double others, double dt_s) const {
     case AntiWindup::kNone:
       break;
     case AntiWindup::kBackCalculation:
-      integral -= (1.0 - decay(dt_s / tracking_time_constant(i))) * excess;
+      integral -= (1.0 - exponential(-dt_s / tracking_time_constant(i))) * excess;
       break;
     case AntiWindup::kConditional:
       if (excess * growth > 0.0)
