@@ -41,4 +41,14 @@ struct PidAndInertia : PidBench {
   }
 };
 
+inline constexpr double kPeriods_s[] = {8e-3, 2e-3, 1e-3};  // 125 Hz, 500 Hz, 1 kHz
+
+/// Free inertia of 1 kg m^2 under gains that put all three poles at -p: to a step of the reference,
+/// with the derivative on measurement, it answers 1 - exp(-pt) (1 + pt - (pt)^2).
+inline constexpr double kPole = 5.0;
+inline void place_poles(PidBench& b) {
+  b.gains(3.0 * kPole * kPole, kPole * kPole * kPole, 3.0 * kPole);
+  b.pid.params.derivative = Pid::Derivative::kMeasurement;
+}
+
 }  // namespace tactus

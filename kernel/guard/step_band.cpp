@@ -19,8 +19,9 @@ bool StepLimits::jerky(double change_of_change) const {
 /// changes, so an n that is one off by rounding does no harm.
 double braking_step(double distance, double change) {
   if (!(distance > 0.0)) return 0.0;
-  const double n = static_cast<double>(
-      static_cast<std::int64_t>(0.5 * (std::sqrt(1.0 + 8.0 * distance / change) - 1.0)));
+  constexpr double kMost = 1e9;  // more cycles than any braking takes, and n stays an integer
+  const double cycles = 0.5 * (std::sqrt(1.0 + 8.0 * distance / change) - 1.0);
+  const auto n = static_cast<double>(static_cast<std::int64_t>(std::min(cycles, kMost)));
   return distance / (n + 1.0) + 0.5 * change * n;
 }
 
