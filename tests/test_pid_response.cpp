@@ -44,6 +44,20 @@ void the_integral_of_a_smooth_error_is_that_of_calculus_at_every_period(void**) 
   }
 }
 
+void a_step_of_the_velocity_passes_the_filter_with_its_time_constant(void**) {
+  for (const double dt_s : kPeriods_s) {
+    PidBench b;
+    b.gains(0.0, 0.0, 1.0);
+    b.pid.params.derivative_time_constant.setConstant(0.02);
+    ASSERT_OK(b.pid.start());
+    b.dq_d = kOnes;
+    for (int k = 1; k < 20; ++k) {
+      b.step(dt_s);
+      ASSERT_NEAR(b.pid.tau.value[0], 1.0 - std::exp(-k * dt_s / 0.02), 1e-12);
+    }
+  }
+}
+
 void the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period(void**) {
   constexpr double kT = 0.02, w = 10.0;
   for (const bool wired : {true, false}) {
@@ -157,6 +171,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_loop_of_three_poles_answers_a_step_as_its_closed_form),
+      cmocka_unit_test(a_step_of_the_velocity_passes_the_filter_with_its_time_constant),
       cmocka_unit_test(the_integral_of_a_smooth_error_is_that_of_calculus_at_every_period),
       cmocka_unit_test(the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period),
       cmocka_unit_test(the_first_torque_on_the_reference_is_gravity),
