@@ -18,7 +18,8 @@ Status Executive::start() {
   for (Histogram& times : times_) times = {};
   latched_ = hal_.start(pipeline_.robot.mode(), measured_);
   if (latched_ == Status::kOk)
-    latched_ = guard_.start(pipeline_.guard, measured_, pipeline_.robot.period_s());
+    latched_ = guard_.start(pipeline_.guard, pipeline_.robot.mode(), measured_,
+                            pipeline_.robot.period_s());
   if (latched_ == Status::kOk) latched_ = pipeline_.start(measured_);
   if (latched_ != Status::kOk) hal_.stop();
   return latched_;
@@ -48,7 +49,7 @@ Status Executive::run(const CycleTime& now) {
   TRY(pipeline_.step(measured_));
   lap(Stage::kStep);
   RobotCommand command = pipeline_.robot.command();
-  TRY(guard_.limit(command));
+  TRY(guard_.limit(measured_, command));
   lap(Stage::kGuard);
   TRY(hal_.write(command));
   lap(Stage::kWrite);

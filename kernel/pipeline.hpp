@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "kernel/control/pd_gravity.hpp"
+#include "kernel/control/pid.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
@@ -19,12 +20,12 @@ namespace tactus {
 
 /// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
 using Block = std::variant<std::monostate, RobotModel, Frame, JointReferenceGenerator,
-                           TaskReferenceGenerator, PdGravity>;
+                           TaskReferenceGenerator, PdGravity, Pid>;
 
 /// The word for each kind in "type = ...", in the order of Block.
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "",          "robot_model", "frame", "joint_reference_generator", "task_reference_generator",
-    "pd_gravity"};
+    "",           "robot_model", "frame", "joint_reference_generator", "task_reference_generator",
+    "pd_gravity", "pid"};
 
 inline constexpr int kMaxBlocks = 12;
 

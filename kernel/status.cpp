@@ -51,6 +51,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kSlip, "kSlip"},
     {Status::kClock, "kClock"},
     {Status::kNotStarted, "kNotStarted"},
+    {Status::kFollowingError, "kFollowingError"},
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},

@@ -52,6 +52,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSlip = 69,
     kClock = 70,
     kNotStarted = 71,
+    kFollowingError = 76,
     // 96..127 wire
     kBusTimeout = 96,
     kDriveFault = 97,

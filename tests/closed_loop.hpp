@@ -24,6 +24,7 @@ inline constexpr const char* kClosedLoopBlocks =
 inline constexpr std::array<double, kDof> kClosedLoopKp = {500, 400, 400, 300, 20, 20, 10};
 
 struct ClosedLoop {
+  const char* blocks = kClosedLoopBlocks;  ///< set it before start() for another pipeline
   ReferenceChannel<JointSpace> channel;
   std::array<std::array<Waypoint<JointSpace>, 16>, kStores> waypoints;
   Pipeline pipeline;
@@ -39,7 +40,7 @@ struct ClosedLoop {
   Status start(int period_us, std::uint64_t seed) {
     std::array<char, 1024> text;
     std::snprintf(text.data(), text.size(), "[robot]\nname = fer\nperiod_us = %d\n%s", period_us,
-                  kClosedLoopBlocks);
+                  blocks);
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = 16;

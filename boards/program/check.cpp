@@ -17,7 +17,8 @@ int check(Session& session, const Options& options, const RobotState& initial) {
   RobotState held = initial;
   if (pipeline.robot.mode() == CommandMode::kEffort) held.tau = pipeline.robot.command().value;
   Guard guard;
-  if (status == Status::kOk) status = guard.start(pipeline.guard, held, pipeline.robot.period_s());
+  if (status == Status::kOk)
+    status = guard.start(pipeline.guard, pipeline.robot.mode(), held, pipeline.robot.period_s());
   if (status != Status::kOk) {
     print_stop(options.pipeline, "refused", status, guard.telemetry());
     return kRefused;

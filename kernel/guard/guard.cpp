@@ -12,12 +12,20 @@ JointLimits Guard::Params::effective() const {
   return limit;
 }
 
-Status Guard::start(const Params& params, const RobotState& state, double period_s) {
+Status Guard::start(const Params& params, CommandMode mode, const RobotState& state,
+                    double period_s) {
   limits_ = params.effective();
+  following_error_ = params.following_error, following_time_ = params.following_time;
   max_step_ = limits_.dtau_max * period_s;
+  mode_ = mode;
   telemetry_ = {};
-  TRY(check(state));
   for (int i = 0; i < kDof; ++i) {
+    const StepLimits steps = StepLimits::of(limits_, i, period_s);
+    positions_[static_cast<std::size_t>(i)].start(steps, state.q[i]);
+    velocities_[static_cast<std::size_t>(i)].start(steps, period_s, state.dq[i]);
+  }
+  TRY(check(state));
+  for (int i = 0; i < kDof && mode == CommandMode::kEffort; ++i) {
     if (std::abs(state.tau[i]) > limits_.tau_max[i])
       return trip(Status::kEffortLimit, i, state.tau[i], limits_.tau_max[i]);
   }
@@ -43,26 +51,60 @@ Status Guard::check(const RobotState& state) {
     if (std::abs(dq) > limits_.dq_max[i])
       return trip(Status::kMeasuredVelocityLimit, i, dq, limits_.dq_max[i]);
   }
+  return mode_ == CommandMode::kPosition ? check_following(state) : Status::kOk;
+}
+
+Status Guard::check_following(const RobotState& state) {
+  for (int i = 0; i < kDof; ++i) {
+    const double error = std::abs(positions_[static_cast<std::size_t>(i)].sent() - state.q[i]);
+    const double limit = following_error_[i] + following_time_[i] * std::abs(state.dq[i]);
+    if (!(error <= limit)) return trip(Status::kFollowingError, i, error, limit);
+  }
   return Status::kOk;
 }
 
-Status Guard::limit(RobotCommand& command) {
-  bool limited = false;
+Status Guard::limit(const RobotState& state, RobotCommand& command) {
+  if (command.mode != mode_) return Status::kNotStarted;
+  bool limited = false, rough = false;
   for (int i = 0; i < kDof; ++i) {
     const double wanted = command.value[i];
     if (!std::isfinite(wanted)) return trip(Status::kCommandNotFinite, i, wanted, 0.0);
-    if (command.mode != CommandMode::kEffort) continue;
-    const double step = std::clamp(wanted - last_[i], -max_step_[i], max_step_[i]);
-    double allowed = step == wanted - last_[i] ? wanted : last_[i] + step;
-    allowed = std::clamp(allowed, -limits_.tau_max[i], limits_.tau_max[i]);
-    if (allowed != wanted) {
+    command.value[i] = allowed(i, wanted, state);
+    rough = rough || jerky(i);
+    if (command.value[i] != wanted) {
       limited = true;
       telemetry_.limited_joints |= 1U << i;
     }
-    command.value[i] = last_[i] = allowed;
   }
   telemetry_.limited_cycles += limited ? 1 : 0;
+  telemetry_.jerky_cycles += rough ? 1 : 0;
   return Status::kOk;
+}
+
+double Guard::allowed(int joint, double wanted, const RobotState& state) {
+  const auto j = static_cast<std::size_t>(joint);
+  switch (mode_) {
+    case CommandMode::kPosition:
+      return positions_[j].next(wanted);
+    case CommandMode::kVelocity:
+      return velocities_[j].next(wanted, state.q[joint]);
+    case CommandMode::kEffort:
+      break;
+  }
+  return allowed_effort(joint, wanted);
+}
+
+double Guard::allowed_effort(int joint, double wanted) {
+  const double last = last_[joint], limit = limits_.tau_max[joint];
+  const double step = std::clamp(wanted - last, -max_step_[joint], max_step_[joint]);
+  const double within_rate = step == wanted - last ? wanted : last + step;
+  return last_[joint] = std::clamp(within_rate, -limit, limit);
+}
+
+/// Nothing was sent by the limiters of the modes that were not started.
+bool Guard::jerky(int joint) const {
+  const auto j = static_cast<std::size_t>(joint);
+  return positions_[j].jerky() || velocities_[j].jerky();
 }
 
 }  // namespace tactus

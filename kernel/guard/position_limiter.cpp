@@ -1,0 +1,33 @@
+#include "kernel/guard/position_limiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus {
+
+void PositionLimiter::start(const StepLimits& limits, double q) {
+  *this = {};
+  limits_ = limits;
+  sent_ = target_ = q;
+}
+
+double PositionLimiter::next(double wanted) {
+  const StepBand band = allowed_steps(limits_, sent_, step_);
+  const double before = sent_, target = std::clamp(wanted, limits_.q_min, limits_.q_max);
+  // Beside a target that moves, what it is ahead is closed at a speed that can still be braked; the
+  // last step, of one change at most, comes to rest on it.
+  const double ahead = target_ - sent_;
+  if (std::abs(ahead) <= limits_.change && band.contains(wanted - sent_)) {
+    sent_ = wanted;
+  } else {
+    const double closing = std::copysign(braking_step(std::abs(ahead), limits_.change), ahead);
+    sent_ += std::clamp(target - target_ + closing, band.lo, band.hi);
+  }
+  target_ = target;
+  const double step = sent_ - before, change = step - step_;
+  jerky_ = limits_.jerky(change - change_);
+  step_ = step, change_ = change;
+  return sent_;
+}
+
+}  // namespace tactus
