@@ -10,7 +10,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 44> kStatusNames = {{
+constexpr std::array<StatusName, 48> kStatusNames = {{
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -52,6 +52,10 @@ constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kSlip, "kSlip"},
     {Status::kClock, "kClock"},
     {Status::kNotStarted, "kNotStarted"},
+    {Status::kSensorNotFinite, "kSensorNotFinite"},
+    {Status::kSensorRange, "kSensorRange"},
+    {Status::kSensorStuck, "kSensorStuck"},
+    {Status::kSensorNotSteady, "kSensorNotSteady"},
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},

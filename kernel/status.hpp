@@ -51,6 +51,10 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSlip = 69,
     kClock = 70,
     kNotStarted = 71,
+    kSensorNotFinite = 72,
+    kSensorRange = 73,
+    kSensorStuck = 74,
+    kSensorNotSteady = 75,
     // 96..127 wire
     kBusTimeout = 96,
     kDriveFault = 97,
