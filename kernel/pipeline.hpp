@@ -6,7 +6,9 @@
 #include <type_traits>
 #include <variant>
 
+#include "kernel/control/admittance.hpp"
 #include "kernel/control/pd_gravity.hpp"
+#include "kernel/control/wrench_front_end.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
@@ -18,11 +20,17 @@ namespace tactus {
 
 /// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
 using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator,
-                           TaskReferenceGenerator, PdGravity>;
+                           TaskReferenceGenerator, PdGravity, WrenchFrontEnd, Admittance>;
 
 /// The word for each kind in "type = ...", in the order of Block.
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "", "robot_model", "joint_reference_generator", "task_reference_generator", "pd_gravity"};
+    "",
+    "robot_model",
+    "joint_reference_generator",
+    "task_reference_generator",
+    "pd_gravity",
+    "wrench_front_end",
+    "admittance"};
 
 inline constexpr int kMaxBlocks = 12;
 
