@@ -23,7 +23,7 @@ inline constexpr std::string_view kValid =
     "[executive]\nmax_slip = 7\n"
     "[recorder]\ndivisor = 5\nsignals = robot.q stiff.tau model.x\ntracking = jrg.q_d robot.q\n";
 
-inline constexpr Capabilities kTorqueRobot = {false, false, true, 100, 10000};
+inline constexpr Capabilities kTorqueRobot = {false, false, true, false, 100, 10000};
 
 /// What a board with a simulated robot loads into.
 struct LoaderBench {

@@ -53,7 +53,7 @@ using namespace tactus;
 /// A robot that stands where it was put.
 class StandingHal final : public Hal {
  public:
-  Capabilities capabilities() const override { return {false, false, true, 100, 100000}; }
+  Capabilities capabilities() const override { return {false, false, true, false, 100, 100000}; }
   Status start(CommandMode, RobotState& state) override { return read(state); }
   Status read(RobotState& state) override {
     for (int i = 0; i < kDof; ++i) {
