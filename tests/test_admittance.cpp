@@ -133,7 +133,8 @@ void the_pose_at_an_instant_does_not_depend_on_the_period(void**) {
   for (int i = 0; i < 250; ++i) {
     if (i % 25 == 0) slow.h = wrench(30.0 * random.vector(), 5.0 * random.vector());
     middle.h = fast.h = slow.h;
-    slow.run(8e-3, 8e-3), middle.run(8e-3, 2e-3), fast.run(8e-3, 1e-3);
+    slow.run(8e-3, 8e-3), fast.run(8e-3, 1e-3);
+    middle.run(4e-3, 2e-3), middle.run(4e-3, 4e-3);  // a period may change
     assert_close(middle.moved(), slow.moved(), 1e-13);
     assert_close(fast.moved(), slow.moved(), 1e-13);
     assert_close(fast.turned(), slow.turned(), 1e-12);

@@ -100,8 +100,10 @@ void starting_moves_nothing_whatever_pushes_and_whatever_was_before(void**) {
 void what_is_not_finite_never_becomes_a_pose(void**) {
   for (const double bad : {std::nan(""), kInfinity, -kInfinity})
     for (int input = 0; input < 25; ++input) {
-      AdmittanceBench bench;
+      AdmittanceBench bench, untouched;
+      bench.h = untouched.h = wrench(kOnes, kOnes);
       ASSERT_OK(bench.ac.start());
+      ASSERT_OK(untouched.ac.start());
       double* values[] = {bench.x_d.p.data(), bench.x_d.r.coeffs().data(), bench.v_d.data(),
                           bench.h.data(), bench.h_d.data()};
       const int first[] = {0, 3, 7, 13, 19};
@@ -111,10 +113,11 @@ void what_is_not_finite_never_becomes_a_pose(void**) {
       const double good = value;
       value = bad;
       ASSERT_STATUS(bench.ac.step(1e-3), Status::kCommandNotFinite);
+      value = good;  // it leaves no trace: that cycle did not count
+      bench.run(1e-3), untouched.run(1e-3);
+      assert_true(bench.ac.x_c.value.p == untouched.ac.x_c.value.p);
+      value = bad;
       ASSERT_STATUS(bench.ac.start(), Status::kCommandNotFinite);
-      value = good;  // and leaves no trace
-      ASSERT_OK(bench.ac.step(1e-3));
-      assert_close(bench.moved(), Vector3::Zero(), 0.0);
     }
 }
 

@@ -102,6 +102,8 @@ void the_filter_is_the_exact_first_order_lag_at_every_period(void**) {
       const double share = -std::expm1(-1e-3 * period_ms * i / 0.02);
       assert_same(bench.front.h.value, share * h, 1e-12);
     }
+    ASSERT_OK(bench.front.step(4e-3));  // a period may change
+    assert_same(bench.front.h.value, -std::expm1(-0.164 / 0.02) * h, 1e-12);
   }
 }
 
