@@ -82,12 +82,13 @@ void the_generator_gets_the_channel_of_the_board(void**) {
 }
 
 void a_robot_is_commanded_in_what_it_takes(void**) {
-  ASSERT_OK(bench.load(with("tau_c = stiff.tau", "q_c = jrg.q_d"), {true, false, false, 1, 10000}));
+  ASSERT_OK(bench.load(with("tau_c = stiff.tau", "q_c = jrg.q_d"),
+                       {true, false, false, false, 1, 10000}));
   assert_true(bench.pipeline.robot.mode() == CommandMode::kPosition);
-  ASSERT_OK(
-      bench.load(with("tau_c = stiff.tau", "dq_c = jrg.dq_d"), {false, true, false, 1, 9999}));
+  ASSERT_OK(bench.load(with("tau_c = stiff.tau", "dq_c = jrg.dq_d"),
+                       {false, true, false, false, 1, 9999}));
   assert_true(bench.pipeline.robot.mode() == CommandMode::kVelocity);
-  ASSERT_STATUS(bench.load(kValid, {true, true, false, 100, 10000}), Status::kNotOffered);
+  ASSERT_STATUS(bench.load(kValid, {true, true, false, false, 100, 10000}), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
                       "5: [robot] tau_c: the robot does not take this kind of command");
 }
