@@ -12,8 +12,8 @@
 // g1 is the response of x, one period later, to a unit impulse per mass, g2 that to a unit
 // acceleration, r what is left of a unit velocity. At rest in balance (v = 0, a = 0) nothing
 // rounds. With s = d T / m, p = k T^2 / m, the roots -x1, -x2 of z^2 + s z + p, and divided
-// differences of the exponential (Moler and Van Loan, Nineteen dubious ways to compute the
-// exponential of a matrix, 1978, method 9 of the revised edition of 2003):
+// differences of the exponential (Newton interpolation in Moler and Van Loan, Nineteen dubious ways
+// to compute the exponential of a matrix, 1978):
 //
 //   g1 = T exp[-x1, -x2],  g2 = T^2 exp[0, -x1, -x2],  r = 1 - s g1/T - p g2/T^2
 #pragma once
