@@ -6,8 +6,10 @@
 #include <type_traits>
 #include <variant>
 
+#include "kernel/control/admittance.hpp"
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/control/pid.hpp"
+#include "kernel/control/wrench_front_end.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
@@ -18,14 +20,27 @@
 
 namespace tactus {
 
-/// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
-using Block = std::variant<std::monostate, RobotModel, Frame, JointReferenceGenerator,
-                           TaskReferenceGenerator, PdGravity, Pid>;
+/// Every kind of block there is: adding a controller is one line here. Each says the word for it
+/// in "type = ..." as kType.
+using Block = std::variant<std::monostate,           //
+                           RobotModel,               //
+                           Frame,                    //
+                           JointReferenceGenerator,  //
+                           TaskReferenceGenerator,   //
+                           PdGravity,                //
+                           Pid,                      //
+                           WrenchFrontEnd,           //
+                           Admittance>;
 
-/// The word for each kind in "type = ...", in the order of Block.
-inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "",           "robot_model", "frame", "joint_reference_generator", "task_reference_generator",
-    "pd_gravity", "pid"};
+template <class... Blocks>
+constexpr std::array<const char*, 1 + sizeof...(Blocks)> block_types(
+    const std::variant<std::monostate, Blocks...>*) {
+  return {"", Blocks::kType...};
+}
+
+/// The word for each kind, in the order of Block.
+inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes =
+    block_types(static_cast<const Block*>(nullptr));
 
 inline constexpr int kMaxBlocks = 12;
 

@@ -52,6 +52,10 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSlip = 69,
     kClock = 70,
     kNotStarted = 71,
+    kSensorNotFinite = 72,
+    kSensorRange = 73,
+    kSensorStuck = 74,
+    kSensorNotSteady = 75,
     kFollowingError = 76,
     // 96..127 wire
     kBusTimeout = 96,

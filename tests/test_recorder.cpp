@@ -151,6 +151,14 @@ void a_twist_is_linear_part_first_and_joints_are_in_order(void**) {
   }
 }
 
+void a_flag_is_one_when_it_is_set(void**) {
+  for (const bool flag : {false, true}) {
+    double number = 5.0;
+    assert_int_equal(flatten({Name("ac"), "limited", Quantity::kFlag, &flag}, &number), 1);
+    assert_true(number == (flag ? 1.0 : 0.0));
+  }
+}
+
 void what_is_not_recorded_has_no_numbers(void**) {
   const Tool tool;
   const Jacobian J = Jacobian::Zero();
@@ -224,6 +232,7 @@ int main() {
       cmocka_unit_test(a_recording_without_signals_is_the_time),
       cmocka_unit_test(a_pose_is_x_y_z_qw_qx_qy_qz),
       cmocka_unit_test(a_twist_is_linear_part_first_and_joints_are_in_order),
+      cmocka_unit_test(a_flag_is_one_when_it_is_set),
       cmocka_unit_test(what_is_not_recorded_has_no_numbers),
       cmocka_unit_test(the_width_is_the_time_and_every_number_of_every_signal),
       cmocka_unit_test(between_two_threads_every_row_is_whole_and_either_taken_or_counted),

@@ -14,6 +14,8 @@
 namespace tactus {
 
 struct PdGravity {
+  static constexpr const char* kType = "pd_gravity";
+
   struct Params {
     JointVector kp = JointVector::Constant(kRequired);  ///< N m/rad
     JointVector kd = JointVector::Constant(kRequired);  ///< N m s/rad

@@ -26,6 +26,8 @@ namespace tactus {
 
 class Pid {
  public:
+  static constexpr const char* kType = "pid";
+
   enum class Derivative : std::uint8_t { kError, kMeasurement };
   enum class AntiWindup : std::uint8_t { kNone, kBackCalculation, kConditional };
   static constexpr std::array<const char*, 2> kDerivativeWords = {"error", "measurement"};

@@ -8,6 +8,8 @@ namespace tactus {
 
 /// Kinematics, Jacobian and gravity of the measured joints, computed once per cycle.
 struct RobotModel {
+  static constexpr const char* kType = "robot_model";
+
   In<Quantity::kJointPosition> q;   ///< measured
   In<Quantity::kJointVelocity> dq;  ///< measured
   In<Quantity::kTool> tool;         ///< optional; without it the tip is the flange, without mass

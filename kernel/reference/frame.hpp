@@ -10,6 +10,8 @@
 namespace tactus {
 
 struct Frame {
+  static constexpr const char* kType = "frame";
+
   struct Params {
     Vector3 position = Vector3::Constant(kRequired);  ///< m, of its origin
     Vector3 rotation = Vector3::Zero();               ///< rad, rotation vector from the base's axes

@@ -11,6 +11,8 @@
 namespace tactus {
 
 struct JointReferenceGenerator {
+  static constexpr const char* kType = "joint_reference_generator";
+
   struct Params {
     JointVector start_tolerance = JointVector::Constant(0.01);  ///< rad
     JointVector path_tolerance = JointVector::Zero();           ///< rad; 0: not checked

@@ -10,6 +10,8 @@
 namespace tactus {
 
 struct TaskReferenceGenerator {
+  static constexpr const char* kType = "task_reference_generator";
+
   struct Params {
     TaskSpace::Tolerance start_tolerance;            ///< of a trajectory that begins at t = 0
     TaskSpace::Band path_tolerance;                  ///< 0: not checked

@@ -1,0 +1,105 @@
+#include "kernel/control/admittance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/math/so3.hpp"
+
+namespace tactus {
+
+Admittance::Axis Admittance::axis_of(int i) const {
+  const bool linear = i < 3;
+  const int k = i % 3;
+  const int set = static_cast<int>(linear ? params.translation : params.rotation);
+  Axis axis;
+  axis.compliant = ((set >> k) & 1) != 0;
+  axis.mass = linear ? params.mass[k] : params.inertia[k];
+  axis.damping = linear ? params.damping[k] : params.rotational_damping[k];
+  axis.stiffness = linear ? params.stiffness[k] : params.rotational_stiffness[k];
+  axis.max_displacement = linear ? params.max_displacement : params.max_rotation;
+  axis.max_velocity = linear ? params.max_velocity : params.max_angular_velocity;
+  axis.max_force = linear ? params.max_force : params.max_moment;
+  if (params.damping_given == DampingGiven::kAsRatio)
+    axis.damping *= 2.0 * std::sqrt(axis.mass * axis.stiffness);
+  return axis;
+}
+
+Status Admittance::start() {
+  for (int i = 0; i < 6; ++i) {
+    const Axis axis = axis_of(i);
+    if (axis.compliant && axis.stiffness == 0.0 && params.damping_given == DampingGiven::kAsRatio)
+      return Status::kBadValue;
+    axes_[static_cast<std::size_t>(i)] = axis;
+  }
+  period_s_ = 0.0;
+  limited.value = false;
+  return inputs_finite() ? command() : Status::kCommandNotFinite;
+}
+
+Status Admittance::step(double dt_s) {
+  if (!inputs_finite()) return Status::kCommandNotFinite;
+  if (dt_s != period_s_) {
+    for (Axis& axis : axes_) axis.law = {axis.mass, axis.damping, axis.stiffness, dt_s};
+    period_s_ = dt_s;
+  }
+  const Matrix3 to_axes = frame().transpose();
+  const Vector6 wrench = *h - *h_d;
+  Vector6 force;
+  force << to_axes * wrench.head<3>(), to_axes * wrench.tail<3>();
+  limited.value = false;
+  for (int i = 0; i < 6; ++i) {
+    if (axes_[static_cast<std::size_t>(i)].move(force[i], dt_s)) limited.value = true;
+  }
+  return command();
+}
+
+bool Admittance::Axis::move(double force, double dt_s) {
+  if (!compliant) return false;
+  const double f = std::clamp(force, -max_force, max_force);
+  const MassSpringDamper::State free = law.step(state, f);
+  const double reach = max_velocity * dt_s;
+  MassSpringDamper::State next;
+  next.x = std::clamp(free.x, state.x - reach, state.x + reach);
+  next.v = std::clamp(free.v, -max_velocity, max_velocity);
+  if (std::abs(next.x) >= max_displacement) {
+    next.x = std::clamp(next.x, -max_displacement, max_displacement);
+    if (next.v * next.x > 0.0) next.v = 0.0;
+  }
+  state = next;
+  return f != force || next.x != free.x || next.v != free.v;
+}
+
+Matrix3 Admittance::frame() const {
+  return params.frame == CompliantFrame::kDesired ? x_d->r.toRotationMatrix()
+                                                  : Matrix3(Matrix3::Identity());
+}
+
+bool Admittance::inputs_finite() const {
+  return x_d->p.allFinite() && x_d->r.coeffs().allFinite() && v_d->allFinite() && h->allFinite() &&
+         h_d->allFinite();
+}
+
+Status Admittance::command() {
+  Vector6 e, de;
+  for (int i = 0; i < 6; ++i) {
+    const MassSpringDamper::State& state = axes_[static_cast<std::size_t>(i)].state;
+    e[i] = state.x, de[i] = state.v;
+  }
+  const Vector3 w_d = v_d->tail<3>();
+  const Matrix3 axes = frame();
+  const Vector3 omega =
+      params.frame == CompliantFrame::kDesired ? w_d : Vector3(Vector3::Zero());  // of the axes
+  const Vector3 d = axes * e.head<3>(), phi = axes * e.tail<3>();
+  const Vector3 dphi = axes * de.tail<3>() + omega.cross(phi);
+  const Eigen::Quaterniond turn = exp_so3(phi);
+
+  x_c.value.p = x_d->p + d;
+  x_c.value.r = turn * x_d->r;
+  v_c.value.head<3>() = v_d->head<3>() + axes * de.head<3>() + omega.cross(d);
+  v_c.value.tail<3>() = RightJacobian(-phi).times(dphi) + turn * w_d;  // J_l(phi) = J_r(-phi)
+  const bool finite =
+      x_c.value.p.allFinite() && x_c.value.r.coeffs().allFinite() && v_c.value.allFinite();
+  return finite ? Status::kOk : Status::kCommandNotFinite;
+}
+
+}  // namespace tactus

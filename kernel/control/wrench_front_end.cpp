@@ -1,0 +1,102 @@
+#include "kernel/control/wrench_front_end.hpp"
+
+#include <algorithm>
+
+#include "kernel/math/exponential.hpp"
+#include "kernel/model/robot_table.hpp"
+
+namespace tactus {
+namespace {
+
+/// v shortened by `band`, to zero if it is not longer.
+Vector3 shortened(const Vector3& v, double band) {
+  const double length = v.norm();
+  return length > band ? Vector3((1.0 - band / length) * v) : Vector3(Vector3::Zero());
+}
+
+}  // namespace
+
+Status WrenchFrontEnd::start() {
+  h.value = bias.value = filtered_ = Vector6::Zero();
+  taring.value = params.tare_s > 0.0;
+  period_s_ = 0.0;
+  last_ = *ft;
+  unchanged_ = samples_ = cycles_ = 0;
+  return check();
+}
+
+Status WrenchFrontEnd::step(double dt_s) {
+  TRY(check());
+  if (stuck(dt_s)) return Status::kSensorStuck;
+  const Matrix3 R = (x->r * tool->tip.r.conjugate()).toRotationMatrix();
+  const Vector6 load = *ft - weight(R);
+  if (!load.allFinite()) return Status::kSensorNotFinite;
+  if (taring.value) return tare(load, dt_s);
+  filter(at_tip(load - bias.value, R), dt_s);
+  h.value << shortened(filtered_.head<3>(), params.dead_force),
+      shortened(filtered_.tail<3>(), params.dead_moment);
+  return h.value.allFinite() ? Status::kOk : Status::kSensorNotFinite;
+}
+
+Status WrenchFrontEnd::check() const {
+  if (!ft->allFinite()) return Status::kSensorNotFinite;
+  const bool within =
+      ft->head<3>().norm() < params.max_force && ft->tail<3>().norm() < params.max_moment;
+  return within ? Status::kOk : Status::kSensorRange;
+}
+
+bool WrenchFrontEnd::stuck(double dt_s) {
+  if (params.stuck_s == 0.0) return false;
+  unchanged_ = *ft == last_ ? unchanged_ + 1 : 0;
+  last_ = *ft;
+  return unchanged_ * dt_s >= params.stuck_s;
+}
+
+Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
+  const bool first = samples_ == 0;
+  low_ = first ? load : Vector6(low_.cwiseMin(load));
+  high_ = first ? load : Vector6(high_.cwiseMax(load));
+  const Vector6 spread = high_ - low_;
+  const bool steady = spread.head<3>().maxCoeff() <= params.tare_force_tolerance &&
+                      spread.tail<3>().maxCoeff() <= params.tare_moment_tolerance;
+  if (first || !steady) {
+    sum_ = low_ = high_ = load;
+    samples_ = 1;
+  } else {
+    sum_ += load;
+    ++samples_;
+  }
+  ++cycles_;
+  if (samples_ * dt_s >= params.tare_s) {
+    bias.value = sum_ / samples_;
+    taring.value = false;
+    return Status::kOk;
+  }
+  return cycles_ * dt_s < params.tare_timeout_s ? Status::kOk : Status::kSensorNotSteady;
+}
+
+Vector6 WrenchFrontEnd::weight(const Matrix3& R) const {
+  const Vector3 force = R.transpose() * Vector3(0.0, 0.0, -tool->mass_kg * kGravity_m_s2);
+  Vector6 wrench;
+  wrench << force, tool->com.cross(force);
+  return wrench;
+}
+
+Vector6 WrenchFrontEnd::at_tip(const Vector6& flange, const Matrix3& R) const {
+  const Vector3 force = flange.head<3>();
+  const Vector3 moment = flange.tail<3>() - tool->tip.p.cross(force);
+  Vector6 wrench;
+  wrench << R * force, R * moment;
+  return wrench;
+}
+
+void WrenchFrontEnd::filter(const Vector6& contact, double dt_s) {
+  if (dt_s != period_s_) {
+    const double periods = dt_s / params.time_constant_s;
+    gain_ = params.time_constant_s > 0.0 ? periods * mean_decay(periods) : 1.0;  // 1 - e^-periods
+    period_s_ = dt_s;
+  }
+  filtered_ += gain_ * (contact - filtered_);
+}
+
+}  // namespace tactus
