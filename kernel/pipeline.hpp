@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "kernel/control/cartesian_pose.hpp"
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
@@ -18,11 +19,12 @@ namespace tactus {
 
 /// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
 using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator,
-                           TaskReferenceGenerator, PdGravity>;
+                           TaskReferenceGenerator, PdGravity, CartesianPose>;
 
 /// The word for each kind in "type = ...", in the order of Block.
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "", "robot_model", "joint_reference_generator", "task_reference_generator", "pd_gravity"};
+    "",           "robot_model",   "joint_reference_generator", "task_reference_generator",
+    "pd_gravity", "cartesian_pose"};
 
 inline constexpr int kMaxBlocks = 12;
 

@@ -23,6 +23,7 @@ enum class Quantity : std::uint8_t {
   kSensorWrench,
   kJacobian,
   kTool,
+  kScalar,
 };
 
 struct QuantityInfo {
@@ -36,7 +37,7 @@ struct QuantityInfo {
 /// Poses, twists and wrenches are of the tool tip, in the base frame; a wrench is what the
 /// environment exerts on the tool. A sensor wrench is as a force/torque sensor at the flange gives
 /// it: at the flange's origin, in its axes, the tool's own weight included. Indexed by Quantity.
-inline constexpr std::array<QuantityInfo, 12> kQuantities = {{
+inline constexpr std::array<QuantityInfo, 13> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
@@ -49,8 +50,9 @@ inline constexpr std::array<QuantityInfo, 12> kQuantities = {{
     {"sensor wrench", "N, N m", "fx fy fz mx my mz", 6},
     {"jacobian", "m, 1", "", 0},
     {"tool", "kg, m", "", 0},
+    {"scalar", "1", "value", 1},
 }};
-static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kTool) + 1);
+static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kScalar) + 1);
 
 constexpr const QuantityInfo& info(Quantity quantity) {
   return kQuantities[static_cast<std::size_t>(quantity)];
@@ -81,6 +83,12 @@ template <>
 struct QuantityValue<Quantity::kTool> {
   using Type = Tool;
   static Type neutral() { return {}; }
+};
+
+template <>
+struct QuantityValue<Quantity::kScalar> {
+  using Type = double;
+  static Type neutral() { return 0.0; }
 };
 
 template <Quantity Q>

@@ -23,6 +23,8 @@ int flatten(const PortEntry& port, double* to) {
   } else if (is_task_vector(port.quantity)) {
     const Vector6& vector = *static_cast<const Vector6*>(port.value);
     std::copy(vector.data(), vector.data() + count, to);
+  } else if (port.quantity == Quantity::kScalar) {
+    *to = *static_cast<const double*>(port.value);
   } else if (count > 0) {
     const JointVector& joints = *static_cast<const JointVector*>(port.value);
     std::copy(joints.data(), joints.data() + count, to);

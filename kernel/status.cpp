@@ -10,7 +10,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 44> kStatusNames = {{
+constexpr std::array<StatusName, 45> kStatusNames = {{
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -23,6 +23,7 @@ constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kUnknownType, "kUnknownType"},
     {Status::kTooLarge, "kTooLarge"},
     {Status::kNotOffered, "kNotOffered"},
+    {Status::kUnstableGain, "kUnstableGain"},
     {Status::kReferenceSize, "kReferenceSize"},
     {Status::kReferenceNotFinite, "kReferenceNotFinite"},
     {Status::kPositionLimit, "kPositionLimit"},
