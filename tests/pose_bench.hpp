@@ -47,7 +47,7 @@ inline JointVector regular_joints(Random& random) {
 
 struct PoseBench {
   double dt_s = 1e-3;
-  int delay = 0;                                    ///< periods by which the measurement is old
+  int delay = 0;                                     ///< periods by which the measurement is old
   JointFlags blocked = JointFlags::Constant(false);  ///< joints that do not move
   JointVector true_q = JointVector::Zero();
 

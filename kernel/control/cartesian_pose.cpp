@@ -12,6 +12,8 @@ using Inverse = DampedInverse<kDof>;
 
 /// Part of the joints' acceleration that brakes a correction; the rest is the reference's.
 constexpr double kBrakingShare = 0.5;
+/// Part of it with which the posture's velocity changes, so that the task does not wait for it.
+constexpr double kPostureShare = 0.25;
 
 bool finite(const Pose& pose) {
   return pose.p.allFinite() && pose.r.coeffs().allFinite();
@@ -66,6 +68,7 @@ Status CartesianPose::start(double dt_s) {
                 *q);
   q_c.value = *q;
   dq_c.value.setZero();
+  posture_dq_.setZero();
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
   return Status::kOk;
@@ -102,8 +105,10 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   const double share = share_within(JointVector::Zero(), task.dq, low, high);
   dq = share * task.dq;
   if constexpr (kDof > 6) {
-    const JointVector wanted = params.posture_gain * (posture - *q);
-    const JointVector rest = task.inverse.null_space(task.free.select(wanted, 0.0));
+    const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
+    const JointVector change = params.posture_gain * (posture - *q) - posture_dq_;
+    posture_dq_ += change.cwiseMax(-most).cwiseMin(most);
+    const JointVector rest = task.inverse.null_space(task.free.select(posture_dq_, 0.0));
     dq += share_within(dq, rest, low, high) * rest;
   }
   if (!dq.allFinite()) return Status::kCommandNotFinite;

@@ -93,6 +93,7 @@ class CartesianPose {
   Task solve(const Vector6& v, const DampedInverse<kDof>& inverse, double dt_s) const;
 
   JointMotion motion_;
+  JointVector posture_dq_ = JointVector::Zero();
 };
 
 }  // namespace tactus
