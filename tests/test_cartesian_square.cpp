@@ -1,5 +1,5 @@
 // The paper's square: task-space generator, cartesian pose control, ideal servo; the tip judged by
-// Orocos KDL. 65 s at 0.033 m/s, quintic from corner to corner.
+// Orocos KDL. 65 s at 0.033 m/s, quintic from corner to corner; twice around, to be within reach.
 #include "gateway/reference_client.hpp"
 #include "kernel/reference/task_reference_generator.hpp"
 #include "tests/oracles/kdl.hpp"
@@ -9,7 +9,7 @@
 namespace tactus {
 namespace {
 
-constexpr int kSides = 4;
+constexpr int kSides = 8;
 constexpr double kSideTime_s = 65.0 / kSides, kMeanSpeed_m_s = 0.033;
 
 struct Square {
@@ -36,7 +36,8 @@ struct Square {
   }
   Status send() {
     constexpr double kSide_m = kSideTime_s * kMeanSpeed_m_s;
-    constexpr double kCorners[kSides][2] = {{1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    constexpr double kCorners[kSides][2] = {{1, 0}, {1, 1}, {0, 1}, {0, 0},
+                                            {1, 0}, {1, 1}, {0, 1}, {0, 0}};
     Trajectory<TaskSpace>& square = *client.acquire();
     square.fields = kVelocityField | kAccelerationField;
     square.interpolation = Interpolation::kByFields;
@@ -45,8 +46,8 @@ struct Square {
       Waypoint<TaskSpace>& corner = square.waypoints[i] = {};
       corner.time_s = (i + 1) * kSideTime_s;
       corner.point.x = bench.x;
-      corner.point.x.p.y() += 0.5 * kSide_m * kCorners[i][0];
-      corner.point.x.p.z() -= 0.5 * kSide_m * kCorners[i][1];
+      corner.point.x.p.y() += kSide_m * kCorners[i][0];
+      corner.point.x.p.z() -= kSide_m * kCorners[i][1];
     }
     std::uint32_t id = 0;
     return client.send(square, id).status;

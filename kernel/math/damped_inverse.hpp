@@ -49,7 +49,7 @@ class DampedInverse {
 
   /// J# v. [cyclic]
   Joints times(const Twist& v) const { return J_.transpose() * damped_.solve(v); }
-  /// (I - J# J) dq, which moves the task by no more than lambda |dq| / 100, and not at all where
+  /// (I - J# J) dq, which moves the task by no more than lambda |dq| / 20, and not at all where
   /// nothing is damped. [cyclic]
   Joints null_space(const Joints& dq) const {
     return dq - J_.transpose() * hardly_damped_.solve(J_ * dq);
@@ -65,9 +65,10 @@ class DampedInverse {
   // Keeps the factorisation above rounding where the rank is lost: J J^T is of the order of 1, its
   // rounding error of 1e-16. Elsewhere it changes J^+ by kRounding / sigma^2 of itself.
   static constexpr double kRounding = 1e-12;
-  // Share of the damping in the null-space projector. None at all, and at a singularity it would
-  // jump; the whole, and it would move the task: by s l^2 / (s^2 + l^2) <= l / 2 with l this share.
-  static constexpr double kNullShare = 0.02;
+  // Share of the damping in the null-space projector. None at all, and it would jump at a
+  // singularity, where the posture also decides to which side an arm bends that was stretched out;
+  // the whole, and the task would move: by s l^2 / (s^2 + l^2) <= l / 2, l being the share.
+  static constexpr double kNullShare = 0.1;
 
   static Matrix6 plus(Matrix6 JJt, double lambda) {
     JJt.diagonal().array() += lambda * lambda;
