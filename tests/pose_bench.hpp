@@ -45,6 +45,14 @@ inline JointVector regular_joints(Random& random) {
   return q;
 }
 
+/// The same every time, one for every number.
+inline JointVector regular(int number) {
+  Random random;
+  JointVector q = regular_joints(random);
+  for (int i = 0; i < number; ++i) q = regular_joints(random);
+  return q;
+}
+
 struct PoseBench {
   double dt_s = 1e-3;
   int delay = 0;                                     ///< periods by which the measurement is old
@@ -95,6 +103,32 @@ struct PoseBench {
 
  private:
   std::array<JointVector, 4> old_;
+};
+
+inline const JointLimits kLimits;
+
+/// Watches a run: what no command may ever do. With the margin that the law takes off by itself.
+struct Watch {
+  PoseBench& bench;
+  bool follows = true;  ///< the robot does, so accelerations are limited too
+  JointVector dq = bench.dq_c();
+
+  Status step() {
+    const JointVector before = bench.q_c();
+    TRY(bench.step());
+    const JointVector& now = bench.dq_c();
+    for (int i = 0; i < kDof; ++i) {
+      assert_true(std::abs(now[i]) <= kLimits.dq_max[i]);
+      assert_true(bench.q_c()[i] <= std::max(kLimits.q_max[i] - 0.01, before[i]) + 1e-12);
+      assert_true(bench.q_c()[i] >= std::min(kLimits.q_min[i] + 0.01, before[i]) - 1e-12);
+      ASSERT_NEAR(bench.q_c()[i], before[i] + bench.dt_s * now[i], 1e-14);
+      if (follows)
+        assert_true(std::abs(now[i] - dq[i]) <= kLimits.ddq_max[i] * bench.dt_s * (1.0 + 1e-9));
+    }
+    assert_true(bench.law.scale.value >= 0.0 && bench.law.scale.value <= 1.0);
+    dq = now;
+    return Status::kOk;
+  }
 };
 
 }  // namespace tactus
