@@ -107,6 +107,34 @@ void a_joint_at_its_limit_stops_there_and_can_leave(void**) {
   assert_true(at_limit >= kDof);
 }
 
+/// With a joint at its limit that the tip's motion would drive further, the others move the tip
+/// just the same, as far as they can.
+void the_others_take_the_share_of_a_joint_at_its_limit(void**) {
+  if (kDof <= 6) return;  // there are no others
+  Random random;
+  int taken = 0;
+  for (int number = 0; number < 4 * kDof; ++number) {
+    const int joint = number % kDof;
+    JointVector q = regular_joints(random);
+    q[joint] = kLimits.q_max[joint] - 0.01;
+    PoseBench bench;
+    bench.law.params.posture_gain = 0.0;
+    bench.law.params.limits.ddq_max.setConstant(1e6);
+    ASSERT_OK(bench.start(q));
+    const DampedInverse<kDof> every(bench.J, 0.05);
+    bench.J.col(joint).setZero();
+    if (!(every.sigma() > 0.06 && DampedInverse<kDof>(bench.J, 0.05).sigma() > 0.06)) continue;
+    bench.v_d << 1e-3 * random.axis(), 1e-3 * random.axis();
+    if (!(every.times(bench.v_d)[joint] > 0.0)) bench.v_d = -bench.v_d;
+    ASSERT_OK(bench.step());
+    ASSERT_NEAR(bench.law.scale.value, 1.0, 0.0);
+    ASSERT_NEAR(bench.dq_c()[joint], 0.0, 1e-9);
+    ASSERT_NEAR((bench.J * bench.dq_c() - bench.v_d).norm(), 0.0, 1e-8);
+    ++taken;
+  }
+  assert_true(taken >= 3);
+}
+
 // Proves CP-7.
 
 void a_blocked_arm_is_not_run_away_from_and_released_without_a_jump(void**) {
@@ -149,6 +177,7 @@ int main() {
       cmocka_unit_test(whatever_the_reference_does_no_limit_is_exceeded),
       cmocka_unit_test(a_large_step_of_the_reference_is_reached_without_overshoot),
       cmocka_unit_test(a_joint_at_its_limit_stops_there_and_can_leave),
+      cmocka_unit_test(the_others_take_the_share_of_a_joint_at_its_limit),
       cmocka_unit_test(a_blocked_arm_is_not_run_away_from_and_released_without_a_jump),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
