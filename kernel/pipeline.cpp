@@ -1,17 +1,29 @@
 #include "kernel/pipeline.hpp"
 
 namespace tactus {
+namespace {
+
+/// A block whose settings are to be judged by the period takes it.
+template <class Kind>
+Status start_block(Kind& block, double period_s) {
+  if constexpr (std::is_invocable_v<decltype(&Kind::start), Kind&, double>)
+    return block.start(period_s);
+  else
+    return block.start();
+}
+
+}  // namespace
 
 Status Pipeline::start(const RobotState& measured) {
   robot.set_measured(measured);
   robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
   for (int i = 0; i < count_; ++i) {
     TRY(std::visit(
-        [](auto& block) {
+        [this](auto& block) {
           if constexpr (std::is_same_v<decltype(block), std::monostate&>)
             return Status::kOk;
           else
-            return block.start();
+            return start_block(block, robot.period_s());
         },
         blocks_[static_cast<std::size_t>(i)]));
   }

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "kernel/control/admittance.hpp"
+#include "kernel/control/cartesian_pose.hpp"
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/control/pid.hpp"
 #include "kernel/control/wrench_front_end.hpp"
@@ -30,7 +31,8 @@ using Block = std::variant<std::monostate,           //
                            PdGravity,                //
                            Pid,                      //
                            WrenchFrontEnd,           //
-                           Admittance>;
+                           Admittance,               //
+                           CartesianPose>;
 
 template <class... Blocks>
 constexpr std::array<const char*, 1 + sizeof...(Blocks)> block_types(

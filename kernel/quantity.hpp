@@ -24,6 +24,7 @@ enum class Quantity : std::uint8_t {
   kJacobian,
   kTool,
   kFlag,
+  kScalar,
 };
 
 struct QuantityInfo {
@@ -37,7 +38,7 @@ struct QuantityInfo {
 /// Poses, twists and wrenches are of the tool tip, in the base frame; a wrench is what the
 /// environment exerts on the tool. A sensor wrench is as a force/torque sensor at the flange gives
 /// it: at the flange's origin, in its axes, the tool's own weight included. Indexed by Quantity.
-inline constexpr std::array<QuantityInfo, 13> kQuantities = {{
+inline constexpr std::array<QuantityInfo, 14> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
@@ -51,8 +52,9 @@ inline constexpr std::array<QuantityInfo, 13> kQuantities = {{
     {"jacobian", "m, 1", "", 0},
     {"tool", "kg, m", "", 0},
     {"flag", "0 or 1", "on", 1},
+    {"scalar", "1", "value", 1},
 }};
-static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kFlag) + 1);
+static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kScalar) + 1);
 
 constexpr const QuantityInfo& info(Quantity quantity) {
   return kQuantities[static_cast<std::size_t>(quantity)];
@@ -88,6 +90,12 @@ template <>
 struct QuantityValue<Quantity::kFlag> {
   using Type = bool;
   static Type neutral() { return false; }
+};
+
+template <>
+struct QuantityValue<Quantity::kScalar> {
+  using Type = double;
+  static Type neutral() { return 0.0; }
 };
 
 template <Quantity Q>

@@ -25,6 +25,8 @@ int flatten(const PortEntry& port, double* to) {
     std::copy(vector.data(), vector.data() + count, to);
   } else if (port.quantity == Quantity::kFlag) {
     *to = *static_cast<const bool*>(port.value) ? 1.0 : 0.0;
+  } else if (port.quantity == Quantity::kScalar) {
+    *to = *static_cast<const double*>(port.value);
   } else if (count > 0) {
     const JointVector& joints = *static_cast<const JointVector*>(port.value);
     std::copy(joints.data(), joints.data() + count, to);

@@ -21,6 +21,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kUnknownType, "kUnknownType"},
     {Status::kTooLarge, "kTooLarge"},
     {Status::kNotOffered, "kNotOffered"},
+    {Status::kUnstableGain, "kUnstableGain"},
     {Status::kReferenceSize, "kReferenceSize"},
     {Status::kReferenceNotFinite, "kReferenceNotFinite"},
     {Status::kPositionLimit, "kPositionLimit"},

@@ -20,6 +20,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kUnknownType = 9,
     kTooLarge = 10,
     kNotOffered = 11,
+    kUnstableGain = 12,
     // 32..63 reference: the request is refused, the robot keeps its reference
     kReferenceSize = 32,
     kReferenceNotFinite = 33,

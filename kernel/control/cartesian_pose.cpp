@@ -1,0 +1,161 @@
+#include "kernel/control/cartesian_pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/math/so3.hpp"
+
+namespace tactus {
+namespace {
+
+using Inverse = DampedInverse<kDof>;
+
+/// Part of the joints' acceleration that brakes a correction; the rest is the reference's.
+constexpr double kBrakingShare = 0.5;
+/// Part of it with which the posture's velocity changes, so that the task does not wait for it.
+constexpr double kPostureShare = 0.25;
+
+bool finite(const Pose& pose) {
+  return pose.p.allFinite() && pose.r.coeffs().allFinite();
+}
+
+/// From x to x_d: what moves x onto x_d in one second, in the base frame.
+Vector6 pose_error(const Pose& x_d, const Pose& x) {
+  Vector6 e;
+  e << x_d.p - x.p, log_so3(x_d.r * x.r.conjugate());
+  return e;
+}
+
+/// The joint furthest beyond its bounds, or -1.
+int worst_joint(const JointVector& dq, const JointVector& low, const JointVector& high) {
+  int worst = -1;
+  double most = 1e-12;  // rad/s; a joint that has been left out is at its bound, but for rounding
+  for (int i = 0; i < kDof; ++i) {
+    const double beyond = std::max(low[i] - dq[i], dq[i] - high[i]);
+    if (beyond > most) most = beyond, worst = i;
+  }
+  return worst;
+}
+
+/// The largest share of `dq`, 0 to 1, that can be added to `to` within the bounds.
+double share_within(const JointVector& to, const JointVector& dq, const JointVector& low,
+                    const JointVector& high) {
+  double share = 1.0;
+  for (int i = 0; i < kDof; ++i) {
+    const double speed = std::abs(dq[i]);
+    const double room = std::max(0.0, dq[i] > 0.0 ? high[i] - to[i] : to[i] - low[i]);
+    if (speed * share > room) share = room / speed;
+  }
+  return share;
+}
+
+}  // namespace
+
+/// Joint velocities for a twist, and the inverse without the joints that were left out.
+struct CartesianPose::Task {
+  JointVector dq;
+  Inverse inverse;
+  Eigen::Array<bool, kDof, 1> free;
+};
+
+Status CartesianPose::start(double dt_s) {
+  const double most = std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
+  if (!(most * (dt_s + params.measurement_delay) <= kMaxGainPeriods)) return Status::kUnstableGain;
+  if (!q->allFinite()) return Status::kStateNotFinite;
+  const JointLimits& limits = params.limits;
+  motion_.start({limits.q_min + params.position_margin, limits.q_max - params.position_margin,
+                 limits.dq_max, limits.ddq_max, params.max_lead},
+                *q);
+  q_c.value = *q;
+  dq_c.value.setZero();
+  posture_dq_.setZero();
+  scale.value = 1.0;
+  sigma.value = damping.value = 0.0;
+  return Status::kOk;
+}
+
+Status CartesianPose::step(double dt_s) {
+  JointVector dq;
+  const Status status = command_velocity(dt_s, dq);
+  if (status == Status::kOk)
+    motion_.step(dq, *q, dt_s);
+  else
+    motion_.halt();
+  q_c.value = motion_.q();
+  dq_c.value = motion_.dq();
+  return status;
+}
+
+Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
+  if (!(finite(*x) && J->allFinite() && q->allFinite())) return Status::kStateNotFinite;
+  const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
+  const JointVector posture =
+      q_posture.wired() ? *q_posture : 0.5 * (params.limits.q_min + params.limits.q_max);
+  if (!(e.allFinite() && v_d->allFinite() && posture.allFinite())) return Status::kReferenceFault;
+
+  const Inverse inverse(*J, params.damping_onset);
+  Vector6 v = twist(e, inverse, dt_s);
+  const double fastest = std::max(
+      {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
+  v /= fastest;
+  const Task task = solve(v, inverse, dt_s);
+
+  const JointVector low = motion_.lowest(dt_s).cwiseMax(-params.limits.dq_max);
+  const JointVector high = motion_.highest(dt_s).cwiseMin(params.limits.dq_max);
+  const double share = share_within(JointVector::Zero(), task.dq, low, high);
+  dq = share * task.dq;
+  if constexpr (kDof > 6) {
+    const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
+    const JointVector change = params.posture_gain * (posture - *q) - posture_dq_;
+    posture_dq_ += change.cwiseMax(-most).cwiseMin(most);
+    const JointVector rest = task.inverse.null_space(task.free.select(posture_dq_, 0.0));
+    dq += share_within(dq, rest, low, high) * rest;
+  }
+  if (!dq.allFinite()) return Status::kCommandNotFinite;
+  scale.value = share / fastest;
+  sigma.value = inverse.sigma();
+  damping.value = task.inverse.lambda();
+  return Status::kOk;
+}
+
+/// v_d + K e, where the correction K e is scaled so that every joint can still brake when it is
+/// done: at the rate of the greatest gain it has |dq| / K to go.
+Vector6 CartesianPose::twist(const Vector6& e, const Inverse& inverse, double dt_s) const {
+  Vector6 correction;
+  correction << params.position_gain.cwiseProduct(e.head<3>()),
+      params.rotation_gain.cwiseProduct(e.tail<3>());
+  const double rate = std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
+  const JointVector dq = inverse.times(correction);
+  double share = 1.0;
+  for (int i = 0; i < kDof; ++i) {
+    const double speed = std::abs(dq[i]);
+    const double most =
+        stopping_speed(speed / rate, kBrakingShare * params.limits.ddq_max[i], dt_s);
+    if (speed * share > most) share = most / speed;
+  }
+  return *v_d + share * correction;
+}
+
+/// Joints whose share of v is beyond what their position limits admit move as far as they may, one
+/// after the other, the furthest beyond first; the free ones take the rest of the task.
+CartesianPose::Task CartesianPose::solve(const Vector6& v, const Inverse& inverse,
+                                         double dt_s) const {
+  const JointVector low = motion_.lowest(dt_s), high = motion_.highest(dt_s);
+  Task task{inverse.times(v), inverse, Eigen::Array<bool, kDof, 1>::Constant(true)};
+  Jacobian free_J = *J;
+  Vector6 rest = v;
+  JointVector fixed = JointVector::Zero();
+  for (int left_out = 0; left_out < kDof; ++left_out) {
+    const int i = worst_joint(task.dq, low, high);
+    if (i < 0) break;
+    fixed[i] = std::clamp(task.dq[i], low[i], high[i]);
+    rest -= J->col(i) * fixed[i];
+    free_J.col(i).setZero();
+    task.free[i] = false;
+    task.inverse = Inverse(free_J, params.damping_onset);
+    task.dq = task.inverse.times(rest) + fixed;
+  }
+  return task;
+}
+
+}  // namespace tactus

@@ -1,0 +1,101 @@
+// Cartesian pose control: closed-loop inverse kinematics by damped least squares.
+//
+//   e    = [p_d - p ; log(r_d r^-1)] - measurement_delay v_d        base frame, shortest arc
+//   v    = v_d + K e
+//   dq_c = J# v + (I - J# J) k_n (q_posture - q)        [Risi et al. 2026, eq. 6; Chiacchio et al.
+//   q_c  = integral of dq_c                              1991; J#: kernel/math/damped_inverse.hpp]
+//
+// Discretisation: the pose error of this period is worked off during the next, q_c(k) = q_c(k-1) +
+// dt dq_c(k), so that with a servo that is at q_c(k) when period k ends e(k+1) = (1 - K dt) e(k).
+// The response is exp(-K t) at every period, to K dt / 2 of itself. x, J and q are measured; a
+// measurement that is known to be old is compared with the reference of that time.
+//
+// Limits, in this order:
+//   - a joint that may not move further is left out, and the others take its share of the task;
+//   - the whole twist is scaled until tool and joints keep their speeds: direction kept;
+//   - posture takes what speed is left;
+//   - a large error is worked off no faster than the joints can brake (half their acceleration);
+//   - JointMotion bounds what is left: position, velocity, lead, acceleration.
+#pragma once
+
+#include "kernel/describe.hpp"
+#include "kernel/joint_motion.hpp"
+#include "kernel/math/damped_inverse.hpp"
+#include "kernel/port.hpp"
+#include "kernel/status.hpp"
+
+namespace tactus {
+
+class CartesianPose {
+ public:
+  static constexpr const char* kType = "cartesian_pose";
+
+  struct Params {
+    Vector3 position_gain = Vector3::Constant(10.0);  ///< 1/s
+    Vector3 rotation_gain = Vector3::Constant(10.0);  ///< 1/s
+    double measurement_delay = 0.0;  ///< s; age of x when step() sees it, an ideal servo's is zero
+    double damping_onset = 0.05;     ///< sigma below which the inverse is damped
+    double posture_gain = 0.5;       ///< 1/s; zero: no posture
+    double max_lead = 0.1;           ///< rad; more than the servo lags at speed
+    double max_speed = Robot::kTaskLimit.v_max;          ///< m/s
+    double max_angular_speed = Robot::kTaskLimit.w_max;  ///< rad/s
+    JointLimits limits;
+    JointVector position_margin = JointVector::Constant(0.01);  ///< rad, off both limits
+  } params;
+  In<Quantity::kPose> x_d;                 ///< desired pose of the tip
+  In<Quantity::kTwist> v_d;                ///< its twist; not wired: zero
+  In<Quantity::kPose> x;                   ///< measured
+  In<Quantity::kJacobian> J;               ///< at the measured joints
+  In<Quantity::kJointPosition> q;          ///< measured
+  In<Quantity::kJointPosition> q_posture;  ///< not wired: the middle of the joints' ranges
+  Out<Quantity::kJointPosition> q_c;
+  Out<Quantity::kJointVelocity> dq_c;
+  Out<Quantity::kScalar> scale;    ///< share of the twist v that speed limits leave, 0 to 1
+  Out<Quantity::kScalar> sigma;    ///< distance from a singularity
+  Out<Quantity::kScalar> damping;  ///< lambda; zero: the inverse is exact
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("position_gain", params.position_gain, Range{0.0, 1000.0}, "1/s");
+    visit.param("rotation_gain", params.rotation_gain, Range{0.0, 1000.0}, "1/s");
+    visit.param("measurement_delay", params.measurement_delay, Range{0.0, 0.1}, "s");
+    visit.param("damping_onset", params.damping_onset, Range{1e-3, 1.0}, "1");
+    visit.param("posture_gain", params.posture_gain, Range{0.0, 10.0}, "1/s");
+    visit.param("max_lead", params.max_lead, Range{1e-4, 1.0}, "rad");
+    visit.param("max_speed", params.max_speed, Range{1e-3, Robot::kTaskLimit.v_max}, "m/s");
+    visit.param("max_angular_speed", params.max_angular_speed, Range{1e-3, Robot::kTaskLimit.w_max},
+                "rad/s");
+    visit.limit("max_velocity", params.limits.dq_max, "rad/s");
+    visit.limit("max_acceleration", params.limits.ddq_max, "rad/s^2");
+    visit.param("position_margin", params.position_margin, Range{0.0, 0.5}, "rad");
+    visit.in("x_d", x_d), visit.optional("v_d", v_d), visit.in("x", x), visit.in("J", J);
+    visit.in("q", q), visit.optional("q_posture", q_posture);
+    visit.out("q_c", q_c), visit.out("dq_c", dq_c);
+    visit.out("scale", scale), visit.out("sigma", sigma), visit.out("damping", damping);
+  }
+
+  /// Holds the measured position. kUnstableGain unless every gain times (dt_s + measurement_delay)
+  /// is at most kMaxGainPeriods; kStateNotFinite. [init]
+  Status start(double dt_s);
+
+  /// kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture; a quaternion of no length),
+  /// kCommandNotFinite. The command then stays where it was, at rest. [cyclic]
+  Status step(double dt_s);
+
+  /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
+  /// overshoot below 1; with two periods of delay that nobody told of the limit of stability is
+  /// 2 sin(pi / 10) = 0.618.
+  static constexpr double kMaxGainPeriods = 0.5;
+
+ private:
+  struct Task;
+
+  Status command_velocity(double dt_s, JointVector& dq);
+  Vector6 twist(const Vector6& e, const DampedInverse<kDof>& inverse, double dt_s) const;
+  Task solve(const Vector6& v, const DampedInverse<kDof>& inverse, double dt_s) const;
+
+  JointMotion motion_;
+  JointVector posture_dq_ = JointVector::Zero();
+};
+
+}  // namespace tactus

@@ -1,0 +1,88 @@
+// Damped least squares: joint velocities for a twist, bounded where the Jacobian loses rank.
+//
+//   J# = J^T (J J^T + lambda^2 I)^-1
+//
+// [Nakamura and Hanafusa, Inverse kinematic solutions with singularity robustness for robot
+// manipulator control, ASME J. Dyn. Syst. Meas. Control 108, 1986; Wampler 1986]. The damping
+// adapts to the distance from a singularity, by the law of the same paper:
+//
+//   lambda = onset (1 - sigma / onset)   where sigma < onset, else 0
+//   sigma  = trace((J J^T)^-1)^(-1/2) = 1 / |J^+|, in the Frobenius norm
+//
+// sigma measures the distance instead of the smallest singular value, because it is a smooth
+// function of the joints even where two singular values cross, and comes from one factorisation,
+// without iteration: sigma <= sigma_min <= sqrt(6) sigma, and the two agree near a singularity.
+// Where sigma >= onset the inverse is exact. Everywhere |J#| <= (1 + sqrt(2)) / (2 onset): the
+// worst of s / (s^2 + lambda^2) over singular values s >= sigma. No threshold is switched at, so
+// there is nothing to chatter about and no hysteresis is needed: lambda^2 and its derivative are
+// continuous in the joints.
+//
+// Metres and radians are weighted alike.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+
+namespace tactus {
+
+template <int n>
+class DampedInverse {
+ public:
+  using JacobianMatrix = Eigen::Matrix<double, 6, n>;
+  using Joints = Eigen::Matrix<double, n, 1>;
+  using Twist = Eigen::Matrix<double, 6, 1>;
+
+  /// `onset` > 0: where the damping begins. A column of zeros leaves its joint out. From a J that
+  /// is not finite nothing finite comes. [cyclic]
+  DampedInverse(const JacobianMatrix& J, double onset) : J_(J) {
+    Matrix6 JJt = J_ * J_.transpose();
+    JJt.diagonal().array() += kRounding;
+    hardly_damped_.compute(JJt);
+    sigma_ = 1.0 / std::sqrt(trace_of_inverse(hardly_damped_));
+    if (sigma_ < onset) {
+      lambda_ = onset - sigma_;
+      hardly_damped_.compute(plus(JJt, kNullShare * lambda_));
+    }
+    damped_.compute(plus(JJt, lambda_));
+  }
+
+  /// J# v. [cyclic]
+  Joints times(const Twist& v) const { return J_.transpose() * damped_.solve(v); }
+  /// (I - J# J) dq, which moves the task by no more than lambda |dq| / 20, and not at all where
+  /// nothing is damped. [cyclic]
+  Joints null_space(const Joints& dq) const {
+    return dq - J_.transpose() * hardly_damped_.solve(J_ * dq);
+  }
+
+  /// Distance from a singularity; about 1e-6 where the rank is lost. [any]
+  double sigma() const { return sigma_; }
+  double lambda() const { return lambda_; }
+
+ private:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  // Keeps the factorisation above rounding where the rank is lost: J J^T is of the order of 1, its
+  // rounding error of 1e-16. Elsewhere it changes J^+ by kRounding / sigma^2 of itself.
+  static constexpr double kRounding = 1e-12;
+  // Share of the damping in the null-space projector. None at all, and it would jump at a
+  // singularity, where the posture also decides to which side an arm bends that was stretched out;
+  // the whole, and the task would move: by s l^2 / (s^2 + l^2) <= l / 2, l being the share.
+  static constexpr double kNullShare = 0.1;
+
+  static Matrix6 plus(Matrix6 JJt, double lambda) {
+    JJt.diagonal().array() += lambda * lambda;
+    return JJt;
+  }
+  static double trace_of_inverse(const Eigen::LLT<Matrix6>& llt) {  // |L^-1|^2
+    double sum = 0.0;
+    for (int i = 0; i < 6; ++i) sum += llt.matrixL().solve(Twist::Unit(i)).squaredNorm();
+    return sum;
+  }
+
+  JacobianMatrix J_;
+  Eigen::LLT<Matrix6> damped_, hardly_damped_;
+  double sigma_ = 0.0, lambda_ = 0.0;
+};
+
+}  // namespace tactus
