@@ -5,13 +5,13 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sim_plant/fer_mjcf.hpp"
+#include "sim_plant/compile_arm.hpp"
 
 namespace tactus {
 namespace {
 
 static_assert(std::is_same_v<mjtNum, double>, "MuJoCo of double precision");
-static_assert(kDof == 7, "fer_mjcf.cpp describes an arm of seven joints");
+static_assert(kDof == RobotMjcf::kReadyPose.size(), "the MJCF is that of another robot");
 
 constexpr double kMaxInnerStep_s = 1e-3;
 
@@ -34,7 +34,7 @@ double sigmoid(double x) {
 }
 
 /// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator. The
-/// parameters travel with the model: see jnt_user in fer_mjcf.hpp.
+/// parameters travel with the model: see jnt_user in compile_arm.hpp.
 void add_friction(const mjModel* model, mjData* data) {
   if (model->nuser_jnt < 3) return;  // a model without friction parameters
   for (int i = 0; i < model->njnt; ++i) {
@@ -77,7 +77,7 @@ Status Arm::load(const PlantParams& params) {
 
   mj_deleteData(data_);
   mj_deleteModel(model_);
-  model_ = compile_fer();
+  model_ = compile_arm();
   data_ = model_ != nullptr ? mj_makeData(model_) : nullptr;
   if (data_ == nullptr) return Status::kTooLarge;
 
@@ -102,6 +102,15 @@ void Arm::step(const JointVector& tau, double dt_s) {
   model_->opt.timestep = dt_s / steps;
   Eigen::Map<JointVector>(data_->ctrl) = tau;
   for (int i = 0; i < steps; ++i) mj_step(model_, data_);
+}
+
+JointVector Arm::inverse_dynamics(const JointVector& ddq) {
+  mj_fwdPosition(model_, data_);  // a step leaves these at its last stage
+  mj_fwdVelocity(model_, data_);
+  JointVector tau;
+  mj_mulM(model_, data_, tau.data(), ddq.data());
+  return tau + Eigen::Map<const JointVector>(data_->qfrc_bias) -
+         Eigen::Map<const JointVector>(data_->qfrc_passive);
 }
 
 bool Arm::diverged() const {
