@@ -33,15 +33,19 @@ double sigmoid(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator. The
-/// parameters travel with the model: see jnt_user in compile_arm.hpp.
+/// N m; the parameters travel with the model: see jnt_user in compile_arm.hpp.
+double friction(const mjModel* model, int joint, double dq) {
+  const double* abc = model->jnt_user + joint * model->nuser_jnt;
+  const double a = abc[0], b = abc[1], c = abc[2];
+  return a * (sigmoid(b * (dq + c)) - sigmoid(b * c));
+}
+
+/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator.
 void add_friction(const mjModel* model, mjData* data) {
   if (model->nuser_jnt < 3) return;  // a model without friction parameters
   for (int i = 0; i < model->njnt; ++i) {
-    const double* abc = model->jnt_user + i * model->nuser_jnt;
-    const double a = abc[0], b = abc[1], c = abc[2];
     const int dof = model->jnt_dofadr[i];
-    data->qfrc_passive[dof] -= a * (sigmoid(b * (data->qvel[dof] + c)) - sigmoid(b * c));
+    data->qfrc_passive[dof] -= friction(model, i, data->qvel[dof]);
   }
 }
 
@@ -109,8 +113,9 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   mj_fwdVelocity(model_, data_);
   JointVector tau;
   mj_mulM(model_, data_, tau.data(), ddq.data());
-  return tau + Eigen::Map<const JointVector>(data_->qfrc_bias) -
-         Eigen::Map<const JointVector>(data_->qfrc_passive);
+  for (int i = 0; i < kDof; ++i)
+    tau[i] += data_->qfrc_bias[i] + friction(model_, i, data_->qvel[i]);
+  return tau;
 }
 
 bool Arm::diverged() const {

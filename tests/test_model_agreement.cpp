@@ -1,4 +1,4 @@
-// The FER was typed from the published tables three times, each by a route of its own: for the
+// Each robot was typed from the published tables three times, each by a route of its own: for the
 // kernel, for the plant's MJCF, and for Orocos KDL. This is where the three codes meet, at random
 // states of a fixed seed, without friction, rotor inertia and payload.
 #include <algorithm>

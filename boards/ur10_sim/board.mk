@@ -7,4 +7,4 @@ LDLIBS += -lmujoco
 RUNS   += ur10_jrg_pdgc
 
 # The tests that are not written for the FER.
-TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop ur10_pipelines
+TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop pipelines
