@@ -29,7 +29,8 @@ Verdict ReferenceClient<Space>::send(Trajectory<Space>& trajectory, std::uint32_
   request.store = static_cast<int>(store);
   channel_.needed[store].store(0, std::memory_order_relaxed);
   const int last = trajectory.count - 1;
-  streams_[store] = {trajectory.count, trajectory.at(last).point, {}};
+  const typename Space::Latched terms = Space::anywhere(trajectory.terms, channel_.settings.limits);
+  streams_[store] = {trajectory.count, trajectory.point(last, terms), {}};
   verdict = post(request, id);
   away_[store] = verdict.ok();
   return verdict;
@@ -74,12 +75,16 @@ Verdict ReferenceClient<Space>::flush(const Trajectory<Space>& trajectory, bool 
 }
 
 template <class Space>
-Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::uint32_t& id) {
-  const Verdict verdict = Space::judge(point, channel_.settings.limits);
+Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::uint32_t& id,
+                                     const typename Space::Terms& terms) {
+  const typename Space::Limits limits = Space::known_limits(terms, channel_.settings.limits);
+  const Verdict verdict =
+      Space::judge(Space::placed(point, Space::anywhere(terms, limits)), limits);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kPoint;
   request.point = point;
+  request.terms = terms;
   return post(request, id);
 }
 

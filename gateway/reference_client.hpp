@@ -26,8 +26,9 @@ class ReferenceClient {
   Verdict append(const Trajectory<Space>& trajectory, const Waypoint<Space>& waypoint);
   /// Tells the generator of what was appended; after the `last` no more can be.
   Verdict flush(const Trajectory<Space>& trajectory, bool last, std::uint32_t& id);
-  /// Admits and sends one online point.
-  Verdict send(const typename Space::Point& point, std::uint32_t& id);
+  /// Admits and sends one online point, given in `terms`.
+  Verdict send(const typename Space::Point& point, std::uint32_t& id,
+               const typename Space::Terms& terms = {});
   /// Asks for the running trajectory to be stopped on its path and given up.
   Verdict cancel(std::uint32_t& id) { return ask(RequestKind::kCancel, id); }
 
@@ -46,7 +47,7 @@ class ReferenceClient {
   struct Stream {
     int count = 0;
     typename Space::Point end;  // of the last segment
-    PathUse use;                // of what is not yet flushed
+    typename Space::Use use;    // of what is not yet flushed
   };
 
   std::size_t index_of(const Trajectory<Space>& trajectory) const {

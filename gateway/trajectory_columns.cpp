@@ -1,5 +1,7 @@
 #include "gateway/trajectory_columns.hpp"
 
+#include <bitset>
+
 namespace tactus {
 
 template <class Space>
@@ -23,22 +25,30 @@ bool Columns<Space>::add(std::string_view header, Message& reason) {
 }
 
 template <class Space>
-int Columns<Space>::given(std::size_t group) const {
-  int count = 0;
+std::uint32_t Columns<Space>::given(std::size_t group) const {
+  std::uint32_t bits = 0;
   for (int i = 0; i < count_; ++i) {
-    count += columns_[static_cast<std::size_t>(i)].place.group == static_cast<int>(group);
+    const ColumnPlace& place = columns_[static_cast<std::size_t>(i)].place;
+    if (place.group == static_cast<int>(group)) bits |= 1U << place.index;
   }
-  return count;
+  return bits;
 }
 
 template <class Space>
 bool Columns<Space>::complete(Message& reason) const {
+  const std::uint32_t positions = given(kPositions);
   for (std::size_t i = 0; i < Table::kGroups.size(); ++i) {
     const ColumnGroup& group = Table::kGroups[i];
-    const int found = given(i);
-    if (found == group.width || (found == 0 && !group.required)) continue;
-    reason << group.meaning << ": " << found << (found == 1 ? " column" : " columns")
-           << ", expected " << group.width;
+    const std::uint32_t found = given(i);
+    const bool some = partial_ && Table::kPartial && i >= kPositions && positions != 0;
+    if (found == (some ? positions : whole(i)) || (found == 0 && !group.required)) continue;
+    const std::size_t count = std::bitset<32>(found).count();
+    reason << group.meaning << ": " << static_cast<int>(count)
+           << (count == 1 ? " column" : " columns") << ", expected ";
+    if (some)
+      reason << "those of the positions";
+    else
+      reason << group.width;
     return false;
   }
   if ((fields() & kAccelerationField) && !(fields() & kVelocityField)) {

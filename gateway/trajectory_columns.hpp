@@ -29,11 +29,13 @@ struct ColumnPlace {
 ///   find(header, place)    the place of a column; false if the space has none of that name
 ///   value(place, point)    the number at a place that is not the time
 ///   name_them(message)     appends what headers may be
+///   leave_out(bits, terms) notes what the positions do not give, where kPartial allows that
 template <class Space>
 struct ColumnTable;
 
 template <>
 struct ColumnTable<JointSpace> {
+  static constexpr bool kPartial = true;  // some of the joints may be left out
   static constexpr std::array<ColumnGroup, 5> kGroups = {{
       {"time", 1},
       {"position", kDof},
@@ -44,10 +46,12 @@ struct ColumnTable<JointSpace> {
   static bool find(std::string_view header, ColumnPlace& place);
   static double& value(const ColumnPlace& place, JointSpace::Point& point);
   static void name_them(Message& message);
+  static void leave_out(std::uint32_t joints, JointSpace::Terms& terms) { terms.held = joints; }
 };
 
 template <>
 struct ColumnTable<TaskSpace> {
+  static constexpr bool kPartial = false;
   static constexpr std::array<ColumnGroup, 6> kGroups = {{
       {"time", 1},
       {"position", 3},
@@ -59,15 +63,19 @@ struct ColumnTable<TaskSpace> {
   static bool find(std::string_view header, ColumnPlace& place);
   static double& value(const ColumnPlace& place, TaskSpace::Point& point);
   static void name_them(Message& message);
+  static void leave_out(std::uint32_t, TaskSpace::Terms&) {}
 };
 
 template <class Space>
 class Columns {
  public:
+  /// `partial`: positions of some joints only will do, where the space knows that.
+  explicit Columns(bool partial) : partial_(partial) {}
+
   /// Takes the next header cell; false with the reason if it is unknown or a repetition.
   bool add(std::string_view header, Message& reason);
   /// After the last: time and positions are there, every other group whole or absent; else false
-  /// with the reason.
+  /// with the reason. Whole is what the positions give, if they may be partial.
   bool complete(Message& reason) const;
 
   int count() const { return count_; }
@@ -78,6 +86,10 @@ class Columns {
   double& value(int column, Waypoint<Space>& waypoint) const;
   /// The fields that are given.
   Fields fields() const;
+  /// What the positions leave out, after complete() has let it pass.
+  void note_left_out(typename Space::Terms& terms) const {
+    Table::leave_out(whole(kPositions) & ~given(kPositions), terms);
+  }
 
  private:
   using Table = ColumnTable<Space>;
@@ -91,10 +103,16 @@ class Columns {
     for (const ColumnGroup& group : Table::kGroups) count += static_cast<std::size_t>(group.width);
     return count;
   }
-  int given(std::size_t group) const;
+  static constexpr std::size_t kPositions = 1;  // the group of the positions
+  static constexpr std::uint32_t whole(std::size_t group) {
+    return (1U << Table::kGroups[group].width) - 1U;
+  }
+  /// Bit i: number i of the group is given.
+  std::uint32_t given(std::size_t group) const;
 
   std::array<Column, max_columns()> columns_;
   int count_ = 0;
+  bool partial_;
 };
 
 }  // namespace tactus

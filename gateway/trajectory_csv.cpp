@@ -108,11 +108,11 @@ bool take_row(std::string_view row, int line, Columns<Space>& columns,
 }
 
 template <class Space>
-bool read_file(std::FILE* file, Trajectory<Space>& trajectory, CsvError& error) {
+bool read_file(std::FILE* file, bool partial, Trajectory<Space>& trajectory, CsvError& error) {
   Row buffer;
   std::string_view row;
   bool fits = true;
-  Columns<Space> columns;
+  Columns<Space> columns(partial);
   for (int line = 1; read_line(file, buffer, row, fits); ++line) {
     if (!fits)
       return refuse(error, line, 0, {},
@@ -126,6 +126,7 @@ bool read_file(std::FILE* file, Trajectory<Space>& trajectory, CsvError& error) 
   if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file is empty: it has no header");
   if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoint");
   trajectory.fields = columns.fields();
+  columns.note_left_out(trajectory.terms);
   return true;
 }
 
@@ -141,18 +142,19 @@ PlacedMessage CsvError::message() const {
 }
 
 template <class Space>
-bool read_trajectory(const char* path, Trajectory<Space>& trajectory, CsvError& error) {
+bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajectory,
+                     CsvError& error) {
   error = {};
   trajectory.count = 0;
   std::FILE* file = std::fopen(path, "rb");
   if (file == nullptr) return refuse(error, 0, 0, {}, std::strerror(errno));
-  const bool read = read_file(file, trajectory, error);
+  const bool read = read_file(file, partial, trajectory, error);
   const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
   return failure == 0 ? read : refuse(error, 0, 0, {}, std::strerror(failure));
 }
 
-template bool read_trajectory(const char*, Trajectory<JointSpace>&, CsvError&);
-template bool read_trajectory(const char*, Trajectory<TaskSpace>&, CsvError&);
+template bool read_trajectory(const char*, bool, Trajectory<JointSpace>&, CsvError&);
+template bool read_trajectory(const char*, bool, Trajectory<TaskSpace>&, CsvError&);
 
 }  // namespace tactus

@@ -34,8 +34,9 @@ struct CsvError {
 
 /// Fills `trajectory` from the file at `path`. False: refused, the trajectory is not to be used.
 /// A cell that is empty, no number, NaN or infinite is refused, and so are more waypoints than the
-/// store holds.
+/// store holds. With `partial` a file may leave out joints, the same in every group; they hold.
 template <class Space>
-bool read_trajectory(const char* path, Trajectory<Space>& trajectory, CsvError& error);
+bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajectory,
+                     CsvError& error);
 
 }  // namespace tactus

@@ -30,8 +30,8 @@ struct RobotCommand {
 /// What a robot and its wire can do; compared with the pipeline file before anything starts.
 struct Capabilities {
   bool position = false, velocity = false, effort = false;  ///< command modes it takes
-  bool wrench = false;  ///< it has a force/torque sensor at the flange
   std::int64_t min_period_us = 0, max_period_us = 0;        ///< cycle periods it can serve
+  bool wrench = false;  ///< it has a force/torque sensor at the flange
 };
 
 class Hal {

@@ -10,6 +10,7 @@
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
+#include "kernel/reference/frame.hpp"
 #include "kernel/reference/joint_reference_generator.hpp"
 #include "kernel/reference/task_reference_generator.hpp"
 #include "kernel/settings.hpp"
@@ -17,12 +18,13 @@
 namespace tactus {
 
 /// Every kind of block there is: adding a controller is one line here, and one in kBlockTypes.
-using Block = std::variant<std::monostate, RobotModel, JointReferenceGenerator,
+using Block = std::variant<std::monostate, RobotModel, Frame, JointReferenceGenerator,
                            TaskReferenceGenerator, PdGravity>;
 
 /// The word for each kind in "type = ...", in the order of Block.
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes = {
-    "", "robot_model", "joint_reference_generator", "task_reference_generator", "pd_gravity"};
+    "",          "robot_model", "frame", "joint_reference_generator", "task_reference_generator",
+    "pd_gravity"};
 
 inline constexpr int kMaxBlocks = 12;
 

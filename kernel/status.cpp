@@ -1,7 +1,5 @@
 #include "kernel/status.hpp"
 
-#include <array>
-
 namespace tactus {
 namespace {
 
@@ -10,7 +8,7 @@ struct StatusName {
   const char* name;
 };
 
-constexpr std::array<StatusName, 44> kStatusNames = {{
+constexpr StatusName kStatusNames[] = {
     {Status::kOk, "kOk"},
     {Status::kMissingKey, "kMissingKey"},
     {Status::kUnknownKey, "kUnknownKey"},
@@ -44,6 +42,7 @@ constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kBadOverride, "kBadOverride"},
     {Status::kNothingToExtend, "kNothingToExtend"},
     {Status::kWindowFull, "kWindowFull"},
+    {Status::kNotStreamable, "kNotStreamable"},
     {Status::kStateNotFinite, "kStateNotFinite"},
     {Status::kReferenceFault, "kReferenceFault"},
     {Status::kCommandNotFinite, "kCommandNotFinite"},
@@ -55,7 +54,7 @@ constexpr std::array<StatusName, 44> kStatusNames = {{
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},
-}};
+};
 
 }  // namespace
 

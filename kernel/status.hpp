@@ -42,6 +42,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kBadOverride = 52,
     kNothingToExtend = 53,
     kWindowFull = 54,
+    kNotStreamable = 55,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

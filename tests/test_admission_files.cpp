@@ -72,7 +72,7 @@ void every_hostile_trajectory_gets_the_verdict_of_its_first_line(void**) {
     Trajectory<JointSpace>* trajectory = client.acquire();
     CsvError error;
     assert_non_null(trajectory);
-    assert_true(read_trajectory(file.path.data(), *trajectory, error));
+    assert_true(read_trajectory(file.path.data(), false, *trajectory, error));
     const Verdict verdict = judge(client, *trajectory);
     const bool valued = file.expected.find(" value ") != std::string_view::npos;
     return file.expects(valued ? words_with_value(verdict) : words(verdict));

@@ -47,8 +47,8 @@ void a_setting_left_out_keeps_its_default(void**) {
 
 void without_a_list_every_output_that_can_be_recorded_is(void**) {
   ASSERT_OK(bench.load(with("signals = robot.q stiff.tau model.x\n", "")));
-  // robot: q dq tau; model: x v g; jrg: q_d dq_d ddq_d tau_d; two laws: tau
-  assert_int_equal(bench.pipeline.recording.signal_count, 12);
+  // robot: q dq tau ft; model: x v g; jrg: q_d dq_d ddq_d tau_d; two laws: tau
+  assert_int_equal(bench.pipeline.recording.signal_count, 13);
 }
 
 void values_arrive_at_the_inputs_they_are_wired_to_in_the_same_cycle(void**) {

@@ -62,7 +62,7 @@ bool read() {
   trajectory = {};
   trajectory.waypoints = storage.data();
   trajectory.capacity = kCapacity;
-  return read_trajectory(scratch(), trajectory, error);
+  return read_trajectory(scratch(), false, trajectory, error);
 }
 
 bool read_text(std::string_view text) {

@@ -183,7 +183,8 @@ void the_use_of_the_limits_is_what_the_segment_takes_or_more(void**) {
     assert_true(covers(use.velocity_by_a, most.v, l.a_max, most.w, l.alpha_max));
     assert_true(covers(use.velocity_by_j, most.v, l.j_max, most.w, l.dalpha_max));
     assert_true(covers(use.acceleration_by_j, most.a, l.j_max, most.alpha, l.dalpha_max));
-    const PathUse known = {9.0, 99.0, 999.0, 9.0, 9.0, 9.0};
+    TaskSpace::Use known;
+    known.velocity = 9.0;
     assert_true(TaskSpace::use(segment, kLimits, known).velocity >= 9.0);
   }
 }

@@ -24,7 +24,7 @@ bool read(const char* path, int capacity = kCapacity) {
   trajectory = {};
   trajectory.waypoints = storage.data();
   trajectory.capacity = capacity;
-  return read_trajectory(path, trajectory, error);
+  return read_trajectory(path, false, trajectory, error);
 }
 
 /// A file of this process, made anew by every test that writes one.

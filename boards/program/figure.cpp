@@ -14,13 +14,13 @@ namespace tactus {
 namespace {
 
 /// scripts/figure of the tree this program was built in: the program is build/<board>/tactus.
-bool find_script(Path& script) {
+bool find_script(FilePath& script) {
   char program[512];
   const ssize_t size = readlink("/proc/self/exe", program, sizeof program);
   if (size <= 0) return false;
   std::string_view root(program, static_cast<std::size_t>(size));
   for (int i = 0; i < 3; ++i) root = root.substr(0, root.rfind('/'));
-  script = Path(root);
+  script = FilePath(root);
   script << "/scripts/figure";
   return access(script.c_str(), X_OK) == 0;
 }
@@ -28,12 +28,12 @@ bool find_script(Path& script) {
 }  // namespace
 
 void draw_figure(const char* folder) {
-  Path script;
+  FilePath script;
   if (!find_script(script)) {
     std::fprintf(stderr, "no figure: scripts/figure is not beside build/\n");
     return;
   }
-  Path argument(folder);
+  FilePath argument(folder);
   char* const arguments[] = {const_cast<char*>(script.c_str()), const_cast<char*>(argument.c_str()),
                              nullptr};
   pid_t child = 0;

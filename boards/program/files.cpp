@@ -42,10 +42,10 @@ bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::st
   return false;
 }
 
-Path relative_to(std::string_view from, std::string_view path) {
+FilePath relative_to(std::string_view from, std::string_view path) {
   const std::size_t slash = from.rfind('/');
   if (path.substr(0, 1) == "/" || slash == std::string_view::npos) return path;
-  Path joined(from.substr(0, slash + 1));
+  FilePath joined(from.substr(0, slash + 1));
   return joined << path, joined;
 }
 
@@ -58,7 +58,7 @@ std::string_view stem(std::string_view path) {
 bool make_folder(std::string_view path) {
   for (std::size_t end = 1; end <= path.size(); ++end) {
     if (end < path.size() && path[end] != '/') continue;
-    const Path part(path.substr(0, end));
+    const FilePath part(path.substr(0, end));
     if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
       std::fprintf(stderr, "%s: %s\n", part.c_str(), std::strerror(errno));
       return false;

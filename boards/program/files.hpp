@@ -7,7 +7,7 @@
 
 namespace tactus {
 
-using Path = Text<1023>;  ///< room for two joined: those given are shorter than 512
+using FilePath = Text<1023>;  ///< room for two joined: those given are shorter than 512
 
 inline constexpr std::size_t kMaxPipelineBytes = 65536;
 
@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxPipelineBytes = 65536;
 bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::string_view& text);
 
 /// `path` as seen from the folder of `from`; absolute paths stay.
-Path relative_to(std::string_view from, std::string_view path);
+FilePath relative_to(std::string_view from, std::string_view path);
 
 /// The last part of a path without its extension.
 std::string_view stem(std::string_view path);

@@ -109,8 +109,8 @@ double planned_duration(const Session& session, const Options& options,
   return input.end_s() + session.gateway.settle_s;
 }
 
-Path in_folder(const Path& folder, const char* file) {
-  Path path = folder;
+FilePath in_folder(const FilePath& folder, const char* file) {
+  FilePath path = folder;
   return path << "/" << file, path;
 }
 
@@ -152,7 +152,7 @@ void print_stop(const char* subject, const char* event, Status status,
 
 int run(Session& session, const Options& options) {
   const std::string_view pipeline = stem(options.pipeline);
-  Path folder(options.out);
+  FilePath folder(options.out);
   if (folder.empty()) folder << "out/" << pipeline;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;

@@ -26,17 +26,44 @@ void print_axis(const TrajectoryInput& input, int axis) {
     std::fprintf(stderr, ", joint %d (%s)", axis + 1, Robot::kJointNames[index]);
 }
 
+/// The pose that the pipeline calls `name`; null for none. False: it has none of that name.
+bool find_frame(const Options& options, const PortTable& ports, const Value& name,
+                const Pose*& frame) {
+  if (name.empty()) return true;
+  const PortEntry* port = ports.find(name);
+  if (port != nullptr && port->quantity == Quantity::kPose) {
+    frame = static_cast<const Pose*>(port->value);
+    return true;
+  }
+  std::fprintf(stderr, "%s: refused: [gateway]: frame '%s' is %s\n", options.pipeline, name.c_str(),
+               port == nullptr ? "no output of this pipeline" : "no pose");
+  return false;
+}
+
+bool set_terms(const Session&, const Options&, Trajectory<JointSpace>&) {
+  return true;
+}
+
+bool set_terms(const Session& session, const Options& options, Trajectory<TaskSpace>& trajectory) {
+  const PortTable& ports = session.pipeline.ports;
+  trajectory.terms = {};
+  return find_frame(options, ports, session.gateway.motion_frame, trajectory.terms.motion) &&
+         find_frame(options, ports, session.gateway.wrench_frame, trajectory.terms.wrench);
+}
+
 template <class Space>
-bool read_and_judge(ReferenceClient<Space>& client, Interpolation interpolation,
+bool read_and_judge(const Session& session, const Options& options, ReferenceClient<Space>& client,
                     TrajectoryInput& input) {
   Trajectory<Space>* trajectory = client.acquire();
+  const bool partial = session.gateway.partial_joints == PartialJoints::kHold;
   CsvError error;
-  if (!read_trajectory(input.path.c_str(), *trajectory, error)) {
+  if (!set_terms(session, options, *trajectory)) return false;
+  if (!read_trajectory(input.path.c_str(), partial, *trajectory, error)) {
     std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), error.line > 0 ? "" : " ",
                  error.message().c_str());
     return false;
   }
-  trajectory->interpolation = interpolation;
+  trajectory->interpolation = session.gateway.interpolation;
   input.trajectory = trajectory;
   const Verdict verdict = client.judge(*trajectory);
   if (!verdict.ok()) print_verdict(input, verdict);
@@ -65,15 +92,15 @@ void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {
   if (options.trajectory[0] != '\0') {
-    input.path = Path(options.trajectory);
+    input.path = FilePath(options.trajectory);
   } else if (!session.gateway.trajectory.empty()) {
     input.path = relative_to(options.pipeline, session.gateway.trajectory);
   } else {
     return true;
   }
-  const Interpolation how = session.gateway.interpolation;
-  if (session.pipeline.takes_poses) return read_and_judge(session.task_client, how, input);
-  if (session.pipeline.takes_joints) return read_and_judge(session.client, how, input);
+  if (session.pipeline.takes_poses)
+    return read_and_judge(session, options, session.task_client, input);
+  if (session.pipeline.takes_joints) return read_and_judge(session, options, session.client, input);
   std::fprintf(stderr, "%s: refused: the pipeline has no reference generator\n",
                input.path.c_str());
   return false;

@@ -9,7 +9,7 @@ namespace tactus {
 
 /// The trajectory of a run, of the space whose references the pipeline takes.
 struct TrajectoryInput {
-  Path path;  ///< empty: the run has none
+  FilePath path;  ///< empty: the run has none
   std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
 

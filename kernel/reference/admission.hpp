@@ -13,8 +13,8 @@ inline constexpr int kMaxSegmentsPerCycle = 16;
 
 /// Judges a whole trajectory but for the way from the robot to its first waypoint: count, times,
 /// finite numbers, limits of every waypoint and segment, rest at the end. The first violation is
-/// the verdict. Notes in the trajectory what it takes of the limits. [any, not cyclic: proportional
-/// to its length]
+/// the verdict. Chooses the velocities of a monotone one, and notes in the trajectory what it takes
+/// of the limits. [any, not cyclic: proportional to its length]
 template <class Space>
 Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings);
 
@@ -23,7 +23,7 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
 template <class Space>
 Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
                        const AdmissionSettings<Space>& settings, typename Space::Point& before,
-                       PathUse& use);
+                       typename Space::Use& use);
 
 /// The last waypoint of a trajectory: whoever arrives there must stand. [any]
 template <class Space>

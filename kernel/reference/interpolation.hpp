@@ -9,11 +9,13 @@ namespace tactus {
 enum Field : std::uint8_t { kVelocityField = 1, kAccelerationField = 2, kEffortField = 4 };
 using Fields = std::uint8_t;
 
-/// How waypoints are joined: by the fields both ends have, or forced.
-enum class Interpolation : std::uint8_t { kByFields, kLinear, kCubic, kQuintic };
+/// How waypoints are joined: by the fields both ends have, or forced. kMonotone is a cubic whose
+/// velocities admission chooses or lowers so that it does not overshoot (monotone.hpp).
+enum class Interpolation : std::uint8_t { kByFields, kLinear, kCubic, kQuintic, kMonotone };
 
-/// What kByFields comes to for the fields that both ends give; the others stay. [any]
+/// The polynomials of a segment whose ends both give `fields`: kLinear, kCubic or kQuintic. [any]
 constexpr Interpolation order_of(Interpolation how, Fields fields) {
+  if (how == Interpolation::kMonotone) return Interpolation::kCubic;
   if (how != Interpolation::kByFields) return how;
   if (!(fields & kVelocityField)) return Interpolation::kLinear;
   return fields & kAccelerationField ? Interpolation::kQuintic : Interpolation::kCubic;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "kernel/joint_limits.hpp"
 #include "kernel/reference/interpolation.hpp"
@@ -49,6 +50,26 @@ struct JointSpace {
     Point at_rate(double rate, double slope) const;
   };
   using Difference = Point;  ///< of two references, in every field
+  using Rates = JointVector;
+
+  /// Which joints the references of a client give: bit i of `held` is joint i, which keeps where it
+  /// is when the reference is accepted.
+  struct Terms {
+    std::uint32_t held = 0;
+  };
+  /// The terms as they stand when a reference is accepted.
+  struct Latched {
+    std::uint32_t held = 0;
+    JointVector q = JointVector::Zero();  ///< rad, of the joints that are held
+  };
+
+  /// What a path takes: of the limits, and of the room.
+  struct Use : PathUse {
+    JointVector q_min = JointVector::Constant(kInfinity);  ///< rad
+    JointVector q_max = JointVector::Constant(-kInfinity);
+    /// Of a path of two parts. [any]
+    static Use largest(const Use& a, const Use& b);
+  };
 
   /// Motion between two points in a given time: position by one polynomial per joint, velocity and
   /// acceleration its exact derivatives, effort linear.
@@ -80,6 +101,7 @@ struct JointSpace {
         : segment_(from, Difference(), T, Interpolation::kQuintic, 0) {}
     Difference at(double t) const { return segment_.at(t); }
     double duration() const { return segment_.duration(); }
+    const Polynomial& position(int joint) const { return segment_.position(joint); }
 
    private:
     Segment segment_;
@@ -104,8 +126,33 @@ struct JointSpace {
                              Status code);
   /// Judges a measured velocity against one limit for all joints, rad/s; 0: not checked. [cyclic]
   static Verdict judge_stopped(const Point& measured, double limit);
-  /// What a segment takes of the limits at its extrema; as `known` where it takes no more. [cyclic]
-  static PathUse use(const Segment& segment, const Limits& limits, const PathUse& known);
+  /// What a segment takes of the limits at its extrema, and of the room by a bound from outside; as
+  /// `known` where it takes no more. [cyclic]
+  static Use use(const Segment& segment, const Limits& limits, const Use& known);
+  /// Of a point at which nothing moves. [cyclic]
+  static Use use(const Point& held);
+  /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
+  /// on: kPositionLimit if the two together might leave the range of a joint. [cyclic]
+  static Verdict judge_room(const Point& begin, const Use& use, const Bridge& bridge,
+                            const Limits& limits);
+
+  /// The terms as of now, with `reference` put out. [cyclic]
+  static Latched latch(const Terms& terms, const Point& reference);
+  /// Terms for admission, to which where the robot is then is unknown: joints that are held stand
+  /// in the middle of their ranges. [any]
+  static Latched anywhere(const Terms& terms, const Limits& limits);
+  /// The limits that can be judged in a client's terms: all of them. [any]
+  static Limits known_limits(const Terms&, const Limits& limits) { return limits; }
+  /// A client's point as a reference of all joints. [cyclic]
+  static Point placed(const Point& given, const Latched& terms);
+  /// The use of a path of a client's points as that of their references. [cyclic]
+  static Use placed(const Use& given, const Latched& terms);
+  /// Judges what known_limits() could not: nothing. [cyclic]
+  static Verdict judge_placed(const Use&, const Latched&, const Limits&) { return {}; }
+
+  /// The velocity of a straight line from one point to the other in T seconds, rad/s. [any]
+  static Rates secant(const Point& from, const Point& to, double T) { return (to.q - from.q) / T; }
+  static Rates& rates(Point& point) { return point.dq; }
 
   /// a - b, and b + difference = a. [any]
   static Difference difference(const Point& a, const Point& b);

@@ -106,13 +106,24 @@ Verdict JointSpace::judge_stopped(const Point& measured, double limit) {
   return {};
 }
 
-PathUse JointSpace::use(const Segment& segment, const Limits& limits, const PathUse& known) {
+JointSpace::Use JointSpace::Use::largest(const Use& a, const Use& b) {
+  return {PathUse::largest(a, b), a.q_min.cwiseMin(b.q_min), a.q_max.cwiseMax(b.q_max)};
+}
+
+JointSpace::Use JointSpace::use(const Point& held) {
+  return {PathUse(), held.q, held.q};
+}
+
+JointSpace::Use JointSpace::use(const Segment& segment, const Limits& limits, const Use& known) {
   const double T = segment.duration();
-  PathUse use = known;
+  Use use = known;
   for (int j = 0; j < kDof; ++j) {
     const Polynomial dq = segment.position(j).derivative();
     const Polynomial ddq = dq.derivative(), dddq = ddq.derivative();
     const double v = limits.dq_max[j], a = limits.ddq_max[j], jerk = limits.dddq_max[j];
+    const Extremes room = hull(segment.position(j), T);
+    use.q_min[j] = std::min(use.q_min[j], room.min);
+    use.q_max[j] = std::max(use.q_max[j], room.max);
     use.velocity = ratio(dq, T, v, use.velocity);
     use.velocity_by_a = ratio(dq, T, a, use.velocity_by_a);
     use.velocity_by_j = ratio(dq, T, jerk, use.velocity_by_j);
@@ -121,6 +132,26 @@ PathUse JointSpace::use(const Segment& segment, const Limits& limits, const Path
     use.jerk = ratio(dddq, T, jerk, use.jerk);
   }
   return use;
+}
+
+/// The path is somewhere in its range, which admission found within limits, and not farther from
+/// where it begins than it can get while the bridge lasts.
+Verdict JointSpace::judge_room(const Point& begin, const Use& use, const Bridge& bridge,
+                               const Limits& limits) {
+  const double T = bridge.duration();
+  for (int j = 0; j < kDof; ++j) {
+    const Extremes beside = extremes(bridge.position(j), T);
+    const double reach = use.velocity * limits.dq_max[j] * T;
+    const double lowest =
+        std::max({use.q_min[j], limits.q_min[j], begin.q[j] - reach}) + std::min(beside.min, 0.0);
+    const double highest =
+        std::min({use.q_max[j], limits.q_max[j], begin.q[j] + reach}) + std::max(beside.max, 0.0);
+    if (exceeds(highest, limits.q_max[j]))
+      return {Status::kPositionLimit, -1, j, highest, limits.q_max[j]};
+    if (exceeds(-lowest, -limits.q_min[j]))
+      return {Status::kPositionLimit, -1, j, lowest, limits.q_min[j]};
+  }
+  return {};
 }
 
 }  // namespace tactus

@@ -4,6 +4,8 @@ namespace tactus {
 
 const char* name(Outcome outcome) {
   switch (outcome) {
+    case Outcome::kScheduled:
+      return "scheduled";
     case Outcome::kStarted:
       return "started";
     case Outcome::kSucceeded:

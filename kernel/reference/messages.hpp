@@ -28,13 +28,15 @@ struct Request {
   RequestKind kind = RequestKind::kPoint;
   int store = -1;               ///< kTrajectory: which store it lies in
   typename Space::Point point;  ///< kPoint
+  typename Space::Terms terms;  ///< kPoint: which joints, or which frames, it is given in
   double rate = 1.0;            ///< kOverride: 0..1
   int count = 0;                ///< kAppend: waypoints so far
   bool last = false;            ///< kAppend: none will follow
-  PathUse use;                  ///< kAppend: what the new part takes of the limits
+  typename Space::Use use;      ///< kAppend: what the new part takes
 };
 
 enum class Outcome : std::uint8_t {
+  kScheduled,   ///< a trajectory waits for its start time; a final report follows
   kStarted,     ///< a trajectory began; a final report follows
   kSucceeded,   ///< final: a trajectory reached its end
   kPreempted,   ///< final: a newer trajectory took its place
@@ -42,7 +44,8 @@ enum class Outcome : std::uint8_t {
   kCanceled,    ///< final: a client cancelled the trajectory
   kExecuted,    ///< final: a point became the reference; a cancel, override, pause or resume took
                 ///< effect
-  kSuperseded,  ///< final: a newer point took its place before it was ever written
+  kSuperseded,  ///< final: a newer point took its place before it was ever written, or a newer
+                ///< trajectory before its start time
   kRefused,     ///< final: not accepted; the verdict says why
   kStarved,   ///< an open trajectory ran out of waypoints: the arm stops on the path and waits for
               ///< more
@@ -58,6 +61,7 @@ struct Report {
   int store =
       -1;  ///< a store that is the client's again; -1 while the arm still brakes on its path
   Verdict verdict;
+  double time_s = 0.0;  ///< by the generator's clock, periods since its start
 };
 
 /// What admission goes by: the same values on both sides of the channel, set when the pipeline is
@@ -71,7 +75,8 @@ struct AdmissionSettings {
   double stop_reserve = 0.1;
 };
 
-inline constexpr int kStores = 3;  ///< one running, one in the mailbox, one being filled
+/// One running, one waiting for its start time or in the mailbox, one being filled.
+inline constexpr int kStores = 3;
 
 /// The way into one reference generator and back out. Owned by the board; one client, one
 /// generator.

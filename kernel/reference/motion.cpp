@@ -8,11 +8,10 @@
 namespace tactus {
 namespace {
 
-// Times are sums of periods; a billionth of a second is far below any period and far above their
-// rounding.
-constexpr double kTimeRounding_s = 1e-9;
 // A bridge always gets at least this share of the limits, even beside a path that leaves nothing.
 constexpr double kLeastShare = 0.02;
+// How often a trajectory joined late is met later still, each time after twice the time.
+constexpr int kAttempts = 4;
 
 }  // namespace
 
@@ -39,16 +38,17 @@ template <class Space>
 void Motion<Space>::watch_end(double dt_s) {
   if (!on_path() || braking_) return;
   const RateBounds bounds = rate_bounds();
-  const double left_s = path_.trajectory->end_s() - law_.s();
-  const bool open = path_.trajectory->open;
+  const double left_s = path_.end_s() - law_.s();
+  const bool open = path_.open();
   if (!starving_ && open && left_s <= law_.stopping_s(bounds) + 2.0 * law_.rate() * dt_s) {
     starving_ = true;
     law_.plan(0.0, bounds);
     return;
   }
+  if (!starving_) return;
   TimeLaw again;
   again.start(rate_);
-  if (starving_ && (!open || left_s > 2.0 * again.stopping_s(bounds) + 4.0 * dt_s)) {
+  if (!open || left_s > 2.0 * again.stopping_s(bounds) + 4.0 * dt_s) {
     starving_ = false;
     law_.plan(rate_, bounds);
   }
@@ -59,33 +59,22 @@ void Motion<Space>::watch_end(double dt_s) {
 template <class Space>
 typename Space::Point Motion<Space>::base() {
   if (!on_path()) return held_;
-  const Trajectory<Space>& trajectory = *path_.trajectory;
-  const double due_s = law_.s() + kTimeRounding_s;
-  const bool ended = !trajectory.open && due_s >= trajectory.end_s();
-  int target = path_.target;
-  for (int i = 0; i < kMaxSegmentsPerCycle && target + 1 < trajectory.count &&
-                  due_s >= trajectory.at(target).time_s;
-       ++i) {
-    ++target;
-  }
-  if (target != path_.target) {
-    path_.target = target;
-    path_.segment = trajectory.segment(target);
-    path_.segment_start_s = trajectory.at(target - 1).time_s;
-  }
-  const double t = std::min(law_.s() - path_.segment_start_s, path_.segment.duration());
-  const Point point = path_.segment.at(t).at_rate(law_.rate(), law_.slope());
+  const bool ended = path_.ended(law_.s());
+  const Point point = path_.at(law_.s()).at_rate(law_.rate(), law_.slope());
   if (!ended && !(braking_ && law_.standing())) return point;
-  held_ = ended ? trajectory.at(trajectory.count - 1).point.at_rest() : point.at_rest();
+  held_ = ended ? path_.end().at_rest() : point.at_rest();
   leave_path();
   // The position is held from now on; what the path fed forward is taken to zero.
-  if (!bridging_) bridge_from(Space::difference(point.stopped(), point.at_rest()), 1.0);
+  if (!bridging_) {
+    reference_ = point.stopped();
+    start_bridge(bridge_to(held_, 1.0));
+  }
   return held_;
 }
 
 template <class Space>
 void Motion<Space>::leave_path() {
-  path_.trajectory = nullptr;
+  path_.leave();
   braking_ = starving_ = false;
   law_.start(0.0);
 }
@@ -98,71 +87,80 @@ void Motion<Space>::forward(const Point& point) {
 }
 
 template <class Space>
-void Motion<Space>::shape(const Point& point) {
+Verdict Motion<Space>::shape(const Point& point) {
+  const Point held = point.at_rest();
+  const Bridge bridge = bridge_to(held, 1.0);
+  const Verdict verdict = Space::judge_room(held, Space::use(held), bridge, settings_->limits);
+  if (!verdict.ok()) return verdict;
   leave_path();
-  held_ = point.at_rest();
-  bridge_from(Space::difference(reference_, held_), 1.0);
+  held_ = held;
+  start_bridge(bridge);
+  return {};
 }
 
-/// Takes `difference` to zero with half of `share` of the limits.
+/// Takes what is between the reference and a base that begins with `begin` to zero, with half of
+/// `share` of the limits.
 template <class Space>
-void Motion<Space>::bridge_from(const typename Space::Difference& difference, double share) {
-  const typename Space::Limits limits = settings_->limits.scaled(share);
-  bridge_ = typename Space::Bridge(difference, Space::bridge_time_s(difference, limits));
+typename Space::Bridge Motion<Space>::bridge_to(const Point& begin, double share) const {
+  const typename Space::Difference difference = Space::difference(reference_, begin);
+  return {difference, Space::bridge_time_s(difference, settings_->limits.scaled(share))};
+}
+
+template <class Space>
+void Motion<Space>::start_bridge(const Bridge& bridge) {
+  bridge_ = bridge;
   bridge_time_s_ = 0.0;
   bridging_ = true;
 }
 
 template <class Space>
 Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
-                              const typename Space::Tolerance& tolerance) {
-  const Settings& settings = *settings_;
-  const Waypoint<Space>& first = trajectory.at(0);
-  Path path;
-  path.trajectory = &trajectory;
-  path.use = trajectory.use;
-  Verdict verdict;
-  if (first.time_s > 0.0) {
-    // From rest by the fields the trajectory gives; out of a motion so that nothing steps.
-    const Interpolation how =
-        reference_.standing() ? trajectory.interpolation : Interpolation::kQuintic;
-    path.segment = Segment(reference_, first.point, first.time_s, how, trajectory.fields);
-    verdict = Space::judge(path.segment, settings.limits, 1.0 - 0.5 * settings.stop_reserve);
-    if (verdict.ok()) verdict = judge_corners(path.segment, trajectory);
-    path.use = Space::use(path.segment, settings.limits, path.use);
-  } else {
-    path.target = trajectory.count > 1 ? 1 : 0;
-    path.segment = trajectory.count > 1
-                       ? trajectory.segment(1)
-                       : Segment(first.point, first.point, 1.0, Interpolation::kLinear, 0);
-    verdict = Space::judge_near(first.point, reference_, tolerance);
-  }
-  if (!verdict.ok()) {
-    verdict.waypoint = 0;
-    return verdict;
-  }
-  const double left = 1.0 - std::max({path.use.velocity, path.use.acceleration, path.use.jerk});
-  // Out of a motion the first segment is met at full rate; from rest any rate meets it. Where a
-  // path begins with a step by nature, that is its own; the bridge ends the old motion only.
+                              const typename Space::Tolerance& tolerance, double elapsed_s) {
+  Path<Space> path(trajectory, reference_);
+  Verdict verdict = path.judge_terms(*settings_);
+  if (verdict.ok()) verdict = meet(path, tolerance, elapsed_s);
+  if (!verdict.ok()) return verdict;
+  // Out of a motion the path is met at full rate; from rest any rate meets it. Where a path begins
+  // with a step by nature, that is its own; the bridge ends the old motion only.
   const double rate = reference_.standing() ? rate_ : 1.0;
-  const Point begin = path.segment.corner().at_rate(rate, 0.0);
-  bridge_from(Space::difference(reference_, begin), std::max(left, kLeastShare));
+  const Point begin = path.begin().at_rate(rate, 0.0);
+  const typename Space::Use& use = path.use();
+  const double left = 1.0 - std::max({use.velocity, use.acceleration, use.jerk});
+  const Bridge bridge = bridge_to(begin, std::max(left, kLeastShare));
+  verdict = Space::judge_room(begin, use, bridge, settings_->limits);
+  if (!verdict.ok()) return verdict;
+  start_bridge(bridge);
   path_ = path;
   braking_ = starving_ = false;
-  law_.start(rate);
+  law_.start(rate, elapsed_s);
   return {};
 }
 
-/// The steps in velocity at both ends of the way to the first waypoint.
+/// Where a path is joined: on the way to its first waypoint, at it, or late.
 template <class Space>
-Verdict Motion<Space>::judge_corners(const Segment& way,
-                                     const Trajectory<Space>& trajectory) const {
-  const typename Space::Limits& limits = settings_->limits;
-  const Verdict verdict = Space::judge_step(reference_, way.at(0.0), limits);
-  if (!verdict.ok()) return verdict;
-  const Point arrival = way.at(way.duration());
-  const Point onward = trajectory.count > 1 ? trajectory.segment(1).at(0.0) : arrival.at_rest();
-  return Space::judge_step(arrival, onward, limits);
+Verdict Motion<Space>::meet(Path<Space>& path, const typename Space::Tolerance& tolerance,
+                            double elapsed_s) const {
+  if (path.first_s() > elapsed_s) return path.lead_in(reference_, elapsed_s, 0, *settings_);
+  if (elapsed_s > 0.0) return catch_up(path, elapsed_s);
+  path.enter(0.0);
+  Verdict verdict = Space::judge_near(path.begin(), reference_, tolerance);
+  verdict.waypoint = 0;
+  return verdict;
+}
+
+/// To the first waypoint that is as far ahead as a bridge to where the path is now would take, or
+/// farther if that breaks a limit.
+template <class Space>
+Verdict Motion<Space>::catch_up(Path<Space>& path, double elapsed_s) const {
+  path.enter(elapsed_s);
+  double ahead_s = bridge_to(path.at(elapsed_s), 1.0).duration();
+  Verdict verdict;
+  for (int i = 0; i < kAttempts; ++i, ahead_s *= 2.0) {
+    const int target = path.waypoint_from(elapsed_s + ahead_s);
+    verdict = path.lead_in(reference_, elapsed_s, target, *settings_);
+    if (verdict.ok()) break;
+  }
+  return verdict;
 }
 
 template <class Space>
@@ -179,8 +177,8 @@ void Motion<Space>::brake() {
 }
 
 template <class Space>
-void Motion<Space>::extend() {
-  if (on_path()) path_.use = PathUse::largest(path_.use, path_.trajectory->use);
+Verdict Motion<Space>::extend(const typename Space::Use& more) {
+  return on_path() ? path_.extend(more, *settings_) : Verdict();
 }
 
 template class Motion<JointSpace>;

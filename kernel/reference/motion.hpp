@@ -6,7 +6,7 @@
 // are rates of the one time law, so they never leave the path.
 #pragma once
 
-#include "kernel/reference/admission.hpp"
+#include "kernel/reference/path.hpp"
 #include "kernel/reference/time_law.hpp"
 
 namespace tactus {
@@ -15,7 +15,7 @@ template <class Space>
 class Motion {
  public:
   using Point = typename Space::Point;
-  using Segment = typename Space::Segment;
+  using Bridge = typename Space::Bridge;
   using Settings = AdmissionSettings<Space>;
 
   /// Holds `point`, at rest; moves by `settings`, which must outlive the motion. [init]
@@ -25,55 +25,52 @@ class Motion {
 
   /// Puts out `point` as it is and holds it; the path is left at once. [cyclic]
   void forward(const Point& point);
-  /// Goes to `point` within limits and holds it; the path is left at once. [cyclic]
-  void shape(const Point& point);
-  /// Leaves whatever it follows for a trajectory: by one segment to its first waypoint if that lies
-  /// in the future, else by a bridge to it. Refused, and nothing changes, if that segment breaks a
-  /// limit or the waypoint is not near. [cyclic]
-  Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance);
+  /// Goes to `point` within limits and holds it; the path is left at once. Refused, and nothing
+  /// changes, if a limit of position is in the way. [cyclic]
+  Verdict shape(const Point& point);
+  /// Leaves whatever it follows for a trajectory that began `elapsed_s` ago: by one segment to its
+  /// first waypoint if that lies ahead; by a bridge to it if that is now; else by one segment to
+  /// the first waypoint ahead that can be reached within limits. Refused, and nothing changes, if a
+  /// limit is in the way or a waypoint that is now is not near. [cyclic]
+  Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
+                 double elapsed_s = 0.0);
   /// From now on the path is passed at `rate`, 0..1, reached as fast as limits allow. [cyclic]
   void set_rate(double rate);
-  /// The open trajectory it follows has become longer. [cyclic]
-  void extend();
+  /// The open trajectory it follows has become longer; refused as by Path::extend. [cyclic]
+  Verdict extend(const typename Space::Use& more);
   /// Stops on the path, then leaves it. [cyclic]
   void brake();
 
   const Point& reference() const { return reference_; }
   /// A trajectory is still read. False once its end is reached or a brake has come to rest.
-  bool on_path() const { return path_.trajectory != nullptr; }
+  bool on_path() const { return path_.running(); }
   /// An open trajectory has run out of waypoints: the arm stops, or stands, on the path.
   bool starving() const { return starving_; }
   /// First waypoint it still needs.
-  int needed() const { return path_.target > 0 ? path_.target - 1 : 0; }
+  int needed() const { return path_.needed(); }
   /// The reference does not move, and will not unless told to.
   bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
 
  private:
-  /// A trajectory and the place reached on it.
-  struct Path {
-    const Trajectory<Space>* trajectory = nullptr;
-    int target = 0;  // waypoint at which the present segment ends
-    double segment_start_s = 0.0;
-    Segment segment;
-    PathUse use;
-  };
-
   void watch_end(double dt_s);
   Point base();
-  Verdict judge_corners(const Segment& way, const Trajectory<Space>& trajectory) const;
+  Verdict meet(Path<Space>& path, const typename Space::Tolerance& tolerance,
+               double elapsed_s) const;
+  Verdict catch_up(Path<Space>& path, double elapsed_s) const;
   void leave_path();
-  void bridge_from(const typename Space::Difference& difference, double share);
-  RateBounds rate_bounds() const { return path_.use.rate_bounds(bridging_ ? 0.5 : 1.0); }
+  Bridge bridge_to(const Point& begin, double share) const;
+  void start_bridge(const Bridge& bridge);
+  RateBounds rate_bounds() const { return path_.use().rate_bounds(bridging_ ? 0.5 : 1.0); }
 
   const Settings* settings_ = nullptr;
-  Point reference_;  // put out in this cycle
-  Point held_;       // the base off the path
-  Path path_;        // the base on it
+  Point reference_;   // put out in this cycle
+  Point held_;        // the base off the path
+  Path<Space> path_;  // the base on it
   TimeLaw law_;
   double rate_ = 1.0;  // wanted, and taken up again after starving
   bool braking_ = false, starving_ = false;
 
-  typename Space::Bridge bridge_;
+  Bridge bridge_;
   double bridge_time_s_ = 0.0;
   bool bridging_ = false;
 };

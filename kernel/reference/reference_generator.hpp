@@ -44,8 +44,16 @@ class ReferenceGenerator {
 
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
+  /// The generator's time: periods since start, s.
+  double time_s() const { return static_cast<double>(cycles_) * period_s_; }
 
  private:
+  /// A trajectory that was accepted: its request and its store, -1: none.
+  struct Goal {
+    std::uint32_t id = 0;
+    int store = -1;
+  };
+
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
   void answer(const Request<Space>& request);
   Verdict judge_point(const Point& point) const;
@@ -58,6 +66,9 @@ class ReferenceGenerator {
   void watch_supply();
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
+  void watch_start();
+  void begin(const Goal& goal, double elapsed_s);
+  void end_waiting(Outcome outcome);
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
                      const Verdict& verdict = {});
   void release_store();
@@ -69,15 +80,16 @@ class ReferenceGenerator {
   std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
 
   double period_s_ = 0.0;
+  std::int64_t cycles_ = 0;
   ReferenceState state_ = ReferenceState::kOnlineReference;
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
   double override_ = 1.0;
   bool paused_ = false;
 
-  std::uint32_t trajectory_id_ = 0;  // of the trajectory being executed
-  bool starving_ = false;            // and the client has been told
-  int store_ = -1;                   // of the trajectory the motion still reads
+  Goal running_;           // executed, or braked on: the motion still reads its store
+  Goal waiting_;           // for its start time
+  bool starving_ = false;  // and the client has been told
 
   double point_age_s_ = 0.0;    // since the last online point
   bool point_pending_ = false;  // a point was taken in this cycle and is not yet put out

@@ -32,7 +32,8 @@ struct TaskSpace {
     static Band merged(const Band& goal, const Band& defaults);
   };
 
-  /// A reference of the tool tip, in the base frame; linear part and force first.
+  /// A reference of the tool tip, in the base frame unless a client's terms name another one;
+  /// linear part and force first.
   struct Point {
     Pose x;
     Vector6 v = Vector6::Zero();   ///< m/s, rad/s
@@ -53,6 +54,30 @@ struct TaskSpace {
     /// A point p(s), p', p'' of a path as it is passed at the rate r = ds/dt with slope dr/dt.
     /// [any]
     Point at_rate(double rate, double slope) const;
+  };
+
+  using Rates = Vector6;
+
+  /// The frames that a client's references are given in: where they stand in the base frame, which
+  /// is what null is. A moving frame is taken as it stands when the reference is accepted. A
+  /// wrench is about the origin of its frame; in the base frame it is about the tip.
+  struct Terms {
+    const Pose* motion = nullptr;
+    const Pose* wrench = nullptr;
+  };
+  /// The terms as they stand when a reference is accepted.
+  struct Latched {
+    Pose motion, wrench;
+    bool moved = false, levered = false;  ///< the terms named a motion frame, a wrench frame
+  };
+
+  /// What a path takes: of the limits, of the room, and of the wrench's limits.
+  struct Use : PathUse {
+    Vector3 p_min = Vector3::Constant(kInfinity);  ///< m
+    Vector3 p_max = Vector3::Constant(-kInfinity);
+    double force = 0.0, moment = 0.0;  ///< N, N m
+    /// Of a path of two parts. [any]
+    static Use largest(const Use& a, const Use& b);
   };
 
   /// a - b of two references. The orientation is a path phi(t) of which sum() makes R_a = R_b
@@ -98,6 +123,7 @@ struct TaskSpace {
     Bridge(const Difference& from, double T);
     Difference at(double t) const;
     double duration() const { return duration_; }
+    const VectorPolynomial& translation() const { return p_; }
 
    private:
     VectorPolynomial p_, phi_;
@@ -133,7 +159,32 @@ struct TaskSpace {
   static Verdict judge_stopped(const Point& measured, double limit);
   /// What a segment takes of the limits, by the same bounds as judge(); as `known` where it takes
   /// no more. [cyclic]
-  static PathUse use(const Segment& segment, const Limits& limits, const PathUse& known);
+  static Use use(const Segment& segment, const Limits& limits, const Use& known);
+  /// Of a point at which nothing moves. [cyclic]
+  static Use use(const Point& held);
+  /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
+  /// on: kWorkspace if the two together might leave the box of the task. [cyclic]
+  static Verdict judge_room(const Point& begin, const Use& use, const Bridge& bridge,
+                            const Limits& limits);
+
+  /// The terms as of now. [cyclic]
+  static Latched latch(const Terms& terms, const Point& reference);
+  /// Terms for admission, to which the frames are unknown. [any]
+  static Latched anywhere(const Terms&, const Limits&) { return {}; }
+  /// The limits that can be judged in a client's terms: no box in a frame that is not the base, no
+  /// moment about another point than the tip. [any]
+  static Limits known_limits(const Terms& terms, const Limits& limits);
+  /// A client's point as a reference in the base frame. [cyclic]
+  static Point placed(const Point& given, const Latched& terms);
+  /// The use of a path of a client's points as that of their references; boxes and moments are
+  /// bounds from outside. [cyclic]
+  static Use placed(const Use& given, const Latched& terms);
+  /// Judges what known_limits() could not: box and moment. [cyclic]
+  static Verdict judge_placed(const Use& placed, const Latched& terms, const Limits& limits);
+
+  /// The twist of a straight line and slerp from one point to the other in T seconds. [any]
+  static Rates secant(const Point& from, const Point& to, double T);
+  static Rates& rates(Point& point) { return point.v; }
 
   /// a - b along the shortest arc, and b + difference = a but for the quaternion's sign. [any]
   static Difference difference(const Point& a, const Point& b);

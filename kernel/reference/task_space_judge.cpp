@@ -144,7 +144,16 @@ Verdict TaskSpace::judge_stopped(const Point& measured, double limit) {
                    within(measured.v.tail<3>().norm(), limit, Status::kGoalTolerance, kRotation)});
 }
 
-PathUse TaskSpace::use(const Segment& segment, const Limits& limits, const PathUse& known) {
+TaskSpace::Use TaskSpace::Use::largest(const Use& a, const Use& b) {
+  return {PathUse::largest(a, b), a.p_min.cwiseMin(b.p_min), a.p_max.cwiseMax(b.p_max),
+          std::max(a.force, b.force), std::max(a.moment, b.moment)};
+}
+
+TaskSpace::Use TaskSpace::use(const Point& held) {
+  return {PathUse(), held.x.p, held.x.p, held.h.head<3>().norm(), held.h.tail<3>().norm()};
+}
+
+TaskSpace::Use TaskSpace::use(const Segment& segment, const Limits& limits, const Use& known) {
   const TranslationBounds p = translation_bounds(segment.translation(), segment.duration());
   const RotationSegment::Bounds r = segment.rotation().bounds();
   const PathUse translation = {p.v / limits.v_max, p.a / limits.a_max, p.j / limits.j_max,
@@ -152,7 +161,39 @@ PathUse TaskSpace::use(const Segment& segment, const Limits& limits, const PathU
   const PathUse rotation = {
       r.w / limits.w_max,     r.alpha / limits.alpha_max, 0.0,
       r.w / limits.alpha_max, r.w / limits.dalpha_max,    r.alpha / limits.dalpha_max};
-  return PathUse::largest(known, PathUse::largest(translation, rotation));
+  // The wrench, being linear, is largest at an end.
+  Use own = Use::largest(use(segment.at(0.0)), use(segment.at(segment.duration())));
+  static_cast<PathUse&>(own) = PathUse::largest(translation, rotation);
+  for (int i = 0; i < 3; ++i) {
+    const Extremes room =
+        extremes(segment.translation().axis[static_cast<std::size_t>(i)], segment.duration());
+    own.p_min[i] = room.min;
+    own.p_max[i] = room.max;
+  }
+  return Use::largest(known, own);
+}
+
+/// As JointSpace::judge_room.
+Verdict TaskSpace::judge_room(const Point& begin, const Use& use, const Bridge& bridge,
+                              const Limits& limits) {
+  const double T = bridge.duration(), reach = use.velocity * limits.v_max * T;
+  Vector3 lowest, highest;
+  for (int i = 0; i < 3; ++i) {
+    const Extremes beside = extremes(bridge.translation().axis[static_cast<std::size_t>(i)], T);
+    const double p = begin.x.p[i];
+    lowest[i] = std::max({use.p_min[i], limits.p_min[i], p - reach}) + std::min(beside.min, 0.0);
+    highest[i] = std::min({use.p_max[i], limits.p_max[i], p + reach}) + std::max(beside.max, 0.0);
+  }
+  return first_of({judge_place(lowest, limits), judge_place(highest, limits)});
+}
+
+Verdict TaskSpace::judge_placed(const Use& placed, const Latched& terms, const Limits& limits) {
+  Verdict verdict;
+  if (terms.moved)
+    verdict = first_of({judge_place(placed.p_min, limits), judge_place(placed.p_max, limits)});
+  if (verdict.ok() && terms.levered)
+    verdict = at_most(placed.moment, limits.moment_max, Status::kEffortLimit, kRotation);
+  return verdict;
 }
 
 }  // namespace tactus

@@ -5,8 +5,9 @@
 
 namespace tactus {
 
-void TimeLaw::start(double rate) {
+void TimeLaw::start(double rate, double s) {
   *this = TimeLaw();
+  s_ = s;
   rate_ = target_ = rate;
 }
 

@@ -21,8 +21,8 @@ struct RateBounds {
 
 class TimeLaw {
  public:
-  /// Path time 0, running at `rate` steadily. [cyclic]
-  void start(double rate);
+  /// Path time `s`, running at `rate` steadily. [cyclic]
+  void start(double rate, double s = 0.0);
   /// From now on the rate goes to `target`, 0..1, as fast as the bounds allow, and stays there.
   /// [cyclic]
   void plan(double target, const RateBounds& bounds);

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "kernel/describe.hpp"
 #include "kernel/reference/interpolation.hpp"
-#include "kernel/reference/path_use.hpp"
 #include "kernel/reference/tolerance.hpp"
 
 namespace tactus {
@@ -36,6 +36,9 @@ struct Tolerances {
   }
 };
 
+/// A start time that is always now.
+inline constexpr double kAtOnce = -kInfinity;
+
 template <class Space>
 struct Trajectory {
   Waypoint<Space>* waypoints = nullptr;  ///< storage, owned by the board
@@ -44,16 +47,21 @@ struct Trajectory {
   bool open = false;  ///< more waypoints follow, over those that the motion has passed
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
+  typename Space::Terms terms;  ///< which joints, or which frames, the waypoints are given in
+  double start_s = kAtOnce;     ///< when it begins, by the generator's time
   Tolerances<Space> tolerances;
-  PathUse use;  ///< noted by admission
+  typename Space::Use use;  ///< noted by admission
 
   const Waypoint<Space>& at(int index) const { return waypoints[index % capacity]; }
   double end_s() const { return at(count - 1).time_s; }
+  /// A waypoint as a reference, when its terms are `latched`. [any]
+  typename Space::Point point(int index, const typename Space::Latched& latched) const {
+    return Space::placed(at(index).point, latched);
+  }
   /// The segment that ends at waypoint `index` >= 1. [any]
-  typename Space::Segment segment(int index) const {
-    const Waypoint<Space>& from = at(index - 1);
-    const Waypoint<Space>& to = at(index);
-    return {from.point, to.point, to.time_s - from.time_s, interpolation, fields};
+  typename Space::Segment segment(int index, const typename Space::Latched& latched) const {
+    return {point(index - 1, latched), point(index, latched),
+            at(index).time_s - at(index - 1).time_s, interpolation, fields};
   }
 };
 

@@ -1,0 +1,35 @@
+// Frame: a frame that stands still in the base frame, such as that of a table or a wall, for
+// references to be given in.
+#pragma once
+
+#include "kernel/describe.hpp"
+#include "kernel/math/so3.hpp"
+#include "kernel/port.hpp"
+#include "kernel/status.hpp"
+
+namespace tactus {
+
+struct Frame {
+  struct Params {
+    Vector3 position = Vector3::Constant(kRequired);  ///< m, of its origin
+    Vector3 rotation = Vector3::Zero();               ///< rad, rotation vector from the base's axes
+  } params;
+  Out<Quantity::kPose> x;
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("position", params.position, Range{-10.0, 10.0}, "m");
+    visit.param("rotation", params.rotation, Range{-6.3, 6.3}, "rad");  // refuses degrees
+    visit.out("x", x);
+  }
+
+  /// [init]
+  Status start() {
+    x.value = {params.position, exp_so3(params.rotation)};
+    return Status::kOk;
+  }
+  /// It stands still. [cyclic]
+  Status step(double /*dt_s*/) { return Status::kOk; }
+};
+
+}  // namespace tactus

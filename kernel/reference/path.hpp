@@ -1,0 +1,63 @@
+// Path: a trajectory that is being followed, and the place reached on it.
+#pragma once
+
+#include "kernel/reference/admission.hpp"
+
+namespace tactus {
+
+template <class Space>
+class Path {
+ public:
+  using Point = typename Space::Point;
+  using Segment = typename Space::Segment;
+  using Settings = AdmissionSettings<Space>;
+
+  Path() = default;
+  /// The trajectory in its terms as of now, with `reference` put out; not entered yet. [cyclic]
+  Path(const Trajectory<Space>& trajectory, const Point& reference);
+
+  /// Judges what admission could not know: where the terms have put it. [cyclic]
+  Verdict judge_terms(const Settings& settings) const {
+    return Space::judge_placed(use_, latched_, settings.limits);
+  }
+  /// Enters the path where it is at path time s, which is not before its first waypoint. [cyclic]
+  void enter(double s);
+  /// Enters by one segment from `reference` at path time s to the waypoint `target` ahead; refused,
+  /// with that waypoint named, if the segment breaks a limit. [cyclic]
+  Verdict lead_in(const Point& reference, double s, int target, const Settings& settings);
+  /// The path is followed no more. [cyclic]
+  void leave() { trajectory_ = nullptr; }
+  bool running() const { return trajectory_ != nullptr; }
+
+  /// The path at time s, to which the present segment is moved on. [cyclic]
+  Point at(double s);
+  /// Nothing of it is left at path time s, and nothing more will come. [cyclic]
+  bool ended(double s) const;
+  Point end() const { return trajectory_->point(trajectory_->count - 1, latched_); }
+  /// Where the present segment begins, without what steps there by nature. [cyclic]
+  Point begin() const { return segment_.corner(); }
+
+  double first_s() const { return trajectory_->at(0).time_s; }
+  double end_s() const { return trajectory_->end_s(); }
+  bool open() const { return trajectory_->open; }
+  /// First waypoint at path time s or later; the last if there is none. A bisection. [cyclic]
+  int waypoint_from(double s) const;
+  /// First waypoint it still needs.
+  int needed() const { return target_ > 0 ? target_ - 1 : 0; }
+
+  const typename Space::Use& use() const { return use_; }
+  /// More of an open trajectory has come; refused if its terms put that out of limits. [cyclic]
+  Verdict extend(const typename Space::Use& more, const Settings& settings);
+
+ private:
+  Verdict judge_corners(const Point& reference, const Settings& settings) const;
+
+  const Trajectory<Space>* trajectory_ = nullptr;
+  typename Space::Latched latched_;
+  typename Space::Use use_;
+  int target_ = 0;  // waypoint at which the present segment ends
+  double segment_start_s_ = 0.0;
+  Segment segment_;
+};
+
+}  // namespace tactus
