@@ -1,5 +1,5 @@
-// Arm: the rigid-body plant alone. Torque in, motion out; MuJoCo integrates the arm of
-// fer_mjcf.cpp or its kin
+// Arm: the rigid-body plant alone. Torque in, motion out; MuJoCo integrates the robot of
+// robot_mjcf.hpp
 //
 //   (M(q) + diag(rotor_inertia)) ddq + C(q, dq) dq + g(q) + friction(dq) = tau
 //
