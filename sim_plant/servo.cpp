@@ -31,7 +31,7 @@ Status Servo::move(Arm& arm, const RobotCommand& target, double period_s, JointV
   if (target.mode == CommandMode::kPosition) q_before_ = target.value;
 
   double longest_s = std::min(kMaxInnerStep_s, period_s / kMinInnerSteps);
-  if (time_constant_s_ > 0.0) longest_s = std::min(longest_s, 0.25 * time_constant_s_);
+  if (time_constant_s_ > 0.0) longest_s = std::min(longest_s, 0.125 * time_constant_s_);
   const int steps = static_cast<int>(std::ceil(period_s / longest_s - 1e-9));
   step_s_ = period_s / steps;
   const auto limit = joints(RobotMjcf::kDriveTorque);

@@ -85,6 +85,20 @@ void an_ideal_servo_is_at_the_position_sent_when_the_period_ends(void**) {
   }
 }
 
+void an_ideal_servo_arrives_from_one_period_to_the_next_whatever_the_slope(void**) {
+  for (const int period_us : {500, 1000, 8000}) {
+    g_bench.start(kPosition, period_us);
+    const double speed = 2.5 * g_bench.period_s, way = speed * g_bench.period_s;  // 2.5 rad/s^2
+    JointVector q_c = g_bench.home;
+    for (const double slope : {1.0, -1.0, 0.5, 0.0, -1.0, 1.0}) {
+      q_c += JointVector::Constant(slope * way);
+      ASSERT_OK(g_bench.write(kPosition, q_c));
+      ASSERT_NEAR(g_bench.farthest_from(q_c), 0.0, 1e-2 * way);
+      ASSERT_NEAR(g_bench.speed_off(JointVector::Constant(slope * speed)), 0.0, 1e-2 * speed);
+    }
+  }
+}
+
 void an_ideal_servo_has_the_velocity_sent_when_the_period_ends(void**) {
   for (const int period_us : {1000, 8000}) {
     g_bench.start(kVelocity, period_us);
@@ -98,14 +112,16 @@ void an_ideal_servo_has_the_velocity_sent_when_the_period_ends(void**) {
 }
 
 void a_slow_servo_follows_a_step_in_position_as_a_critically_damped_lag(void**) {
-  constexpr double kStep = 2e-3, kT = 0.04;  // rad, s
-  g_bench.start(kPosition, 1000, slow(kT));
-  const JointVector q_c = g_bench.home + JointVector::Constant(kStep);
-  for (int k = 1; k <= 300; ++k) {
-    ASSERT_OK(g_bench.write(kPosition, q_c));
-    const double t = k * 1e-3, way = 1.0 - (1.0 + t / kT) * std::exp(-t / kT);
-    ASSERT_NEAR(g_bench.farthest_from(g_bench.home + JointVector::Constant(way * kStep)), 0.0,
-                0.01 * kStep);
+  for (const double T : {0.04, 2e-4}) {
+    const double step = T * T;  // rad, for at most 1 rad/s^2
+    g_bench.start(kPosition, 1000, slow(T));
+    const JointVector q_c = g_bench.home + JointVector::Constant(step);
+    for (int k = 1; k <= 300; ++k) {
+      ASSERT_OK(g_bench.write(kPosition, q_c));
+      const double t = k * 1e-3, way = 1.0 - (1.0 + t / T) * std::exp(-t / T);
+      const JointVector q = g_bench.home + JointVector::Constant(way * step);
+      ASSERT_NEAR(g_bench.farthest_from(q), 0.0, 0.02 * step);
+    }
   }
 }
 
@@ -191,6 +207,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(attaching_in_either_mode_moves_nothing),
       cmocka_unit_test(an_ideal_servo_is_at_the_position_sent_when_the_period_ends),
+      cmocka_unit_test(an_ideal_servo_arrives_from_one_period_to_the_next_whatever_the_slope),
       cmocka_unit_test(an_ideal_servo_has_the_velocity_sent_when_the_period_ends),
       cmocka_unit_test(a_slow_servo_follows_a_step_in_position_as_a_critically_damped_lag),
       cmocka_unit_test(a_slow_servo_is_late_by_two_time_constants_behind_a_ramp),
