@@ -5,13 +5,16 @@ comma := ,
 ARCH  ?= host
 B     := build/$(BOARD)$(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
 
+# What a board.mk says: robot, sources, libraries, runs, and its tests if they are not all.
+BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
 SRCS   :=
 LDLIBS :=
 RUNS   :=
+TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
 include boards/$(BOARD)/board.mk
 
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
-SEAMS     := boards/program/options.cpp tests/oracles/kdl.cpp tests/bench/kdl_peer.cpp
+SEAMS     := boards/program/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
 NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
@@ -32,19 +35,20 @@ CXXFLAGS += $(FLAGS_$(ARCH))
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
-TESTS    := $(patsubst %.cpp,$(B)/%,$(wildcard tests/test_*.cpp))
+TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath
 obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
+each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help
 all: $(B)/tactus                              ## build the program of BOARD
 
-run: setup                                    ## run every pipeline; results in out/
-	$(Q)$(MAKE) --no-print-directory all trajectories
-	$(Q)scripts/run_all $(B)/tactus $(RUNS)
-test: setup                                   ## build and run all tests
-	$(Q)$(MAKE) --no-print-directory -j2 all trajectories run-tests
+run: setup                                    ## run every pipeline of every board; results in out/
+	$(Q)$(call each,all trajectories)
+	$(Q)$(call each,run-pipelines)
+test: setup                                   ## build and run all tests of every board
+	$(Q)$(call each,-j2 all trajectories run-tests)
 test-long: setup                              ## the long random tests at full count
 	$(Q)$(MAKE) --no-print-directory -j2 $(LONG)
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
@@ -65,7 +69,11 @@ clean:                                        ## remove everything that was buil
 help:                                         ## this list
 	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories run-tests run-thread-tests kernel
+.PHONY: trajectories run-pipelines run-tests run-thread-tests kernel each-board
+each-board:
+	$(Q)$(call each,$(TARGETS))
+run-pipelines: $(B)/tactus
+	$(Q)scripts/run_all $< $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
 $(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sim_plant/fer_mjcf.hpp"
+#include "sim_plant/compile_arm.hpp"
 #include "sim_plant/flange_wrench.hpp"
 
 namespace tactus {
 namespace {
 
 static_assert(std::is_same_v<mjtNum, double>, "MuJoCo of double precision");
-static_assert(kDof == 7, "fer_mjcf.cpp describes an arm of seven joints");
+static_assert(kDof == RobotMjcf::kReadyPose.size(), "the MJCF is that of another robot");
 
 constexpr double kMaxInnerStep_s = 1e-3;
 constexpr double kMaxContactStep_s = 0.25e-3;
@@ -39,14 +39,19 @@ double sigmoid(double x) {
   return 1.0 / (1.0 + std::exp(-x));
 }
 
-/// The parameters travel with the model: see jnt_user in fer_mjcf.hpp.
+/// N m; the parameters travel with the model: see jnt_user in compile_arm.hpp.
+double friction(const mjModel* model, int joint, double dq) {
+  const double* abc = model->jnt_user + joint * model->nuser_jnt;
+  const double a = abc[0], b = abc[1], c = abc[2];
+  return a * (sigmoid(b * (dq + c)) - sigmoid(b * c));
+}
+
+/// MuJoCo calls this at the end of its passive forces, hence in every stage of the integrator.
 void add_friction(const mjModel* model, mjData* data) {
   if (model->nuser_jnt < 3) return;  // a model without friction parameters
   for (int i = 0; i < model->njnt; ++i) {
-    const double* abc = model->jnt_user + i * model->nuser_jnt;
-    const double a = abc[0], b = abc[1], c = abc[2];
     const int dof = model->jnt_dofadr[i];
-    data->qfrc_passive[dof] -= a * (sigmoid(b * (data->qvel[dof] + c)) - sigmoid(b * c));
+    data->qfrc_passive[dof] -= friction(model, i, data->qvel[dof]);
   }
 }
 
@@ -88,7 +93,7 @@ Status Arm::load(const PlantParams& params) {
 
   mj_deleteData(data_);
   mj_deleteModel(model_);
-  model_ = compile_fer();
+  model_ = compile_arm();
   if (model_ != nullptr) model_->nuserdata = 1;  // see TipContact::attach
   data_ = model_ != nullptr ? mj_makeData(model_) : nullptr;
   if (data_ == nullptr) return Status::kTooLarge;
@@ -136,6 +141,16 @@ void Arm::sense() {
   contact_wrench_ = contact_.wrench(model_, data_);
   ft_ = carries_ || !contact_.none() ? flange_wrench(model_, data_, contact_wrench_)
                                      : Vector6(Vector6::Zero());
+}
+
+JointVector Arm::inverse_dynamics(const JointVector& ddq) {
+  mj_fwdPosition(model_, data_);  // a step leaves these at its last stage
+  mj_fwdVelocity(model_, data_);
+  JointVector tau;
+  mj_mulM(model_, data_, tau.data(), ddq.data());
+  for (int i = 0; i < kDof; ++i)
+    tau[i] += data_->qfrc_bias[i] + friction(model_, i, data_->qvel[i]);
+  return tau;
 }
 
 bool Arm::diverged() const {

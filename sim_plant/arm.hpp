@@ -1,4 +1,5 @@
-// Arm: the rigid-body plant alone. Torque in, motion out; MuJoCo integrates the FER of fer_mjcf.cpp
+// Arm: the rigid-body plant alone. Torque in, motion out; MuJoCo integrates the robot of
+// robot_mjcf.hpp
 //
 //   (M(q) + diag(rotor_inertia)) ddq + C(q, dq) dq + g(q) + friction(dq) = tau + J^T f_e
 //
@@ -38,6 +39,10 @@ class Arm {
   /// Holds the joint torque `tau` (N m) for `dt_s` > 0, in equal inner steps of at most 1 ms, with
   /// a scene 0.25 ms. The arm is loaded. [cyclic]
   void step(const JointVector& tau, double dt_s);
+
+  /// The torque that would give `ddq` (rad/s^2) now, N m: what the left side above says, payload
+  /// included; nothing else touches the arm. The arm is loaded. [cyclic]
+  JointVector inverse_dynamics(const JointVector& ddq);
 
   bool loaded() const { return data_ != nullptr; }  ///< [any]
 

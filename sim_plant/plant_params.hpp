@@ -4,25 +4,24 @@
 
 #include "kernel/describe.hpp"
 #include "kernel/types.hpp"
+#include "sim_plant/robot_mjcf.hpp"
 #include "sim_plant/scene.hpp"
 
 namespace tactus {
 
 inline constexpr int kMaxDelayCycles = 16;
 
-/// The ready pose of the FER, rad: elbow up, flange pointing down, away from every limit.
+/// Where the robot stands unless the file says otherwise, rad.
 inline JointVector ready_pose() {
-  constexpr double kPi = 3.14159265358979323846;
-  JointVector q;
-  q << 0.0, -kPi / 4.0, 0.0, -3.0 * kPi / 4.0, 0.0, kPi / 2.0, kPi / 4.0;
-  return q;
+  return JointVector(RobotMjcf::kReadyPose.data());
 }
 
 struct PlantParams {
   /// Where the arm stands before the first cycle.
   JointVector initial_q = ready_pose();  ///< rad
 
-  /// Scales the friction identified by Gaz et al. (see fer_mjcf.cpp); 0 switches it off.
+  /// Scales the friction that was identified on the robot (see fer_mjcf.cpp; of the UR10 there is
+  /// none); 0 switches it off.
   double friction = 1.0;
 
   /// Rotor inertia seen at the joint, kg m^2; adds to the diagonal of the mass matrix. The
@@ -30,12 +29,16 @@ struct PlantParams {
   /// Figures for the FER are not published; the FR3's are 0.2 to 0.6 kg m^2 (given by the
   /// manufacturer through Drake). The drives' inner torque loop hides most of it from whoever
   /// commands joint torque, though not all: what is left is taken as 0.1 kg m^2 on every joint,
-  /// the figure mujoco_menagerie uses too. 0 makes the drives ideal.
+  /// the figure mujoco_menagerie uses too, for the UR10e as well. 0 makes the drives ideal.
   JointVector rotor_inertia = JointVector::Constant(0.1);
 
   /// Standard deviations of the white noise on the measured state.
   double position_noise_rad = 0.0;
   double velocity_noise_rad_s = 0.0;
+
+  /// Time constant of the robot's own servo, which takes positions or velocities: see servo.hpp.
+  /// 0: ideal, the arm is where it was sent at the end of the period.
+  double servo_time_constant_s = 0.0;
 
   int delay_cycles = 0;  ///< whole cycles by which the measured state is late
 
@@ -61,11 +64,12 @@ struct PlantParams {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("initial_q", initial_q, Range{-4.0, 4.0}, "rad");  // refuses degrees
+    visit.param("initial_q", initial_q, Range{-6.3, 6.3}, "rad");  // refuses degrees
     visit.param("friction", friction, Range{0.0, 10.0}, "1");
     visit.param("rotor_inertia", rotor_inertia, Range{0.0, 10.0}, "kg m^2");
     visit.param("position_noise_rad", position_noise_rad, Range{0.0, 0.1}, "rad");
     visit.param("velocity_noise_rad_s", velocity_noise_rad_s, Range{0.0, 1.0}, "rad/s");
+    visit.param("servo_time_constant_s", servo_time_constant_s, Range{0.0, 1.0}, "s");
     visit.param("delay_cycles", delay_cycles, Range{0.0, kMaxDelayCycles}, "cycles");
     visit.param("payload_kg", payload_kg, Range{0.0, 20.0}, "kg");
     visit.param("payload_com", payload_com, Range{-1.0, 1.0}, "m");

@@ -12,6 +12,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
   position_noise_rad_ = params.position_noise_rad;
   velocity_noise_rad_s_ = params.velocity_noise_rad_s;
   delay_cycles_ = params.delay_cycles;
+  servo_time_constant_s_ = params.servo_time_constant_s;
   random_.seed(seed);
   ft_sensor_.load(params, seed);
   time_ns_ = 0;
@@ -20,7 +21,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
 
 Capabilities SimHal::capabilities() const {
   Capabilities offered;
-  offered.effort = true;
+  offered.position = offered.velocity = offered.effort = true;
   offered.wrench = true;
   offered.min_period_us = 100;
   offered.max_period_us = 10000;
@@ -31,11 +32,12 @@ Status SimHal::start(CommandMode mode, RobotState& state) {
   const Capabilities offered = capabilities();
   const Range periods_us = {static_cast<double>(offered.min_period_us),
                             static_cast<double>(offered.max_period_us)};
-  if (mode != CommandMode::kEffort) return Status::kNotOffered;
   if (!periods_us.contains(std::round(period_s_ * 1e6))) return Status::kNotOffered;
   if (!arm_.loaded()) return Status::kNotStarted;
   if (arm_.diverged()) return Status::kDriveFault;
   stand_still(arm_.stand());
+  mode_ = mode;
+  servo_.start(servo_time_constant_s_, arm_.q());
   started_ = enabled_ = true;
   state = measured();
   return Status::kOk;
@@ -51,18 +53,24 @@ Status SimHal::read(RobotState& state) {
 Status SimHal::write(const RobotCommand& command) {
   if (!started_) return Status::kNotStarted;
   if (!enabled_) return Status::kDriveFault;
-  if (command.mode != CommandMode::kEffort || !command.value.allFinite()) {
+  Status status = drive(command);
+  if (status == Status::kOk && arm_.diverged()) status = Status::kDriveFault;
+  if (status != Status::kOk) {
     stop();
-    return Status::kDriveFault;
+    return status;
   }
+  time_ns_ += std::llround(period_s_ * 1e9);
+  measure();
+  return Status::kOk;
+}
+
+/// Moves the arm by one period; kDriveFault, and nothing moves, when the command cannot be
+/// executed.
+Status SimHal::drive(const RobotCommand& command) {
+  if (command.mode != mode_ || !command.value.allFinite()) return Status::kDriveFault;
+  if (mode_ != CommandMode::kEffort) return servo_.move(arm_, command, period_s_, tau_);
   tau_ = command.value;
   arm_.step(tau_, period_s_);
-  time_ns_ += std::llround(period_s_ * 1e9);
-  if (arm_.diverged()) {
-    stop();
-    return Status::kDriveFault;
-  }
-  measure();
   return Status::kOk;
 }
 

@@ -1,4 +1,4 @@
-// The whole loop in one object: pipeline, executive, generator and the simulated FER, for tests
+// The whole loop in one object: pipeline, executive, generator and the simulated robot, for tests
 // that look at the physics.
 #pragma once
 
@@ -13,18 +13,32 @@
 
 namespace tactus {
 
+/// Gains of PD with gravity compensation in the paper's pipelines, N m/rad and N m s/rad.
+template <class R>
+struct PaperGains;
+struct Fer;
+struct Ur10;
+template <>
+struct PaperGains<Fer> {
+  static constexpr std::array<double, 7> kp = {500, 400, 400, 300, 20, 20, 10};
+  static constexpr const char* kText = "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+};
+template <>
+struct PaperGains<Ur10> {
+  static constexpr std::array<double, 6> kp = {2000, 3000, 4000, 400, 400, 5};
+  static constexpr const char* kText =
+      "kp = 2000 3000 4000 400 400 5\nkd = 100 100 100 10 10 0.2\n";
+};
+
 inline constexpr const char* kClosedLoopBlocks =
     "tau_c = pd.tau\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
-
-/// Gains of the pipeline above, N m/rad.
-inline constexpr std::array<double, kDof> kClosedLoopKp = {500, 400, 400, 300, 20, 20, 10};
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n";
 
 struct ClosedLoop {
-  const char* blocks = kClosedLoopBlocks;  ///< set it before start() for another pipeline
+  const char* blocks = kClosedLoopBlocks;  ///< set both before start() for another pipeline
+  const char* gains = PaperGains<Robot>::kText;
   ReferenceChannel<JointSpace> channel;
   std::array<std::array<Waypoint<JointSpace>, 16>, kStores> waypoints;
   Pipeline pipeline;
@@ -39,8 +53,8 @@ struct ClosedLoop {
   /// set `plant` before.
   Status start(int period_us, std::uint64_t seed) {
     std::array<char, 1024> text;
-    std::snprintf(text.data(), text.size(), "[robot]\nname = fer\nperiod_us = %d\n%s", period_us,
-                  blocks);
+    std::snprintf(text.data(), text.size(), "[robot]\nname = %s\nperiod_us = %d\n%s%s",
+                  Robot::kName, period_us, blocks, gains);
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = 16;

@@ -10,8 +10,7 @@
 
 namespace tactus {
 
-using Matrix7 = Eigen::Matrix<double, kDof, kDof>;
-static_assert(kDof == 7, "the expected numbers are those of a FER");
+using JointMatrix = Eigen::Matrix<double, kDof, kDof>;
 
 /// A tool that leaves no symmetry: turned, off the axis, heavy.
 inline Tool skew_tool() {
@@ -60,9 +59,9 @@ inline JointVector rnea(const JointVector& q, const JointVector& dq, const Joint
 }
 
 /// M(q), a column at a time: what inverse dynamics asks for a unit acceleration above gravity.
-inline Matrix7 mass_matrix(const JointVector& q, const Tool& tool) {
+inline JointMatrix mass_matrix(const JointVector& q, const Tool& tool) {
   const JointVector g = gravity_at(q, tool);
-  Matrix7 m;
+  JointMatrix m;
   for (int i = 0; i < kDof; ++i) {
     m.col(i) = rnea(q, JointVector::Zero(), JointVector::Unit(i), tool) - g;
   }

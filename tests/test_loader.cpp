@@ -90,6 +90,8 @@ void a_robot_is_commanded_in_what_it_takes(void**) {
   ASSERT_STATUS(bench.load(kValid, {true, true, false, 100, 10000}), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
                       "5: [robot] tau_c: the robot does not take this kind of command");
+  for (const char* command : {"q_c = jrg.q_d", "dq_c = jrg.dq_d"})
+    ASSERT_STATUS(bench.load(with("tau_c = stiff.tau", command)), Status::kNotOffered);
 }
 
 void a_sensor_the_robot_does_not_have_is_not_read(void**) {

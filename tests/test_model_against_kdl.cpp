@@ -1,4 +1,4 @@
-// Rigid-body algorithms of the FER against Orocos KDL at seeded states. What rounding leaves is
+// Rigid-body algorithms against Orocos KDL at seeded states. What rounding leaves is
 // printed; the bounds are ten times that or more.
 #include <algorithm>
 
@@ -41,7 +41,7 @@ void jacobian_of_the_flange_is_that_of_kdl(void**) {
   double worst = 0.0;
   for (int n = 0; n < kStates; ++n) {
     state.next();
-    double expected[6][7];
+    double expected[6][kDof];
     kdl_jacobian(state.q.data(), expected);
     const Jacobian J = tip_jacobian(state.q, {});
     for (int i = 0; i < 6; ++i) {
@@ -90,11 +90,11 @@ void mass_matrix_and_coriolis_efforts_are_those_of_kdl(void**) {
   double worst = 0.0;
   for (int n = 0; n < kStates; ++n) {
     state.next();
-    double m[7][7];
+    double m[kDof][kDof];
     JointVector c;
     kdl_mass_matrix(state.q.data(), kdl_tool(tool), m);
     kdl_coriolis(state.q.data(), state.dq.data(), kdl_tool(tool), c.data());
-    const Matrix7 ours = mass_matrix(state.q, tool);
+    const JointMatrix ours = mass_matrix(state.q, tool);
     for (int i = 0; i < kDof; ++i) {
       for (int j = 0; j < kDof; ++j) worst = std::max(worst, std::abs(ours(i, j) - m[i][j]));
     }

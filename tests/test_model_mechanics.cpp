@@ -1,4 +1,4 @@
-// Rigid-body algorithms of the FER against the laws of mechanics: derivatives, energy, symmetry.
+// Rigid-body algorithms against the laws of mechanics: derivatives, energy, symmetry.
 #include <Eigen/Cholesky>
 
 #include "tests/model_cases.hpp"
@@ -23,7 +23,7 @@ double potential_energy(const JointVector& q, const Tool& tool) {
     energy += link.mass * kGravity_m_s2 * (frame * Vector3(link.cx, link.cy, link.cz)).z();
   }
   const JointFrame& flange = Robot::kFlange;
-  const Vector3 com = tool.com + Vector3(flange.x, flange.y, flange.z);  // the FER's is not rolled
+  const Vector3 com = tool.com + Vector3(flange.x, flange.y, flange.z);  // not rolled
   return energy + tool.mass_kg * kGravity_m_s2 * (frame * com).z();
 }
 
@@ -115,7 +115,7 @@ void mass_matrix_is_symmetric_and_positive_definite(void**) {
   for (const Tool& tool : {Tool{}, skew_tool()}) {
     for (int n = 0; n < 100; ++n) {
       state.next();
-      const Matrix7 m = mass_matrix(state.q, tool);
+      const JointMatrix m = mass_matrix(state.q, tool);
       assert_true((m - m.transpose()).cwiseAbs().maxCoeff() < 1e-13);
       assert_true(m.llt().info() == Eigen::Success);
     }

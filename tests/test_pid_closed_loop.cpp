@@ -17,6 +17,7 @@ constexpr const char* kPidWithoutGravity =
 
 void load(ClosedLoop& loop) {
   loop.blocks = kPidWithoutGravity;
+  loop.gains = "";
   loop.plant.friction = 0.0;
   loop.plant.rotor_inertia = JointVector::Constant(0.1);
   ASSERT_OK(loop.start(1000, 1));

@@ -1,52 +1,34 @@
-// The robot_model block, and the published numbers of the FER.
+// The robot_model block, and the published numbers of the robots.
 #include "kernel/model/robot_model.hpp"
 
 #include <limits>
 
 #include "tests/model_cases.hpp"
+#include "tests/published_model.hpp"
 #include "tests/testing.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Five configurations computed with KDL 1.5.1, RBDL 3.3.1, MuJoCo 2.2.2 and DART 6.12.1, which
-// agree to 2e-14; printed to nine decimals.
-struct Published {
-  double q[kDof], flange[3], g[kDof];
-};
-// clang-format off
-constexpr Published kPublished[] = {
-    {{0, 0, 0, 0, 0, 0, 0},
-     {0.088000000, 0, 0.926000000},
-     {0, -3.434431908, 0, -3.257223812, 0, 1.694216799, 0}},
-    {{0, -kPi / 4, 0, -3 * kPi / 4, 0, kPi / 2, kPi / 4},
-     {0.306890567, 0, 0.590282052},
-     {0, -1.771375549, -0.644000320, 18.573590391, 0.633846185, 1.693684730, 0}},
-    {{0, 1.2, 0, -0.8, 0, 2, 0.785},
-     {0.795921192, 0, 0.178828478},
-     {0, -49.911774899, 0.848886279, 19.103078580, 0.576381989, 1.693697451, 0}},
-    {{1.2, -0.4, 0.9, -2.2, -0.7, 1.9, 0.4},
-     {-0.229961942, 0.417649531, 0.508307849},
-     {0, -4.417651148, -7.653185171, 18.126851123, 0.364091699, 0.849760292, 0.066090034}},
-    {{-0.5, 0.3, -1.1, -2.8, 1.3, 0.6, -1},
-     {0.113909260, -0.242127928, 0.272754829},
-     {0, -13.885631930, -4.286601610, 8.162908066, 0.412329069, -1.522871901, -0.064970161}},
-};
-// clang-format on
 
 // Proves MOD-1.
 
 void flange_and_gravity_are_the_published_ones(void**) {
-  for (const Published& row : kPublished) {
+  for (const auto& row : Published<Robot>::kStates) {
     const JointVector q(row.q);
     const Pose flange = tip_pose(q, {});
     const JointVector g = gravity_at(q, {});
     for (int i = 0; i < 3; ++i) ASSERT_NEAR(flange.p[i], row.flange[i], 1e-9);
     for (int i = 0; i < kDof; ++i) ASSERT_NEAR(g[i], row.g[i], 1e-9);
   }
+}
+
+void the_orientation_of_the_flange_is_the_published_one(void**) {
+  const auto& row = Published<Robot>::kOrientation;
+  const Matrix3 r = tip_pose(JointVector(row.q), {}).r.toRotationMatrix();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) ASSERT_NEAR(r(i, j), row.r[i][j], 1e-9);
 }
 
 /// One block, bound to values the test owns.
@@ -82,9 +64,9 @@ void without_a_tool_the_tip_is_the_bare_flange(void**) {
   Bench bench;
   bench.model.tool = {};
   ASSERT_OK(bench.model.start());
-  ASSERT_NEAR(bench.model.x.value.p.x(), 0.088, 1e-15);
-  ASSERT_NEAR(bench.model.x.value.p.z(), 0.333 + 0.316 + 0.384 - 0.107, 1e-15);
-  ASSERT_NEAR(bench.model.g.value[1], -3.434431908, 1e-9);
+  const auto& zero = Published<Robot>::kStates[0];  // the published state of q = 0
+  for (int i = 0; i < 3; ++i) ASSERT_NEAR(bench.model.x.value.p[i], zero.flange[i], 1e-15);
+  for (int i = 0; i < kDof; ++i) ASSERT_NEAR(bench.model.g.value[i], zero.g[i], 1e-9);
 }
 
 void the_quaternion_never_changes_its_sign_by_a_jump(void**) {
@@ -135,6 +117,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(flange_and_gravity_are_the_published_ones),
+      cmocka_unit_test(the_orientation_of_the_flange_is_the_published_one),
       cmocka_unit_test(start_leaves_the_outputs_of_the_present_inputs),
       cmocka_unit_test(without_a_tool_the_tip_is_the_bare_flange),
       cmocka_unit_test(the_quaternion_never_changes_its_sign_by_a_jump),

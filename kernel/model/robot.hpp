@@ -6,6 +6,11 @@
 namespace tactus {
 using Robot = Fer;
 }
+#elif defined(TACTUS_ROBOT_UR10)
+#include "kernel/model/ur10.hpp"
+namespace tactus {
+using Robot = Ur10;
+}
 #else
 #error "the board names its robot: ROBOT := FER in board.mk"
 #endif

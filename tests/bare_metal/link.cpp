@@ -66,6 +66,7 @@ class StandingHal final : public Hal {
   void stop() override {}
 };
 
+// A FER's: what counts for another robot is that it links.
 constexpr const char* kText =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"

@@ -1,7 +1,9 @@
-// Orocos KDL as a second opinion on the FER: kinematics and dynamics by code and tables that are
+// Orocos KDL as a second opinion on the robot: kinematics and dynamics by code and tables that are
 // not ours. Plain arrays only, because kdl.cpp is compiled with exceptions. Base frame, SI units,
 // matrices row by row, gravity 9.81 m/s^2 along -z.
 #pragma once
+
+#include "kernel/model/robot.hpp"
 
 namespace tactus {
 
@@ -12,22 +14,25 @@ struct KdlTool {
 };
 
 /// Position of the flange and its rotation matrix.
-void kdl_flange(const double q[7], double p[3], double r[3][3]);
+void kdl_flange(const double q[Robot::kDof], double p[3], double r[3][3]);
 
 /// Geometric Jacobian of the flange: linear part first.
-void kdl_jacobian(const double q[7], double jacobian[6][7]);
+void kdl_jacobian(const double q[Robot::kDof], double jacobian[6][Robot::kDof]);
 
 /// Joint efforts that hold the arm, N m.
-void kdl_gravity(const double q[7], const KdlTool& tool, double g[7]);
+void kdl_gravity(const double q[Robot::kDof], const KdlTool& tool, double g[Robot::kDof]);
 
 /// M ddq + C dq + g, N m.
-void kdl_inverse_dynamics(const double q[7], const double dq[7], const double ddq[7],
-                          const KdlTool& tool, double tau[7]);
+void kdl_inverse_dynamics(const double q[Robot::kDof], const double dq[Robot::kDof],
+                          const double ddq[Robot::kDof], const KdlTool& tool,
+                          double tau[Robot::kDof]);
 
 /// Joint-space inertia, kg m^2.
-void kdl_mass_matrix(const double q[7], const KdlTool& tool, double m[7][7]);
+void kdl_mass_matrix(const double q[Robot::kDof], const KdlTool& tool,
+                     double m[Robot::kDof][Robot::kDof]);
 
 /// C dq, N m.
-void kdl_coriolis(const double q[7], const double dq[7], const KdlTool& tool, double c[7]);
+void kdl_coriolis(const double q[Robot::kDof], const double dq[Robot::kDof], const KdlTool& tool,
+                  double c[Robot::kDof]);
 
 }  // namespace tactus

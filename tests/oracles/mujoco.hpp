@@ -1,22 +1,25 @@
-// MuJoCo as an opinion on the FER, from the plant's own MJCF: without friction, rotor inertia and
+// MuJoCo as an opinion on the robot, from the plant's own MJCF: without friction, rotor inertia and
 // payload. Plain arrays; base frame, SI units, matrices row by row, gravity 9.81 m/s^2 along -z.
 #pragma once
+
+#include "kernel/model/robot.hpp"
 
 namespace tactus {
 
 /// Position of the flange and its rotation matrix.
-void mujoco_flange(const double q[7], double p[3], double r[3][3]);
+void mujoco_flange(const double q[Robot::kDof], double p[3], double r[3][3]);
 
 /// Geometric Jacobian of the flange: linear part first.
-void mujoco_jacobian(const double q[7], double jacobian[6][7]);
+void mujoco_jacobian(const double q[Robot::kDof], double jacobian[6][Robot::kDof]);
 
 /// Joint efforts that hold the arm, N m.
-void mujoco_gravity(const double q[7], double g[7]);
+void mujoco_gravity(const double q[Robot::kDof], double g[Robot::kDof]);
 
 /// C dq, N m.
-void mujoco_coriolis(const double q[7], const double dq[7], double c[7]);
+void mujoco_coriolis(const double q[Robot::kDof], const double dq[Robot::kDof],
+                     double c[Robot::kDof]);
 
 /// Joint-space inertia, kg m^2.
-void mujoco_mass_matrix(const double q[7], double m[7][7]);
+void mujoco_mass_matrix(const double q[Robot::kDof], double m[Robot::kDof][Robot::kDof]);
 
 }  // namespace tactus

@@ -1,0 +1,78 @@
+#include "boards/program/sim_board.hpp"
+
+#include <chrono>
+#include <cstdio>
+
+#include "boards/program/files.hpp"
+#include "boards/program/session.hpp"
+#include "sim_plant/sim_hal.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kMaxPoses = 1 << 12;
+constexpr int kMaxWaypoints = 1 << 15;             // 32 s at 1 kHz
+constexpr std::size_t kRecorderNumbers = 1 << 14;  // drained after every cycle here
+
+/// Everything of fixed size, and so the memory figure of the board.
+struct Memory {
+  std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
+  std::array<double, kRecorderNumbers> recorder_ring;
+  std::array<std::array<Waypoint<TaskSpace>, kMaxPoses>, kStores> poses;
+  ReferenceChannel<JointSpace> channel;
+  ReferenceChannel<TaskSpace> task_channel;
+  Pipeline pipeline;
+  PlantParams plant;
+  GatewaySection gateway;
+};
+
+std::uint64_t stopwatch_ns() {
+  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
+                                    std::chrono::nanoseconds(1));
+}
+
+}  // namespace
+
+int run_sim_board(int argc, char** argv, const char* board) {
+  Options options;
+  int exit_code = kSucceeded;
+  if (!parse_options(argc, argv, board, options, exit_code)) return exit_code;
+
+  static Memory memory;
+  static SimHal hal;
+  if (options.verb == Verb::kPorts) return print_ports(board, hal.capabilities());
+  for (std::size_t i = 0; i < kStores; ++i) {
+    memory.channel.stores[i].waypoints = memory.waypoints[i].data();
+    memory.channel.stores[i].capacity = kMaxWaypoints;
+    memory.task_channel.stores[i].waypoints = memory.poses[i].data();
+    memory.task_channel.stores[i].capacity = kMaxPoses;
+  }
+
+  Loader loader({&memory.channel, &memory.task_channel}, hal.capabilities());
+  loader.add(board_section("plant", memory.plant));
+  loader.add(board_section("gateway", memory.gateway));
+  std::string_view text;
+  if (!load_pipeline(options.pipeline, loader, memory.pipeline, text)) return kRefused;
+
+  static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
+  static Executive executive(hal, memory.pipeline, stopwatch_ns);
+  static ReferenceClient<JointSpace> client(memory.channel);
+  static ReferenceClient<TaskSpace> task_client(memory.task_channel);
+  const std::size_t static_bytes =
+      sizeof memory + sizeof recorder + sizeof executive + sizeof client + sizeof task_client;
+  Session session{board,    static_bytes, text,        memory.pipeline, executive,
+                  recorder, client,       task_client, memory.gateway};
+  if (options.verb == Verb::kCheck) {
+    RobotState initial;
+    initial.q = memory.plant.initial_q;
+    return check(session, options, initial);
+  }
+  hal.set_period(memory.pipeline.robot.period_s());
+  if (const Status status = hal.load(memory.plant, options.seed); status != Status::kOk) {
+    std::fprintf(stderr, "%s: the plant: %s\n", options.pipeline, name(status));
+    return kRefused;
+  }
+  return run(session, options);
+}
+
+}  // namespace tactus

@@ -1,0 +1,10 @@
+# A simulated Universal Robots UR10 (CB3) in virtual time, on the host.
+ROBOT  := UR10
+SRCS   += boards/ur10_sim/board.cpp
+LDLIBS += -lmujoco
+
+# What `make run` runs: pipeline, or pipeline:trajectory.
+RUNS   += ur10_jrg_pdgc
+
+# The tests that are not written for the FER.
+TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop pipelines

@@ -1,0 +1,12 @@
+// The robots as chains of KDL, one per file kdl_<robot>.cpp.
+#pragma once
+
+#include <kdl/chain.hpp>
+
+namespace tactus {
+
+/// From the base to the flange of robot R, which carries `tool`, given in the flange frame.
+template <class R>
+KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool);
+
+}  // namespace tactus
