@@ -12,6 +12,7 @@ struct TrajectoryInput {
   FilePath path;  ///< empty: the run has none
   std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
+  Pose motion_frame;  ///< of poses, in the base frame, as it stood when they were sent
 
   bool given() const { return trajectory.index() != 0; }
   int count() const;                  ///< waypoints
