@@ -33,7 +33,7 @@ REFERENCE = {"linewidth": 0.9, "linestyle": (0, (5, 3))}
 WAYPOINT = {"linestyle": "", "marker": "o", "markersize": 5, "markeredgecolor": "black"}
 THIN = {"linewidth": 0.8}
 GREY = {"color": "#555555"}
-MARGINS = {"left": 0.085, "right": 0.84}
+MARGINS = {"left": 0.105, "right": 0.84}
 OVER_ERROR = {"height_ratios": (3, 1), "hspace": 0.1, "top": 0.93, **MARGINS}
 
 
@@ -74,6 +74,7 @@ def draw_panel(part, panel):
         if panel.points:
             axes.plot(panel.points[0], panel.points[1][:, i], color=colour(i), **WAYPOINT)
     axes.set_ylabel(f"{panel.what} [{panel.unit}]")
+    axes.set_title(panel.entry["signal"], loc="right", fontsize=8, **GREY)
     below.set_ylabel(f"error [{small_unit}]")
     below.set_xlabel("time [s]")
     handles = axes.get_legend_handles_labels()[0]
