@@ -42,11 +42,10 @@ def thin_out(t, values):
     size = -(-len(t) // BUCKETS)
     if size <= 2 or not np.all(np.isfinite(values)):
         return t, values
-    whole = len(t) // size * size
-    buckets = values[:whole].reshape(-1, size)
-    starts = np.arange(0, whole, size)
-    chosen = np.concatenate([starts + buckets.argmin(1), starts + buckets.argmax(1)])
-    chosen = np.unique(np.concatenate([[0], chosen, np.arange(whole, len(t)), [len(t) - 1]]))
+    buckets = np.append(values, np.full(-len(t) % size, values[-1])).reshape(-1, size)
+    starts = np.arange(0, len(t), size)
+    chosen = np.concatenate([[0], starts + buckets.argmin(1), starts + buckets.argmax(1), [len(t) - 1]])
+    chosen = np.unique(chosen)
     return t[chosen], values[chosen]
 
 
