@@ -140,7 +140,7 @@ void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
 }
 
 void an_interrupt_ends_what_is_under_way_and_begins_nothing_more(void**) {
-  write("t/slow", {"#!/bin/sh\necho $$ >>$S/began\nexec sleep 600\n"});
+  write("t/slow", {"#!/bin/sh\necho $$ >>$S/began\nsleep 10 >/dev/null 2>&1\necho >>$S/late\n"});
   assert_int_equal(shell("chmod +x $S/t/slow"), 0);
   char words[3][96] = {"sh", "-c",
                        "cd $S/t && exec $R/scripts/run_all -- ./slow a b c >$S/out 2>$S/err"};
@@ -161,6 +161,8 @@ void an_interrupt_ends_what_is_under_way_and_begins_nothing_more(void**) {
         std::sscanf(Line(file_of("began")).c_str(), "%d %d %d", &first, &second, &third), 2);
     assert_int_equal(kill(first, 0), -1);
     assert_int_equal(kill(second, 0), -1);
+    assert_false(exists("late"));
+    assert_false(exists("t/out/c"));
   }
 }
 
@@ -197,12 +199,13 @@ void the_code_metric_counts_code_and_nothing_else(void**) {
       shell("cd $S && mkdir -p tree/kernel/control tree/kernel/reference tree/gateway"), 0);
   write("tree/kernel/control/law.hpp",
         {"// a comment\n#pragma once\n\n/* two\n lines */\nint f(); /* and */ // more\n"});
-  write("tree/kernel/control/law.cpp", {"const char* url = \"a//b /* \";\nconst char quote = '\"'; "
-                                        "// \"\n  \t\nint x; /*\n*/ int y;\n"});
+  write("tree/kernel/control/law.cpp",
+        {"const char* a = \"/*\";\nint b;\nconst char* c = \"*/ //\";\n",
+         "const char d = '\"'; // \"\n  \t\nint x; /*\n*/ int y;\n"});
   write("tree/kernel/reference/r.cpp", {"int a;\nint b;\nint c; // c\n// d\n"});
   write("tree/kernel/mailbox.hpp", {"int m;\n"});
   assert_int_equal(shell("$R/scripts/code_metric $S/tree | tr -s ' '"), 0);
-  assert_true(has(output(), "kernel/control/law 3 6 33 %\n"));
+  assert_true(has(output(), "kernel/control/law 3 8 27 %\n"));
   assert_true(has(output(), "beside it: kernel/mailbox.hpp 1 "));
   assert_true(has(output(), "beside it: gateway 0 "));
   assert_int_equal(shell("$R/scripts/code_metric $S/nowhere"), 1);
