@@ -63,7 +63,9 @@ class Progress {
 bool follow(Session& session, const TrajectoryInput& input, RunResult& result) {
   Report report;
   while (poll_report(session, input, report)) {
-    if (report.id != input.id || report.outcome == Outcome::kStarted) continue;
+    if (report.id != input.id || report.outcome == Outcome::kScheduled ||
+        report.outcome == Outcome::kStarted)
+      continue;
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result,
              refused                                 ? static_cast<int>(report.verdict.status)
@@ -106,7 +108,7 @@ double planned_duration(const Session& session, const Options& options,
                         const TrajectoryInput& input) {
   if (options.duration_s > 0.0) return options.duration_s;
   if (!input.given()) return kDefaultDuration_s;
-  return input.end_s() + session.gateway.settle_s;
+  return input.start_s + input.end_s() + session.gateway.settle_s;
 }
 
 FilePath in_folder(const FilePath& folder, const char* file) {
