@@ -149,9 +149,8 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   mj_fwdVelocity(model_, data_);
   JointVector tau;
   mj_mulM(model_, data_, tau.data(), ddq.data());
-  for (int i = 0; i < kDof; ++i)
-    tau[i] += data_->qfrc_bias[i] + friction(model_, i, data_->qvel[i]);
-  return tau;
+  return tau + Eigen::Map<const JointVector>(data_->qfrc_bias) -
+         Eigen::Map<const JointVector>(data_->qfrc_passive);
 }
 
 bool Arm::diverged() const {
