@@ -114,7 +114,7 @@ void the_table_is_pressed_with_the_force_asked_for(void**) {
                   "fer_trg_ac_cpc_pid",
                   9.0,
                   16.0,
-                  0.05,
+                  0.1,
                   {0.0, 0.0, 1.0},
                   50.0,
                   -0.002,
