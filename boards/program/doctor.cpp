@@ -14,7 +14,7 @@ int doctor(const Options& options) {
     if (item.finding != Finding::kOk) std::printf("\n%*s-> %s", 24, "", item.remedy);
     std::printf("\n");
   }
-  std::printf("%s\n", report.fit() ? "Nothing that is required hurts."
+  std::printf("%s\n", report.fit() ? "Nothing that is required is known to hurt."
                                    : "Something that is required hurts: expect no bound.");
   return report.fit() ? kSucceeded : kEndedOtherwise;
 }
