@@ -102,7 +102,7 @@ void memory_that_is_not_there_is_refused(void**) {
     const rlimit little = {std::size_t{256} << 20, std::size_t{256} << 20};
     setrlimit(RLIMIT_AS, &little);
     RealtimeSettings settings = kNothing;
-    settings.heap_KiB = 1 << 20;
+    settings.heap_KiB = 1000000;
     Realtime realtime;
     const RealtimeReport& report = realtime.apply(settings);
     CHECK(report.refused());

@@ -35,7 +35,7 @@ struct RealtimeSettings {
     visit.choice("lock_memory", lock_memory, kSwitchWords);
     visit.choice("dma_latency", dma_latency, kSwitchWords);
     visit.param("stack_KiB", stack_KiB, Range{0.0, kMaxStack_KiB}, "KiB");
-    visit.param("heap_KiB", heap_KiB, Range{0.0, 1048576.0}, "KiB");
+    visit.param("heap_KiB", heap_KiB, Range{0.0, 1e6}, "KiB");
   }
 };
 
