@@ -24,13 +24,15 @@ struct PipelineBench {
   Pipeline pipeline;
   PlantParams plant;
   GatewaySection gateway;
+  RealtimeSettings realtime;
   SimHal hal;
   Executive executive{hal, pipeline, nullptr};
   Recorder recorder{nullptr, 0};
   ReferenceClient<JointSpace> client{channel};
   ReferenceClient<TaskSpace> task_client{task_channel};
   std::string text;
-  Session session{"test", 0, {}, pipeline, executive, recorder, client, task_client, gateway};
+  Session session{"test",   0,      {},          pipeline, executive,
+                  recorder, client, task_client, gateway,  realtime};
   TrajectoryInput input;
   Report report;  ///< the last one
   std::int64_t cycles = 0;
