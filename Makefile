@@ -44,9 +44,9 @@ each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOAR
 .PHONY: docs all run test test-long check bench setup format clean help
 all: $(B)/tactus                              ## build the program of BOARD
 
-run: setup                                    ## run every pipeline of every board; results in out/
+run: setup                                    ## run every pipeline of every board; out/report.html
 	$(Q)$(call each,all trajectories)
-	$(Q)$(call each,run-pipelines)
+	$(Q)scripts/run_all $$($(call each,list-runs))
 test: setup                                   ## build and run all tests of every board
 	$(Q)$(call each,-j2 all trajectories run-tests)
 test-long: setup                              ## the long random tests at full count
@@ -69,11 +69,11 @@ clean:                                        ## remove everything that was buil
 help:                                         ## this list
 	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories run-pipelines run-tests run-thread-tests kernel each-board
+.PHONY: trajectories list-runs run-tests run-thread-tests kernel each-board
 each-board:
 	$(Q)$(call each,$(TARGETS))
-run-pipelines: $(B)/tactus
-	$(Q)scripts/run_all $< $(RUNS)
+list-runs:
+	@echo -- $(B)/tactus $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
 $(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a

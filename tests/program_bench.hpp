@@ -106,6 +106,23 @@ inline std::string_view errors() {
   return content(in_folder("err").c_str(), text);
 }
 
+/// Runs the program for 0.05 s into `name` below the folder.
+inline int run_into(const char* name, const char* pipeline, const char* seed = "1",
+                    const char* trajectory = nullptr, const char* duration = "0.05") {
+  const Line out = in_folder(name);
+  if (trajectory == nullptr)
+    return tactus_run({"run", pipeline, "--duration", duration, "--no-figure", "--seed", seed,
+                       "--out", out.c_str()});
+  return tactus_run({"run", pipeline, "--duration", duration, "--no-figure", "--seed", seed,
+                     "--out", out.c_str(), "--trajectory", trajectory});
+}
+
+/// A file below the folder; the text stays until the next call.
+inline std::string_view file_of(const char* name) {
+  static Content text;
+  return content(in_folder(name).c_str(), text);
+}
+
 inline bool has(std::string_view text, std::string_view part) {
   if (text.find(part) != std::string_view::npos) return true;
   std::fprintf(stderr, "'%.*s' is not in\n%.*s\n", static_cast<int>(part.size()), part.data(),

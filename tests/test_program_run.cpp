@@ -10,22 +10,6 @@
 namespace tactus {
 namespace {
 
-/// Runs the program for 0.05 s into `name` below the folder.
-int run_into(const char* name, const char* pipeline, const char* seed = "1",
-             const char* trajectory = nullptr, const char* duration = "0.05") {
-  const Line out = in_folder(name);
-  if (trajectory == nullptr)
-    return tactus_run({"run", pipeline, "--duration", duration, "--no-figure", "--seed", seed,
-                       "--out", out.c_str()});
-  return tactus_run({"run", pipeline, "--duration", duration, "--no-figure", "--seed", seed,
-                     "--out", out.c_str(), "--trajectory", trajectory});
-}
-
-std::string_view file_of(const char* name) {
-  static Content text;
-  return content(in_folder(name).c_str(), text);
-}
-
 bool same_files(const char* a, const char* b) {
   static Content text;
   const std::string_view other = content(in_folder(b).c_str(), text);
@@ -95,32 +79,50 @@ void a_run_writes_a_log_with_a_header_and_a_row_for_every_recorded_cycle(void**)
 void a_run_writes_a_summary_that_is_json_with_every_key_that_is_promised(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(run_into("a", pipeline.c_str(), "7"), 0);
-  for (const char* part : {"\"pipeline\": \"p\"",
-                           "\"robot\": \"fer\"",
-                           "\"board\": \"",
-                           "\"rate_hz\": 1000,",
-                           "\"cycles\": 50,",
-                           "\"seed\": 7,",
-                           "\"config_hash\": \"",
-                           "\"result\": {\"code\": 0, \"name\": \"succeeded\"}",
-                           "\"tracking\": [",
-                           "\"signal\": \"jrg.q_d - robot.q\"",
-                           "\"unit\": \"rad\"",
-                           "\"rms\": [",
-                           "\"max\": [",
-                           "\"timing\": {",
-                           "\"cycle\": {\"p50_ns\": ",
-                           "\"p99_ns\": ",
-                           "\"max_ns\": ",
-                           "\"slips\": 0",
-                           "\"overruns\": ",
-                           "\"guard\": {\"limited\": 0, \"tripped\": 0}",
-                           "\"heap_allocations_in_cycle\": 0",
-                           "\"static_bytes\": ",
-                           "\"realtime_factor\": "})
+  for (const char* part :
+       {"\"pipeline\": \"p\"",
+        "\"robot\": \"fer\"",
+        "\"board\": \"",
+        "\"rate_hz\": 1000,",
+        "\"cycles\": 50,",
+        "\"seed\": 7,",
+        "\"config_hash\": \"",
+        "\"result\": {\"code\": 0, \"name\": \"succeeded\"}",
+        "\"tracking\": [",
+        "\"signal\": \"jrg.q_d - robot.q\"",
+        "\"unit\": \"rad\"",
+        "\"rms\": [",
+        "\"max\": [",
+        "\"signals\": [",
+        "{\"name\": \"robot.q\", \"type\": \"\", \"quantity\": \"joint position\", "
+        "\"unit\": \"rad\", \"columns\": [\"robot.q_1\", \"robot.q_2\", ",
+        "{\"name\": \"jrg.q_d\", \"type\": \"joint_reference_generator\", ",
+        "\"quantity\": \"pose\", \"unit\": \"m, quaternion\", \"columns\": "
+        "[\"model.x_x\", \"model.x_y\", \"model.x_z\", \"model.x_qw\", ",
+        "\"timing\": {",
+        "\"cycle\": {\"p50_ns\": ",
+        "\"p99_ns\": ",
+        "\"max_ns\": ",
+        "\"slips\": 0",
+        "\"overruns\": ",
+        "\"guard\": {\"limited\": 0, \"tripped\": 0}",
+        "\"heap_allocations_in_cycle\": 0",
+        "\"static_bytes\": ",
+        "\"realtime_factor\": "})
     assert_true(has(file_of("a/summary.json"), part));
   Line command("python3 -m json.tool ");
   command << in_folder("a/summary.json") << " >" << in_folder("out");
+  assert_int_equal(std::system(command.c_str()), 0);
+}
+
+void the_signals_of_the_summary_have_the_columns_of_the_log(void**) {
+  const Line pipeline = write("p.ini", {kPipeline});
+  assert_int_equal(run_into("a", pipeline.c_str()), 0);
+  Line command("cd ");
+  command << in_folder("a")
+          << " && python3 -c \"import json; columns = [c for s in json.load(open('summary.json'))"
+             "['signals'] for c in s['columns']]; assert len(columns) > 30; assert "
+             "open('log.csv').readline().strip() == ','.join(['time_s'] + columns)\"";
   assert_int_equal(std::system(command.c_str()), 0);
 }
 
@@ -153,38 +155,6 @@ void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void*
   assert_int_equal(symlink("/dev/full", in_folder("full/log.csv").c_str()), 0);
   assert_int_equal(run_into("full", pipeline.c_str()), 1);
   assert_true(has(errors(), "not everything could be written\n"));
-}
-
-// Proves RG-19.
-
-/// The tip moves by 0.1 m along the x of a frame that is turned by a right angle: along y.
-void a_trajectory_may_be_given_in_a_frame_of_the_pipeline(void**) {
-  constexpr const char* kTask =
-      "[wall]\ntype = frame\nposition = 0.5 0 0.5\nrotation = 0 0 1.57079632679\n"
-      "[trg]\ntype = task_reference_generator\nx = model.x\n"
-      "goal_position_tolerance = 0\ngoal_angle_tolerance = 0\n"
-      "[gateway]\nstart_s = 1\nmotion_frame = ";
-  constexpr const char* kPath =
-      "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n6,0,0,0,0,1,0,0\n9,0.1,0,0,0,1,0,0\n";
-  const Line path = write("t.csv", {kPath});
-  const auto run_in = [&](const char* frame) {
-    const Line pipeline = write("f.ini", {kPipeline, "signals = trg.x_d\n", kTask, frame, "\n"});
-    return tactus_run({"run", pipeline.c_str(), "--trajectory", path.c_str(), "--no-figure",
-                       "--out", in_folder("f").c_str()});
-  };
-  assert_int_equal(run_in("wall.x"), 0);
-  const std::string_view text = file_of("f/log.csv");
-  const std::string_view last = text.substr(text.rfind('\n', text.size() - 2) + 1);
-  double time_s = 0.0, x = 0.0, y = 0.0, z = 0.0;
-  assert_int_equal(std::sscanf(Line(last).c_str(), "%lf,%lf,%lf,%lf", &time_s, &x, &y, &z), 4);
-  ASSERT_NEAR(x, 0.5, 1e-9);
-  ASSERT_NEAR(y, 0.1, 1e-9);
-  ASSERT_NEAR(z, 0.5, 1e-9);
-  ASSERT_NEAR(time_s, 11.99, 1e-9);  // 1 s to wait, 9 s, 2 s to settle
-  assert_int_equal(run_in("Wall.x"), 2);
-  assert_true(has(errors(), "[gateway] motion_frame: 'Wall.x' is no output of this pipeline\n"));
-  assert_int_equal(run_in("model.v"), 2);
-  assert_true(has(errors(), "[gateway] motion_frame: 'model.v' is no pose\n"));
 }
 
 void an_interrupt_ends_the_run_with_its_files_written(void**) {
@@ -227,10 +197,10 @@ int main(int, char** argv) {
       cmocka_unit_test(a_trajectory_for_a_pipeline_without_generator_is_refused),
       cmocka_unit_test(a_run_writes_a_log_with_a_header_and_a_row_for_every_recorded_cycle),
       cmocka_unit_test(a_run_writes_a_summary_that_is_json_with_every_key_that_is_promised),
+      cmocka_unit_test(the_signals_of_the_summary_have_the_columns_of_the_log),
       cmocka_unit_test(a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished),
       cmocka_unit_test(a_fault_ends_the_run_with_its_code_and_the_files_are_written),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success),
-      cmocka_unit_test(a_trajectory_may_be_given_in_a_frame_of_the_pipeline),
       cmocka_unit_test(an_interrupt_ends_the_run_with_its_files_written),
       cmocka_unit_test(the_same_seed_writes_the_same_bytes_and_another_does_not),
   };

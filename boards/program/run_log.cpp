@@ -14,17 +14,17 @@ constexpr std::size_t kNumberLength = 32;  // of the shortest text that gives th
 
 }  // namespace
 
+Text<2 * kMaxNameLength + 16> column_name(const PortEntry& port, int number) {
+  std::string_view words = info(port.quantity).components, word;
+  for (int i = 0; i <= number; ++i) word = take_word(words);
+  Text<2 * kMaxNameLength + 16> column(port.block);
+  column << "." << port.port << "_";
+  return word.empty() ? column << number + 1 : column << word;
+}
+
 void write_names(std::FILE* file, const PortEntry& port) {
-  const QuantityInfo& quantity = info(port.quantity);
-  std::string_view words = quantity.components;
-  for (int i = 0; i < quantity.recorded; ++i) {
-    std::fprintf(file, ",%s.%s_", port.block.c_str(), port.port);
-    const std::string_view word = take_word(words);
-    if (word.empty())
-      std::fprintf(file, "%d", i + 1);
-    else
-      std::fprintf(file, "%.*s", static_cast<int>(word.size()), word.data());
-  }
+  for (int i = 0; i < info(port.quantity).recorded; ++i)
+    std::fprintf(file, ",%s", column_name(port, i).c_str());
 }
 
 bool RunLog::open(const char* path, const Recording& recording) {

@@ -8,6 +8,9 @@
 
 namespace tactus {
 
+/// "block.port_component": the column of one recorded number of an output.
+Text<2 * kMaxNameLength + 16> column_name(const PortEntry& port, int number);
+
 /// Writes ",block.port_component" for every recorded component of an output.
 void write_names(std::FILE* file, const PortEntry& port);
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boards/program/run_log.hpp"
+#include "kernel/ini.hpp"
+
 namespace tactus {
 namespace {
 
@@ -39,6 +42,31 @@ void write_tracking(std::FILE* file, const RunResult& result) {
   std::fprintf(file, "\n  ],\n");
 }
 
+/// What was recorded: every signal, the type of its block ("" for a section that has none), and its
+/// columns in log.csv.
+void write_signals(std::FILE* file, const Session& session) {
+  static Ini ini;
+  LoadError error;
+  const bool parsed = ini.parse(session.text, error) == Status::kOk;
+  const Recording& recording = session.pipeline.recording;
+  std::fprintf(file, "  \"signals\": [");
+  for (int i = 0; i < recording.signal_count; ++i) {
+    const PortEntry& port = *recording.signals[static_cast<std::size_t>(i)];
+    const QuantityInfo& quantity = info(port.quantity);
+    const IniSection* section = parsed ? ini.find(port.block) : nullptr;
+    const IniEntry* entry = section != nullptr ? ini.find(*section, "type") : nullptr;
+    const std::string_view type = entry != nullptr ? entry->value : std::string_view();
+    std::fprintf(file, "%s\n    {\"name\": \"%s.%s\", \"type\": \"%.*s\", ", i > 0 ? "," : "",
+                 port.block.c_str(), port.port, static_cast<int>(type.size()), type.data());
+    std::fprintf(file, "\"quantity\": \"%s\", \"unit\": \"%s\", \"columns\": [", quantity.name,
+                 quantity.unit);
+    for (int n = 0; n < quantity.recorded; ++n)
+      std::fprintf(file, "%s\"%s\"", n > 0 ? ", " : "", column_name(port, n).c_str());
+    std::fprintf(file, "]}");
+  }
+  std::fprintf(file, "\n  ],\n");
+}
+
 void write_timing(std::FILE* file, const Executive& executive) {
   std::fprintf(file, "  \"timing\": {");
   for (std::size_t i = 0; i < kStageNames.size(); ++i) {
@@ -70,6 +98,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
   std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
   write_tracking(file, result);
+  write_signals(file, session);
   write_timing(file, session.executive);
   std::fprintf(file, "  \"slips\": %" PRId64 ",\n  \"overruns\": %" PRId64 ",\n", telemetry.slips,
                telemetry.overruns);

@@ -120,10 +120,12 @@ bool read_input(const Session& session, const Options& options, TrajectoryInput&
 
 bool send_input(Session& session, TrajectoryInput& input) {
   Verdict verdict;
-  if (auto* joints = std::get_if<1>(&input.trajectory))
+  if (auto* joints = std::get_if<1>(&input.trajectory)) {
     verdict = session.client.send(**joints, input.id);
-  else if (auto* poses = std::get_if<2>(&input.trajectory))
+  } else if (auto* poses = std::get_if<2>(&input.trajectory)) {
+    if (const Pose* frame = (*poses)->terms.motion) input.motion_frame = *frame;
     verdict = session.task_client.send(**poses, input.id);
+  }
   if (!verdict.ok()) print_verdict(input, verdict);
   return verdict.ok();
 }

@@ -13,6 +13,7 @@ struct TrajectoryInput {
   std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
   double start_s = 0.0;  ///< when it begins
+  Pose motion_frame;     ///< of poses, in the base frame, as it stood when they were sent
 
   bool given() const { return trajectory.index() != 0; }
   int count() const;                  ///< waypoints

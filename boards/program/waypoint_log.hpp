@@ -7,7 +7,7 @@
 namespace tactus {
 
 /// The columns are called after `reference`, the output that follows them, of joint positions or of
-/// poses as they are. False if the file cannot be written.
+/// poses in the base frame. False if the file cannot be written.
 bool write_waypoints(const char* path, const TrajectoryInput& input, const PortEntry& reference);
 
 }  // namespace tactus

@@ -1,0 +1,140 @@
+"""What is drawn of a run, decided by the quantities of what it recorded, not by the names of blocks.
+
+A pose is drawn as a position and an orientation. The orientation is the rotation vector, in base axes,
+that turns the first reference into the orientation at hand: continuous up to a full turn.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from reporting.runs import InputError
+
+XYZ = ("x", "y", "z")
+
+
+@dataclasses.dataclass
+class Panel:
+    """A reference and what follows it, over time; values are [rows, components]."""
+
+    what: str
+    unit: str
+    labels: list
+    t: np.ndarray
+    reference: np.ndarray
+    measured: np.ndarray
+    error: np.ndarray
+    entry: dict  # of the summary's tracking
+    points: tuple = None  # times and values of the waypoints
+
+
+def product(a, b):
+    """Quaternions (w, x, y, z) [rows, 4], multiplied."""
+    w = a[:, :1] * b[:, :1] - np.sum(a[:, 1:] * b[:, 1:], axis=1, keepdims=True)
+    v = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
+    return np.hstack([w, v])
+
+
+def inverse(a):
+    return a * [1, -1, -1, -1]
+
+
+def rotation_vector(quaternion):
+    """rad [rows, 3]; the angle is 2 atan2(|v|, w), so the sign of the quaternion chooses the way."""
+    w, v = quaternion[:, 0], quaternion[:, 1:]
+    length = np.linalg.norm(v, axis=1)
+    angle = 2 * np.arctan2(length, w)
+    return v * np.where(length > 1e-12, angle / np.maximum(length, 1e-12), 2.0)[:, None]
+
+
+def shortest(quaternion):
+    """With the sign that makes the angle half a turn at most."""
+    return np.where(quaternion[:, :1] < 0, -quaternion, quaternion)
+
+
+def continuous(quaternion):
+    """With signs that let no row jump from the one before; the first is the shortest way."""
+    flips = np.sum(quaternion[1:] * quaternion[:-1], axis=1) < 0
+    signs = np.concatenate([[1], np.cumprod(np.where(flips, -1, 1))])
+    return quaternion * (signs * np.where(quaternion[0, 0] < 0, -1, 1))[:, None]
+
+
+def beside(points, curve, nearest):
+    """Each point with the sign that puts it on the side of the curve's row that is nearest."""
+    dots = np.sum(points * curve[nearest], axis=1, keepdims=True)
+    return np.where(dots < 0, -points, points)
+
+
+def points_of(run, entry, first):
+    """Times and values of the waypoints, if they belong to this entry."""
+    if run.points is None or entry is not first:
+        return None
+    times, *values = run.points.values()
+    count = len(run.signal(entry["reference"])["columns"])
+    if len(values) != count:
+        raise InputError(f"{run.folder}/waypoints.csv: {len(values)} columns, expected {count}")
+    return times, np.column_stack(values)
+
+
+def pose_panels(run, entry, points):
+    t, reference, measured = run.log["time_s"], *pair(run, entry)
+    labels = [f"{axis}" for axis in XYZ]
+    position = Panel("position", "m", labels, t, reference[:, :3], measured[:, :3], None, entry)
+    position.error = position.reference - position.measured
+    first = inverse(reference[:1, 3:])
+    desired = continuous(product(reference[:, 3:], first))
+    actual = continuous(product(measured[:, 3:], first))
+    turn = shortest(product(reference[:, 3:], inverse(measured[:, 3:])))
+    orientation = Panel("orientation", "rad", labels, t, rotation_vector(desired), None, None, entry)
+    orientation.measured, orientation.error = rotation_vector(actual), rotation_vector(turn)
+    if points is not None:
+        times, poses = points
+        nearest = np.minimum(np.searchsorted(t, times), len(t) - 1)
+        turned = beside(product(poses[:, 3:], first), desired, nearest)
+        position.points, orientation.points = (times, poses[:, :3]), (times, rotation_vector(turned))
+    return [position, orientation]
+
+
+def pair(run, entry):
+    """Reference and measurement of a tracking entry, [rows, components] both."""
+    reference, measured = run.values(entry["reference"]), run.values(entry["measured"])
+    if reference.shape != measured.shape or (entry["quantity"] == "pose" and reference.shape[1] != 7):
+        raise InputError(f"{run.folder}/summary.json: {entry['signal']}: numbers of columns differ")
+    return reference, measured
+
+
+def from_generator(run, name):
+    return run.signal(name)["type"].endswith("reference_generator")
+
+
+def tracking_panels(run):
+    """Of every tracking entry. The waypoints belong to what a reference generator puts out."""
+    entries, panels = run.summary["tracking"], []
+    first = next((e for e in entries if from_generator(run, e["reference"])), (entries or [None])[0])
+    for entry in entries:
+        points = points_of(run, entry, first)
+        if entry["quantity"] == "pose":
+            panels += pose_panels(run, entry, points)
+            continue
+        reference, measured = pair(run, entry)
+        joint = entry["quantity"].startswith("joint ")
+        labels = [f"joint {i + 1}" if joint else str(i + 1) for i in range(reference.shape[1])]
+        what, unit, t = f"{entry['quantity']}", entry["unit"], run.log["time_s"]
+        error = reference - measured
+        panels.append(Panel(what, unit, labels, t, reference, measured, error, entry, points))
+    return panels
+
+
+def signals_of(run, quantity):
+    """The names of what was recorded of a quantity."""
+    return [s["name"] for s in run.summary["signals"] if s["quantity"] == quantity]
+
+
+def displacement(run):
+    """Position of the generator's reference minus that of the tip [rows, 3], and its name; or None."""
+    desired = [name for name in signals_of(run, "pose") if from_generator(run, name)]
+    measured = [e["measured"] for e in run.summary["tracking"] if e["quantity"] == "pose"]
+    if not desired or not measured:
+        return None
+    name = f"{desired[0]} - {measured[0]}"
+    return name, run.values(desired[0])[:, :3] - run.values(measured[0])[:, :3]

@@ -1,0 +1,136 @@
+"""What a run left behind, read and checked: summary.json, log.csv, waypoints.csv."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+
+
+class InputError(Exception):
+    """A file that cannot be used, and why."""
+
+
+@dataclasses.dataclass
+class Run:
+    """One folder: the summary as it is, and columns by name; `points` are None without waypoints."""
+
+    name: str
+    folder: object
+    summary: dict
+    log: dict
+    points: dict
+
+    def signal(self, name):
+        """The entry of a recorded signal."""
+        for signal in self.summary["signals"]:
+            if signal["name"] == name:
+                return signal
+        raise InputError(f"{self.folder}/summary.json: signals has no {name}")
+
+    def values(self, name):
+        """A recorded signal [rows, components]."""
+        try:
+            return np.column_stack([self.log[column] for column in self.signal(name)["columns"]])
+        except KeyError as error:
+            raise InputError(f"{self.folder}/log.csv: no column {error}") from error
+
+
+def read_text(path):
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: not a text file") from error
+
+
+def check_row(place, line, names):
+    """Refuse a row that is not one number per column."""
+    cells = line.split(",")
+    if len(cells) != len(names):
+        raise InputError(f"{place}: {len(cells)} cells, the header has {len(names)}")
+    for name, cell in zip(names, cells):
+        try:
+            float(cell)
+        except ValueError as error:
+            raise InputError(f"{place}: {name} is '{cell}', not a number") from error
+
+
+def read_csv(path):
+    """Columns by name, in the order of the file."""
+    header, *lines = read_text(path).splitlines() or [""]
+    names = header.split(",")
+    if names[0] != "time_s":
+        raise InputError(f"{path}:1: the header must begin with time_s")
+    if not lines:
+        raise InputError(f"{path}: no rows after the header")
+    try:
+        values = np.loadtxt(lines, delimiter=",", comments=None, ndmin=2)
+    except ValueError:
+        values = np.empty((0, 0))
+    if values.shape != (len(lines), len(names)):
+        for number, line in enumerate(lines, 2):
+            check_row(f"{path}:{number}", line, names)
+    if not (np.isfinite(values[0, 0]) and np.all(np.diff(values[:, 0]) > 0)):
+        raise InputError(f"{path}: time_s must increase from row to row")
+    return dict(zip(names, values.T))
+
+
+# Every key that is read anywhere, and the type of its value; "*" is every entry.
+NUMBERS = ("rate_hz", "cycles", "seed", "slips", "overruns", "recorder_dropped", "static_bytes")
+FORM = {
+    **{key: (int, float) for key in NUMBERS + ("heap_allocations_in_cycle", "realtime_factor")},
+    **{key: str for key in ("pipeline", "robot", "board", "config_hash")},
+    "result": {"code": int, "name": str},
+    "guard": {"limited": int, "tripped": int},
+    "timing": {"*": {key: (int, float) for key in ("p50_ns", "p99_ns", "max_ns")}},
+    "tracking": [
+        {
+            **{key: str for key in ("signal", "reference", "measured", "quantity", "unit")},
+            **{key: [(int, float, type(None))] for key in ("rms", "max", "final")},
+        }
+    ],
+    "signals": [{"name": str, "type": str, "quantity": str, "unit": str, "columns": [str]}],
+}
+
+
+def check_form(value, form, place):
+    """Refuse a value that is not of the form; `place` says where it stands."""
+    if isinstance(form, list) and isinstance(value, list):
+        for index, entry in enumerate(value):
+            check_form(entry, form[0], f"{place}[{index}]")
+    elif isinstance(form, dict) and isinstance(value, dict):
+        for key in value if "*" in form else form:
+            if key not in value:
+                raise InputError(f"{place}: no key '{key}'")
+            check_form(value[key], form.get("*") or form[key], f"{place}: {key}")
+    elif isinstance(form, (list, dict)) or not isinstance(value, form):
+        raise InputError(f"{place}: {json.dumps(value)[:40]} is not what stands there after a run")
+
+
+def read_summary(path):
+    try:
+        summary = json.loads(read_text(path))
+    except ValueError as error:
+        raise InputError(f"{path}: not JSON: {error}") from error
+    check_form(summary, FORM, path)
+    return summary
+
+
+def read_run(folder, name):
+    """All files of a run."""
+    summary = read_summary(folder / "summary.json")
+    points = folder / "waypoints.csv"
+    return Run(
+        name,
+        folder,
+        summary,
+        read_csv(folder / "log.csv"),
+        read_csv(points) if points.exists() else None,
+    )
+
+
+def largest(numbers):
+    """The largest of a list in which null stands for a number that is not finite; nan if none."""
+    return max((math.inf if n is None else n for n in numbers), default=math.nan)
