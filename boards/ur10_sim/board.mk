@@ -9,5 +9,5 @@ RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_tr
 
 # The tests that are not written for the FER.
 TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop
-TESTS  += cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times
+TESTS  += admittance cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times
 TESTS  += pipelines free_pipelines contact_pipelines
