@@ -33,7 +33,7 @@ NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH))
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
-PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp)
+PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)

@@ -17,6 +17,7 @@ inline constexpr std::array<const char*, 2> kPartialJointsWords = {"refuse", "ho
 struct GatewaySection {
   Value trajectory;  ///< default trajectory file, relative to the pipeline file
   Interpolation interpolation = Interpolation::kByFields;
+  double start_s = 0.0;  ///< when the trajectory begins, by the generator's clock; 0: at once
   PartialJoints partial_joints = PartialJoints::kRefuse;
   Value motion_frame;     ///< a pose of the pipeline, "block.port"; none: the base
   Value wrench_frame;     ///< likewise; none: the axes of the base, about the tip
@@ -26,6 +27,7 @@ struct GatewaySection {
   void describe(Visitor& visit) {
     visit.text("trajectory", trajectory, "default trajectory file");
     visit.choice("interpolation", interpolation, kInterpolationWords);
+    visit.param("start_s", start_s, Range{0.0, 3600.0}, "s");
     visit.choice("partial_joints", partial_joints, kPartialJointsWords);
     visit.text("motion_frame", motion_frame, "the pose in whose frame the trajectory is given");
     visit.text("wrench_frame", wrench_frame, "the pose in whose frame its wrench is given");

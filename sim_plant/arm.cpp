@@ -103,7 +103,8 @@ Status Arm::load(const PlantParams& params) {
   apply(params, model_, data_);
   mj_resetData(model_, data_);
   Eigen::Map<JointVector>(data_->qpos) = params.initial_q;
-  contact_.load(make_scene(params.scene, params.scene_offset, params.tip_radius), params.material,
+  const Scene scene = make_scene(params.scene, params.scene_offset, params.tip_radius);
+  contact_.load(turned(scene, RobotMjcf::kBaseLinkYaw), params.material,
                 mj_name2id(model_, mjOBJ_BODY, "flange"), params.payload_tip, params.tip_radius);
   carries_ = params.payload_kg > 0.0;
   contact_.attach(data_);
@@ -148,9 +149,8 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   mj_fwdVelocity(model_, data_);
   JointVector tau;
   mj_mulM(model_, data_, tau.data(), ddq.data());
-  for (int i = 0; i < kDof; ++i)
-    tau[i] += data_->qfrc_bias[i] + friction(model_, i, data_->qvel[i]);
-  return tau;
+  return tau + Eigen::Map<const JointVector>(data_->qfrc_bias) -
+         Eigen::Map<const JointVector>(data_->qfrc_passive);
 }
 
 bool Arm::diverged() const {

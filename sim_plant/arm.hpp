@@ -40,8 +40,8 @@ class Arm {
   /// a scene 0.25 ms. The arm is loaded. [cyclic]
   void step(const JointVector& tau, double dt_s);
 
-  /// The torque that would give `ddq` (rad/s^2) now, N m: what the left side above says, payload
-  /// included; nothing else touches the arm. The arm is loaded. [cyclic]
+  /// The torque that would give `ddq` (rad/s^2) now, N m: what the equation above says, payload and
+  /// scene included. The arm is loaded. [cyclic]
   JointVector inverse_dynamics(const JointVector& ddq);
 
   bool loaded() const { return data_ != nullptr; }  ///< [any]

@@ -17,6 +17,9 @@ struct FerMjcf {
   static constexpr std::array<double, 7> kReadyPose = {0.0, -kPi / 4.0, 0.0,      -3.0 * kPi / 4.0,
                                                        0.0, kPi / 2.0,  kPi / 4.0};
 
+  /// How ROS's base_link, in which scenes are described, is turned about z in the base, rad.
+  static constexpr double kBaseLinkYaw = 0.0;
+
   /// What a drive can do, N m and rad/s: Franka's data sheet (150 and 180 degrees per second).
   static constexpr std::array<double, 7> kDriveTorque = {87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0};
   static constexpr std::array<double, 7> kDriveSpeed = {2.618,  2.618,  2.618, 2.618,

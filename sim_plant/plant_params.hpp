@@ -51,7 +51,7 @@ struct PlantParams {
 
   /// What stands around the robot (scene.hpp), moved by an offset.
   SceneKind scene = SceneKind::kNone;
-  Vector3 scene_offset = Vector3::Zero();  ///< m, base frame
+  Vector3 scene_offset = Vector3::Zero();  ///< m, in base_link: see scene.hpp
   Material material;                       ///< of all that stands there
 
   /// The force/torque sensor at the flange: standard deviation of its white noise, what it shows

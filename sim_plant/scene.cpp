@@ -49,4 +49,13 @@ Scene make_scene(SceneKind kind, const Vector3& offset, double tip_radius) {
   return scene;
 }
 
+Scene turned(Scene scene, double yaw) {
+  const Eigen::Quaterniond turn(std::cos(yaw / 2.0), 0.0, 0.0, std::sin(yaw / 2.0));
+  for (int i = 0; i < scene.count; ++i) {
+    Pose& pose = scene.boxes[static_cast<std::size_t>(i)].pose;
+    pose = {turn * pose.p, turn * pose.r};
+  }
+  return scene;
+}
+
 }  // namespace tactus

@@ -1,8 +1,8 @@
 // Servo: the loop inside a robot that takes positions or velocities. A target is held for one
 // period; in each of n inner steps of length D the servo chooses an acceleration and asks for the
-// torque that gives it to the arm it knows (computed torque), which the drives exert as far as they
-// can. What the servo does not know, such as a wall, pushes the arm away, and the servo pushes
-// back. A motion that takes more torque than the drives have is caught up with: smoothly with a
+// torque that gives it to the arm (computed torque), which the drives exert as far as they can. It
+// feels what pushes the arm, as the fast inner loops of a drive do: a wall does not make it yield.
+// A motion that takes more torque than the drives have is caught up with: smoothly with a
 // time constant, with overshoot by the ideal servo, which plans no further than a period ahead.
 //
 // Ideal, at the end of the period q = q_c and dq = v_c, the slope of the targets; for velocities

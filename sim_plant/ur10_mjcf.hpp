@@ -14,6 +14,9 @@ struct Ur10Mjcf {
   /// Where the paper's UR10 pipelines begin, rad: upper arm nearly upright, flange in front.
   static constexpr std::array<double, 6> kReadyPose = {0.0, -1.67, 1.87, 2.94, -1.57, 0.0};
 
+  /// How ROS's base_link, in which scenes are described, is turned about z in the base, rad.
+  static constexpr double kBaseLinkYaw = 3.14159265358979323846;
+
   /// What a drive can do, N m and rad/s: the manufacturer's article "Max. joint torques"; the
   /// speeds at which the CB3's safety system steps in by default (131.46 and 191.46 degrees per
   /// second).

@@ -11,15 +11,16 @@ namespace tactus {
 enum class Ask : std::uint8_t {
   kPoint,
   kTrajectory,  ///< can be joined from wherever the reference is
+  kLater,       ///< the same, to begin in the cycle after the one that takes it
   kTooFast,     ///< admitted by the client, refused in the cycle
   kCancel,
   kHalf,  ///< override 0.5
   kPause,
   kResume,
 };
-inline constexpr int kAsks = 7;
+inline constexpr int kAsks = 8;
 inline constexpr std::array<const char*, kAsks> kAskWords = {
-    "point", "trajectory", "too fast", "cancel", "half", "pause", "resume"};
+    "point", "trajectory", "later", "too fast", "cancel", "half", "pause", "resume"};
 
 /// What was reported of one request, or should have been.
 struct Fate {
@@ -55,17 +56,22 @@ class InterleavingModel {
   bool all_free() const { return free(0) && free(1) && free(2); }
   void send(int store) { stores_[index(store)] = StoreState::kTaken; }
 
-  void begin_cycle() { pending_ = new_point_ = -1; }
+  void begin_cycle() {
+    pending_ = new_point_ = -1;
+    if (waiting_ >= 0) run(waiting_, waiting_store_);
+    waiting_ = -1;
+  }
   void take(Ask ask, int request, int store) {
     switch (ask) {
       case Ask::kPoint:
         return take_point(request);
       case Ask::kTrajectory:
-        leave_path(Outcome::kPreempted);
-        fates[index(request)].started = 1;
-        running_ = aim_ = request;
-        running_store_ = store;
-        held_ = -1;
+        run(request, store);
+        return end_waiting(Outcome::kSuperseded);
+      case Ask::kLater:
+        end_waiting(Outcome::kSuperseded);
+        waiting_ = request;
+        waiting_store_ = store;
         return;
       case Ask::kTooFast:
         return end(request, Outcome::kRefused, store);
@@ -112,6 +118,17 @@ class InterleavingModel {
     fate.store = store;
     if (store >= 0) stores_[index(store)] = StoreState::kFree;
   }
+  void run(int request, int store) {
+    leave_path(Outcome::kPreempted);
+    fates[index(request)].started = 1;
+    running_ = aim_ = request;
+    running_store_ = store;
+    held_ = -1;
+  }
+  void end_waiting(Outcome outcome) {
+    if (waiting_ >= 0) end(waiting_, outcome, waiting_store_);
+    waiting_ = -1;
+  }
   /// Whatever was followed is followed no more.
   void leave_path(Outcome outcome) {
     if (executing()) end(running_, outcome, running_store_);
@@ -126,17 +143,20 @@ class InterleavingModel {
     pending_ = held_ = aim_ = request;
   }
   void take_cancel(int request) {
-    if (!executing()) return end(request, Outcome::kRefused, -1);
+    if (!executing() && waiting_ < 0) return end(request, Outcome::kRefused, -1);
+    end_waiting(Outcome::kCanceled);
+    end(request, Outcome::kExecuted, -1);
+    if (!executing()) return;
     end(running_, Outcome::kCanceled, -1);
     stores_[index(running_store_)] = StoreState::kBraking;
     canceled_ = running_;
     running_ = aim_ = -1;
-    end(request, Outcome::kExecuted, -1);
   }
 
   std::array<StoreState, kStores> stores_{};
   bool paused_ = false;
   int running_ = -1, running_store_ = -1;
+  int waiting_ = -1, waiting_store_ = -1;
   int pending_ = -1, new_point_ = -1, held_ = -1, aim_ = -1, canceled_ = -1;
 };
 

@@ -65,6 +65,7 @@ class Rehearsal {
     model_ = InterleavingModel();
     reported_.fill({});
     asked_ = first_of_cycle_ = 0;
+    cycles_ = 1;
     arrivals_expected_ = false;
   }
   void bring_to(Begin begin) {
@@ -104,6 +105,7 @@ class Rehearsal {
       motion->waypoints[1] = {1.0, beside_home(goal(asked_), 0.0)};
       motion->count = 2;
     }
+    if (ask == Ask::kLater) motion->start_s = (cycles_ + 2) * ReferenceBench::kPeriod_s;
     model_.send(store);
     return bench_.client.send(*motion, id);
   }
@@ -111,7 +113,7 @@ class Rehearsal {
     std::uint32_t id = 0;
     Verdict verdict;
     int store = -1;
-    if (ask == Ask::kTrajectory || ask == Ask::kTooFast) {
+    if (ask == Ask::kTrajectory || ask == Ask::kLater || ask == Ask::kTooFast) {
       verdict = send_trajectory(ask, id, store);
       if (verdict.status == Status::kNoFreeStore) return;
     } else if (ask == Ask::kPoint) {
@@ -139,6 +141,7 @@ class Rehearsal {
       model_.take(sent_[i], first_of_cycle_, stores_[i]);
     }
     check(bench_.step(dt_s) == Status::kOk, "a cycle");
+    ++cycles_;
     Report report;
     while (bench_.client.poll(report)) take(report);
     check(model_.end_cycle(), "a store left behind comes back");
@@ -155,11 +158,10 @@ class Rehearsal {
     if (request == asked_) return check(false, "a report has the id of its request");
     if (report.outcome == Outcome::kSucceeded && arrivals_expected_) model_.arrive();
     Fate& fate = reported_[at(request)];
-    if (report.outcome == Outcome::kStarted) {
-      check(fate.finals == 0, "a start is reported before the end");
-      ++fate.started;
-      return;
-    }
+    if (report.outcome == Outcome::kScheduled)
+      return check(sent_[at(request)] == Ask::kLater && fate == Fate(), "it waits for its time");
+    if (report.outcome == Outcome::kStarted)
+      return ++fate.started, check(fate.finals == 0, "a start is reported before the end");
     ++fate.finals;
     fate.outcome = report.outcome;
     fate.store = report.store;
@@ -226,7 +228,7 @@ class Rehearsal {
       return check(canceled < 0 || std::abs(at_end - goal(canceled)) > 1e-3,
                    "a cancelled trajectory is not finished");
     const bool to_point = sent_[at(aim)] == Ask::kPoint;
-    const double offset = to_point ? point(aim).q[0] - bench_.home[0] : goal(aim);
+    const double offset = to_point ? 0.01 * (aim + 1) : goal(aim);
     check(std::abs(at_end - offset) <= 1e-12, "the motion ends where it was sent last");
     check(bench_.out().standing() == !(to_point && mode_ == OnlineMode::kForward),
           "the motion ends at rest");
@@ -239,7 +241,7 @@ class Rehearsal {
   std::array<std::uint32_t, InterleavingModel::kMost> ids_{};
   std::array<Ask, InterleavingModel::kMost> sent_{};
   std::array<int, InterleavingModel::kMost> stores_{};
-  int asked_ = 0, first_of_cycle_ = 0;
+  int asked_ = 0, first_of_cycle_ = 0, cycles_ = 0;
   bool arrivals_expected_ = false;
   const char* complaint_ = nullptr;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gateway/gateway_section.hpp"
+#include "hal/os/realtime_settings.hpp"
 #include "kernel/loader.hpp"
 #include "sim_plant/plant_params.hpp"
 
@@ -31,6 +32,7 @@ struct LoaderBench {
   Pipeline pipeline;
   PlantParams plant;
   GatewaySection gateway;
+  RealtimeSettings realtime;
   LoadError error;
 
   Status load(std::string_view text, const Capabilities& offered = kTorqueRobot) {
@@ -41,6 +43,7 @@ struct LoaderBench {
     Loader loader({&channel}, offered);
     loader.add(board_section("plant", plant));
     loader.add(board_section("gateway", gateway));
+    loader.add(board_section("realtime", realtime));
     return loader.load(text, pipeline, error);
   }
   const JointVector& joints(const char* port) const {

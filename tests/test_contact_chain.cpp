@@ -24,6 +24,9 @@ constexpr std::string_view kChain =
     "max_displacement = 0.05\nmax_velocity = 0.1\nmax_force = 80\n"
     "max_rotation = 0.1\nmax_angular_velocity = 0.5\nmax_moment = 10\n";
 
+/// A robot of torque with a force/torque sensor.
+constexpr Capabilities kSensing = {false, false, true, 100, 10000, true};
+
 template <class Type>
 const Type& output(const LoaderBench& bench, const char* port) {
   return *static_cast<const Type*>(bench.pipeline.ports.find(port)->value);
@@ -34,7 +37,7 @@ const Type& output(const LoaderBench& bench, const char* port) {
 /// The sensor reads base axes, for the flange is where the model says; 40 N along x at the tip.
 void a_push_on_the_tip_moves_the_commanded_pose_by_the_compliance(void**) {
   LoaderBench bench;
-  ASSERT_OK(bench.load(kChain));
+  ASSERT_OK(bench.load(kChain, kSensing));
   RobotState state = state_at(0.0, 0.0);
   ASSERT_OK(bench.pipeline.start(state));
   const Pose x = output<Pose>(bench, "model.x");
@@ -68,7 +71,8 @@ void what_is_no_set_of_axes_is_refused(void**) {
     std::array<char, 64> line;
     const std::size_t size = append_text(line.data(), 0, line.size(), "compliant_translation = ");
     const std::string_view key(line.data(), append_text(line.data(), size, line.size(), wrong));
-    ASSERT_STATUS(bench.load(edit(kChain, "compliant_translation = xz", key)), Status::kBadValue);
+    ASSERT_STATUS(bench.load(edit(kChain, "compliant_translation = xz", key), kSensing),
+                  Status::kBadValue);
     assert_string_equal(bench.error.key.c_str(), "compliant_translation");
   }
 }

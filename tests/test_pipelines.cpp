@@ -15,8 +15,19 @@ constexpr Run kRuns[] = {
     {"fer", "pipelines/fer_jrg_pdgc.ini"},
     {"fer",
      "pipelines/fer_jrg_pdgc.ini --trajectory pipelines/trajectories/fer_five_waypoints.csv"},
-    {"fer", "pipelines/fer_trg_log.ini"},
+    {"fer", "pipelines/fer_trg_cpc.ini"},
+    {"fer", "pipelines/fer_trg_ac_cpc_pid.ini"},
     {"ur10", "pipelines/ur10_jrg_pdgc.ini"},
+    {"ur10", "pipelines/ur10_jrg_pid.ini"},
+    {"ur10",
+     "pipelines/ur10_jrg_pid.ini --trajectory pipelines/trajectories/"
+     "ur10_five_waypoints_quintic.csv"},
+    {"ur10", "pipelines/ur10_trg_cpc.ini"},
+    {"ur10",
+     "pipelines/ur10_trg_cpc.ini --trajectory pipelines/trajectories/ur10_square_at_rest.csv"},
+    {"ur10", "pipelines/ur10_trg_cpc_125.ini"},
+    {"ur10", "pipelines/ur10_trg_ac_cpc.ini"},
+    {"ur10", "pipelines/ur10_trg_ac_cpc_pid.ini"},
 };
 
 char program[512];

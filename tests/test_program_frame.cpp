@@ -13,7 +13,8 @@ void a_trajectory_may_be_given_in_a_frame_of_the_pipeline(void**) {
   constexpr const char* kTask =
       "[wall]\ntype = frame\nposition = 0.5 0 0.5\nrotation = 0 0 1.57079632679\n"
       "[trg]\ntype = task_reference_generator\nx = model.x\n"
-      "goal_position_tolerance = 0\ngoal_angle_tolerance = 0\n[gateway]\nmotion_frame = ";
+      "goal_position_tolerance = 0\ngoal_angle_tolerance = 0\n"
+      "[gateway]\nstart_s = 1\nmotion_frame = ";
   constexpr const char* kPath =
       "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n6,0,0,0,0,1,0,0\n9,0.1,0,0,0,1,0,0\n";
   const Line path = write("t.csv", {kPath});
@@ -30,6 +31,7 @@ void a_trajectory_may_be_given_in_a_frame_of_the_pipeline(void**) {
   ASSERT_NEAR(x, 0.5, 1e-9);
   ASSERT_NEAR(y, 0.1, 1e-9);
   ASSERT_NEAR(z, 0.5, 1e-9);
+  ASSERT_NEAR(time_s, 11.99, 1e-9);  // 1 s to wait, 9 s, 2 s to settle
   assert_int_equal(run_in("Wall.x"), 2);
   assert_true(has(errors(), "[gateway] motion_frame: 'Wall.x' is no output of this pipeline\n"));
   assert_int_equal(run_in("model.v"), 2);

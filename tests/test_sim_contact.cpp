@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sim_plant/arm.hpp"
+#include "sim_plant/sim_hal.hpp"
 #include "tests/fer_tip.hpp"
 #include "tests/testing.hpp"
 
@@ -102,6 +102,32 @@ void an_arm_that_stands_in_contact_is_held_by_the_torque_found(void**) {
   ASSERT_NEAR((b.arm.q() - params.initial_q).norm(), 0.0, 1e-9);
 }
 
+// Proves SIM-7, SIM-21.
+
+/// At 125 Hz, with 1 kg of tool: a servo that yields within the period accelerates when it ends,
+/// which a sensor cannot tell from a force.
+void a_servo_does_not_yield_to_the_wall_and_the_sensor_shows_the_push(void**) {
+  static SimHal hal;
+  PlantParams params = facing_the_wall();
+  params.payload_kg = 1.0;
+  hal.set_period(8e-3);
+  RobotState state;
+  ASSERT_OK(hal.load(params, 1));
+  ASSERT_OK(hal.start(CommandMode::kPosition, state));
+  JointVector q_c = state.q;
+  for (int k = 0; k < 200; ++k) {
+    if (k < 100) q_c += FerTip(q_c, params.payload_tip).joints({0.0, 35e-6, 0.0});
+    ASSERT_OK(hal.write({CommandMode::kPosition, q_c}));
+    ASSERT_NEAR((hal.arm().q() - q_c).norm(), 0.0, 1e-6);
+  }
+  ASSERT_NEAR((hal.arm().q() - q_c).norm(), 0.0, 1e-9);
+  ASSERT_OK(hal.read(state));
+  const Vector3 push = hal.arm().contact_force(), weight(0.0, 0.0, -9.81);
+  const Matrix3 axes = FerTip(q_c, params.payload_tip).axes;
+  assert_true(push.y() < -10.0);
+  ASSERT_NEAR((axes * state.ft.head<3>() - push - weight).norm(), 0.0, 1e-3);
+}
+
 // Proves SIM-6.
 
 /// An arm without any friction of its own, 1 kg on its flange, that falls on the plateau of the
@@ -195,6 +221,7 @@ int main() {
       cmocka_unit_test(a_pressed_wall_pushes_back_with_stiffness_times_depth),
       cmocka_unit_test(a_tip_that_slides_is_held_back_by_mu_times_the_push),
       cmocka_unit_test(an_arm_that_stands_in_contact_is_held_by_the_torque_found),
+      cmocka_unit_test(a_servo_does_not_yield_to_the_wall_and_the_sensor_shows_the_push),
       cmocka_unit_test(an_arm_that_falls_on_a_table_never_gains_energy),
       cmocka_unit_test(a_table_without_friction_and_dissipation_keeps_the_energy),
       cmocka_unit_test(a_tip_that_slides_under_a_stiff_law_keeps_its_contact),

@@ -20,11 +20,11 @@ std::array<Waypoint<JointSpace>, kCapacity> storage, written;
 Trajectory<JointSpace> trajectory;
 CsvError error;
 
-bool read(const char* path, int capacity = kCapacity, bool partial = false) {
+bool read(const char* path, int capacity = kCapacity) {
   trajectory = {};
   trajectory.waypoints = storage.data();
   trajectory.capacity = capacity;
-  return read_trajectory(path, partial, trajectory, error);
+  return read_trajectory(path, false, trajectory, error);
 }
 
 /// A file of this process, made anew by every test that writes one.
@@ -34,12 +34,12 @@ const char* scratch() {
   return path;
 }
 
-bool read_text(std::string_view text, int capacity = kCapacity, bool partial = false) {
+bool read_text(std::string_view text, int capacity = kCapacity) {
   std::FILE* file = std::fopen(scratch(), "wb");
   assert_non_null(file);
   std::fwrite(text.data(), 1, text.size(), file);
   std::fclose(file);
-  return read(scratch(), capacity, partial);
+  return read(scratch(), capacity);
 }
 
 int remove_scratch(void**) {
@@ -193,26 +193,6 @@ void what_is_no_file_is_refused_with_the_reason_of_the_system(void**) {
   assert_string_equal(error.message().c_str(), "the file is empty: it has no header");
 }
 
-// Proves RG-19.
-
-void joints_may_be_left_out_where_that_is_allowed_the_same_in_every_group(void**) {
-  constexpr std::string_view kTwo = "time_s,q2_rad,q7_rad,dq7_rad_s,dq2_rad_s\n1,2,7,0.7,0.2\n";
-  assert_false(read_text(kTwo));
-  assert_true(std::string_view(error.reason) == "position: 2 columns, expected 7");
-  assert_true(read_text(kTwo, kCapacity, true));
-  assert_int_equal(trajectory.terms.held, 0b0111101);
-  const JointSpace::Point& point = trajectory.waypoints[0].point;
-  assert_true(point.q[1] == 2.0 && point.q[6] == 7.0 && point.dq[1] == 0.2 && point.dq[6] == 0.7);
-  for (const std::string_view text :
-       {"time_s,q2_rad,dq7_rad_s\n1,2,0.7\n", "time_s,q2_rad,q7_rad,dq7_rad_s\n1,2,7,0.7\n"}) {
-    assert_false(read_text(text, kCapacity, true));
-    assert_true(std::string_view(error.reason) ==
-                "velocity: 1 column, expected those of the positions");
-  }
-  assert_false(read_text("time_s,dq7_rad_s\n1,0.7\n", kCapacity, true));
-  assert_true(std::string_view(error.reason) == "position: 0 columns, expected 7");
-}
-
 void no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite(void**) {
   constexpr std::uint64_t kSeed = 4180;
   std::mt19937_64 random(kSeed);
@@ -248,7 +228,6 @@ int main() {
       cmocka_unit_test(line_ends_blanks_marks_and_comments_make_no_difference),
       cmocka_unit_test(every_file_with_a_mistake_is_refused_with_its_message),
       cmocka_unit_test(what_is_no_file_is_refused_with_the_reason_of_the_system),
-      cmocka_unit_test(joints_may_be_left_out_where_that_is_allowed_the_same_in_every_group),
       cmocka_unit_test(no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_scratch);

@@ -12,11 +12,11 @@ thread_local std::uint64_t allocations = 0;
 
 namespace tactus {
 
-HeapWatch::HeapWatch() {
+HeapWatch::HeapWatch() : before_(watching) {
   watching = true;
 }
 HeapWatch::~HeapWatch() {
-  watching = false;
+  watching = before_;
 }
 std::uint64_t heap_allocations() {
   return allocations;

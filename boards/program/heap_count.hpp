@@ -14,13 +14,16 @@ inline constexpr bool kHeapIsCounted = false;
 inline constexpr bool kHeapIsCounted = true;
 #endif
 
-/// Counts between construction and destruction, in this thread.
+/// Counts between construction and destruction, in this thread; one may stand within another.
 class HeapWatch {
  public:
   HeapWatch();
   ~HeapWatch();
   HeapWatch(const HeapWatch&) = delete;
   HeapWatch& operator=(const HeapWatch&) = delete;
+
+ private:
+  bool before_;
 };
 
 /// Allocations counted so far in this thread.

@@ -44,12 +44,28 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
   run.add_option("--seed", options.seed, "of the sensor noise")
       ->check(decimal(std::uint64_t{0}, kLargestSeed, "a whole number of up to 64 bits"));
   run.add_flag("!--no-figure", options.figure, "do not draw figure.png");
+  run.add_flag("--realtime", options.realtime, "one cycle for every period of the wall clock");
+}
+
+/// Of `doctor` and `jitter`: what the cycle would run on.
+void add_host_options(CLI::App& verb, Options& options) {
+  verb.add_option("--cpu", options.cpu, "the one for the cycle (default: any)")
+      ->check(decimal(0, 1023, "a whole number from 0 to 1023"));
+  verb.add_option("--priority", options.priority, "of SCHED_FIFO (default 80)")
+      ->check(decimal(1, 98, "a whole number from 1 to 98"));
+}
+
+void add_jitter_options(CLI::App& jitter, Options& options) {
+  jitter.add_option("--duration", options.duration_s, "s (default 5)")
+      ->check(decimal(1e-3, 1e5, "a number from 0.001 to 100000"));
+  jitter.add_option("--period-us", options.period_us, "of the cycle, us (default 1000)")
+      ->check(decimal(100, 100000, "a whole number from 100 to 100000"));
 }
 
 }  // namespace
 
 bool parse_options(int argc, char** argv, const char* board, Options& options, int& exit_code) {
-  std::string pipeline, trajectory, out;
+  std::string pipeline, trajectory, out, root;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.require_subcommand(0, 1);  // none at all is refused below, in words of our own
   app.footer(
@@ -65,6 +81,11 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
         ->check(path());
   }
   add_run_options(*run, out, options);
+  CLI::App* doctor = app.add_subcommand("doctor", "say what on this host hurts real time");
+  doctor->add_option("--root", root, "folder before /proc and /sys")->check(path());
+  CLI::App* jitter = app.add_subcommand("jitter", "measure how late this host wakes a cycle");
+  for (CLI::App* verb : {doctor, jitter}) add_host_options(*verb, options);
+  add_jitter_options(*jitter, options);
 
   try {
     app.parse(argc, argv);
@@ -73,7 +94,7 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
     return false;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr, "a verb is required: run, check or ports\n%s\n",
+    std::fprintf(stderr, "a verb is required: run, check, ports, doctor or jitter\n%s\n",
                  "Run with --help for more information.");
     exit_code = kRefused;
     return false;
@@ -81,7 +102,12 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
   copy(pipeline, options.pipeline);
   copy(trajectory, options.trajectory);
   copy(out, options.out);
-  options.verb = *ports ? Verb::kPorts : *check ? Verb::kCheck : Verb::kRun;
+  copy(root, options.root);
+  options.verb = *ports    ? Verb::kPorts
+                 : *check  ? Verb::kCheck
+                 : *doctor ? Verb::kDoctor
+                 : *jitter ? Verb::kJitter
+                           : Verb::kRun;
   return true;
 }
 

@@ -6,7 +6,7 @@
 
 namespace tactus {
 
-enum class Verb : std::uint8_t { kRun, kCheck, kPorts };
+enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter };
 
 /// Exit codes of every program.
 enum ExitCode : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2 };
@@ -16,9 +16,14 @@ struct Options {
   char pipeline[512] = "";
   char trajectory[512] = "";  ///< empty: the pipeline file's own
   char out[512] = "";         ///< empty: out/<pipeline>
-  double duration_s = 0.0;    ///< 0: until the trajectory has ended and settled
+  double duration_s = 0.0;    ///< 0: the verb's own choice
   std::uint64_t seed = 1;
   bool figure = true;
+  bool realtime = false;  ///< cycles by the wall clock
+  char root[512] = "";    ///< of the /proc and /sys that `doctor` looks at
+  int cpu = -1;           ///< of `doctor` and `jitter`; -1: any
+  int priority = 80;      ///< likewise
+  int period_us = 1000;   ///< of `jitter`
 };
 
 /// Reads the command line. False: the program ends at once with `exit_code` (help was asked for, or

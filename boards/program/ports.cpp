@@ -108,6 +108,7 @@ int print_ports(const char* board, const Capabilities& offered) {
   print_section("[executive]", ExecutiveSection());
   print_section("[recorder]", RecorderSection());
   print_section("[gateway]", GatewaySection());
+  print_section("[realtime] (boards on Linux, with --realtime)", RealtimeSettings());
   print_section("[plant] (simulated boards)", PlantParams());
   print_blocks();
   return kSucceeded;

@@ -1,18 +1,12 @@
-// `tactus run`: cycles in lock-step with the plant's virtual time, as fast as the host can.
-#include <unistd.h>
-
+// `tactus run`: everything around the cycles of a run, from the trajectory to the figure.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 
 #include "boards/program/figure.hpp"
 #include "boards/program/heap_count.hpp"
-#include "boards/program/run_log.hpp"
+#include "boards/program/run_loop.hpp"
 #include "boards/program/session.hpp"
-#include "boards/program/summary.hpp"
-#include "boards/program/trajectory_input.hpp"
 #include "boards/program/waypoint_log.hpp"
 
 namespace tactus {
@@ -20,93 +14,11 @@ namespace {
 
 constexpr double kDefaultDuration_s = 10.0;  // of a run without a trajectory
 
-volatile std::sig_atomic_t interrupted = 0;
-
-void on_signal(int) {
-  interrupted = 1;
-}
-
-void end_with(RunResult& result, int code, const char* name) {
-  result.code = code;
-  result.name = name;
-}
-
-double wall_s() {
-  using namespace std::chrono;
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
-}
-
-/// One line that rewrites itself, a few times a second, when somebody looks.
-class Progress {
- public:
-  Progress(std::string_view pipeline, double duration_s)
-      : pipeline_(pipeline), duration_s_(duration_s), shown_(isatty(STDERR_FILENO) != 0) {}
-  void update(double time_s) {
-    if (!shown_ || wall_s() < next_) return;
-    next_ = wall_s() + 0.1;
-    std::fprintf(stderr, "\r%.*s: %3.0f %%", static_cast<int>(pipeline_.size()), pipeline_.data(),
-                 100.0 * time_s / duration_s_);
-  }
-  void end() const {
-    if (shown_) std::fprintf(stderr, "\r%*s\r", 60, "");
-  }
-
- private:
-  std::string_view pipeline_;
-  double duration_s_;
-  bool shown_;
-  double next_ = 0.0;
-};
-
-/// What the reports say of the trajectory; a run succeeds when it has one and that succeeds, or has
-/// none. False: there is nothing to go on for.
-bool follow(Session& session, const TrajectoryInput& input, RunResult& result) {
-  Report report;
-  while (poll_report(session, input, report)) {
-    if (report.id != input.id || report.outcome == Outcome::kStarted) continue;
-    const bool refused = report.outcome == Outcome::kRefused;
-    end_with(result,
-             refused                                 ? static_cast<int>(report.verdict.status)
-             : report.outcome == Outcome::kSucceeded ? 0
-                                                     : kEndedOtherwise,
-             name(report.outcome));
-    if (!refused) continue;
-    print_verdict(input, report.verdict);
-    return false;
-  }
-  return true;
-}
-
-void cycle_through(Session& session, double duration_s, const TrajectoryInput& input, RunLog& log,
-                   Progress& progress, RunResult& result) {
-  const double period_s = session.pipeline.robot.period_s();
-  const std::int64_t period_ns = std::int64_t{1000} * session.pipeline.robot.period_us;
-  const auto cycles = std::max(1LL, std::llround(duration_s / period_s));
-  Status status = Status::kOk;
-  bool goes_on = true;
-  for (std::int64_t k = 0; k < cycles && goes_on && status == Status::kOk; ++k) {
-    {
-      const HeapWatch watch;
-      status = session.executive.cycle({k * period_ns});
-    }
-    for (int i = 0; i < result.tracking_count; ++i)
-      result.tracking[static_cast<std::size_t>(i)].add();
-    goes_on = follow(session, input, result);
-    if (interrupted != 0) {
-      end_with(result, kEndedOtherwise, "interrupted");
-      goes_on = false;
-    }
-    log.drain(session.recorder);
-    progress.update(static_cast<double>(k) * period_s);
-  }
-  if (status != Status::kOk) end_with(result, static_cast<int>(status), name(status));
-}
-
 double planned_duration(const Session& session, const Options& options,
                         const TrajectoryInput& input) {
   if (options.duration_s > 0.0) return options.duration_s;
   if (!input.given()) return kDefaultDuration_s;
-  return input.end_s() + session.gateway.settle_s;
+  return input.start_s + input.end_s() + session.gateway.settle_s;
 }
 
 FilePath in_folder(const FilePath& folder, const char* file) {
@@ -116,16 +28,22 @@ FilePath in_folder(const FilePath& folder, const char* file) {
 
 /// Runs the loop between start and stop, and the times and counters around it.
 void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
-             RunResult& result) {
+             LogWriter& writer, RunResult& result) {
   const double duration_s = planned_duration(session, options, input);
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
   const Status started = session.executive.start();
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
-  if (started != Status::kOk)
+  if (started != Status::kOk) {
     end_with(result, static_cast<int>(started), name(started));
-  else if (send_input(session, input))
-    cycle_through(session, duration_s, input, log, progress, result);
+  } else if (send_input(session, input)) {
+    const auto cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
+    RunLoop loop(session, input, result);
+    if (options.realtime)
+      loop.in_real_time(cycles, writer, progress);
+    else
+      loop.in_lock_step(cycles, log, progress);
+  }
   const Status latched = session.executive.latched();
   session.executive.stop();
   result.wall_s = wall_s() - begin_s;
@@ -156,13 +74,18 @@ int run(Session& session, const Options& options) {
   if (folder.empty()) folder << "out/" << pipeline;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
+  RunLog log;
+  LogWriter writer(log);
+  Realtime realtime;
+  if (options.realtime && !(writer.start() && prepare(realtime, session.realtime))) return kRefused;
   if (!make_folder(folder)) return kRefused;
   const Recording& recording = session.pipeline.recording;
-  RunLog log;
   if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
 
   static RunResult result;
   result.seed = options.seed;
+  result.realtime.asked = options.realtime;
+  result.realtime.report = realtime.report();
   result.config_hash = fnv1a_of_file(input.path.c_str(), fnv1a(session.text));
   for (; result.tracking_count < recording.tracking_count; ++result.tracking_count) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
@@ -174,9 +97,9 @@ int run(Session& session, const Options& options) {
       [](void* recorder, double time_s) { static_cast<Recorder*>(recorder)->record(time_s); },
       &session.recorder};
   if (session.executive.add(row) != Status::kOk) return kRefused;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  execute(session, options, input, log, result);
+  catch_interrupts();
+  execute(session, options, input, log, writer, result);
+  realtime.release();  // the figure's program would inherit it
 
   bool written = log.close();
   written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);

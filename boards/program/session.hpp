@@ -6,6 +6,7 @@
 #include "boards/program/options.hpp"
 #include "gateway/gateway_section.hpp"
 #include "gateway/reference_client.hpp"
+#include "hal/os/realtime_settings.hpp"
 #include "kernel/executive.hpp"
 
 namespace tactus {
@@ -20,10 +21,11 @@ struct Session {
   ReferenceClient<JointSpace>& client;
   ReferenceClient<TaskSpace>& task_client;
   const GatewaySection& gateway;
+  const RealtimeSettings& realtime;
 };
 
-/// `tactus run`: runs the pipeline in lock-step with the plant's virtual time and writes log,
-/// summary and figure. Returns the exit code.
+/// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and
+/// writes log, summary and figure. Returns the exit code.
 int run(Session& session, const Options& options);
 
 /// `tactus check`: judges pipeline and trajectory as `run` would, from `initial` on; nothing moves.

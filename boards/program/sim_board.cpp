@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "boards/program/doctor.hpp"
 #include "boards/program/files.hpp"
 #include "boards/program/session.hpp"
 #include "sim_plant/sim_hal.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int kMaxPoses = 1 << 12;
 constexpr int kMaxWaypoints = 1 << 15;             // 32 s at 1 kHz
-constexpr std::size_t kRecorderNumbers = 1 << 14;  // drained after every cycle here
+constexpr std::size_t kRecorderNumbers = 1 << 17;  // in real time: a second of 100 at 1 kHz
 
 /// Everything of fixed size, and so the memory figure of the board.
 struct Memory {
@@ -24,6 +25,7 @@ struct Memory {
   Pipeline pipeline;
   PlantParams plant;
   GatewaySection gateway;
+  RealtimeSettings realtime;
 };
 
 std::uint64_t stopwatch_ns() {
@@ -38,6 +40,8 @@ int run_sim_board(int argc, char** argv, const char* board) {
   int exit_code = kSucceeded;
   if (!parse_options(argc, argv, board, options, exit_code)) return exit_code;
 
+  if (options.verb == Verb::kDoctor) return doctor(options);
+  if (options.verb == Verb::kJitter) return jitter(options);
   static Memory memory;
   static SimHal hal;
   if (options.verb == Verb::kPorts) return print_ports(board, hal.capabilities());
@@ -51,6 +55,7 @@ int run_sim_board(int argc, char** argv, const char* board) {
   Loader loader({&memory.channel, &memory.task_channel}, hal.capabilities());
   loader.add(board_section("plant", memory.plant));
   loader.add(board_section("gateway", memory.gateway));
+  loader.add(board_section("realtime", memory.realtime));
   std::string_view text;
   if (!load_pipeline(options.pipeline, loader, memory.pipeline, text)) return kRefused;
 
@@ -61,7 +66,7 @@ int run_sim_board(int argc, char** argv, const char* board) {
   const std::size_t static_bytes =
       sizeof memory + sizeof recorder + sizeof executive + sizeof client + sizeof task_client;
   Session session{board,    static_bytes, text,        memory.pipeline, executive,
-                  recorder, client,       task_client, memory.gateway};
+                  recorder, client,       task_client, memory.gateway,  memory.realtime};
   if (options.verb == Verb::kCheck) {
     RobotState initial;
     initial.q = memory.plant.initial_q;

@@ -102,6 +102,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   write_timing(file, session.executive);
   std::fprintf(file, "  \"slips\": %" PRId64 ",\n  \"overruns\": %" PRId64 ",\n", telemetry.slips,
                telemetry.overruns);
+  if (result.realtime.asked) write_realtime(file, result.realtime);
   std::fprintf(file, "  \"guard\": {\"limited\": %u, \"tripped\": %d},\n", guard.limited_cycles,
                guard.tripped_joint >= 0 ? 1 : 0);
   std::fprintf(file, "  \"recorder_dropped\": %u,\n", session.recorder.dropped());
@@ -131,6 +132,7 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
     std::printf("  %9s %12.2f %12.2f %12.2f\n", kStageNames[i], times.percentile(0.5) * 1e-3,
                 times.percentile(0.99) * 1e-3, static_cast<double>(times.max()) * 1e-3);
   }
+  if (result.realtime.asked) print_realtime(result.realtime);
   std::printf("\n  %" PRId64 " cycles, %" PRId64
               " slips, %u limited by the guard, "
               "%" PRIu64 " heap allocations in the cycle, %.3g s in %.3g s (%.0f x real time)\n",

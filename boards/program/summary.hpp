@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "boards/program/realtime_result.hpp"
 #include "boards/program/session.hpp"
 #include "boards/program/tracking_error.hpp"
 
@@ -15,6 +16,7 @@ struct RunResult {
   double wall_s = 0.0, simulated_s = 0.0;
   std::array<TrackingError, kMaxTracking> tracking;
   int tracking_count = 0;
+  RealtimeResult realtime;
 };
 
 /// False if the file cannot be written.

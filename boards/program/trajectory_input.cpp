@@ -74,6 +74,8 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
     return false;
   }
   trajectory->interpolation = session.gateway.interpolation;
+  input.start_s = session.gateway.start_s;
+  if (input.start_s > 0.0) trajectory->start_s = input.start_s;
   input.trajectory = trajectory;
   const Verdict verdict = client.judge(*trajectory);
   if (!verdict.ok()) print_verdict(input, verdict);

@@ -12,11 +12,12 @@ struct TrajectoryInput {
   FilePath path;  ///< empty: the run has none
   std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
-  Pose motion_frame;  ///< of poses, in the base frame, as it stood when they were sent
+  double start_s = 0.0;  ///< when it begins
+  Pose motion_frame;     ///< of poses, in the base frame, as it stood when they were sent
 
   bool given() const { return trajectory.index() != 0; }
   int count() const;                  ///< waypoints
-  double time_s(int waypoint) const;  ///< of a waypoint
+  double time_s(int waypoint) const;  ///< of a waypoint, from its beginning
   double end_s() const { return given() ? time_s(count() - 1) : 0.0; }
 };
 

@@ -39,7 +39,7 @@ bool write_waypoints(const char* path, const TrajectoryInput& input, const PortE
   for (int i = 0; i < input.count(); ++i) {
     std::array<double, 16> numbers{};
     const int count = flatten(position_of(input, i, pose), numbers.data());
-    std::fprintf(file, "%.9g", input.time_s(i));
+    std::fprintf(file, "%.9g", input.start_s + input.time_s(i));
     for (int n = 0; n < count; ++n)
       std::fprintf(file, ",%.9g", numbers[static_cast<std::size_t>(n)]);
     std::fprintf(file, "\n");

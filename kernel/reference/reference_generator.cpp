@@ -102,20 +102,22 @@ void ReferenceGenerator<Space>::watch_start() {
   if (trajectory.start_s - time_s() > 0.5 * period_s_) return;
   const Goal due = waiting_;
   waiting_ = {};
-  begin(due, 0.0);
+  static_cast<void>(begin(due, 0.0));
 }
 
-/// Leaves what runs for the trajectory of `goal`, which began `elapsed_s` ago.
+/// Leaves what runs for the trajectory of `goal`, which began `elapsed_s` ago. False: it is
+/// refused, and what runs goes on.
 template <class Space>
-void ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
+bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(goal.store)];
   const Verdict verdict = motion_.follow(trajectory, params_.start_tolerance, elapsed_s);
-  if (!verdict.ok()) return report(goal.id, Outcome::kRefused, goal.store, verdict);
+  if (!verdict.ok()) return report(goal.id, Outcome::kRefused, goal.store, verdict), false;
   end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);
   running_ = goal;
   monitor_.begin(Tolerances<Space>::merged(trajectory.tolerances, params_.tolerances));
   motion_.set_rate(paused_ ? 0.0 : override_);
   report(goal.id, Outcome::kStarted);
+  return true;
 }
 
 template <class Space>

@@ -69,7 +69,7 @@ class ReferenceGenerator {
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
   void watch_start();
-  void begin(const Goal& goal, double elapsed_s);
+  bool begin(const Goal& goal, double elapsed_s);
   void end_waiting(Outcome outcome);
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
                      const Verdict& verdict = {});

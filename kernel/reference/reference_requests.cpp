@@ -70,9 +70,11 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
   if (!now && !(std::isfinite(elapsed_s) && elapsed_s < trajectory->end_s()))
     return report(request.id, Outcome::kRefused, request.store,
                   {Status::kReferenceTime, -1, -1, start_s, time_s()});
-  end_waiting(Outcome::kSuperseded);
   const Goal goal = {request.id, request.store};
-  if (now || elapsed_s > 0.0) return begin(goal, now ? 0.0 : elapsed_s);
+  const bool later = !now && elapsed_s < 0.0;
+  if (!later && !begin(goal, now ? 0.0 : elapsed_s)) return;
+  end_waiting(Outcome::kSuperseded);
+  if (!later) return;
   waiting_ = goal;
   report(request.id, Outcome::kScheduled);
 }

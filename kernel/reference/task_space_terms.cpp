@@ -16,10 +16,8 @@ Vector6 turned(const Eigen::Quaterniond& r, const Vector6& vector) {
 
 TaskSpace::Latched TaskSpace::latch(const Terms& terms, const Point& /*reference*/) {
   Latched now;
-  now.moved = terms.motion != nullptr;
-  now.levered = terms.wrench != nullptr;
-  if (now.moved) now.motion = *terms.motion;
-  if (now.levered) now.wrench = *terms.wrench;
+  if (terms.motion != nullptr) now = {*terms.motion, now.wrench, true, now.levered};
+  if (terms.wrench != nullptr) now = {now.motion, *terms.wrench, now.moved, true};
   return now;
 }
 

@@ -1,4 +1,4 @@
-// References given in frames of the client's own, or of some joints only.
+// References given in frames of the client's own.
 #include "kernel/reference/reference_generator.hpp"
 #include "kernel/reference/task_space.hpp"
 #include "tests/reference_bench.hpp"
@@ -9,7 +9,6 @@ namespace {
 using namespace tactus;
 
 constexpr Fields kQuintic = kVelocityField | kAccelerationField;
-constexpr std::uint32_t kAllButThird = ((1U << kDof) - 1U) & ~4U;
 
 Vector3 any_vector(Random& random, double size) {
   return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
@@ -193,51 +192,6 @@ void a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met(void**) {
   ASSERT_STATUS(bench.report().verdict.status, Status::kEffortLimit);
 }
 
-void joints_that_are_not_given_hold_where_they_are(void**) {
-  static ReferenceBench bench;
-  Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
-  for (const double t : {1.0, 2.0}) {
-    bench.add(*motion, t, 0.1 * t);
-    JointVector& q = motion->waypoints[motion->count - 1].point.q;
-    for (int j = 0; j < kDof; ++j)
-      q[j] = j == 2 ? q[j] : 99.0;  // beyond every limit, not looked at
-  }
-  motion->terms.held = kAllButThird;
-  std::uint32_t id = 0;
-  assert_true(bench.client.send(*motion, id).ok());
-  for (int k = 0; k < 2100; ++k) {
-    ASSERT_OK(bench.step());
-    for (int j = 0; j < kDof; ++j) assert_true(j == 2 || bench.out().q[j] == bench.home[j]);
-  }
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.2, 1e-12);
-}
-
-void joints_that_are_not_given_and_move_come_to_rest(void**) {
-  static ReferenceBench bench;
-  assert_true(bench.go(0.4, 2.0, kQuintic) != 0);
-  ASSERT_OK(bench.run(1000));
-  const double at_acceptance = bench.out().q[0];
-  Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
-  bench.add(*motion, 2.0, 0.1);
-  motion->terms.held = kAllButThird;
-  std::uint32_t id = 0;
-  assert_true(bench.client.send(*motion, id).ok());
-  ASSERT_OK(bench.run(2100));
-  ASSERT_NEAR(bench.out().q[0], at_acceptance, 1e-3);  // it is accepted one cycle later
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.1, 1e-12);
-}
-
-void a_point_of_some_joints_leaves_the_others(void**) {
-  static ReferenceBench bench;
-  JointSpace::Point point;
-  point.q = bench.home + JointVector::Constant(0.3);
-  std::uint32_t id = 0;
-  assert_true(bench.client.send(point, id, {kAllButThird}).ok());
-  ASSERT_OK(bench.step());
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.3, 1e-12);
-  assert_true(bench.out().q[3] == bench.home[3]);
-}
-
 }  // namespace
 
 int main() {
@@ -249,9 +203,6 @@ int main() {
       cmocka_unit_test(a_point_is_put_out_in_its_frame),
       cmocka_unit_test(a_frame_that_puts_a_path_outside_is_refused_when_it_is_met),
       cmocka_unit_test(a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met),
-      cmocka_unit_test(joints_that_are_not_given_hold_where_they_are),
-      cmocka_unit_test(joints_that_are_not_given_and_move_come_to_rest),
-      cmocka_unit_test(a_point_of_some_joints_leaves_the_others),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
