@@ -119,7 +119,8 @@ def section_of(out, name):
         summary = runs.read_summary(folder / "summary.json")
         if summary["result"]["code"] != 0:
             result = page.escape(summary["result"]["name"])
-            parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>', screen(folder), "</div>"]
+            parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>']
+            parts += [screen(folder), "</div>"]
         parts += [facts(summary)]
         run = runs.read_run(folder, name)
         for group in (tracking_figures, contact_figures, limit_parts, error_tables):
@@ -144,4 +145,5 @@ def overview(sections):
         name, *cells = map(page.escape, table.cells(section.name, section.summary))
         rows.append([f'<a href="#{page.identifier(section.name)}">{name}</a>', *cells])
     failed = [i for i, section in enumerate(sections) if is_failed(section)]
-    return page.table(table.HEADERS, rows, table.TEXT_COLUMNS, failed) + f'<p class="note">{page.escape(table.LEGEND)}</p>'
+    note = f'<p class="note">{page.escape(table.LEGEND)}</p>'
+    return page.table(table.HEADERS, rows, table.TEXT_COLUMNS, failed) + note
