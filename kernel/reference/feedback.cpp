@@ -7,18 +7,17 @@ namespace tactus {
 
 template <class Space>
 void FeedbackPublisher<Space>::start(int divisor, Fields measured) {
-  divisor_ = static_cast<std::uint64_t>(divisor);
-  cycle_ = 0;
+  divisor_ = divisor;
   measured_ = measured;
 }
 
 template <class Space>
-void FeedbackPublisher<Space>::step(double dt_s, std::uint32_t id, const Point& desired,
-                                    const Point& measured, FeedbackMailbox<Space>& mailbox) {
-  ++cycle_;
-  if (divisor_ == 0 || cycle_ % divisor_ != 0) return;
+void FeedbackPublisher<Space>::step(std::int64_t cycle, double time_s, std::uint32_t id,
+                                    const Point& desired, const Point& measured,
+                                    FeedbackMailbox<Space>& mailbox) {
+  if (divisor_ == 0 || cycle % divisor_ != 0) return;
   Feedback<Space> message;
-  message.time_s = static_cast<double>(cycle_) * dt_s;
+  message.time_s = time_s;
   message.id = id;
   message.lost = lost_;
   message.desired = desired;

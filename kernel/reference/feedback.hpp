@@ -22,22 +22,23 @@ struct Feedback {
 template <class Space>
 using FeedbackMailbox = Mailbox<Feedback<Space>, 16>;
 
-/// Counts cycles and posts when a message is due. A message that finds the mailbox full is lost and
+/// Posts when a message is due. A message that finds the mailbox full is lost and
 /// counted; the cycle never waits for a client.
 template <class Space>
 class FeedbackPublisher {
  public:
   using Point = typename Space::Point;
 
-  /// Time zero. From now on a message every `divisor` cycles, none if 0; beside the position the
+  /// From now on a message every `divisor` cycles, none if 0; beside the position the
   /// `measured` fields are measured. What was lost before is still told. [init]
   void start(int divisor, Fields measured);
-  /// One cycle, with its reference and what was measured in it. [cyclic]
-  void step(double dt_s, std::uint32_t id, const Point& desired, const Point& measured,
-            FeedbackMailbox<Space>& mailbox);
+  /// One cycle, numbered from one at start, with its time, its reference and what was measured in
+  /// it. [cyclic]
+  void step(std::int64_t cycle, double time_s, std::uint32_t id, const Point& desired,
+            const Point& measured, FeedbackMailbox<Space>& mailbox);
 
  private:
-  std::uint64_t divisor_ = 0, cycle_ = 0;
+  int divisor_ = 0;
   Fields measured_ = 0;
   std::uint32_t lost_ = 0;
 };

@@ -52,7 +52,8 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   settle_point(Outcome::kExecuted);
   release_store();
   monitor_.put_out(reference());
-  feedback_.step(dt_s, executing() ? running_.id : 0, reference(), measured, channel_->feedback);
+  feedback_.step(cycles_, time_s(), executing() ? running_.id : 0, reference(), measured,
+                 channel_->feedback);
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 

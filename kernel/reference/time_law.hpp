@@ -33,8 +33,6 @@ class TimeLaw {
   double rate() const { return rate_; }    ///< ds/dt
   double slope() const { return slope_; }  ///< dr/dt, 1/s
   bool standing() const { return rate_ == 0.0 && slope_ == 0.0; }
-  bool settled() const { return phase_ == phases_.size(); }
-  double target() const { return target_; }
 
   /// Path time that passes until the rate is zero if a stop is planned now. [cyclic]
   double stopping_s(const RateBounds& bounds) const;
