@@ -45,7 +45,7 @@ each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOAR
 all: $(B)/tactus                              ## build the program of BOARD
 
 run: setup                                    ## run every pipeline of every board; out/report.html
-	$(Q)$(call each,all trajectories)
+	$(Q)$(call each,-j2 all trajectories)
 	$(Q)scripts/run_all $$($(call each,list-runs))
 test: setup                                   ## build and run all tests of every board
 	$(Q)$(call each,-j2 all trajectories run-tests)
