@@ -20,12 +20,11 @@ struct Machine {
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
-  /// A protective stop: mode, messages, and the end of the program. [any]
+  /// A protective stop, for this reason; the cycle tells the clients and ends the program. [any]
   void protective_stop(const Stop& stop) {
     if (!power.powered() || !safety.protective_stop()) return;
     last_stop = stop;
-    messages.error(stop, stop.code == Code::kFromScript ? ReportLevel::kWarning
-                                                        : ReportLevel::kViolation);
+    stop_unsaid = true;
   }
 
   const Settings settings;
@@ -43,6 +42,7 @@ struct Machine {
   Vector3 payload_cog = Vector3::Zero();
   bool freedrive = false;
   Stop last_stop;
+  bool stop_unsaid = false;  ///< to the clients, who hear of it with the next cycle
 
   /// Of the controller's clock, s.
   double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * kCycle_s; }
