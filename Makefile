@@ -18,7 +18,10 @@ SEAMS     := boards/program/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
 NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
-SEAMFLAGS := -std=c++17 -g $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
+# Line tables are what back traces, profiles and bounds need; tracking variables too (DEBUG=-g) takes twice as long to
+# compile, sanitized three times.
+DEBUG     ?= -g1
+SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
              -DTACTUS_ROBOT_$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 

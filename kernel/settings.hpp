@@ -23,6 +23,7 @@ struct RobotSection {
   Out<Quantity::kJointEffort> tau;
   Out<Quantity::kSensorWrench> ft;  ///< zero without a sensor
   Out<Quantity::kTool> tool;
+  Out<Quantity::kScalar> speed_scaling;  ///< the robot's own, 0..1; 1 where it has none
 
   In<Quantity::kJointPosition> q_c;
   In<Quantity::kJointVelocity> dq_c;
@@ -36,7 +37,7 @@ struct RobotSection {
     visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
     visit.param("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
     visit.out("q", q), visit.out("dq", dq), visit.out("tau", tau), visit.out("tool", tool);
-    visit.out("ft", ft);
+    visit.out("ft", ft), visit.out("speed_scaling", speed_scaling);
   }
   /// The command, bound after the last block; exactly one of them is given.
   template <class Visitor>
@@ -50,6 +51,7 @@ struct RobotSection {
     dq.value = state.dq;
     tau.value = state.tau;
     ft.value = state.ft;
+    speed_scaling.value = state.speed_scaling;
   }
   CommandMode mode() const {
     return tau_c.wired()  ? CommandMode::kEffort

@@ -47,8 +47,9 @@ void a_setting_left_out_keeps_its_default(void**) {
 
 void without_a_list_every_output_that_can_be_recorded_is(void**) {
   ASSERT_OK(bench.load(with("signals = robot.q stiff.tau model.x\n", "")));
-  // robot: q dq tau, no sensor; model: x v g; jrg: q_d dq_d ddq_d tau_d x_d v_d; two laws: tau
-  assert_int_equal(bench.pipeline.recording.signal_count, 14);
+  // robot: q dq tau speed_scaling, no sensor; model: x v g; jrg: q_d dq_d ddq_d tau_d x_d v_d; two
+  // laws: tau
+  assert_int_equal(bench.pipeline.recording.signal_count, 15);
 }
 
 void values_arrive_at_the_inputs_they_are_wired_to_in_the_same_cycle(void**) {

@@ -1,5 +1,7 @@
 #include "kernel/reference/reference_generator.hpp"
 
+#include <algorithm>
+
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -32,6 +34,14 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   motion_.start(measured, channel.settings);
   monitor_.start(measured, params.latency_cycles);
   return Status::kOk;
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::scale_speed(double scaling) {
+  const double bounded = scaling >= 0.0 ? std::min(scaling, 1.0) : 0.0;
+  if (bounded == speed_scaling_) return;
+  speed_scaling_ = bounded;
+  motion_.set_rate(rate());
 }
 
 template <class Space>
@@ -116,7 +126,7 @@ bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);
   running_ = goal;
   monitor_.begin(Tolerances<Space>::merged(trajectory.tolerances, params_.tolerances));
-  motion_.set_rate(paused_ ? 0.0 : override_);
+  motion_.set_rate(rate());
   report(goal.id, Outcome::kStarted);
   return true;
 }

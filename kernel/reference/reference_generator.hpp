@@ -44,6 +44,11 @@ class ReferenceGenerator {
   /// kReferenceFault if the reference is not finite. [cyclic]
   Status step(double dt_s, const Point& measured);
 
+  /// How fast the robot lets motions pass, 0 standing, 1 as sent: trajectories pass at that times
+  /// the override from now on, so that they wait for the robot instead of running ahead of it. What
+  /// is outside 0..1 or not a number counts as the nearest, and as 0. Before step(). [cyclic]
+  void scale_speed(double scaling);
+
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
   /// The generator's time: periods since start, s.
@@ -56,6 +61,7 @@ class ReferenceGenerator {
     int store = -1;
   };
 
+  double rate() const { return paused_ ? 0.0 : override_ * speed_scaling_; }
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
   void answer(const Request<Space>& request);
   Verdict judge_point(const Point& point) const;
@@ -87,7 +93,7 @@ class ReferenceGenerator {
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
   FeedbackPublisher<Space> feedback_;
-  double override_ = 1.0;
+  double override_ = 1.0, speed_scaling_ = 1.0;
   bool paused_ = false;
 
   Goal running_;           // executed, or braked on: the motion still reads its store

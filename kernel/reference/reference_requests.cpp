@@ -98,14 +98,14 @@ void ReferenceGenerator<Space>::take_override(const Request<Space>& request) {
     return report(request.id, Outcome::kRefused, -1,
                   {Status::kBadOverride, -1, -1, request.rate, 1.0});
   override_ = request.rate;
-  if (!paused_) motion_.set_rate(override_);
+  motion_.set_rate(rate());
   report(request.id, Outcome::kExecuted);
 }
 
 template <class Space>
 void ReferenceGenerator<Space>::take_pause(const Request<Space>& request) {
   paused_ = request.kind == RequestKind::kPause;
-  motion_.set_rate(paused_ ? 0.0 : override_);
+  motion_.set_rate(rate());
   report(request.id, Outcome::kExecuted);
 }
 
