@@ -44,6 +44,11 @@ class ReferenceGenerator {
   /// kReferenceFault if the reference is not finite. [cyclic]
   Status step(double dt_s, const Point& measured);
 
+  /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
+  /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
+  /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
+  void brake(Status why);
+
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
   /// The generator's time: periods since start, s.
@@ -57,6 +62,9 @@ class ReferenceGenerator {
   };
 
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
+  void take_requests();
+  void refuse(const Request<Space>& request, Status why);
+  void stand();
   void answer(const Request<Space>& request);
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
@@ -70,7 +78,7 @@ class ReferenceGenerator {
   void watch_stream(double dt_s);
   void watch_start();
   bool begin(const Goal& goal, double elapsed_s);
-  void end_waiting(Outcome outcome);
+  void end_waiting(Outcome outcome, const Verdict& verdict = {});
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
                      const Verdict& verdict = {});
   void release_store();
@@ -80,6 +88,7 @@ class ReferenceGenerator {
   ReferenceChannel<Space>* channel_ = nullptr;
   Params params_;
   std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
+  Status refusing_ = Status::kOk;  // while the executive brakes: why
 
   double period_s_ = 0.0;
   std::int64_t cycles_ = 0;
