@@ -27,7 +27,7 @@ class FakeHal final : public Hal {
   std::uint64_t read_ns = 0, write_ns = 0;  // how long reading and writing take
   int reads = 0, writes = 0, stops = 0;
 
-  Capabilities capabilities() const override { return {true, true, true, 100, 100000}; }
+  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
   Status start(CommandMode, RobotState& measured) override {
     note('s');
     measured = state;
