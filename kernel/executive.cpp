@@ -90,6 +90,7 @@ void Executive::control() {
 bool Executive::accept(const RobotState& state) {
   const Status status = guard_.check(state);
   if (status != Status::kStateNotFinite) measured_ = state;
+  pipeline_.robot.set_measured(measured_);  // recorded even where no block is stepped
   passes(Cause::kState, status);
   return enabled();
 }
@@ -122,8 +123,7 @@ void Executive::run_rows() {
   for (int i = 0; i < pipeline_.schedule.count() && enabled(); ++i) {
     const Row& row = pipeline_.schedule[i];
     const std::uint64_t begin_ns = timing_.marked();
-    const bool skipped = row.optional && rung() != Rung::kNominal;
-    if (row.run == nullptr || skipped || !row.due(number)) continue;
+    if (row.run == nullptr || (row.optional && skips_) || !row.due(number)) continue;
     passes(Cause::kRow, row.run(row.context, measured_, time_s));
     timing_.end_row(i, row, begin_ns);
     if (i == 0) rows_begin_ns = timing_.marked();
@@ -178,6 +178,8 @@ bool Executive::passes(Cause cause, Status status, double value) {
 void Executive::move(Cause cause, Status status, double value) {
   const Rung from = rung(), to = next(from, cause, pipeline_.robot.mode());
   chain_ = cause == Cause::kRearm || (chain_ && rule(cause).chain);
+  skips_ =
+      cause == Cause::kOverruns || (skips_ && cause != Cause::kClean && cause != Cause::kRearm);
   if (to == from) return;
   const Guard::Telemetry& guard = guard_.telemetry();
   const bool joint = cause == Cause::kState || cause == Cause::kCommand;

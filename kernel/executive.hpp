@@ -94,7 +94,8 @@ class Executive {
   Guard guard_;
   RobotState measured_;  // the newest that was finite
   Shown<std::uint8_t> rung_ = static_cast<std::uint8_t>(Rung::kDisabled);
-  bool chain_ = true;  // it can be evaluated
+  bool chain_ = true;   // it can be evaluated
+  bool skips_ = false;  // optional rows, since overruns and until they are over, on any rung
   Status latched_ = Status::kNotStarted;
   EventLog events_;
 

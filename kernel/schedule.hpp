@@ -24,7 +24,7 @@ struct Row {
   const char* name = "";
   int divisor = 1, offset = 0;
   int budget_us = 0;      ///< the longest it is meant to take
-  bool optional = false;  ///< left out on the rung skip_optional and below
+  bool optional = false;  ///< left out while there are too many overruns
   Run run = nullptr;      ///< null: its budget is kept, and nothing runs yet
   void* context = nullptr;
 

@@ -182,7 +182,7 @@ void a_delay_takes_its_rung_in_the_cycle_after_it(void**) {
 
 // Proves SCH-4.
 
-void optional_rows_are_left_out_below_nominal_and_no_others(void**) {
+void optional_rows_are_left_out_for_overruns_and_no_others(void**) {
   Bench& b = started();
   RowProbe always = {&b.hal, 'a'}, optional = {&b.hal, 'o'};
   Row row = optional.row();
@@ -200,6 +200,12 @@ void optional_rows_are_left_out_below_nominal_and_no_others(void**) {
     for (int i = 0; i < 4; ++i) static_cast<void>(b.cycle());
     assert_string_equal(b.hal.diary(), "rwarwarwarwa");
   }
+  ASSERT_OK(b.executive.start());
+  b.hal.read_ns = 0;
+  ASSERT_OK(b.cycle());
+  static_cast<void>(b.hal.diary());
+  ASSERT_STATUS(b.cycle(7.0), Status::kSlip);  // a hold is recorded, but for overruns
+  assert_string_equal(b.hal.diary(), "rwao");
 }
 
 void a_row_that_finds_something_stops_the_robot_and_its_overruns_are_its_own(void**) {
@@ -415,7 +421,7 @@ int main() {
       cmocka_unit_test(single_overruns_outside_the_window_change_nothing),
       cmocka_unit_test(optional_rows_come_back_after_a_thousand_clean_cycles_and_not_before),
       cmocka_unit_test(a_delay_takes_its_rung_in_the_cycle_after_it),
-      cmocka_unit_test(optional_rows_are_left_out_below_nominal_and_no_others),
+      cmocka_unit_test(optional_rows_are_left_out_for_overruns_and_no_others),
       cmocka_unit_test(a_row_that_finds_something_stops_the_robot_and_its_overruns_are_its_own),
       cmocka_unit_test(a_hold_brakes_on_the_path_and_refuses_references_with_its_cause),
       cmocka_unit_test(a_brake_that_does_not_come_to_rest_goes_further_down),
