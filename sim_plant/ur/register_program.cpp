@@ -44,6 +44,9 @@ void RegisterProgram::start(std::string_view text) {
   double_offset_ = offset(text, "global reg_offset_float");
   if (int_offset_ < 0 || int_offset_ > kRegisters / 2) int_offset_ = 0;
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
+  constexpr std::string_view kWatch = "rtde_set_watchdog(\"";
+  const std::size_t watch = text.find(kWatch);
+  if (watch != std::string_view::npos) watch_name_ = leading_name(text.substr(watch + kWatch.size()));
   async_ = text.find("thread move_thread():") != std::string_view::npos;
 }
 
@@ -146,8 +149,9 @@ void RegisterProgram::process(Command command, Machine& machine) {
       machine.protective_stop({Code::kFromScript, 0});
       return;
     case Command::kWatchdog:
-      watched_ = find_input("input_int_register_0", machine.settings.version);
-      watched_.index = static_cast<std::uint8_t>(int_offset_);
+      watched_ = find_input(watch_name_, machine.settings.version);
+      if (watched_.type == FieldType::kNotFound)
+        watched_ = {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)};
       watch_hz_ = input(0, machine);
       watched_from_ = machine.cycle;
       return;

@@ -41,6 +41,7 @@ class RegisterProgram {
   Vector6 goal_ = Vector6::Zero();
   double a_ = 0.0, t_ = 0.0;
   ServoLaw law_;
+  std::string_view watch_name_;  // as the text has it
   InputField watched_;
   double watch_hz_ = 0.0;
   std::int64_t watched_from_ = 0;
