@@ -1,15 +1,15 @@
 #include "sim_plant/ur/servo_script.hpp"
 
-#include "sim_plant/ur/script_text.hpp"
+#include "sim_plant/ur/script_expression.hpp"
 
 namespace tactus::ur {
 
 bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place) {
-  const ScriptVariables none;
   for (std::size_t at = text.find(function); at != std::string_view::npos;
        at = text.find(function, at + 1)) {
     ScriptCall call;
-    if (!read_call(text.substr(at), none, call) || call.name != function) continue;
+    std::string_view rest = text.substr(at);
+    if (!read_call(rest, {}, call) || call.name != function) continue;
     const ScriptValue* host = call.find("", 0);
     if (host == nullptr || host->kind != ScriptValue::Kind::kText) continue;
     if (n-- > 0) continue;
