@@ -37,7 +37,7 @@ NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH))
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
-PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp) $(PARTS)
+PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/os/*.cpp) $(PARTS)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)

@@ -64,6 +64,14 @@ constexpr StatusName kStatusNames[] = {
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},
+    {Status::kRobotMode, "kRobotMode"},
+    {Status::kProtectiveStop, "kProtectiveStop"},
+    {Status::kEmergencyStop, "kEmergencyStop"},
+    {Status::kSafeguardStop, "kSafeguardStop"},
+    {Status::kProgramStopped, "kProgramStopped"},
+    {Status::kRegistersInUse, "kRegistersInUse"},
+    {Status::kWireFormat, "kWireFormat"},
+    {Status::kRefusedByRobot, "kRefusedByRobot"},
 };
 
 }  // namespace

@@ -66,6 +66,14 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kBusTimeout = 96,
     kDriveFault = 97,
     kConnectionLost = 98,
+    kRobotMode = 99,
+    kProtectiveStop = 100,
+    kEmergencyStop = 101,
+    kSafeguardStop = 102,
+    kProgramStopped = 103,
+    kRegistersInUse = 104,
+    kWireFormat = 105,
+    kRefusedByRobot = 106,
 };
 
 /// The name of a status as operators and logs see it, for example "kSlip". Never null. [any]

@@ -4,6 +4,6 @@ SRCS   += boards/ur10_emulator/main.cpp
 LDLIBS += -lmujoco
 
 # What the tests link as well.
-PARTS  := $(wildcard sim_plant/ur/*.cpp) boards/ur10_emulator/options.cpp boards/ur10_emulator/server.cpp
+PARTS  := $(wildcard sim_plant/ur/*.cpp hal/ur/*.cpp) boards/ur10_emulator/options.cpp boards/ur10_emulator/server.cpp
 
 TESTS  := $(filter ur_%,$(TESTS))

@@ -53,6 +53,8 @@ class Frames {
     return NextPacket::kPacket;
   }
 
+  /// How many bytes take() has room for; at least one after next() has said kNone.
+  std::size_t room() const { return Capacity - (end_ - begin_); }
   void clear() { begin_ = end_ = 0; }
 
  private:

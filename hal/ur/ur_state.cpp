@@ -1,0 +1,123 @@
+#include "hal/ur/ur_state.hpp"
+
+namespace tactus::ur {
+namespace {
+
+/// Reads field by field and remembers the first that is not finite.
+class FieldReader {
+ public:
+  explicit FieldReader(ByteReader& data) : data_(data) {}
+
+  void operator()(double& value) {
+    value = data_.f64();
+    end_field(value - value == 0.0);
+  }
+  void operator()(Vector6& value) {
+    for (double& element : value) element = data_.f64();
+    end_field(value.allFinite());
+  }
+  void operator()(std::int32_t& value) {
+    value = data_.i32();
+    end_field(true);
+  }
+  void operator()(std::uint32_t& value) {
+    value = data_.u32();
+    end_field(true);
+  }
+  int not_finite() const { return not_finite_; }
+
+ private:
+  void end_field(bool finite) {
+    if (!finite && not_finite_ < 0) not_finite_ = field_;
+    ++field_;
+  }
+
+  ByteReader& data_;
+  int field_ = 0, not_finite_ = -1;
+};
+
+Status refuse(Message& why, Status status, std::string_view text) {
+  why = Message(text);
+  return status;
+}
+
+struct SafetyRow {
+  std::uint32_t bits;
+  SafetyMode mode;
+  Status status;
+};
+
+/// The worst first. The bits tell apart what a mode that is reported later does not yet.
+constexpr std::array<SafetyRow, 7> kSafety = {
+    {{kFaultBit, SafetyMode::kFault, Status::kDriveFault},
+     {kViolationBit, SafetyMode::kViolation, Status::kDriveFault},
+     {kRobotEmergencyStopBit, SafetyMode::kRobotEmergencyStop, Status::kEmergencyStop},
+     {kSystemEmergencyStopBit | kEmergencyStoppedBit, SafetyMode::kSystemEmergencyStop,
+      Status::kEmergencyStop},
+     {kSafeguardStopBit, SafetyMode::kSafeguardStop, Status::kSafeguardStop},
+     {kProtectiveStopBit, SafetyMode::kProtectiveStop, Status::kProtectiveStop},
+     {kRecoveryBit, SafetyMode::kRecovery, Status::kRobotMode}}};
+
+}  // namespace
+
+Status decode_state(ByteReader& data, UrState& state, Message& why) {
+  const std::size_t size = data.left();
+  UrState found;
+  FieldReader read(data);
+  read(found.timestamp_s), read(found.target_q), read(found.q), read(found.dq);
+  read(found.moment), read(found.tcp_pose), read(found.tcp_force);
+  read(found.speed_scaling), read(found.speed_fraction);
+  read(found.robot_mode), read(found.safety_mode), read(found.echo);
+  read(found.safety_bits), read(found.runtime_state);
+  if (!data.done()) {
+    why = Message("RTDE: a data package with ");
+    why << size << " bytes of fields is not that of the recipe";
+    return Status::kWireFormat;
+  }
+  if (read.not_finite() >= 0) {
+    why = Message("RTDE: ");
+    why << kOutputFields[static_cast<std::size_t>(read.not_finite())].name << " is not finite";
+    return Status::kWireFormat;
+  }
+  state = found;
+  return Status::kOk;
+}
+
+Status check_types(std::string_view types, const RecipeField* fields, std::size_t count,
+                   Message& why) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::string_view type;
+    const bool any = next_name(types, type);
+    const std::string_view expected = name(fields[i].type);
+    if (any && type == expected) continue;
+    why = Message("RTDE: ");
+    why << fields[i].name << " is " << (any ? type.substr(0, 32) : "missing") << ", not " << expected;
+    return type == name(FieldType::kInUse) ? Status::kRegistersInUse : Status::kWireFormat;
+  }
+  return types.empty() ? Status::kOk
+                       : refuse(why, Status::kWireFormat, "RTDE: more types than fields");
+}
+
+Status judge_modes(const UrState& state, Message& why) {
+  for (const SafetyRow& row : kSafety) {
+    const bool meant = state.safety_mode == static_cast<int>(row.mode);
+    if (!meant && (state.safety_bits & row.bits) == 0) continue;
+    why = Message("safety mode ");
+    why << name(row.mode);
+    return row.status;
+  }
+  if (state.safety_mode != static_cast<int>(SafetyMode::kNormal) &&
+      state.safety_mode != static_cast<int>(SafetyMode::kReduced)) {
+    why = Message("safety mode ");
+    why << state.safety_mode << ", neither NORMAL nor REDUCED";
+    return Status::kSafeguardStop;
+  }
+  if (state.running()) return Status::kOk;
+  const bool known = state.robot_mode >= -1 && state.robot_mode <= 8;
+  why = Message("robot mode ");
+  why << state.robot_mode << (known ? ", " : "")
+      << (known ? name(static_cast<RobotMode>(state.robot_mode)) : "") << ", not RUNNING";
+  return Status::kRobotMode;
+}
+
+}  // namespace tactus::ur
