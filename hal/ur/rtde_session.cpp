@@ -56,12 +56,10 @@ Status RtdeSession::ask(ByteWriter& request, RtdeType type, RtdePacket& reply, M
   if (stream_.send(request) != Socket::Sent::kAll)
     return refuse(why, Status::kConnectionLost, "the connection was closed");
   for (int i = 0; i < kMostBetween; ++i) {
-    const NextPacket next = stream_.next(reply, why);
-    if (next == NextPacket::kBroken)
-      return stream_.socket.connected() && why.c_str()[0] == 'R' ? Status::kWireFormat
-                                                                 : Status::kConnectionLost;
-    if (next == NextPacket::kPacket && reply.type == type) return Status::kOk;
-    if (next == NextPacket::kNone && !stream_.socket.wait(timeout_ms_ * kMillisecond_ns)) break;
+    bool any = false;
+    TRY(stream_.next(reply, any, why));
+    if (any && reply.type == type) return Status::kOk;
+    if (!any && !stream_.socket.wait(timeout_ms_ * kMillisecond_ns)) break;
   }
   why = Message("no reply within ");
   why << timeout_ms_ << " ms";
@@ -148,10 +146,9 @@ Status RtdeSession::receive(UrState& state, int& count, Message& why) {
   count = 0;
   for (int i = 0; i < kMostPackets; ++i) {
     RtdePacket packet;
-    const NextPacket next = stream_.next(packet, why);
-    if (next == NextPacket::kNone) break;
-    if (next == NextPacket::kBroken)
-      return why.c_str()[0] == 'R' ? Status::kWireFormat : Status::kConnectionLost;
+    bool any = false;
+    TRY(stream_.next(packet, any, why));
+    if (!any) break;
     if (packet.type != RtdeType::kDataPackage) continue;  // text messages
     ByteReader in(packet.payload, packet.size);
     if (protocol_ == 2 && in.u8() != output_recipe_)

@@ -23,9 +23,9 @@ class RtdeStream {
     return socket.connect(address, port, timeout_ms, why);
   }
 
-  /// The next packet that is complete, or kNone. kBroken: lost, or no packet has such a length;
-  /// `why` says which. Bounded by the size of the buffer. [cyclic]
-  NextPacket next(RtdePacket& packet, Message& why);
+  /// The next packet, if `any` is complete. kConnectionLost; kWireFormat: no packet has such a
+  /// length. Bounded by the size of the buffer. [cyclic]
+  Status next(RtdePacket& packet, bool& any, Message& why);
 
   /// Sends a packet that `begin` began. [cyclic]
   Socket::Sent send(ByteWriter& packet) {
