@@ -44,7 +44,9 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   } else if (send_input(session, input)) {
     const auto cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
     RunLoop loop(session, input, result);
-    if (options.realtime)
+    if (session.trigger != nullptr)
+      loop.at_robots_pace(cycles, writer, progress);
+    else if (options.realtime)
       loop.in_real_time(cycles, writer, progress);
     else
       loop.in_lock_step(cycles, log, progress);
@@ -57,20 +59,24 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
       static_cast<double>(session.executive.telemetry().cycles) * session.pipeline.robot.period_s();
   result.heap_allocations = heap_allocations();
   progress.end();
-  if (latched != Status::kOk)
-    print_stop(options.pipeline, started == Status::kOk ? "stopped" : "refused", latched,
-               session.executive.guard().telemetry());
+  if (latched == Status::kOk) return;
+  const Trigger* robot = session.trigger;
+  const Message trouble = robot != nullptr ? robot->trouble(robot->robot) : Message();
+  print_stop(options.pipeline, started == Status::kOk ? "stopped" : "refused", latched,
+             session.executive.guard().telemetry(), trouble);
 }
 
 }  // namespace
 
 void print_stop(const char* subject, const char* event, Status status,
-                const Guard::Telemetry& guard) {
+                const Guard::Telemetry& guard, std::string_view trouble) {
   std::fprintf(stderr, "%s: %s: %s", subject, event, name(status));
   if (guard.tripped_joint >= 0)
     std::fprintf(stderr, ", joint %d (%s): value %.9g, limit %.9g", guard.tripped_joint + 1,
                  Robot::kJointNames[static_cast<std::size_t>(guard.tripped_joint)],
                  guard.tripped_value, guard.tripped_limit);
+  if (!trouble.empty())
+    std::fprintf(stderr, ": %.*s", static_cast<int>(trouble.size()), trouble.data());
   std::fprintf(stderr, "\n");
 }
 

@@ -95,4 +95,18 @@ void RunLoop::in_real_time(std::int64_t cycles, LogWriter& writer, Progress& pro
   if (status != Status::kOk) end_with(result_, static_cast<int>(status), name(status));
 }
 
+void RunLoop::at_robots_pace(std::int64_t cycles, LogWriter& writer, Progress& progress) {
+  const Trigger& robot = *session_.trigger;
+  writer.begin(session_.recorder, progress);
+  const std::int64_t faults = page_faults();
+  {
+    const HeapWatch watch;
+    bool goes_on = true;
+    for (std::int64_t k = 0; goes_on && (k < cycles || braking()); ++k)
+      goes_on = cycle({robot.wait(robot.robot)});
+  }
+  result_.realtime.page_faults = page_faults() - faults;
+  writer.end();
+}
+
 }  // namespace tactus

@@ -25,6 +25,9 @@ class RunLoop {
   /// Each cycle at its time by the monotonic clock; rows and progress are the writer's. Missed
   /// periods are left out, and the plant stands still in them.
   void in_real_time(std::int64_t cycles, LogWriter& writer, Progress& progress);
+  /// Each cycle when the robot begins it; else as in real time. There are no latencies: the stamps
+  /// are the robot's.
+  void at_robots_pace(std::int64_t cycles, LogWriter& writer, Progress& progress);
 
  private:
   bool braking() const { return session_.executive.braking(); }

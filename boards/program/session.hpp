@@ -11,6 +11,13 @@
 
 namespace tactus {
 
+/// What begins the cycles on a board whose robot has the clock.
+struct Trigger {
+  std::int64_t (*wait)(void* robot) = nullptr;  ///< until the next one is due; its stamp, ns
+  Message (*trouble)(void* robot) = nullptr;    ///< what the robot says of the Status that ended it
+  void* robot = nullptr;
+};
+
 struct Session {
   const char* board;
   std::size_t static_bytes;  ///< of all objects of the kernel and the gateway on this board
@@ -22,6 +29,7 @@ struct Session {
   ReferenceClient<TaskSpace>& task_client;
   const GatewaySection& gateway;
   const RealtimeSettings& realtime;
+  const Trigger* trigger = nullptr;  ///< none: the host's clock, or the plant's virtual time
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and
@@ -36,8 +44,9 @@ int check(Session& session, const Options& options, const RobotState& initial);
 /// the exit code.
 int print_ports(const char* board, const Capabilities& offered);
 
-/// Prints "subject: event: status" and, if it was the guard's, joint, value and limit.
+/// Prints "subject: event: status" and, if it was the guard's, joint, value and limit; then what
+/// the robot says of it.
 void print_stop(const char* subject, const char* event, Status status,
-                const Guard::Telemetry& guard);
+                const Guard::Telemetry& guard, std::string_view trouble = {});
 
 }  // namespace tactus

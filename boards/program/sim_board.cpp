@@ -1,37 +1,19 @@
 #include "boards/program/sim_board.hpp"
 
-#include <chrono>
 #include <cstdio>
 
+#include "boards/program/board_memory.hpp"
 #include "boards/program/doctor.hpp"
 #include "boards/program/files.hpp"
-#include "boards/program/session.hpp"
 #include "sim_plant/sim_hal.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr int kMaxPoses = 1 << 12;
-constexpr int kMaxWaypoints = 1 << 15;             // 32 s at 1 kHz
-constexpr std::size_t kRecorderNumbers = 1 << 17;  // in real time: a second of 100 at 1 kHz
-
 /// Everything of fixed size, and so the memory figure of the board.
-struct Memory {
-  std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
-  std::array<double, kRecorderNumbers> recorder_ring;
-  std::array<std::array<Waypoint<TaskSpace>, kMaxPoses>, kStores> poses;
-  ReferenceChannel<JointSpace> channel;
-  ReferenceChannel<TaskSpace> task_channel;
-  Pipeline pipeline;
+struct Memory : BoardMemory {
   PlantParams plant;
-  GatewaySection gateway;
-  RealtimeSettings realtime;
 };
-
-std::uint64_t stopwatch_ns() {
-  return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch() /
-                                    std::chrono::nanoseconds(1));
-}
 
 }  // namespace
 
@@ -45,14 +27,7 @@ int run_sim_board(int argc, char** argv, const char* board) {
   static Memory memory;
   static SimHal hal;
   if (options.verb == Verb::kPorts) return print_ports(board, hal.capabilities());
-  for (std::size_t i = 0; i < kStores; ++i) {
-    memory.channel.stores[i].waypoints = memory.waypoints[i].data();
-    memory.channel.stores[i].capacity = kMaxWaypoints;
-    memory.task_channel.stores[i].waypoints = memory.poses[i].data();
-    memory.task_channel.stores[i].capacity = kMaxPoses;
-  }
-
-  Loader loader({&memory.channel, &memory.task_channel}, hal.capabilities());
+  Loader loader(memory.channels(), hal.capabilities());
   loader.add(board_section("plant", memory.plant));
   loader.add(board_section("gateway", memory.gateway));
   loader.add(board_section("realtime", memory.realtime));

@@ -63,7 +63,8 @@ void RobotPort::take_stop(ByteReader& body) {
   if (row == nullptr) return;
   stop_ << ": " << row->text;
   if (row->of_joint && argument >= 0 && argument < 6)
-    stop_ << ", joint " << argument + 1 << " (" << kJoints[static_cast<std::size_t>(argument)] << ")";
+    stop_ << ", joint " << argument + 1 << " (" << kJoints[static_cast<std::size_t>(argument)]
+          << ")";
 }
 
 void RobotPort::take_exception(ByteReader& body) {

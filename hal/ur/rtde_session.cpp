@@ -42,12 +42,18 @@ Status RtdeSession::start(const char* address, int port, double rate_hz, int tim
 
 Status RtdeSession::run_phase(RtdePhase phase, Message& why) {
   switch (phase) {
-    case RtdePhase::kProtocol: return ask_protocol(why);
-    case RtdePhase::kVersion: return ask_version(why);
-    case RtdePhase::kOutputs: return ask_outputs(why);
-    case RtdePhase::kInputs: return ask_inputs(why);
-    case RtdePhase::kStart: return ask_start(why);
-    default: return Status::kOk;
+    case RtdePhase::kProtocol:
+      return ask_protocol(why);
+    case RtdePhase::kVersion:
+      return ask_version(why);
+    case RtdePhase::kOutputs:
+      return ask_outputs(why);
+    case RtdePhase::kInputs:
+      return ask_inputs(why);
+    case RtdePhase::kStart:
+      return ask_start(why);
+    default:
+      return Status::kOk;
   }
 }
 
@@ -97,9 +103,11 @@ Status RtdeSession::ask_version(Message& why) {
   const bool at_own_rate = protocol_ == 2 || rate_hz_ == fastest_hz;
   if (version_.at_least(3, 9) && rate_hz_ <= fastest_hz && at_own_rate) return Status::kOk;
   why << "software " << static_cast<int>(version_.major) << "." << static_cast<int>(version_.minor);
-  if (!version_.at_least(3, 9)) why << ", at least 3.9 is required (registers from 24 up)";
-  else why << " sends at " << fastest_hz << " Hz" << (protocol_ == 2 ? " at most" : "")
-           << "; the pipeline's period asks for " << rate_hz_ << " Hz";
+  if (!version_.at_least(3, 9))
+    why << ", at least 3.9 is required (registers from 24 up)";
+  else
+    why << " sends at " << fastest_hz << " Hz" << (protocol_ == 2 ? " at most" : "")
+        << "; the pipeline's period asks for " << rate_hz_ << " Hz";
   return Status::kRefusedByRobot;
 }
 

@@ -8,7 +8,15 @@
 
 namespace tactus::ur {
 
-enum class RtdePhase : std::uint8_t { kConnect, kProtocol, kVersion, kOutputs, kInputs, kStart, kRunning };
+enum class RtdePhase : std::uint8_t {
+  kConnect,
+  kProtocol,
+  kVersion,
+  kOutputs,
+  kInputs,
+  kStart,
+  kRunning
+};
 inline constexpr std::array<const char*, 7> kRtdePhaseNames = {
     "connect", "protocol", "version", "outputs", "inputs", "start", "running"};
 

@@ -1,5 +1,5 @@
-// The numbers by which a controller gives the reason of a stop, "C153A2", in words. Universal Robots,
-// service manual and error codes of CB3.
+// The numbers by which a controller gives the reason of a stop, "C153A2", in words. Universal
+// Robots, service manual and error codes of CB3.
 #pragma once
 
 #include <array>

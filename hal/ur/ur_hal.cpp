@@ -34,10 +34,14 @@ UrHal::Came UrHal::receive() {
   fault_ = session_.receive(state_, count, why_);
   if (fault_ != Status::kOk || count == 0) return Came::kNothing;
   switch (clock_.packet(state_.timestamp_s)) {
-    case PacketClock::Found::kCycle: return Came::kCycle;
-    case PacketClock::Found::kLate: return Came::kNothing;
-    case PacketClock::Found::kRepeated: return Came::kNothingNew;
-    case PacketClock::Found::kBackwards: break;
+    case PacketClock::Found::kCycle:
+      return Came::kCycle;
+    case PacketClock::Found::kLate:
+      return Came::kNothing;
+    case PacketClock::Found::kRepeated:
+      return Came::kNothingNew;
+    case PacketClock::Found::kBackwards:
+      break;
   }
   why_ = Message("the robot's clock was set back to ");
   why_ << state_.timestamp_s << " s";
@@ -48,8 +52,8 @@ UrHal::Came UrHal::receive() {
 Status UrHal::read(RobotState& state) {
   if (fault_ == Status::kOk && clock_.missed() > settings_->max_missed) {
     why_ = Message("no new packet for ");
-    why_ << clock_.missed() << " periods, limit " << settings_->max_missed
-         << "; the last one at " << state_.timestamp_s << " s";
+    why_ << clock_.missed() << " periods, limit " << settings_->max_missed << "; the last one at "
+         << state_.timestamp_s << " s";
     fault_ = Status::kBusTimeout;
   }
   if (fault_ == Status::kOk) fault_ = judge_modes(state_, why_);
@@ -64,9 +68,12 @@ Status UrHal::judge_program() {
   const bool ended = state_.echo == kServoEnded;
   if (state_.playing() && !ended) return Status::kOk;
   why_ = Message("the program on the robot ");
-  if (ended) why_ << "has ended: no set-points, or the first one not where the arm is";
-  else if (state_.runtime_state < kNames.size()) why_ << "is " << kNames[state_.runtime_state];
-  else why_ << "is in state " << static_cast<std::size_t>(state_.runtime_state);
+  if (ended)
+    why_ << "has ended: no set-points, or the first one not where the arm is";
+  else if (state_.runtime_state < kNames.size())
+    why_ << "is " << kNames[state_.runtime_state];
+  else
+    why_ << "is in state " << static_cast<std::size_t>(state_.runtime_state);
   return Status::kProgramStopped;
 }
 

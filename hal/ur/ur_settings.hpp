@@ -20,13 +20,13 @@ inline constexpr std::array<const char*, 2> kZeroForceWords = {"off", "on"};
 struct UrSettings {
   Value address;  ///< IPv4; none: refused
   int rtde_port = 30004, primary_port = 30001, dashboard_port = 29999;
-  int connect_ms = 2000;   ///< the longest that a connection, or a reply, may take
-  int program_ms = 2000;   ///< the longest until the program is seen running, or stopped
-  int power_ms = 30000;    ///< the longest until the brakes are released, or a stop
-  int max_missed = 5;      ///< periods in a row without a packet that are bridged
-  double lookahead_s = 0.1;  ///< of servoj
-  double gain = 300.0;       ///< of servoj
-  int patience = 12;         ///< cycles that the robot goes on without a set-point, slowing down
+  int connect_ms = 2000;      ///< the longest that a connection, or a reply, may take
+  int program_ms = 2000;      ///< the longest until the program is seen running, or stopped
+  int power_ms = 30000;       ///< the longest until the brakes are released, or a stop
+  int max_missed = 5;         ///< periods in a row without a packet that are bridged
+  double lookahead_s = 0.1;   ///< of servoj
+  double gain = 300.0;        ///< of servoj
+  int patience = 12;          ///< cycles that the robot goes on without a set-point, slowing down
   double deceleration = 4.0;  ///< of the robot's own stop, rad/s^2
   ZeroForce zero_force = ZeroForce::kOff;  ///< of the sensor at the start (e-Series)
   OnProtectiveStop on_protective_stop = OnProtectiveStop::kRefuse;

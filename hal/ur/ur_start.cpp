@@ -88,9 +88,8 @@ Status UrHal::prepare() {
     TRY(release_stop());
     status = judge_modes(state_, why_);
   }
-  const bool has_power_to_get =
-      state_.robot_mode >= static_cast<int>(RobotMode::kPowerOff) &&
-      state_.robot_mode <= static_cast<int>(RobotMode::kIdle);
+  const bool has_power_to_get = state_.robot_mode >= static_cast<int>(RobotMode::kPowerOff) &&
+                                state_.robot_mode <= static_cast<int>(RobotMode::kIdle);
   if (status == Status::kRobotMode && has_power_to_get &&
       settings_->on_power_off == OnPowerOff::kPowerOn) {
     TRY(power_on());
@@ -111,7 +110,8 @@ Status UrHal::release_stop() {
   };
   for (int i = 0; i < kAttempts && status == Status::kRefusedByRobot; ++i) {
     status = dashboard_.ask("unlock protective stop", "Protective stop releasing", why_);
-    if (status == Status::kOk) return await(released, set.power_ms, "release of the protective stop");
+    if (status == Status::kOk)
+      return await(released, set.power_ms, "release of the protective stop");
     const Message refusal = why_;
     const Status waited = await(released, kBetween_ms, "");
     if (waited == Status::kOk) return waited;

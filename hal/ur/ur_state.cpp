@@ -91,7 +91,8 @@ Status check_types(std::string_view types, const RecipeField* fields, std::size_
     const std::string_view expected = name(fields[i].type);
     if (any && type == expected) continue;
     why = Message("RTDE: ");
-    why << fields[i].name << " is " << (any ? type.substr(0, 32) : "missing") << ", not " << expected;
+    why << fields[i].name << " is " << (any ? type.substr(0, 32) : "missing") << ", not "
+        << expected;
     return type == name(FieldType::kInUse) ? Status::kRegistersInUse : Status::kWireFormat;
   }
   return types.empty() ? Status::kOk

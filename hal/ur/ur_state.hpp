@@ -8,15 +8,15 @@
 namespace tactus::ur {
 
 struct UrState {
-  double timestamp_s = 0.0;               ///< since the controller was started
-  Vector6 target_q = Vector6::Zero();     ///< rad
-  Vector6 q = Vector6::Zero();            ///< rad
-  Vector6 dq = Vector6::Zero();           ///< rad/s
-  Vector6 moment = Vector6::Zero();       ///< N m, of the controller's own model
-  Vector6 tcp_pose = Vector6::Zero();     ///< base frame: m, rotation vector in rad
-  Vector6 tcp_force = Vector6::Zero();    ///< at the tip, in the axes of the base: N, N m
-  double speed_scaling = 0.0;             ///< of the controller's own limiter
-  double speed_fraction = 0.0;            ///< of the slider
+  double timestamp_s = 0.0;             ///< since the controller was started
+  Vector6 target_q = Vector6::Zero();   ///< rad
+  Vector6 q = Vector6::Zero();          ///< rad
+  Vector6 dq = Vector6::Zero();         ///< rad/s
+  Vector6 moment = Vector6::Zero();     ///< N m, of the controller's own model
+  Vector6 tcp_pose = Vector6::Zero();   ///< base frame: m, rotation vector in rad
+  Vector6 tcp_force = Vector6::Zero();  ///< at the tip, in the axes of the base: N, N m
+  double speed_scaling = 0.0;           ///< of the controller's own limiter
+  double speed_fraction = 0.0;          ///< of the slider
   std::int32_t robot_mode = 0, safety_mode = 0, echo = 0;
   std::uint32_t safety_bits = 0, runtime_state = 0;
 
