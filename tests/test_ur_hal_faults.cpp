@@ -52,7 +52,7 @@ void assert_recovers_without_motion(UrHalBench& bench) {
   bench.robot.by_itself();
   ASSERT_OK(bench.executive.rearm());
   bench.robot.by_hand();
-  bench.drain();
+  ASSERT_OK(bench.drain());
   ASSERT_OK(bench.cycles(20));
   ASSERT_NEAR(bench.reference(), 0.7, 1e-12);
   ASSERT_NEAR(bench.robot.set_point(bench.robot.count())[0], 0.7, 1e-12);

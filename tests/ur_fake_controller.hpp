@@ -118,7 +118,7 @@ class FakeController {
   };
 
   static void open(Door& door) {
-    door.listening = ::socket(AF_INET, SOCK_STREAM, 0);
+    door.listening = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
     sockaddr_in at{};
     at.sin_family = AF_INET;
     at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -135,16 +135,12 @@ class FakeController {
   }
 
   void serve() {
-    while (!ends_) {
+    for (; !ends_; std::this_thread::sleep_for(kTick)) {
       const std::lock_guard<std::mutex> lock(mutex);
       for (std::size_t i = 0; i < doors_.size(); ++i) attend(i);
-      if (streams_ && started_ && doors_[0].socket >= 0) {
-        std::array<std::uint8_t, 1024> bytes;
-        ::send(doors_[0].socket, bytes.data(), write_package(bytes.data(), 1.0), MSG_NOSIGNAL);
-      }
-      mutex.unlock();
-      std::this_thread::sleep_for(kTick);
-      mutex.lock();
+      if (!streams_ || !started_ || doors_[0].socket < 0) continue;
+      std::array<std::uint8_t, 1024> bytes;
+      ::send(doors_[0].socket, bytes.data(), write_package(bytes.data(), 1.0), MSG_NOSIGNAL);
     }
   }
   void attend(std::size_t i) {

@@ -59,13 +59,12 @@ struct UrHalBench {
     hal.configure(settings, Tool{}, 8000);
     const Status status = executive.start();
     robot.by_hand();
-    drain();
-    return status;
+    return status == Status::kOk ? drain() : status;
   }
   /// What was sent before the controller was led by hand begins one cycle at most.
-  void drain() {
+  Status drain() {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    if (executive.latched() == Status::kOk) run_cycle();
+    return run_cycle();
   }
   Status run_cycle() { return executive.cycle({hal.wait()}); }
   /// A package, `periods` after the one before, and its cycle.
