@@ -32,7 +32,7 @@ void the_first_set_point_is_where_the_arm_is(void**) {
   UrHalBench& bench = fresh();
   ASSERT_OK(bench.start());
   ASSERT_OK(bench.cycle());
-  const std::array<double, 6> q = bench.robot.set_point(bench.robot.count());
+  const std::array<double, 6> q = bench.robot.set_point(bench.hal.set_points());
   for (std::size_t i = 0; i < q.size(); ++i) ASSERT_NEAR(q[i], FakeImage().q[i], 1e-12);
 }
 

@@ -61,10 +61,10 @@ struct UrHalBench {
     robot.by_hand();
     return status == Status::kOk ? drain() : status;
   }
-  /// What was sent before the controller was led by hand begins one cycle at most.
+  /// What was sent before the controller was led by hand, and one package more, is one cycle.
   Status drain() {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    return run_cycle();
+    return cycle();
   }
   Status run_cycle() { return executive.cycle({hal.wait()}); }
   /// A package, `periods` after the one before, and its cycle.
@@ -76,7 +76,7 @@ struct UrHalBench {
     Status status = Status::kOk;
     for (int i = 0; i < count && status == Status::kOk; ++i) {
       status = cycle();
-      if (status == Status::kOk) robot.set_point(robot.count());
+      if (status == Status::kOk) robot.set_point(hal.set_points());
     }
     return status;
   }

@@ -47,6 +47,8 @@ class UrHal final : public Hal {
   /// sent any; waits for that, 0.2 s at most. [between two cycles]
   Message trouble();
   const UrState& state() const { return state_; }
+  /// The count of the last set-point, as the register has it. [any]
+  std::int32_t set_points() const { return count_; }
   const RtdeSession& session() const { return session_; }
 
  private:
