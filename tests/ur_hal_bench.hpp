@@ -25,8 +25,8 @@ q             = robot.q
 speed_scaling = robot.speed_scaling
 )";
 
-struct UrHalBench {
-  FakeController robot;
+/// Executive, pipeline and HAL; the controller is whoever answers at the ports.
+struct UrArmBench {
   UrSettings settings;
   UrHal hal;
   std::array<Waypoint<JointSpace>, 8> waypoints;
@@ -35,7 +35,7 @@ struct UrHalBench {
   Pipeline pipeline;
   Executive executive{hal, pipeline, nullptr};
 
-  UrHalBench() {
+  UrArmBench() {
     channel.stores[0].waypoints = waypoints.data();
     channel.stores[0].capacity = static_cast<int>(waypoints.size());
     Loader loader({&channel}, hal.capabilities());
@@ -47,6 +47,42 @@ struct UrHalBench {
     settings.address = Value("127.0.0.1");
     settings.connect_ms = settings.program_ms = settings.power_ms = 300;
   }
+
+  Status run_cycle() { return executive.cycle({hal.wait()}); }
+  double reference() const {
+    return (*static_cast<const JointVector*>(pipeline.ports.find("jrg.q_d")->value))[0];
+  }
+  /// One radian of joint 1 in three seconds, from rest to rest; begins with the next cycle.
+  std::uint32_t send_line() {
+    Trajectory<JointSpace>* line = client.acquire();
+    assert_non_null(line);
+    line->count = 2;
+    line->fields = kVelocityField | kAccelerationField;
+    for (Waypoint<JointSpace>& waypoint : waypoints) {
+      waypoint = {};
+      waypoint.point.q = hal.state().q;
+    }
+    waypoints[1].time_s = 3.0;
+    waypoints[1].point.q[0] += 1.0;
+    std::uint32_t id = 0;
+    const Verdict verdict = client.send(*line, id);
+    if (!verdict.ok()) print_error("%s\n", name(verdict.status));
+    assert_true(verdict.ok());
+    return id;
+  }
+  bool says(std::string_view part) {
+    const Message text = hal.trouble();
+    if (std::string_view(text).find(part) != std::string_view::npos) return true;
+    std::fprintf(stderr, "'%.*s' is not in '%s'\n", static_cast<int>(part.size()), part.data(),
+                 text.c_str());
+    return false;
+  }
+};
+
+/// With a controller made of bytes.
+struct UrHalBench : UrArmBench {
+  FakeController robot;
+
   ~UrHalBench() { robot.stop(); }
 
   /// The controller begins; the executive starts; from then on the controller is led by hand.
@@ -66,7 +102,6 @@ struct UrHalBench {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     return cycle();
   }
-  Status run_cycle() { return executive.cycle({hal.wait()}); }
   /// A package, `periods` after the one before, and its cycle.
   Status cycle(double periods = 1.0) {
     robot.send_package(periods);
@@ -79,35 +114,6 @@ struct UrHalBench {
       if (status == Status::kOk) robot.set_point(hal.set_points());
     }
     return status;
-  }
-  double reference() const {
-    return (*static_cast<const JointVector*>(pipeline.ports.find("jrg.q_d")->value))[0];
-  }
-  /// One radian of joint 1 in three seconds, from rest to rest; begins with the next cycle.
-  std::uint32_t send_line() {
-    Trajectory<JointSpace>* line = client.acquire();
-    assert_non_null(line);
-    line->count = 2;
-    line->fields = kVelocityField | kAccelerationField;
-    for (Waypoint<JointSpace>& waypoint : waypoints) {
-      waypoint = {};
-      for (int i = 0; i < kDof; ++i)
-        waypoint.point.q[i] = robot.image.q[static_cast<std::size_t>(i)];
-    }
-    waypoints[1].time_s = 3.0;
-    waypoints[1].point.q[0] += 1.0;
-    std::uint32_t id = 0;
-    const Verdict verdict = client.send(*line, id);
-    if (!verdict.ok()) print_error("%s\n", name(verdict.status));
-    assert_true(verdict.ok());
-    return id;
-  }
-  bool says(std::string_view part) {
-    const Message text = hal.trouble();
-    if (std::string_view(text).find(part) != std::string_view::npos) return true;
-    std::fprintf(stderr, "'%.*s' is not in '%s'\n", static_cast<int>(part.size()), part.data(),
-                 text.c_str());
-    return false;
   }
 };
 

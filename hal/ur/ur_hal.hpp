@@ -11,7 +11,7 @@
 #include "hal/ur/dashboard_client.hpp"
 #include "hal/ur/packet_clock.hpp"
 #include "hal/ur/robot_port.hpp"
-#include "hal/ur/rtde_session.hpp"
+#include "hal/ur/rtde_client.hpp"
 #include "hal/ur/servo_script.hpp"
 #include "hal/ur/ur_settings.hpp"
 #include "kernel/hal.hpp"
@@ -49,7 +49,7 @@ class UrHal final : public Hal {
   const UrState& state() const { return state_; }
   /// The count of the last set-point, as the register has it. [any]
   std::int32_t set_points() const { return count_; }
-  const RtdeSession& session() const { return session_; }
+  const RtdeClient& session() const { return session_; }
 
  private:
   enum class Came : std::uint8_t { kNothing, kCycle, kNothingNew };
@@ -60,6 +60,7 @@ class UrHal final : public Hal {
   Status release_stop();
   Status power_on();
   Status stop_other_program();
+  Status come_to_rest();
   Status upload_program();
   Status next_state();
   template <class Done>
@@ -74,7 +75,7 @@ class UrHal final : public Hal {
   Tool tool_;
   int period_us_ = 0;
 
-  RtdeSession session_;
+  RtdeClient session_;
   RobotPort robot_;
   DashboardClient dashboard_;
   ServoScriptText script_text_;

@@ -27,6 +27,7 @@ Status UrHal::attach() {
   TRY(robot_.connect(set.address.c_str(), set.primary_port, set.connect_ms, why_));
   TRY(prepare());
   TRY(stop_other_program());
+  TRY(come_to_rest());
   return upload_program();
 }
 
@@ -138,8 +139,15 @@ Status UrHal::stop_other_program() {
     return state_.runtime_state == static_cast<std::uint32_t>(RuntimeState::kStopped);
   };
   if (stopped()) return Status::kOk;
-  const Status status = await(stopped, settings_->program_ms, "end of the program on the robot");
-  return status;
+  return await(stopped, settings_->program_ms, "end of the program on the robot");
+}
+
+/// An arm that still slows down would be stopped suddenly by a program that does not go on with it,
+/// and that is a protective stop.
+Status UrHal::come_to_rest() {
+  constexpr double kAtRest_rad_s = 0.01;
+  const auto at_rest = [this] { return state_.dq.cwiseAbs().maxCoeff() < kAtRest_rad_s; };
+  return await(at_rest, settings_->program_ms, "standstill of the arm");
 }
 
 /// The register is at zero before the program looks at it, which takes a few cycles.

@@ -1,4 +1,4 @@
-// RtdeSession: the conversation of port 30004. At the start protocol 2, or 1 where the controller
+// RtdeClient: the conversation of port 30004. At the start protocol 2, or 1 where the controller
 // knows no other, its version, one recipe of outputs, one of inputs; then a data package in every
 // cycle of the robot, and set-points back.
 #pragma once
@@ -20,7 +20,7 @@ enum class RtdePhase : std::uint8_t {
 inline constexpr std::array<const char*, 7> kRtdePhaseNames = {
     "connect", "protocol", "version", "outputs", "inputs", "start", "running"};
 
-class RtdeSession {
+class RtdeClient {
  public:
   /// From connecting to the first data package. `why` names phase and reason of what is not kOk:
   /// kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat. [init]

@@ -1,4 +1,4 @@
-#include "hal/ur/rtde_session.hpp"
+#include "hal/ur/rtde_client.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -20,7 +20,7 @@ Status refuse(Message& why, Status status, std::string_view text) {
 
 }  // namespace
 
-Status RtdeSession::start(const char* address, int port, double rate_hz, int timeout_ms,
+Status RtdeClient::start(const char* address, int port, double rate_hz, int timeout_ms,
                           Message& why) {
   rate_hz_ = rate_hz;
   timeout_ms_ = timeout_ms;
@@ -40,7 +40,7 @@ Status RtdeSession::start(const char* address, int port, double rate_hz, int tim
   return Status::kOk;
 }
 
-Status RtdeSession::run_phase(RtdePhase phase, Message& why) {
+Status RtdeClient::run_phase(RtdePhase phase, Message& why) {
   switch (phase) {
     case RtdePhase::kProtocol:
       return ask_protocol(why);
@@ -57,7 +57,7 @@ Status RtdeSession::run_phase(RtdePhase phase, Message& why) {
   }
 }
 
-Status RtdeSession::ask(ByteWriter& request, RtdeType type, RtdePacket& reply, Message& why) {
+Status RtdeClient::ask(ByteWriter& request, RtdeType type, RtdePacket& reply, Message& why) {
   constexpr int kMostBetween = 512;  // data packages on the way, text messages
   if (stream_.send(request) != Socket::Sent::kAll)
     return refuse(why, Status::kConnectionLost, "the connection was closed");
@@ -73,7 +73,7 @@ Status RtdeSession::ask(ByteWriter& request, RtdeType type, RtdePacket& reply, M
 }
 
 /// A controller that does not know protocol 2 says no, and speaks protocol 1.
-Status RtdeSession::ask_protocol(Message& why) {
+Status RtdeClient::ask_protocol(Message& why) {
   for (; protocol_ > 0; --protocol_) {
     Request bytes;
     ByteWriter request(bytes.data(), bytes.size());
@@ -89,7 +89,7 @@ Status RtdeSession::ask_protocol(Message& why) {
   return refuse(why, Status::kRefusedByRobot, "neither protocol 2 nor 1");
 }
 
-Status RtdeSession::ask_version(Message& why) {
+Status RtdeClient::ask_version(Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kGetUrcontrolVersion);
@@ -111,7 +111,7 @@ Status RtdeSession::ask_version(Message& why) {
   return Status::kRefusedByRobot;
 }
 
-Status RtdeSession::ask_outputs(Message& why) {
+Status RtdeClient::ask_outputs(Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupOutputs);
@@ -124,7 +124,7 @@ Status RtdeSession::ask_outputs(Message& why) {
   return check_types(in.rest(), kOutputFields.data(), kOutputFields.size(), why);
 }
 
-Status RtdeSession::ask_inputs(Message& why) {
+Status RtdeClient::ask_inputs(Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupInputs);
@@ -138,7 +138,7 @@ Status RtdeSession::ask_inputs(Message& why) {
                             : refuse(why, Status::kRefusedByRobot, "no recipe for the inputs");
 }
 
-Status RtdeSession::ask_start(Message& why) {
+Status RtdeClient::ask_start(Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kStart);
@@ -150,7 +150,7 @@ Status RtdeSession::ask_start(Message& why) {
   return accepted ? Status::kOk : refuse(why, Status::kRefusedByRobot, "not accepted");
 }
 
-Status RtdeSession::receive(UrState& state, int& count, Message& why) {
+Status RtdeClient::receive(UrState& state, int& count, Message& why) {
   count = 0;
   for (int i = 0; i < kMostPackets; ++i) {
     RtdePacket packet;
@@ -167,7 +167,7 @@ Status RtdeSession::receive(UrState& state, int& count, Message& why) {
   return Status::kOk;
 }
 
-Socket::Sent RtdeSession::send(std::int32_t count, const Vector6& q) {
+Socket::Sent RtdeClient::send(std::int32_t count, const Vector6& q) {
   std::array<std::uint8_t, 64> bytes;
   ByteWriter packet(bytes.data(), bytes.size());
   RtdeStream::begin(packet, RtdeType::kDataPackage);

@@ -1,0 +1,259 @@
+// A UR's HAL against the emulated controller with its arm, over sockets, four times faster than
+// real: what a user does at the pendant, and what happens to a robot, while a trajectory runs.
+#include "boards/ur10_emulator/server.hpp"
+#include "tests/ur_hal_bench.hpp"
+
+namespace tactus::ur {
+namespace {
+
+constexpr int kOffset = 4310;  // of the ports
+
+/// The emulated robot in a thread of its own.
+class EmulatedRobot {
+ public:
+  explicit EmulatedRobot(const Settings& settings) : emulator_(settings), server_(emulator_) {
+    assert_true(emulator_.start() == Status::kOk);
+    assert_true(server_.start("127.0.0.1", kOffset));
+    thread_ = std::thread([this] { run(); });
+  }
+  ~EmulatedRobot() {
+    ends_ = true;
+    thread_.join();
+  }
+
+ private:
+  void run() {
+    constexpr std::chrono::microseconds kCycle{2000};
+    auto next = std::chrono::steady_clock::now();
+    while (!ends_) {
+      server_.pump(0);
+      emulator_.tick();
+      server_.flush();
+      next += kCycle;
+      while (std::chrono::steady_clock::now() < next) server_.pump(200'000);
+    }
+  }
+
+  Emulator emulator_;
+  Server server_;
+  std::thread thread_;
+  std::atomic<bool> ends_{false};
+};
+
+std::optional<UrArmBench> g_bench;
+std::optional<EmulatedRobot> g_robot;
+
+UrArmBench& fresh(const Settings& settings = {}) {
+  g_bench.reset();
+  g_robot.reset();
+  g_robot.emplace(settings);
+  UrArmBench& bench = g_bench.emplace();
+  bench.pipeline.executive.max_slip = 1000;  // the host's own lateness is no topic here
+  bench.settings.connect_ms = bench.settings.program_ms = 2000;
+  bench.settings.power_ms = 20000;
+  bench.settings.rtde_port = kRtdePort + kOffset;
+  bench.settings.primary_port = kPrimaryPort + kOffset;
+  bench.settings.dashboard_port = kDashboardPort + kOffset;
+  Tool tool;
+  tool.mass_kg = 0.749;
+  tool.com = {0.0, 0.0, 0.0291};
+  tool.tip.p = {0.0, 0.0, 0.0905};
+  bench.hal.configure(bench.settings, tool, 8000);
+  return bench;
+}
+
+UrArmBench& moving(const Settings& settings = {}) {
+  UrArmBench& bench = fresh(settings);
+  ASSERT_OK(bench.executive.start());
+  bench.send_line();
+  for (int i = 0; i < 150; ++i) ASSERT_OK(bench.run_cycle());
+  assert_true(bench.hal.state().dq[0] > 0.1);
+  return bench;
+}
+
+/// Somebody else at the dashboard.
+void tell(const char* command, const char* reply) {
+  DashboardClient dashboard;
+  Message why;
+  ASSERT_OK(dashboard.connect("127.0.0.1", kDashboardPort + kOffset, 2000, why));
+  ASSERT_OK(dashboard.ask(command, reply, why));
+}
+/// Somebody else at the primary port.
+void upload(const char* text) {
+  Socket socket;
+  Message why;
+  ASSERT_OK(socket.connect("127.0.0.1", kPrimaryPort + kOffset, 2000, why));
+  assert_true(socket.send_all(text, 2000));
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+/// Cycles until one is not kOk; `most` if none was.
+int cycles_until_stopped(UrArmBench& bench, int most) {
+  int i = 0;
+  while (i < most && bench.run_cycle() == Status::kOk) ++i;
+  return i;
+}
+
+/// The arm comes to rest without us, and after a rearm it stays where it is.
+void assert_rearms_at_rest(UrArmBench& bench) {
+  const Status status = bench.executive.rearm();
+  if (status != Status::kOk) print_error("%s: %s\n", name(status), bench.hal.trouble().c_str());
+  ASSERT_OK(status);
+  const Vector6 stood = bench.hal.state().q;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_OK(bench.run_cycle());
+    assert_true((bench.hal.state().q - stood).cwiseAbs().maxCoeff() < 1e-3);
+  }
+  ASSERT_NEAR(bench.reference(), stood[0], 1e-3);
+}
+
+// Proves URH-18.
+void a_trajectory_is_followed_to_its_goal(void**) {
+  UrArmBench& bench = fresh();
+  ASSERT_OK(bench.executive.start());
+  const double begin = bench.hal.state().q[0];
+  const std::uint32_t id = bench.send_line();
+  Report report;
+  Outcome outcome = Outcome::kStarted;
+  double largest = 0.0;
+  for (int i = 0; i < 500 && outcome != Outcome::kSucceeded; ++i) {
+    ASSERT_OK(bench.run_cycle());
+    largest = std::max(largest, std::abs(bench.reference() - bench.hal.state().q[0]));
+    while (bench.client.poll(report))
+      if (report.id == id) outcome = report.outcome;
+  }
+  assert_true(outcome == Outcome::kSucceeded);
+  for (int i = 0; i < 100; ++i) ASSERT_OK(bench.run_cycle());
+  ASSERT_NEAR(bench.hal.state().q[0], begin + 1.0, 1e-3);
+  assert_true(largest < 0.625 * (0.1 + 5 * 0.008));  // top speed times lookahead and transport
+}
+
+void a_robot_without_power_is_switched_on(void**) {
+  Settings settings;
+  settings.switched_on = false;
+  UrArmBench& bench = fresh(settings);
+  ASSERT_STATUS(bench.executive.start(), Status::kRobotMode);
+  assert_true(bench.says("POWER_OFF"));
+  bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  ASSERT_OK(bench.executive.start());
+  assert_rearms_at_rest(bench);
+}
+
+// Proves URH-19.
+void a_protective_stop_is_seen_told_and_never_resumed(void**) {
+  UrArmBench& bench = moving();
+  upload("sec stop():\n  protective_stop()\nend\n");
+  assert_true(cycles_until_stopped(bench, 20) < 20);
+  ASSERT_STATUS(bench.executive.latched(), Status::kProtectiveStop);
+  assert_true(bench.says("C209"));
+  ASSERT_STATUS(bench.executive.rearm(), Status::kProtectiveStop);  // people look first
+  bench.settings.on_protective_stop = OnProtectiveStop::kRelease;
+  assert_rearms_at_rest(bench);
+}
+
+void a_program_stopped_at_the_pendant_is_not_started_by_itself(void**) {
+  UrArmBench& bench = moving();
+  tell("stop", "Stopped");
+  assert_true(cycles_until_stopped(bench, 20) < 20);
+  ASSERT_STATUS(bench.executive.latched(), Status::kProgramStopped);
+  assert_rearms_at_rest(bench);
+}
+
+void power_cut_at_the_pendant_ends_the_motion(void**) {
+  UrArmBench& bench = moving();
+  tell("power off", "Powering off");
+  assert_true(cycles_until_stopped(bench, 50) < 50);
+  assert_true(bench.executive.latched() == Status::kRobotMode ||
+              bench.executive.latched() == Status::kProgramStopped);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // until the power is off
+  bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  assert_rearms_at_rest(bench);
+}
+
+void a_second_client_cannot_have_the_registers(void**) {
+  UrArmBench& bench = moving();
+  RtdeClient second;
+  Message why;
+  ASSERT_STATUS(second.start("127.0.0.1", kRtdePort + kOffset, 125.0, 2000, why),
+                Status::kRegistersInUse);
+  assert_non_null(std::strstr(why.c_str(), "input_int_register_24 is IN_USE"));
+  for (int i = 0; i < 20; ++i) ASSERT_OK(bench.run_cycle());
+}
+
+void a_controller_that_goes_away_is_seen_at_once(void**) {
+  UrArmBench& bench = moving();
+  g_robot.reset();
+  assert_true(cycles_until_stopped(bench, 20) < 20);
+  ASSERT_STATUS(bench.executive.latched(), Status::kConnectionLost);
+  ASSERT_STATUS(bench.executive.rearm(), Status::kConnectionLost);
+  Settings settings;
+  settings.start_time_s = 1.0;  // it was started again
+  g_robot.emplace(settings);
+  assert_rearms_at_rest(bench);
+}
+
+// Proves URH-20.
+void a_cycle_loop_that_ends_leaves_an_arm_at_rest(void**) {
+  UrArmBench& bench = moving();
+  bench.executive.stop();
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  RobotState state;
+  ASSERT_OK(bench.hal.look(state));
+  assert_true(std::abs(state.dq[0]) < 1e-3);
+}
+
+/// A client at the slider.
+void set_slider(double fraction) {
+  RtdeStream stream;
+  Message why;
+  ASSERT_OK(stream.connect("127.0.0.1", kRtdePort + kOffset, 2000, why));
+  std::array<std::uint8_t, 128> bytes;
+  ByteWriter names(bytes.data(), bytes.size());
+  RtdeStream::begin(names, RtdeType::kSetupInputs);
+  names.text("speed_slider_mask,speed_slider_fraction");
+  assert_true(stream.send(names) == Socket::Sent::kAll);
+  ByteWriter data(bytes.data(), bytes.size());
+  RtdeStream::begin(data, RtdeType::kDataPackage);
+  data.u8(1), data.u32(1), data.f64(fraction);
+  assert_true(stream.send(data) == Socket::Sent::kAll);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+void the_slider_to_zero_and_back_loses_nothing_of_the_path(void**) {
+  UrArmBench& bench = fresh();
+  ASSERT_OK(bench.executive.start());
+  const double begin = bench.hal.state().q[0];
+  bench.send_line();
+  for (int i = 0; i < 150; ++i) ASSERT_OK(bench.run_cycle());
+  set_slider(0.0);
+  for (int i = 0; i < 200; ++i) ASSERT_OK(bench.run_cycle());
+  const double stood = bench.reference();
+  for (int i = 0; i < 100; ++i) ASSERT_OK(bench.run_cycle());
+  ASSERT_NEAR(bench.reference(), stood, 1e-6);
+  assert_true(stood < begin + 0.9);
+  set_slider(1.0);
+  for (int i = 0; i < 700; ++i) ASSERT_OK(bench.run_cycle());
+  ASSERT_NEAR(bench.hal.state().q[0], begin + 1.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace tactus::ur
+
+int main() {
+  using namespace tactus::ur;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_trajectory_is_followed_to_its_goal),
+      cmocka_unit_test(a_robot_without_power_is_switched_on),
+      cmocka_unit_test(a_protective_stop_is_seen_told_and_never_resumed),
+      cmocka_unit_test(a_program_stopped_at_the_pendant_is_not_started_by_itself),
+      cmocka_unit_test(power_cut_at_the_pendant_ends_the_motion),
+      cmocka_unit_test(a_second_client_cannot_have_the_registers),
+      cmocka_unit_test(a_controller_that_goes_away_is_seen_at_once),
+      cmocka_unit_test(a_cycle_loop_that_ends_leaves_an_arm_at_rest),
+      cmocka_unit_test(the_slider_to_zero_and_back_loses_nothing_of_the_path),
+  };
+  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
+  g_bench.reset();
+  g_robot.reset();
+  return failed;
+}
