@@ -1,75 +1,9 @@
 // A UR's HAL against the emulated controller with its arm, over sockets, four times faster than
 // real: what a user does at the pendant, and what happens to a robot, while a trajectory runs.
-#include "boards/ur10_emulator/server.hpp"
-#include "tests/ur_hal_bench.hpp"
+#include "tests/ur_emulated_bench.hpp"
 
 namespace tactus::ur {
 namespace {
-
-constexpr int kOffset = 4310;  // of the ports
-
-/// The emulated robot in a thread of its own.
-class EmulatedRobot {
- public:
-  explicit EmulatedRobot(const Settings& settings) : emulator_(settings), server_(emulator_) {
-    assert_true(emulator_.start() == Status::kOk);
-    assert_true(server_.start("127.0.0.1", kOffset));
-    thread_ = std::thread([this] { run(); });
-  }
-  ~EmulatedRobot() {
-    ends_ = true;
-    thread_.join();
-  }
-
- private:
-  void run() {
-    constexpr std::chrono::microseconds kCycle{2000};
-    auto next = std::chrono::steady_clock::now();
-    while (!ends_) {
-      server_.pump(0);
-      emulator_.tick();
-      server_.flush();
-      next += kCycle;
-      while (std::chrono::steady_clock::now() < next) server_.pump(200'000);
-    }
-  }
-
-  Emulator emulator_;
-  Server server_;
-  std::thread thread_;
-  std::atomic<bool> ends_{false};
-};
-
-std::optional<UrArmBench> g_bench;
-std::optional<EmulatedRobot> g_robot;
-
-UrArmBench& fresh(const Settings& settings = {}) {
-  g_bench.reset();
-  g_robot.reset();
-  g_robot.emplace(settings);
-  UrArmBench& bench = g_bench.emplace();
-  bench.pipeline.executive.max_slip = 1000;  // the host's own lateness is no topic here
-  bench.settings.connect_ms = bench.settings.program_ms = 2000;
-  bench.settings.power_ms = 20000;
-  bench.settings.rtde_port = kRtdePort + kOffset;
-  bench.settings.primary_port = kPrimaryPort + kOffset;
-  bench.settings.dashboard_port = kDashboardPort + kOffset;
-  Tool tool;
-  tool.mass_kg = 0.749;
-  tool.com = {0.0, 0.0, 0.0291};
-  tool.tip.p = {0.0, 0.0, 0.0905};
-  bench.hal.configure(bench.settings, tool, 8000);
-  return bench;
-}
-
-UrArmBench& moving(const Settings& settings = {}) {
-  UrArmBench& bench = fresh(settings);
-  ASSERT_OK(bench.executive.start());
-  bench.send_line();
-  for (int i = 0; i < 150; ++i) ASSERT_OK(bench.run_cycle());
-  assert_true(bench.hal.state().dq[0] > 0.1);
-  return bench;
-}
 
 /// Somebody else at the dashboard.
 void tell(const char* command, const char* reply) {

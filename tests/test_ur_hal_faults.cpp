@@ -2,61 +2,10 @@
 // cycles until it, and what a recovery finds. docs/ur10.md has the same table.
 #include <limits>
 
-#include "tests/ur_hal_bench.hpp"
+#include "tests/ur_moving_bench.hpp"
 
 namespace tactus::ur {
 namespace {
-
-std::optional<UrHalBench> g_bench;
-
-/// A bench whose arm is on its way.
-UrHalBench& moving() {
-  UrHalBench& bench = g_bench.emplace();
-  ASSERT_OK(bench.start());
-  bench.send_line();
-  ASSERT_OK(bench.cycles(60));
-  assert_true(bench.reference() > 0.01);
-  return bench;
-}
-
-/// Cycles until one is not kOk; 0: none was.
-int cycles_until_stopped(UrHalBench& bench, int most) {
-  for (int i = 1; i <= most; ++i)
-    if (bench.cycle() != Status::kOk) return i;
-  return 0;
-}
-
-/// The last event walked the ladder because of the wire.
-void assert_disabled_by_wire(UrHalBench& bench, Status expected) {
-  ASSERT_STATUS(bench.executive.latched(), expected);
-  assert_int_equal(static_cast<int>(bench.executive.rung()), static_cast<int>(Rung::kDisabled));
-  Event event;
-  const EventLog& events = bench.executive.events();
-  assert_true(events.read(events.count() - 1, event));
-  assert_int_equal(static_cast<int>(event.cause), static_cast<int>(Cause::kWire));
-  ASSERT_STATUS(event.status, expected);
-}
-
-/// Nothing moves by itself; after a rearm the reference is where the arm is now, and stays.
-void assert_recovers_without_motion(UrHalBench& bench) {
-  const std::int32_t before = bench.hal.set_points();
-  for (int i = 0; i < 5; ++i) assert_true(bench.run_cycle() != Status::kOk);
-  assert_true(bench.robot.count() <= before);  // no set-point, an end at most
-  {
-    const std::lock_guard<std::mutex> lock(bench.robot.mutex);
-    const double timestamp_s = bench.robot.image.timestamp_s;
-    bench.robot.image = FakeImage();
-    bench.robot.image.timestamp_s = timestamp_s > 0.0 ? timestamp_s : 0.0;
-    bench.robot.image.q[0] = 0.7;
-  }
-  bench.robot.by_itself();
-  ASSERT_OK(bench.executive.rearm());
-  bench.robot.by_hand();
-  ASSERT_OK(bench.drain());
-  ASSERT_OK(bench.cycles(20));
-  ASSERT_NEAR(bench.reference(), 0.7, 1e-12);
-  ASSERT_NEAR(bench.robot.set_point(bench.hal.set_points())[0], 0.7, 1e-12);
-}
 
 struct ModeRow {
   const char* what;
@@ -108,88 +57,6 @@ void the_robots_own_code_is_told(void**) {
   bench.robot.send_code(153, 2);
   assert_int_equal(cycles_until_stopped(bench, 5), 1);
   assert_true(bench.says("C153A2: position deviates from the path, joint 3 (elbow)"));
-}
-
-// Proves URH-10.
-void up_to_five_packets_may_be_missing(void**) {
-  UrHalBench& bench = moving();
-  for (int missing = 1; missing <= 5; ++missing) {
-    const std::int32_t before = bench.hal.set_points();
-    for (int i = 0; i < missing; ++i) ASSERT_OK(bench.run_cycle());
-    bench.robot.set_point(before + missing);  // the robot's set-points go on
-    ASSERT_OK(bench.cycle(missing + 1));
-    ASSERT_OK(bench.cycles(10));
-  }
-  assert_int_equal(bench.executive.telemetry().slips, 0);
-}
-
-void late_packets_begin_no_cycles_of_their_own(void**) {
-  UrHalBench& bench = moving();
-  const std::int32_t before = bench.hal.set_points();
-  for (int i = 0; i < 3; ++i) ASSERT_OK(bench.run_cycle());
-  for (int i = 0; i < 3; ++i) bench.robot.send_package();  // those of the three cycles
-  ASSERT_OK(bench.cycle());
-  bench.robot.set_point(before + 4);
-  assert_int_equal(bench.executive.telemetry().slips, 0);
-}
-
-void from_the_sixth_on_the_wire_is_lost(void**) {
-  for (const int missing : {6, 50}) {
-    UrHalBench& bench = moving();
-    int stopped_at = 0;
-    for (int i = 1; i <= missing && stopped_at == 0; ++i)
-      if (bench.run_cycle() != Status::kOk) stopped_at = i;
-    assert_int_equal(stopped_at, 6);
-    assert_disabled_by_wire(bench, Status::kBusTimeout);
-    assert_true(bench.says("no new packet for 6 periods, limit 5"));
-    bench.robot.set_point(kServoEnded);  // the program was told
-    assert_recovers_without_motion(bench);
-  }
-}
-
-/// The host was away: the packets are there, the cycles are not.
-void packets_left_out_walk_the_ladder_as_slips(void**) {
-  struct Row {
-    int left_out;
-    Status expected;
-    Rung rung;
-  };
-  for (const Row& row : {Row{3, Status::kOk, Rung::kNominal}, Row{4, Status::kSlip, Rung::kHold},
-                         Row{7, Status::kSlip, Rung::kStop}, Row{50, Status::kSlip, Rung::kStop}}) {
-    UrHalBench& bench = moving();
-    for (int i = 0; i < row.left_out; ++i) bench.robot.send_package();
-    ASSERT_STATUS(bench.cycle(), row.expected);
-    assert_int_equal(static_cast<int>(bench.executive.rung()), static_cast<int>(row.rung));
-  }
-}
-
-// Proves URH-11.
-void a_timestamp_that_stands_is_no_news(void**) {
-  UrHalBench& bench = moving();
-  int stopped_at = 0;
-  for (int i = 1; i <= 20 && stopped_at == 0; ++i)
-    if (bench.cycle(0.0) != Status::kOk) stopped_at = i;
-  assert_int_equal(stopped_at, 6);
-  assert_disabled_by_wire(bench, Status::kBusTimeout);
-  assert_recovers_without_motion(bench);
-}
-
-void a_repeated_packet_is_bridged(void**) {
-  UrHalBench& bench = moving();
-  ASSERT_OK(bench.cycle(0.0));
-  ASSERT_OK(bench.cycle(2.0));
-  ASSERT_OK(bench.cycles(10));
-  assert_int_equal(bench.executive.telemetry().slips, 0);
-}
-
-void a_timestamp_that_runs_back_ends_the_motion(void**) {
-  for (const double periods : {-1.0, -12400.0}) {
-    UrHalBench& bench = moving();
-    ASSERT_STATUS(bench.cycle(periods), Status::kClock);
-    assert_disabled_by_wire(bench, Status::kClock);
-    assert_true(bench.says("the robot's clock was set back to"));
-    assert_recovers_without_motion(bench);
-  }
 }
 
 // Proves URH-12.
@@ -265,13 +132,6 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_the_robot_says_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_robots_own_code_is_told),
-      cmocka_unit_test(up_to_five_packets_may_be_missing),
-      cmocka_unit_test(late_packets_begin_no_cycles_of_their_own),
-      cmocka_unit_test(from_the_sixth_on_the_wire_is_lost),
-      cmocka_unit_test(packets_left_out_walk_the_ladder_as_slips),
-      cmocka_unit_test(a_timestamp_that_stands_is_no_news),
-      cmocka_unit_test(a_repeated_packet_is_bridged),
-      cmocka_unit_test(a_timestamp_that_runs_back_ends_the_motion),
       cmocka_unit_test(a_connection_that_is_closed_ends_the_motion_in_the_next_cycle),
       cmocka_unit_test(a_field_that_is_no_number_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_trajectory_waits_for_the_slider),

@@ -15,37 +15,10 @@
 #include <mutex>
 #include <thread>
 
-#include "hal/ur/protocol.hpp"
-#include "hal/ur/servo_script.hpp"
 #include "tests/testing.hpp"
+#include "tests/ur_fake_image.hpp"
 
 namespace tactus::ur {
-
-/// What a data package says; in the order of the HAL's recipe.
-struct FakeImage {
-  double timestamp_s = 100.0;
-  std::array<double, 6> q = {0.0, -1.2, 1.2, -0.1, 1.57, 0.0};
-  std::array<double, 6> dq{}, moment{}, tcp_pose{}, tcp_force{};
-  double speed_scaling = 1.0, speed_fraction = 1.0;
-  std::int32_t robot_mode = 7, safety_mode = 1, echo = 0;
-  std::uint32_t safety_bits = 1, runtime_state = 1;
-};
-
-inline constexpr std::string_view kFakeOutputs =
-    "DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,DOUBLE,DOUBLE,INT32,INT32,INT32,"
-    "UINT32,UINT32";
-inline constexpr std::string_view kFakeInputs = "INT32,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE";
-
-/// How it fails.
-struct FakeFaults {
-  int reset_at = 0;   ///< type of the request at which it closes the connection
-  int silent_at = 0;  ///< likewise, at which it says nothing any more
-  bool only_protocol_1 = false, refuses_start = false, refuses_program = false;
-  bool drops_program = false, stops_on_program = false;
-  std::uint32_t major = 3, minor = 15;
-  std::string_view outputs = kFakeOutputs, inputs = kFakeInputs;
-  int unlock_refusals = 0;
-};
 
 class FakeController {
  public:
@@ -241,16 +214,7 @@ class FakeController {
   std::size_t write_package(std::uint8_t* bytes, double periods) {
     image.timestamp_s += 0.008 * periods;
     ByteWriter out(bytes, 1024);
-    out.u16(0), out.u8('U');
-    if (protocol_ == 2) out.u8(1);
-    out.f64(image.timestamp_s);
-    for (const auto* six :
-         {&image.q, &image.q, &image.dq, &image.moment, &image.tcp_pose, &image.tcp_force})
-      for (const double value : *six) out.f64(value);
-    out.f64(image.speed_scaling), out.f64(image.speed_fraction);
-    out.i32(image.robot_mode), out.i32(image.safety_mode), out.i32(image.echo);
-    out.u32(image.safety_bits), out.u32(image.runtime_state);
-    out.set_u16(0, out.size());
+    write_image(image, protocol_, out);
     return out.size();
   }
 
