@@ -87,7 +87,7 @@ trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
-run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads)
+run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads test_histogram test_ladder)
 	$(Q)scripts/run_tests $^
 run-tests: $(B)/tactus $(TESTS)
 	$(Q)scripts/run_tests $(TESTS)

@@ -12,6 +12,14 @@ Status start_block(Kind& block, double period_s) {
     return block.start();
 }
 
+/// A block that has a brake() brakes; the others follow it.
+template <class Kind>
+auto brake_block(Kind& block, Status why, int) -> decltype(block.brake(why)) {
+  block.brake(why);
+}
+template <class Kind>
+void brake_block(Kind&, Status, long) {}
+
 }  // namespace
 
 Status Pipeline::start(const RobotState& measured) {
@@ -30,7 +38,7 @@ Status Pipeline::start(const RobotState& measured) {
   return Status::kOk;
 }
 
-Status Pipeline::step(const RobotState& measured) {
+Status Pipeline::step(const RobotState& measured, Timing* timing) {
   robot.set_measured(measured);
   const double period_s = robot.period_s();
   for (int i = 0; i < count_; ++i) {
@@ -42,8 +50,16 @@ Status Pipeline::step(const RobotState& measured) {
             return block.step(period_s);
         },
         blocks_[static_cast<std::size_t>(i)]));
+    if (timing != nullptr) timing->lap_block(i);
   }
   return Status::kOk;
+}
+
+void Pipeline::brake(Status why) {
+  for (int i = 0; i < count_; ++i) {
+    std::visit([why](auto& block) { brake_block(block, why, 0); },
+               blocks_[static_cast<std::size_t>(i)]);
+  }
 }
 
 }  // namespace tactus

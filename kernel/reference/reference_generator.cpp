@@ -54,17 +54,37 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
   watch_start();
-  Request<Space> request;
-  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
-    if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
-    answer(request);
-  }
+  take_requests();
   settle_point(Outcome::kExecuted);
   release_store();
   monitor_.put_out(reference());
   feedback_.step(cycles_, time_s(), executing() ? running_.id : 0, reference(), measured,
                  channel_->feedback);
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::take_requests() {
+  Request<Space> request;
+  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+    if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
+    answer(request);
+  }
+}
+
+/// The reports of what ends here have their room: see kReportsPerRequest.
+template <class Space>
+void ReferenceGenerator<Space>::brake(Status why) {
+  if (channel_ == nullptr) return;
+  if (refusing_ == Status::kOk) {
+    end_waiting(Outcome::kAborted, {why});
+    if (!executing()) stand();
+    motion_.brake();
+    end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kAborted, !motion_.on_path(),
+                  {why});
+  }
+  refusing_ = why;
+  take_requests();
 }
 
 /// Tells the client how far the motion is, and once that it has run out of waypoints.
@@ -95,13 +115,19 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
 }
 
-/// A stream of points that dries up must not leave the arm with a velocity or an effort. Where
-/// there is no room to brake it stands at once: points that are forwarded may step.
+/// A stream of points that dries up must not leave the arm with a velocity or an effort.
 template <class Space>
 void ReferenceGenerator<Space>::watch_stream(double dt_s) {
   point_age_s_ += dt_s;
   if (executing() || params_.timeout_s <= 0.0 || point_age_s_ < params_.timeout_s) return;
-  if (!motion_.standing() || reference().idle()) return;
+  if (motion_.standing()) stand();
+}
+
+/// Off a path: comes to rest beside the point that is put out. Where there is no room to brake it
+/// stands at once: points that are forwarded may step.
+template <class Space>
+void ReferenceGenerator<Space>::stand() {
+  if (motion_.on_path() || reference().idle()) return;
   if (!motion_.shape(reference()).ok()) motion_.forward(reference().at_rest());
 }
 
@@ -132,8 +158,8 @@ bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
 }
 
 template <class Space>
-void ReferenceGenerator<Space>::end_waiting(Outcome outcome) {
-  if (waiting_.store >= 0) report(waiting_.id, outcome, waiting_.store);
+void ReferenceGenerator<Space>::end_waiting(Outcome outcome, const Verdict& verdict) {
+  if (waiting_.store >= 0) report(waiting_.id, outcome, waiting_.store, verdict);
   waiting_ = {};
 }
 

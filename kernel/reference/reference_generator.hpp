@@ -49,6 +49,11 @@ class ReferenceGenerator {
   /// is outside 0..1 or not a number counts as the nearest, and as 0. Before step(). [cyclic]
   void scale_speed(double scaling);
 
+  /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
+  /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
+  /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
+  void brake(Status why);
+
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
   /// The generator's time: periods since start, s.
@@ -63,6 +68,9 @@ class ReferenceGenerator {
 
   double rate() const { return paused_ ? 0.0 : override_ * speed_scaling_; }
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
+  void take_requests();
+  void refuse(const Request<Space>& request, Status why);
+  void stand();
   void answer(const Request<Space>& request);
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
@@ -76,7 +84,7 @@ class ReferenceGenerator {
   void watch_stream(double dt_s);
   void watch_start();
   bool begin(const Goal& goal, double elapsed_s);
-  void end_waiting(Outcome outcome);
+  void end_waiting(Outcome outcome, const Verdict& verdict = {});
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
                      const Verdict& verdict = {});
   void release_store();
@@ -86,6 +94,7 @@ class ReferenceGenerator {
   ReferenceChannel<Space>* channel_ = nullptr;
   Params params_;
   std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
+  Status refusing_ = Status::kOk;  // while the executive brakes: why
 
   double period_s_ = 0.0;
   std::int64_t cycles_ = 0;

@@ -9,12 +9,8 @@ namespace tactus {
 
 template <class Space>
 void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
-  if (void_requests_ > 0) {
-    --void_requests_;
-    const bool carries_store = request.kind == RequestKind::kTrajectory;
-    return report(request.id, Outcome::kRefused, carries_store ? request.store : -1,
-                  {Status::kNotStarted});
-  }
+  if (void_requests_ > 0) return --void_requests_, refuse(request, Status::kNotStarted);
+  if (refusing_ != Status::kOk) return refuse(request, refusing_);
   switch (request.kind) {
     case RequestKind::kPoint:
       return take_point(request);
@@ -30,6 +26,13 @@ void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
     case RequestKind::kAppend:
       return take_append(request);
   }
+}
+
+/// Refused whatever it asks for; the store it came with goes back.
+template <class Space>
+void ReferenceGenerator<Space>::refuse(const Request<Space>& request, Status why) {
+  const bool carries_store = request.kind == RequestKind::kTrajectory;
+  report(request.id, Outcome::kRefused, carries_store ? request.store : -1, {why});
 }
 
 template <class Space>
