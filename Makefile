@@ -14,7 +14,7 @@ TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
 include boards/$(BOARD)/board.mk
 
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
-SEAMS     := boards/program/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+SEAMS     := boards/program/options.cpp $(wildcard tests/oracles/kdl*.cpp tests/oracles/fcl*.cpp) tests/bench/kdl_peer.cpp
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
 NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
@@ -32,12 +32,17 @@ AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH))
 
+# Where Debian has no binary of libccd, its source.
+CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
+CCD_SRCS := $(if $(CCD),$(patsubst %,$(CCD)/src/%.c,ccd mpr polytope support vec3))
+CXXFLAGS += $(CCD:%=-isystem %/src)
+
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
-TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath
+TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lfcl -lquadmath
 obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
@@ -76,7 +81,7 @@ list-runs:
 	@echo -- $(B)/tactus $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a
+$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
@@ -92,23 +97,32 @@ run-tests: $(B)/tactus $(TESTS)
 $(call obj,$(SEAMS)): CXXFLAGS := $(SEAMFLAGS)
 $(B)/libkernel.a: $(call obj,$(KERNEL))
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
+$(B)/libccd.a: $(CCD_SRCS:%.c=$(B)/%.o)
 $(B)/liboracles.a: $(call obj,$(ORACLES))
 $(B)/%.a:
 	@echo "  AR    $@"
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 $(B)/tactus: $(call obj,$(SRCS)) $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS)
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS) -lccd
 $(TESTS): %: %.o $(B)/liboracles.a $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
+	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lccd -lpthread
 $(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $<"
 	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
+
+$(CCD_SRCS:%.c=$(B)/%.o): $(B)/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  CC    $<"
+	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
+$(CCD_SRCS) &:
+	$(Q)scripts/libccd $(CCD)
+$(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)
 
 .PRECIOUS: $(B)/%.o
 .DELETE_ON_ERROR:

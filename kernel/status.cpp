@@ -57,6 +57,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kSensorStuck, "kSensorStuck"},
     {Status::kSensorNotSteady, "kSensorNotSteady"},
     {Status::kFollowingError, "kFollowingError"},
+    {Status::kCollision, "kCollision"},
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},

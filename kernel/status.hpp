@@ -58,6 +58,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSensorStuck = 74,
     kSensorNotSteady = 75,
     kFollowingError = 76,
+    kCollision = 77,
     // 96..127 wire
     kBusTimeout = 96,
     kDriveFault = 97,

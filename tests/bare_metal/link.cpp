@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "kernel/executive.hpp"
+#include "kernel/guard/collision.hpp"
 #include "kernel/loader.hpp"
 
 // What the compiler itself may call. The loops must not be turned back into calls of themselves.
@@ -79,6 +80,7 @@ ReferenceChannel<JointSpace> channel;
 Waypoint<JointSpace> waypoints[kStores][32];
 Pipeline pipeline;
 Executive executive(hal, pipeline, nullptr);
+Collision collision;
 
 }  // namespace
 
@@ -91,8 +93,14 @@ int main() {
   LoadError error;
   Status status = loader.load(kText, pipeline, error);
   if (status == Status::kOk) status = executive.start();
+  if (status == Status::kOk)
+    status = collision.start(pipeline.collision, pipeline.guard.effective(),
+                             pipeline.robot.tool_tip, pipeline.robot.period_s());
   for (int k = 0; k < 1000 && status == Status::kOk; ++k) {
     status = executive.cycle({std::int64_t{1000000} * k});
+    RobotState state;
+    if (status == Status::kOk) status = hal.read(state);
+    if (status == Status::kOk) status = collision.check(state);
   }
   return static_cast<int>(status);
 }
