@@ -32,7 +32,7 @@ namespace tactus {
 class Collision {
  public:
   /// Most support points that one check() asks for.
-  static constexpr int kSupportCalls = 8000;
+  static constexpr int kSupportCalls = 4000;
 
   struct Telemetry {
     const char *first = "", *second = "";  ///< the pair of the contact

@@ -6,15 +6,6 @@
 namespace tactus {
 namespace {
 
-/// How far one joint gets above where it is: U at t_r, and after that by phi of `further`.
-struct Above {
-  double at_reaction, further;
-};
-
-Above above(double v, double a, double t_r, double t_s) {
-  return {v * t_r + 0.5 * a * t_r * t_r, 0.5 * t_s * std::max(0.0, v + a * t_r)};
-}
-
 double stopping_time(const Braking& braking, const JointVector& dq) {
   double t_s = 0.0;
   for (int j = 0; j < kDof; ++j) {
@@ -24,24 +15,39 @@ double stopping_time(const Braking& braking, const JointVector& dq) {
   return t_s;
 }
 
+/// U(t) - q of one joint, which moves at dq and accelerates and brakes with a and b.
+struct Highest {
+  double dq, a, b, t_r, t_s;
+
+  double at_reaction() const { return dq * t_r + 0.5 * a * t_r * t_r; }
+  /// s after t_r, 0 <= s <= t_s.
+  double at(double s) const {
+    const double v = dq + a * t_r;
+    if (v < 0.0) {
+      const double braked = std::min(s, -v / b);
+      return at_reaction() + v * braked + 0.5 * b * braked * braked;
+    }
+    return at_reaction() + v * (s > 0.0 ? s - 0.5 * s * s / t_s : 0.0);
+  }
+};
+
 }  // namespace
 
 StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const JointVector& dq) {
   const double t_r = braking.reaction_s, t_s = stopping_time(braking, dq);
   StoppingBoxes boxes;
   for (int j = 0; j < kDof; ++j) {
-    const Above up = above(dq[j], braking.acceleration[j], t_r, t_s);
-    const Above down = above(-dq[j], braking.acceleration[j], t_r, t_s);
-    double highest = 0.0, lowest = 0.0;  // at the beginning of the section
+    const double a = braking.acceleration[j], b = braking.deceleration[j];
+    const Highest up = {dq[j], a, b, t_r, t_s}, down = {-dq[j], a, b, t_r, t_s};
+    double high = 0.0, low = 0.0;  // at the beginning of the section
     for (int k = 0; k <= kSections; ++k) {
-      const double phi = static_cast<double>(k) / kSections;
-      const double high = up.at_reaction + phi * up.further;
-      const double low = -(down.at_reaction + phi * down.further);
-      const double top = std::max(highest, high), bottom = std::min(lowest, low);
+      const double s = t_s * (1.0 - std::sqrt(1.0 - static_cast<double>(k) / kSections));
+      const double next_high = up.at(s), next_low = -down.at(s);
+      const double top = std::max(high, next_high), bottom = std::min(low, next_low);
       JointBox& box = boxes[static_cast<std::size_t>(k)];
       box.middle[j] = q[j] + 0.5 * (top + bottom);
       box.half[j] = 0.5 * (top - bottom);
-      highest = high, lowest = low;
+      high = next_high, low = next_low;
     }
   }
   return boxes;

@@ -33,8 +33,9 @@ struct FerCapsules {
   }};
   // clang-format on
 
-  /// Links that are no neighbours and yet touch wherever the joints are.
-  static constexpr std::array<LinkPair, 1> kTouching = {{{5, 7}}};
+  /// No neighbours, and yet their capsules touch in a quarter of all positions: both reach beyond
+  /// joint 2, which is between them. The links themselves cannot meet within its limits.
+  static constexpr std::array<LinkPair, 1> kTouching = {{{1, 3}}};
 };
 
 }  // namespace tactus

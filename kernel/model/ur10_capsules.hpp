@@ -27,7 +27,7 @@ struct Ur10Capsules {
       {2, { 0.0,    0.0,    0.046}, { 0.0,    0.0,   0.206}, 0.078},  // of the lift
       {2, { 0.0,    0.0,    0.176}, {-0.612,  0.0,   0.176}, 0.060},  // tube
       {3, { 0.0,    0.0,    0.054}, { 0.0,    0.0,   0.184}, 0.058},  // of the elbow
-      {3, { 0.0,    0.0,    0.049}, {-0.5723, 0.0,   0.049}, 0.050},  // tube, 7 mm wider than there
+      {3, { 0.0,    0.0,    0.049}, {-0.5723, 0.0,   0.049}, 0.043},  // tube
       {4, { 0.0,    0.0,   -0.125}, { 0.0,    0.0,   0.005}, 0.050},
       {5, { 0.0,    0.0,   -0.131}, { 0.0,    0.0,   0.0},   0.046},
       {5, { 0.0,   -0.015,  0.0},   { 0.0,    0.071, 0.0},   0.046},
@@ -35,8 +35,9 @@ struct Ur10Capsules {
   }};
   // clang-format on
 
-  /// Links that are no neighbours and yet touch wherever the joints are.
-  static constexpr std::array<LinkPair, 1> kTouching = {{{5, 7}}};
+  /// No neighbours, and yet they touch wherever the joints are: the housing of the lift is over the
+  /// base, from which the tube keeps away; the tool begins within the round end of wrist 2.
+  static constexpr std::array<LinkPair, 2> kTouching = {{{0, 2}, {5, 7}}};
 };
 
 }  // namespace tactus

@@ -1,0 +1,98 @@
+// Every pipeline that is shipped, run with its trajectory in the plant and checked for collisions
+// as its section says, or by default: nothing is reported on the way.
+#include <cstring>
+
+#include "kernel/guard/collision.hpp"
+#include "tests/pipeline_bench.hpp"
+
+namespace tactus {
+namespace {
+
+struct Run {
+  const char *robot, *pipeline;
+  double end_s;
+};
+
+/// Only on the robot it is for.
+void assert_free(const Run& run) {
+  if (std::strcmp(run.robot, Robot::kName) != 0) return;
+  static std::array<PipelineBench, 7> benches;
+  static std::size_t used = 0;
+  PipelineBench& bench = benches.at(used++);
+  bench.start(run.pipeline);
+  const Pipeline& pipeline = bench.pipeline;
+  CollisionSection section = pipeline.collision;
+  if (!section.given) section.divisor = pipeline.robot.period_us > 4000 ? 1 : 8;
+  Collision collision;
+  ASSERT_OK(collision.start(section, pipeline.guard.effective(), pipeline.robot.tool_tip,
+                            pipeline.robot.period_s()));
+  while (bench.time_s() < run.end_s) {
+    bench.cycle();
+    if (bench.cycles % section.divisor != section.offset) continue;
+    RobotState state;
+    state.q = bench.output<JointVector>("robot.q"),
+    state.dq = bench.output<JointVector>("robot.dq");
+    const Status status = collision.check(state);
+    const Collision::Telemetry& told = collision.telemetry();
+    if (status != Status::kOk)
+      print_error("%s at %.3f s: %s, %s with %s, %s\n", run.pipeline, bench.time_s(), name(status),
+                  told.first, told.second, told.predicted ? "predicted" : "now");
+    ASSERT_OK(status);
+  }
+  print_message("%s: %d support calls at most\n", run.pipeline,
+                collision.telemetry().most_support_calls);
+  assert_true(collision.telemetry().checks > 100);
+}
+
+// Proves COL-8.
+
+void free_motion_is_free(void**) {
+  assert_free({"fer", "fer_jrg_pdgc", 20.0});
+  assert_free({"fer", "fer_trg_cpc", 15.0});
+  assert_free({"ur10", "ur10_jrg_pid", 12.0});
+  assert_free({"ur10", "ur10_jrg_pdgc", 12.0});
+  assert_free({"ur10", "ur10_trg_cpc", 15.0});
+  assert_free({"ur10", "ur10_trg_cpc_125", 15.0});
+}
+
+void only_the_tool_touches(void**) {
+  assert_free({"fer", "fer_trg_ac_cpc_pid", 16.0});
+  assert_free({"ur10", "ur10_trg_ac_cpc", 18.0});
+  assert_free({"ur10", "ur10_trg_ac_cpc_pid", 15.0});
+}
+
+/// The same runs, but the tool must not touch.
+void a_touch_that_is_not_allowed_is_reported(void**) {
+  const bool fer = std::strcmp(Robot::kName, "fer") == 0;
+  static PipelineBench bench;
+  bench.start(fer ? "fer_trg_ac_cpc_pid" : "ur10_trg_ac_cpc", "allow ", "# ");
+  const Pipeline& pipeline = bench.pipeline;
+  Collision collision;
+  ASSERT_OK(collision.start(pipeline.collision, pipeline.guard.effective(), pipeline.robot.tool_tip,
+                            pipeline.robot.period_s()));
+  Status status = Status::kOk;
+  while (bench.time_s() < 10.0 && status == Status::kOk) {
+    bench.cycle();
+    assert_true(bench.contact().norm() == 0.0);  // said before it touches
+    RobotState state;
+    state.q = bench.output<JointVector>("robot.q"),
+    state.dq = bench.output<JointVector>("robot.dq");
+    status = collision.check(state);
+  }
+  ASSERT_STATUS(status, Status::kCollision);
+  assert_string_equal(collision.telemetry().first, fer ? "table" : "blackboard");
+  assert_string_equal(collision.telemetry().second, "tool");
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(free_motion_is_free),
+      cmocka_unit_test(only_the_tool_touches),
+      cmocka_unit_test(a_touch_that_is_not_allowed_is_reported),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
