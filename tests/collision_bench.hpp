@@ -63,7 +63,7 @@ struct CollisionBench {
   Nearest nearest(const JointVector& q) const {
     const Places links = places(q);
     Nearest result;
-    for (int i = 1; i <= kTool; ++i)
+    for (int i = 1; i <= kToolBody; ++i)
       for (int j = 0; j < section.scene.body_count; ++j)
         if (is_checked(j, i)) take_nearer(result, links, q, j, i);
     return result;
@@ -83,7 +83,7 @@ struct CollisionBench {
   bool is_checked(int first, int second) const {
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     if (section.scene.allowed[a][b]) return false;
-    if (first >= kFirstBox) return true;
+    if (first >= kFirstBoxBody) return true;
     for (const LinkPair& pair : RobotCapsules::kTouching)
       if (pair.first == first && pair.second == second) return false;
     return first < second - 1;
@@ -98,7 +98,7 @@ struct CollisionBench {
   void each_capsule(const Places& links, const JointVector& q, int body, Use use) const {
     for (const PublishedCapsule& capsule : PublishedCapsules<Robot>::kAll)
       if (capsule.link == body) use(capsule.shape, links[static_cast<std::size_t>(body)]);
-    if (body != kTool) return;
+    if (body != kToolBody) return;
     FclPlace flange;
     kdl_flange(q.data(), flange.p, flange.r);
     const Vector3 half = 0.5 * tip;
@@ -111,8 +111,8 @@ struct CollisionBench {
   double distance(const Places& links, const JointVector& q, int first, int second) const {
     double least = 1e9;
     each_capsule(links, q, second, [&](const FclCapsule& one, const FclPlace& at) {
-      if (first >= kFirstBox) {
-        const Cuboid& cuboid = boxes[static_cast<std::size_t>(first - kFirstBox)];
+      if (first >= kFirstBoxBody) {
+        const Cuboid& cuboid = boxes[static_cast<std::size_t>(first - kFirstBoxBody)];
         FclPlace place;
         const Matrix3 r = cuboid.pose.r.toRotationMatrix();
         for (int i = 0; i < 3; ++i) {

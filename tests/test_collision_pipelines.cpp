@@ -11,6 +11,7 @@ namespace {
 struct Run {
   const char *robot, *pipeline;
   double end_s;
+  const char* trajectory = "";
 };
 
 /// Only on the robot it is for.
@@ -19,7 +20,7 @@ void assert_free(const Run& run) {
   static std::array<PipelineBench, 7> benches;
   static std::size_t used = 0;
   PipelineBench& bench = benches.at(used++);
-  bench.start(run.pipeline);
+  bench.start(run.pipeline, "", "", run.trajectory);
   const Pipeline& pipeline = bench.pipeline;
   CollisionSection section = pipeline.collision;
   if (!section.given) section.divisor = pipeline.robot.period_us > 4000 ? 1 : 8;
@@ -47,12 +48,35 @@ void assert_free(const Run& run) {
 // Proves COL-8.
 
 void free_motion_is_free(void**) {
-  assert_free({"fer", "fer_jrg_pdgc", 20.0});
+  assert_free({"fer", "fer_jrg_pdgc", 12.0, "pipelines/trajectories/fer_five_waypoints.csv"});
   assert_free({"fer", "fer_trg_cpc", 15.0});
   assert_free({"ur10", "ur10_jrg_pid", 12.0});
   assert_free({"ur10", "ur10_jrg_pdgc", 12.0});
   assert_free({"ur10", "ur10_trg_cpc", 15.0});
   assert_free({"ur10", "ur10_trg_cpc_125", 15.0});
+}
+
+/// Too long for the bench: its own waypoints, one every millisecond.
+void the_excitation_is_free(void**) {
+  if (std::strcmp(Robot::kName, "fer") != 0) return;
+  std::FILE* file = std::fopen("build/trajectories/fer_excitation.csv", "r");
+  assert_non_null(file);
+  Collision collision;
+  const CollisionSection section;
+  ASSERT_OK(collision.start(section, JointLimits(), Vector3::Zero(), 0.001));
+  // Comments, then the header: time_s, q1_rad ... q7_rad, dq1_rad_s ...
+  char line[512] = "";
+  while (std::strncmp(line, "time_s", 6) != 0) assert_non_null(std::fgets(line, sizeof line, file));
+  RobotState state;
+  int row = 0;
+  for (double time_s = 0.0; std::fscanf(file, "%lf", &time_s) == 1; ++row) {
+    for (double& q : state.q) assert_int_equal(std::fscanf(file, ",%lf", &q), 1);
+    for (double& dq : state.dq) assert_int_equal(std::fscanf(file, ",%lf", &dq), 1);
+    assert_int_equal(std::fscanf(file, "%*[^\n]"), 0);
+    if (row % section.divisor == 0) ASSERT_OK(collision.check(state));
+  }
+  std::fclose(file);
+  assert_true(row > 10000);
 }
 
 void only_the_tool_touches(void**) {
@@ -91,6 +115,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(free_motion_is_free),
+      cmocka_unit_test(the_excitation_is_free),
       cmocka_unit_test(only_the_tool_touches),
       cmocka_unit_test(a_touch_that_is_not_allowed_is_reported),
   };

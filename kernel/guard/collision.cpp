@@ -35,6 +35,7 @@ Status Collision::start(const CollisionSection& section, const JointLimits& limi
                         const Vector3& tip, double period_s) {
   scene_ = &section.scene;
   margin_ = section.margin;
+  support_calls_ = section.support_calls;
   braking_ = {(section.divisor + 1) * period_s + section.delay_s, limits.ddq_max,
               section.limits.ddq_max};
   telemetry_ = {};
@@ -51,7 +52,7 @@ void Collision::add_capsules(const Vector3& tip, double tool_radius) {
   }
   const Capsule tool = {dense(from_flange<Robot>(Vector3::Zero())), dense(from_flange<Robot>(tip)),
                         tool_radius};
-  bodies_.back() = {kTool, kDof, tool, reach_of(tool, kDof)};
+  bodies_.back() = {kToolBody, kDof, tool, reach_of(tool, kDof)};
 }
 
 /// Whether two bodies of the arm can meet: not on one link or on neighbours, not said to touch.
@@ -77,7 +78,7 @@ void Collision::add_pairs() {
       if (meets(body, moving.body)) add(body, {second, first, -1});
     }
     for (int box = 0; box < scene_->box_count() && moving.link > 0; ++box)
-      add(kFirstBox + box, {second, -1, box});
+      add(kFirstBoxBody + box, {second, -1, box});
   }
 }
 
@@ -128,7 +129,7 @@ bool Collision::apart(const Pair& pair, double inflation) {
   const BoxShape& box = boxes_[static_cast<std::size_t>(to_box ? pair.box : 0)];
   if (to_box ? far_apart(capsule, box, inflation) : far_apart(capsule, other, inflation))
     return true;
-  telemetry_.exhausted = telemetry_.support_calls + kSupportCallsOfPair > kSupportCalls;
+  telemetry_.exhausted = telemetry_.support_calls + kSupportCallsOfPair > support_calls_;
   if (telemetry_.exhausted) return false;
   const Separation result =
       to_box ? separate(capsule, box, inflation) : separate(capsule, other, inflation);
@@ -138,8 +139,8 @@ bool Collision::apart(const Pair& pair, double inflation) {
 
 Status Collision::contact(const Pair& pair, double sweep, bool predicted) {
   const int second = bodies_[static_cast<std::size_t>(pair.second)].body;
-  const int first =
-      pair.first < 0 ? kFirstBox + pair.box : bodies_[static_cast<std::size_t>(pair.first)].body;
+  const int first = pair.first < 0 ? kFirstBoxBody + pair.box
+                                   : bodies_[static_cast<std::size_t>(pair.first)].body;
   telemetry_.first = scene_->names[static_cast<std::size_t>(first)];
   telemetry_.second = scene_->names[static_cast<std::size_t>(second)];
   telemetry_.predicted = predicted;

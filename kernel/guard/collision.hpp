@@ -18,7 +18,8 @@
 // distance from axis k) against link i < j, k = i+1 ... j, and the pair is made thicker by that.
 //
 // Fails closed: NaN, a degenerate direction, iterations or support calls used up: contact.
-// Cost: at most kSupportCalls support points in a check, whatever is asked.
+// Cost: at most `support_calls` support points in a check, 4000 unless the file says less;
+// kinematics of 2 + kSections positions; and for each of those and each pair a test with balls.
 #pragma once
 
 #include "kernel/guard/collision_section.hpp"
@@ -31,20 +32,17 @@ namespace tactus {
 
 class Collision {
  public:
-  /// Most support points that one check() asks for.
-  static constexpr int kSupportCalls = 4000;
-
   struct Telemetry {
     const char *first = "", *second = "";  ///< the pair of the contact
     bool predicted = false;                ///< it is ahead, not there now
     double sweep_m = 0.0;                  ///< by which the pair was made thicker
-    bool exhausted = false;                ///< kSupportCalls were used up at this pair
+    bool exhausted = false;                ///< support_calls were used up at this pair
     std::int64_t checks = 0;
     int support_calls = 0, most_support_calls = 0;  ///< in the last check, in any
   };
 
   /// Sets up the pairs. `limits` are those of [guard], `tip` that of the tool, m, flange frame. The
-  /// scene must outlive this object. kTooLarge if there is no room for the pairs. [init]
+  /// scene must outlive this object. Always kOk. [init]
   Status start(const CollisionSection& section, const JointLimits& limits, const Vector3& tip,
                double period_s);
 
@@ -78,6 +76,7 @@ class Collision {
 
   const CollisionScene* scene_ = nullptr;
   double margin_ = 0.0;
+  int support_calls_ = 0;
   Braking braking_;
   std::array<Body, kCapsules> bodies_;
   std::array<Pair, kMaxPairs> pairs_;

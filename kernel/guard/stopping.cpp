@@ -43,7 +43,9 @@ StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const
     for (int k = 0; k <= kSections; ++k) {
       const double s = t_s * (1.0 - std::sqrt(1.0 - static_cast<double>(k) / kSections));
       const double next_high = up.at(s), next_low = -down.at(s);
-      const double top = std::max(high, next_high), bottom = std::min(low, next_low);
+      // So that what is not a number is not lost.
+      const double top = high > next_high ? high : next_high;
+      const double bottom = low < next_low ? low : next_low;
       JointBox& box = boxes[static_cast<std::size_t>(k)];
       box.middle[j] = q[j] + 0.5 * (top + bottom);
       box.half[j] = 0.5 * (top - bottom);
