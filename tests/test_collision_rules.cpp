@@ -1,7 +1,7 @@
 // The collision check by its rules: who is checked against whom, what is said, and that it fails
 // closed.
+#include "sim_plant/plant_params.hpp"
 #include "tests/collision_bench.hpp"
-#include "tests/loader_bench.hpp"
 #include "tests/model_cases.hpp"
 #include "tests/testing.hpp"
 
@@ -87,36 +87,6 @@ void an_allowed_pair_is_not_checked(void**) {
   assert_string_equal(bench.collision.telemetry().second, RobotCapsules::kLinkNames.back());
 }
 
-/// Boxes in the file, the second in a frame that is turned.
-void the_file_says_boxes_and_pairs(void**) {
-  static LoaderBench bench;
-  static std::array<char, 4096> text;
-  std::snprintf(text.data(), text.size(), "%.*s%s", static_cast<int>(kValid.size()), kValid.data(),
-                "[cell]\ntype = frame\nposition = 1 2 3\nrotation = 0 0 1.5707963267948966\n"
-                "[floor]\ntype = box\ncentre = 0 0 -0.1\nsize = 2 3 0.2\n"
-                "[post]\ntype = box\nframe = cell.x\ncentre = 0.5 0 0\nsize = 0.1 0.2 1\n"
-                "[collision]\nmargin = 0.02\ndivisor = 3\noffset = 2\n"
-                "allow = floor link1,  tool post\n");
-  ASSERT_OK(bench.load(text.data()));
-  ASSERT_OK(bench.pipeline.start(state_at(0.0, 0.0)));
-  const CollisionSection& section = bench.pipeline.collision;
-  assert_true(section.given && section.margin == 0.02);
-  assert_int_equal(section.divisor, 3);
-  assert_int_equal(section.offset, 2);
-  const CollisionScene& scene = section.scene;
-  assert_int_equal(scene.box_count(), 2);
-  assert_string_equal(scene.names[kFirstBoxBody], "floor");
-  assert_string_equal(scene.names[kFirstBoxBody + 1], "post");
-  assert_true(scene.boxes[0]->size == Vector3(2.0, 3.0, 0.2));
-  ASSERT_NEAR((scene.boxes[1]->pose.p - Vector3(1.0, 2.5, 3.0)).norm(), 0.0, 1e-15);
-  ASSERT_NEAR((scene.boxes[1]->pose.r * Vector3::UnitX() - Vector3::UnitY()).norm(), 0.0, 1e-15);
-  int allowed = 0;
-  for (const auto& row : scene.allowed)
-    for (const bool pair : row) allowed += pair;
-  assert_int_equal(allowed, 4);
-  assert_true(scene.allowed[1][kFirstBoxBody] && scene.allowed[kFirstBoxBody + 1][kToolBody]);
-}
-
 // Proves COL-4.
 
 void what_is_not_finite_is_no_pass(void**) {
@@ -178,7 +148,6 @@ int main() {
       cmocka_unit_test(pairs_that_always_touch_are_those_of_the_table),
       cmocka_unit_test(capsules_stand_in_the_order_of_their_links),
       cmocka_unit_test(an_allowed_pair_is_not_checked),
-      cmocka_unit_test(the_file_says_boxes_and_pairs),
       cmocka_unit_test(what_is_not_finite_is_no_pass),
       cmocka_unit_test(a_used_up_budget_is_a_contact),
   };

@@ -20,8 +20,17 @@ bool within(const JointBox& box, int joint, double q) {
   return std::abs(q - box.middle[joint]) <= box.half[joint] + 1e-9;
 }
 
-/// Integrates in small steps with speeds between the two ramps and asks of every instant whether
-/// the whole arm is in one of the boxes: that of the time it is.
+/// Whether the whole arm is in one of the boxes.
+bool is_inside(const StoppingBoxes& boxes, const JointVector& q) {
+  for (const JointBox& box : boxes) {
+    int joints = 0;
+    for (int j = 0; j < kDof; ++j) joints += within(box, j, q[j]);
+    if (joints == kDof) return true;
+  }
+  return false;
+}
+
+/// Any acceleration until braking begins, then any speed between the two ramps.
 void assert_contains(const Braking& braking, const JointVector& q0, const JointVector& dq0,
                      Draw& draw) {
   const StoppingBoxes boxes = stopping_boxes(braking, q0, dq0);
