@@ -9,7 +9,7 @@ namespace {
 
 /// A bench for one test.
 CollisionBench& fresh() {
-  static std::array<CollisionBench, 4> benches;
+  static std::array<CollisionBench, 5> benches;
   static std::size_t used = 0;
   return benches.at(used++);
 }
@@ -148,6 +148,33 @@ void a_contact_on_the_way_to_rest_was_said_before(void**) {
   assert_true(contacts > 40);
 }
 
+/// The arm stretched out and turning about its base alone, towards a cube at the height of its tip.
+/// Where the check just lets it go, the farthest it can get must be outside the margin, and near.
+void just_in_time_is_in_time(void**) {
+  CollisionBench& bench = fresh();
+  JointVector q = JointVector::Zero(), dq = JointVector::Zero();
+  if (kDof == 7) q[1] = 1.57, q[3] = -0.07, q[5] = 1.57;
+  bench.limits.ddq_max.tail<kDof - 1>().setConstant(0.01);  // so that all depends on one joint
+  const double v = dq[0] = 0.9 * bench.limits.dq_max[0], a = bench.limits.ddq_max[0];
+  const double t_r = 5 * CollisionBench::kPeriod_s, faster = v + a * t_r;
+  bench.boxes[1].pose.p.z() = -5.0, bench.boxes[0].size = Vector3::Constant(0.05);
+  const Vector3 tip = tip_pose(q, Pose{bench.tip, {1.0, 0.0, 0.0, 0.0}}).p;
+  ASSERT_OK(bench.start());
+  double hit = 0.0, free = 1.5;  // angles of the cube ahead of the tip
+  for (int k = 0; k < 30; ++k) {
+    const double angle = 0.5 * (hit + free);
+    bench.boxes[0].pose.p = Eigen::AngleAxisd(angle, Vector3::UnitZ()) * tip;
+    (bench.check(q, dq) == Status::kOk ? free : hit) = angle;
+  }
+  assert_true(hit > 0.0 && free < 1.5);
+  bench.boxes[0].pose.p = Eigen::AngleAxisd(free, Vector3::UnitZ()) * tip;
+  ASSERT_OK(bench.check(q, dq));
+  q[0] += v * t_r + 0.5 * a * t_r * t_r + faster * faster / (2.0 * a);
+  const double left = bench.nearest(q).distance;
+  print_message("%.1f mm left\n", 1e3 * left);
+  assert_true(left > bench.section.margin && left < bench.section.margin + 0.05);
+}
+
 /// A contact is said too early only by what the pair was made thicker, to both sides.
 void what_is_predicted_is_near_the_way(void**) {
   CollisionBench& bench = fresh();
@@ -179,6 +206,7 @@ int main() {
       cmocka_unit_test(at_rest_a_contact_is_what_is_nearer_than_the_margin),
       cmocka_unit_test(the_border_of_the_margin_is_sharp),
       cmocka_unit_test(a_contact_on_the_way_to_rest_was_said_before),
+      cmocka_unit_test(just_in_time_is_in_time),
       cmocka_unit_test(what_is_predicted_is_near_the_way),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
