@@ -25,7 +25,7 @@ struct Pose {
 
 /// A box by its middle and the lengths of its edges.
 struct Cuboid {
-  Pose pose;                        ///< of its middle, its axes along the edges
+  Pose pose;                       ///< of its middle, its axes along the edges
   Vector3 size = Vector3::Zero();  ///< m
 };
 
