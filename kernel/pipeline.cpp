@@ -35,6 +35,7 @@ Status Pipeline::start(const RobotState& measured) {
         },
         blocks_[static_cast<std::size_t>(i)]));
   }
+  collision_check.start(collision, guard.effective(), robot.tool_tip, robot.period_s());
   return Status::kOk;
 }
 
