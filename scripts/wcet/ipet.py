@@ -1,0 +1,178 @@
+"""The longest path through a function, by implicit path enumeration [Li and Malik 1995]: how often each block runs is an
+integer, what flows into a block flows out of it, loops run as often as they may; the sum of all costs is maximised.
+
+Callees come first. What has no bound is an error that names the place.
+"""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from capstone.arm import ARM_OP_IMM
+
+from wcet.graph import Graph
+from wcet.image import ROOT, Unbounded
+from wcet.loops import loops
+
+
+class Analysis:
+    """`cost` gives the cost of one instruction."""
+
+    def __init__(self, image, sources, facts, cost):
+        self.image, self.sources, self.facts, self.cost = image, sources, facts, cost
+        self.graphs, self.bounds, self._loops, self._active = {}, {}, {}, []
+
+    def graph(self, function):
+        if function.begin not in self.graphs:
+            graph = self.graphs[function.begin] = Graph(self.image, function)
+            self.image.learn_places([b.last for b in graph.blocks.values()] + list(graph.calls))
+            self._loops[function.begin] = loops(graph)
+        return self.graphs[function.begin]
+
+    def bound(self, function, size=None):
+        """The largest cost of one call, that of its callees included."""
+        key = (function.begin, size)
+        if key in self.bounds:
+            return self.bounds[key]
+        assumed = self.facts.assumed(function)
+        if assumed is not None:
+            self.bounds[key] = assumed
+            return assumed
+        if function.begin in self._active:
+            path = self._active[self._active.index(function.begin) :] + [function.begin]
+            names = " > ".join(str(self.image.function_at(a)) for a in path)
+            raise Unbounded(f"recursion: {names}, first at {self.image.place(function.begin)}")
+        self._active.append(function.begin)
+        self.bounds[key] = self._solve(function, size)
+        self._active.pop()
+        return self.bounds[key]
+
+    def _solve(self, function, size):
+        graph = self.graph(function)
+        program = Program(graph)
+        for head, block in graph.blocks.items():
+            cost, feasible = sum(map(self.cost, block.instructions)), True
+            for i in block.instructions:
+                if i.address in graph.calls:
+                    callees = self.callees(graph, i.address)
+                    feasible = feasible and bool(callees)
+                    cost += max((self.bound(f, self._size_at(f, block, i)) for f in callees), default=0)
+            program.block(head, block, cost, feasible)
+        for group, most in self._groups(graph, size):
+            program.loop(group, most)
+        for pattern, most in self.facts.calls(function):
+            sites = [h for h, b in graph.blocks.items() for i in b.instructions
+                     if i.address in graph.calls and any(re.search(pattern, f.written) for f in self.callees(graph, i.address))]
+            program.at_most([f"x_{h:x}" for h in sites], most)
+        return program.solve(function)
+
+    def callees(self, graph, address):
+        """What a call may reach; nothing if it is never made."""
+        target = graph.calls[address]
+        if target is None:
+            return self._pointed_to(graph, address)
+        callee = self.image.function_at(target)
+        if callee is None:
+            raise Unbounded(f"{graph.function}: a call of what is no function at {self.image.place(address)}")
+        return [callee]
+
+    def _pointed_to(self, graph, address):
+        patterns = self.facts.targets(graph.function, self._source_line(address))
+        if patterns is None:
+            raise Unbounded(f"{graph.function}: a call through a pointer, without targets, at {self.image.place(address)}")
+        if patterns == ["none"]:
+            return []
+        callees = [f for pattern in patterns for f in self.image.matching(pattern)]
+        if not callees:
+            raise Unbounded(f"{graph.function}: no target matches {' '.join(patterns)} at {self.image.place(address)}")
+        return callees
+
+    def _source_line(self, address):
+        for file, line in self.image.places(address):
+            if not file.startswith("/"):
+                return (ROOT / file).read_text(encoding="utf-8").splitlines()[line - 1]
+        return ""
+
+    def _size_at(self, callee, block, call):
+        """The constant that a copying function is given in a register at this call, or the largest there is."""
+        sized = self.facts.size(callee)
+        if sized is None:
+            return None
+        register, most = sized
+        for i in reversed([i for i in block.instructions if i.address < call.address]):
+            if i.op_str.split(",")[0].strip() == register:
+                constant = re.fullmatch(r"movs?(\.w)?|movw", i.mnemonic) and i.operands[1].type == ARM_OP_IMM
+                return min(most, i.operands[1].imm) if constant else most
+        return most
+
+    def _groups(self, graph, size):
+        """Loops with their bounds; those nested loops in one that GCC made of one loop of the source."""
+        groups = []
+        for loop in self._loops[graph.function.begin]:
+            instance, most = self._bound_of(graph, loop, size)
+            outer = next((g for g in groups if g[0] == instance and loop.blocks < g[1][0].blocks), None)
+            if outer:
+                outer[1].append(loop)
+            else:
+                groups.append((instance, [loop], most))
+        return [(group, most) for _, group, most in groups]
+
+    def _bound_of(self, graph, loop, size):
+        """The loop of the source that this one is, with what it was inlined into, and how often it runs."""
+        if size is not None:
+            return (loop.head,), size
+        ways = [graph.blocks[b].last for b in loop.back] + [graph.blocks[b].last for b in sorted(loop.leaving)]
+        for address in ways:
+            chain = self.image.places(address)
+            for depth, (file, line) in enumerate(chain):
+                if (known := self.facts.loop(graph.function, chain[depth : depth + 1])) is not None:
+                    return (file, line, *chain[depth + 1 :]), known
+                if source := self.sources.at(file, line):
+                    return (source, *chain[depth + 1 :]), self.sources.bound(source)
+        if (known := self.facts.loop(graph.function, [])) is not None:
+            return (loop.head,), known
+        where = " or ".join(dict.fromkeys(self.image.place(a) for a in ways[:2]))
+        raise Unbounded(f"{graph.function}: a loop without a bound at {where}")
+
+
+class Program:
+    """The integer program of one function, in the format that glpsol reads."""
+
+    def __init__(self, graph):
+        self.graph, self.objective, self.rows, self.variables = graph, [], [], {"in"}
+
+    def block(self, head, block, cost, feasible):
+        edges_in = [f"e_{p:x}_{head:x}" for p in self.graph.before[head]] + (["in"] if head == self.graph.function.begin else [])
+        edges_out = [f"e_{head:x}_{s:x}" for s in block.successors] + ([f"out_{head:x}"] if block.leaves else [])
+        runs = f"x_{head:x}"
+        self.variables.update([runs, *edges_in, *edges_out])
+        self.rows += [f"{' + '.join(edges) or '0 in'} - {runs} = 0" for edges in (edges_in, edges_out)]
+        self.objective.append(f"{cost} {runs}")
+        if not feasible:
+            self.rows.append(f"{runs} = 0")
+
+    def loop(self, group, most):
+        """The ways back, of all loops of the group, for each entry of the outermost."""
+        back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]
+        entering = [f"e_{p:x}_{s:x}" for p, s in group[0].entering]
+        entering += ["in"] if group[0].head == self.graph.function.begin else []
+        often = most - 1 if len(group) == 1 and group[0].tested_at_end() else most
+        self.rows.append(" + ".join(back) + "".join(f" - {max(often, 0)} {e}" for e in entering) + " <= 0")
+
+    def at_most(self, variables, most):
+        if variables:
+            self.rows.append(f"{' + '.join(variables)} <= {most}")
+
+    def solve(self, function):
+        with tempfile.TemporaryDirectory() as folder:
+            problem, answer = pathlib.Path(folder, "problem"), pathlib.Path(folder, "answer")
+            rows = "\n".join(f" r{n}: {row}" for n, row in enumerate([*self.rows, "in = 1"]))
+            variables = "\n ".join(sorted(self.variables))
+            problem.write_text("Maximize\n cost: " + "\n + ".join(self.objective) + f"\nSubject To\n{rows}\nGeneral\n {variables}\nEnd\n")
+            run = subprocess.run(["glpsol", "--lp", problem, "-o", answer], capture_output=True, text=True)
+            text = answer.read_text() if answer.exists() else ""
+        found = re.search(r"^Objective: +cost = ([-+.\de]+)", text, re.MULTILINE)
+        if "INTEGER OPTIMAL" not in text or not found:
+            raise Unbounded(f"{function}: glpsol finds no longest path\n{run.stdout}")
+        return round(float(found[1]))
