@@ -1,5 +1,5 @@
-// From reset to play_reel() on a bare Cortex-M7: stack, FPU, .data, .bss, constructors, and faults that
-// end the emulator with a message.
+// From reset to play_reel() on a bare Cortex-M7: stack, FPU, .data, .bss, constructors, and faults
+// that end the emulator with a message.
 #include "tests/wcet/m7/semihosting.hpp"
 
 extern "C" {
@@ -27,10 +27,10 @@ constexpr std::uintptr_t kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98, kMpuRbar =
 void guard_stack() {
   at(kMpuRnr) = 0;
   at(kMpuRbar) = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&stack_limit));
-  at(kMpuRasr) = 1U << 28 | 4U << 1 | 1U;   // execute never, no access, 2^(4+1) bytes, on
-  at(kMpuCtrl) = 5U;                        // on; elsewhere the default map
-  at(kShcsr) = at(kShcsr) | 1U << 16;       // memory faults
-  at(kCcr) = at(kCcr) | 1U << 4 | 1U << 3;  // integer division by zero and unaligned access trap
+  at(kMpuRasr) = 1U << 28 | 4U << 1 | 1U;  // execute never, no access, 2^(4+1) bytes, on
+  at(kMpuCtrl) = 5U;                       // on; elsewhere the default map
+  at(kShcsr) = at(kShcsr) | 1U << 16;      // memory faults
+  at(kCcr) = at(kCcr) | 1U << 4;           // integer division by zero traps
 }
 
 }  // namespace
