@@ -76,7 +76,7 @@ list-runs:
 	@echo -- $(B)/tactus $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a
+$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/tests/bare_metal/memory.o $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
@@ -109,6 +109,8 @@ $(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $<"
 	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
+
+include tests/wcet/wcet.mk
 
 .PRECIOUS: $(B)/%.o
 .DELETE_ON_ERROR:

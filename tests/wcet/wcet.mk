@@ -1,0 +1,23 @@
+# The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
+WCET_PIPELINES := $(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,fer_trg_ac_cpc_pid ur10_trg_ac_cpc_pid)
+PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
+BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
+
+# A pipeline file without the sections that are a board's: what the player loads.
+build/wcet/%.ini: pipelines/%.ini
+	@mkdir -p $(@D)
+	$(Q)awk '/^\[/ { skip = /^\[(plant|gateway|realtime)\]/ } !skip' $< > $@
+
+.PRECIOUS: build/wcet/%.ini
+ifeq ($(ARCH),m7)
+.PHONY: wcet-images
+wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf)
+$(B)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
+$(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
+	@mkdir -p $(@D)
+	@echo "  CXX   $<"
+	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
+endif
