@@ -1,5 +1,7 @@
 #include "kernel/pipeline.hpp"
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 
 /// One step of a block: of every kind a function with a name of its own, by which profiles and
@@ -41,7 +43,9 @@ Status Pipeline::start(const RobotState& measured) {
 Status Pipeline::step(const RobotState& measured) {
   robot.set_measured(measured);
   const double period_s = robot.period_s();
+  LoopBound<kMaxBlocks> steps;
   for (int i = 0; i < count_; ++i) {
+    steps.tick();
     TRY(std::visit(
         [period_s](auto& block) {
           if constexpr (std::is_same_v<decltype(block), std::monostate&>)

@@ -1,5 +1,6 @@
 #include "kernel/reference/reference_generator.hpp"
 
+#include "kernel/loop_bound.hpp"
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -45,9 +46,12 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_stream(dt_s);
   watch_start();
   Request<Space> request;
+  LoopBound<16> requests;  // what a mailbox holds
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+    requests.tick();
     if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
     answer(request);
+    if (plans(request)) break;  // one plan in a cycle: the others wait
   }
   settle_point(Outcome::kExecuted);
   release_store();

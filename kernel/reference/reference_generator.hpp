@@ -58,6 +58,11 @@ class ReferenceGenerator {
 
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
   void answer(const Request<Space>& request);
+  /// Answering it judges a path against the limits, which takes longest.
+  bool plans(const Request<Space>& request) const {
+    return request.kind == RequestKind::kTrajectory ||
+           (request.kind == RequestKind::kPoint && params_.online == OnlineMode::kLimit);
+  }
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);

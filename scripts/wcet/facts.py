@@ -4,7 +4,8 @@ One fact a line; two spaces or more stand between words, # begins a comment. FUN
 expressions on the written name, PLACE is the end of a file's path and a line, TEXT a regular expression on the source
 line.
 
-    loop     FUNCTION  PLACE   N        a library's loop: its body runs at most N times each time it is entered
+    loop     FUNCTION  PLACE   N        a loop of a library, by its place, or of ours, by its TEXT: its body runs at
+                                        most N times each time it is entered
     size     FUNCTION  REGISTER  N      its loops run as often as the register says at the call, at most N times
     calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
     targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
@@ -46,10 +47,10 @@ class Facts:
             raise Unbounded(f"{text} is neither a number nor a constant of the board")
         return int(text)
 
-    def loop(self, function, chain):
-        """The bound of a library's loop by any of the places it was inlined from; None if there is none."""
-        for place, bound in self._of("loop", function):
-            if place == "*" or any(f"/{file}:{line}".endswith("/" + place) for file, line in chain):
+    def loop(self, function, file, line, text):
+        """The bound of the loop whose header stands here; None if nothing is said."""
+        for where, bound in self._of("loop", function):
+            if f"/{file}:{line}".endswith("/" + where) or re.search(where, text):
                 return self.number(bound)
         return None
 

@@ -4,24 +4,36 @@ integer, what flows into a block flows out of it, loops run as often as they may
 Callees come first. What has no bound is an error that names the place.
 """
 
+import functools
 import pathlib
 import re
 import subprocess
 import tempfile
 
-from capstone.arm import ARM_OP_IMM
-
+from wcet import constants
 from wcet.graph import Graph
 from wcet.image import ROOT, Unbounded
 from wcet.loops import loops
 
 
 class Analysis:
-    """`cost` gives the cost of one instruction."""
+    """`cost` gives the cost of one instruction; `shared` are the graphs of another analysis of the same image."""
 
-    def __init__(self, image, sources, facts, cost):
+    def __init__(self, image, sources, facts, cost, shared=None):
         self.image, self.sources, self.facts, self.cost = image, sources, facts, cost
-        self.graphs, self.bounds, self._loops, self._active = {}, {}, {}, []
+        self.graphs, self._loops = shared or ({}, {})
+        self.bounds, self._active = {}, []
+
+    def shared(self):
+        return self.graphs, self._loops
+
+    def largest(self):
+        """The bound of every function that was looked into, by its linked name."""
+        found = {}
+        for (begin, _), bound in self.bounds.items():
+            name = self.image.function_at(begin).symbol
+            found[name] = max(bound, found.get(name, 0))
+        return found
 
     def graph(self, function):
         if function.begin not in self.graphs:
@@ -57,10 +69,12 @@ class Analysis:
                 if i.address in graph.calls:
                     callees = self.callees(graph, i.address)
                     feasible = feasible and bool(callees)
-                    cost += max((self.bound(f, self._size_at(f, block, i)) for f in callees), default=0)
+                    cost += max((self.bound(f, self._size_at(graph, f, block, i)) for f in callees), default=0)
             program.block(head, block, cost, feasible)
-        for group, most in self._groups(graph, size):
+        for group, most, scope in self._groups(graph, size):
             program.loop(group, most)
+            if scope:
+                program.sum_of_runs(group[0], most, scope)
         for pattern, most in self.facts.calls(function):
             sites = [h for h, b in graph.blocks.items() for i in b.instructions
                      if i.address in graph.calls and any(re.search(pattern, f.written) for f in self.callees(graph, i.address))]
@@ -89,22 +103,16 @@ class Analysis:
         return callees
 
     def _source_line(self, address):
-        for file, line in self.image.places(address):
-            if not file.startswith("/"):
-                return (ROOT / file).read_text(encoding="utf-8").splitlines()[line - 1]
-        return ""
+        return next((source_line(*place) for place in self.image.places(address) if source_line(*place)), "")
 
-    def _size_at(self, callee, block, call):
+    def _size_at(self, graph, callee, block, call):
         """The constant that a copying function is given in a register at this call, or the largest there is."""
         sized = self.facts.size(callee)
         if sized is None:
             return None
         register, most = sized
-        for i in reversed([i for i in block.instructions if i.address < call.address]):
-            if i.op_str.split(",")[0].strip() == register:
-                constant = re.fullmatch(r"movs?(\.w)?|movw", i.mnemonic) and i.operands[1].type == ARM_OP_IMM
-                return min(most, i.operands[1].imm) if constant else most
-        return most
+        constant = constants.at(graph, block, call.address, register)
+        return most if constant is None else min(most, constant)
 
     def _groups(self, graph, size):
         """Loops with their bounds; those nested loops in one that GCC made of one loop of the source."""
@@ -115,8 +123,17 @@ class Analysis:
             if outer:
                 outer[1].append(loop)
             else:
-                groups.append((instance, [loop], most))
-        return [(group, most) for _, group, most in groups]
+                groups.append((instance, [loop], most, self._scope(instance, loop, groups)))
+        return [(group, most, scope) for _, group, most, scope in groups]
+
+    def _scope(self, instance, loop, outer):
+        """The outermost loop around, in the function that owns the LoopBound this loop was given by reference."""
+        name = self.sources.shared(instance[0]) if len(instance) > 1 and hasattr(instance[0], "body") else None
+        for around, parts, *_ in outer if name else []:
+            owned = hasattr(around[0], "before") and re.search(rf"LoopBound<[^;>]+>\s+{name};", around[0].before)
+            if owned and loop.blocks < parts[0].blocks and around[1:] == instance[2:]:
+                return parts[0]
+        return None
 
     def _bound_of(self, graph, loop, size):
         """The loop of the source that this one is, with what it was inlined into, and how often it runs."""
@@ -126,14 +143,21 @@ class Analysis:
         for address in ways:
             chain = self.image.places(address)
             for depth, (file, line) in enumerate(chain):
-                if (known := self.facts.loop(graph.function, chain[depth : depth + 1])) is not None:
+                if (known := self.facts.loop(graph.function, file, line, source_line(file, line))) is not None:
                     return (file, line, *chain[depth + 1 :]), known
                 if source := self.sources.at(file, line):
                     return (source, *chain[depth + 1 :]), self.sources.bound(source)
-        if (known := self.facts.loop(graph.function, [])) is not None:
-            return (loop.head,), known
         where = " or ".join(dict.fromkeys(self.image.place(a) for a in ways[:2]))
         raise Unbounded(f"{graph.function}: a loop without a bound at {where}")
+
+
+@functools.lru_cache(maxsize=None)
+def source_line(file, line):
+    """A line of a source of ours; nothing of others."""
+    if file.startswith("/"):
+        return ""
+    lines = (ROOT / file).read_text(encoding="utf-8").splitlines()
+    return lines[line - 1] if 0 < line <= len(lines) else ""
 
 
 class Program:
@@ -159,6 +183,13 @@ class Program:
         entering += ["in"] if group[0].head == self.graph.function.begin else []
         often = most - 1 if len(group) == 1 and group[0].tested_at_end() else most
         self.rows.append(" + ".join(back) + "".join(f" - {max(often, 0)} {e}" for e in entering) + " <= 0")
+
+    def sum_of_runs(self, loop, most, scope):
+        """All runs of a loop's body, for each entry of the scope, a loop around it."""
+        runs = [f"x_{loop.head:x}"] if loop.tested_at_end() else [f"e_{b:x}_{loop.head:x}" for b in loop.back]
+        entering = [f"e_{p:x}_{s:x}" for p, s in scope.entering]
+        entering += ["in"] if scope.head == self.graph.function.begin else []
+        self.rows.append(" + ".join(runs) + "".join(f" - {most} {e}" for e in entering) + " <= 0")
 
     def at_most(self, variables, most):
         if variables:

@@ -4,6 +4,8 @@
     for (const double x : {a, b, c})          counts its list
     while (found - before > 1) {              anything else names its bound, which the tests check as they run:
       halvings.tick();                          LoopBound<31> halvings; stands before the loop
+
+A LoopBound that a function is given by reference bounds the sum of all loops that tick it.
 """
 
 import functools
@@ -78,11 +80,17 @@ class SourceLoops:
             return None
         return next((loop for loop in loops_of(file) if loop.first <= line <= loop.last), None)
 
+    def shared(self, loop):
+        """The name of the LoopBound that the loop's function was given by reference, or None."""
+        tick = re.search(r"(\w+)\.tick\(\)", loop.body)
+        declared = tick and re.findall(r"LoopBound<[^;>]+>(&?)\s+" + tick[1] + r"\b", loop.before)
+        return tick[1] if declared and declared[-1] else None
+
     def bound(self, loop):
         """How often the body runs at most, each time the loop is entered."""
         place = f"{loop.file}:{loop.first}"
         if tick := re.search(r"(\w+)\.tick\(\)", loop.body):
-            declared = re.findall(r"LoopBound<([^;]+)>\s+" + tick[1] + r"\b", loop.before)
+            declared = re.findall(r"LoopBound<([^;>]+)>&?\s+" + tick[1] + r"\b", loop.before)
             if not declared:
                 raise Unbounded(f"{place}: {tick[1]} is no LoopBound")
             return self.value(declared[-1], loop.file, place)
