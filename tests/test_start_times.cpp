@@ -140,7 +140,7 @@ void one_that_cannot_be_caught_any_more_is_refused_with_the_limit(void**) {
 void a_newer_trajectory_takes_the_place_of_one_that_waits(void**) {
   static ReferenceBench bench;
   const std::uint32_t first = go_at(bench, 0.5, 0.4), second = go_at(bench, 0.6, -0.4);
-  ASSERT_OK(bench.step());
+  ASSERT_OK(bench.run(2));  // one plan in a cycle
   const Report report = bench.final_of(first);
   ASSERT_OUTCOME(report, Outcome::kSuperseded);
   assert_int_equal(report.store, 0);

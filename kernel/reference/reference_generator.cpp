@@ -44,14 +44,14 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_supply();
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
-  watch_start();
+  bool planned = watch_start();
   Request<Space> request;
   LoopBound<16> requests;  // what a mailbox holds
-  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+  for (std::size_t i = 0; i < channel_->requests.capacity() && !planned; ++i) {
     requests.tick();
     if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
     answer(request);
-    if (plans(request)) break;  // one plan in a cycle: the others wait
+    planned = plans(request);  // one in a cycle: what was asked after it waits
   }
   settle_point(Outcome::kExecuted);
   release_store();
@@ -99,15 +99,16 @@ void ReferenceGenerator<Space>::watch_stream(double dt_s) {
   if (!motion_.shape(reference()).ok()) motion_.forward(reference().at_rest());
 }
 
-/// A trajectory that waits begins in the cycle nearest to its start time.
+/// A trajectory that waits begins in the cycle nearest to its start time. True: this one.
 template <class Space>
-void ReferenceGenerator<Space>::watch_start() {
-  if (waiting_.store < 0) return;
+bool ReferenceGenerator<Space>::watch_start() {
+  if (waiting_.store < 0) return false;
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(waiting_.store)];
-  if (trajectory.start_s - time_s() > 0.5 * period_s_) return;
+  if (trajectory.start_s - time_s() > 0.5 * period_s_) return false;
   const Goal due = waiting_;
   waiting_ = {};
   static_cast<void>(begin(due, 0.0));
+  return true;
 }
 
 /// Leaves what runs for the trajectory of `goal`, which began `elapsed_s` ago. False: it is

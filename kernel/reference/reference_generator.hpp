@@ -73,7 +73,7 @@ class ReferenceGenerator {
   void watch_supply();
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
-  void watch_start();
+  bool watch_start();
   bool begin(const Goal& goal, double elapsed_s);
   void end_waiting(Outcome outcome);
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,

@@ -8,6 +8,7 @@ line.
                                         most N times each time it is entered
     size     FUNCTION  REGISTER  N      its loops run as often as the register says at the call, at most N times
     calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
+    reaches  FUNCTION  CALLEE  INNER  N   of its calls of CALLEE, at most N get to INNER, each time it is called itself
     targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
     assume   FUNCTION  N       WHY      costs N, not looked into; 0 takes it out of the sum
 """
@@ -16,7 +17,7 @@ import re
 
 from wcet.image import Unbounded
 
-KINDS = {"loop": 3, "size": 3, "calls": 3, "targets": 3, "assume": 3}
+KINDS = {"loop": 3, "size": 3, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
 
 
 class Facts:
@@ -60,6 +61,9 @@ class Facts:
 
     def calls(self, function):
         return [(callee, self.number(most)) for callee, most in self._of("calls", function)]
+
+    def reaches(self, function):
+        return [(callee, inner, self.number(most)) for callee, inner, most in self._of("reaches", function)]
 
     def targets(self, function, text):
         """Patterns of what a call through a pointer may reach; None if nothing is said."""

@@ -30,7 +30,7 @@ class Analysis:
     def largest(self):
         """The bound of every function that was looked into, by its linked name."""
         found = {}
-        for (begin, _), bound in self.bounds.items():
+        for begin, bound in ((key[0], bound) for key, bound in self.bounds.items() if bound is not None):
             name = self.image.function_at(begin).symbol
             found[name] = max(bound, found.get(name, 0))
         return found
@@ -42,9 +42,11 @@ class Analysis:
             self._loops[function.begin] = loops(graph)
         return self.graphs[function.begin]
 
-    def bound(self, function, size=None):
-        """The largest cost of one call, that of its callees included."""
-        key = (function.begin, size)
+    def bound(self, function, size=None, without=None):
+        """The largest cost of one call, that of its callees included; `without` is what it does not get to."""
+        if without and not self._reaches(function, without):
+            without = None
+        key = (function.begin, size, without)
         if key in self.bounds:
             return self.bounds[key]
         assumed = self.facts.assumed(function)
@@ -56,20 +58,41 @@ class Analysis:
             names = " > ".join(str(self.image.function_at(a)) for a in path)
             raise Unbounded(f"recursion: {names}, first at {self.image.place(function.begin)}")
         self._active.append(function.begin)
-        self.bounds[key] = self._solve(function, size)
+        self.bounds[key] = self._solve(function, size, without)
         self._active.pop()
         return self.bounds[key]
 
-    def _solve(self, function, size):
+    def _reaches(self, function, pattern):
+        """True if a function that matches can be called from here on."""
+        work, seen = [function], set()
+        while work:
+            here = work.pop()
+            if here.begin in seen or self.facts.assumed(here) is not None:
+                continue
+            seen.add(here.begin)
+            if re.search(pattern, here.written):
+                return True
+            graph = self.graph(here)
+            work += [callee for address in graph.calls for callee in self.callees(graph, address)]
+        return False
+
+    def _solve(self, function, size, without):
         graph = self.graph(function)
-        program = Program(graph)
+        program, rare = Program(graph), self.facts.reaches(function)
         for head, block in graph.blocks.items():
             cost, feasible = sum(map(self.cost, block.instructions)), True
             for i in block.instructions:
-                if i.address in graph.calls:
-                    callees = self.callees(graph, i.address)
-                    feasible = feasible and bool(callees)
-                    cost += max((self.bound(f, self._size_at(graph, f, block, i)) for f in callees), default=0)
+                if i.address not in graph.calls:
+                    continue
+                callees = self.callees(graph, i.address)
+                feasible = feasible and bool(callees) and not any(without and re.search(without, f.written) for f in callees)
+                limit = next((r for r in rare if any(re.search(r[0], f.written) for f in callees)), None)
+                full = self._dearest(graph, callees, block, i, without)
+                usual = self._dearest(graph, callees, block, i, limit[1]) if limit else full
+                feasible = feasible and full is not None
+                if full != usual:
+                    program.rarely(head, (full or 0) - (usual or 0), limit, always=usual is None)
+                cost += usual or 0
             program.block(head, block, cost, feasible)
         for group, most, scope in self._groups(graph, size):
             program.loop(group, most)
@@ -79,7 +102,15 @@ class Analysis:
             sites = [h for h, b in graph.blocks.items() for i in b.instructions
                      if i.address in graph.calls and any(re.search(pattern, f.written) for f in self.callees(graph, i.address))]
             program.at_most([f"x_{h:x}" for h in sites], most)
-        return program.solve(function)
+        longest = program.solve(function)
+        if longest is None and not without:
+            raise Unbounded(f"{function}: no path leads through it")
+        return longest
+
+    def _dearest(self, graph, callees, block, call, without):
+        """The largest bound of what is called here; None if all of it gets to `without`."""
+        bounds = [self.bound(f, self._size_at(graph, f, block, call), without) for f in callees]
+        return max((b for b in bounds if b is not None), default=None if bounds else 0)
 
     def callees(self, graph, address):
         """What a call may reach; nothing if it is never made."""
@@ -165,6 +196,7 @@ class Program:
 
     def __init__(self, graph):
         self.graph, self.objective, self.rows, self.variables = graph, [], [], {"in"}
+        self._rare = {}
 
     def block(self, head, block, cost, feasible):
         edges_in = [f"e_{p:x}_{head:x}" for p in self.graph.before[head]] + (["in"] if head == self.graph.function.begin else [])
@@ -175,6 +207,15 @@ class Program:
         self.objective.append(f"{cost} {runs}")
         if not feasible:
             self.rows.append(f"{runs} = 0")
+
+    def rarely(self, head, more, limit, always):
+        """Some runs of the block, or all, cost more; of all blocks under this limit as many as it says."""
+        rare = self._rare.setdefault(limit, [])
+        runs = f"y{len(rare)}_{head:x}"
+        rare.append(runs)
+        self.variables.add(runs)
+        self.rows.append(f"{runs} - x_{head:x} {'=' if always else '<='} 0")
+        self.objective.append(f"{more} {runs}")
 
     def loop(self, group, most):
         """The ways back, of all loops of the group, for each entry of the outermost."""
@@ -196,6 +237,9 @@ class Program:
             self.rows.append(f"{' + '.join(variables)} <= {most}")
 
     def solve(self, function):
+        """The cost of the longest path; None if there is no path."""
+        for (*_, most), rare in self._rare.items():
+            self.at_most(rare, most)
         with tempfile.TemporaryDirectory() as folder:
             problem, answer = pathlib.Path(folder, "problem"), pathlib.Path(folder, "answer")
             rows = "\n".join(f" r{n}: {row}" for n, row in enumerate([*self.rows, "in = 1"]))
@@ -203,6 +247,8 @@ class Program:
             problem.write_text("Maximize\n cost: " + "\n + ".join(self.objective) + f"\nSubject To\n{rows}\nGeneral\n {variables}\nEnd\n")
             run = subprocess.run(["glpsol", "--lp", problem, "-o", answer], capture_output=True, text=True)
             text = answer.read_text() if answer.exists() else ""
+        if "INTEGER EMPTY" in text or "INTEGER UNDEFINED" in text or "NO PRIMAL FEASIBLE" in run.stdout:
+            return None
         found = re.search(r"^Objective: +cost = ([-+.\de]+)", text, re.MULTILINE)
         if "INTEGER OPTIMAL" not in text or not found:
             raise Unbounded(f"{function}: glpsol finds no longest path\n{run.stdout}")
