@@ -21,3 +21,16 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 	@echo "  CXX   $<"
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
 endif
+ifeq ($(ARCH),host)
+$(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
+build/wcet/%/run.tape: pipelines/%.ini
+	@mkdir -p $(@D)
+	$(Q)$(B)/wcet-record $< $@
+$(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
+build/wcet/count_plugin.so: tests/wcet/count_plugin.c
+	@mkdir -p $(@D)
+	@echo "  LD    $@"
+	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
+endif
