@@ -34,3 +34,15 @@ build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	@echo "  LD    $@"
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
 endif
+# make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches
+ifeq ($(SANITIZE),fuzzer-no-link)
+.PHONY: wcet-searches
+wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%)
+$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
+$(B)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
+	@mkdir -p $(@D)
+	@echo "  CXX   $<"
+	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
+endif
