@@ -21,3 +21,28 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 	@echo "  CXX   $<"
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
 endif
+ifeq ($(ARCH),host)
+$(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
+build/wcet/%/run.tape: pipelines/%.ini
+	@mkdir -p $(@D)
+	$(Q)$(B)/wcet-record $< $@
+$(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
+build/wcet/count_plugin.so: tests/wcet/count_plugin.c
+	@mkdir -p $(@D)
+	@echo "  LD    $@"
+	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
+endif
+# make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches
+ifeq ($(SANITIZE),fuzzer-no-link)
+.PHONY: wcet-searches
+wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%)
+$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
+$(B)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
+	@mkdir -p $(@D)
+	@echo "  CXX   $<"
+	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
+endif

@@ -4,12 +4,8 @@
 #include <new>
 
 #include "tests/wcet/m7/semihosting.hpp"
+#include "tests/wcet/pipeline_text.hpp"
 #include "tests/wcet/player.hpp"
-
-// The pipeline file, without the sections of a board.
-asm(".section .rodata.pipeline_text\n.global pipeline_text, pipeline_text_end\n"
-    "pipeline_text:\n.incbin \"" PIPELINE_FILE "\"\npipeline_text_end:\n.byte 0\n.text\n");
-extern "C" const char pipeline_text[], pipeline_text_end[];
 
 namespace {
 
@@ -23,8 +19,7 @@ alignas(Player) unsigned char player_bytes[sizeof(Player)];
 Status play(const Bytes& tape, std::uint32_t& cycles) {
   static LoadError error;
   Player& player = *new (player_bytes) Player;
-  TRY(player.load({pipeline_text, static_cast<std::size_t>(pipeline_text_end - pipeline_text)},
-                  error));
+  TRY(player.load(pipeline_file(), error));
   player.insert(tape);
   for (; player.prepare(); ++cycles) TRY(player.cycle());
   return player.executive().latched();
