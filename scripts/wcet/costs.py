@@ -11,6 +11,7 @@ timing of this core: the figure is an estimate from above, not a proof, unlike t
 
 import re
 
+ASSUMED = 10  # of an instruction that is not looked at, in code of integers
 REFILL = 8  # of a pipeline of six stages, with what was fetched ahead
 CLASSES = (
     (r"v(div|sqrt)\.f64", 31),
@@ -34,6 +35,8 @@ def instructions(_):
 
 
 def cycles(instruction):
+    if instruction is None:
+        return ASSUMED
     mnemonic = instruction.mnemonic.replace(".w", "").replace(".n", "")
     into_pc = re.search(r"\bpc\b", instruction.op_str) is not None and not mnemonic.startswith("v")
     if MULTIPLE.match(mnemonic):

@@ -10,7 +10,7 @@ line.
     calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
     reaches  FUNCTION  CALLEE  INNER  N   of its calls of CALLEE, at most N get to INNER, each time it is called itself
     targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
-    assume   FUNCTION  N       WHY      costs N, not looked into; 0 takes it out of the sum
+    assume   FUNCTION  N       WHY      takes N instructions, not looked into
 """
 
 import re

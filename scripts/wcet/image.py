@@ -29,7 +29,7 @@ class Function:
 
 class Image:
     def __init__(self, path, addr2line="arm-none-eabi-addr2line"):
-        self.path, self.addr2line, self._places = str(path), addr2line, {}
+        self.path, self.addr2line, self._places, self._conditional = str(path), addr2line, {}, {}
         with open(path, "rb") as file:
             elf = ELFFile(file)
             self._segments = [
@@ -68,8 +68,15 @@ class Image:
         raise Unbounded(f"the image has no bytes at 0x{address:x}")
 
     def decode(self, address, end):
-        """The instruction at an address; None if there is none."""
-        return next(self.decoder.disasm(self.read(address, min(4, end - address)), address, 1), None)
+        """The instruction at an address; None if there is none. What stands in an IT block has its condition."""
+        if address in self._conditional:
+            return self._conditional[address]
+        found = next(self.decoder.disasm(self.read(address, min(4, end - address)), address, 1), None)
+        if found is not None and re.fullmatch("it[te]*", found.mnemonic):
+            count = len(found.mnemonic)
+            block = self.decoder.disasm(self.read(address, min(2 + 4 * count, end - address)), address, count)
+            self._conditional.update((i.address, i) for i in block)
+        return found
 
     def learn_places(self, addresses):
         """Asks for all places at once: one process per question would be slow."""

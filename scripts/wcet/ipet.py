@@ -51,8 +51,8 @@ class Analysis:
             return self.bounds[key]
         assumed = self.facts.assumed(function)
         if assumed is not None:
-            self.bounds[key] = assumed
-            return assumed
+            self.bounds[key] = assumed * self.cost(None)
+            return self.bounds[key]
         if function.begin in self._active:
             path = self._active[self._active.index(function.begin) :] + [function.begin]
             names = " > ".join(str(self.image.function_at(a)) for a in path)
