@@ -30,7 +30,7 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH))
+CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp)
@@ -111,6 +111,7 @@ $(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
 	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
 
 include tests/wcet/wcet.mk
+include scripts/wcet/bound.mk
 
 .PRECIOUS: $(B)/%.o
 .DELETE_ON_ERROR:

@@ -157,6 +157,12 @@ class Analysis:
                 groups.append((instance, [loop], most, self._scope(instance, loop, groups)))
         return [(group, most, scope) for _, group, most, scope in groups]
 
+    def _runs(self, graph, source, address):
+        try:
+            return self.sources.bound(source)
+        except Unbounded as error:
+            raise Unbounded(f"{graph.function}: {error}, at {self.image.place(address)}") from None
+
     def _scope(self, instance, loop, outer):
         """The outermost loop around, in the function that owns the LoopBound this loop was given by reference."""
         name = self.sources.shared(instance[0]) if len(instance) > 1 and hasattr(instance[0], "body") else None
@@ -177,7 +183,7 @@ class Analysis:
                 if (known := self.facts.loop(graph.function, file, line, source_line(file, line))) is not None:
                     return (file, line, *chain[depth + 1 :]), known
                 if source := self.sources.at(file, line):
-                    return (source, *chain[depth + 1 :]), self.sources.bound(source)
+                    return (source, *chain[depth + 1 :]), self._runs(graph, source, address)
         where = " or ".join(dict.fromkeys(self.image.place(a) for a in ways[:2]))
         raise Unbounded(f"{graph.function}: a loop without a bound at {where}")
 
