@@ -43,9 +43,9 @@ def symbols(image, nm="arm-none-eabi-nm"):
     return {row[2]: int(row[0], 16) for row in rows if len(row) == 3 and row[1] in "tTwW"}
 
 
-def addresses(image, prefixes):
+def addresses(image, prefixes, nm="arm-none-eabi-nm"):
     """The address of the one function that every prefix stands for."""
-    known = symbols(image)
+    known = symbols(image, nm)
     found = []
     for prefix in prefixes:
         matches = {address for name, address in known.items() if name.startswith(prefix)}
