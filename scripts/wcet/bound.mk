@@ -5,12 +5,12 @@ DOF_UR10  := 6
 EXCEPTION := 108
 
 .PHONY: wcet-bound certificate certificate-host certificate-m7
-wcet-bound: ## the static bound of the cycle of BOARD, of its longest pipeline
+wcet-bound:                                   ## the static bound of the cycle of BOARD, of its longest pipeline
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/$(BOARD)-m7/bounds-%.json)
 build/$(BOARD)-m7/bounds-%.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
 	$(Q)scripts/wcet_bound $< pipelines/$*.ini --dof $(DOF_$(ROBOT)) --out $@ | tee $(@:.json=.txt)
 
-certificate: ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
+certificate:                                  ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
 	$(Q)$(MAKE) --no-print-directory certificate-host
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 certificate-m7
 certificate-m7: $(B)/libkernel.a $(B)/link.elf

@@ -33,7 +33,7 @@ class CallGraph:
     """`files` are those that GCC wrote; `rules` the lines of a file of targets and of functions compiled elsewhere."""
 
     def __init__(self, files, rules):
-        self.functions, self.targets, self.elsewhere, self._below, self._active = {}, [], [], {}, []
+        self.functions, self.copies, self.targets, self.elsewhere, self._below, self._active = {}, {}, [], [], {}, []
         for line in rules:
             words = re.split(r"\s{2,}", line.split("#")[0].strip())
             if words[0] == "targets":
@@ -53,6 +53,7 @@ class CallGraph:
                     kind = "static" if "static" in frame[2] or "bounded" in frame[2] else frame[2]
                     function = Function(node[1], written, rest[0], int(frame[1]), kind)
                     names[node[1]] = self.functions.setdefault(node[1], function)
+                    self.copies.setdefault(node[1].rsplit(":", 1)[-1], []).append(names[node[1]])
             elif edge := EDGE.search(line):
                 edges.append(edge.groups())
         for caller, callee, place in edges:
@@ -94,12 +95,19 @@ class CallGraph:
     def _called(self, function, callee, place):
         if callee == INDIRECT:
             return max((self.below(f) for f in self._pointed_to(function, place)), key=lambda b: b[0], default=(0, []))
-        if callee in self.functions:
-            return self.below(self.functions[callee])
+        if known := self._known(callee):
+            return max((self.below(f) for f in known), key=lambda b: b[0])
         for pattern, frame in self.elsewhere:
             if re.search(pattern, callee):
                 return frame, [Function(callee, callee, "library", frame, "static")]
         raise Unbounded(f"{place}: {function.written} calls {readable(callee)}, whose stack nobody knows")
+
+    def _known(self, callee):
+        """By its title, or the copies of all files by its symbol; a complete constructor is its base's alias."""
+        if callee in self.functions:
+            return [self.functions[callee]]
+        plain = callee.rsplit(":", 1)[-1]
+        return self.copies.get(plain) or self.copies.get(re.sub(r"C1(?=E)", "C2", plain))
 
     def _pointed_to(self, function, place):
         """What a call through a pointer may reach, by the text of its source line."""
