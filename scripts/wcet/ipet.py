@@ -10,7 +10,7 @@ import re
 import subprocess
 import tempfile
 
-from wcet import constants
+from wcet import constants, walk
 from wcet.graph import Graph
 from wcet.image import ROOT, Unbounded
 from wcet.loops import loops
@@ -62,6 +62,19 @@ class Analysis:
         self._active.pop()
         return self.bounds[key]
 
+    def _walk(self, graph):
+        """The longest way by what the code does with its counters; None if they do not say it."""
+        def called(block, i):
+            callees = self.callees(graph, i.address)
+            return self._dearest(graph, callees, block, i, None) or 0
+
+        def feasible(head):
+            calls = [i.address for i in graph.blocks[head].instructions if i.address in graph.calls]
+            return all(self.callees(graph, address) for address in calls)
+
+        costs = {head: sum(map(self.cost, block.instructions)) for head, block in graph.blocks.items()}
+        return walk.longest(graph, costs.get, called, feasible)
+
     def _reaches(self, function, pattern):
         """True if a function that matches can be called from here on."""
         work, seen = [function], set()
@@ -103,6 +116,9 @@ class Analysis:
                      if i.address in graph.calls and any(re.search(pattern, f.written) for f in self.callees(graph, i.address))]
             program.at_most([f"x_{h:x}" for h in sites], most)
         longest = program.solve(function)
+        if longest is not None and self._loops[function.begin] and size is None and not without and not rare:
+            walked = self._walk(graph)
+            longest = longest if walked is None else min(longest, walked)
         if longest is None and not without:
             raise Unbounded(f"{function}: no path leads through it")
         return longest
