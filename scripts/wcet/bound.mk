@@ -8,7 +8,8 @@ EXCEPTION := 108
 wcet-bound:                                   ## the static bound of the cycle of BOARD, of its longest pipeline
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/$(BOARD)-m7/bounds-%.json)
 build/$(BOARD)-m7/bounds-%.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
-	$(Q)scripts/wcet_bound $< pipelines/$*.ini --dof $(DOF_$(ROBOT)) --out $@ | tee $(@:.json=.txt)
+	$(Q)scripts/wcet_bound $< pipelines/$*.ini --dof $(DOF_$(ROBOT)) --out $@ > $(@:.json=.txt)
+	@cat $(@:.json=.txt)
 
 certificate:                                  ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
 	$(Q)$(MAKE) --no-print-directory certificate-host

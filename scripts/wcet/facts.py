@@ -7,6 +7,7 @@ line.
     loop     FUNCTION  PLACE   N        a loop of a library, by its place, or of ours, by its TEXT: its body runs at
                                         most N times each time it is entered
     size     FUNCTION  REGISTER  N      its loops run as often as the register says at the call, at most N times
+    words    FUNCTION  REGISTER  N      the same, a word at a time where the register holds a multiple of four
     calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
     reaches  FUNCTION  CALLEE  INNER  N   of its calls of CALLEE, at most N get to INNER, each time it is called itself
     targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
@@ -17,7 +18,7 @@ import re
 
 from wcet.image import Unbounded
 
-KINDS = {"loop": 3, "size": 3, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
+KINDS = {"loop": 3, "size": 3, "words": 3, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
 
 
 class Facts:
@@ -56,8 +57,9 @@ class Facts:
         return None
 
     def size(self, function):
-        """(register, largest value) of a function whose loops run as often as an argument says, or None."""
-        return next(((register, self.number(most)) for register, most in self._of("size", function)), None)
+        """(register, largest value, bytes at a time) of a function whose loops an argument bounds, or None."""
+        known = [(r, self.number(n), step) for kind, step in (("words", 4), ("size", 1)) for r, n in self._of(kind, function)]
+        return known[0] if known else None
 
     def calls(self, function):
         return [(callee, self.number(most)) for callee, most in self._of("calls", function)]
