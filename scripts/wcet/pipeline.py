@@ -17,26 +17,41 @@ def kinds():
     return table
 
 
-def blocks(path):
-    """(section, class) of every block of the file, in order."""
-    found, section, table = [], None, kinds()
-    for number, line in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
+def sections(path):
+    """[(name, {key: value})] of the file, in order."""
+    found = []
+    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
         line = line.split("#")[0].strip()
         if match := re.fullmatch(r"\[(\w+)\]", line):
-            section = match[1]
-        elif (match := re.fullmatch(r"type\s*=\s*(\w+)", line)) and section:
-            if match[1] not in table:
-                raise Unbounded(f"{path}:{number}: {match[1]} is no kind of block")
-            found.append((section, table[match[1]]))
+            found.append((match[1], {}))
+        elif found and (match := re.fullmatch(r"(\w+)\s*=\s*(.*)", line)):
+            found[-1][1][match[1]] = match[2]
     return found
 
 
-def tell(facts, steps):
-    """Adds what the file says: as many steps as it has blocks, of each kind as many as it has."""
+def blocks(path):
+    """(section, class) of every block of the file, in order."""
+    table = kinds()
+    typed = [(name, keys["type"]) for name, keys in sections(path) if "type" in keys]
+    for name, word in typed:
+        if word not in table:
+            raise Unbounded(f"{path}: [{name}]: {word} is no kind of block")
+    return [(name, table[word]) for name, word in typed]
+
+
+def tell(facts, path):
+    """Adds what the file says: as many steps as it has blocks, of each kind as many as it has; and what its settings,
+    which no cycle changes, rule out."""
+    steps, keys = blocks(path), dict(sections(path))
     facts.add("loop", r"Pipeline::step\(", r"i < count_", str(len(steps)))
     for kind in kinds().values():
         count = sum(kind == step for _, step in steps)
         facts.add("calls", r"Pipeline::step\(", rf"step_block<tactus::{kind}>", str(count))
+    for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
+        if command not in keys.get("robot", {}):  # the guard limits what the robot takes
+            facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
+    if not any("timeout_ms" in section for section in keys.values()):  # a stream that dries up is not watched
+        facts.add("calls", r"ReferenceGenerator<.*>::watch_stream\(", r"::shape\(", "0")
 
 
 def stages(analysis, steps):
