@@ -67,7 +67,7 @@ compile_commands.json:                        ## for editors and clang-tidy
 clean:                                        ## remove everything that was built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## this list
-	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile $(wildcard */wcet/*.mk) | sed -E 's/:.*## */\t/' | expand -t 24
+	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories list-runs run-tests run-thread-tests kernel each-board
 each-board:

@@ -80,8 +80,8 @@ def count(image, plugin, prefixes, tapes):
     played = []
     for line in lines:
         cycles, status = line.split()
-        mine, rows = rows[: int(cycles) + (status != "kOk")], rows[int(cycles) + (status != "kOk") :]
-        played.append((status, mine))
+        played.append((status, rows[: int(cycles)]))
+        rows = rows[int(cycles) :]
     if rows:
         raise CountError(f"{image}: {len(rows)} cycles belong to no tape")
     return played

@@ -42,11 +42,32 @@ def at_limits(dof, signs, velocity):
     return tape.point(BASE, 1, (0, 0, 0, 0, 0, 0) + tuple(velocity)).cycles(3)
 
 
+# Corners of the joints' ranges and twists, +-127ths of 1 m/s and 1 rad/s, in which joint after joint is left out.
+CORNERED = (
+    ((1, -1, 1, -1, 1, 1, 1), (8, 0, 1, 0, -8, 0)),
+    ((1, -1, 1, 1, 1, -1, -1), (0, -1, -1, 8, 8, -3)),
+    ((-1, -1, -1, -1, 1, -1, 1), (0, 3, 1, -3, -3, 8)),
+    ((-1, -1, -1, -1, -1, -1, -1), (0, 8, 1, 1, -3, -1)),
+    ((1, -1, -1, -1, 1, 1, 1), (-1, 3, 0, 8, -8, 3)),
+)
+
+
+def all_at_once(dof, signs, velocity, step):
+    """A full mailbox while the joints are at their limits: 13 points, then a trajectory in every store, begun late."""
+    tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(60)
+    tape.point(BASE, 1, REST + velocity).cycles(12)
+    for _ in range(13):
+        tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + velocity + (2, 2, 2, 2, 2, 2) + REST)
+    for k in range(3):
+        tape.trajectory(*late(8 + k, step))
+    return tape.cycles(8)
+
+
 def by_hand(dof):
     tapes = [joined(dof, stream, joins, step) for stream in (0, 1, 13) for joins in (1, 3) for step in (1, 4, 12)]
-    signs = [1, -1, 1, -1, 1, -1, 1]
+    signs = (1, -1, 1, -1, 1, -1, 1)
     tapes += [at_limits(dof, turned, v) for turned in (signs, [-s for s in signs]) for v in ((90, 60, -60) * 2, REST)]
-    return tapes
+    return tapes + [all_at_once(dof, corner, twist, step) for corner, twist in CORNERED for step in (1, 12)]
 
 
 def random_state(rng, tape, dof):

@@ -1,7 +1,27 @@
 # The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
-WCET_PIPELINES := $(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,fer_trg_ac_cpc_pid ur10_trg_ac_cpc_pid)
+WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
+WCET_PIPELINES := $(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL))
+WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
 BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
+
+.PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
+wcet: wcet-built                              ## worst case of every stage: measured, counted, bounded; build/wcet
+	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
+	$(Q)scripts/wcet/measure $(WCET_ALL)
+	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
+	$(Q)scripts/wcet/search $(WCET_ALL)
+	$(Q)scripts/wcet/table $(WCET_ALL)
+wcet-count: wcet-built                        ## the same, instructions only
+	$(Q)scripts/wcet/count $(WCET_ALL)
+wcet-search: wcet-built                       ## tries for SECONDS each to beat the worst cycle known, and keeps what does
+	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
+	$(Q)nice scripts/wcet/search --keep --seconds $(or $(SECONDS),600) $(WCET_ALL)
+wcet-built: wcet-setup
+	$(Q)$(call each,-j2 wcet-host)
+	$(Q)$(call each,-j2 ARCH=m7 wcet-images)
+wcet-setup:
+	$(Q)scripts/setup wcet
 
 # A pipeline file without the sections that are a board's: what the player loads.
 build/wcet/%.ini: pipelines/%.ini
@@ -22,6 +42,9 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
 endif
 ifeq ($(ARCH),host)
+.PHONY: wcet-host
+wcet-host: $(B)/wcet-replay $(B)/wcet-replay-timed build/wcet/count_plugin.so $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
+           $(WCET_PIPELINES:%=build/wcet/%.ini)
 $(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
@@ -35,7 +58,8 @@ STAGES := $(B)/wcet/pipeline.o $(B)/wcet/guard/guard.o
 $(B)/wcet/guard/guard.o $(B)/wcet/pipeline.o: $(B)/wcet/%.o: kernel/%.cpp Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $< (timed)"
-	$(Q)$(CXX) $(CXXFLAGS) -finstrument-functions -finstrument-functions-exclude-file-list=/usr/,.hpp -c $< -o $@
+	$(Q)$(CXX) $(CXXFLAGS) -finstrument-functions -finstrument-functions-exclude-file-list=/usr/,.hpp \
+	  -finstrument-functions-exclude-function-list=allowed,jerky,trip,following,effective -c $< -o $@
 $(B)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
 $(B)/wcet-replay: $(REPLAY) $(B)/libkernel.a
 $(B)/wcet-replay-timed: $(REPLAY) $(STAGES) $(B)/libkernel.a

@@ -21,7 +21,10 @@ Status play(const Bytes& tape, std::uint32_t& cycles) {
   Player& player = *new (player_bytes) Player;
   TRY(player.load(pipeline_file(), error));
   player.insert(tape);
-  for (; player.prepare(); ++cycles) TRY(player.cycle());
+  while (player.prepare()) {
+    ++cycles;
+    TRY(player.cycle());
+  }
   return player.executive().latched();
 }
 
