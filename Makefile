@@ -33,7 +33,7 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH))
+CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
 # Where Debian has no binary of libccd, its source.
 CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
@@ -75,7 +75,7 @@ compile_commands.json:                        ## for editors and clang-tidy
 clean:                                        ## remove everything that was built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## this list
-	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
+	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories list-runs run-tests run-thread-tests kernel each-board
 each-board:
@@ -84,7 +84,7 @@ list-runs:
 	@echo -- $(B)/tactus $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a $(B)/libccd.a
+$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/tests/bare_metal/memory.o $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
@@ -132,6 +132,9 @@ $(CCD_SRCS:%.c=$(B)/%.o): $(B)/%.o: %.c
 $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
 $(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)
+
+include tests/wcet/wcet.mk
+include scripts/wcet/bound.mk
 
 .PRECIOUS: $(B)/%.o
 .DELETE_ON_ERROR:
