@@ -23,13 +23,13 @@ void a_known_level_is_within_the_interval_in_most_draws(void**) {
   assert_true(passes(PYTHON "import numpy, extremes\n"
                             "inside, quoted, shape, p = 0, 0, 0.1, 1e-3\n"
                             "true = 7 + 2 * ((-numpy.log1p(-p)) ** -shape - 1) / shape\n"
-                            "for seed in range(20):\n"
+                            "for seed in range(8):\n"
                             "    u = numpy.random.default_rng(seed).uniform(size=300)\n"
                             "    values = 7 + 2 * ((-numpy.log(u)) ** -shape - 1) / shape\n"
                             "    e = extremes.extremes(values, 1, p)\n"
                             "    quoted += not e.why\n"
                             "    inside += e.low <= true <= e.high if not e.why else 0\n"
-                            "assert quoted >= 12 and inside >= 0.75 * quoted, (quoted, inside)\""));
+                            "assert quoted >= 5 and inside >= 0.75 * quoted, (quoted, inside)\""));
 }
 
 void what_breaks_an_assumption_is_not_quoted_and_named(void**) {

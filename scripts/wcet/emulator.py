@@ -82,6 +82,6 @@ def count(image, plugin, prefixes, tapes):
         cycles, status = line.split()
         played.append((status, rows[: int(cycles)]))
         rows = rows[int(cycles) :]
-    if rows:
-        raise CountError(f"{image}: {len(rows)} cycles belong to no tape")
+    if rows or sum(len(mine) for _, mine in played) != sum(int(line.split()[0]) for line in lines):
+        raise CountError(f"{image}: its cycles are not those that were counted")
     return played
