@@ -1,14 +1,14 @@
 // The emulated controller behind real sockets: a session over the loopback, programs that connect
 // out, and clients that do not behave.
 #include <arpa/inet.h>
-#include <cerrno>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <cerrno>
 
 #include "boards/ur10_emulator/server.hpp"
-#include "tests/ur_bench.hpp"
 #include "tests/testing.hpp"
+#include "tests/ur_bench.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -58,8 +58,10 @@ bool receive(int socket, std::uint8_t* data, std::size_t size) {
   for (int i = 0; i < 2000 && got < size; ++i) {
     const ssize_t more = recv(socket, data + got, size - got, MSG_DONTWAIT);
     if (more == 0) return false;
-    if (more > 0) got += static_cast<std::size_t>(more);
-    else g_server->pump(1'000'000);
+    if (more > 0)
+      got += static_cast<std::size_t>(more);
+    else
+      g_server->pump(1'000'000);
   }
   return got == size;
 }

@@ -1,6 +1,6 @@
-// LineProgram: a program of plain lines, run one after the other: calls with values that are written
-// out, `while True:`, assignments of values. Conditions are not understood: what stands under one is
-// left out, and a text message says so.
+// LineProgram: a program of plain lines, run one after the other: calls with values that are
+// written out, `while True:`, assignments of values. Conditions are not understood: what stands
+// under one is left out, and a text message says so.
 #pragma once
 
 #include "sim_plant/ur/program_step.hpp"

@@ -54,8 +54,10 @@ CallResult speed(const ScriptCall& call, bool joints, Machine& machine) {
   const ScriptValue* goal = call.find(joints ? "qd" : "xd", 0);
   if (goal == nullptr || !goal->six()) return CallResult::kDone;
   const double a = call.number("a", 1, 0.0), t = call.number("t", 2, call.number("t_min", 2, 0.0));
-  if (joints) machine.motion.speed_j(goal->vector(), a, t);
-  else machine.motion.speed_l(goal->vector(), a, t);
+  if (joints)
+    machine.motion.speed_j(goal->vector(), a, t);
+  else
+    machine.motion.speed_l(goal->vector(), a, t);
   return CallResult::kMotion;
 }
 
@@ -98,9 +100,13 @@ void write_register(const ScriptCall& call, Machine& machine) {
   const bool bits = call.name == "write_output_boolean_register";
   if (!(index >= 0.0 && index < (bits ? kBitRegisters : kRegisters))) return;
   const auto i = static_cast<std::size_t>(index);
-  if (bits) machine.io.output.set_bit(static_cast<int>(i), value != 0.0);
-  else if (call.name == "write_output_float_register") machine.io.output.doubles[i] = value;
-  else machine.io.output.ints[i] = static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
+  if (bits)
+    machine.io.output.set_bit(static_cast<int>(i), value != 0.0);
+  else if (call.name == "write_output_float_register")
+    machine.io.output.doubles[i] = value;
+  else
+    machine.io.output.ints[i] =
+        static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
 }
 
 void set_output(const ScriptCall& call, Machine& machine) {

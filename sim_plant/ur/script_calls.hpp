@@ -7,11 +7,11 @@
 namespace tactus::ur {
 
 enum class CallResult : std::uint8_t {
-  kDone,      ///< or not emulated, which moves nothing
-  kMotion,    ///< a motion command has begun
-  kWait,      ///< `wait_s` until the next line
-  kHalt,      ///< the program ends
-  kNoReach,   ///< a runtime exception: there is no such posture
+  kDone,     ///< or not emulated, which moves nothing
+  kMotion,   ///< a motion command has begun
+  kWait,     ///< `wait_s` until the next line
+  kHalt,     ///< the program ends
+  kNoReach,  ///< a runtime exception: there is no such posture
 };
 
 struct CallOutcome {

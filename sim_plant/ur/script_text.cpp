@@ -81,8 +81,8 @@ bool next_line(std::string_view& text, std::string_view& line) {
 
 std::string_view trimmed(std::string_view text) {
   skip_blanks(text);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' ||
-                           text.back() == '\n'))
+  while (!text.empty() &&
+         (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\n'))
     text.remove_suffix(1);
   return text;
 }
@@ -150,8 +150,7 @@ const ScriptValue* ScriptCall::find(std::string_view argument, std::size_t posit
   return nullptr;
 }
 
-double ScriptCall::number(std::string_view argument, std::size_t position,
-                          double otherwise) const {
+double ScriptCall::number(std::string_view argument, std::size_t position, double otherwise) const {
   const ScriptValue* value = find(argument, position);
   return value != nullptr && value->numeric() ? value->number : otherwise;
 }
