@@ -11,3 +11,6 @@ RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cp
 STATIC_BUDGET     := 262144
 STACK_BUDGET      := 24576
 HOST_STACK_BUDGET := 32768
+
+# All tests but those of the UR's wire.
+TESTS  := $(filter-out ur_%,$(TESTS))

@@ -1,0 +1,111 @@
+// What an uploaded program and the control computer say to each other, by programs in the field:
+// all 32-bit integers, most of them a value times a million. Universal Robots Client Library
+// (external control), ur_modern_driver (driver program), ur_rtde (registers).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tactus::ur {
+
+inline constexpr double kFixedPoint = 1e6;
+
+// ---- external control -------------------------------------------------------------------------
+
+inline constexpr std::size_t kReverseInts = 8;         ///< timeout in ms, six values, mode
+inline constexpr std::size_t kTrajectoryInts = 21;     ///< a point
+inline constexpr std::size_t kScriptCommandInts = 28;  ///< command and parameters
+
+enum class ControlMode : std::int32_t {
+  kStopped = -2,
+  kUninitialised = -1,
+  kIdle = 0,
+  kServoJ = 1,
+  kSpeedJ = 2,
+  kForward = 3,
+  kSpeedL = 4,
+  kPose = 5,
+  kFreedrive = 6,
+  kToolInContact = 7,
+};
+
+/// First value of a message in mode kForward.
+enum ForwardCommand : std::int32_t {
+  kForwardCancel = -1,
+  kForwardNothing = 0,
+  kForwardStart = 1,
+  kForwardStreamStart = 2,
+  kForwardStreamEnd = 3,
+};
+
+enum TrajectoryResult : std::int32_t { kSucceeded = 0, kCancelled = 1, kFailed = 2 };
+
+enum PointType : std::int32_t {
+  kPointMoveJ = 0,
+  kPointMoveL = 1,
+  kPointMoveP = 2,
+  kPointMoveC = 3,
+  kPointMoveJPose = 6,
+  kPointMoveLJoints = 7,
+  kPointMovePJoints = 8,
+  kPointMoveCJoints = 9,
+  kPointMoveCJointsPose = 10,
+  kPointMoveCPoseJoints = 11,
+  kPointSpline = 51,
+};
+enum SplineType : std::int32_t { kCubic = 1, kQuintic = 2 };
+
+enum class ScriptCommand : std::int32_t {
+  kZeroFtSensor = 0,
+  kSetPayload = 1,
+  kSetToolVoltage = 2,
+  kStartForceMode = 3,
+  kEndForceMode = 4,
+  kStartToolContact = 5,
+  kEndToolContact = 6,
+  kFtRtdeInputEnable = 8,
+  kSetGravity = 9,
+  kSetTcpOffset = 10,
+  kSetTargetPayload = 12,
+};
+
+// ---- driver program ---------------------------------------------------------------------------
+
+inline constexpr std::size_t kDriverInts = 7;  ///< six joint positions, keep-alive
+
+// ---- register program -------------------------------------------------------------------------
+
+enum class RegisterCommand : std::int32_t {
+  kNone = 0,
+  kMoveJ = 1,
+  kMoveJPose = 2,
+  kMoveL = 3,
+  kMoveLJoints = 4,
+  kForceMode = 6,
+  kForceModeStop = 7,
+  kZeroFtSensor = 8,
+  kSpeedJ = 9,
+  kSpeedL = 10,
+  kServoJ = 11,
+  kSpeedStop = 15,
+  kServoStop = 16,
+  kSetPayload = 17,
+  kTeachMode = 18,
+  kEndTeachMode = 19,
+  kServoL = 24,
+  kSetTcp = 29,
+  kInverseKinematics = 30,
+  kProtectiveStop = 31,
+  kStopL = 33,
+  kStopJ = 34,
+  kWatchdog = 35,
+  kPoseWithinLimits = 36,
+  kJointsWithinLimits = 37,
+  kJointTorques = 38,
+  kStop = 255,
+};
+
+/// What the program answers in its first integer register.
+enum Handshake : std::int32_t { kReady = 1, kDone = 2 };
+
+}  // namespace tactus::ur

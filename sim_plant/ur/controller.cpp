@@ -1,0 +1,123 @@
+#include "sim_plant/ur/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::ur {
+namespace {
+
+constexpr double kScalingPerCycle = 0.04;  // the slider acts within 0.2 s
+constexpr int kCommandsPerCycle = 32;
+constexpr double kNothing_s = 1e-9;
+constexpr double kLimiter = 0.95;  // of a safety limit, where the controller begins to slow down
+
+}  // namespace
+
+Status Controller::start() {
+  const Settings& settings = machine_.settings;
+  TRY(machine_.body.load(settings.initial_q, 0.0, Vector3::Zero()));
+  machine_.motion.rest(settings.initial_q);
+  show();
+  return Status::kOk;
+}
+
+void Controller::tick() {
+  ++machine_.cycle;
+  machine_.messages.set_time(static_cast<std::uint64_t>(machine_.time_s() * 1e6 + 0.5));
+  machine_.power.tick(kCycle_s);
+  if (!machine_.power.powered() && machine_.safety.protective_stopped()) machine_.safety.restart();
+  machine_.body.push(faults_.push);
+  dq_before_ = machine_.motion.dq() * machine_.speed_scaling;
+  run_program();
+  if (machine_.power.mode() == RobotMode::kRunning) {
+    machine_.body.move(machine_.motion.q(), kCycle_s);
+    watch_arm();
+  } else {
+    machine_.body.stand();
+    machine_.motion.rest(machine_.body.q());
+  }
+  say_changes();
+  show();
+}
+
+void Controller::run_program() {
+  const bool able = machine_.power.running() && machine_.safety.normal();
+  if (!able && runner_.running()) runner_.stop(machine_);
+  if (able) runner_.poll(machine_);
+  scale_speed();
+  if (machine_.power.mode() != RobotMode::kRunning) return;
+  if (machine_.safety.normal())
+    move_targets();
+  else
+    machine_.motion.brake(kCycle_s);
+}
+
+/// The time base follows the slider; a pause slows it to nothing, and a tool that would be faster
+/// than the safety system lets it slows it too.
+void Controller::scale_speed() {
+  double goal = runner_.paused() ? 0.0 : machine_.io.speed_fraction;
+  double& scaling = machine_.speed_scaling;
+  const Motion& motion = machine_.motion;
+  if (!runner_.running() && motion.resting()) scaling = goal;
+  scaling += std::clamp(goal - scaling, -kScalingPerCycle, kScalingPerCycle);
+  const double speed = (jacobian(motion.q(), motion.tool()) * motion.dq()).head<3>().norm();
+  const double fastest = kLimiter * limits_.limits().tcp_speed;
+  if (speed * scaling > fastest) scaling = fastest / speed;
+}
+
+/// The cycle's share of the stretched time is dealt out to the commands of the program.
+void Controller::move_targets() {
+  Motion& motion = machine_.motion;
+  double left_s = kCycle_s * machine_.speed_scaling;
+  if (left_s < kNothing_s) left_s = 0.0;
+  for (int n = 0; n < kCommandsPerCycle && left_s > kNothing_s; ++n) {
+    if (!motion.busy()) runner_.command(machine_);
+    if (!motion.busy()) {
+      motion.idle(left_s, runner_.running());
+      break;
+    }
+    left_s -= motion.advance(left_s);
+  }
+  if (const Stop fault = motion.take_fault()) machine_.protective_stop(fault);
+}
+
+/// Position deviation and collision, and then what the safety system watches.
+void Controller::watch_arm() {
+  const Settings& settings = machine_.settings;
+  const Joints q = machine_.body.q() + faults_.encoder_offset;
+  const Joints off = (q - machine_.motion.q()).cwiseAbs() / settings.path_deviation;
+  const Joints hit = (machine_.body.residual().array().abs() / settings.collision.array()).matrix();
+  Eigen::Index joint = 0;
+  image_.joint_position_deviation_ratio = off.maxCoeff(&joint);
+  if (!(image_.joint_position_deviation_ratio < 1.0))
+    machine_.protective_stop({Code::kPathDeviation, static_cast<std::int32_t>(joint)});
+  image_.collision_detection_ratio = hit.maxCoeff(&joint);
+  if (!(image_.collision_detection_ratio < 1.0))
+    machine_.protective_stop({Code::kCollision, static_cast<std::int32_t>(joint)});
+
+  watch_limits(q);
+}
+
+void Controller::watch_limits(const Joints& q) {
+  const Joints dq = machine_.body.dq();
+  const double tcp_speed = (jacobian(q, machine_.motion.tool()) * dq).head<3>().norm();
+  const std::int32_t violated = limits_.check(q, dq, tcp_speed, image_.actual_momentum, kCycle_s);
+  if (violated == 0 || !machine_.safety.violation()) return;
+  machine_.last_stop = {Code::kSafetyViolation, violated};
+  machine_.stop_unsaid = true;
+  machine_.power.switch_off();
+}
+
+void Controller::say_changes() {
+  const bool changed = machine_.safety.tick(kCycle_s);
+  const Stop& stop = machine_.last_stop;
+  if (changed)
+    machine_.messages.safety_mode(machine_.safety.mode(), machine_.safety.normal() ? Stop{} : stop);
+  if (machine_.stop_unsaid)
+    machine_.messages.error(
+        stop, stop.code == Code::kFromScript ? ReportLevel::kWarning : ReportLevel::kViolation);
+  machine_.stop_unsaid = false;
+  if (!machine_.safety.normal() && runner_.running()) runner_.stop(machine_);
+}
+
+}  // namespace tactus::ur

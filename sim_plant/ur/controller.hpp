@@ -1,0 +1,57 @@
+// Controller: the robot behind the ports. One call of tick() is one cycle of 8 ms; it reads no
+// clock and knows no sockets.
+#pragma once
+
+#include "sim_plant/ur/dashboard.hpp"
+#include "sim_plant/ur/image.hpp"
+
+namespace tactus::ur {
+
+/// Troubles that a test makes; all off.
+struct Faults {
+  bool frozen_stamp = false;               ///< the time on all ports stands still
+  bool nan_positions = false;              ///< actual_q is not a number
+  Joints push = Joints::Zero();            ///< joint torques on the arm, N m
+  Joints encoder_offset = Joints::Zero();  ///< added to actual_q, rad
+};
+
+class Controller {
+ public:
+  explicit Controller(const Settings& settings)
+      : machine_(settings), dashboard_(runner_, machine_), limits_(settings.safety) {}
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+
+  /// The arm stands where the settings say. [init]
+  Status start();
+  void tick();
+
+  const Image& image() const { return image_; }
+  Machine& machine() { return machine_; }
+  Runner& runner() { return runner_; }
+  Dashboard& dashboard() { return dashboard_; }
+  Faults& faults() { return faults_; }
+
+ private:
+  void run_program();
+  void scale_speed();
+  void move_targets();
+  void watch_arm();
+  void watch_limits(const Joints& q);
+  void say_changes();
+  void show();
+  void show_tool();
+  void show_io();
+  void show_modes();
+
+  Machine machine_;
+  Runner runner_;
+  Dashboard dashboard_;
+  LimitWatch limits_;
+  Faults faults_;
+  Image image_;
+  Joints dq_before_ = Joints::Zero();  // target speeds of the last cycle
+  Vector3 tcp_speed_before_ = Vector3::Zero();
+};
+
+}  // namespace tactus::ur

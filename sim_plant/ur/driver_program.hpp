@@ -1,0 +1,27 @@
+// DriverProgram: the program of the 2015 ROS driver. It connects to the control computer and reads
+// seven integers at a time: joint positions and keep-alive. Without a new set-point it brakes, and
+// stays alive.
+#pragma once
+
+#include "sim_plant/ur/machine.hpp"
+#include "sim_plant/ur/program_step.hpp"
+#include "sim_plant/ur/servo_script.hpp"
+
+namespace tactus::ur {
+
+class DriverProgram {
+ public:
+  static bool recognises(std::string_view text);
+  void start(std::string_view text);
+
+  ProgramStep poll(Machine& machine);
+  ProgramStep command(Machine& machine);
+
+ private:
+  SocketPlace place_;
+  ServoLaw law_;
+  bool wanted_ = false, fresh_ = false, moving_ = false, ending_ = false;
+  Joints q_ = Joints::Zero();
+};
+
+}  // namespace tactus::ur

@@ -1,0 +1,56 @@
+// ExternalControl: the program of the vendor's client library. It connects out to the control
+// computer, in the order trajectory, script command, reverse, and then does what comes over the
+// reverse socket until that says stop, or falls silent.
+#pragma once
+
+#include "sim_plant/ur/line_program.hpp"
+#include "sim_plant/ur/servo_script.hpp"
+#include "sim_plant/ur/trajectory_run.hpp"
+
+namespace tactus::ur {
+
+class ExternalControl {
+ public:
+  /// False: the text is no such program. It outlives the program.
+  static bool recognises(std::string_view text);
+  void start(std::string_view text);
+
+  ProgramStep poll(Machine& machine);
+  ProgramStep command(Machine& machine);
+
+ private:
+  enum class Phase : std::uint8_t { kConnecting, kRunning, kJoining, kEnding, kBehind, kEnded };
+  using Message = std::array<std::int32_t, kReverseInts>;
+
+  ProgramStep connect(Machine& machine);
+  void read_reverse(Machine& machine);
+  void take(const Message& message, Machine& machine);
+  void change_mode(ControlMode mode, Machine& machine);
+  void obey(const Message& message, Machine& machine);
+  void forward(const Message& message, Machine& machine);
+  void read_commands(Machine& machine);
+  void set_point(const Joints& q, Machine& machine);
+  void leave(bool halts, Machine& machine);
+  ProgramStep servo(Machine& machine);
+
+  Phase phase_ = Phase::kConnecting;
+  std::array<SocketPlace, 3> places_;  // trajectory, script command, reverse
+  std::size_t connected_ = 0;
+  int attempts_ = 0;
+  double retry_at_s_ = 0.0;
+  std::string_view behind_;  // the lines behind the control loop
+  int behind_line_ = 1;
+  ServoLaw law_;
+
+  ControlMode mode_ = ControlMode::kUninitialised;
+  Message waiting_{};  // for the old motion to end
+  double timeout_s_ = 0.0, silent_s_ = 0.0;
+  Joints servo_q_ = Joints::Zero();
+  enum class Servo : std::uint8_t { kNone, kNew, kOld } servo_ = Servo::kNone;
+  Vector6 speed_ = Vector6::Zero();
+  bool halts_ = false, tool_contact_ = false, warned_ = false;
+  TrajectoryRun trajectory_;
+  LineProgram rest_;
+};
+
+}  // namespace tactus::ur

@@ -1,0 +1,47 @@
+// FetchProgram: what external_control.urp is at first: it asks a server on the control computer for
+// the text of the script, which then takes its place.
+#pragma once
+
+#include "sim_plant/ur/machine.hpp"
+#include "sim_plant/ur/program_step.hpp"
+
+namespace tactus::ur {
+
+class FetchProgram {
+ public:
+  ProgramStep poll(Machine& machine) {
+    Link* link = machine.links.find(kSocket);
+    if (link == nullptr) return ProgramStep::kEnded;
+    if (link->state() == Link::State::kClosed) {
+      link->want(kSocket, machine.settings.external_control_host,
+                 machine.settings.external_control_port);
+    } else if (link->state() == Link::State::kFailed) {
+      return ProgramStep::kEnded;
+    } else if (link->open() && !asked_) {
+      link->send_text("request_program\n");
+      asked_ = true;
+    }
+    if (link->received().size() != size_) quiet_s_ = 0.0;
+    size_ = link->received().size();
+    quiet_s_ += kCycle_s;
+    // Nothing says where the text ends but that no more comes.
+    if (size_ > 0 && quiet_s_ > kQuiet_s) whole_ = true;
+    return ProgramStep::kRunning;
+  }
+  ProgramStep command(Machine&) { return ProgramStep::kWaiting; }
+
+  /// The text, once it is whole; empty: not yet.
+  std::string_view text(Machine& machine) const {
+    return whole_ ? machine.links.find(kSocket)->received() : std::string_view();
+  }
+
+ private:
+  static constexpr std::string_view kSocket = "script_sender";
+  static constexpr double kQuiet_s = 0.3;
+
+  bool asked_ = false, whole_ = false;
+  std::size_t size_ = 0;
+  double quiet_s_ = 0.0;
+};
+
+}  // namespace tactus::ur

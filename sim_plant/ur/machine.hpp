@@ -1,0 +1,55 @@
+// Machine: the parts of the controller that a program acts on.
+#pragma once
+
+#include "sim_plant/ur/body.hpp"
+#include "sim_plant/ur/io.hpp"
+#include "sim_plant/ur/links.hpp"
+#include "sim_plant/ur/power.hpp"
+#include "sim_plant/ur/robot_messages.hpp"
+#include "sim_plant/ur/safety.hpp"
+
+namespace tactus::ur {
+
+struct Machine {
+  explicit Machine(const Settings& chosen)
+      : settings(chosen),
+        power(settings),
+        safety(settings),
+        messages(settings.version),
+        motion(settings.motion) {}
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+
+  /// A protective stop, for this reason; the cycle tells the clients and ends the program. [any]
+  void protective_stop(const Stop& stop) {
+    if (!power.powered() || !safety.protective_stop()) return;
+    last_stop = stop;
+    stop_unsaid = true;
+  }
+
+  const Settings settings;
+  Power power;
+  Safety safety;
+  RobotMessages messages;
+  Motion motion;
+  Body body;
+  Io io;
+  Links links;
+  std::int64_t cycle = 0;
+  double speed_scaling = 1.0;  ///< what the time base is stretched by
+  Vector6 tcp_offset = Vector6::Zero();
+  double payload = 0.0;
+  Vector3 payload_cog = Vector3::Zero();
+  bool freedrive = false;
+  Stop last_stop;
+  bool stop_unsaid = false;  ///< to the clients, who hear of it with the next cycle
+
+  /// Of the controller's clock, s.
+  double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * kCycle_s; }
+  void set_tcp(const Vector6& pose) {
+    tcp_offset = pose;
+    motion.set_tool(Frame::of(pose));
+  }
+};
+
+}  // namespace tactus::ur

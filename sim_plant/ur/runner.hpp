@@ -1,0 +1,64 @@
+// Runner: holds the program that runs, tells its kind by its shape, starts, pauses and ends it.
+#pragma once
+
+#include <variant>
+
+#include "sim_plant/ur/driver_program.hpp"
+#include "sim_plant/ur/external_control.hpp"
+#include "sim_plant/ur/fetch_program.hpp"
+#include "sim_plant/ur/register_program.hpp"
+
+namespace tactus::ur {
+
+inline constexpr std::size_t kLongestScript = 192 * 1024;
+
+class Runner {
+ public:
+  /// A program as it was uploaded: "def name(): ... end", "sec name(): ... end", or a single line.
+  /// It replaces what runs; a secondary one runs beside it. [any]
+  void upload(std::string_view text, Machine& machine);
+  /// Asks the control computer for the program. [any]
+  void fetch(Machine& machine);
+  void stop(Machine& machine);  ///< the program, if one runs
+  void pause() { paused_ = running(); }
+  void resume() { paused_ = false; }
+
+  /// One cycle: what the program's main threads do. [cyclic]
+  void poll(Machine& machine);
+  /// The next motion command, if there is one. [cyclic]
+  void command(Machine& machine);
+
+  bool running() const { return !std::holds_alternative<std::monostate>(program_); }
+  bool playing() const { return running() && !paused_; }
+  bool paused() const { return running() && paused_; }
+  RuntimeState state() const {
+    return !running() ? RuntimeState::kStopped
+           : paused_  ? RuntimeState::kPaused
+                      : RuntimeState::kPlaying;
+  }
+  std::string_view name() const { return {name_.data(), name_size_}; }
+
+ private:
+  static constexpr std::size_t kLongestName = 31, kLongestSecondary = 8192;
+
+  void start(std::string_view text, Machine& machine);
+  void start_secondary(std::string_view text, Machine& machine);
+  void start_fetched(std::string_view text, Machine& machine);
+  void set_name(std::string_view name);
+
+  std::variant<std::monostate, LineProgram, ExternalControl, DriverProgram, RegisterProgram,
+               FetchProgram>
+      program_;
+  bool paused_ = false;
+  std::array<char, kLongestScript> text_;
+  std::array<char, kLongestName> name_{};
+  std::size_t name_size_ = 0;
+
+  LineProgram secondary_;
+  bool secondary_running_ = false;
+  std::array<char, kLongestSecondary> secondary_text_;
+  std::array<char, kLongestName> secondary_name_{};
+  std::size_t secondary_name_size_ = 0;
+};
+
+}  // namespace tactus::ur

@@ -1,0 +1,190 @@
+#include "sim_plant/ur/script_calls.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace tactus::ur {
+namespace {
+
+using Kind = ScriptValue::Kind;
+
+/// Joints of an argument that is a list, or a pose for which they are found.
+bool joints_of(const ScriptValue* value, const Machine& machine, Joints& q) {
+  if (value == nullptr || !value->six()) return false;
+  q = value->vector();
+  if (value->kind == Kind::kList) return true;
+  const Joints near = machine.motion.q();
+  return inverse(Frame::of(value->vector()), machine.motion.tool(), near, q);
+}
+
+Frame frame_of(const ScriptValue& value, const Machine& machine) {
+  if (value.kind == Kind::kPose) return Frame::of(value.vector());
+  return forward(value.vector()) * machine.motion.tool();
+}
+
+CallResult move_j(const ScriptCall& call, Machine& machine) {
+  Joints q;
+  if (!joints_of(call.find("q", 0), machine, q)) return CallResult::kNoReach;
+  const bool good = machine.motion.move_j(q, call.number("a", 1, 0.0), call.number("v", 2, 0.0),
+                                          call.number("t", 3, 0.0));
+  return good ? CallResult::kMotion : CallResult::kNoReach;
+}
+
+CallResult move_l(const ScriptCall& call, Machine& machine) {
+  const ScriptValue* pose = call.find("pose", 0);
+  if (pose == nullptr || !pose->six()) return CallResult::kNoReach;
+  if (machine.motion.move_l(frame_of(*pose, machine), call.number("a", 1, 0.0),
+                            call.number("v", 2, 0.0), call.number("t", 3, 0.0)))
+    return CallResult::kMotion;
+  machine.protective_stop({Code::kSingularity, 0});
+  return CallResult::kHalt;
+}
+
+CallResult servo_j(const ScriptCall& call, Machine& machine) {
+  const ScriptValue* q = call.find("q", 0);
+  if (q == nullptr || !q->six()) return CallResult::kDone;
+  ServoLaw law;
+  law.lookahead_s = call.number("lookahead_time", 4, law.lookahead_s);
+  law.gain = call.number("gain", 5, law.gain);
+  machine.motion.servo_j(q->vector(), call.number("t", 3, kCycle_s), law);
+  return CallResult::kMotion;
+}
+
+CallResult speed(const ScriptCall& call, bool joints, Machine& machine) {
+  const ScriptValue* goal = call.find(joints ? "qd" : "xd", 0);
+  if (goal == nullptr || !goal->six()) return CallResult::kDone;
+  const double a = call.number("a", 1, 0.0), t = call.number("t", 2, call.number("t_min", 2, 0.0));
+  if (joints)
+    machine.motion.speed_j(goal->vector(), a, t);
+  else
+    machine.motion.speed_l(goal->vector(), a, t);
+  return CallResult::kMotion;
+}
+
+CallResult motion(const ScriptCall& call, Machine& machine) {
+  if (call.name == "movej") return move_j(call, machine);
+  if (call.name == "movel" || call.name == "movep") return move_l(call, machine);
+  if (call.name == "servoj") return servo_j(call, machine);
+  if (call.name == "speedj") return speed(call, true, machine);
+  if (call.name == "speedl") return speed(call, false, machine);
+  machine.motion.stop_j(call.number("a", 0, 0.0));  // stopj, stopl
+  return CallResult::kMotion;
+}
+
+/// Appends as textmsg prints it.
+void append(const ScriptValue& value, char* text, std::size_t capacity, std::size_t& size) {
+  const auto add = [&](const char* format, auto... args) {
+    const int more = std::snprintf(text + size, capacity - size, format, args...);
+    if (more > 0) size = std::min(capacity - 1, size + static_cast<std::size_t>(more));
+  };
+  if (value.kind == Kind::kText)
+    add("%.*s", static_cast<int>(value.text.size()), value.text.data());
+  if (value.kind == Kind::kNumber) add("%.6g", value.number);
+  if (value.kind == Kind::kBool) add("%s", value.number != 0.0 ? "True" : "False");
+  if (value.kind != Kind::kList && value.kind != Kind::kPose) return;
+  add("%s", value.kind == Kind::kPose ? "p[" : "[");
+  for (std::size_t i = 0; i < value.count; ++i) add(i > 0 ? ", %.6g" : "%.6g", value.elements[i]);
+  add("]");
+}
+
+void text_message(const ScriptCall& call, Machine& machine) {
+  std::array<char, 512> text{};
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < call.count; ++i)
+    append(call.arguments[i].value, text.data(), text.size(), size);
+  machine.messages.text({text.data(), size});
+}
+
+void write_register(const ScriptCall& call, Machine& machine) {
+  const double index = call.number("port_id", 0, -1.0), value = call.number("value", 1, 0.0);
+  const bool bits = call.name == "write_output_boolean_register";
+  if (!(index >= 0.0 && index < (bits ? kBitRegisters : kRegisters))) return;
+  const auto i = static_cast<std::size_t>(index);
+  if (bits)
+    machine.io.output.set_bit(static_cast<int>(i), value != 0.0);
+  else if (call.name == "write_output_float_register")
+    machine.io.output.doubles[i] = value;
+  else
+    machine.io.output.ints[i] =
+        static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
+}
+
+void set_output(const ScriptCall& call, Machine& machine) {
+  const double n = call.number("n", 0, -1.0);
+  const bool on = call.number("b", 1, 0.0) != 0.0;
+  struct Row {
+    std::string_view name;
+    int first, count;
+  };
+  constexpr Row kRows[] = {{"set_digital_out", 0, 18},
+                           {"set_standard_digital_out", 0, 8},
+                           {"set_configurable_digital_out", 8, 8},
+                           {"set_tool_digital_out", 16, 2}};
+  for (const Row& row : kRows)
+    if (row.name == call.name && n >= 0.0 && n < row.count)
+      machine.io.set_digital(row.first + static_cast<int>(n), on);
+}
+
+void set_payload(const ScriptCall& call, Machine& machine) {
+  machine.payload = call.number("m", 0, 0.0);
+  const ScriptValue* cog = call.find("cog", 1);
+  if (cog != nullptr && cog->count == 3) machine.payload_cog = Vector3(cog->elements.data());
+}
+
+std::string_view socket_name(const ScriptCall& call, std::size_t position) {
+  const ScriptValue* name = call.find("socket_name", position);
+  return name != nullptr && name->kind == Kind::kText ? name->text : "socket_0";
+}
+
+void use_socket(const ScriptCall& call, Machine& machine) {
+  const bool opens = call.name == "socket_open";
+  const std::size_t position = opens ? 2 : call.name == "socket_close" ? 0 : 1;
+  Link* link = machine.links.find(socket_name(call, position));
+  if (link == nullptr) return;
+  const ScriptValue* first = call.find("", 0);
+  if (opens && first != nullptr && first->kind == Kind::kText)
+    link->want(socket_name(call, 2), first->text, static_cast<int>(call.number("port", 1, 0.0)));
+  if (call.name == "socket_close") link->close();
+  if (call.name == "socket_send_int" && first != nullptr)
+    link->send_int(static_cast<std::int32_t>(first->number));
+  const bool line = call.name == "socket_send_line";
+  if ((line || call.name == "socket_send_string") && first != nullptr) link->send_text(first->text);
+  if (line) link->send_text("\n");
+}
+
+}  // namespace
+
+CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
+  const std::string_view name = call.name;
+  const bool moving = name == "movej" || name == "movel" || name == "movep" || name == "servoj" ||
+                      name == "speedj" || name == "speedl" || name == "stopj" || name == "stopl";
+  if (moving) return {moves ? motion(call, machine) : CallResult::kDone};
+  if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
+  if (name == "sync") return {CallResult::kWait, kCycle_s};
+  if (name == "halt" || name == "powerdown") return {CallResult::kHalt};
+  if (name == "textmsg") text_message(call, machine);
+  if (name == "protective_stop") {
+    machine.protective_stop({Code::kFromScript, 0});
+    return {CallResult::kHalt};
+  }
+  if (starts_with(name, "write_output_")) write_register(call, machine);
+  if (starts_with(name, "set_") && name.find("digital_out") != std::string_view::npos)
+    set_output(call, machine);
+  if (name == "set_standard_analog_out" || name == "set_analog_out") {
+    const double n = call.number("n", 0, -1.0);
+    if (n == 0.0 || n == 1.0) machine.io.set_analog(static_cast<int>(n), call.number("f", 1, 0.0));
+  }
+  if (name == "set_tool_voltage")
+    machine.io.tool_voltage = static_cast<std::int32_t>(call.number("voltage", 0, 0.0));
+  if (name == "set_payload" || name == "set_target_payload") set_payload(call, machine);
+  const ScriptValue* pose = call.find("pose", 0);
+  if (name == "set_tcp" && pose != nullptr && pose->six()) machine.set_tcp(pose->vector());
+  if (name == "popup" && call.count > 0)
+    machine.messages.popup("Message", call.arguments[0].value.text, false, false);
+  if (starts_with(name, "socket_")) use_socket(call, machine);
+  if (name == "freedrive_mode" || name == "teach_mode") machine.freedrive = true;
+  if (name == "end_freedrive_mode" || name == "end_teach_mode") machine.freedrive = false;
+  return {};
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,39 @@
+// Settings: what can be chosen about an emulated controller.
+#pragma once
+
+#include <string_view>
+
+#include "sim_plant/ur/motion.hpp"
+#include "sim_plant/ur/safety_limits.hpp"
+
+namespace tactus::ur {
+
+struct Settings {
+  Version version;
+  Joints initial_q;             ///< rad
+  bool switched_on = true;      ///< RUNNING from the beginning; else POWER_OFF, as after a start
+  double start_time_s = 100.0;  ///< what the clock of the controller shows at the beginning
+  std::string_view serial_number = "2017300001";
+
+  // How long a CB3 takes, s; a real one 5 to 10 s to IDLE and 1 to 3 s to RUNNING.
+  double power_on_s = 2.0, brake_release_s = 1.0, power_off_s = 0.3;
+  double unlock_delay_s = 0.5;  ///< of a protective stop, asked for on a script port
+  double unlock_wait_s = 5.0;   ///< before the dashboard may
+
+  // Thresholds that are not published: of C153, rad, and of C157, N m.
+  double path_deviation = 0.15;
+  Joints collision;
+  MotionLimits motion;
+  SafetyLimits safety;
+
+  /// Where the program external_control.urp asks for its script; empty: there is no such program.
+  std::string_view external_control_host = "";
+  int external_control_port = 50002;
+
+  Settings() {
+    initial_q << 0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0;
+    collision << 150.0, 150.0, 70.0, 28.0, 28.0, 28.0;
+  }
+};
+
+}  // namespace tactus::ur

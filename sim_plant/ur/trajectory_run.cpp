@@ -1,0 +1,181 @@
+#include "sim_plant/ur/trajectory_run.hpp"
+
+#include <cmath>
+
+namespace tactus::ur {
+namespace {
+
+constexpr std::string_view kSocket = "trajectory_socket";
+constexpr double kStop = 4.0;          // rad/s^2
+constexpr double kIgnoreSpeed = 20.0;  // rad/s
+constexpr double kPatience_s = 0.5;    // for a point, while the robot stands
+constexpr double kSamePlace = 0.01;    // rad
+constexpr std::int32_t kUnknown = 1 << 30;
+
+Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t first) {
+  Vector6 values;
+  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / kFixedPoint;
+  return values;
+}
+
+}  // namespace
+
+/// The points that have come for a trajectory that has ended.
+void TrajectoryRun::read_away(Machine& machine) {
+  std::array<std::int32_t, kTrajectoryInts> point;
+  Link* link = machine.links.find(kSocket);
+  while (left_ > 0 && link != nullptr && link->read_ints(point.data(), point.size())) --left_;
+}
+
+void TrajectoryRun::start(std::int32_t points, bool stream, Machine& machine) {
+  if (active()) read_away(machine);
+  phase_ = Phase::kPoints;
+  stream_ = stream;
+  stream_ended_ = false;
+  first_ = true;
+  left_ = stream ? kUnknown : points;
+  taken_ = 0;
+  waited_s_ = 0.0;
+  result_ = kSucceeded;
+  spline_.forget();
+}
+
+void TrajectoryRun::end_stream(std::int32_t points) {
+  if (!stream_ || stream_ended_ || phase_ == Phase::kIdle) return;
+  stream_ended_ = true;
+  left_ = points > taken_ ? points - taken_ : 0;
+}
+
+void TrajectoryRun::cancel(Machine& machine) {
+  machine.motion.stop_j(kStop);
+  phase_ = Phase::kClearing;
+  result_ = kCancelled;
+  waited_s_ = 0.0;
+}
+
+void TrajectoryRun::preempt(Machine& machine) {
+  if (phase_ == Phase::kPoints || phase_ == Phase::kSpline) cancel(machine);
+}
+
+void TrajectoryRun::finish(TrajectoryResult result, Machine& machine) {
+  result_ = result;
+  machine.motion.stop_j(kStop);
+  phase_ = Phase::kStopping;
+}
+
+ProgramStep TrajectoryRun::command(Machine& machine) {
+  if (machine.motion.busy()) return ProgramStep::kRunning;
+  switch (phase_) {
+    case Phase::kIdle:
+      return ProgramStep::kEnded;
+    case Phase::kSpline: {
+      const bool more = spline_.command(machine.motion);
+      if (features_.publishes_spline_time) machine.io.output.doubles[1] = spline_.travelled_s();
+      if (more) return ProgramStep::kRunning;
+      phase_ = Phase::kPoints;
+      waited_s_ = 0.0;
+      return next_point(machine);
+    }
+    case Phase::kPoints:
+      return next_point(machine);
+    case Phase::kClearing:
+      read_away(machine);
+      waited_s_ += kCycle_s;
+      if (left_ > 0 && left_ < kUnknown / 2 && waited_s_ < kPatience_s)
+        return ProgramStep::kWaiting;
+      [[fallthrough]];
+    case Phase::kStopping:
+      phase_ = Phase::kIdle;
+      if (result_ != kCancelled || features_.tells_cancelled)
+        if (Link* link = machine.links.find(kSocket)) link->send_int(result_);
+      return ProgramStep::kEnded;
+  }
+  return ProgramStep::kEnded;
+}
+
+ProgramStep TrajectoryRun::next_point(Machine& machine) {
+  if (left_ <= 0) {
+    finish(kSucceeded, machine);
+    return ProgramStep::kRunning;
+  }
+  std::array<std::int32_t, kTrajectoryInts> point;
+  Link* link = machine.links.find(kSocket);
+  if (link != nullptr && link->read_ints(point.data(), point.size())) {
+    --left_;
+    ++taken_;
+    waited_s_ = 0.0;
+    take_point(point, machine);
+    first_ = false;
+    return ProgramStep::kRunning;
+  }
+  waited_s_ += kCycle_s;
+  const bool moving = !machine.motion.dq().isZero(1e-6);
+  if (moving || waited_s_ > kPatience_s) {
+    finish(kFailed, machine);
+    return ProgramStep::kRunning;
+  }
+  return ProgramStep::kWaiting;
+}
+
+void TrajectoryRun::take_point(const std::array<std::int32_t, kTrajectoryInts>& point,
+                               Machine& machine) {
+  if (point[20] == kPointSpline) {
+    take_spline(point, left_ == 0, machine);
+    return;
+  }
+  spline_.forget();
+  if (!take_move(point, machine)) finish(kFailed, machine);
+}
+
+void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>& point, bool last,
+                                Machine& machine) {
+  const Joints q = machine.motion.q(), q_end = six(point, 0);
+  const double duration_s = point[18] / kFixedPoint;
+  const double way = (q_end - q).cwiseAbs().maxCoeff();
+  if (point[19] != kCubic && point[19] != kQuintic) return finish(kFailed, machine);
+  if (!(duration_s > 0.0)) {
+    if (first_ && duration_s == 0.0 && (q_end - q).norm() < kSamePlace) {
+      if (features_.publishes_spline_time) machine.io.output.doubles[1] = 0.0;
+      return;
+    }
+    return finish(kCancelled, machine);
+  }
+  if (way / duration_s > kIgnoreSpeed) return finish(kCancelled, machine);
+  const bool quintic = point[19] == kQuintic;
+  spline_.start(q, q_end, six(point, 6), six(point, 12), duration_s, quintic, last);
+  if (!quintic) spline_.forget_acceleration();
+  phase_ = Phase::kSpline;
+}
+
+bool TrajectoryRun::take_move(const std::array<std::int32_t, kTrajectoryInts>& point,
+                              Machine& machine) {
+  Motion& motion = machine.motion;
+  const Vector6 target = six(point, 0), hint = six(point, 6);
+  const double v = point[12] / kFixedPoint, a = point[13] / kFixedPoint;
+  const double t = point[18] / kFixedPoint;
+  Joints q = target;
+  switch (point[20]) {
+    case kPointMoveJPose:
+      if (!inverse(Frame::of(target), motion.tool(), point[14] != 0 ? hint : motion.q(), q))
+        return false;
+      [[fallthrough]];
+    case kPointMoveJ:
+      return motion.move_j(q, a, v, t);
+    case kPointMoveLJoints:
+    case kPointMovePJoints:
+    case kPointMoveCJoints:
+    case kPointMoveCPoseJoints:
+      return motion.move_l(forward(q) * motion.tool(), a, v, t);
+    case kPointMoveL:
+    case kPointMoveP:
+    case kPointMoveC:
+    case kPointMoveCJointsPose:
+      if (motion.move_l(Frame::of(target), a, v, t)) return true;
+      machine.protective_stop({Code::kSingularity, 0});
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace tactus::ur
