@@ -174,18 +174,21 @@ bool Executive::passes(Cause cause, Status status, double value) {
   return false;
 }
 
-/// To where the ladder says `cause` leads; what changes by it, and why, is in the log.
+/// To where the ladder says `cause` leads; what changes by it, and why, is in the log, a chain that
+/// is given up too.
 void Executive::move(Cause cause, Status status, double value) {
   const Rung from = rung(), to = next(from, cause, pipeline_.robot.mode());
+  const bool lost = chain_ && !rule(cause).chain;
   chain_ = cause == Cause::kRearm || (chain_ && rule(cause).chain);
   skips_ =
       cause == Cause::kOverruns || (skips_ && cause != Cause::kClean && cause != Cause::kRearm);
-  if (to == from) return;
+  if (to == from && !lost) return;
   const Guard::Telemetry& guard = guard_.telemetry();
   const bool joint = cause == Cause::kState || cause == Cause::kCommand;
   events_.add({stamp_ns_, telemetry_.cycles,
                static_cast<float>(joint ? guard.tripped_value : value), status, cause, from, to,
                static_cast<std::int8_t>(joint ? guard.tripped_joint : -1)});
+  if (to == from) return;
   rung_ = static_cast<std::uint8_t>(to);
   if (!refuses(to)) latched_ = Status::kOk;
   if (refuses(to) && latched_ == Status::kOk) latched_ = status;

@@ -1,5 +1,6 @@
 #include "kernel/loader.hpp"
 
+#include "kernel/collision_reader.hpp"
 #include "kernel/recording_reader.hpp"
 #include "kernel/schedule_reader.hpp"
 
@@ -82,6 +83,7 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(load_command(ini, *robot, pipeline, error));
   TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
+  TRY(read_collision(ini, pipeline, error));
   TRY(read_schedule(ini, pipeline, error));
   const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
   pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
@@ -114,6 +116,10 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);
+  if (section.name == "collision") {
+    pipeline.collision.given = true;
+    return read_settings(ini, section, ports, error, pipeline.collision);
+  }
   if (section.name == "task_limits") {
     TRY(read_settings(ini, section, ports, error, pipeline.task_limits));
     return check_workspace(ini, section, pipeline.task_limits, error);

@@ -11,6 +11,8 @@
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/control/pid.hpp"
 #include "kernel/control/wrench_front_end.hpp"
+#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/guard/collision.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
@@ -28,6 +30,7 @@ namespace tactus {
 using Block = std::variant<std::monostate,           //
                            RobotModel,               //
                            Frame,                    //
+                           BoxObstacle,              //
                            JointReferenceGenerator,  //
                            TaskReferenceGenerator,   //
                            PdGravity,                //
@@ -50,6 +53,8 @@ class Pipeline {
  public:
   RobotSection robot;
   Guard::Params guard;
+  CollisionSection collision;
+  Collision collision_check;  ///< a row of the schedule where the file has the section
   TaskLimits task_limits;
   ExecutiveSection executive;
   RecorderSection recorder;

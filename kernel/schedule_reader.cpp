@@ -53,6 +53,10 @@ Status add(Pipeline& pipeline, const Row& row, const char* section, const Place&
   }
 }
 
+Status check_collision(void* collision, const RobotState& measured, double) {
+  return static_cast<Collision*>(collision)->check(measured);
+}
+
 }  // namespace
 
 Status read_schedule(const Ini& ini, Pipeline& pipeline, LoadError& error) {
@@ -63,9 +67,12 @@ Status read_schedule(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   // The recorder's ring is the board's, which binds this row.
   TRY(add(pipeline, {"recorder", recorder.divisor, recorder.offset, recorder.budget_us, true},
           "recorder", place));
-  // Rows that a pipeline owns follow here, each with its section's divisor, offset and budget_us
-  // and bound to what it runs.
-  return Status::kOk;
+  const CollisionSection& collision = pipeline.collision;
+  if (!collision.given) return Status::kOk;
+  return add(pipeline,
+             {"collision", collision.divisor, collision.offset, collision.budget_us, false,
+              check_collision, &pipeline.collision_check},
+             "collision", place);
 }
 
 }  // namespace tactus

@@ -58,6 +58,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kSensorStuck, "kSensorStuck"},
     {Status::kSensorNotSteady, "kSensorNotSteady"},
     {Status::kFollowingError, "kFollowingError"},
+    {Status::kCollision, "kCollision"},
     {Status::kOverrun, "kOverrun"},
     {Status::kStopTime, "kStopTime"},
     {Status::kHalted, "kHalted"},

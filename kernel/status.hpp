@@ -59,6 +59,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSensorStuck = 74,
     kSensorNotSteady = 75,
     kFollowingError = 76,
+    kCollision = 77,
     kOverrun = 80,
     kStopTime = 81,
     kHalted = 82,

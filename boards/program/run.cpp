@@ -31,6 +31,11 @@ Status record(void* recorder, const RobotState&, double time_s) {
   return Status::kOk;  // a full ring drops the row and counts it
 }
 
+void print_collision(const Collision::Telemetry& told) {
+  std::fprintf(stderr, "  %s with %s, %s\n", told.first, told.second,
+               told.predicted ? "before the arm could have come to rest" : "now");
+}
+
 /// Runs the loop between start and stop, and the times and counters around it.
 void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
              LogWriter& writer, RunResult& result) {
@@ -64,6 +69,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   const Message trouble = robot != nullptr ? robot->trouble(robot->robot) : Message();
   print_stop(options.pipeline, started == Status::kOk ? "stopped" : "refused", latched,
              session.executive.guard().telemetry(), trouble);
+  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/loop_bound.hpp"
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -60,13 +61,17 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   monitor_.put_out(reference());
   feedback_.step(cycles_, time_s(), executing() ? running_.id : 0, reference(), measured,
                  channel_->feedback);
+  planned_ = false;
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
 }
 
 template <class Space>
 void ReferenceGenerator<Space>::take_requests() {
   Request<Space> request;
+  LoopBound<16> requests;  // what a mailbox holds
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+    if (planned_ && refusing_ == Status::kOk) break;
+    requests.tick();
     if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
     answer(request);
   }
@@ -111,7 +116,7 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   if (arrival == Arrival::kWaiting) return;
   if (arrival == Arrival::kArrived)
     return end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
-  if (!measured.at_rest().finite() || !motion_.shape(measured).ok()) motion_.brake();
+  if (!measured.at_rest().finite() || !shape(measured).ok()) motion_.brake();
   end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
 }
 
@@ -127,14 +132,15 @@ void ReferenceGenerator<Space>::watch_stream(double dt_s) {
 /// stands at once: points that are forwarded may step.
 template <class Space>
 void ReferenceGenerator<Space>::stand() {
-  if (motion_.on_path() || reference().idle()) return;
-  if (!motion_.shape(reference()).ok()) motion_.forward(reference().at_rest());
+  if (planned_ || motion_.on_path() || reference().idle()) return;
+  if (!shape(reference()).ok()) motion_.forward(reference().at_rest());
 }
 
-/// A trajectory that waits begins in the cycle nearest to its start time.
+/// A trajectory that waits begins in the cycle nearest to its start time, or in the next if that
+/// has made its plan.
 template <class Space>
 void ReferenceGenerator<Space>::watch_start() {
-  if (waiting_.store < 0) return;
+  if (waiting_.store < 0 || planned_) return;
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(waiting_.store)];
   if (trajectory.start_s - time_s() > 0.5 * period_s_) return;
   const Goal due = waiting_;
@@ -142,11 +148,18 @@ void ReferenceGenerator<Space>::watch_start() {
   static_cast<void>(begin(due, 0.0));
 }
 
+template <class Space>
+Verdict ReferenceGenerator<Space>::shape(const Point& point) {
+  planned_ = true;
+  return motion_.shape(point);
+}
+
 /// Leaves what runs for the trajectory of `goal`, which began `elapsed_s` ago. False: it is
 /// refused, and what runs goes on.
 template <class Space>
 bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(goal.store)];
+  planned_ = true;
   const Verdict verdict = motion_.follow(trajectory, params_.start_tolerance, elapsed_s);
   if (!verdict.ok()) return report(goal.id, Outcome::kRefused, goal.store, verdict), false;
   end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);

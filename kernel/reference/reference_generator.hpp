@@ -48,6 +48,7 @@ class ReferenceGenerator {
   /// the override from now on, so that they wait for the robot instead of running ahead of it. What
   /// is outside 0..1 or not a number counts as the nearest, and as 0. Before step(). [cyclic]
   void scale_speed(double scaling);
+
   /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
   /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
   /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
@@ -82,6 +83,7 @@ class ReferenceGenerator {
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
   void watch_start();
+  Verdict shape(const Point& point);
   bool begin(const Goal& goal, double elapsed_s);
   void end_waiting(Outcome outcome, const Verdict& verdict = {});
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
@@ -107,6 +109,10 @@ class ReferenceGenerator {
   Goal running_;           // executed, or braked on: the motion still reads its store
   Goal waiting_;           // for its start time
   bool starving_ = false;  // and the client has been told
+
+  /// In this cycle the way to a trajectory or to rest has been judged against the limits, which
+  /// takes longest of all: once in a cycle, and what else is asked for waits for the next.
+  bool planned_ = false;
 
   double point_age_s_ = 0.0;    // since the last online point
   bool point_pending_ = false;  // a point was taken in this cycle and is not yet put out

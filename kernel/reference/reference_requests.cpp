@@ -48,7 +48,7 @@ template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   const Point point = Space::placed(request.point, Space::latch(request.terms, reference()));
   Verdict verdict = judge_point(point);
-  if (verdict.ok() && params_.online == OnlineMode::kLimit) verdict = motion_.shape(point);
+  if (verdict.ok() && params_.online == OnlineMode::kLimit) verdict = shape(point);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   settle_point(Outcome::kSuperseded);
   if (params_.online != OnlineMode::kLimit) motion_.forward(point);

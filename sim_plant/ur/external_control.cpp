@@ -43,7 +43,8 @@ void ExternalControl::start(std::string_view text) {
   const std::size_t end = text.rfind(kLastOfLoop);
   if (end == std::string_view::npos) return;
   behind_ = text.substr(end + kLastOfLoop.size());
-  behind_line_ = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(end), '\n')) + 1;
+  behind_line_ =
+      static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(end), '\n')) + 1;
 }
 
 ProgramStep ExternalControl::poll(Machine& machine) {
@@ -126,8 +127,10 @@ void ExternalControl::take(const Message& message, Machine& machine) {
     return obey(message, machine);
   // The old motion ends before the new one begins.
   const bool cancels = mode_ == ControlMode::kForward && trajectory_.active();
-  if (cancels) trajectory_.preempt(machine);
-  else if (!machine.motion.resting()) machine.motion.stop_j(kStop);
+  if (cancels)
+    trajectory_.preempt(machine);
+  else if (!machine.motion.resting())
+    machine.motion.stop_j(kStop);
   if (mode_ == ControlMode::kFreedrive) machine.freedrive = false;
   mode_ = ControlMode::kIdle;
   if (machine.motion.busy() || trajectory_.active()) {
@@ -154,7 +157,8 @@ void ExternalControl::obey(const Message& message, Machine& machine) {
     case ControlMode::kServoJ:
       return set_point(values, machine);
     case ControlMode::kPose:
-      if (inverse(Frame::of(values), machine.motion.tool(), servo_q_, q)) return set_point(q, machine);
+      if (inverse(Frame::of(values), machine.motion.tool(), servo_q_, q))
+        return set_point(q, machine);
       machine.messages.runtime_exception(1, 1, "runtime_error:no inverse kinematics");
       return leave(true, machine);
     case ControlMode::kSpeedJ:

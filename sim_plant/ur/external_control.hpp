@@ -45,12 +45,10 @@ class ExternalControl {
   ControlMode mode_ = ControlMode::kUninitialised;
   Message waiting_{};  // for the old motion to end
   double timeout_s_ = 0.0, silent_s_ = 0.0;
-  bool halts_ = false;
-  bool tool_contact_ = false;
   Joints servo_q_ = Joints::Zero();
   enum class Servo : std::uint8_t { kNone, kNew, kOld } servo_ = Servo::kNone;
   Vector6 speed_ = Vector6::Zero();
-  bool warned_ = false;
+  bool halts_ = false, tool_contact_ = false, warned_ = false;
   TrajectoryRun trajectory_;
   LineProgram rest_;
 };

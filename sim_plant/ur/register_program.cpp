@@ -46,16 +46,18 @@ void RegisterProgram::start(std::string_view text) {
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
   constexpr std::string_view kWatch = "rtde_set_watchdog(\"";
   const std::size_t watch = text.find(kWatch);
-  if (watch != std::string_view::npos) watch_name_ = leading_name(text.substr(watch + kWatch.size()));
+  if (watch != std::string_view::npos)
+    watch_name_ = leading_name(text.substr(watch + kWatch.size()));
   async_ = text.find("thread move_thread():") != std::string_view::npos;
 }
 
 double RegisterProgram::input(int i, const Machine& machine) const {
-  return machine.io.input.doubles[static_cast<std::size_t>(double_offset_ + i)];
+  return machine.io.input
+      .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)];
 }
 
 std::int32_t RegisterProgram::integer(int i, const Machine& machine) const {
-  return machine.io.input.ints[static_cast<std::size_t>(int_offset_ + i)];
+  return machine.io.input.ints[static_cast<std::size_t>(int_offset_) + static_cast<std::size_t>(i)];
 }
 
 Vector6 RegisterProgram::six(int first, const Machine& machine) const {
@@ -70,7 +72,9 @@ void RegisterProgram::answer(std::int32_t value, Machine& machine) const {
 
 void RegisterProgram::answer_six(const Vector6& values, Machine& machine) const {
   for (int i = 0; i < 6; ++i)
-    machine.io.output.doubles[static_cast<std::size_t>(double_offset_ + i)] = values[i];
+    machine.io.output
+        .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)] =
+        values[i];
 }
 
 /// Bits 24-30 count operations, 16-22 writes; bit 15: one is under way.
@@ -157,30 +161,6 @@ void RegisterProgram::process(Command command, Machine& machine) {
       return;
     default:
       return ask(command, machine);
-  }
-}
-
-/// What is answered in registers.
-void RegisterProgram::ask(Command command, Machine& machine) {
-  Joints q = six(0, machine);
-  const double limit = machine.settings.motion.position;
-  const auto answer_flag = [&](bool flag) {
-    machine.io.output.ints[static_cast<std::size_t>(int_offset_) + 1] = flag ? 1 : 0;
-  };
-  switch (command) {
-    case Command::kInverseKinematics:
-      if (inverse(Frame::of(six(0, machine)), machine.motion.tool(), six(6, machine), q))
-        answer_six(q, machine);
-      return;
-    case Command::kPoseWithinLimits:
-      return answer_flag(inverse(Frame::of(six(0, machine)), machine.motion.tool(),
-                                 machine.motion.q(), q));
-    case Command::kJointsWithinLimits:
-      return answer_flag(q.cwiseAbs().maxCoeff() <= limit);
-    case Command::kJointTorques:
-      return answer_six(machine.body.tau(), machine);
-    default:
-      return;  // not emulated: done at once
   }
 }
 

@@ -6,10 +6,10 @@ namespace tactus::ur {
 namespace {
 
 constexpr std::string_view kSocket = "trajectory_socket";
-constexpr double kStop = 4.0;           // rad/s^2
-constexpr double kIgnoreSpeed = 20.0;   // rad/s
-constexpr double kPatience_s = 0.5;     // for a point, while the robot stands
-constexpr double kSamePlace = 0.01;     // rad
+constexpr double kStop = 4.0;          // rad/s^2
+constexpr double kIgnoreSpeed = 20.0;  // rad/s
+constexpr double kPatience_s = 0.5;    // for a point, while the robot stands
+constexpr double kSamePlace = 0.01;    // rad
 constexpr std::int32_t kUnknown = 1 << 30;
 
 Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t first) {
@@ -70,8 +70,7 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
       return ProgramStep::kEnded;
     case Phase::kSpline: {
       const bool more = spline_.command(machine.motion);
-      if (features_.publishes_spline_time)
-        machine.io.output.doubles[1] = spline_.travelled_s();
+      if (features_.publishes_spline_time) machine.io.output.doubles[1] = spline_.travelled_s();
       if (more) return ProgramStep::kRunning;
       phase_ = Phase::kPoints;
       waited_s_ = 0.0;
