@@ -29,6 +29,8 @@ class ExternalControl {
   void obey(const Message& message, Machine& machine);
   void forward(const Message& message, Machine& machine);
   void read_commands(Machine& machine);
+  void obey_command(const std::array<std::int32_t, kScriptCommandInts>& command, Link& link,
+                    Machine& machine);
   void set_point(const Joints& q, Machine& machine);
   void leave(bool halts, Machine& machine);
   ProgramStep servo(Machine& machine);
