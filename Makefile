@@ -10,11 +10,12 @@ BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
 SRCS   :=
 LDLIBS :=
 RUNS   :=
+PARTS  :=
 TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
 include boards/$(BOARD)/board.mk
 
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
-SEAMS     := boards/program/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+SEAMS     := boards/program/options.cpp boards/ur10_emulator/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
 NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
@@ -33,7 +34,7 @@ NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH))
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
-PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp)
+PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp) $(PARTS)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)

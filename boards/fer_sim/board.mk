@@ -5,3 +5,6 @@ LDLIBS += -lmujoco
 
 # What `make run` runs: pipeline, or pipeline:trajectory.
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
+
+# All tests but those of the UR's wire.
+TESTS  := $(filter-out ur_%,$(TESTS))

@@ -9,15 +9,7 @@ namespace {
 constexpr double kScalingPerCycle = 0.04;  // the slider acts within 0.2 s
 constexpr int kCommandsPerCycle = 32;
 constexpr double kNothing_s = 1e-9;
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kTcpSpeed = 1.5 + 0.5;  // m/s; the controller stops short of a violation
-
-/// Speeds at which the safety system steps in, default installation, and what it is exact to.
-Joints violating_speed() {
-  Joints speed;
-  speed << 131.46, 131.46, 191.46, 191.46, 191.46, 191.46;
-  return speed * kDegree * 1.15;
-}
+constexpr double kLimiter = 0.95;  // of a safety limit, where the controller begins to slow down
 
 }  // namespace
 
@@ -58,12 +50,17 @@ void Controller::run_program() {
   else machine_.motion.brake(kCycle_s);
 }
 
-/// The time base follows the slider; a pause slows it to nothing.
+/// The time base follows the slider; a pause slows it to nothing, and a tool that would be faster
+/// than the safety system lets it slows it too.
 void Controller::scale_speed() {
-  const double goal = runner_.paused() ? 0.0 : machine_.io.speed_fraction;
+  double goal = runner_.paused() ? 0.0 : machine_.io.speed_fraction;
   double& scaling = machine_.speed_scaling;
-  if (!runner_.running() && machine_.motion.resting()) scaling = goal;
+  const Motion& motion = machine_.motion;
+  if (!runner_.running() && motion.resting()) scaling = goal;
   scaling += std::clamp(goal - scaling, -kScalingPerCycle, kScalingPerCycle);
+  const double speed = (jacobian(motion.q(), motion.tool()) * motion.dq()).head<3>().norm();
+  const double fastest = kLimiter * limits_.limits().tcp_speed;
+  if (speed * scaling > fastest) scaling = fastest / speed;
 }
 
 /// The cycle's share of the stretched time is dealt out to the commands of the program.
@@ -82,7 +79,7 @@ void Controller::move_targets() {
   if (const Stop fault = motion.take_fault()) machine_.protective_stop(fault);
 }
 
-/// Position deviation, collision, and the limits of the safety system.
+/// Position deviation and collision, and then what the safety system watches.
 void Controller::watch_arm() {
   const Settings& settings = machine_.settings;
   const Joints q = machine_.body.q() + faults_.encoder_offset;
@@ -97,20 +94,18 @@ void Controller::watch_arm() {
   if (!(image_.collision_detection_ratio < 1.0))
     machine_.protective_stop({Code::kCollision, static_cast<std::int32_t>(joint)});
 
-  static const Joints kFastest = violating_speed();
-  const Joints speed = machine_.body.dq().cwiseAbs();
-  std::int32_t violated = 0;
-  if (!(speed.array() <= kFastest.array()).all()) violated = kViolatedJointSpeed;
-  if (!(q.cwiseAbs().maxCoeff() <= settings.motion.position + 1.15 * kDegree))
-    violated = kViolatedJointPosition;
-  if (violated != 0 && machine_.safety.violation()) {
-    machine_.last_stop = {Code::kSafetyViolation, violated};
-    machine_.stop_unsaid = true;
-    machine_.power.switch_off();
-  }
-  const Vector6 twist = jacobian(q, machine_.motion.tool()) * machine_.body.dq();
-  if (twist.head<3>().norm() > kTcpSpeed)
-    machine_.protective_stop({Code::kSafetyViolation, kViolatedTcpSpeed});
+  watch_limits(q);
+}
+
+void Controller::watch_limits(const Joints& q) {
+  const Joints dq = machine_.body.dq();
+  const double tcp_speed = (jacobian(q, machine_.motion.tool()) * dq).head<3>().norm();
+  const std::int32_t violated =
+      limits_.check(q, dq, tcp_speed, image_.actual_momentum, kCycle_s);
+  if (violated == 0 || !machine_.safety.violation()) return;
+  machine_.last_stop = {Code::kSafetyViolation, violated};
+  machine_.stop_unsaid = true;
+  machine_.power.switch_off();
 }
 
 void Controller::say_changes() {

@@ -18,7 +18,7 @@ struct Faults {
 class Controller {
  public:
   explicit Controller(const Settings& settings)
-      : machine_(settings), dashboard_(runner_, machine_) {}
+      : machine_(settings), dashboard_(runner_, machine_), limits_(settings.safety) {}
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
@@ -37,6 +37,7 @@ class Controller {
   void scale_speed();
   void move_targets();
   void watch_arm();
+  void watch_limits(const Joints& q);
   void say_changes();
   void show();
   void show_tool();
@@ -46,6 +47,7 @@ class Controller {
   Machine machine_;
   Runner runner_;
   Dashboard dashboard_;
+  LimitWatch limits_;
   Faults faults_;
   Image image_;
   Joints dq_before_ = Joints::Zero();  // target speeds of the last cycle

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "sim_plant/ur/motion.hpp"
+#include "sim_plant/ur/safety_limits.hpp"
 
 namespace tactus::ur {
 
@@ -23,6 +24,7 @@ struct Settings {
   double path_deviation = 0.15;
   Joints collision;
   MotionLimits motion;
+  SafetyLimits safety;
 
   /// Where the program external_control.urp asks for its script; empty: there is no such program.
   std::string_view external_control_host = "";

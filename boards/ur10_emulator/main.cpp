@@ -1,0 +1,83 @@
+// ur10_emulator: an emulated Universal Robots UR10 controller (CB3) behind its TCP ports. The arm is
+// simulated; clients of a real controller connect to it.
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "boards/ur10_emulator/options.hpp"
+#include "boards/ur10_emulator/server.hpp"
+#include "hal/os/cycle_clock.hpp"
+
+namespace tactus::ur {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+void interrupt(int) {
+  g_interrupted = 1;
+}
+
+Settings settings_of(const EmulatorOptions& options) {
+  Settings settings;
+  settings.version = {options.version[0], options.version[1], options.version[2],
+                      options.version[3]};
+  settings.initial_q = Joints(options.initial_q);
+  settings.switched_on = !options.switched_off;
+  settings.start_time_s = options.start_time_s;
+  settings.external_control_host = options.external_control_host;
+  settings.external_control_port = options.external_control_port;
+  return settings;
+}
+
+/// Cycles on a grid of real time. A host that is late catches up cycle by cycle, for the robot's
+/// clock never leaves one out; after more than a second it lets the time go.
+void run(Emulator& emulator, Server& server, const EmulatorOptions& options) {
+  const auto period_ns = static_cast<std::int64_t>(kCycle_s * 1e9 / options.speed);
+  const auto last = static_cast<std::int64_t>(options.duration_s / kCycle_s + 0.5);
+  constexpr std::int64_t kLongestLag_ns = 1'000'000'000;
+  std::int64_t next_ns = monotonic_ns() + period_ns;
+  for (std::int64_t cycle = 0; g_interrupted == 0 && (last == 0 || cycle < last);) {
+    const std::int64_t left_ns = next_ns - monotonic_ns();
+    if (left_ns > 0) {
+      server.pump(left_ns);
+      continue;
+    }
+    server.pump(0);
+    emulator.tick();
+    server.flush();
+    ++cycle;
+    next_ns += period_ns;
+    if (left_ns < -kLongestLag_ns) next_ns = monotonic_ns() + period_ns;
+  }
+}
+
+}  // namespace
+}  // namespace tactus::ur
+
+int main(int argc, char** argv) {
+  using namespace tactus::ur;
+  EmulatorOptions options;
+  int exit_code = 0;
+  if (!parse_emulator_options(argc, argv, options, exit_code)) return exit_code;
+  static Emulator emulator(settings_of(options));
+  if (emulator.start() != tactus::Status::kOk) {
+    std::fprintf(stderr, "the arm could not be built\n");
+    return 2;
+  }
+  static Server server(emulator);
+  if (!server.start(options.address, options.port_offset)) {
+    std::fprintf(stderr, "cannot listen at %s: %s\n", options.address, std::strerror(errno));
+    return 2;
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  std::printf("UR10 at %s: dashboard %d, primary %d, secondary %d, real-time %d, RTDE %d\n",
+              options.address, kDashboardPort + options.port_offset,
+              kPrimaryPort + options.port_offset, kSecondaryPort + options.port_offset,
+              kRealtimePort + options.port_offset, kRtdePort + options.port_offset);
+  std::fflush(stdout);
+  run(emulator, server, options);
+  return 0;
+}

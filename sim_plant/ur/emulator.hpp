@@ -1,0 +1,67 @@
+// Emulator: the controller with its clients. Whoever owns the network opens a session for every
+// connection, passes bytes in and takes bytes out, and calls tick() once per cycle. A client that does
+// not read loses packets, and after some seconds its session.
+#pragma once
+
+#include "sim_plant/ur/controller.hpp"
+#include "sim_plant/ur/rtde_session.hpp"
+#include "sim_plant/ur/script_intake.hpp"
+
+namespace tactus::ur {
+
+enum class Service : std::uint8_t { kDashboard, kPrimary, kSecondary, kRealtime, kRtde };
+
+class Emulator {
+ public:
+  static constexpr int kSessions = 24;
+
+  explicit Emulator(const Settings& settings) : controller_(settings) {}
+
+  Status start() { return controller_.start(); }  ///< [init]
+  void tick();                                    ///< [cyclic]
+
+  /// A client has connected; -1: there is no room for another. [any]
+  int open(Service service);
+  void close(int session);
+  /// Bytes from the client, in pieces of any size.
+  void receive(int session, const std::uint8_t* data, std::size_t size);
+  /// What the client is to be sent. After outbox().sent(), the rest.
+  Outbox& outbox(int session) { return at(session).out; }
+  /// The session is at its end: send what is left, and close.
+  bool ended(int session) { return at(session).ended; }
+
+  Controller& controller() { return controller_; }
+  Links& links() { return controller_.machine().links; }
+
+ private:
+  struct Session {
+    bool open = false, ended = false;
+    Service service = Service::kDashboard;
+    Outbox out;
+    RtdeSession rtde;
+    ScriptIntake script;
+    std::array<char, 1024> line;  // of the dashboard
+    std::size_t line_size = 0;
+    int stalled = 0;  // cycles in which the client has taken nothing
+    std::size_t unsent = 0;
+    bool told = false;  // has had a whole state
+  };
+
+  Session& at(int session) { return sessions_[static_cast<std::size_t>(session)]; }
+  void greet(Session& session);
+  void take_lines(Session& session, const std::uint8_t* data, std::size_t size);
+  void take_script(Session& session, const std::uint8_t* data, std::size_t size);
+  void send_cycle(Session& session);
+  void send_state(Session& session);
+  void send_messages();
+  void watch_reader(Session& session);
+  bool state_is_due();
+
+  Controller controller_;
+  std::array<Session, kSessions> sessions_;
+  Claims claims_;
+  double state_due_ = 0.0;
+  bool protective_before_ = false;
+};
+
+}  // namespace tactus::ur
