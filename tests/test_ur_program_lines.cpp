@@ -87,7 +87,8 @@ void a_program_replaces_the_one_that_runs(void**) {
 
 void the_arm_decelerates_when_its_program_is_replaced(void**) {
   static ProgramBench bench;
-  bench.upload("def first():\n  speedj([0.5,0,0,0,0,0], 2.0)\n  while True:\n    sync()\n  end\nend\n");
+  bench.upload(
+      "def first():\n  speedj([0.5,0,0,0,0,0], 2.0)\n  while True:\n    sync()\n  end\nend\n");
   bench.run_s(1.0);
   ASSERT_NEAR(bench.image().target_qd[0], 0.5, 1e-9);
   bench.upload("def second():\n  sleep(1)\nend\n");
@@ -229,8 +230,8 @@ void a_loop_that_never_waits_costs_a_bounded_time(void**) {
 void brackets_without_end_are_no_value(void**) {
   static ProgramBench bench;
   for (const std::string_view text :
-       {"x = ((((((((((((((((((((((((((((((((1))))))))))))))))))))))))))))))))\n",
-        "x = [1, 2\n", "x = p[\n", "x = \"open\n", "set_tcp(\n", "x = -\n", "x = 1 +\n", "x[ = 3\n"}) {
+       {"x = ((((((((((((((((((((((((((((((((1))))))))))))))))))))))))))))))))\n", "x = [1, 2\n",
+        "x = p[\n", "x = \"open\n", "set_tcp(\n", "x = -\n", "x = 1 +\n", "x[ = 3\n"}) {
     bench.upload(text);
     bench.run(2);
   }
@@ -243,9 +244,8 @@ void movej_takes_a_plausible_time(void**) {
   static ProgramBench bench;
   ASSERT_OK(bench.machine().body.load(joints({-1.57, -1.57, 0, 0, 0, 0}), 0.0, Vector3::Zero()));
   bench.machine().motion.rest(joints({-1.57, -1.57, 0, 0, 0, 0}));
-  for (const std::string_view text :
-       {"movej([-1.57, -1.6, 1.6, -0.7, 0.7, 0.2], a=3.4, v=3.1)\n",
-        "movej([-1.57, -1.57, 0, 0, 0, 0], a=3.4, v=3.1)\n"}) {
+  for (const std::string_view text : {"movej([-1.57, -1.6, 1.6, -0.7, 0.7, 0.2], a=3.4, v=3.1)\n",
+                                      "movej([-1.57, -1.57, 0, 0, 0, 0], a=3.4, v=3.1)\n"}) {
     bench.upload(text);
     bench.run(1);
     const double seconds = bench.run_to_end() * kCycle_s;

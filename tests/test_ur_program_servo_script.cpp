@@ -30,7 +30,8 @@ struct ServoBench : ProgramBench {
     return q;
   }
   void set(const Joints& q) {
-    for (std::size_t i = 0; i < 6; ++i) machine().io.input.doubles[kFirst + i] = q[static_cast<int>(i)];
+    for (std::size_t i = 0; i < 6; ++i)
+      machine().io.input.doubles[kFirst + i] = q[static_cast<int>(i)];
     machine().io.input.ints[kFirst] = ++count;
   }
   void set_next() {

@@ -1,5 +1,5 @@
-// A controller that runs uploaded programs, with the control computer's side of their sockets in the
-// test's hand. Bytes are written here as the protocols' tables have them.
+// A controller that runs uploaded programs, with the control computer's side of their sockets in
+// the test's hand. Bytes are written here as the protocols' tables have them.
 #pragma once
 
 #include <cstring>
@@ -63,8 +63,10 @@ struct ProgramBench {
     for (Link& link : machine().links.all()) {
       if (link.state() != Link::State::kWanted) continue;
       link.connecting();
-      if (listening) link.connected();
-      else link.failed();
+      if (listening)
+        link.connected();
+      else
+        link.failed();
     }
   }
   void run(int cycles) {

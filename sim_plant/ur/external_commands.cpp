@@ -1,5 +1,5 @@
-// External control's commands that are no motion. They come over a socket of their own, and only the
-// watch for a contact answers.
+// External control's commands that are no motion. They come over a socket of their own, and only
+// the watch for a contact answers.
 #include "sim_plant/ur/external_control.hpp"
 
 namespace tactus::ur {
@@ -8,8 +8,8 @@ namespace {
 using Command = std::array<std::int32_t, kScriptCommandInts>;
 
 constexpr std::string_view kSocket = "script_command_socket";
-constexpr double kStop = 4.0;       // rad/s^2
-constexpr double kContact = 0.3;    // of the torque that is taken for a collision
+constexpr double kStop = 4.0;     // rad/s^2
+constexpr double kContact = 0.3;  // of the torque that is taken for a collision
 constexpr int kCommandsAtOnce = 8;
 enum Contact : std::int32_t { kTouched = 0, kEndedWithout = 1 };
 

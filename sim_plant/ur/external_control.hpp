@@ -20,6 +20,8 @@ class ExternalControl {
 
  private:
   enum class Phase : std::uint8_t { kConnecting, kRunning, kJoining, kEnding, kBehind, kEnded };
+  static constexpr std::array<std::string_view, 3> kSockets = {
+      "trajectory_socket", "script_command_socket", "reverse_socket"};
   using Message = std::array<std::int32_t, kReverseInts>;
 
   ProgramStep connect(Machine& machine);
@@ -53,6 +55,7 @@ class ExternalControl {
   enum class Servo : std::uint8_t { kNone, kNew, kOld } servo_ = Servo::kNone;
   Vector6 speed_ = Vector6::Zero();
   bool warned_ = false;
+  double log_at_s_ = 0.0;
   TrajectoryRun trajectory_;
   LineProgram rest_;
 };
