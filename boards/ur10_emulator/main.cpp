@@ -1,5 +1,5 @@
-// ur10_emulator: an emulated Universal Robots UR10 controller (CB3) behind its TCP ports. The arm is
-// simulated; clients of a real controller connect to it.
+// ur10_emulator: an emulated Universal Robots UR10 controller (CB3) behind its TCP ports. The arm
+// is simulated; clients of a real controller connect to it.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>

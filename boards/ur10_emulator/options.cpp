@@ -44,7 +44,8 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   std::string address = options.address, host, version = "3.15.8.106339";
   std::vector<double> q(std::begin(options.initial_q), std::end(options.initial_q));
   CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "tactus"};
-  app.add_option("--bind", address, "address to listen at (default 127.0.0.1)")->check(short_text());
+  app.add_option("--bind", address, "address to listen at (default 127.0.0.1)")
+      ->check(short_text());
   app.add_option("--port-offset", options.port_offset, "added to every port (default 0)")
       ->check(finite(-28000, 30000));
   app.add_option("--speed", options.speed, "multiple of real time (default 1)")

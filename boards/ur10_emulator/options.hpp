@@ -6,11 +6,11 @@ namespace tactus::ur {
 
 struct EmulatorOptions {
   char address[64] = "127.0.0.1";
-  int port_offset = 0;         ///< added to every port
-  double speed = 1.0;          ///< cycles by this multiple of real time
+  int port_offset = 0;  ///< added to every port
+  double speed = 1.0;   ///< cycles by this multiple of real time
   double start_time_s = 100.0;
-  double duration_s = 0.0;     ///< of the controller's time; 0: until it is ended
-  bool switched_off = false;   ///< POWER_OFF at the beginning
+  double duration_s = 0.0;    ///< of the controller's time; 0: until it is ended
+  bool switched_off = false;  ///< POWER_OFF at the beginning
   double initial_q[6] = {0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0};  ///< rad
   unsigned version[4] = {3, 15, 8, 106339};
   char external_control_host[64] = "";

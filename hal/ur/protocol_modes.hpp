@@ -20,9 +20,9 @@ enum class RobotMode : std::int8_t {
 };
 
 constexpr const char* name(RobotMode mode) {
-  constexpr const char* kNames[] = {"NO_CONTROLLER", "DISCONNECTED", "CONFIRM_SAFETY", "BOOTING",
-                                    "POWER_OFF",     "POWER_ON",     "IDLE",           "BACKDRIVE",
-                                    "RUNNING",       "UPDATING_FIRMWARE"};
+  constexpr const char* kNames[] = {
+      "NO_CONTROLLER", "DISCONNECTED", "CONFIRM_SAFETY", "BOOTING", "POWER_OFF",
+      "POWER_ON",      "IDLE",         "BACKDRIVE",      "RUNNING", "UPDATING_FIRMWARE"};
   return kNames[static_cast<int>(mode) + 1];
 }
 

@@ -1,6 +1,6 @@
-// What an uploaded program and the control computer say to each other, by programs in the field: all
-// 32-bit integers, most of them a value times a million. Universal Robots Client Library (external
-// control), ur_modern_driver (driver program), ur_rtde (registers).
+// What an uploaded program and the control computer say to each other, by programs in the field:
+// all 32-bit integers, most of them a value times a million. Universal Robots Client Library
+// (external control), ur_modern_driver (driver program), ur_rtde (registers).
 #pragma once
 
 #include <cstddef>

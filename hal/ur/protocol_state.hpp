@@ -1,5 +1,5 @@
-// The binary state ports: primary 30001, secondary 30002, real-time 30003. Universal Robots, "Remote
-// Control Via TCP/IP" and its table of the client interfaces, software 3.x.
+// The binary state ports: primary 30001, secondary 30002, real-time 30003. Universal Robots,
+// "Remote Control Via TCP/IP" and its table of the client interfaces, software 3.x.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Body: the arm under its joint controllers. The targets of a cycle are interpolated; in every inner
-// step computed torque asks for the acceleration
+// Body: the arm under its joint controllers. The targets of a cycle are interpolated; in every
+// inner step computed torque asks for the acceleration
 //
 //   ddq = 2/T (dq_t - dq) + 1/T^2 (q_t - q)
 //
@@ -24,8 +24,8 @@ class Body {
   /// Joint torques that push the arm, N m; zero: nothing does. [any]
   void push(const Joints& tau) { push_ = tau; }
 
-  Joints q() const { return arm_.q(); }           ///< rad
-  Joints dq() const { return arm_.dq(); }         ///< rad/s
+  Joints q() const { return arm_.q(); }       ///< rad
+  Joints dq() const { return arm_.dq(); }     ///< rad/s
   const Joints& tau() const { return tau_; }  ///< what the drives exerted, mean of the cycle, N m
   /// What the targets would take of an arm that nothing pushes, N m.
   const Joints& model() const { return model_; }

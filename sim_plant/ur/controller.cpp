@@ -46,8 +46,10 @@ void Controller::run_program() {
   if (able) runner_.poll(machine_);
   scale_speed();
   if (machine_.power.mode() != RobotMode::kRunning) return;
-  if (machine_.safety.normal()) move_targets();
-  else machine_.motion.brake(kCycle_s);
+  if (machine_.safety.normal())
+    move_targets();
+  else
+    machine_.motion.brake(kCycle_s);
 }
 
 /// The time base follows the slider; a pause slows it to nothing, and a tool that would be faster
@@ -84,8 +86,7 @@ void Controller::watch_arm() {
   const Settings& settings = machine_.settings;
   const Joints q = machine_.body.q() + faults_.encoder_offset;
   const Joints off = (q - machine_.motion.q()).cwiseAbs() / settings.path_deviation;
-  const Joints hit =
-      (machine_.body.residual().array().abs() / settings.collision.array()).matrix();
+  const Joints hit = (machine_.body.residual().array().abs() / settings.collision.array()).matrix();
   Eigen::Index joint = 0;
   image_.joint_position_deviation_ratio = off.maxCoeff(&joint);
   if (!(image_.joint_position_deviation_ratio < 1.0))
@@ -100,8 +101,7 @@ void Controller::watch_arm() {
 void Controller::watch_limits(const Joints& q) {
   const Joints dq = machine_.body.dq();
   const double tcp_speed = (jacobian(q, machine_.motion.tool()) * dq).head<3>().norm();
-  const std::int32_t violated =
-      limits_.check(q, dq, tcp_speed, image_.actual_momentum, kCycle_s);
+  const std::int32_t violated = limits_.check(q, dq, tcp_speed, image_.actual_momentum, kCycle_s);
   if (violated == 0 || !machine_.safety.violation()) return;
   machine_.last_stop = {Code::kSafetyViolation, violated};
   machine_.stop_unsaid = true;
@@ -112,11 +112,10 @@ void Controller::say_changes() {
   const bool changed = machine_.safety.tick(kCycle_s);
   const Stop& stop = machine_.last_stop;
   if (changed)
-    machine_.messages.safety_mode(machine_.safety.mode(),
-                                  machine_.safety.normal() ? Stop{} : stop);
+    machine_.messages.safety_mode(machine_.safety.mode(), machine_.safety.normal() ? Stop{} : stop);
   if (machine_.stop_unsaid)
-    machine_.messages.error(stop, stop.code == Code::kFromScript ? ReportLevel::kWarning
-                                                                 : ReportLevel::kViolation);
+    machine_.messages.error(
+        stop, stop.code == Code::kFromScript ? ReportLevel::kWarning : ReportLevel::kViolation);
   machine_.stop_unsaid = false;
   if (!machine_.safety.normal() && runner_.running()) runner_.stop(machine_);
 }

@@ -1,5 +1,5 @@
-// Controller: the robot behind the ports. One call of tick() is one cycle of 8 ms; it reads no clock
-// and knows no sockets.
+// Controller: the robot behind the ports. One call of tick() is one cycle of 8 ms; it reads no
+// clock and knows no sockets.
 #pragma once
 
 #include "sim_plant/ur/dashboard.hpp"
@@ -9,9 +9,9 @@ namespace tactus::ur {
 
 /// Troubles that a test makes; all off.
 struct Faults {
-  bool frozen_stamp = false;            ///< the time on all ports stands still
-  bool nan_positions = false;           ///< actual_q is not a number
-  Joints push = Joints::Zero();         ///< joint torques on the arm, N m
+  bool frozen_stamp = false;               ///< the time on all ports stands still
+  bool nan_positions = false;              ///< actual_q is not a number
+  Joints push = Joints::Zero();            ///< joint torques on the arm, N m
   Joints encoder_offset = Joints::Zero();  ///< added to actual_q, rad
 };
 

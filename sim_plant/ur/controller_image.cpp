@@ -30,8 +30,7 @@ void Controller::show() {
   image_.target_moment = body.model();
   image_.target_current = body.model().cwiseQuotient(k);
   image_.actual_q = body.q() + faults_.encoder_offset;
-  if (faults_.nan_positions)
-    image_.actual_q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (faults_.nan_positions) image_.actual_q.setConstant(std::numeric_limits<double>::quiet_NaN());
   image_.actual_qd = body.dq();
   image_.actual_current = body.tau().cwiseQuotient(k);
   image_.joint_control_output = image_.actual_current;
@@ -58,8 +57,7 @@ void Controller::show_tool() {
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   const Vector3 g(0.0, 0.0, 9.81);
-  image_.actual_tool_accelerometer =
-      tip.r.transpose() * ((v - tcp_speed_before_) / kCycle_s + g);
+  image_.actual_tool_accelerometer = tip.r.transpose() * ((v - tcp_speed_before_) / kCycle_s + g);
   tcp_speed_before_ = v;
   image_.actual_momentum = 0.5 * kMovingMass_kg * v.norm();
   const Vector3 before = image_.elbow_position;
@@ -107,8 +105,8 @@ void Controller::show_modes() {
   image_.program_paused = runner_.paused();
   image_.freedrive = machine_.freedrive;
   image_.runtime_state = static_cast<std::uint32_t>(runner_.state());
-  image_.robot_status_bits = (machine_.power.powered() ? kPowerOnBit : 0u) |
-                             (runner_.running() ? kProgramRunningBit : 0u);
+  image_.robot_status_bits =
+      (machine_.power.powered() ? kPowerOnBit : 0u) | (runner_.running() ? kProgramRunningBit : 0u);
   // The bits are in the order of the modes; what stops the arm has a bit of its own besides.
   std::uint32_t bits = 1u << (static_cast<unsigned>(safety) - 1);
   if (safety == SafetyMode::kViolation) bits = kViolationBit;

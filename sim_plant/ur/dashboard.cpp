@@ -77,8 +77,10 @@ void Dashboard::play(Reply& reply) {
   if (can && runner_.paused()) {
     runner_.resume();
   } else if (can && !runner_.running() && loaded_size_ > 0) {
-    if (loaded_name() == kWaitProgram) runner_.upload(kWaitScript, machine_);
-    else runner_.fetch(machine_);
+    if (loaded_name() == kWaitProgram)
+      runner_.upload(kWaitScript, machine_);
+    else
+      runner_.fetch(machine_);
   }
   reply << (runner_.playing() ? "Starting program" : "Failed to execute: play");
 }
@@ -102,12 +104,16 @@ bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
   } else if (line == "running") {
     reply << "Program running: " << (runner_.playing() ? "true" : "false");
   } else if (line == "get loaded program") {
-    if (loaded_size_ == 0) reply << "No program loaded";
-    else reply << "Loaded program: " << loaded();
+    if (loaded_size_ == 0)
+      reply << "No program loaded";
+    else
+      reply << "Loaded program: " << loaded();
   } else if (line == "isProgramSaved") {
     reply << "true " << loaded_name();
   } else if (line == "programState") {
-    reply << (runner_.paused() ? "PAUSED " : runner_.running() ? "PLAYING " : "STOPPED ")
+    reply << (runner_.paused()    ? "PAUSED "
+              : runner_.running() ? "PLAYING "
+                                  : "STOPPED ")
           << loaded_name();
   } else {
     return false;

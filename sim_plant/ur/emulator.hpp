@@ -1,6 +1,6 @@
 // Emulator: the controller with its clients. Whoever owns the network opens a session for every
-// connection, passes bytes in and takes bytes out, and calls tick() once per cycle. A client that does
-// not read loses packets, and after some seconds its session.
+// connection, passes bytes in and takes bytes out, and calls tick() once per cycle. A client that
+// does not read loses packets, and after some seconds its session.
 #pragma once
 
 #include "sim_plant/ur/controller.hpp"

@@ -1,5 +1,5 @@
-// Io: what clients and scripts write: registers, digital and analogue outputs, the speed slider; and
-// which connection has claimed which of RTDE's inputs.
+// Io: what clients and scripts write: registers, digital and analogue outputs, the speed slider;
+// and which connection has claimed which of RTDE's inputs.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@ namespace {
 
 constexpr DhTable kDh;
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSteps = 60;               // of Newton's method
-constexpr double kLongestStep = 0.4;     // rad
+constexpr int kSteps = 60;            // of Newton's method
+constexpr double kLongestStep = 0.4;  // rad
 constexpr double kPosition_m = 1e-9, kAngle_rad = 1e-9;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;

@@ -15,9 +15,9 @@ namespace tactus::ur {
 using Joints = Vector6;  ///< rad, rad/s or N m of six joints
 
 struct DhTable {
-  std::array<double, 6> a = {0.0, -0.612, -0.5723, 0.0, 0.0, 0.0};              ///< m
-  std::array<double, 6> d = {0.1273, 0.0, 0.0, 0.163941, 0.1157, 0.0922};       ///< m
-  std::array<double, 6> alpha = {1.5707963267948966, 0, 0, 1.5707963267948966,  // rad
+  std::array<double, 6> a = {0.0, -0.612, -0.5723, 0.0, 0.0, 0.0};               ///< m
+  std::array<double, 6> d = {0.1273, 0.0, 0.0, 0.163941, 0.1157, 0.0922};        ///< m
+  std::array<double, 6> alpha = {1.5707963267948966,  0, 0, 1.5707963267948966,  // rad
                                  -1.5707963267948966, 0};
 };
 
@@ -44,8 +44,8 @@ Vector3 elbow(const Joints& q);
 /// [v; w] of the tool's tip = J dq; `tool` is the tip in the flange.
 Eigen::Matrix<double, 6, 6> jacobian(const Joints& q, const Frame& tool);
 
-/// The joint positions nearest to `near` with the tip at `target`. False: none was found, and `q` is
-/// as it was.
+/// The joint positions nearest to `near` with the tip at `target`. False: none was found, and `q`
+/// is as it was.
 bool inverse(const Frame& target, const Frame& tool, const Joints& near, Joints& q);
 
 /// dq with J dq = twist, damped next to a singularity; false where it would be damped to less than

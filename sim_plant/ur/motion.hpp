@@ -9,6 +9,8 @@
 // A target that cannot be followed is a fault: a protective stop.
 #pragma once
 
+#include <limits>
+
 #include "sim_plant/ur/kinematics.hpp"
 #include "sim_plant/ur/safety_codes.hpp"
 #include "sim_plant/ur/servo_law.hpp"
@@ -68,6 +70,7 @@ class Motion {
   const MotionLimits& limits() const { return limits_; }
 
  private:
+  static constexpr double kForever = std::numeric_limits<double>::infinity();
   enum class Kind : std::uint8_t { kRest, kMoveJ, kMoveL, kServo, kSpeedJ, kSpeedL, kStop };
 
   void begin(Kind kind, double t);
@@ -85,7 +88,7 @@ class Motion {
   Joints q_ = Joints::Zero(), dq_ = Joints::Zero();
   double left_s_ = 0.0;  // of a command that lasts a given time; infinite: until it is reached
   double a_ = 0.0;
-  Joints goal_ = Joints::Zero();    // servoj, speedj
+  Joints goal_ = Joints::Zero();  // servoj, speedj
   Vector6 twist_ = Vector6::Zero(), twist_goal_ = Vector6::Zero();
   ServoLaw law_;
   Trapezoid time_law_;

@@ -1,6 +1,6 @@
-// Outbox: the bytes that wait for a client to read them. A packet is taken whole or not at all, so a
-// client that is slow loses packets and never the place in the stream; one that does not read at all
-// for long enough is lost.
+// Outbox: the bytes that wait for a client to read them. A packet is taken whole or not at all, so
+// a client that is slow loses packets and never the place in the stream; one that does not read at
+// all for long enough is lost.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Power: from POWER_OFF by POWER_ON and IDLE to RUNNING and back, towards the goal it was last given.
-// A command is accepted at once and done later.
+// Power: from POWER_OFF by POWER_ON and IDLE to RUNNING and back, towards the goal it was last
+// given. A command is accepted at once and done later.
 #pragma once
 
 #include "sim_plant/ur/settings.hpp"
@@ -26,8 +26,10 @@ class Power {
     if (mode_ == RobotMode::kPowerOff && goal_ != RobotMode::kPowerOff) {
       enter(RobotMode::kPowerOn);
     } else if (left_s_ <= 0.0) {
-      if (goal_ == RobotMode::kPowerOff) enter(RobotMode::kPowerOff);
-      else enter(mode_ == RobotMode::kPowerOn ? RobotMode::kIdle : RobotMode::kRunning);
+      if (goal_ == RobotMode::kPowerOff)
+        enter(RobotMode::kPowerOff);
+      else
+        enter(mode_ == RobotMode::kPowerOn ? RobotMode::kIdle : RobotMode::kRunning);
     }
   }
 
@@ -47,7 +49,7 @@ class Power {
   }
   /// Of the step that comes next.
   void start_timer() {
-    left_s_ = goal_ == RobotMode::kPowerOff   ? settings_.power_off_s
+    left_s_ = goal_ == RobotMode::kPowerOff  ? settings_.power_off_s
               : mode_ == RobotMode::kPowerOn ? settings_.power_on_s
                                              : settings_.brake_release_s;
   }

@@ -46,7 +46,8 @@ void RegisterProgram::start(std::string_view text) {
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
   constexpr std::string_view kWatch = "rtde_set_watchdog(\"";
   const std::size_t watch = text.find(kWatch);
-  if (watch != std::string_view::npos) watch_name_ = leading_name(text.substr(watch + kWatch.size()));
+  if (watch != std::string_view::npos)
+    watch_name_ = leading_name(text.substr(watch + kWatch.size()));
   async_ = text.find("thread move_thread():") != std::string_view::npos;
 }
 
@@ -157,30 +158,6 @@ void RegisterProgram::process(Command command, Machine& machine) {
       return;
     default:
       return ask(command, machine);
-  }
-}
-
-/// What is answered in registers.
-void RegisterProgram::ask(Command command, Machine& machine) {
-  Joints q = six(0, machine);
-  const double limit = machine.settings.motion.position;
-  const auto answer_flag = [&](bool flag) {
-    machine.io.output.ints[static_cast<std::size_t>(int_offset_) + 1] = flag ? 1 : 0;
-  };
-  switch (command) {
-    case Command::kInverseKinematics:
-      if (inverse(Frame::of(six(0, machine)), machine.motion.tool(), six(6, machine), q))
-        answer_six(q, machine);
-      return;
-    case Command::kPoseWithinLimits:
-      return answer_flag(inverse(Frame::of(six(0, machine)), machine.motion.tool(),
-                                 machine.motion.q(), q));
-    case Command::kJointsWithinLimits:
-      return answer_flag(q.cwiseAbs().maxCoeff() <= limit);
-    case Command::kJointTorques:
-      return answer_six(machine.body.tau(), machine);
-    default:
-      return;  // not emulated: done at once
   }
 }
 

@@ -77,8 +77,7 @@ void RobotMessages::runtime_exception(std::int32_t line, std::int32_t column,
   end(writer);
 }
 
-void RobotMessages::popup(std::string_view title, std::string_view text, bool warning,
-                          bool error) {
+void RobotMessages::popup(std::string_view title, std::string_view text, bool warning, bool error) {
   Bytes bytes;
   ByteWriter writer(bytes.data(), bytes.size());
   begin(MessageSource::kRuntimeMachine, MessageType::kPopup, writer);

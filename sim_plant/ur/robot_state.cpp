@@ -101,8 +101,7 @@ void write_additional(const Image& image, ByteWriter& writer) {
 
 }  // namespace
 
-void write_robot_state(const Image& image, const Version& version, bool whole,
-                       ByteWriter& writer) {
+void write_robot_state(const Image& image, const Version& version, bool whole, ByteWriter& writer) {
   const std::size_t at = writer.size();
   writer.u32(0);
   writer.i8(static_cast<std::int8_t>(StateType::kRobotState));

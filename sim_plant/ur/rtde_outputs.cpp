@@ -10,8 +10,8 @@ using Member = std::variant<double Image::*, Vector6 Image::*, Vector3 Image::*,
                             std::array<std::int32_t, 6> Image::*>;
 
 /// In the order of the alternatives of Member.
-constexpr FieldType kTypes[] = {FieldType::kDouble, FieldType::kVector6d, FieldType::kVector3d,
-                                FieldType::kInt32,  FieldType::kUint32,   FieldType::kUint64,
+constexpr FieldType kTypes[] = {FieldType::kDouble,      FieldType::kVector6d, FieldType::kVector3d,
+                                FieldType::kInt32,       FieldType::kUint32,   FieldType::kUint64,
                                 FieldType::kVector6Int32};
 
 struct Row {

@@ -67,8 +67,7 @@ bool RtdeSession::handle(const Packet& packet, const RtdeContext& context, Outbo
       std::array<std::uint8_t, 19> bytes;
       PacketWriter writer(type, bytes.data(), bytes.size());
       const Version& version = context.version;
-      for (const std::uint32_t part :
-           {version.major, version.minor, version.bugfix, version.build})
+      for (const std::uint32_t part : {version.major, version.minor, version.bugfix, version.build})
         writer.u32(part);
       writer.send(out);
       return true;

@@ -21,7 +21,8 @@ class RtdeSession {
   /// It is gone: its claims are free at once.
   void close(Claims& claims) { claims.release(owner_); }
 
-  /// Bytes from the client, in pieces of any size. False: the stream cannot be followed any further.
+  /// Bytes from the client, in pieces of any size. False: the stream cannot be followed any
+  /// further.
   bool receive(const std::uint8_t* data, std::size_t size, const RtdeContext& context, Outbox& out);
   /// One cycle of the controller: a sample, if it is due.
   void tick(const Image& image, Outbox& out);

@@ -111,8 +111,8 @@ void Runner::fetch(Machine& machine) {
 /// The fetched lines become the body of a program.
 void Runner::start_fetched(std::string_view text, Machine& machine) {
   std::size_t size = 0;
-  for (const std::string_view part : {std::string_view("def external_control():\n"), text,
-                                      std::string_view("\nend\n")})
+  for (const std::string_view part :
+       {std::string_view("def external_control():\n"), text, std::string_view("\nend\n")})
     size += copy(part, text_.data() + size, text_.size() - size).size();
   stop(machine);
   start({text_.data(), size}, machine);

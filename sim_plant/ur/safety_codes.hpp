@@ -9,12 +9,12 @@ namespace tactus::ur {
 enum class Code : std::int32_t {
   kNone = 0,
   kCloseToJointLimit = 150,
-  kPathDeviation = 153,       ///< argument: joint
+  kPathDeviation = 153,  ///< argument: joint
   kSingularity = 154,
-  kCollision = 157,           ///< argument: joint
-  kTorqueTooHigh = 173,       ///< argument: joint
-  kSafetyViolation = 191,     ///< argument: what was violated
-  kPathSanity = 204,          ///< argument: of the next enumeration
+  kCollision = 157,        ///< argument: joint
+  kTorqueTooHigh = 173,    ///< argument: joint
+  kSafetyViolation = 191,  ///< argument: what was violated
+  kPathSanity = 204,       ///< argument: of the next enumeration
   kFieldbusDisconnected = 207,
   kFromScript = 209,
 };

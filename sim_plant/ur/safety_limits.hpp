@@ -13,10 +13,10 @@ namespace tactus::ur {
 
 struct SafetyLimits {
   static constexpr double kDegree = 3.14159265358979323846 / 180.0;
-  Joints speed;                      ///< rad/s
+  Joints speed;                       ///< rad/s
   double position = 363.0 * kDegree;  ///< rad
-  double tcp_speed = 1.5;            ///< m/s
-  double momentum = 25.0;            ///< kg m/s
+  double tcp_speed = 1.5;             ///< m/s
+  double momentum = 25.0;             ///< kg m/s
 
   SafetyLimits() {
     speed << 131.46, 131.46, 191.46, 191.46, 191.46, 191.46;
@@ -33,10 +33,10 @@ class LimitWatch {
   std::int32_t check(const Joints& q, const Joints& dq, double tcp_speed, double momentum,
                      double h_s) {
     constexpr double kDegree = SafetyLimits::kDegree;
-    const bool within[] = {
-        q.cwiseAbs().maxCoeff() <= limits_.position + 1.15 * kDegree,
-        (dq.cwiseAbs().array() <= limits_.speed.array() + 1.15 * kDegree).all(),
-        tcp_speed <= limits_.tcp_speed + 0.05, momentum <= limits_.momentum + 3.0};
+    const bool within[] = {q.cwiseAbs().maxCoeff() <= limits_.position + 1.15 * kDegree,
+                           (dq.cwiseAbs().array() <= limits_.speed.array() + 1.15 * kDegree).all(),
+                           tcp_speed <= limits_.tcp_speed + 0.05,
+                           momentum <= limits_.momentum + 3.0};
     constexpr double kDetection_s[] = {0.1, 0.25, 0.25, 0.25};
     constexpr std::int32_t kArgument[] = {kViolatedJointPosition, kViolatedJointSpeed,
                                           kViolatedTcpSpeed, kViolatedMomentum};

@@ -1,5 +1,5 @@
-// ScriptIntake: text that a client sends to a state port, cut into programs and single lines. A block
-// begins with "def" or "sec" in the first column and ends with "end" there.
+// ScriptIntake: text that a client sends to a state port, cut into programs and single lines. A
+// block begins with "def" or "sec" in the first column and ends with "end" there.
 #pragma once
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 //
 //   ddq = g (c - q - L dq)
 //
-// in the words of the script manual. A system of second order with the natural frequency sqrt(g) and
-// the damping ratio L sqrt(g) / 2; behind a ramp it is late by L. The solution is exact at every
-// period, so a slower time base does not change the path.
+// in the words of the script manual. A system of second order with the natural frequency sqrt(g)
+// and the damping ratio L sqrt(g) / 2; behind a ramp it is late by L. The solution is exact at
+// every period, so a slower time base does not change the path.
 #pragma once
 
 namespace tactus::ur {

@@ -23,9 +23,9 @@ void SplineRun::start(const Joints& q, const Joints& q_end, const Joints& dq_end
     c_[2] = 0.5 * ddq_;
     c_[3] = (20.0 * way - 3.0 * ddq_ * T2 + ddq_end * T2 - 12.0 * dq_ * T - 8.0 * dq_end * T) /
             (2.0 * T3);
-    c_[4] = (-30.0 * way + 3.0 * ddq_ * T2 - 2.0 * ddq_end * T2 + 16.0 * dq_ * T +
-             14.0 * dq_end * T) /
-            (2.0 * T3 * T);
+    c_[4] =
+        (-30.0 * way + 3.0 * ddq_ * T2 - 2.0 * ddq_end * T2 + 16.0 * dq_ * T + 14.0 * dq_end * T) /
+        (2.0 * T3 * T);
     c_[5] = (12.0 * way - ddq_ * T2 + ddq_end * T2 - 6.0 * dq_ * T - 6.0 * dq_end * T) /
             (2.0 * T3 * T2);
   } else {

@@ -1,6 +1,6 @@
-// SplineRun: one segment of a joint trajectory as the vendor's script interpolates it: in every step
-// the derivative of the polynomial goes to speedj. Where the last point would be reached with speed,
-// the time is slowed so that 15 rad/s^2 suffice to stop on the path.
+// SplineRun: one segment of a joint trajectory as the vendor's script interpolates it: in every
+// step the derivative of the polynomial goes to speedj. Where the last point would be reached with
+// speed, the time is slowed so that 15 rad/s^2 suffice to stop on the path.
 #pragma once
 
 #include "sim_plant/ur/motion.hpp"

@@ -1,0 +1,131 @@
+// The commands of a script: what they set going.
+#include <algorithm>
+#include <cmath>
+
+#include "sim_plant/ur/motion.hpp"
+
+namespace tactus::ur {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+double or_default(double value, double otherwise) {
+  return value > 0.0 ? value : otherwise;
+}
+
+}  // namespace
+
+MotionLimits::MotionLimits() {
+  speed << 120.0, 120.0, 180.0, 180.0, 180.0, 180.0;
+  speed *= kDegree;
+}
+
+void Motion::rest(const Joints& q) {
+  q_ = q;
+  dq_.setZero();
+  twist_.setZero();
+  kind_ = Kind::kRest;
+  busy_ = false;
+}
+
+void Motion::begin(Kind kind, double t) {
+  if (kind == Kind::kSpeedL && kind_ != Kind::kSpeedL) twist_ = jacobian(q_, tool_) * dq_;
+  kind_ = kind;
+  left_s_ = t;
+  busy_ = true;
+}
+
+bool Motion::in_reach(const Joints& q) const {
+  return q.allFinite() && q.cwiseAbs().maxCoeff() <= limits_.position;
+}
+
+bool Motion::move_j(const Joints& q, double a, double v, double t) {
+  if (!in_reach(q)) return false;
+  way_ = q - q_;
+  from_ = q_;
+  const double way = way_.cwiseAbs().maxCoeff();
+  time_s_ = 0.0;
+  begin(Kind::kMoveJ, kForever);
+  dq_.setZero();
+  if (way < 1e-9) {
+    kind_ = Kind::kRest;
+    busy_ = false;
+    q_ = q;
+    return true;
+  }
+  const double fastest = 1.0 / (way_.cwiseAbs().array() / limits_.speed.array()).maxCoeff();
+  if (t > 0.0) {
+    // A trapezoid of four quarters is fastest by 4/3 of its mean.
+    time_law_ = Trapezoid::by_duration(std::max(t, 4.0 / 3.0 / fastest));
+  } else {
+    time_law_ =
+        Trapezoid::by_speed(std::min(or_default(v, 1.05) / way, fastest), or_default(a, 1.4) / way);
+  }
+  return true;
+}
+
+bool Motion::move_l(const Frame& target, double a, double v, double t) {
+  Joints end;
+  if (!target.p.allFinite() || !target.r.allFinite() || !inverse(target, tool_, q_, end) ||
+      !in_reach(end))
+    return false;
+  line_from_ = forward(q_) * tool_;
+  line_to_ = target;
+  turn_ = rotation_vector(line_from_.r.transpose() * line_to_.r);
+  time_s_ = 0.0;
+  begin(Kind::kMoveL, kForever);
+  dq_.setZero();
+  // Where the tool turns more than it goes, the angle in rad leads as the way in m would.
+  const double way = std::max((line_to_.p - line_from_.p).norm(), turn_.norm());
+  if (way < 1e-9) {
+    kind_ = Kind::kRest;
+    busy_ = false;
+  } else if (t > 0.0) {
+    time_law_ = Trapezoid::by_duration(t);
+  } else {
+    time_law_ = Trapezoid::by_speed(or_default(v, 0.25) / way, or_default(a, 1.2) / way);
+  }
+  return true;
+}
+
+void Motion::servo_j(const Joints& q, double t, const ServoLaw& law) {
+  if (!in_reach(q)) {
+    fault_ = q.allFinite() ? Stop{Code::kCloseToJointLimit, 0}
+                           : Stop{Code::kPathSanity, kInvalidSetPoint};
+    return;
+  }
+  if (!((q - q_).cwiseAbs().maxCoeff() <= limits_.sudden_change)) {
+    fault_ = {Code::kPathSanity, kSuddenChange};
+    return;
+  }
+  goal_ = q;
+  law_ = {std::clamp(law.gain, 100.0, 2000.0), std::clamp(law.lookahead_s, 0.03, 0.2)};
+  begin(Kind::kServo, or_default(t, 0.008));
+}
+
+void Motion::speed_j(const Joints& dq, double a, double t) {
+  if (!dq.allFinite()) {
+    fault_ = {Code::kPathSanity, kInvalidSetPoint};
+    return;
+  }
+  goal_ = dq.cwiseMax(-limits_.speed).cwiseMin(limits_.speed);
+  a_ = or_default(a, 1.4);
+  begin(Kind::kSpeedJ, t > 0.0 ? t : kForever);
+}
+
+void Motion::speed_l(const Vector6& twist, double a, double t) {
+  if (!twist.allFinite()) {
+    fault_ = {Code::kPathSanity, kInvalidSetPoint};
+    return;
+  }
+  begin(Kind::kSpeedL, t > 0.0 ? t : kForever);
+  twist_goal_ = twist;
+  a_ = or_default(a, 1.2);
+}
+
+void Motion::stop_j(double a) {
+  a_ = or_default(a, limits_.stop_acceleration);
+  begin(Kind::kStop, kForever);
+}
+
+}  // namespace tactus::ur
