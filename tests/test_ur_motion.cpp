@@ -126,6 +126,21 @@ void no_joint_is_faster_than_it_can_be(void**) {
   }
 }
 
+void a_move_begins_when_the_arm_stands(void**) {
+  Motion motion;
+  motion.rest(Joints::Zero());
+  motion.speed_j(Joints::Constant(0.4), 40.0, 0.1);
+  run(motion);
+  assert_true(motion.move_j(Joints::Zero(), 1.4, 1.05, 0.0));
+  double before = motion.dq()[0];
+  while (motion.busy()) {
+    motion.advance(0.008);
+    assert_true(std::abs(motion.dq()[0] - before) < 0.008 * 4.01);
+    before = motion.dq()[0];
+  }
+  assert_true(motion.q().isZero(0.0));
+}
+
 void movel_keeps_the_line(void**) {
   Motion motion;
   motion.rest(joints(-1.57, -1.6, 1.6, -0.7, 0.7, 0.2));
@@ -221,6 +236,7 @@ int main() {
       cmocka_unit_test(behind_a_ramp_servoj_is_late_by_the_lookahead_time),
       cmocka_unit_test(movej_takes_the_time_of_its_trapezoid),
       cmocka_unit_test(no_joint_is_faster_than_it_can_be),
+      cmocka_unit_test(a_move_begins_when_the_arm_stands),
       cmocka_unit_test(movel_keeps_the_line),
       cmocka_unit_test(speedj_ramps_on_the_leading_axis_and_stopj_to_rest),
       cmocka_unit_test(a_quintic_segment_follows_its_polynomial_whatever_the_slider),

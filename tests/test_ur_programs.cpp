@@ -1,5 +1,6 @@
-// Programs in the field, known by their shape: trajectories of external control, the driver program,
-// the register program, and plain lines. The texts are our own, with the lines that matter.
+// Programs in the field, known by their shape: trajectories of external control, the driver
+// program, the register program, and plain lines. The texts are our own, with the lines that
+// matter.
 #include "tests/ur_control_computer.hpp"
 
 namespace tactus::ur {
@@ -188,6 +189,17 @@ void plain_lines_run_one_after_the_other(void**) {
   assert_true(got.find("PROGRAM_XXX_STARTEDwrong") == std::string_view::npos);
 }
 
+void a_program_that_is_stopped_takes_its_motion_with_it(void**) {
+  connect();
+  g_bench.send(g_primary, "movej([1,-1.5708,1.5708,-1.5708,-1.5708,0],a=1.0,v=0.5)\n");
+  tick(60);
+  assert_true(g_bench.image().target_qd[0] > 0.3);
+  g_bench.send(g_primary, "stop program\n");
+  tick(30);
+  assert_true(g_bench.image().target_qd.isZero(0.0));
+  assert_true(g_bench.image().target_q[0] < 0.3);
+}
+
 void no_text_does_harm(void**) {
   connect();
   std::uint32_t state = 7;
@@ -215,6 +227,7 @@ int main() {
       cmocka_unit_test(the_driver_program_brakes_without_set_points_and_stays_alive),
       cmocka_unit_test(the_register_program_shakes_hands),
       cmocka_unit_test(plain_lines_run_one_after_the_other),
+      cmocka_unit_test(a_program_that_is_stopped_takes_its_motion_with_it),
       cmocka_unit_test(no_text_does_harm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -13,6 +13,7 @@ namespace tactus::ur {
 namespace {
 
 constexpr std::size_t kAtOnce = 64 * 1024;  // bytes of one client in one go
+constexpr int kLastReads = 16;              // of a client that is gone
 
 void set_no_delay(int socket) {
   const int on = 1;
@@ -146,17 +147,26 @@ void Server::let_in(Door& door) {
   }
 }
 
-void Server::read_from(Guest& guest) {
+bool Server::read_some(Guest& guest) {
   static std::array<std::uint8_t, kAtOnce> bytes;
   const ssize_t got = recv(guest.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
-  if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return;
-  if (got <= 0) return show_out(guest);
-  if (guest.reads) emulator_.receive(guest.session, bytes.data(), static_cast<std::size_t>(got));
+  if (got > 0 && guest.reads)
+    emulator_.receive(guest.session, bytes.data(), static_cast<std::size_t>(got));
+  return got > 0;
+}
+
+void Server::read_from(Guest& guest) {
+  errno = 0;  // stays so at the end of the stream
+  if (read_some(guest) || errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return;
+  show_out(guest);
 }
 
 void Server::write_to(Guest& guest) {
   Outbox& out = emulator_.outbox(guest.session);
   const bool there = send_some(guest.socket, out);
+  // What a client sent before it hung up counts: it may have been a whole program.
+  for (int n = 0; !there && n < kLastReads && read_some(guest); ++n) {
+  }
   if (!there || emulator_.ended(guest.session)) show_out(guest);
 }
 

@@ -40,6 +40,7 @@ class Server {
 
   int build_poll_list();
   void let_in(Door& door);
+  bool read_some(Guest& guest);
   void read_from(Guest& guest);
   void write_to(Guest& guest);
   void show_out(Guest& guest);

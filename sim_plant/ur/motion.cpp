@@ -49,6 +49,10 @@ double Motion::moved(double h_s) {
       ramp_twist(h_s);
       if (twist_ == twist_goal_ && left_s_ == kForever) busy_ = false;
       return h_s;
+    case Kind::kBrakeFirst:
+      ramp_to(Joints::Zero(), limits_.stop_acceleration, h_s);
+      if (dq_.isZero(0.0)) begin_waiting();
+      return h_s;
     case Kind::kStop:
       ramp_to(Joints::Zero(), a_, h_s);
       if (dq_.isZero(0.0)) {

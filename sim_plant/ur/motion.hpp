@@ -49,6 +49,9 @@ class Motion {
   void speed_l(const Vector6& twist, double a, double t);
   void stop_j(double a);
 
+  /// The program that gave the last command is gone: whoever comes next finds the arm moving.
+  void abandon() { busy_ = false; }
+
   /// The script is at a command that has not returned. [any]
   bool busy() const { return busy_; }
   /// Speed of zero and no command under way that would change it. [any]
@@ -71,10 +74,28 @@ class Motion {
 
  private:
   static constexpr double kForever = std::numeric_limits<double>::infinity();
-  enum class Kind : std::uint8_t { kRest, kMoveJ, kMoveL, kServo, kSpeedJ, kSpeedL, kStop };
+  enum class Kind : std::uint8_t {
+    kRest,
+    kMoveJ,
+    kMoveL,
+    kServo,
+    kSpeedJ,
+    kSpeedL,
+    kStop,
+    kBrakeFirst
+  };
+  /// A move that waits for the arm to stand.
+  struct Move {
+    bool line = false;
+    Joints q = Joints::Zero();
+    Frame target;
+    double a = 0.0, v = 0.0, t = 0.0;
+  };
 
   void begin(Kind kind, double t);
   double moved(double h_s);
+  bool brake_first(const Move& move);
+  void begin_waiting();
   void follow_line(double h_s);
   void ramp_to(const Joints& dq, double a, double h_s);
   void ramp_twist(double h_s);
@@ -85,6 +106,7 @@ class Motion {
   Kind kind_ = Kind::kRest;
   bool busy_ = false;
   Stop fault_;
+  Move waiting_;
   Joints q_ = Joints::Zero(), dq_ = Joints::Zero();
   double left_s_ = 0.0;  // of a command that lasts a given time; infinite: until it is reached
   double a_ = 0.0;

@@ -39,8 +39,24 @@ bool Motion::in_reach(const Joints& q) const {
   return q.allFinite() && q.cwiseAbs().maxCoeff() <= limits_.position;
 }
 
+/// A move begins at rest. True: the arm moves, and the move waits until it does not.
+bool Motion::brake_first(const Move& move) {
+  if (dq_.isZero(1e-6)) return false;
+  waiting_ = move;
+  begin(Kind::kBrakeFirst, kForever);
+  return true;
+}
+
+void Motion::begin_waiting() {
+  const Move& move = waiting_;
+  if (move.line ? !move_l(move.target, move.a, move.v, move.t)
+                : !move_j(move.q, move.a, move.v, move.t))
+    fault_ = {Code::kSingularity, 0};
+}
+
 bool Motion::move_j(const Joints& q, double a, double v, double t) {
   if (!in_reach(q)) return false;
+  if (brake_first({false, q, {}, a, v, t})) return true;
   way_ = q - q_;
   from_ = q_;
   const double way = way_.cwiseAbs().maxCoeff();
@@ -69,6 +85,7 @@ bool Motion::move_l(const Frame& target, double a, double v, double t) {
   if (!target.p.allFinite() || !target.r.allFinite() || !inverse(target, tool_, q_, end) ||
       !in_reach(end))
     return false;
+  if (brake_first({true, end, target, a, v, t})) return true;
   line_from_ = forward(q_) * tool_;
   line_to_ = target;
   turn_ = rotation_vector(line_from_.r.transpose() * line_to_.r);

@@ -95,6 +95,7 @@ void Runner::stop(Machine& machine) {
   if (!running()) return;
   program_.emplace<std::monostate>();
   paused_ = false;
+  machine.motion.abandon();
   machine.links.close_all();
   machine.freedrive = false;
   machine.force_mode = {};
