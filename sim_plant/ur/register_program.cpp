@@ -15,11 +15,6 @@ bool is_cyclic(Command command) {
          command == Command::kForceMode;
 }
 
-bool is_move(Command command) {
-  return command == Command::kMoveJ || command == Command::kMoveJPose ||
-         command == Command::kMoveL || command == Command::kMoveLJoints;
-}
-
 /// An offset that the text assigns, on that line or, behind a comment, on the next.
 int offset(std::string_view text, std::string_view name) {
   const std::size_t at = text.find(name);
@@ -116,9 +111,6 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
   } else if (command == Command::kNone) {
     executing_ = false;
     answer(kReady, machine);
-  } else if (!executing_ && is_move(command) && !machine.motion.dq().isZero(0.0)) {
-    cyclic_ = Cyclic::kNone;
-    machine.motion.stop_j(0.0);  // a move begins at rest
   } else if (!executing_) {
     executing_ = true;
     process(command, machine);
