@@ -39,6 +39,31 @@ void it_connects_to_the_address_in_the_text_in_order(void**) {
   assert_int_equal(bench.link("reverse_socket").port(), 50001);
 }
 
+void it_is_recognised_whichever_line_is_cut_or_added(void**) {
+  static ExternalBench bench;
+  bench.start();
+  const std::string_view whole(bench.text.data(), bench.size);
+  static std::array<char, 4096> changed;
+  std::size_t begin = whole.find('\n') + 1;
+  for (std::size_t end; (end = whole.find('\n', begin) + 1) < whole.size(); begin = end) {
+    const std::string_view line = whole.substr(begin, end - begin);
+    const bool connects = line.find("_with_retry(\"") != std::string_view::npos;
+    for (const std::string_view instead : {"", "  sync()  # \"reverse_socket\"\n"}) {
+      if (instead.empty() && connects) continue;
+      std::size_t size = 0;
+      for (const std::string_view part :
+           {whole.substr(0, begin), instead, instead.empty() ? "" : line, whole.substr(end)}) {
+        std::memcpy(changed.data() + size, part.data(), part.size());
+        size += part.size();
+      }
+      bench.upload({changed.data(), size});
+      bench.run(6);
+      assert_true(bench.connected("reverse_socket"));
+    }
+  }
+  assert_false(bench.said.has("compile_error"));
+}
+
 void nobody_listening_is_a_popup_and_no_motion(void**) {
   static ExternalBench bench;
   bench.listening = false;
@@ -180,6 +205,7 @@ void a_set_point_too_far_away_is_ignored(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(it_connects_to_the_address_in_the_text_in_order),
+      cmocka_unit_test(it_is_recognised_whichever_line_is_cut_or_added),
       cmocka_unit_test(nobody_listening_is_a_popup_and_no_motion),
       cmocka_unit_test(the_first_read_waits_for_ever),
       cmocka_unit_test(the_example_message_moves_the_arm_to_its_position),
