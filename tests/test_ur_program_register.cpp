@@ -175,7 +175,7 @@ void command_255_ends_it(void**) {
 constexpr std::string_view kDriver =
     "def driverProg():\n"
     "\tthread servoThread():\n"
-    "\t\tservoj(q, 0, 0, 0.008, 0.03, 2000)\n"
+    "\t\tservoj(q, 0, 0, 0.008, 0.06, 1000)\n"
     "\tend\n"
     "\tsocket_open(\"10.0.0.7\", 50001)\n"
     "\twhile keepalive > 0:\n"
@@ -207,7 +207,7 @@ void the_driver_program_follows_and_brakes_with_1_rad_s2(void**) {
   double at = 0.0;
   for (int k = 0; k < 125; ++k) bench.set(at += 0.3 * kCycle_s), bench.tick();
   ASSERT_NEAR(bench.image().target_qd[0], 0.3, 0.01);
-  ASSERT_NEAR(bench.target()[0], at - 0.3 * 0.03, 0.005);
+  ASSERT_NEAR(bench.target()[0], at - 0.3 * 0.06, 0.003);
   double before = bench.image().target_qd[0];
   for (int k = 0; k < 60; ++k) {
     bench.tick();

@@ -21,11 +21,13 @@ Knot knot(double time_s, double way, double speed, double acceleration) {
   return {kStart + way * direction, speed * direction, acceleration * direction, time_s};
 }
 
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
 /// The polynomial that meets two knots, by its conditions as linear equations.
 Joints between(const Knot& from, const Knot& to, double t, bool quintic) {
   const double T = to.time_s - from.time_s;
   const int n = quintic ? 6 : 4;
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n), b(n, 6);
+  Matrix a = Matrix::Zero(n, n), b(n, 6);
   const auto condition = [&](int row, double at, int derivative) {
     for (int k = derivative; k < n; ++k) {
       double factor = 1.0;
@@ -39,7 +41,7 @@ Joints between(const Knot& from, const Knot& to, double t, bool quintic) {
     condition(4, 0.0, 2), condition(5, T, 2);
     b.row(4) = from.ddq, b.row(5) = to.ddq;
   }
-  const Eigen::MatrixXd c = a.fullPivLu().solve(b);
+  const Matrix c = a.fullPivLu().solve(b);
   Joints q = Joints::Zero();
   for (int k = 0; k < n; ++k) q += c.row(k).transpose() * std::pow(t, k);
   return q;
