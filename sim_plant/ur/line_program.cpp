@@ -15,11 +15,6 @@ bool opens_block(std::string_view line) {
   return false;
 }
 
-/// These start from rest.
-bool is_move(std::string_view name) {
-  return name == "movej" || name == "movel" || name == "movep";
-}
-
 }  // namespace
 
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
@@ -204,11 +199,6 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   if (!read_call(rest, {&variables_, &machine}, call)) {
     not_emulated(line, machine);
     return Line::kNext;
-  }
-  if (moves_ && is_move(call.name) && !machine.motion.dq().isZero(0.0)) {
-    machine.motion.stop_j(0.0);
-    now_ = here_;
-    return Line::kWait;
   }
   const CallOutcome outcome = run_call(call, moves_, machine);
   switch (outcome.result) {
