@@ -35,10 +35,11 @@ void write_realtime(std::FILE* file, const RealtimeResult& result) {
 
 void print_realtime(const RealtimeResult& result) {
   const Histogram& latency = result.latency;
-  std::printf("\n  %9s %12s %12s %12s %12s\n  %9s %12.2f %12.2f %12.2f %12.2f\n", "wake-up",
-              "min us", "p50 us", "p99 us", "max us", "latency",
-              static_cast<double>(latency.min()) * 1e-3, latency.percentile(0.5) * 1e-3,
-              latency.percentile(0.99) * 1e-3, static_cast<double>(latency.max()) * 1e-3);
+  if (latency.count() > 0)  // the robot's own clock has none to tell
+    std::printf("\n  %9s %12s %12s %12s %12s\n  %9s %12.2f %12.2f %12.2f %12.2f\n", "wake-up",
+                "min us", "p50 us", "p99 us", "max us", "latency",
+                static_cast<double>(latency.min()) * 1e-3, latency.percentile(0.5) * 1e-3,
+                latency.percentile(0.99) * 1e-3, static_cast<double>(latency.max()) * 1e-3);
   std::printf("\n  real time:");
   for (const RealtimeStep& step : result.report.steps)
     std::printf(" %s %s,", step.name, kStepOutcomeWords[static_cast<std::size_t>(step.outcome)]);
