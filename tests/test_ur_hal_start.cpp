@@ -172,6 +172,15 @@ void a_protective_stop_is_released_where_the_file_says_so(void**) {
   ASSERT_OK(bench.cycles(3));
 }
 
+/// A program that begins while the arm slows down would stop it suddenly.
+void an_arm_that_moves_is_waited_for(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.image.dq[2] = -0.5;
+  ASSERT_STATUS(bench.start(), Status::kRefusedByRobot);
+  assert_true(bench.says("standstill of the arm: not within 300 ms"));
+  assert_int_equal(bench.robot.uploads(), 0);
+}
+
 void power_comes_where_the_file_says_so(void**) {
   UrHalBench& bench = fresh();
   bench.settings.on_power_off = OnPowerOff::kPowerOn;
@@ -206,6 +215,7 @@ int main() {
       cmocka_unit_test(another_program_is_left_alone),
       cmocka_unit_test(stops_that_people_release_are_refused),
       cmocka_unit_test(a_protective_stop_is_released_where_the_file_says_so),
+      cmocka_unit_test(an_arm_that_moves_is_waited_for),
       cmocka_unit_test(power_comes_where_the_file_says_so),
       cmocka_unit_test(a_protective_stop_during_the_start_ends_it),
   };

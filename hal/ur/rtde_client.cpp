@@ -21,7 +21,7 @@ Status refuse(Message& why, Status status, std::string_view text) {
 }  // namespace
 
 Status RtdeClient::start(const char* address, int port, double rate_hz, int timeout_ms,
-                          Message& why) {
+                         Message& why) {
   rate_hz_ = rate_hz;
   timeout_ms_ = timeout_ms;
   protocol_ = 2;
