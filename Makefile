@@ -19,7 +19,10 @@ SEAMS     := boards/program/options.cpp boards/ur10_emulator/options.cpp $(wildc
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
 NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
-SEAMFLAGS := -std=c++17 -g $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
+# Line tables are what back traces, profiles and bounds need; tracking variables too (DEBUG=-g) takes twice as long to
+# compile, sanitized three times.
+DEBUG     ?= -g1
+SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
              -DTACTUS_ROBOT_$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
@@ -31,14 +34,19 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH))
+CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
+
+# Where Debian has no binary of libccd, its source.
+CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
+CCD_SRCS := $(if $(CCD),$(patsubst %,$(CCD)/src/%.c,ccd mpr polytope support vec3))
+CXXFLAGS += $(CCD:%=-isystem %/src)
 
 KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/*/*.cpp) $(PARTS)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
-TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath
+TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -L$(B) -lfcl_oracle -Wl,-rpath,'$$ORIGIN/..'
 obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
@@ -68,7 +76,7 @@ compile_commands.json:                        ## for editors and clang-tidy
 clean:                                        ## remove everything that was built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## this list
-	$(Q)grep -hE '^[a-z_.-]+:.*##' Makefile | sed -E 's/:.*## */\t/' | expand -t 24
+	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories list-runs run-tests run-thread-tests kernel each-board
 each-board:
@@ -77,7 +85,7 @@ list-runs:
 	@echo -- $(B)/tactus $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/libkernel.a
+$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/tests/bare_metal/memory.o $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
@@ -85,7 +93,7 @@ trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
-run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads)
+run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads test_histogram test_ladder)
 	$(Q)scripts/run_tests $^
 run-tests: $(B)/tactus $(TESTS)
 	$(Q)scripts/run_tests $(TESTS)
@@ -93,23 +101,41 @@ run-tests: $(B)/tactus $(TESTS)
 $(call obj,$(SEAMS)): CXXFLAGS := $(SEAMFLAGS)
 $(B)/libkernel.a: $(call obj,$(KERNEL))
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
+$(B)/libccd.a: $(CCD_SRCS:%.c=$(B)/%.o)
 $(B)/liboracles.a: $(call obj,$(ORACLES))
 $(B)/%.a:
 	@echo "  AR    $@"
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 $(B)/tactus: $(call obj,$(SRCS)) $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS)
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS) -lccd
+# Debian's FCL is compiled with vectorised Eigen: who calls it too, and hidden from all that is not.
+$(B)/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
+	@mkdir -p $(@D)
+	@echo "  LD    $@"
+	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
+$(TESTS): | $(B)/libfcl_oracle.so
 $(TESTS): %: %.o $(B)/liboracles.a $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
+	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lccd -lpthread
 $(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $<"
 	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
+
+$(CCD_SRCS:%.c=$(B)/%.o): $(B)/%.o: %.c
+	@mkdir -p $(@D)
+	@echo "  CC    $<"
+	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
+$(CCD_SRCS) &:
+	$(Q)scripts/libccd $(CCD)
+$(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)
+
+include tests/wcet/wcet.mk
+include scripts/wcet/bound.mk
 
 .PRECIOUS: $(B)/%.o
 .DELETE_ON_ERROR:

@@ -19,6 +19,7 @@ struct RobotState {
   JointVector tau = JointVector::Zero();  ///< N m, what the actuators exert
   Vector6 ft = Vector6::Zero();  ///< N, N m: what environment and tool exert on a sensor at the
                                  ///< flange, at its origin and in its axes; zero without a sensor
+  double speed_scaling = 1.0;    ///< how fast the robot lets motions pass: 0 standing, 1 as sent
 };
 
 /// What is sent at the end of a cycle: rad, rad/s or N m, as the mode says.

@@ -1,38 +1,51 @@
-// Histogram: execution times in fixed memory. Buckets grow with the value, 32 to every doubling, so
-// that any percentile is known to within 1.6 %.
+// Histogram: execution times in fixed memory, 1.6 KB. Buckets grow with the value, 17 to every
+// doubling: a percentile is known to within 1/34, which is below 3 %. One writer, the cycle; any
+// thread reads, without a lock and without disturbing it.
+//
+// Up to 67 ms; what takes longer is counted in the last bucket, and saturated() says how many. The
+// extremes stay exact up to 4.29 s. After 2^32 - 1 times, 49 days at 1 kHz, it stops counting.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/shown.hpp"
+
 namespace tactus {
 
 class Histogram {
  public:
-  /// Adds one time, ns. [cyclic]
+  /// Adds one time, ns. [cyclic, one writer]
   void add(std::uint64_t value_ns);
+  /// Forgets everything. [init]
+  void clear();
 
-  std::uint64_t count() const { return count_; }
-  std::uint64_t last() const { return last_; }
-  std::uint64_t min() const { return count_ > 0 ? min_ : 0; }
-  std::uint64_t max() const { return max_; }
-  double mean() const;
+  std::uint32_t count() const { return count_; }
+  std::uint32_t last() const { return last_; }
+  std::uint32_t min() const { return count_ > 0 ? min_ : Shown<std::uint32_t>(0); }
+  std::uint32_t max() const { return max_; }
+  /// To seven digits. [any]
+  double mean() const { return static_cast<double>(mean_); }
+  /// Times beyond the last bucket's. [any]
+  std::uint32_t saturated() const { return saturated_; }
   /// The time that a fraction 0..1 of all values does not exceed, ns; 0 if there are none. [any]
   double percentile(double fraction) const;
 
  private:
-  static constexpr std::size_t kPerDoubling = 32;
-  static constexpr std::size_t kDoublings = 31;
-  // 2^35 - 1 ns = 34 s; longer counts as that in percentiles.
-  static constexpr std::uint64_t kLongest_ns = (std::uint64_t{kPerDoubling} << kDoublings) / 2 - 1;
+  static constexpr std::uint64_t kPerDoubling = 17;
+  static constexpr std::uint64_t kFirst = 4, kLast = 26;               // doublings: 16 ns to 67 ms
+  static constexpr std::uint64_t kExact = std::uint64_t{1} << kFirst;  // below, a bucket each
+  static constexpr std::uint64_t kLongest_ns = (std::uint64_t{1} << kLast) - 1;
 
   static std::size_t bucket(std::uint64_t value_ns);
   static double middle(std::size_t bucket);
 
-  std::array<std::uint64_t, kPerDoubling * kDoublings> buckets_{};
-  std::uint64_t count_ = 0, sum_ = 0, last_ = 0, max_ = 0;
-  std::uint64_t min_ = UINT64_MAX;
+  std::array<Shown<std::uint32_t>, kExact + kPerDoubling*(kLast - kFirst)> buckets_;
+  Shown<std::uint32_t> count_, last_, max_, saturated_;
+  Shown<std::uint32_t> min_ = UINT32_MAX;
+  Shown<float> mean_;
+  std::uint64_t sum_ = 0;  // the writer's own
 };
 
 }  // namespace tactus

@@ -1,6 +1,8 @@
 #include "kernel/loader.hpp"
 
+#include "kernel/collision_reader.hpp"
 #include "kernel/recording_reader.hpp"
+#include "kernel/schedule_reader.hpp"
 
 namespace tactus {
 namespace {
@@ -81,6 +83,8 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(load_command(ini, *robot, pipeline, error));
   TRY(check_command(ini, *robot, pipeline, error));
   TRY(read_recording(ini, pipeline, error));
+  TRY(read_collision(ini, pipeline, error));
+  TRY(read_schedule(ini, pipeline, error));
   const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
   pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
   pipeline.takes_poses = channels_.task != nullptr && left_.task == nullptr;
@@ -112,6 +116,10 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
     return check_robot(ini, section, pipeline.robot, error);
   }
   if (section.name == "guard") return read_settings(ini, section, ports, error, pipeline.guard);
+  if (section.name == "collision") {
+    pipeline.collision.given = true;
+    return read_settings(ini, section, ports, error, pipeline.collision);
+  }
   if (section.name == "task_limits") {
     TRY(read_settings(ini, section, ports, error, pipeline.task_limits));
     return check_workspace(ini, section, pipeline.task_limits, error);
@@ -138,7 +146,7 @@ Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& p
   if (type == nullptr)
     return error.refuse(Status::kMissingKey, section.line, section.name, "type",
                         Message("the key is missing; a block is one of ") << block_types());
-  Block* block = pipeline.append();
+  Block* block = pipeline.append(section.name);
   if (block == nullptr)
     return error.refuse(Status::kTooLarge, section.line, section.name, {},
                         Message("more than ") << kMaxBlocks << " blocks");

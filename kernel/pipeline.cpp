@@ -1,6 +1,16 @@
 #include "kernel/pipeline.hpp"
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
+
+/// One step of a block: of every kind a function with a name of its own, by which profiles and
+/// bounds go.
+template <class Kind>
+[[gnu::noinline]] Status step_block(Kind& block, double period_s) {
+  return block.step(period_s);
+}
+
 namespace {
 
 /// A block whose settings are to be judged by the period takes it.
@@ -11,6 +21,14 @@ Status start_block(Kind& block, double period_s) {
   else
     return block.start();
 }
+
+/// A block that has a brake() brakes; the others follow it.
+template <class Kind>
+auto brake_block(Kind& block, Status why, int) -> decltype(block.brake(why)) {
+  block.brake(why);
+}
+template <class Kind>
+void brake_block(Kind&, Status, long) {}
 
 }  // namespace
 
@@ -27,23 +45,34 @@ Status Pipeline::start(const RobotState& measured) {
         },
         blocks_[static_cast<std::size_t>(i)]));
   }
+  collision_check.start(collision, guard.effective(), robot.tool_tip, robot.period_s());
   return Status::kOk;
 }
 
-Status Pipeline::step(const RobotState& measured) {
+Status Pipeline::step(const RobotState& measured, Timing* timing) {
   robot.set_measured(measured);
   const double period_s = robot.period_s();
+  LoopBound<kMaxBlocks> steps;
   for (int i = 0; i < count_; ++i) {
+    steps.tick();
     TRY(std::visit(
         [period_s](auto& block) {
           if constexpr (std::is_same_v<decltype(block), std::monostate&>)
             return Status::kOk;
           else
-            return block.step(period_s);
+            return step_block(block, period_s);
         },
         blocks_[static_cast<std::size_t>(i)]));
+    if (timing != nullptr) timing->lap_block(i);
   }
   return Status::kOk;
+}
+
+void Pipeline::brake(Status why) {
+  for (int i = 0; i < count_; ++i) {
+    std::visit([why](auto& block) { brake_block(block, why, 0); },
+               blocks_[static_cast<std::size_t>(i)]);
+  }
 }
 
 }  // namespace tactus

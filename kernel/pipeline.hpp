@@ -11,13 +11,17 @@
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/control/pid.hpp"
 #include "kernel/control/wrench_front_end.hpp"
+#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/guard/collision.hpp"
 #include "kernel/guard/guard.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/recorder.hpp"
 #include "kernel/reference/frame.hpp"
 #include "kernel/reference/joint_reference_generator.hpp"
 #include "kernel/reference/task_reference_generator.hpp"
+#include "kernel/schedule.hpp"
 #include "kernel/settings.hpp"
+#include "kernel/timing.hpp"
 
 namespace tactus {
 
@@ -26,6 +30,7 @@ namespace tactus {
 using Block = std::variant<std::monostate,           //
                            RobotModel,               //
                            Frame,                    //
+                           BoxObstacle,              //
                            JointReferenceGenerator,  //
                            TaskReferenceGenerator,   //
                            PdGravity,                //
@@ -44,30 +49,40 @@ constexpr std::array<const char*, 1 + sizeof...(Blocks)> block_types(
 inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes =
     block_types(static_cast<const Block*>(nullptr));
 
-inline constexpr int kMaxBlocks = 12;
-
 class Pipeline {
  public:
   RobotSection robot;
   Guard::Params guard;
+  CollisionSection collision;
+  Collision collision_check;  ///< a row of the schedule where the file has the section
   TaskLimits task_limits;
   ExecutiveSection executive;
   RecorderSection recorder;
   Recording recording;
   PortTable ports;
+  Schedule schedule;  ///< the control chain, then the rows that the pipeline has
   bool takes_joints = false, takes_poses = false;  ///< which references its generators take
 
-  /// An empty slot at the end of the chain, or null if all are taken. [init]
-  Block* append() {
-    return count_ < kMaxBlocks ? &blocks_[static_cast<std::size_t>(count_++)] : nullptr;
+  /// An empty slot at the end of the chain for the block of a section, or null if all are taken.
+  /// [init]
+  Block* append(const Name& section) {
+    if (count_ == kMaxBlocks) return nullptr;
+    names_[static_cast<std::size_t>(count_)] = section;
+    return &blocks_[static_cast<std::size_t>(count_++)];
   }
+  int count() const { return count_; }
+  /// The section of a block.
+  const Name& name(int block) const { return names_[static_cast<std::size_t>(block)]; }
 
   /// Starts every block in order, from the measured state. The first Status that is not kOk. [init]
   Status start(const RobotState& measured);
-  /// Steps every block in order. The first Status that is not kOk. [cyclic]
-  Status step(const RobotState& measured);
+  /// Steps every block in order, and times each. The first Status that is not kOk. [cyclic]
+  Status step(const RobotState& measured, Timing* timing = nullptr);
+  /// Brakes every block that can: see ReferenceGenerator::brake. [cyclic]
+  void brake(Status why);
 
  private:
+  std::array<Name, kMaxBlocks> names_;
   std::array<Block, kMaxBlocks> blocks_;
   int count_ = 0;
 };

@@ -23,6 +23,7 @@ enum class Quantity : std::uint8_t {
   kSensorWrench,
   kJacobian,
   kTool,
+  kBox,
   kFlag,
   kScalar,
 };
@@ -38,7 +39,7 @@ struct QuantityInfo {
 /// Poses, twists and wrenches are of the tool tip, in the base frame; a wrench is what the
 /// environment exerts on the tool. A sensor wrench is as a force/torque sensor at the flange gives
 /// it: at the flange's origin, in its axes, the tool's own weight included. Indexed by Quantity.
-inline constexpr std::array<QuantityInfo, 14> kQuantities = {{
+inline constexpr std::array<QuantityInfo, 15> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
@@ -51,6 +52,7 @@ inline constexpr std::array<QuantityInfo, 14> kQuantities = {{
     {"sensor wrench", "N, N m", "fx fy fz mx my mz", 6},
     {"jacobian", "m, 1", "", 0},
     {"tool", "kg, m", "", 0},
+    {"box", "m", "", 0},
     {"flag", "0 or 1", "on", 1},
     {"scalar", "1", "value", 1},
 }};
@@ -84,6 +86,11 @@ struct QuantityValue<Quantity::kJacobian> {
 template <>
 struct QuantityValue<Quantity::kTool> {
   using Type = Tool;
+  static Type neutral() { return {}; }
+};
+template <>
+struct QuantityValue<Quantity::kBox> {
+  using Type = Cuboid;
   static Type neutral() { return {}; }
 };
 template <>

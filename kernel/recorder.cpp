@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 
 std::size_t Recording::width() const {
@@ -50,7 +52,9 @@ void Recorder::record(double time_s) {
   }
   double* to = slot(head);
   *to++ = time_s;
+  LoopBound<kMaxSignals> signals;
   for (int i = 0; i < recording_.signal_count; ++i) {
+    signals.tick();
     to += flatten(*recording_.signals[static_cast<std::size_t>(i)], to);
   }
   head_.store(next(head), std::memory_order_release);

@@ -5,6 +5,7 @@
 #include "kernel/describe.hpp"
 #include "kernel/hal.hpp"
 #include "kernel/load_error.hpp"
+#include "kernel/overrun_watch.hpp"
 #include "kernel/port.hpp"
 
 namespace tactus {
@@ -23,6 +24,7 @@ struct RobotSection {
   Out<Quantity::kJointEffort> tau;
   Out<Quantity::kSensorWrench> ft;  ///< zero without a sensor
   Out<Quantity::kTool> tool;
+  Out<Quantity::kScalar> speed_scaling;  ///< the robot's own, 0..1; 1 where it has none
 
   In<Quantity::kJointPosition> q_c;
   In<Quantity::kJointVelocity> dq_c;
@@ -36,7 +38,7 @@ struct RobotSection {
     visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
     visit.param("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
     visit.out("q", q), visit.out("dq", dq), visit.out("tau", tau), visit.out("tool", tool);
-    visit.out("ft", ft);
+    visit.out("ft", ft), visit.out("speed_scaling", speed_scaling);
   }
   /// The command, bound after the last block; exactly one of them is given.
   template <class Visitor>
@@ -50,6 +52,7 @@ struct RobotSection {
     dq.value = state.dq;
     tau.value = state.tau;
     ft.value = state.ft;
+    speed_scaling.value = state.speed_scaling;
   }
   CommandMode mode() const {
     return tau_c.wired()  ? CommandMode::kEffort
@@ -65,23 +68,41 @@ struct RobotSection {
 
 /// [executive]
 struct ExecutiveSection {
-  int max_slip = 3;  ///< missed periods in a row that are bridged; more stop the robot
+  int budget_us = 0;         ///< the longest the control chain is meant to take; 0: half a period
+  int max_slip = 3;          ///< missed periods in a row that are bridged; more: hold; more than
+                             ///< twice as many: stop
+  int max_overruns = 3;      ///< cycles longer than the period, within the window; more: one rung
+  int overrun_window = 100;  ///< cycles
+  int clean_cycles = 1000;   ///< without an overrun, until optional rows run again
+  int stop_ms = 3000;        ///< the longest a brake may take to come to rest
+  double rest_velocity = 0.01;  ///< rad/s of every joint; below, the arm is at rest
 
   template <class Visitor>
   void describe(Visitor& visit) {
+    visit.param("budget_us", budget_us, Range{0.0, 100000.0}, "us");
     visit.param("max_slip", max_slip, Range{0.0, 1000.0}, "cycles");
+    visit.param("max_overruns", max_overruns, Range{0.0, OverrunWatch::kMost}, "cycles");
+    visit.param("overrun_window", overrun_window, Range{1.0, 1000000.0}, "cycles");
+    visit.param("clean_cycles", clean_cycles, Range{1.0, 10000000.0}, "cycles");
+    visit.param("stop_ms", stop_ms, Range{1.0, 60000.0}, "ms");
+    visit.param("rest_velocity", rest_velocity, kPositive, "rad/s");
   }
+  int budget(int period_us) const { return budget_us > 0 ? budget_us : (period_us + 1) / 2; }
 };
 
 /// [recorder]
 struct RecorderSection {
-  int divisor = 1;  ///< every how many cycles a row is recorded
-  Value signals;    ///< outputs to record; none named: all
-  Value tracking;   ///< pairs "reference measured" whose difference is reported
+  int divisor = 1;     ///< every how many cycles a row is recorded
+  int offset = 0;      ///< in which of them
+  int budget_us = 20;  ///< the longest that takes
+  Value signals;       ///< outputs to record; none named: all
+  Value tracking;      ///< pairs "reference measured" whose difference is reported
 
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("divisor", divisor, Range{1.0, 1000.0}, "cycles");
+    visit.param("offset", offset, Range{0.0, 999.0}, "cycles");
+    visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
     visit.text("signals", signals, "outputs to record; none named: all");
     visit.text("tracking", tracking, "pairs: reference measured");
   }

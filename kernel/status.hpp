@@ -21,6 +21,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kTooLarge = 10,
     kNotOffered = 11,
     kUnstableGain = 12,
+    kOverBudget = 13,
     // 32..63 reference: the request is refused, the robot keeps its reference
     kReferenceSize = 32,
     kReferenceNotFinite = 33,
@@ -58,6 +59,10 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kSensorStuck = 74,
     kSensorNotSteady = 75,
     kFollowingError = 76,
+    kCollision = 77,
+    kOverrun = 80,
+    kStopTime = 81,
+    kHalted = 82,
     // 96..127 wire
     kBusTimeout = 96,
     kDriveFault = 97,

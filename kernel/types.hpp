@@ -23,6 +23,12 @@ struct Pose {
   Eigen::Quaterniond r = Eigen::Quaterniond(1.0, 0.0, 0.0, 0.0);  ///< unit quaternion (w, x, y, z)
 };
 
+/// A box by its middle and the lengths of its edges.
+struct Cuboid {
+  Pose pose;                       ///< of its middle, its axes along the edges
+  Vector3 size = Vector3::Zero();  ///< m
+};
+
 /// What is mounted on the flange, in the flange frame; the point mass adds to the last link's
 /// gravity and inertia.
 struct Tool {

@@ -27,7 +27,7 @@ class FakeHal final : public Hal {
   std::uint64_t read_ns = 0, write_ns = 0;  // how long reading and writing take
   int reads = 0, writes = 0, stops = 0;
 
-  Capabilities capabilities() const override { return {false, false, true, 100, 100000}; }
+  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
   Status start(CommandMode, RobotState& measured) override {
     note('s');
     measured = state;
@@ -93,13 +93,13 @@ struct ExecutiveBench {
   Executive executive{hal, pipeline, stopwatch};
   std::int64_t now_ns = 0;
 
-  ExecutiveBench() {
+  explicit ExecutiveBench(std::string_view text = kExecutivePipeline) {
     hal.state.q = 0.5 * (pipeline.guard.limits.q_min + pipeline.guard.limits.q_max);
     channel.stores[0].waypoints = waypoints.data();
     channel.stores[0].capacity = static_cast<int>(waypoints.size());
     Loader loader({&channel}, hal.capabilities());
     LoadError error;
-    if (loader.load(kExecutivePipeline, pipeline, error) == Status::kOk) return;
+    if (loader.load(text, pipeline, error) == Status::kOk) return;
     std::fprintf(stderr, "%s\n", error.message().c_str());
     std::abort();
   }
@@ -127,10 +127,10 @@ struct ExecutiveBench {
 };
 
 /// A new bench in place of the last: they are large, so there is one, in static memory.
-inline ExecutiveBench& fresh_bench() {
+inline ExecutiveBench& fresh_bench(std::string_view text = kExecutivePipeline) {
   static std::optional<ExecutiveBench> bench;
   g_stopwatch_ns = 0;
-  return bench.emplace();
+  return bench.emplace(text);
 }
 
 /// A row that writes a letter into the diary, keeps the time it was given, and takes its time.
@@ -140,11 +140,18 @@ struct RowProbe {
   double time_s = -1.0;
   std::uint64_t takes_ns = 0;
 
-  static void run(void* context, double time_s) {
+  Status status = Status::kOk;  // what it returns
+
+  static Status run(void* context, const RobotState&, double time_s) {
     RowProbe& probe = *static_cast<RowProbe*>(context);
     probe.hal->note(probe.letter);
     probe.time_s = time_s;
     g_stopwatch_ns += probe.takes_ns;
+    return probe.status;
+  }
+  /// As a row with a budget that does not matter.
+  Row row(int divisor = 1, int offset = 0) {
+    return {"probe", divisor, offset, 10, false, run, this};
   }
 };
 

@@ -56,10 +56,13 @@ class InterleavingModel {
   bool all_free() const { return free(0) && free(1) && free(2); }
   void send(int store) { stores_[index(store)] = StoreState::kTaken; }
 
-  void begin_cycle() {
+  /// True if what waited for its time begins.
+  bool begin_cycle() {
     pending_ = new_point_ = -1;
-    if (waiting_ >= 0) run(waiting_, waiting_store_);
+    const bool begins = waiting_ >= 0;
+    if (begins) run(waiting_, waiting_store_);
     waiting_ = -1;
+    return begins;
   }
   void take(Ask ask, int request, int store) {
     switch (ask) {

@@ -128,17 +128,30 @@ class Rehearsal {
     check(verdict.ok(), "the client sends what it may");
     ids_[at(asked_)] = id;
     sent_[at(asked_)] = ask;
+    begins_[at(asked_)] = cycles_ + 2;
     stores_[at(asked_)] = store;
     ++asked_;
+  }
+
+  /// A cycle makes one plan; what was asked after it waits for the next.
+  bool plans(Ask ask) const {
+    return ask == Ask::kTrajectory || ask == Ask::kTooFast ||
+           (ask == Ask::kPoint && mode_ == OnlineMode::kLimit);
+  }
+  /// One that had to wait until its start time came is like any other.
+  Ask taken_as(int request) const {
+    const bool late = sent_[at(request)] == Ask::kLater && cycles_ + 1 >= begins_[at(request)];
+    return late ? Ask::kTrajectory : sent_[at(request)];
   }
 
   void cycle(double dt_s) {
     const JointSpace::Point before = bench_.out();
     const int held = model_.held_point();
-    model_.begin_cycle();
-    for (; first_of_cycle_ < asked_; ++first_of_cycle_) {
-      const std::size_t i = at(first_of_cycle_);
-      model_.take(sent_[i], first_of_cycle_, stores_[i]);
+    bool planned = model_.begin_cycle();
+    for (; first_of_cycle_ < asked_ && !planned; ++first_of_cycle_) {
+      const Ask ask = taken_as(first_of_cycle_);
+      model_.take(ask, first_of_cycle_, stores_[at(first_of_cycle_)]);
+      planned = plans(ask);
     }
     check(bench_.step(dt_s) == Status::kOk, "a cycle");
     ++cycles_;
@@ -241,6 +254,7 @@ class Rehearsal {
   std::array<std::uint32_t, InterleavingModel::kMost> ids_{};
   std::array<Ask, InterleavingModel::kMost> sent_{};
   std::array<int, InterleavingModel::kMost> stores_{};
+  std::array<int, InterleavingModel::kMost> begins_{};  // the cycle of its start time
   int asked_ = 0, first_of_cycle_ = 0, cycles_ = 0;
   bool arrivals_expected_ = false;
   const char* complaint_ = nullptr;

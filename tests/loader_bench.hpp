@@ -21,8 +21,10 @@ inline constexpr std::string_view kValid =
     "kp = 10\nkd = 1 2 3 4 5 6 7\n"
     "[stiff]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = soft.tau\n"
     "kp = 100\nkd = 1e1\n"
-    "[executive]\nmax_slip = 7\n"
-    "[recorder]\ndivisor = 5\nsignals = robot.q stiff.tau model.x\ntracking = jrg.q_d robot.q\n";
+    "[executive]\nmax_slip = 7\nbudget_us = 1500\nmax_overruns = 2\noverrun_window = 50\n"
+    "clean_cycles = 300\nstop_ms = 700\nrest_velocity = 0.02\n"
+    "[recorder]\ndivisor = 5\noffset = 3\nbudget_us = 400\nsignals = robot.q stiff.tau "
+    "model.x\ntracking = jrg.q_d robot.q\n";
 
 inline constexpr Capabilities kTorqueRobot = {false, false, true, 100, 10000};
 

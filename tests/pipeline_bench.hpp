@@ -50,8 +50,9 @@ struct PipelineBench {
     ASSERT_OK(executive.start());
     assert_true(send_input(session, input));
   }
+  CycleTime next() { return {cycles++ * std::int64_t{1000} * pipeline.robot.period_us}; }
   void cycle() {
-    ASSERT_OK(executive.cycle({cycles++ * std::int64_t{1000} * pipeline.robot.period_us}));
+    ASSERT_OK(executive.cycle(next()));
     while (poll_report(session, input, report)) {
     }
   }

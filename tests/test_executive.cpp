@@ -1,7 +1,5 @@
-// The executive: what a cycle does and in which order, what a late one does, what stops the robot.
+// The executive: what a cycle does and in which order, what disables the drives.
 #include "kernel/executive.hpp"
-
-#include <limits>
 
 #include "tests/executive_bench.hpp"
 #include "tests/testing.hpp"
@@ -18,7 +16,7 @@ Bench& started_bench() {
   return b;
 }
 
-/// The robot was stopped once for `status`, and from now on nothing is asked of it.
+/// The drives were disabled once for `status`, and from now on nothing is asked of them.
 void assert_stopped(Bench& b, Status status) {
   assert_int_equal(b.hal.stops, 1);
   ASSERT_STATUS(b.executive.latched(), status);
@@ -32,8 +30,8 @@ void assert_stopped(Bench& b, Status status) {
 void a_cycle_reads_then_writes_then_runs_the_rows_once_each(void**) {
   Bench& b = started_bench();
   RowProbe first = {&b.hal, '1'}, second = {&b.hal, '2'};
-  ASSERT_OK(b.executive.add({"first", 1, 0, RowProbe::run, &first}));
-  ASSERT_OK(b.executive.add({"second", 1, 0, RowProbe::run, &second}));
+  ASSERT_OK(b.executive.add(first.row()));
+  ASSERT_OK(b.executive.add(second.row()));
   ASSERT_OK(b.cycle());
   assert_string_equal(b.hal.diary(), "rw12");
 }
@@ -83,7 +81,7 @@ void after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_v
   assert_true(b.send_line());
   for (int i = 0; i < 10; ++i) ASSERT_OK(b.cycle());
   assert_true(b.reference() > b.hal.state.q[0]);
-  ASSERT_STATUS(b.cycle(100.0), Status::kSlip);
+  ASSERT_STATUS(b.cycle(200.0), Status::kSlip);
 
   b.hal.state.q[0] += 0.3;  // pushed while it was off
   b.now_ns = 0;             // and the clock began anew
@@ -95,76 +93,6 @@ void after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_v
     assert_true(b.reference() == b.hal.state.q[0]);
     assert_true(b.hal.command.value.isZero(0.0));
   }
-}
-
-// Proves EXE-3.
-
-void after_any_number_of_missed_periods_the_reference_moves_on_by_one(void**) {
-  Bench& b = started_bench();
-  assert_true(b.send_line());
-  for (int i = 0; i < 5; ++i) ASSERT_OK(b.cycle());
-  std::int64_t slips = 0;
-  for (int missed = 1; missed <= 50; ++missed) {
-    for (const double periods : {1.0 + missed, 1.0}) {  // late, then on time again
-      const double before = b.reference();
-      ASSERT_OK(b.cycle(periods));
-      ASSERT_NEAR(b.reference() - before, 0.5 * Bench::kPeriod_s, 1e-12);  // at 0.5 rad/s
-    }
-    slips += missed;
-    assert_int_equal(b.executive.telemetry().slips, slips);
-  }
-  assert_int_equal(b.executive.telemetry().cycles, 5 + 2 * 50);
-  assert_int_equal(b.hal.writes, 5 + 2 * 50);
-}
-
-void less_than_half_a_period_of_jitter_is_no_slip(void**) {
-  Bench& b = started_bench();
-  for (const double periods : {7.0, 1.49, 0.51, 0.01, 1.49}) ASSERT_OK(b.cycle(periods));
-  assert_int_equal(b.executive.telemetry().slips, 0);
-  ASSERT_OK(b.cycle(1.51));
-  assert_int_equal(b.executive.telemetry().slips, 1);
-}
-
-// Proves EXE-4, EXE-5.
-
-void more_missed_periods_than_allowed_stop_the_robot(void**) {
-  for (const int allowed : {0, 3, 50}) {
-    Bench& b = started_bench();
-    b.pipeline.executive.max_slip = allowed;
-    ASSERT_OK(b.cycle());
-    ASSERT_OK(b.cycle(1.0 + allowed));
-    ASSERT_STATUS(b.cycle(2.0 + allowed), Status::kSlip);
-    assert_int_equal(b.executive.telemetry().slips, 2 * allowed + 1);
-    assert_stopped(b, Status::kSlip);
-  }
-}
-
-void a_clock_that_stands_or_runs_backwards_stops_the_robot(void**) {
-  for (const double periods : {0.0, -0.001, -1.0, -1e9}) {
-    Bench& b = started_bench();
-    for (int i = 0; i < 3; ++i) ASSERT_OK(b.cycle());
-    ASSERT_STATUS(b.cycle(periods), Status::kClock);
-    assert_stopped(b, Status::kClock);
-  }
-}
-
-void one_early_cycle_follows_a_late_one_but_a_burst_stops_the_robot(void**) {
-  Bench& b = started_bench();
-  for (const double periods : {1.0, 1.7, 0.3, 1.0, 1.8, 0.2}) ASSERT_OK(b.cycle(periods));
-  ASSERT_STATUS(b.cycle(0.1), Status::kClock);
-}
-
-void a_clock_that_reads_nonsense_stops_the_robot(void**) {
-  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
-  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
-  Bench& from_zero = started_bench();
-  ASSERT_OK(from_zero.executive.cycle({0}));
-  ASSERT_STATUS(from_zero.executive.cycle({kLast}), Status::kSlip);
-  Bench& backwards = started_bench();
-  ASSERT_OK(backwards.executive.cycle({kLast}));
-  ASSERT_STATUS(backwards.executive.cycle({kFirst}), Status::kClock);
-  Bench& negative = started_bench();
-  ASSERT_STATUS(negative.executive.cycle({kFirst}), Status::kClock);
 }
 
 // Proves EXE-5, GRD-1.
@@ -234,12 +162,6 @@ int main() {
       cmocka_unit_test(before_the_start_and_after_a_stop_cycles_do_nothing),
       cmocka_unit_test(
           after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_void),
-      cmocka_unit_test(after_any_number_of_missed_periods_the_reference_moves_on_by_one),
-      cmocka_unit_test(less_than_half_a_period_of_jitter_is_no_slip),
-      cmocka_unit_test(more_missed_periods_than_allowed_stop_the_robot),
-      cmocka_unit_test(a_clock_that_stands_or_runs_backwards_stops_the_robot),
-      cmocka_unit_test(one_early_cycle_follows_a_late_one_but_a_burst_stops_the_robot),
-      cmocka_unit_test(a_clock_that_reads_nonsense_stops_the_robot),
       cmocka_unit_test(a_measured_number_that_is_not_finite_stops_the_robot_at_any_joint),
       cmocka_unit_test(an_error_of_the_wire_is_latched),
       cmocka_unit_test(a_robot_that_cannot_be_started_is_stopped_and_stays_so),

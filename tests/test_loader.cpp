@@ -26,6 +26,11 @@ void settings_arrive_in_their_sections(void**) {
   assert_true(pipeline.guard.limits.dq_max == JointVector::Constant(1.0));
   assert_true(pipeline.guard.limits.tau_max[3] == 50.0 && pipeline.guard.limits.tau_max[6] == 8.0);
   assert_int_equal(pipeline.executive.max_slip, 7);
+  assert_int_equal(pipeline.executive.max_overruns, 2);
+  assert_int_equal(pipeline.executive.overrun_window, 50);
+  assert_int_equal(pipeline.executive.clean_cycles, 300);
+  assert_int_equal(pipeline.executive.stop_ms, 700);
+  assert_true(pipeline.executive.rest_velocity == 0.02);
   assert_int_equal(bench.plant.delay_cycles, 3);
   assert_true(bench.plant.friction == 0.0);
   assert_string_equal(bench.gateway.trajectory.c_str(), "a b.csv");
@@ -47,8 +52,9 @@ void a_setting_left_out_keeps_its_default(void**) {
 
 void without_a_list_every_output_that_can_be_recorded_is(void**) {
   ASSERT_OK(bench.load(with("signals = robot.q stiff.tau model.x\n", "")));
-  // robot: q dq tau, no sensor; model: x v g; jrg: q_d dq_d ddq_d tau_d x_d v_d; two laws: tau
-  assert_int_equal(bench.pipeline.recording.signal_count, 14);
+  // robot: q dq tau speed_scaling, no sensor; model: x v g; jrg: q_d dq_d ddq_d tau_d x_d v_d; two
+  // laws: tau
+  assert_int_equal(bench.pipeline.recording.signal_count, 15);
 }
 
 void values_arrive_at_the_inputs_they_are_wired_to_in_the_same_cycle(void**) {
@@ -101,7 +107,7 @@ void a_sensor_the_robot_does_not_have_is_not_read(void**) {
   ASSERT_OK(bench.load(recorded, sensing));
   ASSERT_STATUS(bench.load(recorded, kTorqueRobot), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
-                      "45: [recorder] signals: robot.ft: the robot has no such sensor");
+                      "53: [recorder] signals: robot.ft: the robot has no such sensor");
   // No block of the kernel takes a sensor's wrench for a joint vector either way.
   const std::string_view wired = with("q = robot.q", "q = robot.ft");
   ASSERT_STATUS(bench.load(wired, sensing), Status::kWrongQuantity);
@@ -136,7 +142,29 @@ void tightened_limits_are_those_references_are_judged_by(void**) {
   ASSERT_NEAR(settings.period_s, 0.002, 1e-18);
 }
 
-// Proves CFG-2, CFG-5.
+// Proves SCH-2.
+
+void the_schedule_has_the_control_chain_and_the_recorder(void**) {
+  ASSERT_OK(bench.load(kValid));
+  const Schedule& schedule = bench.pipeline.schedule;
+  assert_int_equal(schedule.count(), 2);
+  assert_string_equal(schedule[0].name, "control");
+  assert_true(schedule[0].divisor == 1 && schedule[0].offset == 0 && !schedule[0].optional);
+  assert_int_equal(schedule[0].budget_us, 1500);
+  assert_string_equal(schedule[1].name, "recorder");
+  assert_true(schedule[1].divisor == 5 && schedule[1].offset == 3 && schedule[1].optional);
+  assert_int_equal(schedule[1].budget_us, 400);
+  ASSERT_OK(bench.load(with("budget_us = 1500\n", "")));
+  assert_int_equal(bench.pipeline.schedule[0].budget_us, 1000);  // half the period
+}
+
+void a_schedule_that_cannot_be_met_is_refused_with_its_frame(void**) {
+  ASSERT_STATUS(bench.load(with("budget_us = 400", "budget_us = 501")), Status::kOverBudget);
+  assert_string_equal(bench.error.reason.c_str(),
+                      "frame 3 of 5: control 1500 + recorder 501 = 2001 us, the period is 2000 us");
+}
+
+// Proves CFG-2, CFG-5, SCH-2.
 
 void every_file_with_a_mistake_is_refused_with_its_message(void**) {
   const int count = judge_refused_files("tests/refused", ".ini", [](const RefusedFile& file) {
@@ -192,6 +220,8 @@ int main() {
       cmocka_unit_test(a_sensor_the_robot_does_not_have_is_not_read),
       cmocka_unit_test(line_ends_blanks_marks_and_comments_make_no_difference),
       cmocka_unit_test(tightened_limits_are_those_references_are_judged_by),
+      cmocka_unit_test(the_schedule_has_the_control_chain_and_the_recorder),
+      cmocka_unit_test(a_schedule_that_cannot_be_met_is_refused_with_its_frame),
       cmocka_unit_test(every_file_with_a_mistake_is_refused_with_its_message),
       cmocka_unit_test(a_file_of_no_bytes_is_refused),
       cmocka_unit_test(the_first_mistake_is_the_one_reported),

@@ -27,7 +27,7 @@ Status measure(int period_us, int cycles, Histogram& latency, std::int64_t& miss
 }
 
 void print_row(const char* name, const Histogram& latency) {
-  std::printf("  %-10s %9" PRIu64 " %9.1f %9.1f %9.1f %9.1f %9.1f %9.1f\n", name, latency.count(),
+  std::printf("  %-10s %9" PRIu32 " %9.1f %9.1f %9.1f %9.1f %9.1f %9.1f\n", name, latency.count(),
               static_cast<double>(latency.min()) * 1e-3, latency.mean() * 1e-3,
               latency.percentile(0.5) * 1e-3, latency.percentile(0.99) * 1e-3,
               latency.percentile(0.999) * 1e-3, static_cast<double>(latency.max()) * 1e-3);

@@ -104,6 +104,7 @@ int print_ports(const char* board, const Capabilities& offered) {
   PortPrinter printer;
   robot.describe_command(printer);
   print_section("[guard]", Guard::Params());
+  print_section("[collision]", CollisionSection());
   print_section("[task_limits]", TaskLimits());
   print_section("[executive]", ExecutiveSection());
   print_section("[recorder]", RecorderSection());

@@ -20,8 +20,8 @@ bool prepare(Realtime& realtime, const RealtimeSettings& settings) {
 
 void write_realtime(std::FILE* file, const RealtimeResult& result) {
   const Histogram& latency = result.latency;
-  std::fprintf(file, "  \"realtime\": {\n    \"latency\": {\"min_ns\": %" PRIu64, latency.min());
-  std::fprintf(file, ", \"p50_ns\": %.0f, \"p99_ns\": %.0f, \"max_ns\": %" PRIu64 "},\n",
+  std::fprintf(file, "  \"realtime\": {\n    \"latency\": {\"min_ns\": %" PRIu32, latency.min());
+  std::fprintf(file, ", \"p50_ns\": %.0f, \"p99_ns\": %.0f, \"max_ns\": %" PRIu32 "},\n",
                latency.percentile(0.5), latency.percentile(0.99), latency.max());
   std::fprintf(file, "    \"page_faults\": %" PRId64 ",\n    \"steps\": {", result.page_faults);
   const char* separator = "";

@@ -26,6 +26,16 @@ FilePath in_folder(const FilePath& folder, const char* file) {
   return path << "/" << file, path;
 }
 
+Status record(void* recorder, const RobotState&, double time_s) {
+  static_cast<Recorder*>(recorder)->record(time_s);
+  return Status::kOk;  // a full ring drops the row and counts it
+}
+
+void print_collision(const Collision::Telemetry& told) {
+  std::fprintf(stderr, "  %s with %s, %s\n", told.first, told.second,
+               told.predicted ? "before the arm could have come to rest" : "now");
+}
+
 /// Runs the loop between start and stop, and the times and counters around it.
 void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
              LogWriter& writer, RunResult& result) {
@@ -45,6 +55,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
       loop.in_lock_step(cycles, log, progress);
   }
   const Status latched = session.executive.latched();
+  result.rung = session.executive.rung();
   session.executive.stop();
   result.wall_s = wall_s() - begin_s;
   result.simulated_s =
@@ -54,6 +65,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   if (latched != Status::kOk)
     print_stop(options.pipeline, started == Status::kOk ? "stopped" : "refused", latched,
                session.executive.guard().telemetry());
+  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
 }  // namespace
@@ -92,11 +104,8 @@ int run(Session& session, const Options& options) {
     result.tracking[i].start(recording.tracking[i]);
   }
   session.recorder.start(recording);
-  const Row row = {
-      "recorder", session.pipeline.recorder.divisor, 0,
-      [](void* recorder, double time_s) { static_cast<Recorder*>(recorder)->record(time_s); },
-      &session.recorder};
-  if (session.executive.add(row) != Status::kOk) return kRefused;
+  session.pipeline.schedule.bind("recorder", record, &session.recorder);
+  if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
   execute(session, options, input, log, writer, result);
   realtime.release();  // the figure's program would inherit it

@@ -54,20 +54,20 @@ bool RunLoop::cycle(const CycleTime& now) {
   }
   for (int i = 0; i < result_.tracking_count; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
-  bool goes_on = follow();
-  if (interrupted != 0) {
+  if (!follow()) refused_ = true;
+  if (status == Status::kHalted)
     end_with(result_, kEndedOtherwise, "interrupted");
-    goes_on = false;
-  }
-  if (status != Status::kOk) end_with(result_, static_cast<int>(status), name(status));
-  return goes_on && status == Status::kOk;
+  else if (status != Status::kOk)
+    end_with(result_, static_cast<int>(status), name(status));
+  if (interrupted != 0) session_.executive.halt();
+  return session_.executive.braking() || (status == Status::kOk && !refused_ && interrupted == 0);
 }
 
 void RunLoop::in_lock_step(std::int64_t cycles, RunLog& log, Progress& progress) {
   const double period_s = session_.pipeline.robot.period_s();
   const std::int64_t period_ns = std::int64_t{1000} * session_.pipeline.robot.period_us;
   bool goes_on = true;
-  for (std::int64_t k = 0; k < cycles && goes_on; ++k) {
+  for (std::int64_t k = 0; goes_on && (k < cycles || braking()); ++k) {
     goes_on = cycle({k * period_ns});
     log.drain(session_.recorder);
     progress.update(static_cast<double>(k) * period_s);
@@ -83,7 +83,7 @@ void RunLoop::in_real_time(std::int64_t cycles, LogWriter& writer, Progress& pro
   {
     const HeapWatch watch;  // of everything in this thread, not only of the cycle
     bool goes_on = true;
-    for (std::int64_t k = 0; k < cycles && goes_on && status == Status::kOk; ++k) {
+    for (std::int64_t k = 0; goes_on && status == Status::kOk && (k < cycles || braking()); ++k) {
       Wake wake;
       status = clock.wait(wake);
       realtime.latency.add(static_cast<std::uint64_t>(wake.latency_ns()));

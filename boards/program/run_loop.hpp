@@ -27,13 +27,16 @@ class RunLoop {
   void in_real_time(std::int64_t cycles, LogWriter& writer, Progress& progress);
 
  private:
-  /// One cycle and what is watched around it. False: the run is over.
+  bool braking() const { return session_.executive.braking(); }
+  /// One cycle and what is watched around it. False: the run is over, and an arm that was braked
+  /// has come to rest.
   bool cycle(const CycleTime& now);
   bool follow();
 
   Session& session_;
   const TrajectoryInput& input_;
   RunResult& result_;
+  bool refused_ = false;  // the trajectory
 };
 
 }  // namespace tactus

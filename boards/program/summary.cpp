@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "boards/program/run_log.hpp"
+#include "boards/program/timing_report.hpp"
 #include "kernel/ini.hpp"
 
 namespace tactus {
@@ -67,18 +68,6 @@ void write_signals(std::FILE* file, const Session& session) {
   std::fprintf(file, "\n  ],\n");
 }
 
-void write_timing(std::FILE* file, const Executive& executive) {
-  std::fprintf(file, "  \"timing\": {");
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const Histogram& times = executive.times(static_cast<Stage>(i));
-    std::fprintf(file,
-                 "%s\n    \"%s\": {\"p50_ns\": %.0f, \"p99_ns\": %.0f, \"max_ns\": %" PRIu64 "}",
-                 i > 0 ? "," : "", kStageNames[i], times.percentile(0.5), times.percentile(0.99),
-                 times.max());
-  }
-  std::fprintf(file, "\n  },\n");
-}
-
 double realtime_factor(const RunResult& result) {
   return result.wall_s > 0.0 ? result.simulated_s / result.wall_s : 0.0;
 }
@@ -93,15 +82,17 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   const Guard::Telemetry& guard = session.executive.guard().telemetry();
   std::fprintf(file, "{\n  \"pipeline\": \"%.*s\",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n",
                static_cast<int>(pipeline.size()), pipeline.data(), Robot::kName, session.board);
-  std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
-               1.0 / session.pipeline.robot.period_s(), telemetry.cycles, result.seed);
+  std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRIu32 ",\n  \"seed\": %" PRIu64 ",\n",
+               1.0 / session.pipeline.robot.period_s(), std::uint32_t{telemetry.cycles},
+               result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
   std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
   write_tracking(file, result);
   write_signals(file, session);
-  write_timing(file, session.executive);
-  std::fprintf(file, "  \"slips\": %" PRId64 ",\n  \"overruns\": %" PRId64 ",\n", telemetry.slips,
-               telemetry.overruns);
+  write_timing(file, session.pipeline, session.executive);
+  write_events(file, result.rung, session.executive.events());
+  std::fprintf(file, "  \"slips\": %" PRIu32 ",\n  \"overruns\": %" PRIu32 ",\n",
+               std::uint32_t{telemetry.slips}, std::uint32_t{telemetry.overruns});
   if (result.realtime.asked) write_realtime(file, result.realtime);
   std::fprintf(file, "  \"guard\": {\"limited\": %u, \"tripped\": %d},\n", guard.limited_cycles,
                guard.tripped_joint >= 0 ? 1 : 0);
@@ -126,17 +117,15 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
     for (int c = 0; c < error.components(); ++c)
       std::printf("  %9d %12.3e %12.3e %12.3e\n", c + 1, error.rms(c), error.max(c), error.last(c));
   }
-  std::printf("\n  %9s %12s %12s %12s\n", "stage", "p50 us", "p99 us", "max us");
-  for (std::size_t i = 0; i < kStageNames.size(); ++i) {
-    const Histogram& times = executive.times(static_cast<Stage>(i));
-    std::printf("  %9s %12.2f %12.2f %12.2f\n", kStageNames[i], times.percentile(0.5) * 1e-3,
-                times.percentile(0.99) * 1e-3, static_cast<double>(times.max()) * 1e-3);
-  }
+  print_timing(session.pipeline, executive);
   if (result.realtime.asked) print_realtime(result.realtime);
-  std::printf("\n  %" PRId64 " cycles, %" PRId64
-              " slips, %u limited by the guard, "
-              "%" PRIu64 " heap allocations in the cycle, %.3g s in %.3g s (%.0f x real time)\n",
-              executive.telemetry().cycles, executive.telemetry().slips,
+  print_events(executive.events());
+  const Executive::Telemetry& telemetry = executive.telemetry();
+  std::printf("\n  %" PRIu32 " cycles, %" PRIu32 " slips, %" PRIu32 " overruns, rung %s, ",
+              std::uint32_t{telemetry.cycles}, std::uint32_t{telemetry.slips},
+              std::uint32_t{telemetry.overruns}, name(result.rung));
+  std::printf("%u limited by the guard, %" PRIu64
+              " heap allocations in the cycle, %.3g s in %.3g s (%.0f x real time)\n",
               executive.guard().telemetry().limited_cycles, result.heap_allocations,
               result.simulated_s, result.wall_s, realtime_factor(result));
 }

@@ -12,6 +12,7 @@ namespace tactus {
 struct RunResult {
   int code = 0;  ///< 0 succeeded, else the Status or the Outcome that ended the run
   const char* name = "succeeded";
+  Rung rung = Rung::kDisabled;  ///< on which the last cycle left it
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
   double wall_s = 0.0, simulated_s = 0.0;
   std::array<TrackingError, kMaxTracking> tracking;

@@ -11,3 +11,10 @@ RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_tr
 TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop
 TESTS  += admittance cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times
 TESTS  += pipelines free_pipelines contact_pipelines
+TESTS  += collision collision_rules collision_file collision_pipelines separation stopping
+
+# Memory in bytes that `make certificate` holds the kernel to: static and stack on a Cortex-M7, an exception included,
+# and stack on the host.
+STATIC_BUDGET     := 262144
+STACK_BUDGET      := 24576
+HOST_STACK_BUDGET := 32768

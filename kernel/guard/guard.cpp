@@ -65,10 +65,13 @@ Status Guard::check_following(const RobotState& state) {
 
 Status Guard::limit(const RobotState& state, RobotCommand& command) {
   if (command.mode != mode_) return Status::kNotStarted;
-  bool limited = false, rough = false;
   for (int i = 0; i < kDof; ++i) {
     const double wanted = command.value[i];
     if (!std::isfinite(wanted)) return trip(Status::kCommandNotFinite, i, wanted, 0.0);
+  }
+  bool limited = false, rough = false;
+  for (int i = 0; i < kDof; ++i) {
+    const double wanted = command.value[i];
     command.value[i] = allowed(i, wanted, state);
     rough = rough || jerky(i);
     if (command.value[i] != wanted) {
@@ -79,6 +82,17 @@ Status Guard::limit(const RobotState& state, RobotCommand& command) {
   telemetry_.limited_cycles += limited ? 1 : 0;
   telemetry_.jerky_cycles += rough ? 1 : 0;
   return Status::kOk;
+}
+
+RobotCommand Guard::brake(const RobotState& state) {
+  RobotCommand command{mode_, JointVector::Zero()};
+  for (int i = 0; i < kDof; ++i) {
+    if (mode_ == CommandMode::kPosition)
+      command.value[i] = positions_[static_cast<std::size_t>(i)].brake();
+    else
+      command.value[i] = allowed(i, 0.0, state);
+  }
+  return command;
 }
 
 double Guard::allowed(int joint, double wanted, const RobotState& state) {

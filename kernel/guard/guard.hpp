@@ -69,8 +69,14 @@ class Guard {
 
   /// Command: finite, or kCommandNotFinite; of the mode that was started, or kNotStarted. It is
   /// brought within limits (the file comment says which) but for the allowances of step_band.hpp.
+  /// Nothing is sent, and brake() may follow in the same cycle, if it is not kOk.
   /// `state` is what was checked in this cycle. [cyclic]
   Status limit(const RobotState& state, RobotCommand& command);
+
+  /// Instead of a command that cannot be had: brings positions and velocities to rest as fast as
+  /// their limits allow, from the last that was sent, and holds them there. Efforts, which nobody
+  /// can brake without the chain, go to zero at their rate. [cyclic]
+  RobotCommand brake(const RobotState& state);
 
   const Telemetry& telemetry() const { return telemetry_; }
 

@@ -13,20 +13,27 @@ void PositionLimiter::start(const StepLimits& limits, double q) {
 
 double PositionLimiter::next(double wanted) {
   const StepBand band = allowed_steps(limits_, sent_, step_);
-  const double before = sent_, target = std::clamp(wanted, limits_.q_min, limits_.q_max);
+  const double target = std::clamp(wanted, limits_.q_min, limits_.q_max);
   // Beside a target that moves, what it is ahead is closed at a speed that can still be braked; the
   // last step, of one change at most, comes to rest on it.
   const double ahead = target_ - sent_;
   if (std::abs(ahead) <= limits_.change && band.contains(wanted - sent_)) {
-    sent_ = wanted;
-  } else {
-    const double closing = std::copysign(braking_step(std::abs(ahead), limits_.change), ahead);
-    sent_ += std::clamp(target - target_ + closing, band.lo, band.hi);
+    return move(wanted, target);
   }
-  target_ = target;
-  const double step = sent_ - before, change = step - step_;
+  const double closing = std::copysign(braking_step(std::abs(ahead), limits_.change), ahead);
+  return move(sent_ + std::clamp(target - target_ + closing, band.lo, band.hi), target);
+}
+
+double PositionLimiter::brake() {
+  const StepBand band = allowed_steps(limits_, sent_, step_);
+  const double to = sent_ + std::clamp(0.0, band.lo, band.hi);
+  return move(to, to);
+}
+
+double PositionLimiter::move(double to, double target) {
+  const double step = to - sent_, change = step - step_;
   jerky_ = limits_.jerky(change - change_);
-  step_ = step, change_ = change;
+  sent_ = to, target_ = target, step_ = step, change_ = change;
   return sent_;
 }
 

@@ -18,12 +18,16 @@ class PositionLimiter {
   void start(const StepLimits& limits, double q);
   /// What is sent when `wanted` (finite, rad) is commanded. [cyclic]
   double next(double wanted);
+  /// What is sent to come to rest as fast as may be. [cyclic]
+  double brake();
   /// The last that was sent, rad. [any]
   double sent() const { return sent_; }
   /// Whether the last that was sent took more than the jerk limit. [any]
   bool jerky() const { return jerky_; }
 
  private:
+  double move(double to, double target);
+
   StepLimits limits_;
   double sent_ = 0.0, step_ = 0.0, change_ = 0.0;  // rad, rad per cycle, rad per cycle^2
   double target_ = 0.0;                            // what was wanted last, within position limits

@@ -19,6 +19,7 @@ Status JointReferenceGenerator::start() {
 }
 
 Status JointReferenceGenerator::step(double dt_s) {
+  if (speed_scaling.wired()) generator_.scale_speed(*speed_scaling);
   TRY(generator_.step(dt_s, measured()));
   write();
   return Status::kOk;

@@ -19,10 +19,11 @@ struct JointReferenceGenerator {
     JointVector goal_tolerance = JointVector::Constant(0.01);   ///< rad; 0: not checked
     GeneratorSettings generator;
   } params;
-  In<Quantity::kJointPosition> q;   // measured: the reference at start
-  In<Quantity::kJointVelocity> dq;  // measured, for the goal and feedback
-  In<Quantity::kJointEffort> tau;   // measured, for feedback
-  In<Quantity::kTool> tool;         // without it the tip is the flange
+  In<Quantity::kJointPosition> q;       // measured: the reference at start
+  In<Quantity::kJointVelocity> dq;      // measured, for the goal and feedback
+  In<Quantity::kJointEffort> tau;       // measured, for feedback
+  In<Quantity::kTool> tool;             // without it the tip is the flange
+  In<Quantity::kScalar> speed_scaling;  // of the robot: trajectories pass that much slower
   Out<Quantity::kJointPosition> q_d;
   Out<Quantity::kJointVelocity> dq_d;
   Out<Quantity::kJointAcceleration> ddq_d;
@@ -40,6 +41,7 @@ struct JointReferenceGenerator {
     visit.optional("dq", dq);
     visit.optional("tau", tau);
     visit.optional("tool", tool);
+    visit.optional("speed_scaling", speed_scaling);
     visit.out("q_d", q_d), visit.out("dq_d", dq_d), visit.out("ddq_d", ddq_d);
     visit.out("tau_d", tau_d);
     visit.out("x_d", x_d), visit.out("v_d", v_d);
@@ -50,6 +52,9 @@ struct JointReferenceGenerator {
   Status start();
   /// The reference of this cycle. kReferenceFault. [cyclic]
   Status step(double dt_s);
+  /// The reference comes to rest on its path; references are refused with `why` until the next
+  /// start. To be called in every cycle in which they are. [cyclic]
+  void brake(Status why) { generator_.brake(why); }
 
   ReferenceChannel<JointSpace>* channel = nullptr;  ///< bound by the loader
 

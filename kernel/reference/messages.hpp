@@ -41,7 +41,8 @@ enum class Outcome : std::uint8_t {
   kStarted,     ///< a trajectory began; a final report follows
   kSucceeded,   ///< final: a trajectory reached its end
   kPreempted,   ///< final: a newer trajectory took its place
-  kAborted,     ///< final: an online point took its place
+  kAborted,     ///< final: an online point took its place, a tolerance was violated, or the
+                ///< executive brakes; the verdict says why
   kCanceled,    ///< final: a client cancelled the trajectory
   kExecuted,    ///< final: a point became the reference; a cancel, override, pause or resume took
                 ///< effect

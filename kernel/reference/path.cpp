@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/loop_bound.hpp"
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -23,7 +24,9 @@ Path<Space>::Path(const Trajectory<Space>& trajectory, const Point& reference)
 template <class Space>
 int Path<Space>::waypoint_from(double s) const {
   int before = -1, found = trajectory_->count - 1;  // before < the one looked for <= found
+  LoopBound<31> halvings;                           // of an int
   while (found - before > 1) {
+    halvings.tick();
     const int middle = before + (found - before) / 2;
     (trajectory_->at(middle).time_s >= s ? found : before) = middle;
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 namespace {
 
@@ -27,10 +29,11 @@ double bisect(const Polynomial& f, double lo, double hi) {
 }
 
 /// Ends of [0, T] and the sign changes of f in between, given the knots of f's derivative.
-Knots zeros(const Polynomial& f, const Knots& monotone) {
+Knots zeros(const Polynomial& f, const Knots& monotone, LoopBound<10>& brackets) {
   Knots found;
   found.add(monotone.t[0]);
   for (std::size_t i = 1; i < monotone.count; ++i) {
+    brackets.tick();
     const double lo = monotone.t[i - 1], hi = monotone.t[i];
     if ((f.at(lo) > 0.0) != (f.at(hi) > 0.0)) found.add(bisect(f, lo, hi));
   }
@@ -94,10 +97,13 @@ Extremes extremes(const Polynomial& polynomial, double T) {
   Knots knots;
   knots.add(0.0);
   knots.add(T);
-  for (std::size_t k = f.size() - 2; k >= 1; --k) knots = zeros(f[k], knots);
+  LoopBound<10> brackets;  // 1 + 2 + 3 + 4: k knots have at most k - 1 zeros between them
+  for (std::size_t k = f.size() - 2; k >= 1; --k) knots = zeros(f[k], knots, brackets);
 
   Extremes found = {polynomial.at(0.0), polynomial.at(0.0)};
+  LoopBound<6> values;
   for (std::size_t i = 0; i < knots.count; ++i) {
+    values.tick();
     const double value = polynomial.at(knots.t[i]);
     if (!(value >= found.min)) found.min = value;
     if (!(value <= found.max)) found.max = value;

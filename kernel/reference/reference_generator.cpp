@@ -1,5 +1,8 @@
 #include "kernel/reference/reference_generator.hpp"
 
+#include <algorithm>
+
+#include "kernel/loop_bound.hpp"
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -35,6 +38,14 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
 }
 
 template <class Space>
+void ReferenceGenerator<Space>::scale_speed(double scaling) {
+  const double bounded = scaling >= 0.0 ? std::min(scaling, 1.0) : 0.0;
+  if (bounded == speed_scaling_) return;
+  speed_scaling_ = bounded;
+  motion_.set_rate(rate());
+}
+
+template <class Space>
 Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if (channel_ == nullptr) return Status::kNotStarted;
   period_s_ = dt_s;
@@ -44,17 +55,41 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
   watch_start();
-  Request<Space> request;
-  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
-    if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
-    answer(request);
-  }
+  take_requests();
   settle_point(Outcome::kExecuted);
   release_store();
   monitor_.put_out(reference());
   feedback_.step(cycles_, time_s(), executing() ? running_.id : 0, reference(), measured,
                  channel_->feedback);
+  planned_ = false;
   return reference().finite() ? Status::kOk : Status::kReferenceFault;
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::take_requests() {
+  Request<Space> request;
+  LoopBound<16> requests;  // what a mailbox holds
+  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+    if (planned_ && refusing_ == Status::kOk) break;
+    requests.tick();
+    if (channel_->reports.space() < kReportsPerRequest || !channel_->requests.take(request)) break;
+    answer(request);
+  }
+}
+
+/// The reports of what ends here have their room: see kReportsPerRequest.
+template <class Space>
+void ReferenceGenerator<Space>::brake(Status why) {
+  if (channel_ == nullptr) return;
+  if (refusing_ == Status::kOk) {
+    end_waiting(Outcome::kAborted, {why});
+    if (!executing()) stand();
+    motion_.brake();
+    end_execution(ReferenceEvent::kTrajectoryCanceled, Outcome::kAborted, !motion_.on_path(),
+                  {why});
+  }
+  refusing_ = why;
+  take_requests();
 }
 
 /// Tells the client how far the motion is, and once that it has run out of waypoints.
@@ -81,24 +116,31 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   if (arrival == Arrival::kWaiting) return;
   if (arrival == Arrival::kArrived)
     return end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kSucceeded, true);
-  if (!measured.at_rest().finite() || !motion_.shape(measured).ok()) motion_.brake();
+  if (!measured.at_rest().finite() || !shape(measured).ok()) motion_.brake();
   end_execution(ReferenceEvent::kTrajectoryCompleted, Outcome::kAborted, !motion_.on_path(), why);
 }
 
-/// A stream of points that dries up must not leave the arm with a velocity or an effort. Where
-/// there is no room to brake it stands at once: points that are forwarded may step.
+/// A stream of points that dries up must not leave the arm with a velocity or an effort.
 template <class Space>
 void ReferenceGenerator<Space>::watch_stream(double dt_s) {
   point_age_s_ += dt_s;
   if (executing() || params_.timeout_s <= 0.0 || point_age_s_ < params_.timeout_s) return;
-  if (!motion_.standing() || reference().idle()) return;
-  if (!motion_.shape(reference()).ok()) motion_.forward(reference().at_rest());
+  if (motion_.standing()) stand();
 }
 
-/// A trajectory that waits begins in the cycle nearest to its start time.
+/// Off a path: comes to rest beside the point that is put out. Where there is no room to brake it
+/// stands at once: points that are forwarded may step.
+template <class Space>
+void ReferenceGenerator<Space>::stand() {
+  if (planned_ || motion_.on_path() || reference().idle()) return;
+  if (!shape(reference()).ok()) motion_.forward(reference().at_rest());
+}
+
+/// A trajectory that waits begins in the cycle nearest to its start time, or in the next if that
+/// has made its plan.
 template <class Space>
 void ReferenceGenerator<Space>::watch_start() {
-  if (waiting_.store < 0) return;
+  if (waiting_.store < 0 || planned_) return;
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(waiting_.store)];
   if (trajectory.start_s - time_s() > 0.5 * period_s_) return;
   const Goal due = waiting_;
@@ -106,24 +148,31 @@ void ReferenceGenerator<Space>::watch_start() {
   static_cast<void>(begin(due, 0.0));
 }
 
+template <class Space>
+Verdict ReferenceGenerator<Space>::shape(const Point& point) {
+  planned_ = true;
+  return motion_.shape(point);
+}
+
 /// Leaves what runs for the trajectory of `goal`, which began `elapsed_s` ago. False: it is
 /// refused, and what runs goes on.
 template <class Space>
 bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   const Trajectory<Space>& trajectory = channel_->stores[static_cast<std::size_t>(goal.store)];
+  planned_ = true;
   const Verdict verdict = motion_.follow(trajectory, params_.start_tolerance, elapsed_s);
   if (!verdict.ok()) return report(goal.id, Outcome::kRefused, goal.store, verdict), false;
   end_execution(ReferenceEvent::kTrajectoryAccepted, Outcome::kPreempted, true);
   running_ = goal;
   monitor_.begin(Tolerances<Space>::merged(trajectory.tolerances, params_.tolerances));
-  motion_.set_rate(paused_ ? 0.0 : override_);
+  motion_.set_rate(rate());
   report(goal.id, Outcome::kStarted);
   return true;
 }
 
 template <class Space>
-void ReferenceGenerator<Space>::end_waiting(Outcome outcome) {
-  if (waiting_.store >= 0) report(waiting_.id, outcome, waiting_.store);
+void ReferenceGenerator<Space>::end_waiting(Outcome outcome, const Verdict& verdict) {
+  if (waiting_.store >= 0) report(waiting_.id, outcome, waiting_.store, verdict);
   waiting_ = {};
 }
 

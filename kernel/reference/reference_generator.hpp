@@ -44,6 +44,16 @@ class ReferenceGenerator {
   /// kReferenceFault if the reference is not finite. [cyclic]
   Status step(double dt_s, const Point& measured);
 
+  /// How fast the robot lets motions pass, 0 standing, 1 as sent: trajectories pass at that times
+  /// the override from now on, so that they wait for the robot instead of running ahead of it. What
+  /// is outside 0..1 or not a number counts as the nearest, and as 0. Before step(). [cyclic]
+  void scale_speed(double scaling);
+
+  /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
+  /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
+  /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
+  void brake(Status why);
+
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
   /// The generator's time: periods since start, s.
@@ -56,7 +66,11 @@ class ReferenceGenerator {
     int store = -1;
   };
 
+  double rate() const { return paused_ ? 0.0 : override_ * speed_scaling_; }
   bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
+  void take_requests();
+  void refuse(const Request<Space>& request, Status why);
+  void stand();
   void answer(const Request<Space>& request);
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
@@ -69,8 +83,9 @@ class ReferenceGenerator {
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
   void watch_start();
+  Verdict shape(const Point& point);
   bool begin(const Goal& goal, double elapsed_s);
-  void end_waiting(Outcome outcome);
+  void end_waiting(Outcome outcome, const Verdict& verdict = {});
   void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
                      const Verdict& verdict = {});
   void release_store();
@@ -80,6 +95,7 @@ class ReferenceGenerator {
   ReferenceChannel<Space>* channel_ = nullptr;
   Params params_;
   std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
+  Status refusing_ = Status::kOk;  // while the executive brakes: why
 
   double period_s_ = 0.0;
   std::int64_t cycles_ = 0;
@@ -87,12 +103,16 @@ class ReferenceGenerator {
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
   FeedbackPublisher<Space> feedback_;
-  double override_ = 1.0;
+  double override_ = 1.0, speed_scaling_ = 1.0;
   bool paused_ = false;
 
   Goal running_;           // executed, or braked on: the motion still reads its store
   Goal waiting_;           // for its start time
   bool starving_ = false;  // and the client has been told
+
+  /// In this cycle the way to a trajectory or to rest has been judged against the limits, which
+  /// takes longest of all: once in a cycle, and what else is asked for waits for the next.
+  bool planned_ = false;
 
   double point_age_s_ = 0.0;    // since the last online point
   bool point_pending_ = false;  // a point was taken in this cycle and is not yet put out

@@ -9,12 +9,8 @@ namespace tactus {
 
 template <class Space>
 void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
-  if (void_requests_ > 0) {
-    --void_requests_;
-    const bool carries_store = request.kind == RequestKind::kTrajectory;
-    return report(request.id, Outcome::kRefused, carries_store ? request.store : -1,
-                  {Status::kNotStarted});
-  }
+  if (void_requests_ > 0) return --void_requests_, refuse(request, Status::kNotStarted);
+  if (refusing_ != Status::kOk) return refuse(request, refusing_);
   switch (request.kind) {
     case RequestKind::kPoint:
       return take_point(request);
@@ -32,6 +28,13 @@ void ReferenceGenerator<Space>::answer(const Request<Space>& request) {
   }
 }
 
+/// Refused whatever it asks for; the store it came with goes back.
+template <class Space>
+void ReferenceGenerator<Space>::refuse(const Request<Space>& request, Status why) {
+  const bool carries_store = request.kind == RequestKind::kTrajectory;
+  report(request.id, Outcome::kRefused, carries_store ? request.store : -1, {why});
+}
+
 template <class Space>
 Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
   const typename Space::Limits& limits = channel_->settings.limits;
@@ -45,7 +48,7 @@ template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   const Point point = Space::placed(request.point, Space::latch(request.terms, reference()));
   Verdict verdict = judge_point(point);
-  if (verdict.ok() && params_.online == OnlineMode::kLimit) verdict = motion_.shape(point);
+  if (verdict.ok() && params_.online == OnlineMode::kLimit) verdict = shape(point);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   settle_point(Outcome::kSuperseded);
   if (params_.online != OnlineMode::kLimit) motion_.forward(point);
@@ -98,14 +101,14 @@ void ReferenceGenerator<Space>::take_override(const Request<Space>& request) {
     return report(request.id, Outcome::kRefused, -1,
                   {Status::kBadOverride, -1, -1, request.rate, 1.0});
   override_ = request.rate;
-  if (!paused_) motion_.set_rate(override_);
+  motion_.set_rate(rate());
   report(request.id, Outcome::kExecuted);
 }
 
 template <class Space>
 void ReferenceGenerator<Space>::take_pause(const Request<Space>& request) {
   paused_ = request.kind == RequestKind::kPause;
-  motion_.set_rate(paused_ ? 0.0 : override_);
+  motion_.set_rate(rate());
   report(request.id, Outcome::kExecuted);
 }
 

@@ -15,6 +15,7 @@ Status TaskReferenceGenerator::start() {
 }
 
 Status TaskReferenceGenerator::step(double dt_s) {
+  if (speed_scaling.wired()) generator_.scale_speed(*speed_scaling);
   TRY(generator_.step(dt_s, measured()));
   write(x_d.value.r);
   return Status::kOk;

@@ -18,10 +18,11 @@ struct TaskReferenceGenerator {
     TaskSpace::Band goal_tolerance = {0.005, 0.02};  ///< 0: not checked
     GeneratorSettings generator;
   } params;
-  In<Quantity::kPose> x;     // measured: the reference at start
-  In<Quantity::kTwist> v;    // measured, for the goal and feedback
-  In<Quantity::kWrench> h;   // measured, for feedback
-  Out<Quantity::kPose> x_d;  ///< the quaternion is unit and its sign never jumps
+  In<Quantity::kPose> x;                // measured: the reference at start
+  In<Quantity::kTwist> v;               // measured, for the goal and feedback
+  In<Quantity::kWrench> h;              // measured, for feedback
+  In<Quantity::kScalar> speed_scaling;  // of the robot: trajectories pass that much slower
+  Out<Quantity::kPose> x_d;             ///< the quaternion is unit and its sign never jumps
   Out<Quantity::kTwist> v_d;
   Out<Quantity::kTaskAcceleration> a_d;
   Out<Quantity::kWrench> h_d;  ///< what the environment is to exert on the tool
@@ -40,6 +41,7 @@ struct TaskReferenceGenerator {
     visit.in("x", x);
     visit.optional("v", v);
     visit.optional("h", h);
+    visit.optional("speed_scaling", speed_scaling);
     visit.out("x_d", x_d), visit.out("v_d", v_d), visit.out("a_d", a_d);
     visit.out("h_d", h_d), visit.out("dh_d", dh_d);
     visit.channel(channel);
@@ -49,6 +51,9 @@ struct TaskReferenceGenerator {
   Status start();
   /// The reference of this cycle. kReferenceFault. [cyclic]
   Status step(double dt_s);
+  /// The reference comes to rest on its path; references are refused with `why` until the next
+  /// start. To be called in every cycle in which they are. [cyclic]
+  void brake(Status why) { generator_.brake(why); }
 
   ReferenceChannel<TaskSpace>* channel = nullptr;  ///< bound by the loader
 

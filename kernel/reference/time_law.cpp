@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 
 void TimeLaw::start(double rate, double s) {
@@ -51,7 +53,9 @@ void TimeLaw::move(double dt_s, double curvature) {
 }
 
 void TimeLaw::advance(double dt_s) {
+  LoopBound<3> phases;
   while (phase_ < phases_.size()) {
+    phases.tick();
     const Phase& phase = phases_[phase_];
     const double left_s = phase.duration_s - phase_time_s_;
     if (dt_s < left_s) {

@@ -127,7 +127,7 @@ void Motion::speed_j(const Joints& dq, double a, double t) {
   }
   goal_ = dq.cwiseMax(-limits_.speed).cwiseMin(limits_.speed);
   a_ = or_default(a, 1.4);
-  begin(Kind::kSpeedJ, t > 0.0 ? t : kForever);
+  begin(Kind::kSpeedJ, or_default(t, kForever));
 }
 
 void Motion::speed_l(const Vector6& twist, double a, double t) {
@@ -135,7 +135,7 @@ void Motion::speed_l(const Vector6& twist, double a, double t) {
     fault_ = {Code::kPathSanity, kInvalidSetPoint};
     return;
   }
-  begin(Kind::kSpeedL, t > 0.0 ? t : kForever);
+  begin(Kind::kSpeedL, or_default(t, kForever));
   twist_goal_ = twist;
   a_ = or_default(a, 1.2);
 }

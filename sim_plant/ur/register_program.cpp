@@ -52,11 +52,12 @@ void RegisterProgram::start(std::string_view text) {
 }
 
 double RegisterProgram::input(int i, const Machine& machine) const {
-  return machine.io.input.doubles[static_cast<std::size_t>(double_offset_ + i)];
+  return machine.io.input
+      .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)];
 }
 
 std::int32_t RegisterProgram::integer(int i, const Machine& machine) const {
-  return machine.io.input.ints[static_cast<std::size_t>(int_offset_ + i)];
+  return machine.io.input.ints[static_cast<std::size_t>(int_offset_) + static_cast<std::size_t>(i)];
 }
 
 Vector6 RegisterProgram::six(int first, const Machine& machine) const {
@@ -71,7 +72,9 @@ void RegisterProgram::answer(std::int32_t value, Machine& machine) const {
 
 void RegisterProgram::answer_six(const Vector6& values, Machine& machine) const {
   for (int i = 0; i < 6; ++i)
-    machine.io.output.doubles[static_cast<std::size_t>(double_offset_ + i)] = values[i];
+    machine.io.output
+        .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)] =
+        values[i];
 }
 
 /// Bits 24-30 count operations, 16-22 writes; bit 15: one is under way.

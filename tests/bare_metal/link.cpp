@@ -1,50 +1,8 @@
 // The whole kernel linked for a bare Cortex-M7 with no C library on the link line, so that any call
 // to the heap, to exceptions or to an operating system is a link error. Not a program to run: a
 // board adds start-up code and a Hal.
-#include <cstddef>
-
 #include "kernel/executive.hpp"
 #include "kernel/loader.hpp"
-
-// What the compiler itself may call. The loops must not be turned back into calls of themselves.
-extern "C" {
-[[gnu::optimize("no-tree-loop-distribute-patterns")]] void* memcpy(void* to, const void* from,
-                                                                   std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i)
-    static_cast<char*>(to)[i] = static_cast<const char*>(from)[i];
-  return to;
-}
-[[gnu::optimize("no-tree-loop-distribute-patterns")]] void* memmove(void* to, const void* from,
-                                                                    std::size_t size) {
-  if (to <= from) return memcpy(to, from, size);
-  for (std::size_t i = size; i > 0; --i)
-    static_cast<char*>(to)[i - 1] = static_cast<const char*>(from)[i - 1];
-  return to;
-}
-[[gnu::optimize("no-tree-loop-distribute-patterns")]] void* memset(void* to, int value,
-                                                                   std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) static_cast<char*>(to)[i] = static_cast<char>(value);
-  return to;
-}
-[[gnu::optimize("no-tree-loop-distribute-patterns")]] int memcmp(const void* a, const void* b,
-                                                                 std::size_t size) {
-  const auto* left = static_cast<const unsigned char*>(a);
-  const auto* right = static_cast<const unsigned char*>(b);
-  for (std::size_t i = 0; i < size; ++i) {
-    if (left[i] != right[i]) return left[i] < right[i] ? -1 : 1;
-  }
-  return 0;
-}
-[[gnu::optimize("no-tree-loop-distribute-patterns")]] std::size_t strlen(const char* text) {
-  std::size_t size = 0;
-  while (text[size] != '\0') ++size;
-  return size;
-}
-[[noreturn]] void abort() {
-  for (;;) {
-  }
-}
-}
 
 namespace {
 

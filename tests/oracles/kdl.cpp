@@ -12,6 +12,8 @@ namespace tactus {
 // The robots stand in files of their own.
 template <>
 KDL::Chain kdl_arm<Robot>(const KDL::RigidBodyInertia& tool);
+template <>
+double kdl_along_axis<Robot>(int joint);
 
 namespace {
 
@@ -33,17 +35,38 @@ void from_kdl(const KDL::JntArray& array, double values[kJoints]) {
   for (unsigned i = 0; i < kJoints; ++i) values[i] = array(i);
 }
 
+void from_kdl(const KDL::Frame& frame, double p[3], double r[3][3]) {
+  for (int i = 0; i < 3; ++i) {
+    p[i] = frame.p(i);
+    for (int j = 0; j < 3; ++j) r[i][j] = frame.M(i, j);
+  }
+}
+
 }  // namespace
+
+void kdl_link(const double q[Robot::kDof], int link, double p[3], double r[3][3]) {
+  const KDL::Chain chain = arm({});
+  KDL::Frame frame;
+  for (unsigned s = 0, joint = 0; s < chain.getNrOfSegments() && link > 0; ++s) {
+    const KDL::Segment& segment = chain.getSegment(s);
+    const bool fixed = segment.getJoint().getType() == KDL::Joint::Fixed;
+    if (!fixed && static_cast<int>(joint) == link - 1) {
+      frame = frame * segment.getJoint().pose(q[joint]) *
+              KDL::Frame(KDL::Vector(0.0, 0.0, kdl_along_axis<Robot>(link - 1)));
+      break;
+    }
+    frame = frame * segment.pose(fixed ? 0.0 : q[joint]);
+    if (!fixed) ++joint;
+  }
+  from_kdl(frame, p, r);
+}
 
 void kdl_flange(const double q[Robot::kDof], double p[3], double r[3][3]) {
   const KDL::Chain chain = arm({});
   KDL::ChainFkSolverPos_recursive solver(chain);
   KDL::Frame frame;
   solver.JntToCart(to_kdl(q), frame);
-  for (int i = 0; i < 3; ++i) {
-    p[i] = frame.p(i);
-    for (int j = 0; j < 3; ++j) r[i][j] = frame.M(i, j);
-  }
+  from_kdl(frame, p, r);
 }
 
 void kdl_jacobian(const double q[Robot::kDof], double jacobian[6][Robot::kDof]) {

@@ -16,6 +16,9 @@ struct KdlTool {
 /// Position of the flange and its rotation matrix.
 void kdl_flange(const double q[Robot::kDof], double p[3], double r[3][3]);
 
+/// Origin and rotation matrix of the frame of link `link`; 0 is the base.
+void kdl_link(const double q[Robot::kDof], int link, double p[3], double r[3][3]);
+
 /// Geometric Jacobian of the flange: linear part first.
 void kdl_jacobian(const double q[Robot::kDof], double jacobian[6][Robot::kDof]);
 

@@ -9,4 +9,9 @@ namespace tactus {
 template <class R>
 KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool);
 
+/// How far along the axis of joint `joint`, counted from 0, the kernel's frame of it stands from
+/// where the joint is in the chain, m.
+template <class R>
+double kdl_along_axis(int joint);
+
 }  // namespace tactus

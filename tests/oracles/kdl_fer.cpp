@@ -78,4 +78,9 @@ KDL::Chain kdl_arm<Fer>(const KDL::RigidBodyInertia& tool) {
   return chain;
 }
 
+template <>
+double kdl_along_axis<Fer>(int /*joint*/) {
+  return 0.0;
+}
+
 }  // namespace tactus

@@ -53,4 +53,10 @@ KDL::Chain kdl_arm<Ur10>(const KDL::RigidBodyInertia& tool) {
   return chain;
 }
 
+/// Standard DH goes along the axis after it has turned, the kernel before.
+template <>
+double kdl_along_axis<Ur10>(int joint) {
+  return kLinks[joint].d;
+}
+
 }  // namespace tactus

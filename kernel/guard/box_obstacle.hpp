@@ -1,0 +1,42 @@
+// Block: a box that stands around the robot, for the collision check. It computes nothing in the
+// cycle; what it says is where it stands.
+#pragma once
+
+#include "kernel/describe.hpp"
+#include "kernel/math/so3.hpp"
+#include "kernel/port.hpp"
+#include "kernel/status.hpp"
+
+namespace tactus {
+
+struct BoxObstacle {
+  static constexpr const char* kType = "box";
+
+  struct Params {
+    Vector3 centre = Vector3::Constant(kRequired);  ///< m, in `frame`
+    Vector3 size = Vector3::Constant(kRequired);    ///< m, from face to face
+    Vector3 rotation = Vector3::Zero();  ///< rad, rotation vector from the axes of `frame`
+  } params;
+  In<Quantity::kPose> frame;  ///< optional; without it the base
+  Out<Quantity::kBox> box;
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("centre", params.centre, Range{-10.0, 10.0}, "m");
+    visit.param("size", params.size, Range{1e-3, 20.0}, "m");
+    visit.param("rotation", params.rotation, Range{-6.3, 6.3}, "rad");  // refuses degrees
+    visit.optional("frame", frame);
+    visit.out("box", box);
+  }
+
+  /// It stays where its frame puts it at the start. [init]
+  Status start() {
+    box.value.pose = {frame->p + frame->r * params.centre, frame->r * exp_so3(params.rotation)};
+    box.value.size = params.size;
+    return Status::kOk;
+  }
+  /// It stands still. [cyclic]
+  Status step(double /*dt_s*/) { return Status::kOk; }
+};
+
+}  // namespace tactus

@@ -1,0 +1,89 @@
+// Collision: keeps the arm from its surroundings and from itself, as a slow row of the executive.
+//
+// Checked is every pair of the arm's capsules (kernel/model/*_capsules.hpp and the tool) that are
+// on links which are no neighbours, and every moving capsule against every box of the file, but for
+// the pairs that [collision] allows and those that the robot's table says always touch. What is a
+// contact: a distance not proved to be more than `margin`. Now, at the measured joints; and in
+// every position the joints can take until the arm is at rest, if it begins to brake no later than
+// one cycle after the next check (stopping.hpp).
+//
+// Guarantee. Let check() say kOk for the state (q, dq). Then, of every pair that is checked, the
+// capsules and boxes are more than `margin` apart from now until the arm stands, if
+//   - the joints are where they were measured, or as late as delay_s says, and the tables are true;
+//   - until one cycle after the next check no joint accelerates with more than the limit of
+//   [guard];
+//   - from then on the arm brakes as stopping.hpp says, if that next check is not kOk.
+// Between the positions looked at nothing is missed. In a section of the way joint k is within
+// half_k of the middle; a point of link j moves by at most sum over k of (half_k times its largest
+// distance from axis k) against link i < j, k = i+1 ... j, and the pair is made thicker by that.
+//
+// Fails closed: NaN, a degenerate direction, iterations or support calls used up: contact.
+// Cost: at most `support_calls` support points in a check, 4000 unless the file says less;
+// kinematics of 2 + kSections positions; and for each of those and each pair a test with balls.
+#pragma once
+
+#include "kernel/guard/collision_section.hpp"
+#include "kernel/guard/separation.hpp"
+#include "kernel/guard/stopping.hpp"
+#include "kernel/hal.hpp"
+#include "kernel/model/link_frames.hpp"
+
+namespace tactus {
+
+class Collision {
+ public:
+  struct Telemetry {
+    const char *first = "", *second = "";  ///< the pair of the contact
+    bool predicted = false;                ///< it is ahead, not there now
+    double sweep_m = 0.0;                  ///< by which the pair was made thicker
+    bool exhausted = false;                ///< support_calls were used up at this pair
+    std::int64_t checks = 0;
+    int support_calls = 0, most_support_calls = 0;  ///< in the last check, in any
+  };
+
+  /// Sets up the pairs. `limits` are those of [guard], `tip` that of the tool, m, flange frame. The
+  /// scene must outlive this object. [init]
+  void start(const CollisionSection& section, const JointLimits& limits, const Vector3& tip,
+             double period_s);
+
+  /// kCollision, and telemetry names the pair; kStateNotFinite if q or dq is not finite;
+  /// kNotStarted. [cyclic]
+  Status check(const RobotState& measured);
+
+  const Telemetry& telemetry() const { return telemetry_; }
+
+ private:
+  static constexpr int kCapsules = static_cast<int>(RobotCapsules::kCapsules.size()) + 1;
+  static constexpr int kMaxPairs = kCapsules * (kCapsules - 1) / 2 + kCapsules * kMaxObstacles;
+
+  /// A capsule, `reach` its points' largest distance from each joint's axis, m.
+  struct Body {
+    int body = 0, link = 0;  // number in the scene; the link it moves with
+    Capsule shape;           // in the frame of the link
+    JointVector reach = JointVector::Zero();
+  };
+  /// The second capsule moves against the first, or against a box.
+  struct Pair {
+    int second = 0, first = -1, box = -1;
+  };
+
+  void add_capsules(const Vector3& tip, double tool_radius);
+  void add_pairs();
+  bool meets(int first, int second) const;
+  Status check_at(const JointVector& q, const JointVector& half, bool predicted);
+  bool apart(const Pair& pair, double inflation);
+  Status contact(const Pair& pair, double sweep, bool predicted);
+
+  const CollisionScene* scene_ = nullptr;
+  double margin_ = 0.0;
+  int support_calls_ = 0;
+  Braking braking_;
+  std::array<Body, kCapsules> bodies_;
+  std::array<Pair, kMaxPairs> pairs_;
+  int pair_count_ = 0;
+  std::array<BoxShape, kMaxObstacles> boxes_;  // in this check
+  std::array<Capsule, kCapsules> placed_;      // at the joint positions looked at
+  Telemetry telemetry_;
+};
+
+}  // namespace tactus

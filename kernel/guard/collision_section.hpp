@@ -1,0 +1,60 @@
+// CollisionSection: the [collision] section of a pipeline file, and what the loader made of it and
+// of the boxes in the file: who is there, and who may touch whom.
+#pragma once
+
+#include <array>
+
+#include "kernel/describe.hpp"
+#include "kernel/joint_limits.hpp"
+#include "kernel/load_error.hpp"
+#include "kernel/model/robot.hpp"
+
+namespace tactus {
+
+/// The bodies of a scene by number: the links, base first, the tool, the boxes.
+inline constexpr int kToolBody = kDof + 1;
+inline constexpr int kFirstBoxBody = kToolBody + 1;
+inline constexpr int kMaxObstacles = 8;
+inline constexpr int kMaxBodies = kFirstBoxBody + kMaxObstacles;
+
+struct CollisionScene {
+  std::array<const char*, kMaxBodies> names{};  ///< of the boxes: those in the table of ports
+  std::array<const Cuboid*, kMaxObstacles> boxes{};
+  int body_count = kFirstBoxBody;
+  std::array<std::array<bool, kMaxBodies>, kMaxBodies> allowed{};  ///< both ways round
+
+  CollisionScene() {
+    for (std::size_t i = 0; i < kToolBody; ++i) names[i] = RobotCapsules::kLinkNames[i];
+    names[kToolBody] = "tool";
+  }
+  int box_count() const { return body_count - kFirstBoxBody; }
+};
+
+struct CollisionSection {
+  int divisor = 8, offset = 0;  ///< cycles
+  int budget_us = 250;
+  double margin = 0.01;       ///< m: nearer than that is a contact
+  double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip
+  int support_calls = 4000;   ///< most support points that one check asks for: its worst case
+  double delay_s = 0.0;       ///< by which the measured state and the brake together are late
+  JointLimits limits;         ///< of it ddq_max: what the robot brakes with, rad/s^2
+  Value allow;                ///< "tool table, link7 table"
+
+  bool given = false;  ///< whether the file has the section
+  CollisionScene scene;
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    visit.param("divisor", divisor, Range{1.0, 1000.0}, "cycles");
+    visit.param("offset", offset, Range{0.0, 999.0}, "cycles");
+    visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
+    visit.param("support_calls", support_calls, Range{100.0, 4000.0}, "1");
+    visit.param("margin", margin, Range{1e-3, 0.5}, "m");
+    visit.param("tool_radius", tool_radius, Range{1e-3, 0.5}, "m");
+    visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
+    visit.limit("braking", limits.ddq_max, "rad/s^2");
+    visit.text("allow", allow, "pairs that may touch: tool table, link7 table");
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,87 @@
+"""Counts the instructions of every cycle of tapes on the emulated Cortex-M7.
+
+Needs an image of tests/wcet/m7 and the plugin of tests/wcet/count_plugin.c. Raises CountError when the emulator
+fails or the image lacks a function.
+"""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+
+import tape
+
+CYCLE = "cycle"
+
+
+class CountError(Exception):
+    pass
+
+
+def camel_case(word):
+    """robot_model -> RobotModel: the kind of a block by the word for it."""
+    return "".join(part.capitalize() for part in word.split("_"))
+
+
+def stages(text):
+    """The stages of a pipeline file, in order: {name: what its function's demangled name begins with}."""
+    found = {CYCLE: "tactus::Executive::cycle(", "check": "tactus::Guard::check("}
+    section = None
+    for line in text.splitlines():
+        if match := re.match(r"\[(\w+)\]", line):
+            section = match[1]
+        elif match := re.match(r"type\s*=\s*(\w+)", line):
+            found[section] = f"tactus::Status tactus::step_block<tactus::{camel_case(match[1])}>("
+    found["guard"] = "tactus::Guard::limit("
+    return found
+
+
+def symbols(image, nm="arm-none-eabi-nm"):
+    """{demangled name: address} of the functions of an image."""
+    listing = subprocess.run([nm, "-C", image], check=True, capture_output=True, text=True).stdout
+    rows = (line.split(maxsplit=2) for line in listing.splitlines())
+    return {row[2]: int(row[0], 16) for row in rows if len(row) == 3 and row[1] in "tTwW"}
+
+
+def addresses(image, prefixes, nm="arm-none-eabi-nm"):
+    """The address of the one function that every prefix stands for."""
+    known = symbols(image, nm)
+    found = []
+    for prefix in prefixes:
+        matches = {address for name, address in known.items() if name.startswith(prefix)}
+        if len(matches) != 1:
+            raise CountError(f"{image}: {len(matches)} functions begin with '{prefix}'")
+        found += matches
+    return found
+
+
+def emulate(image, plugin, options, reel):
+    """Plays a reel. What the image printed, a line for every tape."""
+    semihosting = f"enable=on,target=native,chardev=sh,arg=wcet,arg={reel}"
+    command = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none"]
+    command += ["-chardev", "stdio,id=sh", "-semihosting-config", semihosting]
+    command += ["-plugin", ",".join([str(plugin), *options]), "-kernel", str(image)]
+    run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise CountError(f"{image}: exit code {run.returncode}: {run.stdout}{run.stderr}")
+    return run.stdout.splitlines()
+
+
+def count(image, plugin, prefixes, tapes):
+    """Plays tapes and returns for each (how it ended, rows), a row for each cycle with a count for each prefix."""
+    with tempfile.TemporaryDirectory() as folder:
+        reel, calls = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "calls"
+        tape.write_reel(reel, tapes)
+        options = [f"watch={address:x}" for address in addresses(image, prefixes)] + [f"calls={calls}"]
+        lines = emulate(image, plugin, options, reel)
+        rows = [tuple(map(int, line.split())) for line in calls.read_text().splitlines()]
+    if len(lines) != len(tapes):
+        raise CountError(f"{image}: {len(lines)} of {len(tapes)} tapes were played")
+    played = []
+    for line in lines:
+        cycles, status = line.split()
+        played.append((status, rows[: int(cycles)]))
+        rows = rows[int(cycles) :]
+    if rows or sum(len(mine) for _, mine in played) != sum(int(line.split()[0]) for line in lines):
+        raise CountError(f"{image}: its cycles are not those that were counted")
+    return played

@@ -1,0 +1,125 @@
+"""A linked Thumb-2 image: its functions, its bytes and the source lines its addresses come from."""
+
+import functools
+import os
+import pathlib
+import re
+import subprocess
+
+import capstone
+from elftools.elf.elffile import ELFFile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MARKER = re.compile(r"\$[tda](\.|$)")
+
+
+class Unbounded(Exception):
+    """What has no bound, with the place."""
+
+
+class Function:
+    """One function of the image: name as linked, name as written, first address, end."""
+
+    def __init__(self, symbol, written, begin, end):
+        self.symbol, self.written, self.begin, self.end = symbol, written, begin, end
+
+    def __str__(self):
+        return self.written
+
+
+class Image:
+    def __init__(self, path, addr2line="arm-none-eabi-addr2line"):
+        self.path, self.addr2line, self._places, self._conditional = str(path), addr2line, {}, {}
+        with open(path, "rb") as file:
+            elf = ELFFile(file)
+            self._segments = [
+                (s["p_vaddr"], s.data()) for s in elf.iter_segments() if s["p_type"] == "PT_LOAD" and s["p_filesz"]
+            ]
+            symbols = list(elf.get_section_by_name(".symtab").iter_symbols())
+            self._ends = sorted(s["sh_addr"] + s["sh_size"] for s in elf.iter_sections() if s["sh_flags"] & 4)
+        self.functions = self._read_functions(symbols)
+        self.decoder = capstone.Cs(capstone.CS_ARCH_ARM, capstone.CS_MODE_THUMB | capstone.CS_MODE_MCLASS)
+        self.decoder.detail = True
+
+    def _read_functions(self, symbols):
+        """By first address. A function of assembly that states no size ends where the next one begins."""
+        found = [s for s in symbols if s["st_info"]["type"] == "STT_FUNC"]
+        begins = sorted({s["st_value"] & ~1 for s in found})
+        written = demangled([s.name for s in found])
+        functions = {}
+        for symbol, name in zip(found, written):
+            begin = symbol["st_value"] & ~1
+            later = next((b for b in begins + self._ends if b > begin), begin)
+            size = symbol["st_size"] or later - begin
+            functions.setdefault(begin, Function(symbol.name, name, begin, begin + size))
+        return functions
+
+    def function_at(self, address):
+        return self.functions.get(address)
+
+    def matching(self, pattern):
+        """The functions whose written name matches the whole pattern, by address."""
+        return [f for _, f in sorted(self.functions.items()) if re.search(pattern, f.written)]
+
+    def read(self, address, size):
+        for begin, data in self._segments:
+            if begin <= address and address + size <= begin + len(data):
+                return data[address - begin : address - begin + size]
+        raise Unbounded(f"the image has no bytes at 0x{address:x}")
+
+    def decode(self, address, end):
+        """The instruction at an address; None if there is none. What stands in an IT block has its condition."""
+        if address in self._conditional:
+            return self._conditional[address]
+        found = next(self.decoder.disasm(self.read(address, min(4, end - address)), address, 1), None)
+        if found is not None and re.fullmatch("it[te]*", found.mnemonic):
+            count = len(found.mnemonic)
+            block = self.decoder.disasm(self.read(address, min(2 + 4 * count, end - address)), address, count)
+            self._conditional.update((i.address, i) for i in block)
+        return found
+
+    def learn_places(self, addresses):
+        """Asks for all places at once: one process per question would be slow."""
+        wanted = sorted(set(addresses) - set(self._places))
+        if not wanted:
+            return
+        text = subprocess.run(
+            [self.addr2line, "-e", self.path, "-i", "-a"],
+            input="\n".join(f"{a:x}" for a in wanted),
+            capture_output=True, text=True, check=True,
+        ).stdout
+        for line in text.splitlines():
+            if line.startswith("0x"):
+                here = self._places[int(line, 16)] = []
+            elif match := re.match(r"(.+):(\d+)", line):
+                here.append((relative(match[1]), int(match[2])))
+
+    def places(self, address):
+        """Source file and line of an address, then those of the calls that were inlined around it."""
+        self.learn_places([address])
+        return self._places.get(address, [])
+
+    def place(self, address):
+        """The same as text: the innermost place, and the first within the project if it is another."""
+        chain = self.places(address)
+        if not chain:
+            return f"0x{address:x}"
+        ours = next((p for p in chain if not p[0].startswith("/")), chain[0])
+        names = dict.fromkeys([chain[0], ours])
+        return " in ".join(f"{file}:{line}" for file, line in names) + f" (0x{address:x})"
+
+
+@functools.lru_cache(maxsize=None)
+def relative(file):
+    """A path of the project from its root, wherever it was compiled; another one as it is."""
+    parts = pathlib.Path(file).parts
+    for first in range(1 if parts[0] == "/" else 0, len(parts)):
+        if parts[1:2] != ("usr",) and ROOT.joinpath(*parts[first:]).is_file():
+            return "/".join(parts[first:])
+    return os.path.normpath(file)
+
+
+def demangled(symbols):
+    return subprocess.run(
+        ["c++filt"], input="\n".join(symbols), capture_output=True, text=True, check=True
+    ).stdout.splitlines()

@@ -1,0 +1,70 @@
+"""What a pipeline file says of a cycle: how often each kind of block steps in it, and under which names."""
+
+import pathlib
+import re
+
+from wcet.image import ROOT, Unbounded
+
+TYPE = re.compile(r'(?:class|struct)\s+(\w+)[^{;]*\{[^}]*?kType\s*=\s*"(\w+)"', re.DOTALL)
+
+
+def kinds():
+    """The class of every kind of block by its word in a file."""
+    table = {}
+    for file in sorted((ROOT / "kernel").rglob("*.hpp")):
+        for name, word in TYPE.findall(file.read_text(encoding="utf-8")):
+            table[word] = name
+    return table
+
+
+def sections(path):
+    """[(name, {key: value})] of the file, in order."""
+    found = []
+    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+        line = line.split("#")[0].strip()
+        if match := re.fullmatch(r"\[(\w+)\]", line):
+            found.append((match[1], {}))
+        elif found and (match := re.fullmatch(r"(\w+)\s*=\s*(.*)", line)):
+            found[-1][1][match[1]] = match[2]
+    return found
+
+
+def blocks(path):
+    """(section, class) of every block of the file, in order."""
+    table = kinds()
+    typed = [(name, keys["type"]) for name, keys in sections(path) if "type" in keys]
+    for name, word in typed:
+        if word not in table:
+            raise Unbounded(f"{path}: [{name}]: {word} is no kind of block")
+    return [(name, table[word]) for name, word in typed]
+
+
+def tell(facts, path):
+    """Adds what the file says: as many steps as it has blocks, of each kind as many as it has; and what its settings,
+    which no cycle changes, rule out."""
+    steps, keys = blocks(path), dict(sections(path))
+    facts.add("loop", r"Pipeline::step\(", r"i < count_", str(len(steps)))
+    for kind in kinds().values():
+        count = sum(kind == step for _, step in steps)
+        facts.add("calls", r"Pipeline::step\(", rf"step_block<tactus::{kind}>", str(count))
+    for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
+        if command not in keys.get("robot", {}):  # the guard limits what the robot takes
+            facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
+    if not any("timeout_ms" in section for section in keys.values()):  # a stream that dries up is not watched
+        facts.add("calls", r"ReferenceGenerator<.*>::watch_stream\(", r"::shape\(", "0")
+
+
+def stages(analysis, steps):
+    """The bound of every stage: of each block, of the guard, of reading and writing, and of the whole cycle."""
+    def largest(pattern):
+        found = analysis.image.matching(pattern)
+        if not found:
+            raise Unbounded(f"{analysis.image.path}: no function matches {pattern}")
+        return max(analysis.bound(f) for f in found)
+
+    found = {section: largest(rf"step_block<tactus::{kind}>") for section, kind in steps}
+    found["guard"] = largest(r"^tactus::Guard::limit\(")
+    found["read"] = largest(r"Hal::read\(") + largest(r"^tactus::Guard::check\(")
+    found["write"] = largest(r"Hal::write\(")
+    found["cycle"] = largest(r"^tactus::Executive::cycle\(")
+    return found

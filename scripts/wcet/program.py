@@ -1,0 +1,72 @@
+"""The integer program whose optimum is the longest path through a graph, solved by glpsol."""
+
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from wcet.image import Unbounded
+
+
+class Program:
+    """The integer program of one function, in the format that glpsol reads."""
+
+    def __init__(self, graph):
+        self.graph, self.objective, self.rows, self.variables = graph, [], [], {"in"}
+        self._rare = {}
+
+    def block(self, head, block, cost, feasible):
+        edges_in = [f"e_{p:x}_{head:x}" for p in self.graph.before[head]] + (["in"] if head == self.graph.function.begin else [])
+        edges_out = [f"e_{head:x}_{s:x}" for s in block.successors] + ([f"out_{head:x}"] if block.leaves else [])
+        runs = f"x_{head:x}"
+        self.variables.update([runs, *edges_in, *edges_out])
+        self.rows += [f"{' + '.join(edges) or '0 in'} - {runs} = 0" for edges in (edges_in, edges_out)]
+        self.objective.append(f"{cost} {runs}")
+        if not feasible:
+            self.rows.append(f"{runs} = 0")
+
+    def rarely(self, head, more, limit, always):
+        """Some runs of the block, or all, cost more; of all blocks under this limit as many as it says."""
+        rare = self._rare.setdefault(limit, [])
+        runs = f"y{len(rare)}_{head:x}"
+        rare.append(runs)
+        self.variables.add(runs)
+        self.rows.append(f"{runs} - x_{head:x} {'=' if always else '<='} 0")
+        self.objective.append(f"{more} {runs}")
+
+    def loop(self, group, most):
+        """The ways back, of all loops of the group, for each entry of the outermost."""
+        back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]
+        entering = [f"e_{p:x}_{s:x}" for p, s in group[0].entering]
+        entering += ["in"] if group[0].head == self.graph.function.begin else []
+        often = most - 1 if len(group) == 1 and group[0].tested_at_end() else most
+        self.rows.append(" + ".join(back) + "".join(f" - {max(often, 0)} {e}" for e in entering) + " <= 0")
+
+    def sum_of_runs(self, loop, most, scope):
+        """All runs of a loop's body, for each entry of the scope, a loop around it."""
+        runs = [f"x_{loop.head:x}"] if loop.tested_at_end() else [f"e_{b:x}_{loop.head:x}" for b in loop.back]
+        entering = [f"e_{p:x}_{s:x}" for p, s in scope.entering]
+        entering += ["in"] if scope.head == self.graph.function.begin else []
+        self.rows.append(" + ".join(runs) + "".join(f" - {most} {e}" for e in entering) + " <= 0")
+
+    def at_most(self, variables, most):
+        if variables:
+            self.rows.append(f"{' + '.join(variables)} <= {most}")
+
+    def solve(self, function):
+        """The cost of the longest path; None if there is no path."""
+        for (*_, most), rare in self._rare.items():
+            self.at_most(rare, most)
+        with tempfile.TemporaryDirectory() as folder:
+            problem, answer = pathlib.Path(folder, "problem"), pathlib.Path(folder, "answer")
+            rows = "\n".join(f" r{n}: {row}" for n, row in enumerate([*self.rows, "in = 1"]))
+            variables = "\n ".join(sorted(self.variables))
+            problem.write_text("Maximize\n cost: " + "\n + ".join(self.objective) + f"\nSubject To\n{rows}\nGeneral\n {variables}\nEnd\n")
+            run = subprocess.run(["glpsol", "--lp", problem, "-o", answer], capture_output=True, text=True)
+            text = answer.read_text() if answer.exists() else ""
+        if "INTEGER EMPTY" in text or "INTEGER UNDEFINED" in text or "NO PRIMAL FEASIBLE" in run.stdout:
+            return None
+        found = re.search(r"^Objective: +cost = ([-+.\de]+)", text, re.MULTILINE)
+        if "INTEGER OPTIMAL" not in text or not found:
+            raise Unbounded(f"{function}: glpsol finds no longest path\n{run.stdout}")
+        return round(float(found[1]))

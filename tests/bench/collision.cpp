@@ -1,0 +1,47 @@
+// Time of one collision check: the arm, a tool and two boxes, over seeded states at up to 0.3 of
+// the speed limits that are free of contact, so that every position is looked at. Counters: support
+// points per check, and most of them.
+#include <benchmark/benchmark.h>
+
+#include "kernel/guard/collision.hpp"
+#include "tests/model_cases.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr std::size_t kStates = 256;
+
+void collision_check(benchmark::State& bench) {
+  std::array<Cuboid, 2> boxes;
+  boxes[0].pose.p = {0.55, 0.0, -0.02}, boxes[0].size = {0.5, 0.8, 0.1};
+  boxes[1].pose = {{-0.2, 0.5, 0.6}, Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized()};
+  boxes[1].size = {0.1, 0.2, 1.2};
+  static CollisionSection section;
+  section.scene = CollisionScene();
+  for (const Cuboid& box : boxes) {
+    section.scene.boxes[static_cast<std::size_t>(section.scene.box_count())] = &box;
+    section.scene.names[static_cast<std::size_t>(section.scene.body_count++)] = "box";
+  }
+  static Collision collision;
+  collision.start(section, JointLimits(), {0.03, -0.02, 0.12}, 0.001);
+  std::array<RobotState, kStates> states;
+  RandomStates random;
+  for (RobotState& state : states) {
+    do {
+      random.next();
+      state.q = random.q, state.dq = 0.3 * random.dq;
+    } while (collision.check(state) != Status::kOk);
+  }
+  std::size_t i = 0;
+  double calls = 0.0;
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(collision.check(states[i++ % kStates]));
+    calls += collision.telemetry().support_calls;
+  }
+  bench.counters["support_points"] = benchmark::Counter(calls, benchmark::Counter::kAvgIterations);
+  bench.counters["most"] = collision.telemetry().most_support_calls;
+}
+BENCHMARK(collision_check);
+
+}  // namespace
+}  // namespace tactus

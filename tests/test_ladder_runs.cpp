@@ -1,0 +1,215 @@
+// A thousand runs with delays, faults and rearms where they hurt most: at random. What must hold in
+// every cycle of all of them: limits, no burst after a gap, the largest step of a command, and a
+// log that explains the rung.
+#include <array>
+
+#include "tests/executive_bench.hpp"
+#include "tests/reference_bench.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr std::uint64_t kSeed = 20261121;
+constexpr int kRuns = 1000, kCycles = 400;
+constexpr double kPeriod_s = ExecutiveBench::kPeriod_s;
+constexpr auto kPeriod_ns = static_cast<double>(ExecutiveBench::kPeriod_ns);
+constexpr double kSpeed = 0.5;  // rad/s, of the line that is sent
+
+constexpr std::string_view kPositions =
+    "[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n"
+    "[executive]\nclean_cycles = 20\nstop_ms = 150\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\ndq = robot.dq\n";
+constexpr std::string_view kEfforts =
+    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+    "[executive]\nclean_cycles = 20\nstop_ms = 150\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\ndq = robot.dq\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\nkp = 400\nkd = 40\n";
+
+/// Unit inertias under efforts, or drives that do in a period what they are told and hold in a gap.
+struct Plant {
+  FakeHal& hal;
+  bool efforts;
+
+  void pass(double time_s) {
+    RobotState& state = hal.state;
+    if (hal.stops > 0) {  // brakes engage
+      state.dq.setZero(), state.tau.setZero();
+      return;
+    }
+    if (!efforts) {
+      state.dq = (hal.command.value - state.q) / time_s;
+      state.q = hal.command.value;
+      return;
+    }
+    state.tau = hal.command.value;
+    for (double left_s = time_s; left_s > 0.0; left_s -= 1e-3) {
+      const double dt_s = std::min(left_s, 1e-3);
+      state.dq += dt_s * state.tau;
+      state.q += dt_s * state.dq;
+    }
+  }
+};
+
+class Run {
+ public:
+  Run(std::uint64_t seed, bool efforts)
+      : random_{seed},
+        bench_(fresh_bench(efforts ? kEfforts : kPositions)),
+        plant_{bench_.hal, efforts},
+        efforts_(efforts) {}
+
+  void go() {
+    ASSERT_OK(bench_.executive.add(row_.row()));
+    ASSERT_OK(bench_.executive.start());
+    forget();
+    assert_true(bench_.send_line());
+    const double often = random_.uniform(0.0, 0.3);
+    for (int i = 0; i < kCycles; ++i) {
+      inject(random_.uniform(0.0, 1.0) < often);
+      cycle();
+      if (random_.below(20) == 0) rearm();
+    }
+  }
+  int rungs_seen() const { return seen_; }
+
+ private:
+  /// A delay of 0.1 to 20 periods at one stage, now and then a fault.
+  void inject(bool delayed) {
+    bench_.hal.read_ns = bench_.hal.write_ns = row_.takes_ns = 0;
+    row_.status = Status::kOk;
+    if (!delayed) return;
+    const auto delay_ns = static_cast<std::uint64_t>(
+        kPeriod_ns * random_.uniform(0.1, random_.below(8) ? 2.0 : 20.0));
+    const int stage = random_.below(3);
+    (stage == 0 ? bench_.hal.read_ns : stage == 1 ? bench_.hal.write_ns : row_.takes_ns) = delay_ns;
+    if (random_.below(40) == 0) row_.status = Status::kWorkspace;
+    if (random_.below(40) == 0) bench_.hal.state.tau[3] = std::nan("");
+  }
+
+  void cycle() {
+    const std::uint64_t begin_ns = g_stopwatch_ns;
+    const int writes = bench_.hal.writes;
+    const Status status = bench_.executive.cycle({now_ns_});
+    const auto took = static_cast<double>(g_stopwatch_ns - begin_ns) / kPeriod_ns;
+    const auto periods = static_cast<std::int64_t>(took) + 1;  // the next point of the grid
+    now_ns_ += periods * ExecutiveBench::kPeriod_ns;
+    assert_true((status == Status::kOk) == !refuses(bench_.executive.rung()));
+    assert_true(bench_.hal.writes - writes <= 1);
+    check_command(bench_.hal.writes > writes);
+    check_reference();
+    check_log();
+    plant_.pass(static_cast<double>(periods) * kPeriod_s);
+    if (!bench_.hal.state.tau.allFinite()) bench_.hal.state.tau.setZero();
+    check_plant();
+    seen_ |= 1 << static_cast<int>(bench_.executive.rung());
+  }
+
+  /// By the limits of the robot's table.
+  void check_command(bool written) {
+    if (!written) return;
+    const JointVector step = bench_.hal.command.value - sent_;
+    for (int i = 0; i < kDof; ++i) {
+      if (efforts_) {
+        assert_true(std::abs(step[i]) <= limits_.dtau_max[i] * kPeriod_s + 1e-9);
+        assert_true(std::abs(bench_.hal.command.value[i]) <= limits_.tau_max[i]);
+      } else {
+        const double change = limits_.ddq_max[i] * kPeriod_s * kPeriod_s;
+        assert_true(std::abs(step[i]) <= limits_.dq_max[i] * kPeriod_s + 1e-10);
+        assert_true(std::abs(step[i] - step_[i]) <= change + 1e-12);
+      }
+    }
+    step_ = step, sent_ = bench_.hal.command.value;
+  }
+  /// What was missed is never caught up: in a cycle the reference goes as far as in any other, but
+  /// for the bridge from where it was to the line.
+  void check_reference() {
+    const double reference = bench_.reference();
+    if (any_reference_) assert_true(std::abs(reference - reference_) <= 1.1 * kSpeed * kPeriod_s);
+    reference_ = reference, any_reference_ = true;
+  }
+  void check_plant() const {
+    for (int i = 0; i < kDof; ++i) {
+      assert_true(bench_.hal.state.q[i] > limits_.q_min[i]);
+      assert_true(bench_.hal.state.q[i] < limits_.q_max[i]);
+      assert_true(std::abs(bench_.hal.state.dq[i]) < limits_.dq_max[i]);
+    }
+  }
+  /// Every event begins where the one before ended, and is a cell of the table.
+  void check_log() {
+    Event event;
+    for (; read_ < bench_.executive.events().count(); ++read_) {
+      assert_true(bench_.executive.events().read(read_, event));
+      assert_true(event.from == explained_);
+      const CommandMode mode = efforts_ ? CommandMode::kEffort : CommandMode::kPosition;
+      assert_true(event.to == next(event.from, event.cause, mode));
+      assert_true(event.to != event.from || !rule(event.cause).chain);
+      assert_true((event.status == Status::kOk) ==
+                  (event.cause == Cause::kClean || event.cause == Cause::kRearm));
+      explained_ = event.to;
+    }
+    assert_true(explained_ == bench_.executive.rung());
+  }
+
+  void rearm() {
+    const bool disabled = bench_.executive.rung() == Rung::kDisabled;
+    const bool up = refuses(bench_.executive.rung());
+    if (bench_.executive.rearm() != Status::kOk || !up) return;
+    check_log();
+    if (disabled) bench_.hal.stops = 0, forget();  // the drives start where the arm is
+    any_reference_ = false;
+    assert_true(bench_.executive.rung() == Rung::kNominal);
+    static_cast<void>(bench_.hal.diary());
+    Report report;
+    while (bench_.client.poll(report)) {
+    }
+    static_cast<void>(bench_.send_line());  // may have no store before the next report
+  }
+  /// The drives take over what the arm does now.
+  void forget() {
+    any_reference_ = false;
+    step_.setZero();
+    sent_ = efforts_ ? bench_.hal.state.tau : bench_.hal.state.q;
+  }
+
+  Random random_;
+  ExecutiveBench& bench_;
+  Plant plant_;
+  RowProbe row_{&bench_.hal, '1'};
+  bool efforts_;
+  const JointLimits limits_;
+  std::int64_t now_ns_ = 0;
+  JointVector sent_ = JointVector::Zero(), step_ = JointVector::Zero();
+  double reference_ = 0.0;
+  bool any_reference_ = false;
+  Rung explained_ = Rung::kDisabled;
+  std::uint32_t read_ = 0;
+  int seen_ = 0;
+};
+
+// Proves LAD-7, LAD-8, EXE-3.
+
+void thousand_runs_with_random_delays_keep_limits_never_burst_and_are_explained(void**) {
+  std::array<int, kRungs> seen{};
+  for (int i = 0; i < kRuns; ++i) {
+    const std::uint64_t seed = kSeed + static_cast<std::uint64_t>(i) * 7919;
+    Run run(seed, i % 2 == 1);
+    run.go();
+    for (std::size_t r = 0; r < kRungs; ++r) seen[r] += run.rungs_seen() >> r & 1;
+  }
+  print_message("seed %llu, runs on each rung:", static_cast<unsigned long long>(kSeed));
+  for (const int runs : seen) print_message(" %d", runs);
+  print_message("\n");
+  for (const int runs : seen) assert_true(runs > kRuns / 10);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(thousand_runs_with_random_delays_keep_limits_never_burst_and_are_explained),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

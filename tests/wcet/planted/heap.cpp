@@ -1,0 +1,5 @@
+// An object from the heap.
+extern "C" double* planted(int count);
+double* planted(int count) {
+  return new double[static_cast<unsigned>(count)];
+}

@@ -1,0 +1,5 @@
+// A call through a pointer that could reach anything.
+extern "C" double planted(double (*function)(double), double x);
+double planted(double (*function)(double), double x) {
+  return 1.0 + function(x);
+}

@@ -1,0 +1,90 @@
+// Player: plays a tape through the executive, without a plant. The same source on the host, under
+// the search and on the bare Cortex-M7. Requests pass through the client's own admission, so that a
+// cycle sees what a client can send, however hostile, and nothing else.
+#pragma once
+
+#include <string_view>
+
+#include "gateway/reference_client.hpp"
+#include "kernel/executive.hpp"
+#include "kernel/loader.hpp"
+#include "tests/wcet/tape.hpp"
+
+namespace tactus {
+
+/// A robot that measures what the tape says and ignores every command.
+class TapeHal final : public Hal {
+ public:
+  RobotState state;
+
+  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
+  Status start(CommandMode, RobotState& measured) override { return read(measured); }
+  Status read(RobotState& measured) override {
+    measured = state;
+    return Status::kOk;
+  }
+  Status write(const RobotCommand&) override { return Status::kOk; }
+  void stop() override {}
+};
+
+/// The way of a client into a generator of one space.
+template <class Space>
+struct TapeClient {
+  static constexpr int kCapacity = 64;  // waypoints of a store
+
+  TapeClient();
+  void poll();
+
+  ReferenceChannel<Space> channel;
+  ReferenceClient<Space> client{channel};
+  Waypoint<Space> waypoints[kStores][kCapacity];
+  Trajectory<Space>* sent = nullptr;  ///< the last trajectory
+};
+
+class Player {
+ public:
+  explicit Player(Executive::Stopwatch stopwatch = nullptr)
+      : executive_(hal_, pipeline_, stopwatch) {}
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  /// Loads a pipeline; once. `text` without the sections of a board.
+  Status load(std::string_view text, LoadError& error);
+  /// Begins with a tape, once for every Player.
+  void insert(const Bytes& tape) { tape_ = tape; }
+
+  /// Does what the tape says before its next cycle. False: there is none.
+  bool prepare();
+  /// That cycle, and nothing else.
+  Status cycle() { return executive_.cycle({stamp_ns_}); }
+
+  const Executive& executive() const { return executive_; }
+  const Pipeline& pipeline() const { return pipeline_; }
+  int accepted() const { return accepted_; }  ///< requests that passed admission
+
+ private:
+  void apply(TapeOp op);
+  void take_fractions(JointVector& value, const JointVector& low, const JointVector& high);
+  TaskSpace::Point near_reference(const TaskSpace::Terms& terms, Fields fields);
+  TaskSpace::Terms take_terms(std::uint8_t frames) const;
+  void take_point();
+  void take_trajectory();
+  void take_waypoints();
+  template <class Space>
+  void send_waypoints(TapeClient<Space>& to);
+  void take_append();
+  void note(const Verdict& verdict) { accepted_ += verdict.ok() ? 1 : 0; }
+
+  Bytes tape_;
+  TapeHal hal_;
+  TapeClient<JointSpace> joints_;
+  TapeClient<TaskSpace> poses_;
+  Pipeline pipeline_;
+  Executive executive_;
+  const Pose* reference_ = nullptr;  ///< x_d of the task-space generator, if there is one
+  bool started_ = false;
+  int repeats_ = 0, deaf_ = 0, accepted_ = 0;
+  std::int64_t stamp_ns_ = 0, late_ns_ = 0;
+};
+
+}  // namespace tactus
