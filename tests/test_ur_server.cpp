@@ -112,6 +112,53 @@ void a_program_connects_out_to_the_address_in_its_text(void**) {
   close(door);
 }
 
+/// Uploaded to the secondary port, external control connects back and is sent a stream.
+void set_points_over_the_network_move_the_arm(void**) {
+  start();
+  std::array<int, 3> doors{}, robots{};
+  const int on = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    doors[i] = socket(AF_INET, SOCK_STREAM, 0);
+    setsockopt(doors[i], SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    const sockaddr_in address = place(54331 + static_cast<int>(i));
+    assert_int_equal(bind(doors[i], reinterpret_cast<const sockaddr*>(&address), sizeof address),
+                     0);
+    assert_int_equal(listen(doors[i], 1), 0);
+  }
+  const int client = connect_to(kSecondaryPort);
+  constexpr std::string_view kProgram =
+      "def external():\n"
+      "  connect_socket_with_retry(\"127.0.0.77\", 54331, \"trajectory_socket\")\n"
+      "  connect_socket_with_retry(\"127.0.0.77\", 54332, \"script_command_socket\")\n"
+      "  connect_socket_with_retry(\"127.0.0.77\", 54333, \"reverse_socket\")\n"
+      "end\n";
+  assert_int_equal(send(client, kProgram.data(), kProgram.size(), 0), kProgram.size());
+  for (int i = 0; i < 30; ++i) tick();
+  for (std::size_t i = 0; i < 3; ++i) {
+    robots[i] = accept(doors[i], nullptr, nullptr);
+    assert_true(robots[i] >= 0);
+  }
+  Joints q = g_bench.image().actual_q;
+  const double from = q[0];
+  for (int k = 0; k < 125; ++k) {
+    q[0] += 0.2 * kCycle_s;
+    std::array<std::uint8_t, 32> message;
+    ByteWriter writer(message.data(), message.size());
+    writer.i32(500);
+    for (int i = 0; i < 6; ++i) writer.i32(static_cast<std::int32_t>(std::lround(q[i] * 1e6)));
+    writer.i32(1);
+    assert_int_equal(send(robots[2], message.data(), message.size(), 0), message.size());
+    tick();
+  }
+  // 0.2 rad, but for the 0.03 s of servoj's lookahead and what is on its way.
+  ASSERT_NEAR(g_bench.image().actual_q[0] - from, 0.2, 0.02);
+  close(robots[2]);
+  for (int i = 0; i < 60; ++i) tick();
+  assert_false(g_bench.image().program_running);
+  for (const int socket : {client, doors[0], doors[1], doors[2], robots[0], robots[1]})
+    close(socket);
+}
+
 // Proves URE-41.
 
 void a_client_that_does_not_read_disturbs_nobody(void**) {
@@ -172,6 +219,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_session_over_the_loopback),
       cmocka_unit_test(a_program_connects_out_to_the_address_in_its_text),
+      cmocka_unit_test(set_points_over_the_network_move_the_arm),
       cmocka_unit_test(a_client_that_does_not_read_disturbs_nobody),
       cmocka_unit_test(a_client_that_vanishes_frees_its_place_and_its_claims),
       cmocka_unit_test(a_port_that_is_taken_is_said),

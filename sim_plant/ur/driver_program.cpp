@@ -10,7 +10,7 @@ constexpr double kBrake = 1.0;  // rad/s^2
 bool DriverProgram::recognises(std::string_view text) {
   SocketPlace place;
   return text.find("servoj(") != std::string_view::npos &&
-         text.find("socket_read_binary_integer(6+1") != std::string_view::npos &&
+         text.find("socket_read_binary_integer(") != std::string_view::npos &&
          find_socket(text, "socket_open", 0, place);
 }
 
@@ -33,7 +33,7 @@ ProgramStep DriverProgram::poll(Machine& machine) {
     fresh_ = true;
     ending_ = message[6] <= 0;
   }
-  const bool gone = link->state() == Link::State::kFailed || link->at_end();
+  const bool gone = link->state() == Link::State::kFailed || link->at_end(kDriverInts);
   if (!ending_ && !gone) return ProgramStep::kRunning;
   link->close();
   return ProgramStep::kEnded;

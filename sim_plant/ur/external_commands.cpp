@@ -1,43 +1,87 @@
-// The commands of external control that come over a socket of their own and move nothing.
+// External control's commands that are no motion. They come over a socket of their own, and only
+// the watch for a contact answers.
 #include "sim_plant/ur/external_control.hpp"
 
 namespace tactus::ur {
 namespace {
 
-enum ContactResult : std::int32_t { kContact = 0, kNoContact = 1 };
+using Command = std::array<std::int32_t, kScriptCommandInts>;
+
+constexpr std::string_view kSocket = "script_command_socket";
+constexpr double kStop = 4.0;     // rad/s^2
+constexpr double kContact = 0.3;  // of the torque that is taken for a collision
+constexpr int kCommandsAtOnce = 8;
+enum Contact : std::int32_t { kTouched = 0, kEndedWithout = 1 };
+
+double value(const Command& command, std::size_t i) {
+  return command[i] / kFixedPoint;
+}
+
+Vector3 three(const Command& command, std::size_t first) {
+  return {value(command, first), value(command, first + 1), value(command, first + 2)};
+}
+
+Vector6 six(const Command& command, std::size_t first) {
+  Vector6 values;
+  values << three(command, first), three(command, first + 3);
+  return values;
+}
+
+void start_force_mode(const Command& command, ForceMode& force) {
+  force.active = true;
+  force.task_frame = six(command, 1);
+  force.selection = six(command, 7);
+  force.wrench = six(command, 13);
+  force.type = static_cast<int>(value(command, 19));
+  force.limits = six(command, 20);
+}
+
+bool touches(const Machine& machine) {
+  const Joints share = machine.body.residual().cwiseAbs().cwiseQuotient(machine.settings.collision);
+  return share.maxCoeff() > kContact;
+}
 
 }  // namespace
 
 void ExternalControl::read_commands(Machine& machine) {
-  Link* link = machine.links.find("script_command_socket");
-  std::array<std::int32_t, kScriptCommandInts> message;
-  while (link != nullptr && link->read_ints(message.data(), message.size())) {
-    const auto value = [&](std::size_t i) { return message[i] / kFixedPoint; };
-    switch (static_cast<ScriptCommand>(message[0])) {
-      case ScriptCommand::kSetPayload:
-      case ScriptCommand::kSetTargetPayload:
-        machine.payload = value(1);
-        machine.payload_cog = Vector3(value(2), value(3), value(4));
-        break;
-      case ScriptCommand::kSetToolVoltage:
-        machine.io.tool_voltage = static_cast<std::int32_t>(value(1));
-        break;
-      case ScriptCommand::kSetTcpOffset: {
-        Vector6 pose;
-        for (int i = 0; i < 6; ++i) pose[i] = value(static_cast<std::size_t>(i) + 1);
-        machine.set_tcp(pose);
-        break;
-      }
-      case ScriptCommand::kStartToolContact:
-        tool_contact_ = true;
-        break;
-      case ScriptCommand::kEndToolContact:
-        link->send_int(kNoContact);  // nothing is there to be touched
-        tool_contact_ = false;
-        break;
-      default:
-        break;  // forces are not controlled
-    }
+  Link* link = machine.links.find(kSocket);
+  if (link == nullptr) return;
+  Command command;
+  for (int n = 0; n < kCommandsAtOnce && link->read_ints(command.data(), command.size()); ++n)
+    obey_command(command, *link, machine);
+  if (!tool_contact_ || mode_ == ControlMode::kToolInContact || !touches(machine)) return;
+  trajectory_.preempt(machine);
+  machine.motion.stop_j(kStop);
+  mode_ = ControlMode::kToolInContact;
+  link->send_int(kTouched);
+}
+
+void ExternalControl::obey_command(const Command& command, Link& link, Machine& machine) {
+  switch (static_cast<ScriptCommand>(command[0])) {
+    case ScriptCommand::kSetTargetPayload:
+    case ScriptCommand::kSetPayload:
+      machine.payload = value(command, 1);
+      machine.payload_cog = three(command, 2);
+      return;
+    case ScriptCommand::kSetToolVoltage:
+      machine.io.tool_voltage = static_cast<std::int32_t>(value(command, 1));
+      return;
+    case ScriptCommand::kStartForceMode:
+      return start_force_mode(command, machine.force_mode);
+    case ScriptCommand::kEndForceMode:
+      machine.force_mode = {};
+      return;
+    case ScriptCommand::kStartToolContact:
+      tool_contact_ = true;
+      return;
+    case ScriptCommand::kEndToolContact:
+      if (tool_contact_ && mode_ != ControlMode::kToolInContact) link.send_int(kEndedWithout);
+      tool_contact_ = false;
+      return;
+    case ScriptCommand::kSetTcpOffset:
+      return machine.set_tcp(six(command, 1));
+    default:
+      return;  // of the e-Series, or of no consequence for a stiff arm
   }
 }
 

@@ -1,51 +1,16 @@
 #include "sim_plant/ur/external_control.hpp"
 
-#include <algorithm>
-
 namespace tactus::ur {
 namespace {
 
-constexpr std::string_view kConnect = "connect_socket_with_retry";
-constexpr std::array<std::string_view, 3> kSockets = {"trajectory_socket", "script_command_socket",
-                                                      "reverse_socket"};
-constexpr std::string_view kLastOfLoop = "socket_close(\"script_command_socket\")";
 constexpr double kStop = 4.0, kSpeedAcceleration = 40.0;  // rad/s^2
 constexpr double kIgnoreSpeed = 20.0;                     // rad/s
 constexpr int kAttempts = 5;
 constexpr double kRetry_s = 0.2;
+constexpr double kLog_s = 5.0;  // between two complaints of the same kind
 constexpr int kMessagesAtOnce = 64;
 
 }  // namespace
-
-bool ExternalControl::recognises(std::string_view text) {
-  SocketPlace place;
-  return text.find("reverse_socket") != std::string_view::npos &&
-         (find_socket_named(text, kConnect, kSockets[2], place) ||
-          find_socket_named(text, "socket_open", kSockets[2], place));
-}
-
-void ExternalControl::start(std::string_view text) {
-  *this = {};
-  for (std::size_t i = 0; i < kSockets.size(); ++i)
-    if (!find_socket_named(text, kConnect, kSockets[i], places_[i]))
-      find_socket_named(text, "socket_open", kSockets[i], places_[i]);
-  law_ = find_servo_law(text);
-  TrajectoryRun::Features features;
-  features.tells_cancelled =
-      text.find("socket_send_int(TRAJECTORY_RESULT_CANCELED") != std::string_view::npos;
-  features.publishes_spline_time = false;
-  std::string_view rest = text, line;
-  while (next_line(rest, line))
-    if (without_comment(line).find("write_output_float_register(1, splineTimerTraveled)") !=
-        std::string_view::npos)
-      features.publishes_spline_time = true;
-  trajectory_.set_features(features);
-  const std::size_t end = text.rfind(kLastOfLoop);
-  if (end == std::string_view::npos) return;
-  behind_ = text.substr(end + kLastOfLoop.size());
-  behind_line_ =
-      static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(end), '\n')) + 1;
-}
 
 ProgramStep ExternalControl::poll(Machine& machine) {
   switch (phase_) {
@@ -111,7 +76,7 @@ void ExternalControl::read_reverse(Machine& machine) {
     if (link == nullptr || !link->read_ints(message.data(), message.size())) {
       silent_s_ += n == 0 ? kCycle_s : 0.0;
       const bool late = timeout_s_ > 0.0 && silent_s_ > timeout_s_ + 1e-9;
-      if (late || link == nullptr || link->at_end()) leave(true, machine);
+      if (late || link == nullptr || link->at_end(message.size())) leave(true, machine);
       return;
     }
     silent_s_ = 0.0;
@@ -196,12 +161,15 @@ void ExternalControl::set_point(const Joints& q, Machine& machine) {
   if ((q - servo_q_).cwiseAbs().maxCoeff() <= most ||
       (q - machine.body.q()).cwiseAbs().maxCoeff() <= most) {
     servo_q_ = q;
-    warned_ = false;
     return;
   }
   if (!warned_)
     machine.messages.popup("External Control speed limit",
                            "A set-point is too far away and is ignored", true, false);
+  if (machine.time_s() >= log_at_s_) {
+    machine.messages.text("ExternalControl: a set-point is too far away and is ignored");
+    log_at_s_ = machine.time_s() + kLog_s;
+  }
   warned_ = true;
 }
 

@@ -20,6 +20,8 @@ class ExternalControl {
 
  private:
   enum class Phase : std::uint8_t { kConnecting, kRunning, kJoining, kEnding, kBehind, kEnded };
+  static constexpr std::array<std::string_view, 3> kSockets = {
+      "trajectory_socket", "script_command_socket", "reverse_socket"};
   using Message = std::array<std::int32_t, kReverseInts>;
 
   ProgramStep connect(Machine& machine);
@@ -29,26 +31,29 @@ class ExternalControl {
   void obey(const Message& message, Machine& machine);
   void forward(const Message& message, Machine& machine);
   void read_commands(Machine& machine);
+  void obey_command(const std::array<std::int32_t, kScriptCommandInts>& command, Link& link,
+                    Machine& machine);
   void set_point(const Joints& q, Machine& machine);
   void leave(bool halts, Machine& machine);
   ProgramStep servo(Machine& machine);
 
-  Phase phase_ = Phase::kConnecting;
+  enum class Servo : std::uint8_t { kNone, kNew, kOld };
+
   std::array<SocketPlace, 3> places_;  // trajectory, script command, reverse
   std::size_t connected_ = 0;
-  int attempts_ = 0;
   double retry_at_s_ = 0.0;
   std::string_view behind_;  // the lines behind the control loop
-  int behind_line_ = 1;
+  int attempts_ = 0, behind_line_ = 1;
   ServoLaw law_;
 
+  Phase phase_ = Phase::kConnecting;
+  Servo servo_ = Servo::kNone;
+  bool halts_ = false, tool_contact_ = false, warned_ = false;
   ControlMode mode_ = ControlMode::kUninitialised;
   Message waiting_{};  // for the old motion to end
-  double timeout_s_ = 0.0, silent_s_ = 0.0;
+  double timeout_s_ = 0.0, silent_s_ = 0.0, log_at_s_ = 0.0;
   Joints servo_q_ = Joints::Zero();
-  enum class Servo : std::uint8_t { kNone, kNew, kOld } servo_ = Servo::kNone;
   Vector6 speed_ = Vector6::Zero();
-  bool halts_ = false, tool_contact_ = false, warned_ = false;
   TrajectoryRun trajectory_;
   LineProgram rest_;
 };

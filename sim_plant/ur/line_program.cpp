@@ -1,5 +1,10 @@
 #include "sim_plant/ur/line_program.hpp"
 
+#include <algorithm>
+#include <cstring>
+
+#include "sim_plant/ur/script_expression.hpp"
+
 namespace tactus::ur {
 namespace {
 
@@ -10,43 +15,25 @@ bool opens_block(std::string_view line) {
   return false;
 }
 
-bool for_ever(std::string_view line) {
-  return line == "while True:" || line == "while (True):" || line == "while(True):" ||
-         line == "while 1:" || line == "while(1):" || line == "while (1):";
-}
-
 }  // namespace
 
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
+  *this = {};
   text_ = text;
-  at_ = 0;
-  line_ = first_line;
+  now_ = here_ = {0, first_line};
   moves_ = moves;
-  ended_ = false;
-  wait_until_s_ = -1.0;
-  depth_ = 0;
-  variables_.count = 0;
 }
 
 ProgramStep LineProgram::poll(Machine& machine) {
   if (ended_) return ProgramStep::kEnded;
   if (moves_ && machine.motion.busy()) return ProgramStep::kRunning;
   if (machine.time_s() < wait_until_s_) return ProgramStep::kRunning;
+  std::string_view line;
   for (int lines = 0; lines < kLinesAtOnce; ++lines) {
-    std::string_view rest = text_.substr(at_), line;
-    const int number = line_;
-    if (!next_line(rest, line)) {
-      ended_ = true;
-      return ProgramStep::kEnded;
-    }
-    at_ = text_.size() - rest.size();
-    line_ = number + 1;
-    const Line result = run_line(trimmed(without_comment(line)), machine);
-    if (result == Line::kEnded) {
-      ended_ = true;
-      return ProgramStep::kEnded;
-    }
-    if (result == Line::kWait) return ProgramStep::kRunning;
+    const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
+    ended_ = result == Line::kEnded;
+    if (ended_) return ProgramStep::kEnded;
+    if (result == Line::kWait) break;
   }
   return ProgramStep::kRunning;
 }
@@ -57,48 +44,162 @@ ProgramStep LineProgram::command(Machine& machine) {
   return machine.motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
 }
 
+/// The next line without blanks and comment; false: the text is at its end.
+bool LineProgram::next(std::string_view& line) {
+  std::string_view rest = text_.substr(now_.at);
+  if (!next_line(rest, line)) return false;
+  here_ = now_;
+  now_ = {text_.size() - rest.size(), now_.line + 1};
+  line = trimmed(without_comment(line));
+  return true;
+}
+
 LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine) {
   if (line.empty()) return Line::kNext;
-  if (line == "end") {
-    if (depth_ == 0) return Line::kEnded;
-    at_ = loops_[depth_ - 1].at;
-    line_ = loops_[depth_ - 1].line;
-    return Line::kNext;
-  }
-  if (for_ever(line) && depth_ < kDeepest) {
-    loops_[depth_++] = {at_, line_};
-    return Line::kNext;
-  }
-  if (opens_block(line)) {
-    const bool condition = leading_name(line) == "if" || leading_name(line) == "while";
-    if (condition) machine.messages.text("not emulated: a condition is left out with its block");
-    skip_block();
-    return Line::kNext;
-  }
+  const std::string_view word = leading_name(line);
+  if (word == "end") return run_end();
+  if (word == "break" || word == "continue") return run_jump(word == "break");
+  if (word == "halt" || (word == "return" && depth_ == 0)) return Line::kEnded;
+  if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
+}
+
+LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view line,
+                                         Machine& machine) {
+  if (word == "while") {
+    if (!holds(line, machine))
+      skip_blocks(1);
+    else if (!enter(true))
+      return Line::kEnded;
+  } else if (word == "if") {
+    if (!holds(line, machine))
+      find_branch(machine);
+    else if (!enter(false))
+      return Line::kEnded;
+  } else if (word == "elif" || word == "else") {
+    if (depth_ > 0) --depth_;  // the branch before was taken
+    skip_blocks(1);
+  } else {
+    skip_blocks(1);
+  }
+  return Line::kNext;
+}
+
+LineProgram::Line LineProgram::run_end() {
+  if (depth_ == 0) return Line::kEnded;
+  const Block& block = blocks_[--depth_];
+  if (block.loop) now_ = block.begin;
+  return Line::kNext;
+}
+
+/// `out`: break; else continue.
+LineProgram::Line LineProgram::run_jump(bool out) {
+  std::size_t left = 0;
+  while (depth_ > 0) {
+    ++left;
+    const Block& block = blocks_[--depth_];
+    if (!block.loop) continue;
+    if (out)
+      skip_blocks(left);
+    else
+      now_ = block.begin;
+    return Line::kNext;
+  }
+  return Line::kEnded;  // of no loop
+}
+
+bool LineProgram::enter(bool loop) {
+  if (depth_ == kDeepest) return false;
+  blocks_[depth_++] = {loop, here_};
+  return true;
+}
+
+/// The condition of "while ...:", "if ...:" or "elif ...:".
+bool LineProgram::holds(std::string_view line, Machine& machine) {
+  std::string_view condition = line.substr(leading_name(line).size());
+  const std::size_t colon = condition.rfind(':');
+  if (colon != std::string_view::npos) condition = condition.substr(0, colon);
+  ScriptValue value;
+  if (evaluate(condition, {&variables_, &machine}, value) && trimmed(condition).empty() &&
+      value.numeric())
+    return value.number != 0.0;
+  not_emulated(line, machine);
+  return false;
+}
+
+/// Behind an `if` that does not hold: into the branch that does, or behind its end.
+void LineProgram::find_branch(Machine& machine) {
+  std::string_view line;
+  while (next(line)) {
+    const std::string_view word = leading_name(line);
+    if (opens_block(line)) {
+      skip_blocks(1);
+    } else if (word == "end") {
+      return;
+    } else if (word == "else" || (word == "elif" && holds(line, machine))) {
+      ended_ = !enter(false);
+      return;
+    }
+  }
+}
+
+/// Behind the end of the blocks that are open here.
+void LineProgram::skip_blocks(std::size_t count) {
+  std::string_view line;
+  while (count > 0 && next(line)) {
+    if (opens_block(line)) ++count;
+    if (leading_name(line) == "end") --count;
+  }
 }
 
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
   for (const std::string_view word : {"global ", "local "})
     if (starts_with(line, word)) line = trimmed(line.substr(word.size()));
+  Line result = Line::kNext;
+  return assign(line, machine, result) ? result : run_call_line(line, machine);
+}
+
+/// "name = value" or "name[index] = value". False: the line is none.
+bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
+  const ScriptScope scope = {&variables_, &machine};
   const std::string_view name = leading_name(line);
-  if (name == "halt") return Line::kEnded;
-  const std::string_view rest = trimmed(line.substr(name.size()));
-  if (!name.empty() && starts_with(rest, "=") && !starts_with(rest, "==")) {
-    std::string_view expression = trimmed(rest.substr(1));
-    ScriptValue value;
-    if (leading_name(expression).empty() || expression.find('(') == std::string_view::npos) {
-      if (read_value(expression, value)) variables_.set(name, value);
-      return Line::kNext;
-    }
-    return run_call_line(expression, machine);
+  std::string_view rest = trimmed(line.substr(name.size()));
+  ScriptValue index, value;
+  const bool element = starts_with(rest, "[");
+  if (element) {
+    rest.remove_prefix(1);
+    if (!evaluate(rest, scope, index) || !starts_with(trimmed(rest), "]")) return false;
+    rest = trimmed(trimmed(rest).substr(1));
   }
-  return run_call_line(line, machine);
+  if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
+  rest = trimmed(rest.substr(1));
+  std::string_view expression = rest;
+  if (!evaluate(expression, scope, value)) {
+    result = run_call_line(rest, machine);  // a call whose value is not emulated
+    value.kind = ScriptValue::Kind::kBool;
+    value.number = 1.0;
+  }
+  ScriptValue* whole = variables_.find(name);
+  if (element) {
+    const bool fits = whole != nullptr && index.numeric() && index.number >= 0.0 &&
+                      index.number < static_cast<double>(whole->count);
+    if (fits)
+      whole->elements[static_cast<std::size_t>(index.number)] = value.number;
+    else
+      not_emulated(line, machine);
+  } else if (!variables_.set(name, value)) {
+    not_emulated(line, machine);
+  }
+  return true;
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
   ScriptCall call;
-  if (!read_call(line, variables_, call)) return Line::kNext;
+  std::string_view rest = line;
+  if (!read_call(rest, {&variables_, &machine}, call)) {
+    not_emulated(line, machine);
+    return Line::kNext;
+  }
   const CallOutcome outcome = run_call(call, moves_, machine);
   switch (outcome.result) {
     case CallResult::kDone:
@@ -111,22 +212,22 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
     case CallResult::kHalt:
       return Line::kEnded;
     case CallResult::kNoReach:
-      machine.messages.runtime_exception(line_ - 1, 3, "runtime_error:no inverse kinematics");
+      machine.messages.runtime_exception(here_.line, 3, "runtime_error:no inverse kinematics");
       return Line::kEnded;
   }
   return Line::kNext;
 }
 
-void LineProgram::skip_block() {
-  int open = 1;
-  std::string_view rest = text_.substr(at_), line;
-  while (open > 0 && next_line(rest, line)) {
-    line = trimmed(without_comment(line));
-    if (opens_block(line)) ++open;
-    if (line == "end") --open;
-    ++line_;
-  }
-  at_ = text_.size() - rest.size();
+/// Said once in a program.
+void LineProgram::not_emulated(std::string_view line, Machine& machine) {
+  if (told_) return;
+  told_ = true;
+  std::array<char, 160> text;
+  constexpr std::string_view kWhat = "not emulated: ";
+  std::memcpy(text.data(), kWhat.data(), kWhat.size());
+  const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
+  std::memcpy(text.data() + kWhat.size(), line.data(), size);
+  machine.messages.text({text.data(), kWhat.size() + size});
 }
 
 }  // namespace tactus::ur

@@ -1,6 +1,6 @@
-// LineProgram: a program of plain lines, run one after the other: calls with values that are
-// written out, `while True:`, assignments of values. Conditions are not understood: what stands
-// under one is left out, and a text message says so.
+// LineProgram: a program of plain lines, interpreted: calls, assignments, `while` and `if` with
+// conditions. A condition or value that is not understood is left out with its block, and a text
+// message says so; functions and threads of the program's own are not understood.
 #pragma once
 
 #include "sim_plant/ur/program_step.hpp"
@@ -20,26 +20,41 @@ class LineProgram {
 
  private:
   enum class Line : std::uint8_t { kNext, kWait, kEnded };
-  struct Loop {
-    std::size_t at;
-    int line;
+  /// A line of the text: where it begins, and its number.
+  struct Place {
+    std::size_t at = 0;
+    int line = 0;
+  };
+  /// A block that is being run; a loop begins again where it stands.
+  struct Block {
+    bool loop = false;
+    Place begin;
   };
 
+  bool next(std::string_view& line);
   Line run_line(std::string_view line, Machine& machine);
+  Line run_block(std::string_view word, std::string_view line, Machine& machine);
+  Line run_end();
+  Line run_jump(bool out);
   Line run_statement(std::string_view line, Machine& machine);
   Line run_call_line(std::string_view line, Machine& machine);
-  void skip_block();
+  bool assign(std::string_view line, Machine& machine, Line& result);
+  bool holds(std::string_view line, Machine& machine);
+  bool enter(bool loop);
+  void find_branch(Machine& machine);
+  void skip_blocks(std::size_t count);
+  void not_emulated(std::string_view line, Machine& machine);
 
-  static constexpr std::size_t kDeepest = 8;
-  static constexpr int kLinesAtOnce = 64;  // of a loop that never waits
+  static constexpr std::size_t kDeepest = 12;
+  static constexpr int kLinesAtOnce = 256;  // of a loop that never waits
 
   std::string_view text_;
-  std::size_t at_ = 0;
-  int line_ = 0;
+  Place now_, here_;  // the next line, and the one that is run
   bool moves_ = true;
   bool ended_ = false;
+  bool told_ = false;  // that something is not emulated
   double wait_until_s_ = -1.0;
-  std::array<Loop, kDeepest> loops_{};
+  std::array<Block, kDeepest> blocks_{};
   std::size_t depth_ = 0;
   ScriptVariables variables_;
 };

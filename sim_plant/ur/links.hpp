@@ -42,8 +42,8 @@ class Link {
   std::size_t room() const { return in_.size() - in_size_; }
   void receive(const std::uint8_t* data, std::size_t size);
   Outbox& outbox() { return out_; }
-  /// The peer has closed, and what it sent before has been read.
-  bool at_end() const { return lost_ && in_size_ < 4; }
+  /// The peer has closed, and of what it sent not as many integers are left.
+  bool at_end(std::size_t ints) const { return lost_ && in_size_ < 4 * ints; }
 
  private:
   State state_ = State::kClosed;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim_plant/ur/body.hpp"
+#include "sim_plant/ur/force_mode.hpp"
 #include "sim_plant/ur/io.hpp"
 #include "sim_plant/ur/links.hpp"
 #include "sim_plant/ur/power.hpp"
@@ -41,6 +42,7 @@ struct Machine {
   double payload = 0.0;
   Vector3 payload_cog = Vector3::Zero();
   bool freedrive = false;
+  ForceMode force_mode;
   Stop last_stop;
   bool stop_unsaid = false;  ///< to the clients, who hear of it with the next cycle
 

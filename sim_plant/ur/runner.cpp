@@ -73,6 +73,8 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<LineProgram>().start(body, first_line, true);
   }
   paused_ = false;
+  braking_ = !machine.motion.resting();
+  if (braking_) machine.motion.stop_j(0.0);
   set_name(program_name(text));
   machine.messages.program_started(name());
 }
@@ -96,6 +98,7 @@ void Runner::stop(Machine& machine) {
   machine.motion.abandon();
   machine.links.close_all();
   machine.freedrive = false;
+  machine.force_mode = {};
   machine.messages.program_stopped(name());
 }
 
@@ -121,7 +124,8 @@ void Runner::poll(Machine& machine) {
     secondary_running_ = false;
     machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
   }
-  if (!playing()) return;
+  braking_ = braking_ && machine.motion.busy();
+  if (!playing() || braking_) return;
   const ProgramStep step = std::visit(
       [&](auto& program) {
         if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)

@@ -10,7 +10,7 @@
 
 namespace tactus::ur {
 
-inline constexpr std::size_t kLongestScript = 192 * 1024;
+inline constexpr std::size_t kLongestScript = 256 * 1024;
 
 class Runner {
  public:
@@ -50,6 +50,7 @@ class Runner {
                FetchProgram>
       program_;
   bool paused_ = false;
+  bool braking_ = false;  // from what the program before was doing
   std::array<char, kLongestScript> text_;
   std::array<char, kLongestName> name_{};
   std::size_t name_size_ = 0;

@@ -18,8 +18,22 @@ bool ScriptIntake::next(std::size_t& used, std::string_view& piece) {
     }
     piece = std::string_view(text_.data() + used, scanned_ - used);
     used = scanned_;
-    if (!trimmed(without_comment(piece)).empty()) return true;
+    const bool dropped = dropping_;
+    dropping_ = false;
+    if (!dropped && !trimmed(without_comment(piece)).empty()) return true;
   }
+}
+
+void ScriptIntake::drop() {
+  dropping_ = true;
+  if (scanned_ == 0) {
+    text_[0] = ' ';
+    size_ = 1;
+    return;
+  }
+  std::memmove(text_.data(), text_.data() + scanned_, size_ - scanned_);
+  size_ -= scanned_;
+  scanned_ = 0;
 }
 
 bool run_direct_command(std::string_view line, Runner& runner, Machine& machine) {

@@ -11,15 +11,20 @@ namespace tactus::ur {
 
 class ScriptIntake {
  public:
-  void clear() { size_ = scanned_ = 0, depth_ = 0; }
-  /// Every whole block and line is handed to `sink`, in order. What is longer than a program may be
-  /// is dropped.
+  void clear() {
+    size_ = scanned_ = 0;
+    depth_ = 0;
+    dropping_ = false;
+  }
+  /// Every whole block and line is handed to `sink`, in order. Of what is longer than a program may
+  /// be, `sink` gets a beginning that is too long as well; the rest is dropped.
   template <class Sink>
   void take(const std::uint8_t* data, std::size_t size, Sink&& sink) {
     while (size > 0) {
       const std::size_t part = std::min(size, text_.size() - size_);
       if (part == 0) {
-        clear();
+        if (!dropping_) sink(std::string_view(text_.data(), size_));
+        drop();
         continue;
       }
       std::memcpy(text_.data() + size_, data, part);
@@ -38,10 +43,14 @@ class ScriptIntake {
   /// The next whole piece behind `used` bytes; false: there is none yet.
   bool next(std::size_t& used, std::string_view& piece);
 
-  std::array<char, kLongestScript> text_;
+  /// Makes room, but keeps the line that has begun, or a blank in its place.
+  void drop();
+
+  std::array<char, kLongestScript + 1> text_;
   std::size_t size_ = 0;
   std::size_t scanned_ = 0;  // whole lines that were looked at
   int depth_ = 0;            // of blocks in the first column
+  bool dropping_ = false;    // to the end of a block that was too long
 };
 
 /// A line that is a command to the controller and no program; false: it is none.

@@ -10,66 +10,20 @@ bool is_name(char c, bool first) {
          (!first && c >= '0' && c <= '9');
 }
 
+}  // namespace
+
 void skip_blanks(std::string_view& text) {
   while (!text.empty() && (text[0] == ' ' || text[0] == '\t' || text[0] == '\r'))
     text.remove_prefix(1);
 }
 
-bool eat(std::string_view& text, char c) {
-  skip_blanks(text);
-  if (text.empty() || text[0] != c) return false;
-  text.remove_prefix(1);
-  return true;
-}
-
-bool eat_word(std::string_view& text, std::string_view word) {
-  if (leading_name(text) != word) return false;
-  text.remove_prefix(word.size());
-  return true;
-}
-
 bool read_number(std::string_view& text, double& value) {
   skip_blanks(text);
-  std::string_view rest = text;
-  const bool plus = !rest.empty() && rest[0] == '+';
-  if (plus) rest.remove_prefix(1);
-  const auto [end, code] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc()) return false;
-  rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-  text = rest;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return true;
 }
-
-bool read_elements(std::string_view& text, ScriptValue& value) {
-  if (!eat(text, '[')) return false;
-  while (!eat(text, ']')) {
-    if (value.count > 0 && !eat(text, ',')) return false;
-    if (value.count == value.elements.size() || !read_number(text, value.elements[value.count++]))
-      return false;
-  }
-  return true;
-}
-
-bool read_argument(std::string_view& text, const ScriptVariables& variables,
-                   ScriptCall::Argument& argument) {
-  skip_blanks(text);
-  const std::string_view name = leading_name(text);
-  std::string_view rest = text.substr(name.size());
-  if (!name.empty() && eat(rest, '=')) {
-    argument.name = name;
-    text = rest;
-  }
-  if (read_value(text, argument.value)) return true;
-  skip_blanks(text);
-  const std::string_view variable = leading_name(text);
-  const ScriptValue* value = variables.find(variable);
-  if (value == nullptr) return false;
-  argument.value = *value;
-  text.remove_prefix(variable.size());
-  return true;
-}
-
-}  // namespace
 
 bool next_line(std::string_view& text, std::string_view& line) {
   if (text.empty()) return false;
@@ -113,38 +67,9 @@ bool number_after(std::string_view text, std::string_view key, double& value) {
   return read_number(text, value);
 }
 
-bool read_value(std::string_view& text, ScriptValue& value) {
-  using Kind = ScriptValue::Kind;
-  std::string_view rest = text;
-  skip_blanks(rest);
-  value = {};
-  if (eat(rest, '"')) {
-    const std::size_t end = rest.find('"');
-    if (end == std::string_view::npos) return false;
-    value.kind = Kind::kText;
-    value.text = rest.substr(0, end);
-    rest.remove_prefix(end + 1);
-  } else if (eat_word(rest, "True") || eat_word(rest, "False")) {
-    value.kind = Kind::kBool;
-    value.number = rest.data()[-1] == 'e' && rest.data()[-2] == 'u' ? 1.0 : 0.0;
-  } else if (starts_with(rest, "p[")) {
-    rest.remove_prefix(1);
-    value.kind = Kind::kPose;
-    if (!read_elements(rest, value)) return false;
-  } else if (starts_with(rest, "[")) {
-    value.kind = Kind::kList;
-    if (!read_elements(rest, value)) return false;
-  } else {
-    value.kind = Kind::kNumber;
-    if (!read_number(rest, value.number)) return false;
-  }
-  text = rest;
-  return true;
-}
-
 const ScriptValue* ScriptCall::find(std::string_view argument, std::size_t position) const {
   for (std::size_t i = 0; i < count; ++i) {
-    if (arguments[i].name == argument) return &arguments[i].value;
+    if (!argument.empty() && arguments[i].name == argument) return &arguments[i].value;
     if (i == position && arguments[i].name.empty()) return &arguments[i].value;
   }
   return nullptr;
@@ -161,26 +86,19 @@ const ScriptValue* ScriptVariables::find(std::string_view name) const {
   return nullptr;
 }
 
-void ScriptVariables::set(std::string_view name, const ScriptValue& value) {
+ScriptValue* ScriptVariables::find(std::string_view name) {
   for (std::size_t i = 0; i < count; ++i)
-    if (rows[i].name == name) {
-      rows[i].value = value;
-      return;
-    }
-  if (count < rows.size()) rows[count++] = {name, value};
+    if (rows[i].name == name) return &rows[i].value;
+  return nullptr;
 }
 
-bool read_call(std::string_view text, const ScriptVariables& variables, ScriptCall& call) {
-  call = {};
-  skip_blanks(text);
-  call.name = leading_name(text);
-  text.remove_prefix(call.name.size());
-  if (call.name.empty() || !eat(text, '(')) return false;
-  while (!eat(text, ')')) {
-    if (call.count > 0 && !eat(text, ',')) return false;
-    if (call.count == ScriptCall::kMost) return false;
-    if (!read_argument(text, variables, call.arguments[call.count++])) return false;
+bool ScriptVariables::set(std::string_view name, const ScriptValue& value) {
+  if (ScriptValue* known = find(name)) {
+    *known = value;
+    return true;
   }
+  if (count == rows.size()) return false;
+  rows[count++] = {name, value};
   return true;
 }
 

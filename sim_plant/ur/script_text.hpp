@@ -1,5 +1,4 @@
-// The little of URScript's text that is read: lines, calls, and values that are written out. There
-// is no general interpreter here.
+// The text of URScript: lines, names, numbers; and what it speaks of: values, variables, calls.
 #pragma once
 
 #include <array>
@@ -10,6 +9,9 @@
 
 namespace tactus::ur {
 
+void skip_blanks(std::string_view& text);
+/// Takes a number without a minus off the text; false: there is none.
+bool read_number(std::string_view& text, double& value);
 /// Lines of a text, without their ends. False: there is no other.
 bool next_line(std::string_view& text, std::string_view& line);
 std::string_view trimmed(std::string_view text);
@@ -34,9 +36,6 @@ struct ScriptValue {
   Vector6 vector() const { return Vector6(elements.data()); }
 };
 
-/// A value that is written out. Takes it off the text; false: it is none.
-bool read_value(std::string_view& text, ScriptValue& value);
-
 /// A call with arguments that are values: by position, or by name.
 struct ScriptCall {
   static constexpr std::size_t kMost = 10;
@@ -59,14 +58,12 @@ struct ScriptVariables {
     std::string_view name;
     ScriptValue value;
   };
-  std::array<Row, 24> rows;
+  std::array<Row, 64> rows;
   std::size_t count = 0;
 
   const ScriptValue* find(std::string_view name) const;
-  void set(std::string_view name, const ScriptValue& value);
+  ScriptValue* find(std::string_view name);
+  /// False: there is no room for another.
+  bool set(std::string_view name, const ScriptValue& value);
 };
-
-/// Reads "name(arguments)"; false: the text is no such call, or an argument is no value.
-bool read_call(std::string_view text, const ScriptVariables& variables, ScriptCall& call);
-
 }  // namespace tactus::ur

@@ -1,15 +1,40 @@
 #include "sim_plant/ur/servo_script.hpp"
 
-#include "sim_plant/ur/script_text.hpp"
+#include <algorithm>
+
+#include "sim_plant/ur/script_expression.hpp"
 
 namespace tactus::ur {
+namespace {
+
+/// Lookahead and gain of one call, by name or as its fifth and sixth argument; false: it has
+/// neither as a number.
+bool read_servo_law(std::string_view arguments, ServoLaw& law) {
+  bool found = false;
+  for (int i = 0; !arguments.empty(); ++i) {
+    const std::size_t end = std::min(arguments.find(','), arguments.size());
+    std::string_view argument = trimmed(arguments.substr(0, end));
+    arguments.remove_prefix(std::min(end + 1, arguments.size()));
+    const std::string_view name = leading_name(argument);
+    const std::size_t equals = argument.find('=');
+    const bool named = equals != std::string_view::npos;
+    if (named) argument.remove_prefix(equals + 1);
+    const bool lookahead = named ? name == "lookahead_time" : i == 4;
+    const bool gain = named ? name == "gain" : i == 5;
+    if (lookahead) found |= read_number(argument, law.lookahead_s);
+    if (gain) found |= read_number(argument, law.gain);
+  }
+  return found;
+}
+
+}  // namespace
 
 bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place) {
-  const ScriptVariables none;
   for (std::size_t at = text.find(function); at != std::string_view::npos;
        at = text.find(function, at + 1)) {
     ScriptCall call;
-    if (!read_call(text.substr(at), none, call) || call.name != function) continue;
+    std::string_view rest = text.substr(at);
+    if (!read_call(rest, {}, call) || call.name != function) continue;
     const ScriptValue* host = call.find("", 0);
     if (host == nullptr || host->kind != ScriptValue::Kind::kText) continue;
     if (n-- > 0) continue;
@@ -33,10 +58,9 @@ ServoLaw find_servo_law(std::string_view text) {
   ServoLaw law;
   for (std::size_t at = text.find("servoj("); at != std::string_view::npos;
        at = text.find("servoj(", at + 1)) {
-    const std::string_view call = text.substr(at, text.substr(at).find('\n'));
-    const bool lookahead = number_after(call, "lookahead_time=", law.lookahead_s);
-    const bool gain = number_after(call, "gain=", law.gain);
-    if (lookahead || gain) break;
+    std::string_view call = text.substr(at + 7);
+    call = call.substr(0, call.find_first_of(")\n"));
+    if (read_servo_law(call, law)) break;
   }
   return law;
 }

@@ -68,16 +68,16 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
   switch (phase_) {
     case Phase::kIdle:
       return ProgramStep::kEnded;
-    case Phase::kSpline: {
-      const bool more = spline_.command(machine.motion);
-      if (features_.publishes_spline_time) machine.io.output.doubles[1] = spline_.travelled_s();
-      if (more) return ProgramStep::kRunning;
+    case Phase::kSpline:
+      if (spline_step(machine)) return ProgramStep::kRunning;
       phase_ = Phase::kPoints;
       waited_s_ = 0.0;
-      return next_point(machine);
+      [[fallthrough]];
+    case Phase::kPoints: {
+      const ProgramStep step = next_point(machine);
+      if (phase_ == Phase::kSpline) spline_step(machine);  // no cycle lies between two segments
+      return step;
     }
-    case Phase::kPoints:
-      return next_point(machine);
     case Phase::kClearing:
       read_away(machine);
       waited_s_ += kCycle_s;
@@ -91,6 +91,13 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
       return ProgramStep::kEnded;
   }
   return ProgramStep::kEnded;
+}
+
+/// False: the segment is at its end.
+bool TrajectoryRun::spline_step(Machine& machine) {
+  const bool more = spline_.command(machine.motion);
+  if (features_.publishes_spline_time) machine.io.output.doubles[1] = spline_.travelled_s();
+  return more;
 }
 
 ProgramStep TrajectoryRun::next_point(Machine& machine) {

@@ -1,0 +1,137 @@
+#include "hal/ur/servo_script.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+namespace tactus::ur {
+namespace {
+
+// Names between @ are replaced. A CB3 adds no lists, so the joints are written out.
+constexpr std::string_view kText =
+    R"(def tactus_servo():
+  set_tcp(p[@tcp@])
+  set_payload(@payload@, [@com@])
+  @zero@
+  seen = read_input_integer_register(24)
+  write_output_integer_register(24, seen)
+  q = get_target_joint_positions()
+  last = q
+  step = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+  moving = False
+  going = True
+  late = 0
+  while going:
+    count = read_input_integer_register(24)
+    if count < 0:
+      going = False
+    elif count != seen:
+      q = [read_input_float_register(24), read_input_float_register(25), read_input_float_register(26), read_input_float_register(27), read_input_float_register(28), read_input_float_register(29)]
+      off = norm(q[0] - last[0]) + norm(q[1] - last[1]) + norm(q[2] - last[2]) + norm(q[3] - last[3]) + norm(q[4] - last[4]) + norm(q[5] - last[5])
+      steps = count - seen
+      if not moving:
+        going = off <= @first_step@
+      elif steps > 0:
+        step = [(q[0] - last[0]) / steps, (q[1] - last[1]) / steps, (q[2] - last[2]) / steps, (q[3] - last[3]) / steps, (q[4] - last[4]) / steps, (q[5] - last[5]) / steps]
+      end
+      moving = going
+      last = q
+      seen = count
+      late = 0
+    elif moving:
+      late = late + 1
+      fade = 1.0 - late / @patience@
+      q = [q[0] + fade * step[0], q[1] + fade * step[1], q[2] + fade * step[2], q[3] + fade * step[3], q[4] + fade * step[4], q[5] + fade * step[5]]
+      going = fade > 0.0
+    end
+    if moving and going:
+      write_output_integer_register(24, seen)
+      servoj(q, t=@period@, lookahead_time=@lookahead@, gain=@gain@)
+    elif going:
+      sync()
+    end
+  end
+  stopj(@deceleration@)
+  write_output_integer_register(24, -1)
+end
+)";
+
+/// Builds the text; the first value that does not fit leaves it empty.
+class Writer {
+ public:
+  explicit Writer(ServoScriptText& text) : text_(text) {}
+
+  void add(std::string_view characters) {
+    good_ = good_ && characters.size() <= text_.size() - size_;
+    if (!good_) return;
+    std::memcpy(text_.data() + size_, characters.data(), characters.size());
+    size_ += characters.size();
+  }
+  void add(double value) {
+    // With a point, so that the controller takes it for no integer.
+    std::array<char, 32> digits;
+    good_ = good_ && std::abs(value) < 1e6;
+    const auto [end, code] = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                           std::chars_format::fixed, 9);
+    good_ = good_ && code == std::errc();
+    if (good_) add({digits.data(), static_cast<std::size_t>(end - digits.data())});
+  }
+  template <class Vector>
+  void add_list(const Vector& values) {
+    for (int i = 0; i < values.size(); ++i) {
+      if (i > 0) add(", ");
+      add(values[i]);
+    }
+  }
+  std::string_view text() const { return {text_.data(), good_ ? size_ : 0}; }
+
+ private:
+  ServoScriptText& text_;
+  std::size_t size_ = 0;
+  bool good_ = true;
+};
+
+void write(std::string_view name, const ServoScript& script, Writer& writer) {
+  if (name == "tcp") writer.add_list(script.tcp);
+  if (name == "payload") writer.add(script.payload_kg);
+  if (name == "com") writer.add_list(script.payload_com);
+  if (name == "zero") writer.add(script.zero_force ? "zero_ftsensor()" : "sync()");
+  if (name == "first_step") writer.add(script.first_step);
+  if (name == "patience") writer.add(script.patience + 1.0);
+  if (name == "period") writer.add(script.period_s);
+  if (name == "lookahead") writer.add(script.lookahead_s);
+  if (name == "gain") writer.add(script.gain);
+  if (name == "deceleration") writer.add(script.deceleration);
+}
+
+bool within(double value, double low, double high) {
+  return value >= low && value <= high;
+}
+
+bool good(const ServoScript& script) {
+  return script.tcp.allFinite() && script.payload_com.allFinite() &&
+         within(script.payload_kg, 0.0, 100.0) && within(script.period_s, 0.001, 0.1) &&
+         within(script.lookahead_s, 0.03, 0.2) && within(script.gain, 100.0, 2000.0) &&
+         within(script.patience, 1, 125) && within(script.first_step, 0.0, 1.0) &&
+         within(script.deceleration, 0.1, 100.0);
+}
+
+}  // namespace
+
+std::string_view write_servo_script(const ServoScript& script, ServoScriptText& text) {
+  if (!good(script)) return {};
+  Writer writer(text);
+  std::string_view rest = kText;
+  while (!rest.empty()) {
+    const std::size_t begin = rest.find('@');
+    writer.add({rest.data(), begin < rest.size() ? begin : rest.size()});
+    if (begin >= rest.size()) break;
+    rest.remove_prefix(begin + 1);
+    const std::size_t end = rest.find('@');
+    write({rest.data(), end}, script, writer);
+    rest.remove_prefix(end + 1);
+  }
+  return writer.text();
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,48 @@
+// The program that the HAL runs on a UR controller: set-points come through RTDE's input registers
+// and go to servoj, one in every cycle.
+//
+//   input_int_register_24        counts the set-points, from 1 up; negative: end with a stop
+//   input_double_register_24-29  the set-point: six joint positions, rad
+//   output_int_register_24       echo: the count of the last set-point that was used; kServoEnded
+//                                when the program has stopped the arm
+//
+// What the register holds when the program starts is no set-point. The first one must be where the
+// arm is, or the program ends. Where no new one comes in a cycle, the last is carried on with the
+// speed between the last two, which fades to nothing within `patience` cycles; then the arm is
+// stopped and the program ends. A cycle is late by one at most where the two clocks beat, and the
+// next set-point finds the arm where it should be.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "kernel/types.hpp"
+
+namespace tactus::ur {
+
+/// What is written into the text.
+struct ServoScript {
+  Vector6 tcp = Vector6::Zero();  ///< tip in the flange: m, rotation vector in rad
+  double payload_kg = 0.0;
+  Vector3 payload_com = Vector3::Zero();  ///< in the flange, m
+  bool zero_force = false;                ///< set the measured force to zero at the start
+  double period_s = 0.008;                ///< of the controller: 0.008 (CB3) or 0.002
+  double lookahead_s = 0.03;              ///< of servoj, 0.03 to 0.2
+  double gain = 2000.0;                   ///< of servoj, 100 to 2000
+  int patience = 12;                      ///< cycles without a set-point, 1 to 125
+  double first_step = 0.05;               ///< sum over the joints, rad
+  double deceleration = 4.0;              ///< of the stop, rad/s^2
+};
+
+inline constexpr std::string_view kServoProgram = "tactus_servo";
+inline constexpr int kServoRegister = 24;  ///< the first of them, in either direction
+inline constexpr int kServoEnded = -1;
+
+inline constexpr std::size_t kServoScriptSize = 4096;
+using ServoScriptText = std::array<char, kServoScriptSize>;
+
+/// The text, as it goes to port 30001, 30002 or 30003. Empty: a value is out of its range. [init]
+std::string_view write_servo_script(const ServoScript& script, ServoScriptText& text);
+
+}  // namespace tactus::ur

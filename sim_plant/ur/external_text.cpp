@@ -1,0 +1,58 @@
+// What external control's text says: where it connects to, and what tests have added or cut.
+#include <algorithm>
+
+#include "sim_plant/ur/external_control.hpp"
+
+namespace tactus::ur {
+namespace {
+
+constexpr std::string_view kConnect = "connect_socket_with_retry";
+
+/// Some line, without its comment, has this.
+bool says(std::string_view text, std::string_view words) {
+  std::string_view line;
+  while (next_line(text, line))
+    if (without_comment(line).find(words) != std::string_view::npos) return true;
+  return false;
+}
+
+/// Behind the last of the closings that follow the control loop; npos: there is none.
+std::size_t behind_loop(std::string_view text) {
+  std::size_t behind = std::string_view::npos;
+  for (const std::string_view closing :
+       {"socket_close(\"trajectory_socket\")", "socket_close(\"script_command_socket\")",
+        "socket_close(\"reverse_socket\")"}) {
+    const std::size_t at = text.rfind(closing);
+    if (at == std::string_view::npos) continue;
+    const std::size_t end = at + closing.size();
+    behind = behind == std::string_view::npos ? end : std::max(behind, end);
+  }
+  return behind;
+}
+
+}  // namespace
+
+bool ExternalControl::recognises(std::string_view text) {
+  SocketPlace place;
+  return find_socket_named(text, kConnect, kSockets[2], place) ||
+         find_socket_named(text, "socket_open", kSockets[2], place);
+}
+
+void ExternalControl::start(std::string_view text) {
+  *this = {};
+  for (std::size_t i = 0; i < kSockets.size(); ++i)
+    if (!find_socket_named(text, kConnect, kSockets[i], places_[i]))
+      find_socket_named(text, "socket_open", kSockets[i], places_[i]);
+  law_ = find_servo_law(text);
+  TrajectoryRun::Features features;
+  features.tells_cancelled = says(text, "socket_send_int(TRAJECTORY_RESULT_CANCELED");
+  features.publishes_spline_time = says(text, "write_output_float_register(1,");
+  trajectory_.set_features(features);
+  const std::size_t behind = behind_loop(text);
+  if (behind == std::string_view::npos) return;
+  behind_ = text.substr(behind);
+  const auto before = text.substr(0, behind);
+  behind_line_ = static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1;
+}
+
+}  // namespace tactus::ur
