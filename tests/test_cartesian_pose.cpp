@@ -114,7 +114,7 @@ void a_gain_too_large_for_the_period_is_refused_at_the_start(void**) {
   ASSERT_STATUS(bench.start(zero), Status::kUnstableGain);
 
   static Pipeline pipeline;
-  pipeline.append()->emplace<CartesianPose>();
+  pipeline.append({})->emplace<CartesianPose>();
   pipeline.robot.period_us = 50000;
   ASSERT_OK(pipeline.start({}));
   pipeline.robot.period_us = 50001;

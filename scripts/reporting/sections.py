@@ -63,6 +63,8 @@ def flag_words(run, name):
 
 def scalar_words(run, name):
     values = run.values(name)[:, 0]
+    if not np.ptp(values):
+        return f"{name} was {values[0]:.4g} throughout"
     return f"{name} lay between {np.nanmin(values):.4g} and {np.nanmax(values):.4g}"
 
 
@@ -72,6 +74,7 @@ def limit_parts(run):
     words = [scalar_words(run, name) for name in scalars] + [flag_words(run, name) for name in flags]
     words.append(f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
     yield f"<h3>Limits</h3><p>{page.escape('; '.join(words))}.</p>"
+    scalars = [name for name in scalars if np.ptp(run.values(name))]
     if scalars or any(run.values(name).any() for name in flags):
         caption = f"{run.name}: recorded scalars (lines) and flags (bands where set): {', '.join(scalars + flags)}."
         yield page.figure(plots.svg(2.2, plots.draw_limits, run, flags, scalars), caption)

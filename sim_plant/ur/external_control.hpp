@@ -37,25 +37,23 @@ class ExternalControl {
   void leave(bool halts, Machine& machine);
   ProgramStep servo(Machine& machine);
 
-  Phase phase_ = Phase::kConnecting;
+  enum class Servo : std::uint8_t { kNone, kNew, kOld };
+
   std::array<SocketPlace, 3> places_;  // trajectory, script command, reverse
   std::size_t connected_ = 0;
-  int attempts_ = 0;
   double retry_at_s_ = 0.0;
   std::string_view behind_;  // the lines behind the control loop
-  int behind_line_ = 1;
+  int attempts_ = 0, behind_line_ = 1;
   ServoLaw law_;
 
+  Phase phase_ = Phase::kConnecting;
+  Servo servo_ = Servo::kNone;
+  bool halts_ = false, tool_contact_ = false, warned_ = false;
   ControlMode mode_ = ControlMode::kUninitialised;
   Message waiting_{};  // for the old motion to end
-  double timeout_s_ = 0.0, silent_s_ = 0.0;
-  bool halts_ = false;
-  bool tool_contact_ = false;
+  double timeout_s_ = 0.0, silent_s_ = 0.0, log_at_s_ = 0.0;
   Joints servo_q_ = Joints::Zero();
-  enum class Servo : std::uint8_t { kNone, kNew, kOld } servo_ = Servo::kNone;
   Vector6 speed_ = Vector6::Zero();
-  bool warned_ = false;
-  double log_at_s_ = 0.0;
   TrajectoryRun trajectory_;
   LineProgram rest_;
 };

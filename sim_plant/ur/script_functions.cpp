@@ -105,35 +105,30 @@ double norm(const ScriptValue& value) {
 bool of_numbers(const ScriptCall& call, ScriptValue& value) {
   const ScriptValue* first = call.find("", 0);
   if (first == nullptr) return false;
-  const std::string_view name = call.name;
-  const double x = first->number, y = call.number("", 1, 0.0);
-  if (name == "norm")
+  if (call.name == "norm") {
     value = number_value(norm(*first));
-  else if (!first->numeric())
-    return false;
-  else if (name == "d2r")
-    value = number_value(x * kDegree);
-  else if (name == "r2d")
-    value = number_value(x / kDegree);
-  else if (name == "sqrt")
-    value = number_value(std::sqrt(x));
-  else if (name == "sin")
-    value = number_value(std::sin(x));
-  else if (name == "cos")
-    value = number_value(std::cos(x));
-  else if (name == "tan")
-    value = number_value(std::tan(x));
-  else if (name == "floor")
-    value = number_value(std::floor(x));
-  else if (name == "ceil")
-    value = number_value(std::ceil(x));
-  else if (name == "atan2")
-    value = number_value(std::atan2(x, y));
-  else if (name == "pow")
-    value = number_value(std::pow(x, y));
-  else
-    return false;
-  return true;
+    return true;
+  }
+  struct Row {
+    std::string_view name;
+    double (*function)(double, double);
+  };
+  constexpr Row kRows[] = {{"d2r", [](double x, double) { return x * kDegree; }},
+                           {"r2d", [](double x, double) { return x / kDegree; }},
+                           {"sqrt", [](double x, double) { return std::sqrt(x); }},
+                           {"sin", [](double x, double) { return std::sin(x); }},
+                           {"cos", [](double x, double) { return std::cos(x); }},
+                           {"tan", [](double x, double) { return std::tan(x); }},
+                           {"floor", [](double x, double) { return std::floor(x); }},
+                           {"ceil", [](double x, double) { return std::ceil(x); }},
+                           {"atan2", [](double x, double y) { return std::atan2(x, y); }},
+                           {"pow", [](double x, double y) { return std::pow(x, y); }}};
+  for (const Row& row : kRows) {
+    if (row.name != call.name || !first->numeric()) continue;
+    value = number_value(row.function(first->number, call.number("", 1, 0.0)));
+    return true;
+  }
+  return false;
 }
 
 bool of_digital(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
