@@ -34,6 +34,14 @@ class Program:
         self.rows.append(f"{runs} - x_{head:x} {'=' if always else '<='} 0")
         self.objective.append(f"{more} {runs}")
 
+    def choice(self, head, costs):
+        """Each run of the block makes one of these calls, of whatever cost; their variables."""
+        runs = [f"c{len(self.rows)}_{k}_{head:x}" for k in range(len(costs))]
+        self.variables.update(runs)
+        self.rows.append(f"{' + '.join(runs)} - x_{head:x} = 0")
+        self.objective += [f"{cost} {each}" for cost, each in zip(costs, runs)]
+        return runs
+
     def loop(self, group, most):
         """The ways back, of all loops of the group, for each entry of the outermost."""
         back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]

@@ -1,6 +1,6 @@
 # The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
 WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
-WCET_PIPELINES := $(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL))
+WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
 BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
@@ -33,7 +33,7 @@ ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf)
 $(B)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
 $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
