@@ -24,6 +24,6 @@ certificate-host: $(B)/libkernel.a $(B)/stack_painter
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -o $@ $^
+	$(Q)$(CXX) -o $@ $^ -lccd
 $(B)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"build/wcet/$(firstword $(WCET_PIPELINES)).ini"'
 $(B)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=build/wcet/%.ini)

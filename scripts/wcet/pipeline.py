@@ -49,6 +49,9 @@ def tell(facts, path):
     for kind in kinds().values():
         count = sum(kind == step for _, step in steps)
         facts.add("calls", r"Pipeline::step\(", rf"step_block<tactus::{kind}>", str(count))
+        space = kind.removesuffix("ReferenceGenerator") + "Space"
+        if kind.endswith("ReferenceGenerator"):
+            facts.add("calls", r"Pipeline::brake\(", rf"ReferenceGenerator<tactus::{space}>::brake\(", str(count))
     for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
         if command not in keys.get("robot", {}):  # the guard limits what the robot takes
             facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
@@ -78,7 +81,8 @@ def tell_collision(facts, path):
 
 
 def stages(analysis, steps):
-    """The bound of every stage: of each block, of the guard, of reading and writing, and of the whole cycle."""
+    """The bound of every stage: of each block, of the guard's check and limit, of the cycle without rows, of the row that
+    checks collisions, and of the whole."""
     def largest(pattern, without=None):
         found = analysis.image.matching(pattern)
         if not found:
@@ -86,9 +90,8 @@ def stages(analysis, steps):
         return max(analysis.bound(f, without=without) for f in found)
 
     found = {section: largest(rf"step_block<tactus::{kind}>") for section, kind in steps}
+    found["read"] = largest(r"^tactus::Guard::check\(")
     found["guard"] = largest(r"^tactus::Guard::limit\(")
-    found["read"] = largest(r"Hal::read\(") + largest(r"^tactus::Guard::check\(")
-    found["write"] = largest(r"Hal::write\(")
     cycle, row = r"^tactus::Executive::cycle\(", r"::check_collision\("
     found["cycle"] = largest(cycle, row)
     found["collision"] = largest(row)

@@ -43,29 +43,19 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
-wcet-host: $(B)/wcet-replay $(B)/wcet-replay-timed build/wcet/count_plugin.so $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
+wcet-host: $(B)/wcet-replay build/wcet/count_plugin.so $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
            $(WCET_PIPELINES:%=build/wcet/%.ini)
 $(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
 $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
-# Twice the same program: the kernel as it is, and with calls around its stages, to time them.
-REPLAY := $(B)/tests/wcet/replay.o $(call obj,$(PLAYER))
-STAGES := $(B)/wcet/pipeline.o $(B)/wcet/guard/guard.o
-$(B)/wcet/guard/guard.o $(B)/wcet/pipeline.o: $(B)/wcet/%.o: kernel/%.cpp Makefile boards/$(BOARD)/board.mk
-	@mkdir -p $(@D)
-	@echo "  CXX   $< (timed)"
-	$(Q)$(CXX) $(CXXFLAGS) -finstrument-functions -finstrument-functions-exclude-file-list=/usr/,.hpp \
-	  -finstrument-functions-exclude-function-list=allowed,jerky,trip,following,effective -c $< -o $@
 $(B)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
-$(B)/wcet-replay: $(REPLAY) $(B)/libkernel.a
-$(B)/wcet-replay-timed: $(REPLAY) $(STAGES) $(B)/libkernel.a
-$(B)/wcet-replay $(B)/wcet-replay-timed:
+$(B)/wcet-replay: $(B)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -no-pie -o $@ $^
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lccd
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	@mkdir -p $(@D)
 	@echo "  LD    $@"
@@ -77,7 +67,7 @@ ifeq ($(SANITIZE),fuzzer-no-link)
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%)
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
 $(B)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $<"
