@@ -4,17 +4,7 @@ import pathlib
 import re
 
 from wcet.image import ROOT, Unbounded
-
-TYPE = re.compile(r'(?:class|struct)\s+(\w+)[^{;]*\{[^}]*?kType\s*=\s*"(\w+)"', re.DOTALL)
-
-
-def kinds():
-    """The class of every kind of block by its word in a file."""
-    table = {}
-    for file in sorted((ROOT / "kernel").rglob("*.hpp")):
-        for name, word in TYPE.findall(file.read_text(encoding="utf-8")):
-            table[word] = name
-    return table
+from wcet.kinds import kinds
 
 
 def sections(path):

@@ -1,5 +1,6 @@
 # The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
 WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
+# A board with a budget of memory is one that the kernel runs on.
 WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
@@ -8,9 +9,10 @@ BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $
 .PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## worst case of every stage: measured, counted, bounded; build/wcet
 	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
+	$(Q)$(call each,-j2 wcet-bound) > /dev/null
 	$(Q)scripts/wcet/measure $(WCET_ALL)
 	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
-	$(Q)scripts/wcet/search $(WCET_ALL)
+	$(Q)nice scripts/wcet/search $(WCET_ALL)
 	$(Q)scripts/wcet/table $(WCET_ALL)
 wcet-count: wcet-built                        ## the same, instructions only
 	$(Q)scripts/wcet/count $(WCET_ALL)
@@ -31,7 +33,7 @@ build/wcet/%.ini: pipelines/%.ini
 .PRECIOUS: build/wcet/%.ini
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
-wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf)
+wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
 $(B)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 $(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
@@ -43,8 +45,8 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
-wcet-host: $(B)/wcet-replay build/wcet/count_plugin.so $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
-           $(WCET_PIPELINES:%=build/wcet/%.ini)
+wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
+           $(WCET_PIPELINES:%=build/wcet/%.ini) ;
 $(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
@@ -64,7 +66,7 @@ endif
 # make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches; the target itself is not what it counts.
 ifeq ($(SANITIZE),fuzzer-no-link)
 .PHONY: wcet-searches
-wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%)
+wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
