@@ -129,7 +129,7 @@ $(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
 $(CCD_SRCS:%.c=$(B)/%.o): $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	@echo "  CC    $<"
-	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
+	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) $(DEBUG) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
 $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
 $(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 
 // With 2^k <= value < 2^(k+1), the 17 buckets of doubling k share its 2^k values evenly.
@@ -9,7 +11,11 @@ std::size_t Histogram::bucket(std::uint64_t value_ns) {
   const std::uint64_t value = std::min(value_ns, kLongest_ns);
   if (value < kExact) return static_cast<std::size_t>(value);
   std::uint64_t k = kFirst;
-  while ((value >> k) > 1) ++k;  // bounded by kLongest_ns
+  LoopBound<22> doublings;  // to kLast, since the value is at most kLongest_ns
+  while ((value >> k) > 1) {
+    doublings.tick();
+    ++k;
+  }
   const std::uint64_t part = ((value - (std::uint64_t{1} << k)) * kPerDoubling) >> k;
   return static_cast<std::size_t>(kExact + kPerDoubling * (k - kFirst) + part);
 }

@@ -1,5 +1,5 @@
 // The tools that measure and count the worst case: shown what they must find. Runs from the root of
-// the project; what needs the emulator is skipped where there is none, or no image.
+// the project; what needs the emulator or the compiler for it is skipped where there is none.
 #include <cstdlib>
 
 #include "tests/testing.hpp"
@@ -23,13 +23,13 @@ void a_known_level_is_within_the_interval_in_most_draws(void**) {
   assert_true(passes(PYTHON "import numpy, extremes\n"
                             "inside, quoted, shape, p = 0, 0, 0.1, 1e-3\n"
                             "true = 7 + 2 * ((-numpy.log1p(-p)) ** -shape - 1) / shape\n"
-                            "for seed in range(8):\n"
+                            "for seed in range(5):\n"
                             "    u = numpy.random.default_rng(seed).uniform(size=300)\n"
                             "    values = 7 + 2 * ((-numpy.log(u)) ** -shape - 1) / shape\n"
                             "    e = extremes.extremes(values, 1, p)\n"
                             "    quoted += not e.why\n"
                             "    inside += e.low <= true <= e.high if not e.why else 0\n"
-                            "assert quoted >= 5 and inside >= 0.75 * quoted, (quoted, inside)\""));
+                            "assert quoted >= 3 and inside >= 0.75 * quoted, (quoted, inside)\""));
 }
 
 void what_breaks_an_assumption_is_not_quoted_and_named(void**) {
@@ -78,24 +78,23 @@ void a_loop_counted_by_hand_has_the_plugins_count(void**) {
 // Proves TIM-3.
 
 void twice_the_same_tapes_give_the_same_counts(void**) {
-  need("command -v qemu-system-arm >/dev/null");
-  need("test -e build/fer_sim-m7/wcet-fer_trg_ac_cpc_pid.elf");
-  need(
-      "mkdir -p build/wcet && gcc -O2 -shared -fPIC -o build/wcet/test_plugin.so "
-      "tests/wcet/count_plugin.c");
+  need("command -v qemu-system-arm arm-none-eabi-g++ >/dev/null");
+  assert_true(passes("env -u MAKEFLAGS make -s BOARD=fer_sim ARCH=m7 SANITIZE= wcet-images"));
   assert_true(
-      passes(PYTHON
-             "import emulator, hostile, random\n"
-             "text = open('build/wcet/fer_trg_ac_cpc_pid.ini').read()\n"
-             "stages = emulator.stages(text)\n"
-             "tapes = [t.data for t in hostile.by_hand(7)[-4:]] + [hostile.at_random(7, 5).data]\n"
-             "tapes += [random.Random(seed).randbytes(300) for seed in range(20)]\n"
-             "count = lambda: emulator.count('build/fer_sim-m7/wcet-fer_trg_ac_cpc_pid.elf',\n"
-             "    'build/wcet/test_plugin.so', stages.values(), tapes)\n"
-             "first, second = count(), count()\n"
-             "assert first == second and len(first) == 25\n"
-             "rows = [row for _, mine in first for row in mine]\n"
-             "assert all(row[0] > sum(row[1:]) for row in rows) and max(rows)[0] > 200000\""));
+      passes("gcc -O2 -shared -fPIC -o build/wcet/test_plugin.so tests/wcet/count_plugin.c"));
+  assert_true(passes(
+      PYTHON
+      "import emulator, hostile, random\n"
+      "text = open('build/wcet/fer_trg_ac_cpc_pid.ini').read()\n"
+      "stages = emulator.stages(text)\n"
+      "tapes = [t.data for t in hostile.by_hand(7)[22:24]] + [hostile.at_random(7, 5).data]\n"
+      "tapes += [random.Random(seed).randbytes(300) for seed in range(8)]\n"
+      "count = lambda: emulator.count('build/fer_sim-m7/wcet-fer_trg_ac_cpc_pid.elf',\n"
+      "    'build/wcet/test_plugin.so', stages.values(), tapes)\n"
+      "first, second = count(), count()\n"
+      "assert first == second and len(first) == 11\n"
+      "rows = [row for _, mine in first for row in mine]\n"
+      "assert all(row[0] > sum(row[1:]) for row in rows) and max(rows)[0] > 200000\""));
 }
 
 // Proves TIM-4.
@@ -118,6 +117,17 @@ void a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash(void**) {
       "$d"));
 }
 
+void a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error(void**) {
+  assert_true(passes(
+      "d=$(mktemp -d) && root=$PWD && mkdir -p $d/build/wcet/x && cd $d/build/wcet/x && "
+      "echo '{\"symbols\": {}, \"stages\": {\"cycle\": {\"typical\": {\"instructions\": 5}, "
+      "\"worst\": {\"instructions\": 60, \"tape\": \"t\", \"cycle\": 3}}}}' >counted.json && "
+      "bound() { echo '{\"stages\": {\"cycle\": {\"instructions\": '$1'}}}' >bounds.json; } && "
+      "bound 120 && (cd $d && $root/scripts/wcet/table x >out) && bound 121 && cd $d && "
+      "! $root/scripts/wcet/table x >out 2>err && "
+      "grep -q 'x: cycle: its tightness is 0.496, less than 0.5' err && rm -r $d"));
+}
+
 }  // namespace
 
 int main() {
@@ -127,6 +137,7 @@ int main() {
       cmocka_unit_test(a_loop_counted_by_hand_has_the_plugins_count),
       cmocka_unit_test(twice_the_same_tapes_give_the_same_counts),
       cmocka_unit_test(a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash),
+      cmocka_unit_test(a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

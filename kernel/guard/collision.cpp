@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/loop_bound.hpp"
+
 namespace tactus {
 namespace {
 
@@ -86,14 +88,18 @@ Status Collision::check(const RobotState& measured) {
   ++telemetry_.checks;
   telemetry_.support_calls = 0;
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
+  LoopBound<kMaxObstacles> obstacles;
   for (int i = 0; i < scene_->box_count(); ++i) {
+    obstacles.tick();
     const auto box = static_cast<std::size_t>(i);
     const Cuboid& cuboid = *scene_->boxes[box];
     boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
   }
   Status status = check_at(measured.q, JointVector::Zero(), false);
   if (status == Status::kOk) {
+    LoopBound<1 + kSections> sections;
     for (const JointBox& box : stopping_boxes(braking_, measured.q, measured.dq)) {
+      sections.tick();
       status = check_at(box.middle, box.half, true);
       if (status != Status::kOk) break;
     }
@@ -109,13 +115,18 @@ Status Collision::check_at(const JointVector& q, const JointVector& half, bool p
     const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
     placed_[i] = {frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius};
   }
+  LoopBound<kMaxPairs> pairs;
   for (int i = 0; i < pair_count_; ++i) {
+    pairs.tick();
     const Pair& pair = pairs_[static_cast<std::size_t>(i)];
     const Body& moving = bodies_[static_cast<std::size_t>(pair.second)];
     const int still = pair.first < 0 ? 0 : bodies_[static_cast<std::size_t>(pair.first)].link;
     double sweep = 0.0;
-    for (int joint = still; joint < moving.link; ++joint)
+    LoopBound<kDof> joints;
+    for (int joint = still; joint < moving.link; ++joint) {
+      joints.tick();
       sweep += moving.reach[joint] * half[joint];
+    }
     if (!apart(pair, margin_ + sweep)) return contact(pair, sweep, predicted);
   }
   return Status::kOk;

@@ -6,14 +6,15 @@ EXCEPTION := 108
 
 .PHONY: wcet-bound certificate certificate-host certificate-m7
 wcet-bound:                                   ## the static bound of the cycle of BOARD, of its longest pipeline
-	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/$(BOARD)-m7/bounds-%.json)
-build/$(BOARD)-m7/bounds-%.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
+	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/wcet/%/bounds.json)
+build/wcet/%/bounds.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
+	@mkdir -p $(@D)
 	$(Q)scripts/wcet_bound $< pipelines/$*.ini --dof $(DOF_$(ROBOT)) --out $@ > $(@:.json=.txt)
 	@cat $(@:.json=.txt)
 
 certificate:                                  ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
-	$(Q)$(MAKE) --no-print-directory certificate-host
-	$(Q)$(MAKE) --no-print-directory ARCH=m7 certificate-m7
+	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
+	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
 certificate-m7: $(B)/libkernel.a $(B)/link.elf
 	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(B)/kernel --image $(B)/link.elf --tools $(CROSS_m7) \
 	  --static-budget $(STATIC_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
@@ -24,6 +25,6 @@ certificate-host: $(B)/libkernel.a $(B)/stack_painter
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -o $@ $^
+	$(Q)$(CXX) -o $@ $^ -lccd
 $(B)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"build/wcet/$(firstword $(WCET_PIPELINES)).ini"'
 $(B)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=build/wcet/%.ini)

@@ -10,30 +10,36 @@ import subprocess
 import tempfile
 
 import tape
+from kinds import kinds
 
-CYCLE = "cycle"
+CYCLE, ROWS, COLLISION = "cycle", "with rows", "collision"
 
 
 class CountError(Exception):
     pass
 
 
-def camel_case(word):
-    """robot_model -> RobotModel: the kind of a block by the word for it."""
-    return "".join(part.capitalize() for part in word.split("_"))
-
-
 def stages(text):
-    """The stages of a pipeline file, in order: {name: what its function's demangled name begins with}."""
-    found = {CYCLE: "tactus::Executive::cycle(", "check": "tactus::Guard::check("}
-    section = None
+    """The functions of a pipeline file's cycle, the whole first: {stage: what the demangled name begins with}."""
+    found = {ROWS: "tactus::Executive::cycle(", "read": "tactus::Guard::check("}
+    section, classes = None, kinds()
     for line in text.splitlines():
         if match := re.match(r"\[(\w+)\]", line):
             section = match[1]
+            if section == COLLISION:
+                found[COLLISION] = "tactus::(anonymous namespace)::check_collision("
         elif match := re.match(r"type\s*=\s*(\w+)", line):
-            found[section] = f"tactus::Status tactus::step_block<tactus::{camel_case(match[1])}>("
+            found[section] = f"tactus::Status tactus::step_block<tactus::{classes[match[1]]}>("
     found["guard"] = "tactus::Guard::limit("
+    if COLLISION in found:
+        found[COLLISION] = found.pop(COLLISION)
     return found
+
+
+def shares(stages, row):
+    """A row of counts or times of these stages by stage, and the cycle's: the whole without its rows."""
+    each = dict(zip(stages, row))
+    return {CYCLE: each[ROWS] - each.get(COLLISION, 0)} | each
 
 
 def symbols(image, nm="arm-none-eabi-nm"):

@@ -10,6 +10,8 @@ line.
     words    FUNCTION  REGISTER  N      the same, a word at a time where the register holds a multiple of four
     calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
     reaches  FUNCTION  CALLEE  INNER  N   of its calls of CALLEE, at most N get to INNER, each time it is called itself
+    total    FUNCTION  CALLEE  N        the one loop of CALLEE, which only FUNCTION gets to, runs at most N times in all
+                                        each time FUNCTION is called
     targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
     assume   FUNCTION  N       WHY      takes N instructions, not looked into
 """
@@ -18,7 +20,7 @@ import re
 
 from wcet.image import Unbounded
 
-KINDS = {"loop": 3, "size": 3, "words": 3, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
+KINDS = {"loop": 3, "size": 3, "words": 3, "calls": 3, "reaches": 4, "total": 3, "targets": 3, "assume": 3}
 
 
 class Facts:
@@ -66,6 +68,14 @@ class Facts:
 
     def reaches(self, function):
         return [(callee, inner, self.number(most)) for callee, inner, most in self._of("reaches", function)]
+
+    def totals(self, function):
+        """(callee, N) of loops that are counted over a whole call of this function."""
+        return [(callee, self.number(most)) for callee, most in self._of("total", function)]
+
+    def counted_above(self, function):
+        """True if the runs of this function's loop are counted over a call of another."""
+        return any(words[0] == "total" and re.search(words[2], function.written) for words in self.facts)
 
     def targets(self, function, text):
         """Patterns of what a call through a pointer may reach; None if nothing is said."""

@@ -1,6 +1,6 @@
-"""Times the cycles of tapes on this host, and counts the instructions of some of them by callgrind.
+"""Times the cycles of tapes on this host, by the executive's own stopwatch, and counts the instructions of some of them by callgrind.
 
-Needs wcet-replay and wcet-replay-timed of a board.
+Needs wcet-replay of a board.
 """
 
 import pathlib
@@ -13,19 +13,18 @@ import tape
 from inputs import BUILD, board_of
 
 
-def replay(pipeline, suffix=""):
-    return pathlib.Path("build") / board_of(pipeline) / f"wcet-replay{suffix}"
+def replay(pipeline):
+    return pathlib.Path("build") / board_of(pipeline) / "wcet-replay"
 
 
-def times(pipeline, prefixes, tapes):
-    """A row for every cycle of all tapes, in ns: the cycle's, and that of each function meanwhile."""
-    program = replay(pipeline, "-timed")
+def times(pipeline, tapes):
+    """(names of what the executive times, a row for every cycle of all tapes, in ns; 0 where something did not run)."""
     with tempfile.TemporaryDirectory() as folder:
         reel, out = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "times"
         tape.write_reel(reel, tapes)
-        watched = [f"{address:x}" for address in emulator.addresses(program, prefixes, "nm")]
-        subprocess.run([program, BUILD / f"{pipeline}.ini", reel, "times", out, *watched], check=True)
-        return [tuple(map(int, line.split())) for line in out.read_text().splitlines()]
+        subprocess.run([replay(pipeline), BUILD / f"{pipeline}.ini", reel, "times", out], check=True)
+        names, *lines = out.read_text().splitlines()
+        return names.split(), [tuple(map(int, line.split())) for line in lines]
 
 
 def inclusive(dump, prefix):
@@ -36,9 +35,9 @@ def inclusive(dump, prefix):
     return max((int(match.replace(",", "")) for match in pattern.findall(listing)), default=0)
 
 
-def counts(pipeline, wanted, tapes):
-    """wanted: {stage: (function's prefix, tape, cycle)} with the tape by number. {stage: instructions}."""
-    cycles = sorted({f"{number}:{cycle}" for _, number, cycle in wanted.values()})
+def counts(pipeline, wanted, stages, tapes):
+    """wanted: {stage: (tape by number, cycle)}; stages: {stage: function's prefix}. {stage: instructions}."""
+    cycles = sorted({f"{number}:{cycle}" for number, cycle in wanted.values()})
     with tempfile.TemporaryDirectory() as folder:
         reel, out = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "dump"
         tape.write_reel(reel, tapes)
@@ -49,6 +48,8 @@ def counts(pipeline, wanted, tapes):
         for path in pathlib.Path(folder).glob("dump.*"):
             if match := re.search(r"Client Request: ([\d:]+)", path.read_text()):
                 dumps[match[1]] = path
-        return {
-            stage: inclusive(dumps[f"{number}:{cycle}"], prefix) for stage, (prefix, number, cycle) in wanted.items()
-        }
+        found = {}
+        for stage, (number, cycle) in wanted.items():
+            rows = [inclusive(dumps[f"{number}:{cycle}"], prefix) for prefix in stages.values()]
+            found[stage] = emulator.shares(stages, rows)[stage]
+        return found

@@ -63,10 +63,38 @@ def all_at_once(dof, signs, velocity, step):
     return tape.cycles(8)
 
 
+# Late trajectories whose way in is judged at its dearest: near a corner of the workspace and moving on towards it, the
+# hull of every axis is outside the box and the way itself is not, so that all extremes are looked for, and many are found.
+# Frames, corner, steps back from it, twist and acceleration there, how late, how long the way, where to, and the twist there.
+EDGES = (
+    (ALL_FRAMES, (-1, -1, 1), (19, 3, 15), (-16, -4, -13, 9, -18, -2), (-43, 0, -12, 24, -6, 21), 37, 199,
+     (3, 17, 8, 0, -15, 11), (0, 21, -2, 29, -15, -20), CORNERED[1][0]),
+    (BASE, (1, -1, -1), (16, 12, 21), (18, -18, -19, -15, 5, 9), (2, -28, -6, -29, 14, 33), 36, 198,
+     (-16, 14, 12, -1, -13, 6), (3, -1, -24, 27, -30, -14), CORNERED[3][0]),
+)  # fmt: skip
+
+
+def at_edge(dof, frames, corner, back, twist, acceleration, cycles, time, beside, end, signs):
+    """Points into a corner of the workspace; then, between two checks of collisions, joints at their limits, a full mailbox
+    and a late trajectory."""
+    tape = Tape().numbers("joints", READY[dof]).cycles(2)
+    for axis in range(3):
+        for step in (127,) * 12 + (64, 32, 16, 8, 4, 2, 1):  # those that lead outside are refused
+            tape.point(BASE, POINT, [corner[axis] * step if i == axis else 0 for i in range(6)]).cycles(1)
+    tape.point(BASE, POINT, [-corner[i] * back[i] for i in range(3)] + [0, 0, 0]).cycles(3)
+    tape.numbers("joints", [127 * sign for sign in signs[:dof]])
+    for _ in range(14):
+        tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + twist + (2, 2, 2, 2, 2, 2) + REST)
+    tape.point(BASE, EVERYTHING, REST + twist + acceleration + (1, 1, 1, 1, 1, 1))
+    waypoints = [(time, beside + end + REST + (5, 4, 3, 2, 1, 1)), (200, beside + REST + REST + REST)]
+    return tape.trajectory(frames, EVERYTHING, QUINTIC, -cycles, waypoints).cycles(1)
+
+
 def by_hand(dof):
     tapes = [joined(dof, stream, joins, step) for stream in (0, 1, 13) for joins in (1, 3) for step in (1, 4, 12)]
     signs = (1, -1, 1, -1, 1, -1, 1)
     tapes += [at_limits(dof, turned, v) for turned in (signs, [-s for s in signs]) for v in ((90, 60, -60) * 2, REST)]
+    tapes += [at_edge(dof, *edge) for edge in EDGES]
     return tapes + [all_at_once(dof, corner, twist, step) for corner, twist in CORNERED for step in (1, 12)]
 
 

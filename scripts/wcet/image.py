@@ -10,7 +10,7 @@ import capstone
 from elftools.elf.elffile import ELFFile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MARKER = re.compile(r"\$[tda](\.|$)")
+NOWHERE = 0xFFFFFFFF
 
 
 class Unbounded(Exception):
@@ -28,8 +28,10 @@ class Function:
 
 
 class Image:
-    def __init__(self, path, addr2line="arm-none-eabi-addr2line"):
-        self.path, self.addr2line, self._places, self._conditional = str(path), addr2line, {}, {}
+    def __init__(self, path):
+        self.path, self._places, self._conditional = str(path), {}, {}
+        command = ["arm-none-eabi-addr2line", "-e", self.path, "-i", "-a"]
+        self._addr2line = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         with open(path, "rb") as file:
             elf = ELFFile(file)
             self._segments = [
@@ -79,20 +81,17 @@ class Image:
         return found
 
     def learn_places(self, addresses):
-        """Asks for all places at once: one process per question would be slow."""
-        wanted = sorted(set(addresses) - set(self._places))
-        if not wanted:
-            return
-        text = subprocess.run(
-            [self.addr2line, "-e", self.path, "-i", "-a"],
-            input="\n".join(f"{a:x}" for a in wanted),
-            capture_output=True, text=True, check=True,
-        ).stdout
-        for line in text.splitlines():
-            if line.startswith("0x"):
-                here = self._places[int(line, 16)] = []
-            elif match := re.match(r"(.+):(\d+)", line):
-                here.append((relative(match[1]), int(match[2])))
+        """Asks one process for all of them; what it answers to a number that is no address ends its answer."""
+        for address in sorted(set(addresses) - set(self._places)):
+            self._addr2line.stdin.write(f"{address:x}\n{NOWHERE:x}\n")
+            self._addr2line.stdin.flush()
+            here = self._places[address] = []
+            for line in iter(self._addr2line.stdout.readline, f"0x{NOWHERE:08x}\n"):
+                if not line:
+                    raise Unbounded(f"{self.path}: addr2line has ended")
+                if match := re.match(r"(?!0x)(.+):(\d+)", line):
+                    here.append((relative(match[1]), int(match[2])))
+            self._addr2line.stdout.readline()
 
     def places(self, address):
         """Source file and line of an address, then those of the calls that were inlined around it."""

@@ -14,6 +14,14 @@ from wcet.loops import loops
 from wcet.program import Program
 
 
+MANY = 10  # runs of a loop after which each further one costs the same
+
+
+def either(*patterns):
+    """A pattern of what one of these matches."""
+    return "|".join(f"(?:{p})" for p in patterns if p)
+
+
 class Analysis:
     """`cost` gives the cost of one instruction; `shared` are the graphs of another analysis of the same image."""
 
@@ -44,6 +52,8 @@ class Analysis:
         """The largest cost of one call, that of its callees included; `without` is what it does not get to."""
         if without and not self._reaches(function, without):
             without = None
+        if size is None and self.facts.counted_above(function):
+            size = 0
         key = (function.begin, size, without)
         if key in self.bounds:
             return self.bounds[key]
@@ -89,18 +99,25 @@ class Analysis:
 
     def _solve(self, function, size, without):
         graph = self.graph(function)
-        program, rare = Program(graph), self.facts.reaches(function)
+        program, rare, sites = Program(graph), self.facts.reaches(function), []
         for head, block in graph.blocks.items():
             cost, feasible = sum(map(self.cost, block.instructions)), True
             for i in block.instructions:
                 if i.address not in graph.calls:
                     continue
-                callees = self.callees(graph, i.address)
-                feasible = feasible and bool(callees) and not any(without and re.search(without, f.written) for f in callees)
+                callees = self._left(graph, i.address, without)
                 limit = next((r for r in rare if any(re.search(r[0], f.written) for f in callees)), None)
-                full = self._dearest(graph, callees, block, i, without)
-                usual = self._dearest(graph, callees, block, i, limit[1]) if limit else full
+                full = usual = self._dearest(graph, callees, block, i, without)
+                if limit:
+                    rest = either(without, limit[1])
+                    usual = self._dearest(graph, self._left(graph, i.address, rest), block, i, rest)
                 feasible = feasible and full is not None
+                if len(callees) > 1 and not limit:
+                    each = [(f, self._dearest(graph, [f], block, i, without)) for f in callees]
+                    each = [(f, cost) for f, cost in each if cost is not None]
+                    sites += zip(program.choice(head, [cost for _, cost in each]), [f for f, _ in each])
+                    continue
+                sites += [(f"x_{head:x}", f) for f in callees]
                 if full != usual:
                     program.rarely(head, (full or 0) - (usual or 0), limit, always=usual is None)
                 cost += usual or 0
@@ -110,21 +127,37 @@ class Analysis:
             if scope:
                 program.sum_of_runs(group[0], most, scope)
         for pattern, most in self.facts.calls(function):
-            sites = [h for h, b in graph.blocks.items() for i in b.instructions
-                     if i.address in graph.calls and any(re.search(pattern, f.written) for f in self.callees(graph, i.address))]
-            program.at_most([f"x_{h:x}" for h in sites], most)
+            program.at_most([runs for runs, callee in sites if re.search(pattern, callee.written)], most)
         longest = program.solve(function)
         if longest is not None and self._loops[function.begin] and size is None and not without and not rare:
             walked = self._walk(graph)
             longest = longest if walked is None else min(longest, walked)
         if longest is None and not without:
             raise Unbounded(f"{function}: no path leads through it")
+        if longest is not None:
+            longest += sum(most * self._of_one_run(callee) for callee, most in self.facts.totals(function))
         return longest
+
+    def _of_one_run(self, pattern):
+        """What each further run of the one loop of a function costs at most."""
+        costs = []
+        for callee in self.image.matching(pattern):
+            self.graph(callee)
+            if len(self._loops[callee.begin]) != 1:
+                raise Unbounded(f"{callee}: not one loop, whose runs could be counted over several calls")
+            costs.append(self.bound(callee, MANY + 1) - self.bound(callee, MANY))
+        if not costs:
+            raise Unbounded(f"{self.image.path}: no function matches {pattern}")
+        return max(costs)
 
     def _dearest(self, graph, callees, block, call, without):
         """The largest bound of what is called here; None if all of it gets to `without`."""
         bounds = [self.bound(f, self._size_at(graph, f, block, call), without) for f in callees]
-        return max((b for b in bounds if b is not None), default=None if bounds else 0)
+        return max((b for b in bounds if b is not None), default=None)
+
+    def _left(self, graph, address, without):
+        """What a call may reach but for what matches `without`."""
+        return [f for f in self.callees(graph, address) if not (without and re.search(without, f.written))]
 
     def callees(self, graph, address):
         """What a call may reach; nothing if it is never made."""

@@ -4,17 +4,7 @@ import pathlib
 import re
 
 from wcet.image import ROOT, Unbounded
-
-TYPE = re.compile(r'(?:class|struct)\s+(\w+)[^{;]*\{[^}]*?kType\s*=\s*"(\w+)"', re.DOTALL)
-
-
-def kinds():
-    """The class of every kind of block by its word in a file."""
-    table = {}
-    for file in sorted((ROOT / "kernel").rglob("*.hpp")):
-        for name, word in TYPE.findall(file.read_text(encoding="utf-8")):
-            table[word] = name
-    return table
+from wcet.kinds import kinds
 
 
 def sections(path):
@@ -43,10 +33,15 @@ def tell(facts, path):
     """Adds what the file says: as many steps as it has blocks, of each kind as many as it has; and what its settings,
     which no cycle changes, rule out."""
     steps, keys = blocks(path), dict(sections(path))
-    facts.add("loop", r"Pipeline::step\(", r"i < count_", str(len(steps)))
+    facts.add("loop", r"Pipeline::(step|brake)\(", r"i < count_", str(len(steps)))
+    facts.add("loop", r"Executive::", r"i < pipeline_\.schedule\.count\(\)", str(2 + ("collision" in keys)))
+    tell_collision(facts, path)
     for kind in kinds().values():
         count = sum(kind == step for _, step in steps)
         facts.add("calls", r"Pipeline::step\(", rf"step_block<tactus::{kind}>", str(count))
+        space = kind.removesuffix("ReferenceGenerator") + "Space"
+        if kind.endswith("ReferenceGenerator"):
+            facts.add("calls", r"Pipeline::brake\(", rf"ReferenceGenerator<tactus::{space}>::brake\(", str(count))
     for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
         if command not in keys.get("robot", {}):  # the guard limits what the robot takes
             facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
@@ -54,17 +49,41 @@ def tell(facts, path):
         facts.add("calls", r"ReferenceGenerator<.*>::watch_stream\(", r"::shape\(", "0")
 
 
+def robot_capsules(robot):
+    """The link of every capsule of a robot's table, and the tool, the link after the last."""
+    table = (ROOT / "kernel/model" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
+    links = [int(link) for link in re.findall(r"^\s*\{(\d+),\s*\{", table, re.MULTILINE)]
+    return [*links, max(links) + 1]
+
+
+def tell_collision(facts, path):
+    """How many shapes a check of collisions looks at, and how often it iterates: two support points each time."""
+    keys, boxes = dict(sections(path)), sum(word == "BoxObstacle" for _, word in blocks(path))
+    links = robot_capsules(keys["robot"]["name"])
+    pairs = sum(second - first >= 2 for i, second in enumerate(links) for first in links[:i])
+    pairs += boxes * sum(link > 0 for link in links)
+    default = re.search(r"support_calls = (\d+);", (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8"))
+    supports = int(keys.get("collision", {}).get("support_calls", default[1]))
+    facts.add("loop", r"Collision::", r"bodies_\.size\(\)", str(len(links)))
+    facts.add("loop", r"Collision::", r"< scene_->box_count\(\)", str(boxes))
+    facts.add("loop", r"Collision::", r"i < pair_count_", str(pairs))
+    facts.add("total", r"tactus::Collision::check\(", r"^__ccdGJK$", str(supports // 2))
+
+
 def stages(analysis, steps):
-    """The bound of every stage: of each block, of the guard, of reading and writing, and of the whole cycle."""
-    def largest(pattern):
+    """The bound of every stage: of each block, of the guard's check and limit, of the cycle without rows, of the row that
+    checks collisions, and of the whole."""
+    def largest(pattern, without=None):
         found = analysis.image.matching(pattern)
         if not found:
             raise Unbounded(f"{analysis.image.path}: no function matches {pattern}")
-        return max(analysis.bound(f) for f in found)
+        return max(analysis.bound(f, without=without) for f in found)
 
     found = {section: largest(rf"step_block<tactus::{kind}>") for section, kind in steps}
+    found["read"] = largest(r"^tactus::Guard::check\(")
     found["guard"] = largest(r"^tactus::Guard::limit\(")
-    found["read"] = largest(r"Hal::read\(") + largest(r"^tactus::Guard::check\(")
-    found["write"] = largest(r"Hal::write\(")
-    found["cycle"] = largest(r"^tactus::Executive::cycle\(")
+    cycle, row = r"^tactus::Executive::cycle\(", r"::check_collision\("
+    found["cycle"] = largest(cycle, row)
+    found["collision"] = largest(row)
+    found["with rows"] = largest(cycle)
     return found

@@ -13,7 +13,7 @@ class Program:
 
     def __init__(self, graph):
         self.graph, self.objective, self.rows, self.variables = graph, [], [], {"in"}
-        self._rare = {}
+        self._rare, self._costs, self._plain = {}, {}, True
 
     def block(self, head, block, cost, feasible):
         edges_in = [f"e_{p:x}_{head:x}" for p in self.graph.before[head]] + (["in"] if head == self.graph.function.begin else [])
@@ -22,20 +22,31 @@ class Program:
         self.variables.update([runs, *edges_in, *edges_out])
         self.rows += [f"{' + '.join(edges) or '0 in'} - {runs} = 0" for edges in (edges_in, edges_out)]
         self.objective.append(f"{cost} {runs}")
+        self._costs[head] = cost if feasible else None
         if not feasible:
             self.rows.append(f"{runs} = 0")
 
     def rarely(self, head, more, limit, always):
         """Some runs of the block, or all, cost more; of all blocks under this limit as many as it says."""
-        rare = self._rare.setdefault(limit, [])
+        rare, self._plain = self._rare.setdefault(limit, []), False
         runs = f"y{len(rare)}_{head:x}"
         rare.append(runs)
         self.variables.add(runs)
         self.rows.append(f"{runs} - x_{head:x} {'=' if always else '<='} 0")
         self.objective.append(f"{more} {runs}")
 
+    def choice(self, head, costs):
+        """Each run of the block makes one of these calls, of whatever cost; their variables."""
+        self._plain = False
+        runs = [f"c{len(self.rows)}_{k}_{head:x}" for k in range(len(costs))]
+        self.variables.update(runs)
+        self.rows.append(f"{' + '.join(runs)} - x_{head:x} = 0")
+        self.objective += [f"{cost} {each}" for cost, each in zip(costs, runs)]
+        return runs
+
     def loop(self, group, most):
         """The ways back, of all loops of the group, for each entry of the outermost."""
+        self._plain = False
         back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]
         entering = [f"e_{p:x}_{s:x}" for p, s in group[0].entering]
         entering += ["in"] if group[0].head == self.graph.function.begin else []
@@ -51,10 +62,13 @@ class Program:
 
     def at_most(self, variables, most):
         if variables:
+            self._plain = False
             self.rows.append(f"{' + '.join(variables)} <= {most}")
 
     def solve(self, function):
         """The cost of the longest path; None if there is no path."""
+        if self._plain:
+            return self._longest_without_loops()
         for (*_, most), rare in self._rare.items():
             self.at_most(rare, most)
         with tempfile.TemporaryDirectory() as folder:
@@ -70,3 +84,18 @@ class Program:
         if "INTEGER OPTIMAL" not in text or not found:
             raise Unbounded(f"{function}: glpsol finds no longest path\n{run.stdout}")
         return round(float(found[1]))
+
+    def _longest_without_loops(self):
+        """The same where no loop and nothing else is to be counted: block by block, those that follow first."""
+        longest, work = {}, [self.graph.function.begin]
+        while work:
+            head = work[-1]
+            block = self.graph.blocks[head]
+            missing = [s for s in block.successors if s not in longest]
+            if missing:
+                work += missing
+                continue
+            ends = [longest[s] for s in block.successors if longest[s] is not None] + ([0] if block.leaves else [])
+            cost = self._costs[work.pop()]
+            longest[head] = cost + max(ends) if ends and cost is not None else None
+        return longest[self.graph.function.begin]

@@ -109,7 +109,8 @@ def _compute(machine, i, name, operands):
     if name.startswith("mov"):
         value = last
     elif name.startswith("lsl"):
-        value = (None, first[1] << last[1]) if first and last and first[0] is None and last[0] is None else None
+        known = first and last and first[0] is None and last[0] is None
+        value = (None, first[1] << last[1] if last[1] < 32 else 0) if known and last[1] < 256 else None
     else:
         value = add(first, last, -1 if name.startswith("sub") else 1)
     machine.put(operands[0], value)

@@ -53,7 +53,7 @@ bool Player::prepare() {
   if (!started_) apply(TapeOp::kStart);
   stamp_ns_ += std::int64_t{1000} * pipeline_.robot.period_us + late_ns_;
   late_ns_ = 0;
-  return executive_.latched() == Status::kOk;
+  return !started_ || executive_.rung() != Rung::kDisabled;
 }
 
 void Player::apply(TapeOp op) {

@@ -1,12 +1,11 @@
 // wcet-replay: plays the tapes of a reel on the host.
 //
-//   wcet-replay PIPELINE REEL times OUT ADDRESS...   a line per cycle: its time in ns, and that of
-//                                                    every function at an address meanwhile
-//   wcet-replay PIPELINE REEL count TAPE:CYCLE...    for valgrind --tool=callgrind
-//                                                    --instr-atstart=no: a dump of each of them
+//   wcet-replay PIPELINE REEL times OUT             what the executive times, by name in the first
+//                                                   line; then a line per cycle, in ns, 0: not run
+//   wcet-replay PIPELINE REEL count TAPE:CYCLE...   for valgrind --tool=callgrind
+//                                                   --instr-atstart=no: a dump of each of them
 //
-// The functions are timed in a second pass, for that takes time itself. They are those that were
-// compiled with -finstrument-functions. Exit code 1 with a message on the error stream.
+// Exit code 1 with a message on the error stream.
 #include <valgrind/callgrind.h>
 
 #include <chrono>
@@ -21,30 +20,35 @@
 namespace tactus {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-struct Timed {
-  std::uintptr_t address;
-  std::int64_t ns;
-  Clock::time_point begin;
-};
-std::vector<Timed> timed;
-bool timing = false;
-
-std::int64_t ns_since(Clock::time_point begin) {
-  return std::chrono::nanoseconds(Clock::now() - begin).count();
+std::uint64_t stopwatch() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::nanoseconds(now).count());
 }
 
-Timed* find(const void* function) {
-  for (Timed& each : timed)
-    if (each.address == reinterpret_cast<std::uintptr_t>(function)) return &each;
-  return nullptr;
+/// What is timed, and how often it had been by the cycle before.
+struct Timed {
+  std::string name;
+  const Histogram* times;
+  std::uint32_t before = 0;
+};
+
+std::vector<Timed> timed_of(const Player& player) {
+  const Timing& timing = player.executive().timing();
+  const Pipeline& pipeline = player.pipeline();
+  std::vector<Timed> timed;
+  for (const Stage stage : {Stage::kCycle, Stage::kRead, Stage::kGuard, Stage::kWrite})
+    timed.push_back({kStageNames[static_cast<std::size_t>(stage)], &timing.stage(stage)});
+  for (int i = 0; i < pipeline.count(); ++i)
+    timed.push_back({pipeline.name(i).c_str(), &timing.block(i)});
+  for (int i = 0; i < pipeline.schedule.count(); ++i)
+    timed.push_back({pipeline.schedule[i].name, &timing.row(i)});
+  return timed;
 }
 
 /// One play of a tape; `each` is called for every cycle, to run it.
 template <class Each>
-void play(const std::string& text, const Bytes& tape, Each each) {
-  const auto player = std::make_unique<Player>();
+void play(const std::string& text, const Bytes& tape, Executive::Stopwatch watch, Each each) {
+  const auto player = std::make_unique<Player>(watch);
   LoadError error;
   if (player->load(text, error) != Status::kOk)
     std::fprintf(stderr, "wcet-replay: the pipeline is refused\n"), std::exit(1);
@@ -53,21 +57,19 @@ void play(const std::string& text, const Bytes& tape, Each each) {
 }
 
 void time(const std::string& text, Bytes reel, std::FILE* out) {
-  while (!reel.empty()) {
-    const Bytes tape = next_tape(reel);
-    std::vector<std::int64_t> cycles;
-    timing = false;
-    play(text, tape, [&](Player& player, int) {
-      const Clock::time_point begin = Clock::now();
+  for (bool first = true; !reel.empty(); first = false) {
+    std::vector<Timed> timed;
+    play(text, next_tape(reel), stopwatch, [&](Player& player, int k) {
+      if (k == 0) timed = timed_of(player);
+      for (const Timed& each : timed)
+        if (first && k == 0) std::fprintf(out, "%s ", each.name.c_str());
+      if (first && k == 0) std::fprintf(out, "\n");
       static_cast<void>(player.cycle());
-      cycles.push_back(ns_since(begin));
-    });
-    timing = true;
-    play(text, tape, [&](Player& player, int k) {
-      for (Timed& each : timed) each.ns = 0;
-      static_cast<void>(player.cycle());
-      std::fprintf(out, "%lld", static_cast<long long>(cycles[static_cast<std::size_t>(k)]));
-      for (const Timed& each : timed) std::fprintf(out, " %lld", static_cast<long long>(each.ns));
+      for (Timed& each : timed) {
+        const bool ran = each.times->count() != each.before;
+        std::fprintf(out, "%u ", ran ? each.times->last() : 0U);
+        each.before = each.times->count();
+      }
       std::fprintf(out, "\n");
     });
   }
@@ -75,7 +77,7 @@ void time(const std::string& text, Bytes reel, std::FILE* out) {
 
 void count(const std::string& text, Bytes reel, const std::vector<std::string>& wanted) {
   for (int number = 0; !reel.empty(); ++number) {
-    play(text, next_tape(reel), [&](Player& player, int k) {
+    play(text, next_tape(reel), nullptr, [&](Player& player, int k) {
       const std::string here = std::to_string(number) + ":" + std::to_string(k);
       bool dump = false;
       for (const std::string& each : wanted) dump = dump || each == here;
@@ -103,20 +105,6 @@ std::string read(const char* path) {
 }  // namespace
 }  // namespace tactus
 
-// Called at the beginning and at the end of every function compiled for it.
-extern "C" {
-void __cyg_profile_func_enter(void* function, void*) {
-  if (!tactus::timing) return;
-  if (tactus::Timed* const each = tactus::find(function)) each->begin = tactus::Clock::now();
-}
-void __cyg_profile_func_exit(void* function, void*) {
-  if (!tactus::timing) return;
-  const tactus::Clock::time_point end = tactus::Clock::now();
-  if (tactus::Timed* const each = tactus::find(function))
-    each->ns += std::chrono::nanoseconds(end - each->begin).count();
-}
-}
-
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 3) return std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n"), 1;
@@ -129,8 +117,6 @@ int main(int argc, char** argv) {
   if (words.size() < 4) return std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n"), 1;
   std::FILE* const out = std::fopen(words[3].c_str(), "w");
   if (out == nullptr) return std::perror(words[3].c_str()), 1;
-  for (std::size_t i = 4; i < words.size(); ++i)
-    tactus::timed.push_back({std::stoull(words[i], nullptr, 16), 0, {}});
   tactus::time(text, reel, out);
   return std::fclose(out) == 0 ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 # The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
 WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
-WCET_PIPELINES := $(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL))
+# A board with a budget of memory is one that the kernel runs on.
+WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
 BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
@@ -8,9 +9,10 @@ BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $
 .PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## worst case of every stage: measured, counted, bounded; build/wcet
 	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
+	$(Q)$(call each,-j2 wcet-bound) > /dev/null
 	$(Q)scripts/wcet/measure $(WCET_ALL)
 	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
-	$(Q)scripts/wcet/search $(WCET_ALL)
+	$(Q)nice scripts/wcet/search $(WCET_ALL)
 	$(Q)scripts/wcet/table $(WCET_ALL)
 wcet-count: wcet-built                        ## the same, instructions only
 	$(Q)scripts/wcet/count $(WCET_ALL)
@@ -31,9 +33,9 @@ build/wcet/%.ini: pipelines/%.ini
 .PRECIOUS: build/wcet/%.ini
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
-wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf)
+wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
 $(B)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a $(B)/libccd.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
 $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
@@ -43,29 +45,19 @@ $(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile bo
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
-wcet-host: $(B)/wcet-replay $(B)/wcet-replay-timed build/wcet/count_plugin.so $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
-           $(WCET_PIPELINES:%=build/wcet/%.ini)
+wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
+           $(WCET_PIPELINES:%=build/wcet/%.ini) ;
 $(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
 $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
-# Twice the same program: the kernel as it is, and with calls around its stages, to time them.
-REPLAY := $(B)/tests/wcet/replay.o $(call obj,$(PLAYER))
-STAGES := $(B)/wcet/pipeline.o $(B)/wcet/guard/guard.o
-$(B)/wcet/guard/guard.o $(B)/wcet/pipeline.o: $(B)/wcet/%.o: kernel/%.cpp Makefile boards/$(BOARD)/board.mk
-	@mkdir -p $(@D)
-	@echo "  CXX   $< (timed)"
-	$(Q)$(CXX) $(CXXFLAGS) -finstrument-functions -finstrument-functions-exclude-file-list=/usr/,.hpp \
-	  -finstrument-functions-exclude-function-list=allowed,jerky,trip,following,effective -c $< -o $@
 $(B)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
-$(B)/wcet-replay: $(REPLAY) $(B)/libkernel.a
-$(B)/wcet-replay-timed: $(REPLAY) $(STAGES) $(B)/libkernel.a
-$(B)/wcet-replay $(B)/wcet-replay-timed:
+$(B)/wcet-replay: $(B)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(SANITIZER) -no-pie -o $@ $^
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lccd
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	@mkdir -p $(@D)
 	@echo "  LD    $@"
@@ -74,10 +66,10 @@ endif
 # make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches; the target itself is not what it counts.
 ifeq ($(SANITIZE),fuzzer-no-link)
 .PHONY: wcet-searches
-wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%)
+wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
 $(B)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
 	@mkdir -p $(@D)
 	@echo "  CXX   $<"
