@@ -9,6 +9,7 @@
 #include "gateway/reference_client.hpp"
 #include "kernel/executive.hpp"
 #include "kernel/loader.hpp"
+#include "tests/testing.hpp"
 
 namespace tactus {
 
@@ -131,6 +132,23 @@ inline ExecutiveBench& fresh_bench(std::string_view text = kExecutivePipeline) {
   static std::optional<ExecutiveBench> bench;
   g_stopwatch_ns = 0;
   return bench.emplace(text);
+}
+
+/// Fresh, started, with a clean diary.
+inline ExecutiveBench& started_bench() {
+  ExecutiveBench& b = fresh_bench();
+  ASSERT_OK(b.executive.start());
+  static_cast<void>(b.hal.diary());
+  return b;
+}
+
+/// The drives were disabled once for `status`, and from now on nothing is asked of them.
+inline void assert_stopped(ExecutiveBench& b, Status status) {
+  assert_int_equal(b.hal.stops, 1);
+  ASSERT_STATUS(b.executive.latched(), status);
+  const int reads = b.hal.reads, writes = b.hal.writes;
+  for (int i = 0; i < 3; ++i) ASSERT_STATUS(b.cycle(), status);
+  assert_true(b.hal.reads == reads && b.hal.writes == writes && b.hal.stops == 1);
 }
 
 /// A row that writes a letter into the diary, keeps the time it was given, and takes its time.

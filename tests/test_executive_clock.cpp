@@ -9,22 +9,6 @@ namespace {
 
 using Bench = ExecutiveBench;
 
-Bench& started_bench() {
-  Bench& b = fresh_bench();
-  ASSERT_OK(b.executive.start());
-  static_cast<void>(b.hal.diary());
-  return b;
-}
-
-/// The drives were disabled once for `status`, and from now on nothing is asked of them.
-void assert_stopped(Bench& b, Status status) {
-  assert_int_equal(b.hal.stops, 1);
-  ASSERT_STATUS(b.executive.latched(), status);
-  const int reads = b.hal.reads, writes = b.hal.writes;
-  for (int i = 0; i < 3; ++i) ASSERT_STATUS(b.cycle(), status);
-  assert_true(b.hal.reads == reads && b.hal.writes == writes && b.hal.stops == 1);
-}
-
 /// At rest the drives are disabled after the cycles that rest takes to be seen.
 void assert_stops(Bench& b, Status status) {
   assert_true(b.executive.rung() == Rung::kStop);

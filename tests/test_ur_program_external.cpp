@@ -6,24 +6,6 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-const Joints kStart = ProgramBench::settings().initial_q;
-
-Joints beside(double dq0) {
-  Joints q = kStart;
-  q[0] += dq0;
-  return q;
-}
-
-/// Streams positions of joint 1 that rise by `speed`; returns the last.
-double stream(ExternalBench& bench, double from, double speed, int cycles) {
-  for (int k = 0; k < cycles; ++k) {
-    from += speed * kCycle_s;
-    bench.reverse(20, ControlMode::kServoJ, beside(from));
-    bench.tick();
-  }
-  return from;
-}
-
 // Proves URP-5.
 
 void it_connects_to_the_address_in_the_text_in_order(void**) {

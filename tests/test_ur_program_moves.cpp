@@ -6,14 +6,6 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-const Joints kStart = ProgramBench::settings().initial_q;
-
-Joints beside(double dq0) {
-  Joints q = kStart;
-  q[0] += dq0;
-  return q;
-}
-
 void spline_to(ExternalBench& bench, double dq0, double time_s) {
   bench.spline_point(beside(dq0), Joints::Zero(), Joints::Zero(), time_s, 1);
 }

@@ -117,4 +117,22 @@ struct ExternalBench : ProgramBench {
   }
 };
 
+inline const Joints kStart = ProgramBench::settings().initial_q;
+
+inline Joints beside(double dq0) {
+  Joints q = kStart;
+  q[0] += dq0;
+  return q;
+}
+
+/// Streams positions of joint 1 that rise by `speed`; returns the last.
+inline double stream(ExternalBench& bench, double from, double speed, int cycles) {
+  for (int k = 0; k < cycles; ++k) {
+    from += speed * kCycle_s;
+    bench.reverse(20, ControlMode::kServoJ, beside(from));
+    bench.tick();
+  }
+  return from;
+}
+
 }  // namespace tactus::ur
