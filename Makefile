@@ -5,11 +5,12 @@ comma := ,
 ARCH  ?= host
 B     := build/$(BOARD)$(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
 
-# What a board.mk says: robot, sources, libraries, runs, and its tests if they are not all.
+# What a board.mk says: robot, sources, libraries, runs and who runs them, and its tests if they are not all.
 BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
 SRCS   :=
 LDLIBS :=
 RUNS   :=
+RUNNER  = $(B)/tactus
 PARTS  :=
 TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
 include boards/$(BOARD)/board.mk
@@ -82,7 +83,7 @@ help:                                         ## this list
 each-board:
 	$(Q)$(call each,$(TARGETS))
 list-runs:
-	@echo -- $(B)/tactus $(RUNS)
+	@echo -- $(RUNNER) $(RUNS)
 kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
 $(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/tests/bare_metal/memory.o $(B)/libkernel.a $(B)/libccd.a

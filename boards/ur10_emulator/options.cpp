@@ -50,6 +50,8 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
       ->check(finite(-28000, 30000));
   app.add_option("--speed", options.speed, "multiple of real time (default 1)")
       ->check(finite(0.01, 1000.0));
+  app.add_flag("--lock-step", options.lock_step,
+               "begin the next cycle once every client that writes inputs has answered");
   app.add_option("--start-time", options.start_time_s, "s on the controller's clock (default 100)")
       ->check(finite(0.0, 1e7));
   app.add_option("--duration", options.duration_s, "s of the controller's time (default: no end)")

@@ -15,37 +15,52 @@ constexpr std::string_view kText =
   @zero@
   seen = read_input_integer_register(24)
   write_output_integer_register(24, seen)
-  q = get_target_joint_positions()
-  last = q
+  led = get_target_joint_positions()
+  last = led
   step = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+  off = step
+  left = 0
   moving = False
   going = True
   late = 0
   while going:
+    if left > 0:
+      left = left - 1
+    end
+    x = left / @blend@
+    part = x * x * (3.0 - 2.0 * x)
     count = read_input_integer_register(24)
     if count < 0:
       going = False
     elif count != seen:
       q = [read_input_float_register(24), read_input_float_register(25), read_input_float_register(26), read_input_float_register(27), read_input_float_register(28), read_input_float_register(29)]
-      off = norm(q[0] - last[0]) + norm(q[1] - last[1]) + norm(q[2] - last[2]) + norm(q[3] - last[3]) + norm(q[4] - last[4]) + norm(q[5] - last[5])
+      jump = norm(q[0] - last[0]) + norm(q[1] - last[1]) + norm(q[2] - last[2]) + norm(q[3] - last[3]) + norm(q[4] - last[4]) + norm(q[5] - last[5])
       steps = count - seen
+      if late > 0:
+        fade = 1.0 - (late + 1) * (late + 1) / @patience@
+        off = [led[0] + fade * step[0] + part * off[0] - q[0], led[1] + fade * step[1] + part * off[1] - q[1], led[2] + fade * step[2] + part * off[2] - q[2], led[3] + fade * step[3] + part * off[3] - q[3], led[4] + fade * step[4] + part * off[4] - q[4], led[5] + fade * step[5] + part * off[5] - q[5]]
+        left = @blend@
+        part = 1.0
+      end
       if not moving:
-        going = off <= @first_step@
+        going = jump <= @first_step@
       elif steps > 0:
         step = [(q[0] - last[0]) / steps, (q[1] - last[1]) / steps, (q[2] - last[2]) / steps, (q[3] - last[3]) / steps, (q[4] - last[4]) / steps, (q[5] - last[5]) / steps]
       end
       moving = going
+      led = q
       last = q
       seen = count
       late = 0
     elif moving:
       late = late + 1
-      fade = 1.0 - late / @patience@
-      q = [q[0] + fade * step[0], q[1] + fade * step[1], q[2] + fade * step[2], q[3] + fade * step[3], q[4] + fade * step[4], q[5] + fade * step[5]]
+      fade = 1.0 - late * late / @patience@
+      led = [led[0] + fade * step[0], led[1] + fade * step[1], led[2] + fade * step[2], led[3] + fade * step[3], led[4] + fade * step[4], led[5] + fade * step[5]]
       going = fade > 0.0
     end
     if moving and going:
       write_output_integer_register(24, seen)
+      q = [led[0] + part * off[0], led[1] + part * off[1], led[2] + part * off[2], led[3] + part * off[3], led[4] + part * off[4], led[5] + part * off[5]]
       servoj(q, t=@period@, lookahead_time=@lookahead@, gain=@gain@)
     elif going:
       sync()
@@ -97,7 +112,8 @@ void write(std::string_view name, const ServoScript& script, Writer& writer) {
   if (name == "com") writer.add_list(script.payload_com);
   if (name == "zero") writer.add(script.zero_force ? "zero_ftsensor()" : "sync()");
   if (name == "first_step") writer.add(script.first_step);
-  if (name == "patience") writer.add(script.patience + 1.0);
+  if (name == "patience") writer.add((script.patience + 1.0) * (script.patience + 1.0));
+  if (name == "blend") writer.add(kServoBlend);
   if (name == "period") writer.add(script.period_s);
   if (name == "lookahead") writer.add(script.lookahead_s);
   if (name == "gain") writer.add(script.gain);

@@ -8,9 +8,14 @@
 //
 // What the register holds when the program starts is no set-point. The first one must be where the
 // arm is, or the program ends. Where no new one comes in a cycle, the last is carried on with the
-// speed between the last two, which fades to nothing within `patience` cycles; then the arm is
-// stopped and the program ends. A cycle is late by one at most where the two clocks beat, and the
-// next set-point finds the arm where it should be.
+// speed between the last two, which fades to nothing within `patience` cycles as 1 - (n / (patience
+// + 1))^2; then the arm is stopped and the program ends.
+//
+// A computer that was away for some cycles goes on where it was, and its next set-point lies behind
+// where the arm was led. The difference d fades out over N = kServoBlend cycles by the polynomial
+// 3 x^2 - 2 x^3: by no more than 3/2 d / N a cycle, and with no more than 6 d / N^2 a cycle squared.
+// With set-points of an even speed d is below n steps after n cycles, and below N / 1.5 after
+// twelve: the target slows down and never goes back.
 #pragma once
 
 #include <array>
@@ -38,6 +43,7 @@ struct ServoScript {
 inline constexpr std::string_view kServoProgram = "tactus_servo";
 inline constexpr int kServoRegister = 24;  ///< the first of them, in either direction
 inline constexpr int kServoEnded = -1;
+inline constexpr int kServoBlend = 12;  ///< cycles
 
 inline constexpr std::size_t kServoScriptSize = 4096;
 using ServoScriptText = std::array<char, kServoScriptSize>;

@@ -97,6 +97,18 @@ void Emulator::tick() {
   send_messages();
 }
 
+Pace Emulator::pace() const {
+  Pace pace = Pace::kByTime;
+  for (const Session& session : sessions_) {
+    const bool asked = session.open && !session.ended && session.service == Service::kRtde;
+    if (!asked || !session.rtde.closes_loop()) continue;
+    const Answers& answers = session.rtde.answers();
+    if (answers.missing()) return answers.steady() ? Pace::kWaits : Pace::kByTime;
+    pace = Pace::kAtOnce;
+  }
+  return pace;
+}
+
 /// At ten Hertz, and at once when a protective stop begins.
 bool Emulator::state_is_due() {
   state_due_ += kStatesPerCycle;

@@ -11,6 +11,13 @@ namespace tactus::ur {
 
 enum class Service : std::uint8_t { kDashboard, kPrimary, kSecondary, kRealtime, kRtde };
 
+/// When the next cycle may begin, for one who need not keep to real time.
+enum class Pace : std::uint8_t {
+  kByTime,  ///< no client closes a loop, or one has begun to
+  kAtOnce,  ///< all that do have answered the last packet
+  kWaits,   ///< one has not that always did
+};
+
 class Emulator {
  public:
   static constexpr int kSessions = 24;
@@ -29,6 +36,8 @@ class Emulator {
   Outbox& outbox(int session) { return at(session).out; }
   /// The session is at its end: send what is left, and close.
   bool ended(int session) { return at(session).ended; }
+
+  Pace pace() const;
 
   Controller& controller() { return controller_; }
   Links& links() { return controller_.machine().links; }

@@ -31,6 +31,7 @@ void RtdeSession::open(int owner) {
   owner_ = owner;
   version_ = 1;
   running_ = false;
+  answers_ = {};
   output_count_ = input_count_ = recipe_count_ = 0;
 }
 
@@ -167,6 +168,7 @@ void RtdeSession::take_data(ByteReader& in, const RtdeContext& context, Outbox& 
     return say(RtdeLevel::kError, "Data package with another size than its recipe", out);
   if (!finite) return say(RtdeLevel::kError, "Data package with a value that is not finite", out);
   package.apply(context.io, context.cycle);
+  answers_.answer();
 }
 
 void RtdeSession::tick(const Image& image, Outbox& out) {
@@ -179,6 +181,7 @@ void RtdeSession::tick(const Image& image, Outbox& out) {
   if (version_ == 2) writer.u8(1);
   for (std::size_t i = 0; i < output_count_; ++i) outputs_[i].write(image, writer);
   writer.send(out);
+  answers_.packet();
 }
 
 void RtdeSession::reply(RtdeType type, std::uint8_t value, Outbox& out) {

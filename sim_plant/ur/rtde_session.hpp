@@ -1,6 +1,7 @@
 // RtdeSession: one client of port 30004. Protocol version 1 until the client asks for 2.
 #pragma once
 
+#include "sim_plant/ur/answers.hpp"
 #include "sim_plant/ur/io.hpp"
 #include "sim_plant/ur/outbox.hpp"
 
@@ -28,6 +29,9 @@ class RtdeSession {
   void tick(const Image& image, Outbox& out);
 
   bool running() const { return running_; }
+  /// Whether it is sent packets and writes inputs, as a client does that closes a loop.
+  bool closes_loop() const { return running_ && recipe_count_ > 0; }
+  const Answers& answers() const { return answers_; }
   /// Whether the client ever wrote this input; for watchdogs.
   int owner() const { return owner_; }
 
@@ -57,6 +61,7 @@ class RtdeSession {
   std::size_t input_count_ = 0;
   std::array<Recipe, kMaxInputRecipes> recipes_;
   std::size_t recipe_count_ = 0;
+  Answers answers_;
 };
 
 }  // namespace tactus::ur

@@ -1,0 +1,117 @@
+// What the program that the HAL uploads gives to servoj when the control computer was away for some
+// cycles and goes on where it was.
+#include <optional>
+
+#include "tests/ur_servo_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+/// The joint target that the program gave in the last cycle, from what servoj made of it: the law
+/// is linear in its target. `q`, `dq`: before the cycle.
+double given(ServoBench& bench, double q, double dq) {
+  const ServoLaw law{2000.0, 0.03};
+  double free = q, weight = 0.0, unit_speed = 0.0;
+  law.step(0.0, kCycle_s, free, dq);
+  law.step(1.0, kCycle_s, weight, unit_speed);
+  return (bench.target()[0] - free) / weight;
+}
+
+/// Joint 1 at an even speed, and what the program gives, in steps of one cycle.
+struct EvenMotion {
+  static constexpr double kStep = 0.6 * kCycle_s;
+  ServoBench bench;
+  Joints q = ProgramBench::settings().initial_q;
+  double given_before = 0.0, way = 0.0, way_before = 0.0;
+
+  void start() {
+    bench.start();
+    bench.set(q);
+    for (int k = 0; k < 50; ++k) tick(1);
+  }
+  /// One cycle, before which `set_points` come.
+  void tick(int set_points) {
+    q[0] += set_points * kStep;
+    if (set_points > 0) {
+      bench.count += set_points - 1;
+      bench.set(q);
+    }
+    const double before = bench.target()[0], speed = bench.machine().motion.dq()[0];
+    bench.tick();
+    const double now = given(bench, before, speed);
+    way_before = way;
+    way = (now - given_before) / kStep;
+    given_before = now;
+  }
+  double ahead() const { return (given_before - q[0]) / kStep; }
+};
+
+EvenMotion& fresh() {
+  static std::optional<EvenMotion> motion;
+  motion.emplace().start();
+  return *motion;
+}
+
+// Proves URH-22.
+
+/// Of n cycles without set-points, after which they go on where they were.
+void after_a_stall_the_target_slows_down_and_never_goes_back(void**) {
+  for (const int missed : {1, 2, 3, 7, 12}) {
+    EvenMotion& motion = fresh();
+    ASSERT_NEAR(motion.ahead(), 0.0, 1e-6);
+    double slowest = 1.0, hardest = 0.0;
+    for (int k = 0; k < missed + 30; ++k) {
+      motion.tick(k < missed ? 0 : 1);
+      slowest = std::min(slowest, motion.way);
+      hardest = std::max(hardest, std::abs(motion.way - motion.way_before));
+      if (k < missed) assert_true(motion.ahead() <= k + 1);
+    }
+    assert_true(motion.bench.running());
+    const double fading = 1.0 - (missed + 1) * (missed + 1) / 169.0;  // slowest while it is led
+    assert_true(slowest > std::min(1.0 - 1.5 * missed / 12.0, fading) - 1e-6 || missed > 7);
+    assert_true(slowest > -1e-6);
+    assert_true(hardest < 6.0 * missed / 144.0 + (missed + 1) * (missed + 1) / 169.0);
+    ASSERT_NEAR(motion.ahead(), 0.0, 1e-6);
+  }
+}
+
+/// The arm is to stand: the way back is no faster than an eighth of it in a cycle.
+void after_a_stall_that_ends_in_a_halt_the_way_back_is_slow(void**) {
+  EvenMotion& motion = fresh();
+  for (int k = 0; k < 3; ++k) motion.tick(0);
+  double fastest = 0.0;
+  for (int k = 0; k < 30; ++k) {
+    motion.bench.set(motion.q);
+    motion.tick(0);
+    fastest = std::min(fastest, motion.way);
+  }
+  assert_true(fastest < -0.4 && fastest > -4.0 / 8.0);
+  ASSERT_NEAR(motion.ahead(), 0.0, 1e-6);
+}
+
+void stalls_in_a_row_do_not_add_up(void**) {
+  EvenMotion& motion = fresh();
+  for (int k = 0; k < 300; ++k) {
+    motion.tick(k % 2 == 0 ? 0 : 2);
+    assert_true(motion.way > 0.9 && motion.way < 1.1);
+    if (k % 2 == 1) assert_true(std::abs(motion.ahead()) < 0.5);
+  }
+  for (int k = 0; k < 300; ++k) {  // the computer is away for one cycle of ten
+    motion.tick(k % 10 == 0 ? 0 : 1);
+    assert_true(motion.way > 0.6);
+    assert_true(motion.ahead() < 1.2);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(after_a_stall_the_target_slows_down_and_never_goes_back),
+      cmocka_unit_test(after_a_stall_that_ends_in_a_halt_the_way_back_is_slow),
+      cmocka_unit_test(stalls_in_a_row_do_not_add_up),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
