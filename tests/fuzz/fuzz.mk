@@ -2,7 +2,7 @@
 FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS=
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 # The sockets' place is taken by a tape.
-FUZZED     := $(filter-out hal/ur/socket.cpp hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp tests/fuzz/wire.cpp \
+FUZZED     := $(filter-out hal/ur/socket.cpp hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp tests/fuzz/wire.cpp tests/fuzz/kept_model.cpp \
               $(wildcard sim_plant/ur/*.cpp) $(addprefix sim_plant/,arm.cpp compile_arm.cpp contact.cpp flange_wrench.cpp \
               scene.cpp tip_contact.cpp ur10_mjcf.cpp) kernel/text.cpp kernel/status.cpp kernel/number.cpp
 
@@ -20,5 +20,5 @@ fuzz-targets: $(addprefix $(B)/,$(FUZZ))
 $(B)/libfuzzed.a: $(call obj,$(FUZZED))
 $(addprefix $(B)/,$(FUZZ)): $(B)/%: $(B)/tests/fuzz/%.o $(B)/libfuzzed.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^ -lmujoco
+	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -Wl,--wrap=mj_loadXML -o $@ $^ -lmujoco
 endif

@@ -14,8 +14,8 @@ bool is_rest(std::string_view rest, std::string_view text) {
 }
 
 bool within(std::string_view part, std::string_view text) {
-  return part.empty() || (part.data() >= text.data() &&
-                          part.data() + part.size() <= text.data() + text.size());
+  return part.empty() ||
+         (part.data() >= text.data() && part.data() + part.size() <= text.data() + text.size());
 }
 
 }  // namespace
@@ -24,8 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::RunningController controller;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   ScriptVariables variables;
-  for (const Machine* machine : {static_cast<const Machine*>(nullptr),
-                                 static_cast<const Machine*>(&controller.machine())}) {
+  for (const Machine* machine :
+       {static_cast<const Machine*>(nullptr), static_cast<const Machine*>(&controller.machine())}) {
     std::string_view rest = text;
     ScriptValue value;
     const bool valued = evaluate(rest, {&variables, machine}, value);

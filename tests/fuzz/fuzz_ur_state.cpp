@@ -15,8 +15,8 @@ constexpr std::size_t kFieldBytes = 8 * (1 + 6 * 6 + 2) + 4 * 5;
 
 void write(const UrState& state, ByteWriter& out) {
   out.f64(state.timestamp_s);
-  for (const Vector6* six : {&state.target_q, &state.q, &state.dq, &state.moment, &state.tcp_pose,
-                             &state.tcp_force})
+  for (const Vector6* six :
+       {&state.target_q, &state.q, &state.dq, &state.moment, &state.tcp_pose, &state.tcp_force})
     for (const double value : *six) out.f64(value);
   out.f64(state.speed_scaling), out.f64(state.speed_fraction);
   out.i32(state.robot_mode), out.i32(state.safety_mode), out.i32(state.echo);
@@ -56,7 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         count == kOutputFields.size() ? kOutputFields.data() : kInputFields.data();
     const Status checked = check_types(types, fields, count, why);
     const auto commas = static_cast<std::size_t>(std::count(types.begin(), types.end(), ','));
-    if (checked == Status::kOk) MUST(commas == count - 1 || (commas == count && types.back() == ','));
+    if (checked == Status::kOk)
+      MUST(commas == count - 1 || (commas == count && types.back() == ','));
   }
   return 0;
 }

@@ -11,12 +11,12 @@
 #include <string_view>
 
 /// A condition that holds whatever the bytes are.
-#define MUST(condition)                                                              \
-  do {                                                                               \
-    if (!(condition)) {                                                              \
+#define MUST(condition)                                                               \
+  do {                                                                                \
+    if (!(condition)) {                                                               \
       std::fprintf(stderr, "%s:%d: must hold: %s\n", __FILE__, __LINE__, #condition); \
-      std::abort();                                                                  \
-    }                                                                                \
+      std::abort();                                                                   \
+    }                                                                                 \
   } while (false)
 
 namespace tactus::fuzz {
