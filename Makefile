@@ -135,6 +135,7 @@ $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
 $(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)
 
+include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include scripts/wcet/bound.mk
 

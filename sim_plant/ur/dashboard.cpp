@@ -37,7 +37,7 @@ std::size_t keep(std::string_view text, std::array<char, N>& to) {
 }  // namespace
 
 Reply& Reply::operator<<(std::string_view text) {
-  const std::size_t size = std::min(text.size(), text_.size() - size_);
+  const std::size_t size = std::min(text.size(), text_.size() - 1 - size_);
   if (size > 0) std::memcpy(text_.data() + size_, text.data(), size);
   size_ += size;
   return *this;
@@ -52,7 +52,7 @@ bool Dashboard::run(std::string_view line, Reply& reply) {
              !run_other_command(line, reply)) {
     reply << "could not understand: '" << line.substr(0, 200) << "'";
   }
-  reply << "\n";
+  reply.end_line();
   return quits;
 }
 

@@ -9,10 +9,11 @@ namespace tactus::ur {
 inline constexpr std::string_view kDashboardGreeting =
     "Connected: Universal Robots Dashboard Server\n";
 
-/// A reply, with its end of line.
+/// A reply, with its end of line: whatever is cut, that is not.
 class Reply {
  public:
   Reply& operator<<(std::string_view text);
+  void end_line() { text_[size_++] = '\n'; }  ///< once, at the end
   std::string_view text() const { return {text_.data(), size_}; }
 
  private:

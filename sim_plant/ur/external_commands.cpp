@@ -60,9 +60,7 @@ void ExternalControl::obey_command(const Command& command, Link& link, Machine& 
   switch (static_cast<ScriptCommand>(command[0])) {
     case ScriptCommand::kSetTargetPayload:
     case ScriptCommand::kSetPayload:
-      machine.payload = value(command, 1);
-      machine.payload_cog = three(command, 2);
-      return;
+      return machine.set_payload(value(command, 1), three(command, 2));
     case ScriptCommand::kSetToolVoltage:
       machine.io.tool_voltage = static_cast<std::int32_t>(value(command, 1));
       return;

@@ -21,7 +21,7 @@ void write_register(const InputField& field, std::uint32_t number, double value,
 
 void Io::set_analog(int i, double ratio) {
   const bool voltage = (analog_types >> (2 + i) & 1u) != 0;
-  ratio = std::clamp(ratio, 0.0, 1.0);
+  ratio = ratio > 0.0 ? std::min(ratio, 1.0) : 0.0;  // NaN too
   analog_outputs[static_cast<std::size_t>(i)] = voltage ? 10.0 * ratio : 0.004 + 0.016 * ratio;
 }
 

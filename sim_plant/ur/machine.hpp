@@ -1,6 +1,8 @@
 // Machine: the parts of the controller that a program acts on.
 #pragma once
 
+#include <cmath>
+
 #include "sim_plant/ur/body.hpp"
 #include "sim_plant/ur/force_mode.hpp"
 #include "sim_plant/ur/io.hpp"
@@ -48,10 +50,21 @@ struct Machine {
 
   /// Of the controller's clock, s.
   double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * kCycle_s; }
+  /// What is no number, or of no tool and no load, stops the arm.
   void set_tcp(const Vector6& pose) {
+    if (!(pose.array().abs() <= kMost).all()) return refuse();
     tcp_offset = pose;
     motion.set_tool(Frame::of(pose));
   }
+  void set_payload(double mass, const Vector3& cog) {
+    if (!(std::abs(mass) <= kMost) || !(cog.array().abs() <= kMost).all()) return refuse();
+    payload = mass;
+    payload_cog = cog;
+  }
+
+ private:
+  static constexpr double kMost = 1e4;  // m, rad or kg: what 32 bits of millionths can say
+  void refuse() { protective_stop({Code::kPathSanity, kInvalidSetPoint}); }
 };
 
 }  // namespace tactus::ur

@@ -25,7 +25,7 @@ int offset(std::string_view text, std::string_view name) {
   for (int i = 0; i < 2 && next_line(text, line); ++i) {
     std::string_view code = trimmed(without_comment(line));
     if (starts_with(code, "=")) code = trimmed(code.substr(1));
-    if (number_after(code, "", value)) return static_cast<int>(value);
+    if (number_after(code, "", value)) return integer(value);
   }
   return 0;
 }
@@ -143,8 +143,8 @@ void RegisterProgram::process(Command command, Machine& machine) {
       machine.freedrive = command == Command::kTeachMode;
       return;
     case Command::kSetPayload:
-      machine.payload = input(0, machine);
-      machine.payload_cog = Vector3(input(1, machine), input(2, machine), input(3, machine));
+      machine.set_payload(input(0, machine),
+                          Vector3(input(1, machine), input(2, machine), input(3, machine)));
       return;
     case Command::kSetTcp:
       machine.set_tcp(six(0, machine));

@@ -105,8 +105,7 @@ void write_register(const ScriptCall& call, Machine& machine) {
   else if (call.name == "write_output_float_register")
     machine.io.output.doubles[i] = value;
   else
-    machine.io.output.ints[i] =
-        static_cast<std::int32_t>(std::clamp(value, -2147483648.0, 2147483647.0));
+    machine.io.output.ints[i] = integer(value);
 }
 
 void set_output(const ScriptCall& call, Machine& machine) {
@@ -126,9 +125,10 @@ void set_output(const ScriptCall& call, Machine& machine) {
 }
 
 void set_payload(const ScriptCall& call, Machine& machine) {
-  machine.payload = call.number("m", 0, 0.0);
   const ScriptValue* cog = call.find("cog", 1);
-  if (cog != nullptr && cog->count == 3) machine.payload_cog = Vector3(cog->elements.data());
+  const bool has_cog = cog != nullptr && cog->count == 3;
+  machine.set_payload(call.number("m", 0, 0.0),
+                      has_cog ? Vector3(cog->elements.data()) : machine.payload_cog);
 }
 
 std::string_view socket_name(const ScriptCall& call, std::size_t position) {
@@ -143,10 +143,9 @@ void use_socket(const ScriptCall& call, Machine& machine) {
   if (link == nullptr) return;
   const ScriptValue* first = call.find("", 0);
   if (opens && first != nullptr && first->kind == Kind::kText)
-    link->want(socket_name(call, 2), first->text, static_cast<int>(call.number("port", 1, 0.0)));
+    link->want(socket_name(call, 2), first->text, integer(call.number("port", 1, 0.0)));
   if (call.name == "socket_close") link->close();
-  if (call.name == "socket_send_int" && first != nullptr)
-    link->send_int(static_cast<std::int32_t>(first->number));
+  if (call.name == "socket_send_int" && first != nullptr) link->send_int(integer(first->number));
   const bool line = call.name == "socket_send_line";
   if ((line || call.name == "socket_send_string") && first != nullptr) link->send_text(first->text);
   if (line) link->send_text("\n");
@@ -174,8 +173,7 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
     const double n = call.number("n", 0, -1.0);
     if (n == 0.0 || n == 1.0) machine.io.set_analog(static_cast<int>(n), call.number("f", 1, 0.0));
   }
-  if (name == "set_tool_voltage")
-    machine.io.tool_voltage = static_cast<std::int32_t>(call.number("voltage", 0, 0.0));
+  if (name == "set_tool_voltage") machine.io.tool_voltage = integer(call.number("voltage", 0, 0.0));
   if (name == "set_payload" || name == "set_target_payload") set_payload(call, machine);
   const ScriptValue* pose = call.find("pose", 0);
   if (name == "set_tcp" && pose != nullptr && pose->six()) machine.set_tcp(pose->vector());

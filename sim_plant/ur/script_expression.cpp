@@ -8,7 +8,7 @@ namespace {
 
 using Kind = ScriptValue::Kind;
 
-constexpr int kDeepest = 16;  // of brackets
+constexpr int kDeepest = 16;  // of brackets and nots
 
 /// The operators of one level; of two that begin alike, the longer first.
 struct Level {
@@ -74,7 +74,8 @@ bool Expression::level(std::size_t at, ScriptValue& value) {
 
 bool Expression::signed_value(ScriptValue& value) {
   if (eat("not")) {
-    if (!level(2, value) || !value.numeric()) return false;
+    if (++depth_ > kDeepest || !level(2, value) || !value.numeric()) return false;
+    --depth_;
     value = truth_value(value.number == 0.0);
     return true;
   }

@@ -1,6 +1,8 @@
 #include "sim_plant/ur/script_text.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace tactus::ur {
 namespace {
@@ -19,10 +21,17 @@ void skip_blanks(std::string_view& text) {
 
 bool read_number(std::string_view& text, double& value) {
   skip_blanks(text);
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc()) return false;
+  double number = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code != std::errc() || !std::isfinite(number)) return false;  // "nan" and "inf" are names
+  value = number;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return true;
+}
+
+std::int32_t integer(double value) {
+  constexpr double kLeast = -2147483648.0, kMost = 2147483647.0;
+  return std::isnan(value) ? 0 : static_cast<std::int32_t>(std::clamp(value, kLeast, kMost));
 }
 
 bool next_line(std::string_view& text, std::string_view& line) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "kernel/types.hpp"
@@ -10,8 +11,10 @@
 namespace tactus::ur {
 
 void skip_blanks(std::string_view& text);
-/// Takes a number without a minus off the text; false: there is none.
+/// Takes a number without a minus off the text; false: there is none, and `value` is as it was.
 bool read_number(std::string_view& text, double& value);
+/// Towards zero, and within the range of an integer; 0 for what is no number.
+std::int32_t integer(double value);
 /// Lines of a text, without their ends. False: there is no other.
 bool next_line(std::string_view& text, std::string_view& line);
 std::string_view trimmed(std::string_view text);

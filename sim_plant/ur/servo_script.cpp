@@ -27,29 +27,36 @@ bool read_servo_law(std::string_view arguments, ServoLaw& law) {
   return found;
 }
 
-}  // namespace
-
-bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place) {
+/// The next such call; the text is what stands behind its first letter.
+bool next_socket(std::string_view& text, std::string_view function, SocketPlace& place) {
   for (std::size_t at = text.find(function); at != std::string_view::npos;
-       at = text.find(function, at + 1)) {
+       at = text.find(function)) {
     ScriptCall call;
     std::string_view rest = text.substr(at);
+    text.remove_prefix(at + 1);
     if (!read_call(rest, {}, call) || call.name != function) continue;
     const ScriptValue* host = call.find("", 0);
     if (host == nullptr || host->kind != ScriptValue::Kind::kText) continue;
-    if (n-- > 0) continue;
     const ScriptValue* name = call.find("name", 2);
     place.host = host->text;
-    place.port = static_cast<int>(call.number("port", 1, 0.0));
+    place.port = integer(call.number("port", 1, 0.0));
     place.name = name != nullptr ? name->text : "socket_0";
     return true;
   }
   return false;
 }
 
+}  // namespace
+
+bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place) {
+  for (int i = 0; i <= n; ++i)
+    if (!next_socket(text, function, place)) return false;
+  return true;
+}
+
 bool find_socket_named(std::string_view text, std::string_view function, std::string_view name,
                        SocketPlace& place) {
-  for (int n = 0; find_socket(text, function, n, place); ++n)
+  while (next_socket(text, function, place))
     if (place.name == name) return true;
   return false;
 }

@@ -1,0 +1,42 @@
+// The dashboard's greeting and replies as the HAL reads them, one line each.
+#include "hal/ur/dashboard_client.hpp"
+#include "tests/fuzz/wire.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+constexpr std::size_t kLongestLine = 255;
+
+/// The next line begins with `words`; carriage returns do not count.
+bool begins(std::string_view& text, std::string_view words) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos || end > kLongestLine) return false;
+  std::size_t matched = 0;
+  for (const char c : text.substr(0, end)) {
+    if (c == '\r') continue;
+    if (matched == words.size()) break;
+    if (c != words[matched++]) return false;
+  }
+  text.remove_prefix(end + 1);
+  return matched == words.size();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::Tape tape(data, size);
+  fuzz::wire.play(tape);
+  DashboardClient client;
+  Message why;
+  std::string_view text = tape.text();
+  Status status = client.connect("127.0.0.1", 29999, 100, why);
+  MUST((status == Status::kOk) == begins(text, "Connected:"));
+  while (status == Status::kOk) {
+    status = client.ask("power on", "Powering on", why);
+    MUST((status == Status::kOk) == begins(text, "Powering on"));
+  }
+  MUST(!std::string_view(why).empty());
+  return 0;
+}

@@ -1,0 +1,49 @@
+// Expressions, calls, names and servo laws in a script's text, without running it: what is read is
+// taken from the front, and what is told lies within the text.
+#include "sim_plant/ur/script_expression.hpp"
+#include "sim_plant/ur/script_names.hpp"
+#include "tests/fuzz/ur_controller.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+bool is_rest(std::string_view rest, std::string_view text) {
+  return rest.size() <= text.size() && rest.data() + rest.size() == text.data() + text.size();
+}
+
+bool within(std::string_view part, std::string_view text) {
+  return part.empty() ||
+         (part.data() >= text.data() && part.data() + part.size() <= text.data() + text.size());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::RunningController controller;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ScriptVariables variables;
+  for (const Machine* machine :
+       {static_cast<const Machine*>(nullptr), static_cast<const Machine*>(&controller.machine())}) {
+    std::string_view rest = text;
+    ScriptValue value;
+    const bool valued = evaluate(rest, {&variables, machine}, value);
+    MUST(is_rest(rest, text) && (valued || rest == text));
+    if (valued) MUST(value.count <= value.elements.size() && within(value.text, text));
+    if (valued) variables.set("x", value);
+    rest = text;
+    ScriptCall call;
+    const bool called = read_call(rest, {&variables, machine}, call);
+    MUST(is_rest(rest, text) && (called || rest == text) && call.count <= ScriptCall::kMost);
+  }
+  UnknownName unknown;
+  if (find_unknown_name(text, unknown))
+    MUST(unknown.line >= 1 && unknown.column >= 1 && within(unknown.name, text));
+  SocketPlace place;
+  if (find_socket(text, "socket_open", 0, place))
+    MUST(within(place.host, text) && !place.name.empty() == (place.name.data() != nullptr));
+  const ServoLaw law = find_servo_law(text);
+  MUST(law.gain == law.gain);
+  return 0;
+}

@@ -1,0 +1,39 @@
+// In the place of sim_plant/arm.cpp: joints of unit inertia without gravity. The parsers do not
+// know the difference, and a cycle takes a hundredth of the time. There is one arm.
+#include "sim_plant/arm.hpp"
+
+namespace tactus {
+namespace {
+
+JointVector g_q, g_dq;
+
+}  // namespace
+
+Arm::~Arm() = default;
+Status Arm::load(const PlantParams& params) {
+  g_q = params.initial_q;
+  g_dq.setZero();
+  return Status::kOk;
+}
+JointVector Arm::stand() {
+  g_dq.setZero();
+  return JointVector::Zero();
+}
+void Arm::step(const JointVector& tau, double dt_s) {
+  g_dq += tau * dt_s;
+  g_q += g_dq * dt_s;
+}
+JointVector Arm::inverse_dynamics(const JointVector& ddq) {
+  return ddq;
+}
+bool Arm::diverged() const {
+  return !g_q.allFinite();
+}
+JointVector Arm::q() const {
+  return g_q;
+}
+JointVector Arm::dq() const {
+  return g_dq;
+}
+
+}  // namespace tactus
