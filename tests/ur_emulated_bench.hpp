@@ -1,5 +1,4 @@
-// The HAL of a UR with the emulated controller and its arm, over sockets, four times faster than
-// real.
+// The HAL of a UR with the emulated controller and its arm, over sockets, in lock-step.
 #pragma once
 
 #include "boards/ur10_emulator/server.hpp"
@@ -23,15 +22,23 @@ class EmulatedRobot {
   }
 
  private:
+  /// In lock-step: a client that closes the loop is waited for, so that a host that is busy changes
+  /// nothing.
   void run() {
-    constexpr std::chrono::microseconds kCycle{2000};
+    constexpr std::chrono::microseconds kCycle{2000}, kLongestWait{1000000};
     auto next = std::chrono::steady_clock::now();
     while (!ends_) {
+      const Pace pace = emulator_.pace();
+      const auto now = std::chrono::steady_clock::now();
+      if (pace != Pace::kAtOnce &&
+          now < next + (pace == Pace::kWaits ? kLongestWait : 0 * kCycle)) {
+        server_.pump(200'000);
+        continue;
+      }
       server_.pump(0);
       emulator_.tick();
       server_.flush();
-      next += kCycle;
-      while (std::chrono::steady_clock::now() < next) server_.pump(200'000);
+      next = now + kCycle;
     }
   }
 
@@ -50,6 +57,7 @@ inline UrArmBench& fresh(const Settings& settings = {}) {
   g_robot.emplace(settings);
   UrArmBench& bench = g_bench.emplace();
   bench.pipeline.executive.max_slip = 1000;  // the host's own lateness is no topic here
+  bench.settings.packet_wait = 500.0;
   bench.settings.connect_ms = bench.settings.program_ms = 2000;
   bench.settings.power_ms = 20000;
   bench.settings.rtde_port = kRtdePort + kOffset;

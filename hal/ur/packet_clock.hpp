@@ -46,9 +46,12 @@ class PacketClock {
   std::int64_t stamp_ns() const { return cycle_ns_; }
   /// Cycles in a row without a new packet. [cyclic]
   int missed() const { return missed_; }
-  /// How long to wait for the next one before it is bridged: half a period more where there was
-  /// none missing. [cyclic]
-  std::int64_t patience_ns() const { return missed_ == 0 ? period_ns_ * 3 / 2 : period_ns_; }
+  /// How long to wait for the next one before it is bridged, of `periods` for one that follows
+  /// another; less by half a period where that has waited already. [cyclic]
+  std::int64_t patience_ns(double periods) const {
+    const double left = missed_ == 0 ? periods : periods - 0.5;
+    return static_cast<std::int64_t>(left * static_cast<double>(period_ns_));
+  }
 
  private:
   static std::int64_t to_ns(double timestamp_s) {

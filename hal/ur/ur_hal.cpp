@@ -21,7 +21,7 @@ std::int64_t UrHal::wait() {
   constexpr int kMostWakes = 4;  // a packet may come in pieces, but not for ever
   Came came = Came::kNothing;
   for (int i = 0; i < kMostWakes && came == Came::kNothing && fault_ == Status::kOk; ++i) {
-    if (!session_.wait(clock_.patience_ns())) break;
+    if (!session_.wait(clock_.patience_ns(settings_->packet_wait))) break;
     came = receive();
   }
   if (came != Came::kCycle) clock_.bridge();
