@@ -99,7 +99,7 @@ void power_cut_at_the_pendant_ends_the_motion(void**) {
   assert_true(cycles_until_stopped(bench, 50) < 50);
   assert_true(bench.executive.latched() == Status::kRobotMode ||
               bench.executive.latched() == Status::kProgramStopped);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // until the power is off
+  g_robot->pass(100);  // until the power is off
   bench.settings.on_power_off = OnPowerOff::kPowerOn;
   assert_rearms_at_rest(bench);
 }
@@ -130,7 +130,7 @@ void a_controller_that_goes_away_is_seen_at_once(void**) {
 void a_cycle_loop_that_ends_leaves_an_arm_at_rest(void**) {
   UrArmBench& bench = moving();
   bench.executive.stop();
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  g_robot->pass(200);
   RobotState state;
   ASSERT_OK(bench.hal.look(state));
   assert_true(std::abs(state.dq[0]) < 1e-3);

@@ -21,6 +21,14 @@ class EmulatedRobot {
     thread_.join();
   }
 
+  /// Lets `cycles` of the robot pass in which nobody answers.
+  void pass(int cycles) {
+    const int last = ticks_ + cycles;
+    alone_ = true;
+    while (ticks_ < last) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    alone_ = false;
+  }
+
  private:
   /// In lock-step: a client that closes the loop is waited for, so that a host that is busy changes
   /// nothing.
@@ -30,14 +38,15 @@ class EmulatedRobot {
     while (!ends_) {
       const Pace pace = emulator_.pace();
       const auto now = std::chrono::steady_clock::now();
-      if (pace != Pace::kAtOnce &&
-          now < next + (pace == Pace::kWaits ? kLongestWait : 0 * kCycle)) {
+      const auto patience = pace == Pace::kWaits && !alone_ ? kLongestWait : 0 * kCycle;
+      if (pace != Pace::kAtOnce && now < next + patience) {
         server_.pump(200'000);
         continue;
       }
       server_.pump(0);
       emulator_.tick();
       server_.flush();
+      ++ticks_;
       next = now + kCycle;
     }
   }
@@ -45,7 +54,8 @@ class EmulatedRobot {
   Emulator emulator_;
   Server server_;
   std::thread thread_;
-  std::atomic<bool> ends_{false};
+  std::atomic<bool> ends_{false}, alone_{false};
+  std::atomic<int> ticks_{0};
 };
 
 inline std::optional<UrArmBench> g_bench;
