@@ -11,7 +11,7 @@ fuzz: fuzz-built                              ## every parser of the UR's wire f
 	$(Q)nice scripts/fuzz --seconds $(or $(SECONDS),600) $(FUZZ)
 fuzz-short: fuzz-built                        ## the same, briefly and repeatably
 	$(Q)scripts/fuzz $(FUZZ)
-fuzz-built:
+fuzz-built: wcet-setup
 	$(Q)$(MAKE) --no-print-directory -j2 $(FUZZ_BUILD) fuzz-targets
 
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
