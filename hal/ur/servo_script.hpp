@@ -13,9 +13,9 @@
 //
 // A computer that was away for some cycles goes on where it was, and its next set-point lies behind
 // where the arm was led. The difference d fades out over N = kServoBlend cycles by the polynomial
-// 3 x^2 - 2 x^3: by no more than 3/2 d / N a cycle, and with no more than 6 d / N^2 a cycle squared.
-// With set-points of an even speed d is below n steps after n cycles, and below N / 1.5 after
-// twelve: the target slows down and never goes back.
+// 3 x^2 - 2 x^3: by no more than 3/2 d / N a cycle, and with no more than 6 d / N^2 a cycle
+// squared. With set-points of an even speed d is below n steps after n cycles, and below N / 1.5
+// after twelve: the target slows down and never goes back.
 #pragma once
 
 #include <array>
