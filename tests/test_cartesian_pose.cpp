@@ -41,6 +41,26 @@ void the_command_moves_the_tip_as_the_error_and_the_twist_say(void**) {
     }
 }
 
+void a_slow_robot_is_corrected_slowly_and_a_standing_one_not_at_all(void**) {
+  for (const double share : {1.0, 0.3, 0.0}) {
+    PoseBench bench;
+    bench.law.speed_scaling.source = &share;
+    bench.law.params.limits.ddq_max.setConstant(1e6);
+    ASSERT_OK(bench.start(regular(1)));
+    bench.x_d.p += Vector3(1e-3, 0.0, 0.0);
+    bench.v_d = 0.02 * Vector6::Unit(2);  // is the generator's, scaled already
+    ASSERT_OK(bench.step());
+    const Vector6 expected = bench.v_d + share * 10.0 * 1e-3 * Vector6::Unit(0);
+    ASSERT_NEAR((bench.J * bench.dq_c() - expected).norm(), 0.0, 1e-8);
+  }
+  for (const double share : {-0.1, 1.1, std::nan("")}) {
+    PoseBench bench;
+    bench.law.speed_scaling.source = &share;
+    ASSERT_OK(bench.start(regular(1)));
+    ASSERT_STATUS(bench.step(), Status::kReferenceFault);
+  }
+}
+
 void a_turn_is_made_on_the_shortest_arc(void**) {
   PoseBench bench;
   ASSERT_OK(bench.start(regular(2)));
@@ -204,6 +224,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(on_its_reference_the_arm_stands),
       cmocka_unit_test(the_command_moves_the_tip_as_the_error_and_the_twist_say),
+      cmocka_unit_test(a_slow_robot_is_corrected_slowly_and_a_standing_one_not_at_all),
       cmocka_unit_test(a_turn_is_made_on_the_shortest_arc),
       cmocka_unit_test(a_small_error_decays_as_an_exponential),
       cmocka_unit_test(a_known_delay_of_the_measurement_is_no_error),

@@ -103,6 +103,11 @@ void stalls_in_a_row_do_not_add_up(void**) {
     assert_true(motion.way > 0.6);
     assert_true(motion.ahead() < 1.2);
   }
+  for (int k = 0; k < 300; ++k) {  // of four: the difference before has not faded out yet
+    motion.tick(k % 4 == 0 ? 0 : 1);
+    assert_true(motion.way > 0.5 && motion.ahead() < 4.5);
+    assert_true(std::abs(motion.way - motion.way_before) < 0.4);
+  }
 }
 
 }  // namespace

@@ -6,8 +6,8 @@ namespace tactus::ur {
 
 struct EmulatorOptions {
   char address[64] = "127.0.0.1";
-  int port_offset = 0;  ///< added to every port
-  double speed = 1.0;   ///< cycles by this multiple of real time
+  int port_offset = 0;     ///< added to every port
+  double speed = 1.0;      ///< cycles by this multiple of real time
   bool lock_step = false;  ///< a cycle begins when the clients have answered
   double start_time_s = 100.0;
   double duration_s = 0.0;    ///< of the controller's time; 0: until it is ended

@@ -91,10 +91,12 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
   const JointVector posture =
       q_posture.wired() ? *q_posture : 0.5 * (params.limits.q_min + params.limits.q_max);
-  if (!(e.allFinite() && v_d->allFinite() && posture.allFinite())) return Status::kReferenceFault;
+  const double passed = speed_scaling.wired() ? *speed_scaling : 1.0;
+  if (!(e.allFinite() && v_d->allFinite() && posture.allFinite() && passed >= 0.0 && passed <= 1.0))
+    return Status::kReferenceFault;
 
   const Inverse inverse(*J, params.damping_onset);
-  Vector6 v = twist(e, inverse, dt_s);
+  Vector6 v = *v_d + passed * correction(e, inverse, dt_s);
   const double fastest = std::max(
       {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
   v /= fastest;
@@ -118,14 +120,14 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   return Status::kOk;
 }
 
-/// v_d + K e, where the correction K e is scaled so that every joint can still brake when it is
-/// done: at the rate of the greatest gain it has |dq| / K to go.
-Vector6 CartesianPose::twist(const Vector6& e, const Inverse& inverse, double dt_s) const {
-  Vector6 correction;
-  correction << params.position_gain.cwiseProduct(e.head<3>()),
+/// K e, scaled so that every joint can still brake when it is done: at the rate of the greatest
+/// gain it has |dq| / K to go.
+Vector6 CartesianPose::correction(const Vector6& e, const Inverse& inverse, double dt_s) const {
+  Vector6 v;
+  v << params.position_gain.cwiseProduct(e.head<3>()),
       params.rotation_gain.cwiseProduct(e.tail<3>());
   const double rate = std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
-  const JointVector dq = inverse.times(correction);
+  const JointVector dq = inverse.times(v);
   double share = 1.0;
   for (int i = 0; i < kDof; ++i) {
     const double speed = std::abs(dq[i]);
@@ -133,7 +135,7 @@ Vector6 CartesianPose::twist(const Vector6& e, const Inverse& inverse, double dt
         stopping_speed(speed / rate, kBrakingShare * params.limits.ddq_max[i], dt_s);
     if (speed * share > most) share = most / speed;
   }
-  return *v_d + share * correction;
+  return share * v;
 }
 
 /// Joints whose share of v is beyond what their position limits admit move as far as they may, one

@@ -10,6 +10,10 @@
 // The response is exp(-K t) at every period, to K dt / 2 of itself. x, J and q are measured; a
 // measurement that is known to be old is compared with the reference of that time.
 //
+// A robot that lets motions pass at a share s of their speed lags longer by 1 / s: errors are
+// worked off with s K, so that the loop is the same in the robot's own time, and stands when the
+// robot does.
+//
 // Limits, in this order:
 //   - a joint that may not move further is left out, and the others take its share of the task;
 //   - the whole twist is scaled until tool and joints keep their speeds: direction kept;
@@ -48,6 +52,7 @@ class CartesianPose {
   In<Quantity::kJacobian> J;               ///< at the measured joints
   In<Quantity::kJointPosition> q;          ///< measured
   In<Quantity::kJointPosition> q_posture;  ///< not wired: the middle of the joints' ranges
+  In<Quantity::kScalar> speed_scaling;     ///< of the robot, 0 to 1; not wired: 1
   Out<Quantity::kJointPosition> q_c;
   Out<Quantity::kJointVelocity> dq_c;
   Out<Quantity::kScalar> scale;    ///< share of the twist v that speed limits leave, 0 to 1
@@ -70,6 +75,7 @@ class CartesianPose {
     visit.param("position_margin", params.position_margin, Range{0.0, 0.5}, "rad");
     visit.in("x_d", x_d), visit.optional("v_d", v_d), visit.in("x", x), visit.in("J", J);
     visit.in("q", q), visit.optional("q_posture", q_posture);
+    visit.optional("speed_scaling", speed_scaling);
     visit.out("q_c", q_c), visit.out("dq_c", dq_c);
     visit.out("scale", scale), visit.out("sigma", sigma), visit.out("damping", damping);
   }
@@ -78,8 +84,8 @@ class CartesianPose {
   /// is at most kMaxGainPeriods; kStateNotFinite. [init]
   Status start(double dt_s);
 
-  /// kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture; a quaternion of no length),
-  /// kCommandNotFinite. The command then stays where it was, at rest. [cyclic]
+  /// kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a quaternion
+  /// of no length), kCommandNotFinite. The command then stays where it was, at rest. [cyclic]
   Status step(double dt_s);
 
   /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
@@ -91,7 +97,7 @@ class CartesianPose {
   struct Task;
 
   Status command_velocity(double dt_s, JointVector& dq);
-  Vector6 twist(const Vector6& e, const DampedInverse<kDof>& inverse, double dt_s) const;
+  Vector6 correction(const Vector6& e, const DampedInverse<kDof>& inverse, double dt_s) const;
   Task solve(const Vector6& v, const DampedInverse<kDof>& inverse, double dt_s) const;
 
   JointMotion motion_;
