@@ -155,4 +155,17 @@ int run_program_tests(const char* test, const CMUnitTest (&tests)[N]) {
   return 1;
 }
 
+/// Runs a command of the shell with the scratch folder as $S, the project as $R and the program as
+/// $P; its output goes where output() and errors() look. The exit code.
+inline int shell(const char* command) {
+  char root[PATH_MAX];
+  assert_non_null(getcwd(root, sizeof root));
+  setenv("S", scratch, 1);
+  setenv("R", root, 1);
+  setenv("P", program, 1);
+  Text<4095> line("{ ");
+  line << command << "; } >" << in_folder("out") << " 2>" << in_folder("err");
+  return WEXITSTATUS(std::system(line.c_str()));
+}
+
 }  // namespace tactus

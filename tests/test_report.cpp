@@ -14,19 +14,6 @@ constexpr const char* kWeak =
     "robot.q\n"
     "q = robot.q\ndq = robot.dq\nkp = 1\nkd = 1\n[guard]\nmax_velocity = 1e-3\n";
 
-/// Runs a command of the shell with the scratch folder as $S, the project as $R and the program as
-/// $P; its output goes where output() and errors() look. The exit code.
-int shell(const char* command) {
-  char root[PATH_MAX];
-  assert_non_null(getcwd(root, sizeof root));
-  setenv("S", scratch, 1);
-  setenv("R", root, 1);
-  setenv("P", program, 1);
-  Text<4095> line("{ ");
-  line << command << "; } >" << in_folder("out") << " 2>" << in_folder("err");
-  return WEXITSTATUS(std::system(line.c_str()));
-}
-
 int count(std::string_view text, std::string_view part) {
   int found = 0;
   for (auto at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;

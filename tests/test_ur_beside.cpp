@@ -22,34 +22,30 @@ constexpr const char* kProgram =
     "time.sleep(float(sys.argv[3]))\n"
     "sys.exit(int(sys.argv[4]))\n";
 
-int shell(const char* command) {
-  char root[PATH_MAX];
-  assert_non_null(getcwd(root, sizeof root));
-  setenv("S", scratch, 1);
-  setenv("R", root, 1);
-  setenv("P", program, 1);
-  Text<4095> line("{ cd $S && ");
-  line << command << "; } >" << in_folder("out") << " 2>" << in_folder("err");
-  return WEXITSTATUS(std::system(line.c_str()));
+/// In the scratch folder.
+int shell_there(const char* command) {
+  Text<4095> line("cd $S && ");
+  line << command;
+  return shell(line.c_str());
 }
 
 void plant(const char* address) {
   assert_int_equal(
-      shell(
+      shell_there(
           "rm -f said && mkdir -p build/ur10_socket build/ur10_emulator pipelines/trajectories && "
           "touch pipelines/trajectories/t && ln -sf $P build/ur10_emulator/tactus"),
       0);
   write(kName, {"[ur]\n", address, "[other]\nkeep = this\n"});
   write("build/ur10_socket/tactus", {kProgram});
-  assert_int_equal(shell("chmod +x build/ur10_socket/tactus"), 0);
+  assert_int_equal(shell_there("chmod +x build/ur10_socket/tactus"), 0);
 }
 
 /// Nobody listens any more where the programs were connected.
 void assert_nobody_is_left() {
-  assert_int_equal(shell("/usr/bin/python3 -c \"import socket\n"
-                         "for line in open('said'):\n"
-                         "    door = socket.socket()\n"
-                         "    assert door.connect_ex((line.strip(), 30004)) != 0\""),
+  assert_int_equal(shell_there("/usr/bin/python3 -c \"import socket\n"
+                               "for line in open('said'):\n"
+                               "    door = socket.socket()\n"
+                               "    assert door.connect_ex((line.strip(), 30004)) != 0\""),
                    0);
 }
 
@@ -57,16 +53,18 @@ void assert_nobody_is_left() {
 
 void the_program_meets_an_emulator_that_ends_with_it(void**) {
   plant("address = 192.168.1.10    # of the controller\n");
-  assert_int_equal(shell("$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini 0 3"), 3);
+  assert_int_equal(
+      shell_there("$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini 0 3"), 3);
   assert_true(has(file_of("said"), "127.0.0."));
   assert_nobody_is_left();
 }
 
 void two_at_once_have_one_each(void**) {
   plant("address = 192.168.1.10\n");
-  assert_int_equal(shell("run=\"$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini\"\n"
-                         "$run 1 0 & $run 1 0 && wait && [ $(sort -u said | wc -l) = 2 ]"),
-                   0);
+  assert_int_equal(
+      shell_there("run=\"$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini\"\n"
+                  "$run 1 0 & $run 1 0 && wait && [ $(sort -u said | wc -l) = 2 ]"),
+      0);
   assert_nobody_is_left();
 }
 
@@ -91,12 +89,13 @@ void an_interrupt_ends_both(void**) {
 
 void what_cannot_be_run_is_said(void**) {
   plant("");
-  assert_int_equal(shell("$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini"), 2);
+  assert_int_equal(shell_there("$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini"),
+                   2);
   assert_true(has(errors(), "ur10_trg_cpc_real.ini: 0 lines with an address, not 1"));
-  assert_int_equal(shell("$R/scripts/beside_emulator run pipelines/other.ini"), 2);
+  assert_int_equal(shell_there("$R/scripts/beside_emulator run pipelines/other.ini"), 2);
   assert_true(has(errors(), "other.ini: where the arm stands is known for "));
-  assert_int_equal(shell("rm build/ur10_emulator/tactus; "
-                         "$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini"),
+  assert_int_equal(shell_there("rm build/ur10_emulator/tactus; "
+                               "$R/scripts/beside_emulator run pipelines/ur10_trg_cpc_real.ini"),
                    2);
   assert_true(has(errors(), "build/ur10_emulator/tactus: No such file or directory"));
 }
