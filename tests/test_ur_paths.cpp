@@ -90,14 +90,14 @@ Vector3 center_of(const Vector3& a, const Vector3& b, const Vector3& c) {
 }
 
 /// Outside the radii the tip is on one of the lines and circles, or the joints are on a line.
-bool on_path(const Joints& q, const std::vector<Move>& moves) {
+bool on_path(const Joints& q, const std::vector<Move>& moves, const std::vector<Joints>& ends) {
   const Vector3 p = forward(q).p;
   Vector3 from = forward(kPathHome).p;
   Joints q_from = kPathHome;
-  for (const Move& move : moves) {
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const Move& move = moves[i];
     const Vector3 to = move.target.p;
-    Joints q_to;
-    if (!inverse(move.target, {}, kPathHome, q_to)) return false;
+    const Joints& q_to = ends[i];
     if ((p - to).norm() <= move.r + 1e-9) return true;
     if (move.kind == Kind::kJ) {
       const Joints u = (q_to - q_from).normalized();
@@ -143,9 +143,12 @@ std::vector<Move> random_moves(std::mt19937_64& random) {
 /// Every kind of move after every other: continuous, and within the limits of the joints. The
 /// slider changes the time only: what the eighths of a cycle show is what any speed shows.
 void random_paths_are_smooth_and_do_not_know_the_slider(void**) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
     std::mt19937_64 random(seed);
     const std::vector<Move> moves = random_moves(random);
+    std::vector<Joints> ends(moves.size());
+    for (std::size_t i = 0; i < moves.size(); ++i)
+      assert_true(inverse(moves[i].target, {}, kPathHome, ends[i]));
     Motion fine, swept;
     fine.rest(kPathHome);
     swept.rest(kPathHome);
@@ -155,7 +158,7 @@ void random_paths_are_smooth_and_do_not_know_the_slider(void**) {
     const auto found = run_moves(swept, moves, [&](int) { return 0.125 * eighths(random); });
     check_smooth(found);
     for (const PathPoint& point : found) {
-      assert_true(on_path(point.q, moves));
+      assert_true(on_path(point.q, moves, ends));
       const auto k = static_cast<std::size_t>(std::lround(point.time_s / 0.001));
       if (k < expected.size()) assert_true((point.q - expected[k].q).cwiseAbs().maxCoeff() < 1e-6);
     }

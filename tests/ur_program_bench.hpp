@@ -46,7 +46,7 @@ struct ProgramBench {
   }
   Machine& machine() { return controller.machine(); }
   const Image& image() const { return controller.image(); }
-  const Joints& target() { return machine().motion.q(); }
+  Joints target() { return machine().motion.q(); }
 
   /// As on a state port: direct commands are no programs.
   void upload(std::string_view text) {

@@ -31,6 +31,7 @@ class LineProgram {
     Place begin;
   };
 
+  ProgramStep end(const Machine& machine) const;
   bool next(std::string_view& line);
   Line run_line(std::string_view line, Machine& machine);
   Line run_block(std::string_view word, std::string_view line, Machine& machine);

@@ -22,6 +22,7 @@ double Motion::advance(double h_s) {
 double Motion::moved(double h_s) {
   switch (kind_) {
     case Kind::kRest:
+    case Kind::kCarried:
       busy_ = false;
       return 0.0;
     case Kind::kMove:
@@ -104,6 +105,7 @@ void Motion::ramp_twist(double h_s) {
 
 void Motion::idle(double h_s, bool playing) {
   if (!playing) {
+    busy_ = false;
     kind_ = Kind::kStop;
     ramp_to(Joints::Zero(), limits_.stop_acceleration, h_s);
     return;
@@ -112,6 +114,7 @@ void Motion::idle(double h_s, bool playing) {
     move_on(h_s);
     return;
   }
+  if (kind_ == Kind::kCarried) return ramp_to(Joints::Zero(), limits_.stop_acceleration, h_s);
   const bool holds_speed = kind_ == Kind::kSpeedJ || kind_ == Kind::kSpeedL;
   if (holds_speed) {
     q_ += dq_ * h_s;

@@ -7,11 +7,15 @@
 //   speedj, speedl a linear change of speed, for t seconds or until it is reached; then it is held
 //   stopj          a linear change to rest
 //
+// In force mode the tool is displaced beside that (force_mode.hpp), and in freedrive the targets
+// are where the arm is.
+//
 // A target that cannot be followed is a fault: a protective stop.
 #pragma once
 
 #include <limits>
 
+#include "sim_plant/ur/force_mode.hpp"
 #include "sim_plant/ur/move_path.hpp"
 #include "sim_plant/ur/safety_codes.hpp"
 #include "sim_plant/ur/servo_law.hpp"
@@ -20,7 +24,8 @@ namespace tactus::ur {
 
 class Motion {
  public:
-  explicit Motion(const MotionLimits& limits = {}) : limits_(limits), path_(limits_) {}
+  explicit Motion(const MotionLimits& limits = {}, const ForceSettings& force = {})
+      : limits_(limits), path_(limits_), force_law_(force) {}
   Motion(const Motion&) = delete;
   Motion& operator=(const Motion&) = delete;
 
@@ -56,6 +61,11 @@ class Motion {
   /// For `h_s` the script gives no command. `playing`: there is a script; else the arm comes to
   /// rest. [cyclic]
   void idle(double h_s, bool playing);
+  /// Force mode for `h_s`: `force` is what acts on the tip, base frame. Behind its end the tool
+  /// comes to rest. [cyclic]
+  void yield(const ForceMode& mode, double damping, const Vector6& force, double h_s);
+  /// A hand moves the arm: no command is heard, and when it lets go, the arm brakes. [cyclic]
+  void carry(const Joints& q, const Joints& dq);
   /// The brake of a protective stop; nothing else is heard until the arm stands. [cyclic]
   void brake(double h_s);
 
@@ -64,8 +74,9 @@ class Motion {
   /// Blend radii overlapped, and one was left out. Reading clears it. [cyclic]
   bool take_overlap() { return path_.take_overlap(); }
 
-  const Joints& q() const { return q_; }    ///< the targets, rad
-  const Joints& dq() const { return dq_; }  ///< their speed by the stretched time base, rad/s
+  Joints q() const { return q_ + offset_; }       ///< the targets, rad
+  Joints dq() const { return dq_ + offset_dq_; }  ///< their speed by the stretched time base, rad/s
+  const Matrix3& task_axes() const { return force_law_.axes(); }
   const MotionLimits& limits() const { return limits_; }
 
  private:
@@ -78,12 +89,14 @@ class Motion {
     kSpeedL,
     kStop,
     kBrakeFirst,
+    kCarried,  // by a hand
   };
   void begin(Kind kind, double t);
   double moved(double h_s);
   double move_on(double h_s);
   bool wait_with(const Move& move);
   void begin_waiting();
+  void settle_offset();
   void ramp_to(const Joints& dq, double a, double h_s);
   void ramp_twist(double h_s);
   bool in_reach(const Joints& q) const;
@@ -102,6 +115,8 @@ class Motion {
   Vector6 twist_ = Vector6::Zero(), twist_goal_ = Vector6::Zero();
   ServoLaw law_;
   MovePath path_;
+  ForceLaw force_law_;
+  Joints offset_ = Joints::Zero(), offset_dq_ = Joints::Zero();  // of force mode
 };
 
 }  // namespace tactus::ur

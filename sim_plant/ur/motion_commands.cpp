@@ -25,7 +25,10 @@ void Motion::rest(const Joints& q) {
   dq_.setZero();
   twist_.setZero();
   kind_ = Kind::kRest;
-  busy_ = false;
+  busy_ = waits_ = false;
+  offset_.setZero();
+  offset_dq_.setZero();
+  force_law_.reset();
 }
 
 void Motion::begin(Kind kind, double t) {

@@ -44,10 +44,6 @@ void RegisterProgram::start(std::string_view text) {
   double_offset_ = offset(text, "global reg_offset_float");
   if (int_offset_ < 0 || int_offset_ > kRegisters / 2) int_offset_ = 0;
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
-  constexpr std::string_view kWatch = "rtde_set_watchdog(\"";
-  const std::size_t watch = text.find(kWatch);
-  if (watch != std::string_view::npos)
-    watch_name_ = leading_name(text.substr(watch + kWatch.size()));
   async_ = text.find("thread move_thread():") != std::string_view::npos;
 }
 
@@ -92,10 +88,6 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
     answer(kReady, machine);
     started_ = true;
   }
-  if (watchdog_barks(machine)) {
-    machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kViolation);
-    return ProgramStep::kEnded;
-  }
   if (moving_ && !machine.motion.busy()) {
     moving_ = false;
     progress(false, machine);
@@ -134,6 +126,7 @@ void RegisterProgram::process(Command command, Machine& machine) {
     case Command::kServoStop:
       return stop(async_ ? input(0, machine) : 20.0, machine);
     case Command::kForceModeStop:
+      machine.force_mode = {};
       return stop(10.0, machine);
     case Command::kStopJ:
     case Command::kStopL:
@@ -153,11 +146,9 @@ void RegisterProgram::process(Command command, Machine& machine) {
       machine.protective_stop({Code::kFromScript, 0});
       return;
     case Command::kWatchdog:
-      watched_ = find_input(watch_name_, machine.settings.version);
-      if (watched_.type == FieldType::kNotFound)
-        watched_ = {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)};
-      watch_hz_ = input(0, machine);
-      watched_from_ = machine.cycle;
+      machine.watchdogs.set(
+          {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)},
+          input(0, machine), LateAction::kStop, machine.cycle);
       return;
     default:
       return ask(command, machine);
@@ -206,9 +197,22 @@ void RegisterProgram::take_cyclic(Command command, Machine& machine) {
       law_ = {input(10, machine), input(9, machine)};
       return;
     }
+    case Command::kForceMode:
+      return start_force_mode(machine);
     default:
-      return;  // force mode: the arm keeps its place
+      return;
   }
+}
+
+/// Integers 1: type, 2 to 7: selection; doubles 0 to 17: frame, wrench, limits.
+void RegisterProgram::start_force_mode(Machine& machine) const {
+  ForceMode mode;
+  mode.type = integer(1, machine);
+  for (int i = 0; i < 6; ++i) mode.selection[i] = integer(2 + i, machine);
+  mode.task_frame = six(0, machine);
+  mode.wrench = six(6, machine);
+  mode.limits = six(12, machine);
+  machine.start_force_mode(mode);
 }
 
 void RegisterProgram::stop(double a, Machine& machine) {
@@ -223,12 +227,6 @@ ProgramStep RegisterProgram::command(Machine& machine) {
   if (cyclic_ == Cyclic::kSpeedJ) motion.speed_j(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
   if (cyclic_ == Cyclic::kSpeedL) motion.speed_l(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
   return motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
-}
-
-bool RegisterProgram::watchdog_barks(const Machine& machine) const {
-  if (!(watch_hz_ > 0.0)) return false;
-  const std::int64_t last = std::max(machine.io.written[watched_.variable()], watched_from_);
-  return static_cast<double>(machine.cycle - last) * kCycle_s > 1.0 / watch_hz_;
 }
 
 }  // namespace tactus::ur

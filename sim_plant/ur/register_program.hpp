@@ -29,7 +29,7 @@ class RegisterProgram {
   void take_cyclic(RegisterCommand command, Machine& machine);
   void stop(double a, Machine& machine);
   void ask(RegisterCommand command, Machine& machine);
-  bool watchdog_barks(const Machine& machine) const;
+  void start_force_mode(Machine& machine) const;
 
   int int_offset_ = 0, double_offset_ = 0;
   bool started_ = false, async_ = false;
@@ -41,10 +41,6 @@ class RegisterProgram {
   Vector6 goal_ = Vector6::Zero();
   double a_ = 0.0, t_ = 0.0;
   ServoLaw law_;
-  std::string_view watch_name_;  // as the text has it
-  InputField watched_;
-  double watch_hz_ = 0.0;
-  std::int64_t watched_from_ = 0;
 };
 
 }  // namespace tactus::ur
