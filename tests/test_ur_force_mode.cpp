@@ -1,5 +1,7 @@
-// Force mode and freedrive of the emulated controller: the arm in a wall that the test builds of
-// pushes, and in a hand.
+// Force mode of the emulated controller: the arm in free air, and at a wall that the test builds of
+// pushes.
+#include <random>
+
 #include "tests/ur_program_bench.hpp"
 
 namespace {
@@ -9,14 +11,6 @@ using namespace tactus::ur;
 
 constexpr double kWall = 3000.0;  // N/m
 const Joints kStart = ProgramBench::settings().initial_q;
-
-/// A program with these lines that then waits.
-void start(ProgramBench& bench, const char* lines) {
-  std::array<char, 1024> text;
-  const int size = std::snprintf(text.data(), text.size(),
-                                 "def yields():\n%s  while True:\n    sync()\n  end\nend\n", lines);
-  bench.upload({text.data(), static_cast<std::size_t>(size)});
-}
 
 /// A wall below `z`: it pushes the tip up.
 void push_by_wall(ProgramBench& bench, double z) {
@@ -29,10 +23,11 @@ void push_by_wall(ProgramBench& bench, double z) {
 
 /// No joint's target speed changes by more than the acceleration lets it.
 struct Smooth {
+  double most = 8.0;  // rad/s^2
   Joints before = Joints::Zero();
   void check(const ProgramBench& bench) {
     const Joints now = bench.image().target_qd;
-    assert_true((now - before).cwiseAbs().maxCoeff() <= 8.0 * kCycle_s);
+    assert_true((now - before).cwiseAbs().maxCoeff() <= most * kCycle_s);
     before = now;
   }
 };
@@ -54,7 +49,7 @@ void without_contact_the_damping_sets_the_speed(void**) {
                   "%s  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,-20,0,0,0],2,[0.1,0.1,0.15,"
                   "0.3,0.3,0.3])\n",
                   row.damping);
-    start(bench, lines.data());
+    start_and_wait(bench, lines.data());
     const Vector6 from = bench.image().target_tcp_pose;
     Smooth smooth;
     for (int k = 0; k < 125; ++k) bench.tick(), smooth.check(bench);
@@ -76,7 +71,8 @@ void without_contact_the_damping_sets_the_speed(void**) {
 
 void a_compliant_axis_keeps_to_its_speed_limit(void**) {
   static ProgramBench bench;
-  start(bench, "  force_mode(p[0,0,0,0,0,0],[1,0,0,0,0,1],[80,0,0,0,0,5],2,[0.03,1,1,1,1,0.1])\n");
+  start_and_wait(
+      bench, "  force_mode(p[0,0,0,0,0,0],[1,0,0,0,0,1],[80,0,0,0,0,5],2,[0.03,1,1,1,1,0.1])\n");
   Smooth smooth;
   for (int k = 0; k < 200; ++k) {
     bench.tick(), smooth.check(bench);
@@ -90,7 +86,8 @@ void a_compliant_axis_keeps_to_its_speed_limit(void**) {
 void in_contact_the_force_becomes_the_wrench(void**) {
   static ProgramBench bench;
   const double wall = forward(kStart).p.z() - 0.03;
-  start(bench, "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,-25,0,0,0],2,[1,1,0.1,1,1,1])\n");
+  start_and_wait(bench,
+                 "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,-25,0,0,0],2,[1,1,0.1,1,1,1])\n");
   Smooth smooth;
   for (int k = 0; k < 625; ++k) push_by_wall(bench, wall), bench.tick(), smooth.check(bench);
   ASSERT_NEAR(bench.image().actual_tcp_force[2], 25.0, 1.0);
@@ -107,8 +104,9 @@ void in_contact_the_force_becomes_the_wrench(void**) {
 void the_task_frame_turns_the_axes(void**) {
   static ProgramBench bench;
   // x of the frame is y of the base.
-  start(bench,
-        "  force_mode(p[0,0,0,0,0,1.5707963],[1,0,0,0,0,0],[20,0,0,0,0,0],2,[0.1,1,1,1,1,1])\n");
+  start_and_wait(
+      bench,
+      "  force_mode(p[0,0,0,0,0,1.5707963],[1,0,0,0,0,0],[20,0,0,0,0,0],2,[0.1,1,1,1,1,1])\n");
   const Vector6 from = bench.image().target_tcp_pose;
   bench.run(100);
   const Vector6 way = bench.image().target_tcp_pose - from;
@@ -126,7 +124,7 @@ void type_1_points_to_the_frame_and_type_3_along_the_way(void**) {
                 "  force_mode(p[%.9f,%.9f,-1,0,0,0],[0,1,0,0,0,0],[0,10,0,0,0,0],1,[1,0.1,1,1,1,1]"
                 ")\n",
                 tip.x(), tip.y());
-  start(bench, lines.data());
+  start_and_wait(bench, lines.data());
   bench.run(100);
   Vector6 way = bench.image().target_tcp_pose - forward(kStart).pose();
   assert_true(way[2] < -0.01);
@@ -134,9 +132,9 @@ void type_1_points_to_the_frame_and_type_3_along_the_way(void**) {
   bench.upload("stop program\n");
   bench.run(100);
   // The tip moves along the base's y: that is x of the frame, and its y is minus the base's x.
-  start(bench,
-        "  force_mode(p[0,0,0,0,0,0],[0,1,0,0,0,0],[0,10,0,0,0,0],3,[1,0.1,1,1,1,1])\n"
-        "  speedl([0,0.05,0,0,0,0], 0.5, 1.0)\n");
+  start_and_wait(bench,
+                 "  force_mode(p[0,0,0,0,0,0],[0,1,0,0,0,0],[0,10,0,0,0,0],3,[1,0.1,1,1,1,1])\n"
+                 "  speedl([0,0.05,0,0,0,0], 0.5, 1.0)\n");
   const Vector6 from = bench.image().target_tcp_pose;
   bench.run(100);
   way = bench.image().target_tcp_pose - from;
@@ -152,7 +150,7 @@ void beside_a_move_the_other_axes_follow_the_program(void**) {
                 "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,10,0,0,0],2,[1,1,0.1,1,1,1])\n"
                 "  movel(p[%.9f,%.9f,%.9f,%.9f,%.9f,%.9f], v=0.1)\n  end_force_mode()\n",
                 to[0], to[1], to[2], to[3], to[4], to[5]);
-  start(bench, lines.data());
+  start_and_wait(bench, lines.data());
   Smooth smooth;
   for (int k = 0; k < 250; ++k) bench.tick(), smooth.check(bench);
   const Vector6 end = bench.image().target_tcp_pose;
@@ -164,8 +162,9 @@ void beside_a_move_the_other_axes_follow_the_program(void**) {
 
 void a_tip_that_is_too_far_off_stops_the_arm(void**) {
   static ProgramBench bench;
-  start(bench,
-        "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,0,0,0,0],2,[0.0002,0.0002,0.1,1,1,1])\n");
+  start_and_wait(
+      bench,
+      "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,0,0,0,0],2,[0.0002,0.0002,0.1,1,1,1])\n");
   bench.run(20);
   assert_int_equal(bench.image().safety_mode, 1);
   bench.controller.faults().push = joints({100, 0, 0, 0, 0, 0});
@@ -175,52 +174,41 @@ void a_tip_that_is_too_far_off_stops_the_arm(void**) {
 
 void a_type_that_does_not_exist_is_refused(void**) {
   static ProgramBench bench;
-  start(bench, "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,9,0,0,0],4,[1,1,0.1,1,1,1])\n");
+  start_and_wait(bench,
+                 "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,9,0,0,0],4,[1,1,0.1,1,1,1])\n");
   bench.run(5);
   assert_int_equal(bench.image().safety_mode, 3);
 }
 
-// Proves URE-17.
-
-void in_freedrive_the_arm_yields_and_bears_its_weight(void**) {
-  static ProgramBench bench;
-  start(bench, "  freedrive_mode()\n  sleep(2.0)\n  end_freedrive_mode()\n");
-  bench.run(50);
-  assert_joints(bench.image().actual_q, kStart, 1e-6);
-  assert_int_equal(bench.image().robot_mode, 7);
-  assert_int_equal(bench.image().robot_status_bits & 4u, 4u);
-  bench.controller.faults().push = joints({20, 0, 0, 0, 0, 0});
-  bench.run(75);
-  bench.controller.faults().push.setZero();
-  const double pushed = bench.image().actual_q[0] - kStart[0];
-  assert_true(pushed > 0.05 && bench.image().actual_qd[0] > 0.05);
-  assert_joints(bench.target(), bench.image().actual_q, 1e-9);
-  // The hand lets go while the mode ends: the targets brake from where the arm is.
-  bench.controller.faults().push = joints({20, 0, 0, 0, 0, 0});
-  Joints before = bench.target();
-  for (int k = 0; k < 200; ++k) {
-    if (k == 130) bench.controller.faults().push.setZero();
-    bench.tick();
-    assert_true((bench.target() - before).cwiseAbs().maxCoeff() < 2.1 * kCycle_s);
-    before = bench.target();
+/// Any frame, axes, wrench and push, beside a move, begun and ended at any time.
+void random_force_modes_never_jump(void**) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    ProgramBench bench;
+    start_and_wait(bench, "  movej([0.3,-1.1,1.3,-0.2,1.4,0.2], v=0.3)\n");
+    Smooth smooth{12.0};
+    for (int k = 0; k < 300; ++k) {
+      if (k % 60 == 20) {
+        ForceMode mode;
+        mode.type = 1 + static_cast<int>(random() % 3);
+        for (int i = 0; i < 6; ++i) {
+          mode.task_frame[i] = uniform(random);
+          mode.selection[i] = random() % 2 == 0 ? 1.0 : 0.0;
+          mode.wrench[i] = (i < 3 ? 30.0 : 3.0) * uniform(random);
+          mode.limits[i] = i < 3 ? 0.08 : 0.15;
+        }
+        bench.machine().start_force_mode(mode);
+        for (int i = 0; i < 6; ++i) bench.controller.faults().push[i] = 4.0 * uniform(random);
+      }
+      if (k % 60 == 55) bench.machine().force_mode = {};
+      bench.tick();
+      smooth.check(bench);
+      assert_true(
+          (bench.image().target_qd.cwiseAbs().array() <= MotionLimits().speed.array()).all());
+      assert_int_equal(bench.image().safety_mode, 1);
+    }
   }
-  assert_false(bench.machine().freedrive);
-  assert_int_equal(bench.image().robot_status_bits & 4u, 0u);
-  assert_int_equal(bench.image().safety_mode, 1);
-  ASSERT_NEAR(bench.image().target_qd.norm(), 0.0, 1e-9);
-  assert_joints(bench.image().actual_q, bench.target(), 1e-3);
-}
-
-void freedrive_ends_with_its_program(void**) {
-  static ProgramBench bench;
-  start(bench, "  freedrive_mode()\n");
-  bench.run(20);
-  assert_true(bench.machine().freedrive);
-  bench.upload("movej([0.2, -1.2, 1.2, -0.1, 1.57, 0.0])\n");
-  bench.run(2);
-  assert_false(bench.machine().freedrive);
-  bench.run_to_end();
-  ASSERT_NEAR(bench.target()[0], 0.2, 1e-9);
 }
 
 }  // namespace
@@ -233,10 +221,9 @@ int main() {
       cmocka_unit_test(the_task_frame_turns_the_axes),
       cmocka_unit_test(type_1_points_to_the_frame_and_type_3_along_the_way),
       cmocka_unit_test(beside_a_move_the_other_axes_follow_the_program),
+      cmocka_unit_test(random_force_modes_never_jump),
       cmocka_unit_test(a_tip_that_is_too_far_off_stops_the_arm),
       cmocka_unit_test(a_type_that_does_not_exist_is_refused),
-      cmocka_unit_test(in_freedrive_the_arm_yields_and_bears_its_weight),
-      cmocka_unit_test(freedrive_ends_with_its_program),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958648;
 constexpr double kNothing = 1e-9;
+constexpr double kLongest_s = 1e6;
 
 double or_default(double value, double otherwise) {
   return value > 0.0 ? value : otherwise;
@@ -68,7 +69,7 @@ void Segment::choose_pace() {
   const bool joints = in_joints();
   pace_ = {or_default(move_.v, joints ? 1.05 : 0.25), or_default(move_.a, joints ? 1.4 : 1.2)};
   if (move_.t > 0.0) {
-    const double v = std::min(length_ / (0.75 * move_.t), most_.v);
+    const double v = std::min(length_ / (0.75 * std::min(move_.t, kLongest_s)), most_.v);
     // Where that is too fast, the whole takes longer.
     pace_ = {v, length_ > 0.0 ? v * v * 3.0 / length_ : 1.0};
   }
