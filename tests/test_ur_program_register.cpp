@@ -152,8 +152,7 @@ void force_mode_is_ready_at_once_and_its_end_done(void**) {
   bench.start();
   bench.machine().io.input.ints[1] = 2, bench.machine().io.input.ints[4] = 1;  // type, z
   bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1});
-  bench.run(100);
-  assert_int_equal(bench.answer(), 1);
+  bench.run(100), assert_int_equal(bench.answer(), 1);
   assert_true(bench.image().target_tcp_pose[2] - forward(kStart).p.z() > 0.01);
   bench.command(7);
 }
