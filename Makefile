@@ -3,7 +3,8 @@ BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
 ARCH  ?= host
-B     := build/$(BOARD)$(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
+HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
+B     := build/$(BOARD)$(HOW)
 
 # What a board.mk says: robot, sources, libraries, runs and who runs them, and its tests if they are not all.
 BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
@@ -14,6 +15,9 @@ RUNNER  = $(B)/tactus
 PARTS  :=
 TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
 include boards/$(BOARD)/board.mk
+# Programs are a board's; objects are a robot's, whatever board links them.
+robot := $(shell echo $(ROBOT) | tr A-Z a-z)
+O     := build/$(robot)$(HOW)
 
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
 SEAMS     := boards/program/options.cpp boards/ur10_emulator/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
@@ -47,8 +51,9 @@ PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/os
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
 LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
-TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -L$(B) -lfcl_oracle -Wl,-rpath,'$$ORIGIN/..'
-obj       = $(patsubst %.cpp,$(B)/%.o,$(1))
+TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,'$$ORIGIN/../..'
+obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
+say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help
@@ -62,7 +67,7 @@ test: setup                                   ## build and run all tests of ever
 test-long: setup                              ## the long random tests at full count
 	$(Q)$(MAKE) --no-print-directory -j2 $(LONG)
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
-check: setup                                  ## what must hold before a change lands, tests included
+check: test                                   ## what must hold before a change lands, tests included
 	$(Q)scripts/check
 docs: $(B)/tactus                             ## write the documents that are generated
 	$(Q)$(B)/tactus ports > docs/ports.md
@@ -84,10 +89,10 @@ each-board:
 	$(Q)$(call each,$(TARGETS))
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
-kernel: $(B)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
+kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(B)/tests/bare_metal/link.o $(B)/tests/bare_metal/memory.o $(B)/libkernel.a $(B)/libccd.a
-	@echo "  LD    $@"
+$(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a $(O)/libccd.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
 trajectories: build/trajectories/fer_excitation.csv
@@ -100,45 +105,42 @@ run-tests: $(B)/tactus $(TESTS)
 	$(Q)scripts/run_tests $(TESTS)
 
 $(call obj,$(SEAMS)): CXXFLAGS := $(SEAMFLAGS)
-$(B)/libkernel.a: $(call obj,$(KERNEL))
+$(O)/libkernel.a: $(call obj,$(KERNEL))
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
-$(B)/libccd.a: $(CCD_SRCS:%.c=$(B)/%.o)
-$(B)/liboracles.a: $(call obj,$(ORACLES))
-$(B)/%.a:
-	@echo "  AR    $@"
+$(O)/libccd.a: $(CCD_SRCS:%.c=$(O)/%.o)
+$(O)/liboracles.a: $(call obj,$(ORACLES))
+build/%.a:
+	$(call say,AR    $@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
-$(B)/tactus: $(call obj,$(SRCS)) $(B)/libprogram.a $(B)/libkernel.a
-	@echo "  LD    $@"
+$(B)/tactus: $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS) -lccd
 # Debian's FCL is compiled with vectorised Eigen: who calls it too, and hidden from all that is not.
-$(B)/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
-	@mkdir -p $(@D)
-	@echo "  LD    $@"
+build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
+	$(call say,LD    $@)
 	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
-$(TESTS): | $(B)/libfcl_oracle.so
-$(TESTS): %: %.o $(B)/liboracles.a $(B)/libprogram.a $(B)/libkernel.a
-	@echo "  LD    $@"
+$(TESTS): | build/libfcl_oracle.so
+$(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
-$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(B)/libkernel.a
-	@echo "  LD    $@"
+$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lccd -lpthread
-$(B)/%.o: %.cpp Makefile boards/$(BOARD)/board.mk
-	@mkdir -p $(@D)
-	@echo "  CXX   $<"
+$(O)/%.o: %.cpp Makefile
+	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
 
-$(CCD_SRCS:%.c=$(B)/%.o): $(B)/%.o: %.c
-	@mkdir -p $(@D)
-	@echo "  CC    $<"
+$(CCD_SRCS:%.c=$(O)/%.o): $(O)/%.o: %.c
+	$(call say,CC    $<)
 	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) $(DEBUG) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
 $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
-$(call obj,$(KERNEL)) $(B)/tests/bare_metal/link.o: | $(CCD_SRCS)
+$(call obj,$(KERNEL) tests/bare_metal/link.cpp): | $(CCD_SRCS)
 
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include scripts/wcet/bound.mk
 
-.PRECIOUS: $(B)/%.o
+.PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+-include $(shell find $(O) -name '*.d' 2>/dev/null)

@@ -15,16 +15,16 @@ build/wcet/%/bounds.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*
 certificate:                                  ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
-certificate-m7: $(B)/libkernel.a $(B)/link.elf
-	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(B)/kernel --image $(B)/link.elf --tools $(CROSS_m7) \
+certificate-m7: $(O)/libkernel.a $(B)/link.elf
+	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/link.elf --tools $(CROSS_m7) \
 	  --static-budget $(STATIC_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
 	@grep -E '^(memory|RAM|stack)' $(B)/certificate.txt
-certificate-host: $(B)/libkernel.a $(B)/stack_painter
-	$(Q)scripts/certificate $(BOARD) --callgraph $(B)/kernel --stack-budget $(HOST_STACK_BUDGET) \
+certificate-host: $(O)/libkernel.a $(B)/stack_painter
+	$(Q)scripts/certificate $(BOARD) --callgraph $(O)/kernel --stack-budget $(HOST_STACK_BUDGET) \
 	  --painted $(B)/stack_painter > $(B)/certificate.txt
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
-$(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(B)/libkernel.a
-	@echo "  LD    $@"
+$(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lccd
-$(B)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"build/wcet/$(firstword $(WCET_PIPELINES)).ini"'
-$(B)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=build/wcet/%.ini)
+$(O)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"build/wcet/$(firstword $(WCET_PIPELINES)).ini"'
+$(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=build/wcet/%.ini)

@@ -1,4 +1,4 @@
-# Parsers of the UR's wire under libFuzzer: docs/ur10_emulator.md. Included by the Makefile; B and obj are its.
+# Parsers of the UR's wire under libFuzzer: docs/ur10_emulator.md. Included by the Makefile; B, O and obj are its.
 FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS=
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 # A tape stands in the place of the sockets, and a light arm in that of MuJoCo's.
@@ -17,8 +17,8 @@ fuzz-built: wcet-setup
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
 fuzz-targets: $(addprefix $(B)/,$(FUZZ))
-$(B)/libfuzzed.a: $(call obj,$(FUZZED))
-$(addprefix $(B)/,$(FUZZ)): $(B)/%: $(B)/tests/fuzz/%.o $(B)/libfuzzed.a
-	@echo "  LD    $@"
+$(O)/libfuzzed.a: $(call obj,$(FUZZED))
+$(addprefix $(B)/,$(FUZZ)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^
 endif

@@ -1,7 +1,7 @@
-# The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, ROBOT, ARCH are its.
+# The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, O, robot, ARCH are its.
 WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
 # A board with a budget of memory is one that the kernel runs on.
-WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(shell echo $(ROBOT) | tr A-Z a-z)_%,$(WCET_ALL)))
+WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(robot)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
 BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
@@ -34,44 +34,41 @@ build/wcet/%.ini: pipelines/%.ini
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
-$(B)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(B)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(B)/libkernel.a $(B)/libccd.a
-	@echo "  LD    $@"
+$(O)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a $(O)/libccd.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
-$(B)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
-	@mkdir -p $(@D)
-	@echo "  CXX   $<"
+$(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile
+	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
 wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
            $(WCET_PIPELINES:%=build/wcet/%.ini) ;
-$(B)/wcet-record: $(B)/tests/wcet/record.o $(B)/libprogram.a $(B)/libkernel.a
-	@echo "  LD    $@"
+$(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
 $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
-$(B)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
-$(B)/wcet-replay: $(B)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(B)/libkernel.a
-	@echo "  LD    $@"
+$(O)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
+$(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lccd
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
-	@mkdir -p $(@D)
-	@echo "  LD    $@"
+	$(call say,LD    $@)
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
 endif
 # make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches; the target itself is not what it counts.
 ifeq ($(SANITIZE),fuzzer-no-link)
 .PHONY: wcet-searches
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
-$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(B)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(B)/libkernel.a
-	@echo "  LD    $@"
+$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(O)/libkernel.a
+	$(call say,LD    $@)
 	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
-$(B)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile boards/$(BOARD)/board.mk
-	@mkdir -p $(@D)
-	@echo "  CXX   $<"
+$(O)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile
+	$(call say,CXX   $<)
 	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
 endif
