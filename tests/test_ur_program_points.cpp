@@ -150,6 +150,39 @@ void an_optimove_is_passed_over_with_a_popup(void**) {
   assert_true(bench.running());
 }
 
+// Proves URP-7.
+
+void point_to(ExternalBench& bench, double dq0, double time_s) {
+  bench.spline_point(beside(dq0), Joints::Zero(), Joints::Zero(), time_s, 1);
+}
+
+void points_behind_a_refused_one_are_none_of_the_next_trajectory(void**) {
+  static ExternalBench bench;
+  bench.start();
+  bench.forward(1, 3);
+  point_to(bench, 0.3, 0.0);  // no time: cancelled
+  point_to(bench, 0.4, 1.0);
+  point_to(bench, 0.5, 1.0);
+  assert_int_equal(bench.await_result(), 1);
+  bench.run(5);
+  bench.forward(1, 2);
+  point_to(bench, 0.0, 0.0);
+  point_to(bench, -0.1, 0.5);
+  assert_int_equal(bench.await_result(), 0);
+  ASSERT_NEAR(bench.target()[0], -0.1, 1e-3);
+}
+
+void a_point_that_did_not_come_is_not_waited_for(void**) {
+  static ExternalBench bench;
+  bench.start();
+  bench.forward(1, 1);
+  assert_int_equal(bench.await_result(), 2);
+  bench.forward(1, 1);
+  point_to(bench, 0.1, 0.5);
+  assert_int_equal(bench.await_result(), 0);
+  ASSERT_NEAR(bench.target()[0], 0.1, 1e-3);
+}
+
 }  // namespace
 
 int main() {
@@ -160,6 +193,8 @@ int main() {
       cmocka_unit_test(times_have_the_scale_that_the_text_gives),
       cmocka_unit_test(a_blend_radius_has_the_scale_of_times),
       cmocka_unit_test(an_optimove_is_passed_over_with_a_popup),
+      cmocka_unit_test(points_behind_a_refused_one_are_none_of_the_next_trajectory),
+      cmocka_unit_test(a_point_that_did_not_come_is_not_waited_for),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -20,6 +20,11 @@ Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t 
 
 }  // namespace
 
+/// How many points are to come is known.
+bool TrajectoryRun::counted() const {
+  return left_ < kUnknown / 2;
+}
+
 /// The points that have come for a trajectory that has ended.
 void TrajectoryRun::read_away(Machine& machine) {
   std::array<std::int32_t, kTrajectoryInts> point;
@@ -28,7 +33,7 @@ void TrajectoryRun::read_away(Machine& machine) {
 }
 
 void TrajectoryRun::start(std::int32_t points, bool stream, Machine& machine) {
-  if (active()) read_away(machine);
+  if (active() || counted()) read_away(machine);
   phase_ = Phase::kPoints;
   stream_ = stream;
   stream_ended_ = false;
@@ -81,8 +86,7 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
     case Phase::kClearing:
       read_away(machine);
       waited_s_ += kCycle_s;
-      if (left_ > 0 && left_ < kUnknown / 2 && waited_s_ < kPatience_s)
-        return ProgramStep::kWaiting;
+      if (left_ > 0 && counted() && waited_s_ < kPatience_s) return ProgramStep::kWaiting;
       [[fallthrough]];
     case Phase::kStopping:
       phase_ = Phase::kIdle;
@@ -123,6 +127,7 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
   waited_s_ += kCycle_s;
   const bool moving = !machine.motion.dq().isZero(1e-6);
   if (moving || waited_s_ > kPatience_s) {
+    --left_;  // it does not come late either
     finish(kFailed, machine);
     return ProgramStep::kRunning;
   }

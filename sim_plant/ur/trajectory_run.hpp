@@ -34,6 +34,7 @@ class TrajectoryRun {
  private:
   enum class Phase : std::uint8_t { kIdle, kPoints, kSpline, kStopping, kClearing };
 
+  bool counted() const;
   bool spline_step(Machine& machine);
   ProgramStep next_point(Machine& machine);
   void take_point(const std::array<std::int32_t, kTrajectoryInts>& point, Machine& machine);
