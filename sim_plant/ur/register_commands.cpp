@@ -91,10 +91,9 @@ Program::Outcome Program::protective_stop(Machine& machine) {
   return Outcome::kEnded;
 }
 
+/// On the register of the commands, whichever offset the text has.
 Program::Outcome Program::set_watchdog(Machine& machine) {
-  watched_ = find_input(watch_name_, machine.settings.version);
-  if (watched_.type == FieldType::kNotFound)
-    watched_ = {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)};
+  watched_ = {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)};
   watch_hz_ = input(0, machine);
   watched_from_ = machine.cycle;
   return Outcome::kDone;

@@ -37,10 +37,6 @@ void RegisterProgram::start(std::string_view text) {
   double_offset_ = offset(text, "global reg_offset_float");
   if (int_offset_ < 0 || int_offset_ > kRegisters / 2) int_offset_ = 0;
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
-  constexpr std::string_view kWatch = "rtde_set_watchdog(\"";
-  const std::size_t watch = text.find(kWatch);
-  if (watch != std::string_view::npos)
-    watch_name_ = leading_name(text.substr(watch + kWatch.size()));
   if (has("thread move_thread():"))
     progress_ = AsyncProgress(has("async_op_id") ? AsyncProgress::Coding::kCounted
                                                  : AsyncProgress::Coding::kValue);

@@ -118,7 +118,6 @@ class RegisterProgram {
   ServoLaw law_;
   bool jogging_ = false;
   Frame jog_frame_;
-  std::string_view watch_name_;  // as the text has it
   InputField watched_;
   double watch_hz_ = 0.0;
   std::int64_t watched_from_ = 0;
