@@ -89,9 +89,10 @@ void a_move_out_of_a_speed_is_no_jump(void**) {
 void force_mode_is_ready_at_once_and_its_end_done(void**) {
   static RegisterBench bench;
   bench.start();
-  bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1});
-  bench.run(10);
-  assert_int_equal(bench.answer(), 1);
+  bench.machine().io.input.ints[1] = 2, bench.machine().io.input.ints[4] = 1;  // type, z
+  bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1}, 2);
+  bench.run(100), assert_int_equal(bench.answer(), 1);
+  assert_true(bench.image().target_tcp_pose[2] - forward(kStart).p.z() > 0.01);
   bench.command(7);
 }
 
@@ -109,7 +110,7 @@ void the_watchdog_is_fed_by_the_register_of_the_offset(void**) {
       "  if reg_offset_int == 0:\n    rtde_set_watchdog(\"input_int_register_0\", hz, \"stop\")\n"
       "  else:\n    rtde_set_watchdog(\"input_int_register_24\", hz, \"stop\")\n  end\n";
   for (const bool with_offset : {false, true}) {
-    static RegisterBench bench;
+    RegisterBench& bench = *new RegisterBench;
     bench.start(with_offset, kWatches);
     bench.command(35, {10.0});
     const InputField fed =
@@ -121,7 +122,7 @@ void the_watchdog_is_fed_by_the_register_of_the_offset(void**) {
     }
     bench.run(13);
     assert_false(bench.running());
-    bench.write(0);
+    delete &bench;
   }
 }
 

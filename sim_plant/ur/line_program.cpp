@@ -15,17 +15,22 @@ void LineProgram::start(std::string_view text, int first_line, bool moves) {
 }
 
 ProgramStep LineProgram::poll(Machine& machine) {
-  if (ended_) return ProgramStep::kEnded;
   if (moves_ && machine.motion.busy()) return ProgramStep::kRunning;
+  if (ended_) return end(machine);
   if (machine.time_s() < wait_until_s_) return ProgramStep::kRunning;
   std::string_view line;
   for (int lines = 0; lines < kLinesAtOnce; ++lines) {
     const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
     ended_ = result == Line::kEnded;
-    if (ended_) return ProgramStep::kEnded;
+    if (ended_) return end(machine);
     if (result == Line::kWait) break;
   }
   return ProgramStep::kRunning;
+}
+
+/// A move that has returned by its blend radius goes to its point before the program ends.
+ProgramStep LineProgram::end(const Machine& machine) const {
+  return moves_ && machine.motion.arriving() ? ProgramStep::kRunning : ProgramStep::kEnded;
 }
 
 ProgramStep LineProgram::command(Machine& machine) {

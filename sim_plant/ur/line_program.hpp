@@ -33,6 +33,7 @@ class LineProgram {
     Place next;  ///< behind its end: a loop's beginning, the line after a call
   };
 
+  ProgramStep end(const Machine& machine) const;
   bool next(std::string_view& line);
   Line run_line(std::string_view line, Machine& machine);
   Line run_block(std::string_view word, std::string_view line, Machine& machine);

@@ -24,7 +24,7 @@ const Program::Row Program::kRows[] = {
     {Command::kSpeedStop, Shake::kDone, &Program::speed_stop, {}},
     {Command::kJogStart, Shake::kDone, &Program::jog_start, {}},
     {Command::kJogStop, Shake::kDone, &Program::jog_stop, {}},
-    {Command::kForceMode, Shake::kReady, nullptr, {}},
+    {Command::kForceMode, Shake::kReady, &Program::force_mode, {}},
     {Command::kForceModeStop, Shake::kDone, &Program::force_mode_stop, {}},
     {Command::kTeachMode, Shake::kDone, &Program::teach_mode, {}},
     {Command::kEndTeachMode, Shake::kDone, &Program::end_teach_mode, {}},
@@ -93,9 +93,8 @@ Program::Outcome Program::protective_stop(Machine& machine) {
 
 /// On the register of the commands, whichever offset the text has.
 Program::Outcome Program::set_watchdog(Machine& machine) {
-  watched_ = {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)};
-  watch_hz_ = input(0, machine);
-  watched_from_ = machine.cycle;
+  machine.watchdogs.set({FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)},
+                        input(0, machine), LateAction::kStop, machine.cycle);
   return Outcome::kDone;
 }
 

@@ -164,7 +164,20 @@ Program::Outcome Program::servo_stop(Machine& machine) {
   return stop(has("deceleration_rate") ? input(0, machine) : 20.0, machine);
 }
 
+/// Integers 1: type, 2 to 7: selection; doubles 0 to 17: frame, wrench, limits.
+Program::Outcome Program::force_mode(Machine& machine) {
+  ForceMode mode;
+  mode.type = integer_input(1, machine);
+  for (int i = 0; i < 6; ++i) mode.selection[i] = integer_input(2 + i, machine);
+  mode.task_frame = six(0, machine);
+  mode.wrench = six(6, machine);
+  mode.limits = six(12, machine);
+  machine.start_force_mode(mode);
+  return Outcome::kDone;
+}
+
 Program::Outcome Program::force_mode_stop(Machine& machine) {
+  machine.force_mode = {};
   return stop(10.0, machine);
 }
 

@@ -1,7 +1,5 @@
 #include "sim_plant/ur/register_program.hpp"
 
-#include <algorithm>
-
 #include "sim_plant/ur/script_text.hpp"
 
 namespace tactus::ur {
@@ -77,11 +75,7 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
     write(0, kReady, machine);
     started_ = true;
   }
-  if (watchdog_barks(machine)) {
-    machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kViolation);
-    return ProgramStep::kEnded;
-  }
-  const bool stands = !machine.motion.busy() && path_.empty();
+  const bool stands = !machine.motion.busy() && !machine.motion.arriving() && path_.empty();
   if (moving_ && stands) end_async(machine);
   if (blocked_) {
     blocked_ = !stands;
@@ -128,12 +122,6 @@ ProgramStep RegisterProgram::command(Machine& machine) {
     motion.speed_l(goal_, a_, t);
   }
   return motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
-}
-
-bool RegisterProgram::watchdog_barks(const Machine& machine) const {
-  if (!(watch_hz_ > 0.0)) return false;
-  const std::int64_t last = std::max(machine.io.written[watched_.variable()], watched_from_);
-  return static_cast<double>(machine.cycle - last) * kCycle_s > 1.0 / watch_hz_;
 }
 
 }  // namespace tactus::ur

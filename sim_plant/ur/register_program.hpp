@@ -51,7 +51,6 @@ class RegisterProgram {
   void write(int i, std::int32_t value, Machine& machine) const;
   void tell_progress(std::int32_t value, Machine& machine);
   void end_async(Machine& machine);
-  bool watchdog_barks(const Machine& machine) const;
 
   // register_commands.cpp: the rows, and what sets something.
   Outcome set_payload(Machine& machine);
@@ -81,6 +80,7 @@ class RegisterProgram {
   Outcome jog_stop(Machine& machine);
   Outcome speed_stop(Machine& machine);
   Outcome servo_stop(Machine& machine);
+  Outcome force_mode(Machine& machine);
   Outcome force_mode_stop(Machine& machine);
   Outcome stop_async(Machine& machine);
   Outcome stop(double a, Machine& machine);
@@ -118,9 +118,6 @@ class RegisterProgram {
   ServoLaw law_;
   bool jogging_ = false;
   Frame jog_frame_;
-  InputField watched_;
-  double watch_hz_ = 0.0;
-  std::int64_t watched_from_ = 0;
 };
 
 }  // namespace tactus::ur
