@@ -2,6 +2,7 @@
 // the test's hand. Bytes are written here as the protocols' tables have them.
 #pragma once
 
+#include <cstdio>
 #include <cstring>
 #include <initializer_list>
 
@@ -46,7 +47,7 @@ struct ProgramBench {
   }
   Machine& machine() { return controller.machine(); }
   const Image& image() const { return controller.image(); }
-  const Joints& target() { return machine().motion.q(); }
+  Joints target() { return machine().motion.q(); }
 
   /// As on a state port: direct commands are no programs.
   void upload(std::string_view text) {
@@ -110,6 +111,14 @@ struct ProgramBench {
     return count;
   }
 };
+
+/// A program with these lines that then waits.
+inline void start_and_wait(ProgramBench& bench, const char* lines) {
+  std::array<char, 1024> text;
+  const int size = std::snprintf(text.data(), text.size(),
+                                 "def yields():\n%s  while True:\n    sync()\n  end\nend\n", lines);
+  bench.upload({text.data(), static_cast<std::size_t>(size)});
+}
 
 inline Joints joints(std::initializer_list<double> values) {
   Joints q;

@@ -40,6 +40,21 @@ void Body::move(const Joints& q_t, double h_s) {
   residual_ += (h_s / (kResidual_s + h_s)) * (tau_ - model_ - residual_);
 }
 
+void Body::drift(double slowing_s, double h_s) {
+  const Joints limit(RobotMjcf::kDriveTorque.data());
+  Joints sum = Joints::Zero();
+  for (int k = 0; k < kInnerSteps; ++k) {
+    const Joints wanted = arm_.inverse_dynamics(-arm_.dq() / slowing_s);
+    const Joints tau = wanted.cwiseMax(-limit).cwiseMin(limit);
+    arm_.step(tau + push_, h_s / kInnerSteps);
+    sum += tau;
+  }
+  target_ = arm_.q();
+  slope_ = arm_.dq();
+  model_ = tau_ = sum / kInnerSteps;
+  residual_.setZero();
+}
+
 void Body::stand() {
   model_ = tau_ = arm_.stand();
   target_ = arm_.q();

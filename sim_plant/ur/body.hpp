@@ -18,6 +18,9 @@ class Body {
 
   /// One cycle of `h_s` from the targets of the last cycle to `q_t`, brakes open. [cyclic]
   void move(const Joints& q_t, double h_s);
+  /// One cycle without targets: the drives bear the weight, and slow the arm down with the time
+  /// constant `slowing_s`. [cyclic]
+  void drift(double slowing_s, double h_s);
   /// One cycle with the brakes closed. [cyclic]
   void stand();
 

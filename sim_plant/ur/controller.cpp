@@ -30,7 +30,10 @@ void Controller::tick() {
   dq_before_ = machine_.motion.dq() * machine_.speed_scaling;
   run_program();
   if (machine_.power.mode() == RobotMode::kRunning) {
-    machine_.body.move(machine_.motion.q(), kCycle_s);
+    if (machine_.freedrive)
+      carry_arm();
+    else
+      machine_.body.move(machine_.motion.q(), kCycle_s);
     watch_arm();
   } else {
     machine_.body.stand();
@@ -50,6 +53,19 @@ void Controller::run_program() {
     move_targets();
   else
     machine_.motion.brake(kCycle_s);
+  machine_.motion.yield(machine_.force_mode, machine_.force_damping, image_.actual_tcp_force,
+                        kCycle_s * machine_.speed_scaling);
+  if (const Stop fault = machine_.motion.take_fault()) machine_.protective_stop(fault);
+  if (machine_.motion.take_overlap())
+    machine_.messages.error({Code::kBlend, kOverlappingBlends}, ReportLevel::kWarning);
+}
+
+/// Freedrive: the drives carry the arm's weight, and the targets are where it is.
+void Controller::carry_arm() {
+  Body& body = machine_.body;
+  body.drift(machine_.settings.freedrive_s, kCycle_s);
+  const double scaling = machine_.speed_scaling;
+  machine_.motion.carry(body.q(), scaling > kNothing_s ? Joints(body.dq() / scaling) : body.dq());
 }
 
 /// The time base follows the slider; a pause slows it to nothing, and a tool that would be faster
@@ -78,7 +94,6 @@ void Controller::move_targets() {
     }
     left_s -= motion.advance(left_s);
   }
-  if (const Stop fault = motion.take_fault()) machine_.protective_stop(fault);
 }
 
 /// Position deviation and collision, and then what the safety system watches.
@@ -94,8 +109,22 @@ void Controller::watch_arm() {
   image_.collision_detection_ratio = hit.maxCoeff(&joint);
   if (!(image_.collision_detection_ratio < 1.0))
     machine_.protective_stop({Code::kCollision, static_cast<std::int32_t>(joint)});
-
+  watch_force_limits(q);
   watch_limits(q);
+}
+
+/// On the axes that are not compliant a program may limit how far the tip is off its target.
+void Controller::watch_force_limits(const Joints& q) {
+  const ForceMode& mode = machine_.force_mode;
+  const Motion& motion = machine_.motion;
+  if (!mode.active) return;
+  const Frame tip = forward(q) * motion.tool(), target = forward(motion.q()) * motion.tool();
+  Vector6 off;
+  off << motion.task_axes().transpose() * (tip.p - target.p),
+      motion.task_axes().transpose() * rotation_vector(tip.r * target.r.transpose());
+  for (int i = 0; i < 6; ++i)
+    if (!mode.compliant(i) && mode.limits[i] > 0.0 && !(std::abs(off[i]) <= mode.limits[i]))
+      machine_.protective_stop({Code::kPathDeviation, 0});
 }
 
 void Controller::watch_limits(const Joints& q) {

@@ -36,7 +36,9 @@ class Controller {
   void run_program();
   void scale_speed();
   void move_targets();
+  void carry_arm();
   void watch_arm();
+  void watch_force_limits(const Joints& q);
   void watch_limits(const Joints& q);
   void say_changes();
   void show();

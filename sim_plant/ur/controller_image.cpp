@@ -104,9 +104,11 @@ void Controller::show_modes() {
   image_.program_running = runner_.playing();
   image_.program_paused = runner_.paused();
   image_.freedrive = machine_.freedrive;
+  image_.force_mode = machine_.force_mode.active;
   image_.runtime_state = static_cast<std::uint32_t>(runner_.state());
-  image_.robot_status_bits =
-      (machine_.power.powered() ? kPowerOnBit : 0u) | (runner_.running() ? kProgramRunningBit : 0u);
+  image_.robot_status_bits = (machine_.power.powered() ? kPowerOnBit : 0u) |
+                             (runner_.running() ? kProgramRunningBit : 0u) |
+                             (machine_.freedrive ? kTeachButtonBit : 0u);
   // The bits are in the order of the modes; what stops the arm has a bit of its own besides.
   std::uint32_t bits = 1u << (static_cast<unsigned>(safety) - 1);
   if (safety == SafetyMode::kViolation) bits = kViolationBit;

@@ -27,13 +27,15 @@ Vector6 six(const Command& command, std::size_t first) {
   return values;
 }
 
-void start_force_mode(const Command& command, ForceMode& force) {
-  force.active = true;
+void start_force_mode(const Command& command, Machine& machine) {
+  ForceMode force;
   force.task_frame = six(command, 1);
   force.selection = six(command, 7);
   force.wrench = six(command, 13);
   force.type = static_cast<int>(value(command, 19));
   force.limits = six(command, 20);
+  machine.force_damping = value(command, 26);
+  machine.start_force_mode(force);
 }
 
 bool touches(const Machine& machine) {
@@ -65,7 +67,7 @@ void ExternalControl::obey_command(const Command& command, Link& link, Machine& 
       machine.io.tool_voltage = static_cast<std::int32_t>(value(command, 1));
       return;
     case ScriptCommand::kStartForceMode:
-      return start_force_mode(command, machine.force_mode);
+      return start_force_mode(command, machine);
     case ScriptCommand::kEndForceMode:
       machine.force_mode = {};
       return;

@@ -68,7 +68,7 @@ struct Image {
   // Not fields of RTDE.
   bool program_running = false, program_paused = false;
   bool emergency_stopped = false, protective_stopped = false;
-  bool freedrive = false;
+  bool freedrive = false, force_mode = false;
 };
 
 }  // namespace tactus::ur

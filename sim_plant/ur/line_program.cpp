@@ -6,36 +6,31 @@
 #include "sim_plant/ur/script_expression.hpp"
 
 namespace tactus::ur {
-namespace {
-
-/// Words that open a block which an `end` closes.
-bool opens_block(std::string_view line) {
-  for (const std::string_view word : {"while", "if", "def", "thread", "sec", "switch"})
-    if (leading_name(line) == word) return true;
-  return false;
-}
-
-}  // namespace
-
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
   *this = {};
   text_ = text;
   now_ = here_ = {0, first_line};
+  first_line_ = first_line;
   moves_ = moves;
 }
 
 ProgramStep LineProgram::poll(Machine& machine) {
-  if (ended_) return ProgramStep::kEnded;
   if (moves_ && machine.motion.busy()) return ProgramStep::kRunning;
+  if (ended_) return end(machine);
   if (machine.time_s() < wait_until_s_) return ProgramStep::kRunning;
   std::string_view line;
   for (int lines = 0; lines < kLinesAtOnce; ++lines) {
     const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
     ended_ = result == Line::kEnded;
-    if (ended_) return ProgramStep::kEnded;
+    if (ended_) return end(machine);
     if (result == Line::kWait) break;
   }
   return ProgramStep::kRunning;
+}
+
+/// A move that has returned by its blend radius goes to its point before the program ends.
+ProgramStep LineProgram::end(const Machine& machine) const {
+  return moves_ && machine.motion.arriving() ? ProgramStep::kRunning : ProgramStep::kEnded;
 }
 
 ProgramStep LineProgram::command(Machine& machine) {
@@ -59,59 +54,10 @@ LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine)
   const std::string_view word = leading_name(line);
   if (word == "end") return run_end();
   if (word == "break" || word == "continue") return run_jump(word == "break");
-  if (word == "halt" || (word == "return" && depth_ == 0)) return Line::kEnded;
+  if (word == "halt") return Line::kEnded;
+  if (word == "return") return run_return();
   if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
-}
-
-LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view line,
-                                         Machine& machine) {
-  if (word == "while") {
-    if (!holds(line, machine))
-      skip_blocks(1);
-    else if (!enter(true))
-      return Line::kEnded;
-  } else if (word == "if") {
-    if (!holds(line, machine))
-      find_branch(machine);
-    else if (!enter(false))
-      return Line::kEnded;
-  } else if (word == "elif" || word == "else") {
-    if (depth_ > 0) --depth_;  // the branch before was taken
-    skip_blocks(1);
-  } else {
-    skip_blocks(1);
-  }
-  return Line::kNext;
-}
-
-LineProgram::Line LineProgram::run_end() {
-  if (depth_ == 0) return Line::kEnded;
-  const Block& block = blocks_[--depth_];
-  if (block.loop) now_ = block.begin;
-  return Line::kNext;
-}
-
-/// `out`: break; else continue.
-LineProgram::Line LineProgram::run_jump(bool out) {
-  std::size_t left = 0;
-  while (depth_ > 0) {
-    ++left;
-    const Block& block = blocks_[--depth_];
-    if (!block.loop) continue;
-    if (out)
-      skip_blocks(left);
-    else
-      now_ = block.begin;
-    return Line::kNext;
-  }
-  return Line::kEnded;  // of no loop
-}
-
-bool LineProgram::enter(bool loop) {
-  if (depth_ == kDeepest) return false;
-  blocks_[depth_++] = {loop, here_};
-  return true;
 }
 
 /// The condition of "while ...:", "if ...:" or "elif ...:".
@@ -125,31 +71,6 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
     return value.number != 0.0;
   not_emulated(line, machine);
   return false;
-}
-
-/// Behind an `if` that does not hold: into the branch that does, or behind its end.
-void LineProgram::find_branch(Machine& machine) {
-  std::string_view line;
-  while (next(line)) {
-    const std::string_view word = leading_name(line);
-    if (opens_block(line)) {
-      skip_blocks(1);
-    } else if (word == "end") {
-      return;
-    } else if (word == "else" || (word == "elif" && holds(line, machine))) {
-      ended_ = !enter(false);
-      return;
-    }
-  }
-}
-
-/// Behind the end of the blocks that are open here.
-void LineProgram::skip_blocks(std::size_t count) {
-  std::string_view line;
-  while (count > 0 && next(line)) {
-    if (opens_block(line)) ++count;
-    if (leading_name(line) == "end") --count;
-  }
 }
 
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
@@ -194,6 +115,8 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
+  Line result = Line::kNext;
+  if (call_own(line, result)) return result;
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, {&variables_, &machine}, call)) {

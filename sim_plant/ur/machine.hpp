@@ -10,6 +10,7 @@
 #include "sim_plant/ur/power.hpp"
 #include "sim_plant/ur/robot_messages.hpp"
 #include "sim_plant/ur/safety.hpp"
+#include "sim_plant/ur/watchdog.hpp"
 
 namespace tactus::ur {
 
@@ -19,7 +20,7 @@ struct Machine {
         power(settings),
         safety(settings),
         messages(settings.version),
-        motion(settings.motion) {}
+        motion(settings.motion, settings.force) {}
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
@@ -45,6 +46,8 @@ struct Machine {
   Vector3 payload_cog = Vector3::Zero();
   bool freedrive = false;
   ForceMode force_mode;
+  double force_damping = kForceDamping;  ///< 0 to 1
+  Watchdogs watchdogs;
   Stop last_stop;
   bool stop_unsaid = false;  ///< to the clients, who hear of it with the next cycle
 
@@ -60,6 +63,18 @@ struct Machine {
     if (!(std::abs(mass) <= kMost) || !(cog.array().abs() <= kMost).all()) return refuse();
     payload = mass;
     payload_cog = cog;
+  }
+  void start_force_mode(const ForceMode& mode) {
+    if (!mode.valid()) return refuse();
+    force_mode = mode;
+    force_mode.active = true;
+  }
+  /// What ends with the program. [any]
+  void end_modes() {
+    freedrive = false;
+    force_mode = {};
+    force_damping = kForceDamping;
+    watchdogs.clear();
   }
 
  private:

@@ -7,7 +7,7 @@ namespace tactus::ur {
 namespace {
 
 constexpr double kNothing_s = 1e-9;  // less time than this is none
-constexpr double kSettle_s = 0.064;  // a move returns when the arm stands too
+constexpr double kTooFast = 1.05;    // of a joint's speed
 
 }  // namespace
 
@@ -22,16 +22,11 @@ double Motion::advance(double h_s) {
 double Motion::moved(double h_s) {
   switch (kind_) {
     case Kind::kRest:
+    case Kind::kCarried:
       busy_ = false;
       return 0.0;
-    case Kind::kMoveJ:
-      time_s_ += h_s;
-      q_ = from_ + way_ * time_law_.position(time_s_);
-      dq_ = way_ * time_law_.speed(time_s_);
-      break;
-    case Kind::kMoveL:
-      follow_line(h_s);
-      break;
+    case Kind::kMove:
+      return move_on(h_s);
     case Kind::kServo:
       for (int i = 0; i < 6; ++i) {
         const double before = q_[i];
@@ -61,34 +56,23 @@ double Motion::moved(double h_s) {
       }
       return h_s;
   }
-  // Moves: at the end exactly at rest, and then until the arm stands as well.
-  if (time_s_ >= time_law_.duration_s()) dq_.setZero();
-  if (time_s_ >= time_law_.duration_s() + kSettle_s) {
-    kind_ = Kind::kRest;
-    busy_ = false;
-  }
   return h_s;
 }
 
-/// Where a joint would be too fast, the time on the law is stretched.
-void Motion::follow_line(double h_s) {
-  double step_s = h_s;
-  for (int attempt = 0; attempt < 12; ++attempt) {
-    const double s = time_law_.position(time_s_ + step_s);
-    const Frame at{line_from_.p + s * (line_to_.p - line_from_.p),
-                   line_from_.r * rotation_matrix(s * turn_)};
-    Joints q = q_;
-    if (!inverse(at, tool_, q_, q)) break;
-    const double ratio = ((q - q_).cwiseAbs().array() / (h_s * limits_.speed.array())).maxCoeff();
-    if (ratio <= 1.0) {
-      time_s_ += step_s;
-      dq_ = (q - q_) / h_s;
-      q_ = q;
-      return;
-    }
-    step_s *= std::max(0.1, 0.95 / ratio);
+/// The path to its end, or to where the script may go on.
+double Motion::move_on(double h_s) {
+  const double taken_s = path_.advance(h_s);
+  const bool there = path_.posture(q_, q_, dq_);
+  // The pace of a path is planned from samples: next to a singularity they may miss the fastest.
+  const bool can = there && (dq_.cwiseAbs().array() <= kTooFast * limits_.speed.array()).all();
+  if (!can) fault_ = {Code::kSingularity, 0};
+  if (path_.asks()) busy_ = false;
+  if (path_.done()) {
+    kind_ = Kind::kRest;
+    busy_ = false;
+    if (waits_) begin_waiting();
   }
-  fault_ = {Code::kSingularity, 0};
+  return taken_s;
 }
 
 /// The leading axis changes its speed by `a`, the others in proportion.
@@ -120,12 +104,17 @@ void Motion::ramp_twist(double h_s) {
 }
 
 void Motion::idle(double h_s, bool playing) {
-  busy_ = false;
   if (!playing) {
+    busy_ = false;
     kind_ = Kind::kStop;
     ramp_to(Joints::Zero(), limits_.stop_acceleration, h_s);
     return;
   }
+  if (arriving()) {
+    move_on(h_s);
+    return;
+  }
+  if (kind_ == Kind::kCarried) return ramp_to(Joints::Zero(), limits_.stop_acceleration, h_s);
   const bool holds_speed = kind_ == Kind::kSpeedJ || kind_ == Kind::kSpeedL;
   if (holds_speed) {
     q_ += dq_ * h_s;

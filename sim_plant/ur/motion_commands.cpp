@@ -25,10 +25,14 @@ void Motion::rest(const Joints& q) {
   dq_.setZero();
   twist_.setZero();
   kind_ = Kind::kRest;
-  busy_ = false;
+  busy_ = waits_ = false;
+  offset_.setZero();
+  offset_dq_.setZero();
+  force_law_.reset();
 }
 
 void Motion::begin(Kind kind, double t) {
+  waits_ = false;
   if (kind == Kind::kSpeedL && kind_ != Kind::kSpeedL) twist_ = jacobian(q_, tool_) * dq_;
   kind_ = kind;
   left_s_ = t;
@@ -39,70 +43,53 @@ bool Motion::in_reach(const Joints& q) const {
   return q.allFinite() && q.cwiseAbs().maxCoeff() <= limits_.position;
 }
 
-/// A move begins at rest. True: the arm moves, and the move waits until it does not.
-bool Motion::brake_first(const Move& move) {
-  if (dq_.isZero(1e-6)) return false;
+/// Out of a blend radius into the next move; else a move begins at rest.
+bool Motion::move(const Move& move) {
+  if (kind_ == Kind::kMove && path_.asks()) {
+    const MovePath::Next next = path_.follow(move, tool_);
+    waits_ = next == MovePath::Next::kStops;
+    waiting_ = move;
+    busy_ = next != MovePath::Next::kUnreachable;
+    return busy_;
+  }
+  if (!dq_.isZero(1e-6)) return wait_with(move);
+  if (!path_.begin(move, q_, tool_)) return false;
+  begin(Kind::kMove, kForever);
+  dq_.setZero();
+  if (!path_.done()) return true;
+  kind_ = Kind::kRest;
+  busy_ = false;
+  if (move.kind == Move::Kind::kJ) q_ = move.q;
+  return true;
+}
+
+/// The arm moves, and the move waits until it does not.
+bool Motion::wait_with(const Move& move) {
+  Segment segment;
+  if (!segment.start(move, q_, tool_, limits_)) return false;
   waiting_ = move;
   begin(Kind::kBrakeFirst, kForever);
   return true;
 }
 
 void Motion::begin_waiting() {
-  const Move& move = waiting_;
-  if (move.line ? !move_l(move.target, move.a, move.v, move.t)
-                : !move_j(move.q, move.a, move.v, move.t))
-    fault_ = {Code::kSingularity, 0};
+  waits_ = false;
+  if (!move(waiting_)) fault_ = {Code::kSingularity, 0};
 }
 
-bool Motion::move_j(const Joints& q, double a, double v, double t) {
-  if (!in_reach(q)) return false;
-  if (brake_first({false, q, {}, a, v, t})) return true;
-  way_ = q - q_;
-  from_ = q_;
-  const double way = way_.cwiseAbs().maxCoeff();
-  time_s_ = 0.0;
-  begin(Kind::kMoveJ, kForever);
-  dq_.setZero();
-  if (way < 1e-9) {
-    kind_ = Kind::kRest;
-    busy_ = false;
-    q_ = q;
-    return true;
-  }
-  const double fastest = 1.0 / (way_.cwiseAbs().array() / limits_.speed.array()).maxCoeff();
-  if (t > 0.0) {
-    // A trapezoid of four quarters is fastest by 4/3 of its mean.
-    time_law_ = Trapezoid::by_duration(std::max(t, 4.0 / 3.0 / fastest));
-  } else {
-    time_law_ =
-        Trapezoid::by_speed(std::min(or_default(v, 1.05) / way, fastest), or_default(a, 1.4) / way);
-  }
-  return true;
+bool Motion::move_j(const Joints& q, double a, double v, double t, double r) {
+  Move command;
+  command.q = q;
+  command.a = a, command.v = v, command.t = t, command.r = r;
+  return move(command);
 }
 
-bool Motion::move_l(const Frame& target, double a, double v, double t) {
-  Joints end;
-  if (!target.p.allFinite() || !target.r.allFinite() || !inverse(target, tool_, q_, end) ||
-      !in_reach(end))
-    return false;
-  if (brake_first({true, end, target, a, v, t})) return true;
-  line_from_ = forward(q_) * tool_;
-  line_to_ = target;
-  turn_ = rotation_vector(line_from_.r.transpose() * line_to_.r);
-  time_s_ = 0.0;
-  begin(Kind::kMoveL, kForever);
-  dq_.setZero();
-  // Where the tool turns more than it goes, the angle in rad leads as the way in m would.
-  const double way = std::max((line_to_.p - line_from_.p).norm(), turn_.norm());
-  if (way < 1e-9) {
-    kind_ = Kind::kRest;
-    busy_ = false;
-  } else if (t > 0.0) {
-    time_law_ = Trapezoid::by_duration(t);
-  } else {
-    time_law_ = Trapezoid::by_speed(or_default(v, 0.25) / way, or_default(a, 1.2) / way);
-  }
-  return true;
+bool Motion::move_l(const Frame& target, double a, double v, double t, double r) {
+  Move command;
+  command.kind = Move::Kind::kL;
+  command.target = target;
+  command.a = a, command.v = v, command.t = t, command.r = r;
+  return move(command);
 }
 
 void Motion::servo_j(const Joints& q, double t, const ServoLaw& law) {

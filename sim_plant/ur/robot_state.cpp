@@ -3,6 +3,8 @@
 namespace tactus::ur {
 namespace {
 
+enum Control : std::uint8_t { kPosition = 0, kTeach = 1, kForce = 2 };
+
 float single(double value) {
   return static_cast<float>(value);
 }
@@ -15,7 +17,7 @@ void write_mode(const Image& image, const Version& version, ByteWriter& writer) 
                           image.program_running, image.program_paused})
     writer.u8(flag ? 1 : 0);
   writer.u8(static_cast<std::uint8_t>(image.robot_mode));
-  writer.u8(image.freedrive ? 1 : 0);
+  writer.u8(image.freedrive ? kTeach : image.force_mode ? kForce : kPosition);
   writer.f64(image.target_speed_fraction);
   writer.f64(image.speed_scaling);
   if (version.at_least(3, 2)) writer.f64(1.0);  // limit of the fraction

@@ -31,6 +31,19 @@ std::string_view body_of(std::string_view text, int& first_line) {
   return text;
 }
 
+/// A name that is too long is refused: cut, it might be another one's.
+bool well_named(std::string_view text, std::size_t longest, Machine& machine) {
+  const std::string_view name = program_name(text);
+  if (name.size() <= longest) return true;
+  std::array<char, 160> words{};
+  constexpr std::string_view kWhat = "compile_error_name_too_long:";
+  std::size_t size = copy(kWhat, words.data(), words.size()).size();
+  size += copy(name, words.data() + size, 120).size();
+  words[size++] = ':';
+  machine.messages.runtime_exception(1, 5, {words.data(), size});
+  return false;
+}
+
 /// A program that calls what does not exist does not start.
 bool compiles(std::string_view text, Machine& machine) {
   UnknownName unknown;
@@ -60,6 +73,7 @@ void Runner::upload(std::string_view text, Machine& machine) {
 }
 
 void Runner::start(std::string_view text, Machine& machine) {
+  if (!well_named(text, kLongestName, machine)) return;
   if (ExternalControl::recognises(text)) {
     program_.emplace<ExternalControl>().start(text);
   } else if (RegisterProgram::recognises(text)) {
@@ -82,7 +96,7 @@ void Runner::start(std::string_view text, Machine& machine) {
 void Runner::start_secondary(std::string_view text, Machine& machine) {
   if (text.size() > kLongestSecondary) return machine.messages.text("the program is too long");
   text = copy(text, secondary_text_.data(), secondary_text_.size());
-  if (!compiles(text, machine)) return;
+  if (!well_named(text, kLongestName, machine) || !compiles(text, machine)) return;
   int first_line = 1;
   secondary_.start(body_of(text, first_line), first_line, false);
   const std::string_view name = program_name(text);
@@ -97,8 +111,7 @@ void Runner::stop(Machine& machine) {
   paused_ = false;
   machine.motion.abandon();
   machine.links.close_all();
-  machine.freedrive = false;
-  machine.force_mode = {};
+  machine.end_modes();
   machine.messages.program_stopped(name());
 }
 
@@ -119,11 +132,22 @@ void Runner::start_fetched(std::string_view text, Machine& machine) {
   start({text_.data(), size}, machine);
 }
 
+/// C207: an input that the program has put under a watchdog is late.
+void Runner::watch_inputs(Machine& machine) {
+  if (!playing()) return;
+  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle);
+  if (action == LateAction::kStop) machine.protective_stop({Code::kFieldbusDisconnected, 0});
+  if (action != LateAction::kPause) return;
+  machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kWarning);
+  pause();
+}
+
 void Runner::poll(Machine& machine) {
   if (secondary_running_ && secondary_.poll(machine) == ProgramStep::kEnded) {
     secondary_running_ = false;
     machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
   }
+  watch_inputs(machine);
   braking_ = braking_ && machine.motion.busy();
   if (!playing() || braking_) return;
   const ProgramStep step = std::visit(

@@ -45,6 +45,7 @@ class Runner {
   void start_secondary(std::string_view text, Machine& machine);
   void start_fetched(std::string_view text, Machine& machine);
   void set_name(std::string_view name);
+  void watch_inputs(Machine& machine);
 
   std::variant<std::monostate, LineProgram, ExternalControl, DriverProgram, RegisterProgram,
                FetchProgram>

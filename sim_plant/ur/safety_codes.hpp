@@ -11,7 +11,8 @@ enum class Code : std::int32_t {
   kCloseToJointLimit = 150,
   kPathDeviation = 153,  ///< argument: joint
   kSingularity = 154,
-  kCollision = 157,        ///< argument: joint
+  kCollision = 157,  ///< argument: joint
+  kBlend = 171,
   kTorqueTooHigh = 173,    ///< argument: joint
   kSafetyViolation = 191,  ///< argument: what was violated
   kPathSanity = 204,       ///< argument: of the next enumeration
@@ -26,6 +27,8 @@ enum PathSanity : std::int32_t {
   kNotStopped = 4,
   kInvalidSetPoint = 5,
 };
+
+enum BlendTrouble : std::int32_t { kOverlappingBlends = 1 };
 
 enum SafetyViolation : std::int32_t {
   kViolatedJointPosition = 1,

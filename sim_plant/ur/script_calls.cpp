@@ -3,73 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "sim_plant/ur/script_motion.hpp"
+
 namespace tactus::ur {
 namespace {
 
 using Kind = ScriptValue::Kind;
-
-/// Joints of an argument that is a list, or a pose for which they are found.
-bool joints_of(const ScriptValue* value, const Machine& machine, Joints& q) {
-  if (value == nullptr || !value->six()) return false;
-  q = value->vector();
-  if (value->kind == Kind::kList) return true;
-  const Joints near = machine.motion.q();
-  return inverse(Frame::of(value->vector()), machine.motion.tool(), near, q);
-}
-
-Frame frame_of(const ScriptValue& value, const Machine& machine) {
-  if (value.kind == Kind::kPose) return Frame::of(value.vector());
-  return forward(value.vector()) * machine.motion.tool();
-}
-
-CallResult move_j(const ScriptCall& call, Machine& machine) {
-  Joints q;
-  if (!joints_of(call.find("q", 0), machine, q)) return CallResult::kNoReach;
-  const bool good = machine.motion.move_j(q, call.number("a", 1, 0.0), call.number("v", 2, 0.0),
-                                          call.number("t", 3, 0.0));
-  return good ? CallResult::kMotion : CallResult::kNoReach;
-}
-
-CallResult move_l(const ScriptCall& call, Machine& machine) {
-  const ScriptValue* pose = call.find("pose", 0);
-  if (pose == nullptr || !pose->six()) return CallResult::kNoReach;
-  if (machine.motion.move_l(frame_of(*pose, machine), call.number("a", 1, 0.0),
-                            call.number("v", 2, 0.0), call.number("t", 3, 0.0)))
-    return CallResult::kMotion;
-  machine.protective_stop({Code::kSingularity, 0});
-  return CallResult::kHalt;
-}
-
-CallResult servo_j(const ScriptCall& call, Machine& machine) {
-  const ScriptValue* q = call.find("q", 0);
-  if (q == nullptr || !q->six()) return CallResult::kDone;
-  ServoLaw law;
-  law.lookahead_s = call.number("lookahead_time", 4, law.lookahead_s);
-  law.gain = call.number("gain", 5, law.gain);
-  machine.motion.servo_j(q->vector(), call.number("t", 3, kCycle_s), law);
-  return CallResult::kMotion;
-}
-
-CallResult speed(const ScriptCall& call, bool joints, Machine& machine) {
-  const ScriptValue* goal = call.find(joints ? "qd" : "xd", 0);
-  if (goal == nullptr || !goal->six()) return CallResult::kDone;
-  const double a = call.number("a", 1, 0.0), t = call.number("t", 2, call.number("t_min", 2, 0.0));
-  if (joints)
-    machine.motion.speed_j(goal->vector(), a, t);
-  else
-    machine.motion.speed_l(goal->vector(), a, t);
-  return CallResult::kMotion;
-}
-
-CallResult motion(const ScriptCall& call, Machine& machine) {
-  if (call.name == "movej") return move_j(call, machine);
-  if (call.name == "movel" || call.name == "movep") return move_l(call, machine);
-  if (call.name == "servoj") return servo_j(call, machine);
-  if (call.name == "speedj") return speed(call, true, machine);
-  if (call.name == "speedl") return speed(call, false, machine);
-  machine.motion.stop_j(call.number("a", 0, 0.0));  // stopj, stopl
-  return CallResult::kMotion;
-}
 
 /// Appends as textmsg prints it.
 void append(const ScriptValue& value, char* text, std::size_t capacity, std::size_t& size) {
@@ -155,9 +94,8 @@ void use_socket(const ScriptCall& call, Machine& machine) {
 
 CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   const std::string_view name = call.name;
-  const bool moving = name == "movej" || name == "movel" || name == "movep" || name == "servoj" ||
-                      name == "speedj" || name == "speedl" || name == "stopj" || name == "stopl";
-  if (moving) return {moves ? motion(call, machine) : CallResult::kDone};
+  if (is_motion(name)) return {moves ? run_motion(call, machine) : CallResult::kDone};
+  if (run_mode_call(call, machine)) return {};
   if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
   if (name == "sync") return {CallResult::kWait, kCycle_s};
   if (name == "halt" || name == "powerdown") return {CallResult::kHalt};
@@ -180,8 +118,6 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   if (name == "popup" && call.count > 0)
     machine.messages.popup("Message", call.arguments[0].value.text, false, false);
   if (starts_with(name, "socket_")) use_socket(call, machine);
-  if (name == "freedrive_mode" || name == "teach_mode") machine.freedrive = true;
-  if (name == "end_freedrive_mode" || name == "end_teach_mode") machine.freedrive = false;
   return {};
 }
 

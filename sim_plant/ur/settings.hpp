@@ -24,6 +24,8 @@ struct Settings {
   double path_deviation = 0.15;
   Joints collision;
   MotionLimits motion;
+  ForceSettings force;
+  double freedrive_s = 0.25;  ///< time constant with which the arm slows down when nobody pushes it
   SafetyLimits safety;
 
   /// Where the program external_control.urp asks for its script; empty: there is no such program.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim_plant/ur/trajectory_move.hpp"
+
 namespace tactus::ur {
 namespace {
 
@@ -101,6 +103,10 @@ bool TrajectoryRun::spline_step(Machine& machine) {
 }
 
 ProgramStep TrajectoryRun::next_point(Machine& machine) {
+  // Behind a blend radius without a point that has come in time, the arm goes on to where it is to
+  // stop.
+  const bool arriving = machine.motion.arriving();
+  if (left_ <= 0 && arriving) return ProgramStep::kWaiting;
   if (left_ <= 0) {
     finish(kSucceeded, machine);
     return ProgramStep::kRunning;
@@ -115,6 +121,7 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
     first_ = false;
     return ProgramStep::kRunning;
   }
+  if (arriving) return ProgramStep::kWaiting;
   waited_s_ += kCycle_s;
   const bool moving = !machine.motion.dq().isZero(1e-6);
   if (moving || waited_s_ > kPatience_s) {
@@ -156,33 +163,13 @@ void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>&
 
 bool TrajectoryRun::take_move(const std::array<std::int32_t, kTrajectoryInts>& point,
                               Machine& machine) {
-  Motion& motion = machine.motion;
-  const Vector6 target = six(point, 0), hint = six(point, 6);
-  const double v = point[12] / kFixedPoint, a = point[13] / kFixedPoint;
-  const double t = point[18] / kFixedPoint;
-  Joints q = target;
-  switch (point[20]) {
-    case kPointMoveJPose:
-      if (!inverse(Frame::of(target), motion.tool(), point[14] != 0 ? hint : motion.q(), q))
-        return false;
-      [[fallthrough]];
-    case kPointMoveJ:
-      return motion.move_j(q, a, v, t);
-    case kPointMoveLJoints:
-    case kPointMovePJoints:
-    case kPointMoveCJoints:
-    case kPointMoveCPoseJoints:
-      return motion.move_l(forward(q) * motion.tool(), a, v, t);
-    case kPointMoveL:
-    case kPointMoveP:
-    case kPointMoveC:
-    case kPointMoveCJointsPose:
-      if (motion.move_l(Frame::of(target), a, v, t)) return true;
-      machine.protective_stop({Code::kSingularity, 0});
-      return true;
-    default:
-      return false;
-  }
+  Move move;
+  if (!read_move(point, machine, move)) return false;
+  if (left_ == 0) move.r = 0.0;  // the last point is not blended
+  if (machine.motion.move(move)) return true;
+  if (move.kind == Move::Kind::kJ) return false;
+  machine.protective_stop({Code::kSingularity, 0});
+  return true;
 }
 
 }  // namespace tactus::ur

@@ -1,0 +1,46 @@
+// What moves the arm beside the commands: force mode, and a hand in freedrive.
+#include <algorithm>
+#include <cmath>
+
+#include "sim_plant/ur/motion.hpp"
+
+namespace tactus::ur {
+
+/// The targets are the posture, next to the last one, that has the tip of the commands, displaced.
+void Motion::yield(const ForceMode& mode, double damping, const Vector6& force, double h_s) {
+  if (h_s <= 0.0 || (!mode.active && force_law_.still() && offset_.isZero(0.0))) return;
+  Frame tip = forward(q()) * tool_;
+  const Vector3 speed = (jacobian(q(), tool_) * dq()).head<3>();
+  force_law_.step(mode, damping, tip, speed, force, h_s);
+  if (!mode.active && force_law_.still() && kind_ != Kind::kMove) return settle_offset();
+  tip = forward(q_) * tool_;
+  tip.p += force_law_.displacement().p;
+  tip.r = force_law_.displacement().r * tip.r;
+  Joints found;
+  const bool there = inverse(tip, tool_, q(), found);
+  const Joints offset = found - q_;
+  const Joints fast = limits_.speed * 1.05;
+  if (!there || !((offset - offset_).cwiseAbs().array() <= fast.array() * h_s).all()) {
+    fault_ = {Code::kSingularity, 0};
+    return;
+  }
+  offset_dq_ = (offset - offset_) / h_s;
+  offset_ = offset;
+  if (!in_reach(q())) fault_ = {Code::kCloseToJointLimit, 0};
+}
+
+/// Where the tool has yielded to is where the next command finds it.
+void Motion::settle_offset() {
+  q_ += offset_;
+  offset_.setZero();
+  offset_dq_.setZero();
+  force_law_.reset();
+}
+
+void Motion::carry(const Joints& q, const Joints& dq) {
+  rest(q);
+  dq_ = dq;
+  kind_ = Kind::kCarried;
+}
+
+}  // namespace tactus::ur
