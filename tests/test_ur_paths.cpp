@@ -50,8 +50,10 @@ void movec_stays_on_its_circle(void**) {
       if (!fixed) move.target.r = move.target.r * rotation_matrix(Vector3(0.1, 0.2, 0.0));
       move.fixed = fixed;
       const auto points = run_moves(motion, {move});
+      double from_via = 1.0;
       for (const PathPoint& point : points) {
         const Frame tip = forward(point.q);
+        from_via = std::min(from_via, (tip.p - move.via.p).norm());
         ASSERT_NEAR((tip.p - center).norm(), radius, 1e-6);
         ASSERT_NEAR(normal.dot(tip.p - center), 0.0, 1e-6);
         if (!fixed) continue;
@@ -59,6 +61,7 @@ void movec_stays_on_its_circle(void**) {
         const Vector3 seen = tip.r.transpose() * (tip.p - center);
         assert_true((seen - forward(kPathHome).r.transpose() * spoke).norm() < 1e-6);
       }
+      assert_true(from_via < 0.002);
       const Frame end = forward(points.back().q);
       assert_true((end.p - move.target.p).norm() < 1e-7);
       if (!fixed) assert_true((end.r - move.target.r).norm() < 1e-7);
@@ -68,6 +71,28 @@ void movec_stays_on_its_circle(void**) {
       check_smooth(points);
     }
 }
+
+// Proves URE-12.
+
+void a_tool_is_not_faster_than_the_joints(void**) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<Move> moves;
+    for (const Kind kind : {Kind::kL, Kind::kP, Kind::kP, Kind::kL}) {
+      Frame target = forward(kPathHome);
+      target.p += random_vector(random, 0.2);
+      target.r = target.r * rotation_matrix(random_vector(random, 0.4));
+      moves.push_back(move_to(kind, target, kind == Kind::kP ? 0.02 : 0.0, 5.0, 100.0));
+    }
+    Motion motion;
+    motion.rest(kPathHome);
+    const MotionLimits limits;
+    const double most = check_smooth(run_moves(motion, moves, [](int) { return 0.25; }));
+    assert_true(most <= 1.05 * limits.acceleration && most > 0.3 * limits.acceleration);
+  }
+}
+
+// Proves URE-15.
 
 void three_points_on_a_line_are_gone_straight(void**) {
   Motion motion;
@@ -174,6 +199,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(movep_keeps_its_speed_round_the_corner_on_a_circle),
       cmocka_unit_test(movec_stays_on_its_circle),
+      cmocka_unit_test(a_tool_is_not_faster_than_the_joints),
       cmocka_unit_test(three_points_on_a_line_are_gone_straight),
       cmocka_unit_test(random_paths_are_smooth_and_do_not_know_the_slider),
   };

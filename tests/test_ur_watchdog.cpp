@@ -55,9 +55,11 @@ void pause_is_what_is_done_without_a_word(void**) {
     assert_true(bench.image().program_paused && !bench.image().program_running);
     assert_int_equal(bench.image().safety_mode, 1);
     assert_int_equal(bench.said.count({kC207, sizeof kC207}), 1);
-    // Played on, it runs until the input is late again.
-    kick(bench);
+    // Played on, it runs until the input has come and is late again.
     bench.controller.runner().resume();
+    bench.run(30);
+    assert_true(bench.running());
+    kick(bench);
     bench.run(5);
     assert_true(bench.running());
     bench.run(30);

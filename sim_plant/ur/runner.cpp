@@ -31,29 +31,27 @@ std::string_view body_of(std::string_view text, int& first_line) {
   return text;
 }
 
+/// As the compiler of a real controller has it: "what:name:".
+void say_error(std::string_view what, const UnknownName& where, Machine& machine) {
+  std::array<char, 160> words{};
+  std::size_t size = copy(what, words.data(), words.size()).size();
+  size += copy(where.name, words.data() + size, 96).size();
+  words[size++] = ':';
+  machine.messages.runtime_exception(where.line, where.column, {words.data(), size});
+}
+
 /// A name that is too long is refused: cut, it might be another one's.
 bool well_named(std::string_view text, std::size_t longest, Machine& machine) {
   const std::string_view name = program_name(text);
-  if (name.size() <= longest) return true;
-  std::array<char, 160> words{};
-  constexpr std::string_view kWhat = "compile_error_name_too_long:";
-  std::size_t size = copy(kWhat, words.data(), words.size()).size();
-  size += copy(name, words.data() + size, 120).size();
-  words[size++] = ':';
-  machine.messages.runtime_exception(1, 5, {words.data(), size});
-  return false;
+  if (name.size() > longest) say_error("compile_error_name_too_long:", {1, 5, name}, machine);
+  return name.size() <= longest;
 }
 
 /// A program that calls what does not exist does not start.
 bool compiles(std::string_view text, Machine& machine) {
   UnknownName unknown;
   if (!find_unknown_name(text, unknown)) return true;
-  std::array<char, 128> words{};
-  constexpr std::string_view kWhat = "compile_error_name_not_found:";
-  std::size_t size = copy(kWhat, words.data(), words.size()).size();
-  size += copy(unknown.name, words.data() + size, 96).size();
-  words[size++] = ':';
-  machine.messages.runtime_exception(unknown.line, unknown.column, {words.data(), size});
+  say_error("compile_error_name_not_found:", unknown, machine);
   return false;
 }
 
