@@ -31,6 +31,11 @@ std::string_view body_of(std::string_view text, int& first_line) {
   return text;
 }
 
+/// A single line that commands a motion, as clients stream them: the arm goes on from its speed.
+bool takes_over(std::string_view text) {
+  return is_motion(leading_name(trimmed(text)));
+}
+
 /// A program that calls what does not exist does not start.
 bool compiles(std::string_view text, Machine& machine) {
   UnknownName unknown;
@@ -66,6 +71,8 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<RegisterProgram>().start(text);
   } else if (DriverProgram::recognises(text)) {
     program_.emplace<DriverProgram>().start(text);
+  } else if (WaypointProgram::recognises(text)) {
+    program_.emplace<WaypointProgram>().start(text);
   } else {
     if (!compiles(text, machine)) return;
     int first_line = 1;
@@ -73,7 +80,7 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<LineProgram>().start(body, first_line, true);
   }
   paused_ = false;
-  braking_ = !machine.motion.resting();
+  braking_ = !machine.motion.resting() && !takes_over(text);
   if (braking_) machine.motion.stop_j(0.0);
   set_name(program_name(text));
   machine.messages.program_started(name());
@@ -81,8 +88,9 @@ void Runner::start(std::string_view text, Machine& machine) {
 
 void Runner::start_secondary(std::string_view text, Machine& machine) {
   if (text.size() > kLongestSecondary) return machine.messages.text("the program is too long");
-  text = copy(text, secondary_text_.data(), secondary_text_.size());
   if (!compiles(text, machine)) return;
+  poll_secondary(machine);  // one that came in the same cycle has its turn first
+  text = copy(text, secondary_text_.data(), secondary_text_.size());
   int first_line = 1;
   secondary_.start(body_of(text, first_line), first_line, false);
   const std::string_view name = program_name(text);
@@ -119,11 +127,14 @@ void Runner::start_fetched(std::string_view text, Machine& machine) {
   start({text_.data(), size}, machine);
 }
 
+void Runner::poll_secondary(Machine& machine) {
+  if (!secondary_running_ || secondary_.poll(machine) != ProgramStep::kEnded) return;
+  secondary_running_ = false;
+  machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
+}
+
 void Runner::poll(Machine& machine) {
-  if (secondary_running_ && secondary_.poll(machine) == ProgramStep::kEnded) {
-    secondary_running_ = false;
-    machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
-  }
+  poll_secondary(machine);
   braking_ = braking_ && machine.motion.busy();
   if (!playing() || braking_) return;
   const ProgramStep step = std::visit(

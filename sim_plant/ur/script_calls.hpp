@@ -19,6 +19,9 @@ struct CallOutcome {
   double wait_s = 0.0;
 };
 
+/// A command that moves the arm, or brings it to rest.
+bool is_motion(std::string_view name);
+
 /// `moves`: the caller may move the arm; a secondary program may not.
 CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine);
 
