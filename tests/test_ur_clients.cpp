@@ -55,6 +55,8 @@ void secondary_programs_that_come_at_once_all_have_their_turn(void**) {
   tick(2);
   assert_int_equal(g_bench.image().actual_digital_output_bits, 1 << 0 | 1 << 9 | 1 << 17);
   ASSERT_NEAR(g_bench.image().standard_analog_output0, 0.012, 1e-9);
+  assert_true(g_bench.take(g_primary).find("name_not_found:nobody_knows:") !=
+              std::string_view::npos);
 }
 
 void outputs_have_the_numbers_they_had_before_version_3_too(void**) {

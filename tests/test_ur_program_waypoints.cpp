@@ -108,11 +108,21 @@ void waypoints_that_do_not_come_or_cannot_be_read_end_the_program(void**) {
     answer(wrong);
     tick(1);
     assert_true(g_bench.take(g_primary).find("wrong number of floats") != std::string_view::npos);
+    for (int i = 0; i < 3; ++i) answer(i, home + Joints::Constant(0.1 * i), 0.0, 0.2 * i);
     tick(120);
     assert_false(playing());
-    assert_true(g_bench.image().target_qd.isZero(0.0));
+    ASSERT_NEAR(g_bench.image().target_q[0], home[0], 1e-9);
   }
   assert_false(g_bench.image().protective_stopped);
+}
+
+/// Nothing stands before the first waypoint but zeros: the arm would have to jump there.
+void a_single_waypoint_is_come_to_from_zero(void**) {
+  start_waypoints();
+  answer(0, g_bench.image().actual_q, 0.0, 0.5);
+  answer(1, Joints::Zero(), 0.0, 0.0);
+  tick(3);
+  assert_true(g_bench.image().protective_stopped);
 }
 
 void waypoints_with_numbers_of_any_size_do_no_harm(void**) {
@@ -138,6 +148,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(waypoints_are_asked_for_and_followed_on_cubics),
       cmocka_unit_test(waypoints_that_do_not_come_or_cannot_be_read_end_the_program),
+      cmocka_unit_test(a_single_waypoint_is_come_to_from_zero),
       cmocka_unit_test(waypoints_with_numbers_of_any_size_do_no_harm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
