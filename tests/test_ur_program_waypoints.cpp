@@ -7,8 +7,9 @@ namespace {
 
 // Proves URE-36.
 
+/// The driver's name has 32 letters too.
 constexpr const char* kWaypointProgram =
-    "def waypoints():\n"
+    "def a_name_as_long_as_the_drivers_is():\n"
     "    global TIME_INTERVAL           = 0.008000\n"
     "    global SERVOJ_TIME             = 0.008000\n"
     "    global SERVOJ_TIME_WAITING     = 0.001000\n"
