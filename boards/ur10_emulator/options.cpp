@@ -33,7 +33,7 @@ CLI::Validator short_text() {
 
 bool parse_version(const std::string& text, unsigned (&version)[4]) {
   int used = 0;
-  const int read = std::sscanf(text.c_str(), "%3u.%3u.%3u.%9u%n", &version[0], &version[1],
+  const int read = std::sscanf(text.c_str(), "%3u.%3u.%9u.%9u%n", &version[0], &version[1],
                                &version[2], &version[3], &used);
   return read == 4 && static_cast<std::size_t>(used) == text.size() && version[0] == 3;
 }

@@ -41,7 +41,6 @@ void Emulator::greet(Session& session) {
   ByteWriter writer(bytes.data(), bytes.size());
   controller_.machine().messages.write_version(writer);
   session.out.put(writer.data(), writer.size());
-  send_state(session);
 }
 
 void Emulator::receive(int session, const std::uint8_t* data, std::size_t size) {
@@ -92,7 +91,7 @@ void Emulator::tick() {
     send_cycle(session);
     const bool state =
         session.service == Service::kPrimary || session.service == Service::kSecondary;
-    if (state && due) send_state(session);
+    if (state && (due || !session.told)) send_state(session);
   }
   send_messages();
 }

@@ -80,7 +80,8 @@ LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& mac
   return assign(line, machine, result) ? result : run_call_line(line, machine);
 }
 
-/// "name = value" or "name[index] = value". False: the line is none.
+/// "name = value" or "name[index] = value"; "digital_out[n] = b" is a call as it was written before
+/// version 3. False: the line is none.
 bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
   const ScriptScope scope = {&variables_, &machine};
   const std::string_view name = leading_name(line);
@@ -101,7 +102,9 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
     value.number = 1.0;
   }
   ScriptValue* whole = variables_.find(name);
-  if (element) {
+  if (element && whole == nullptr && name == "digital_out") {
+    run_call({"set_digital_out", {{{"n", index}, {"b", value}}}, 2}, moves_, machine);
+  } else if (element) {
     const bool fits = whole != nullptr && index.numeric() && index.number >= 0.0 &&
                       index.number < static_cast<double>(whole->count);
     if (fits)

@@ -85,7 +85,7 @@ bool RtdeSession::handle(const Packet& packet, const RtdeContext& context, Outbo
       setup_inputs(in, context, out);
       return true;
     case RtdeType::kStart:
-      reply(type, output_count_ > 0 || recipe_count_ > 0 ? 1 : 0, out);
+      reply(type, output_count_ > 0 ? 1 : 0, out);
       running_ = output_count_ > 0;
       due_ = 0.0;
       return true;

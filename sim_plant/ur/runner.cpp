@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sim_plant/ur/script_motion.hpp"
 #include "sim_plant/ur/script_names.hpp"
 
 namespace tactus::ur {
@@ -31,27 +32,20 @@ std::string_view body_of(std::string_view text, int& first_line) {
   return text;
 }
 
-/// As the compiler of a real controller has it: "what:name:".
-void say_error(std::string_view what, const UnknownName& where, Machine& machine) {
-  std::array<char, 160> words{};
-  std::size_t size = copy(what, words.data(), words.size()).size();
-  size += copy(where.name, words.data() + size, 96).size();
-  words[size++] = ':';
-  machine.messages.runtime_exception(where.line, where.column, {words.data(), size});
-}
-
-/// A name that is too long is refused: cut, it might be another one's.
-bool well_named(std::string_view text, std::size_t longest, Machine& machine) {
-  const std::string_view name = program_name(text);
-  if (name.size() > longest) say_error("compile_error_name_too_long:", {1, 5, name}, machine);
-  return name.size() <= longest;
+/// A single line that commands a motion, as clients stream them: the arm goes on from its speed.
+bool takes_over(std::string_view text) {
+  return is_motion(leading_name(trimmed(text)));
 }
 
 /// A program that calls what does not exist does not start.
 bool compiles(std::string_view text, Machine& machine) {
   UnknownName unknown;
   if (!find_unknown_name(text, unknown)) return true;
-  say_error("compile_error_name_not_found:", unknown, machine);
+  std::array<char, 160> words{};
+  std::size_t size = copy("compile_error_name_not_found:", words.data(), words.size()).size();
+  size += copy(unknown.name, words.data() + size, 96).size();
+  words[size++] = ':';
+  machine.messages.runtime_exception(unknown.line, unknown.column, {words.data(), size});
   return false;
 }
 
@@ -71,13 +65,14 @@ void Runner::upload(std::string_view text, Machine& machine) {
 }
 
 void Runner::start(std::string_view text, Machine& machine) {
-  if (!well_named(text, kLongestName, machine)) return;
   if (ExternalControl::recognises(text)) {
     program_.emplace<ExternalControl>().start(text);
   } else if (RegisterProgram::recognises(text)) {
     program_.emplace<RegisterProgram>().start(text);
   } else if (DriverProgram::recognises(text)) {
     program_.emplace<DriverProgram>().start(text);
+  } else if (WaypointProgram::recognises(text)) {
+    program_.emplace<WaypointProgram>().start(text);
   } else {
     if (!compiles(text, machine)) return;
     int first_line = 1;
@@ -85,7 +80,7 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<LineProgram>().start(body, first_line, true);
   }
   paused_ = false;
-  braking_ = !machine.motion.resting();
+  braking_ = !machine.motion.resting() && !takes_over(text);
   if (braking_) machine.motion.stop_j(0.0);
   set_name(program_name(text));
   machine.messages.program_started(name());
@@ -93,8 +88,9 @@ void Runner::start(std::string_view text, Machine& machine) {
 
 void Runner::start_secondary(std::string_view text, Machine& machine) {
   if (text.size() > kLongestSecondary) return machine.messages.text("the program is too long");
+  if (!compiles(text, machine)) return;
+  poll_secondary(machine);  // one that came in the same cycle has its turn first
   text = copy(text, secondary_text_.data(), secondary_text_.size());
-  if (!well_named(text, kLongestName, machine) || !compiles(text, machine)) return;
   int first_line = 1;
   secondary_.start(body_of(text, first_line), first_line, false);
   const std::string_view name = program_name(text);
@@ -130,6 +126,12 @@ void Runner::start_fetched(std::string_view text, Machine& machine) {
   start({text_.data(), size}, machine);
 }
 
+void Runner::poll_secondary(Machine& machine) {
+  if (!secondary_running_ || secondary_.poll(machine) != ProgramStep::kEnded) return;
+  secondary_running_ = false;
+  machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
+}
+
 /// C207: an input that the program has put under a watchdog is late.
 void Runner::watch_inputs(Machine& machine) {
   if (!playing()) return;
@@ -141,10 +143,7 @@ void Runner::watch_inputs(Machine& machine) {
 }
 
 void Runner::poll(Machine& machine) {
-  if (secondary_running_ && secondary_.poll(machine) == ProgramStep::kEnded) {
-    secondary_running_ = false;
-    machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
-  }
+  poll_secondary(machine);
   watch_inputs(machine);
   braking_ = braking_ && machine.motion.busy();
   if (!playing() || braking_) return;
