@@ -124,6 +124,25 @@ void the_trajectory_waits_for_the_slider(void**) {
               0.008 * 0.7);  // the trajectory's own speed, 0.625 rad/s: nothing is caught up
 }
 
+// Proves URH-24.
+void slider_and_limiter_slow_the_trajectory_down_together(void**) {
+  struct Row {
+    double limiter, slider, share;
+  };
+  for (const Row& row : {Row{1.0, 0.5, 0.5}, Row{0.5, 1.0, 0.5}, Row{0.5, 0.5, 0.25},
+                         Row{0.0, 0.5, 0.0}, Row{1.5, 1.0, 1.0}, Row{-1.0, 1.0, 0.0}}) {
+    UrHalBench& bench = moving();
+    {
+      const std::lock_guard<std::mutex> lock(bench.robot.mutex);
+      bench.robot.image.speed_scaling = row.limiter;
+      bench.robot.image.speed_fraction = row.slider;
+    }
+    ASSERT_OK(bench.cycles(1));
+    const PortEntry* port = bench.pipeline.ports.find("robot.speed_scaling");
+    ASSERT_NEAR(*static_cast<const double*>(port->value), row.share, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -135,6 +154,7 @@ int main() {
       cmocka_unit_test(a_connection_that_is_closed_ends_the_motion_in_the_next_cycle),
       cmocka_unit_test(a_field_that_is_no_number_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_trajectory_waits_for_the_slider),
+      cmocka_unit_test(slider_and_limiter_slow_the_trajectory_down_together),
   };
   const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
   g_bench.reset();

@@ -81,7 +81,11 @@ void Controller::show_io() {
   image_.input = io.input;
   image_.output = io.output;
   image_.target_speed_fraction = io.speed_fraction;
-  image_.speed_scaling = runner_.running() ? machine_.speed_scaling : 0.0;
+  // What the trajectory limiter lets pass of the slider's speed; all of it while the slider goes
+  // down.
+  const double scaling = machine_.speed_scaling;
+  const double passes = scaling < io.speed_fraction ? scaling / io.speed_fraction : 1.0;
+  image_.speed_scaling = runner_.running() ? passes : 0.0;
 }
 
 void Controller::show_modes() {
