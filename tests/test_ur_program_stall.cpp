@@ -145,8 +145,8 @@ void lumps_in_a_row_are_no_jumps_either(void**) {
   EvenMotion& motion = fresh();
   double hardest = 0.0;
   for (int k = 0; k < 60; ++k) {
-    const int phase = k % 6;
-    motion.tick(k >= 12 ? 1 : phase == 0 ? 2 : phase == 1 ? 0 : 1);
+    const int phase = k % 4;
+    motion.tick(k >= 8 ? 1 : phase == 0 ? 2 : phase == 1 ? 0 : 1);
     hardest = std::max(hardest, std::abs(motion.acceleration));
   }
   assert_true(hardest < hardest_of_a_jump() / 5.0);

@@ -20,7 +20,6 @@ constexpr std::string_view kText =
   step = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
   off = step
   left = 0
-  was = 0.0
   pace = 1.0
   moving = False
   going = True
@@ -38,10 +37,7 @@ constexpr std::string_view kText =
       q = [read_input_float_register(24), read_input_float_register(25), read_input_float_register(26), read_input_float_register(27), read_input_float_register(28), read_input_float_register(29)]
       jump = norm(q[0] - last[0]) + norm(q[1] - last[1]) + norm(q[2] - last[2]) + norm(q[3] - last[3]) + norm(q[4] - last[4]) + norm(q[5] - last[5])
       steps = count - seen
-      lump = steps > 1.75 * pace and jump > 1.5 * was
-      was = jump
-      if late > 0 or lump:
-        was = jump / steps
+      if late > 0 or steps > 1.75 * pace:
         fade = 1.0 - (late + 1) * (late + 1) / @patience@
         off = [led[0] + fade * step[0] + part * off[0] - q[0], led[1] + fade * step[1] + part * off[1] - q[1], led[2] + fade * step[2] + part * off[2] - q[2], led[3] + fade * step[3] + part * off[3] - q[3], led[4] + fade * step[4] + part * off[4] - q[4], led[5] + fade * step[5] + part * off[5] - q[5]]
         left = @blend@

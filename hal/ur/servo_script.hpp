@@ -19,8 +19,8 @@
 //
 // Set-points may also come in a lump: one that was due in the next cycle just before this one's
 // is read. The target goes on at its speed, and what the lump is ahead by fades out in the same
-// way. A robot that stretches time by its slider finds more than one in a cycle as well, but those
-// come at an even `pace`, and so does the way from one that it uses to the next: no lump.
+// way. A robot that stretches time by its slider finds more than one in a cycle as well, but at an
+// even pace: a lump is more than 1.75 times as many as there were in each of the last cycles.
 
 #pragma once
 
