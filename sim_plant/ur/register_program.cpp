@@ -220,15 +220,15 @@ void RegisterProgram::stop(double a, Machine& machine) {
 ProgramStep RegisterProgram::command(Machine& machine) {
   Motion& motion = machine.motion;
   if (cyclic_ == Cyclic::kServo) motion.servo_j(goal_, t_, law_);
-  if (cyclic_ == Cyclic::kSpeedJ) motion.speed_j(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
-  if (cyclic_ == Cyclic::kSpeedL) motion.speed_l(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
+  if (cyclic_ == Cyclic::kSpeedJ) motion.speed_j(goal_, a_, t_ > 0.0 ? t_ : machine.cycle_s());
+  if (cyclic_ == Cyclic::kSpeedL) motion.speed_l(goal_, a_, t_ > 0.0 ? t_ : machine.cycle_s());
   return motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
 }
 
 bool RegisterProgram::watchdog_barks(const Machine& machine) const {
   if (!(watch_hz_ > 0.0)) return false;
   const std::int64_t last = std::max(machine.io.written[watched_.variable()], watched_from_);
-  return static_cast<double>(machine.cycle - last) * kCycle_s > 1.0 / watch_hz_;
+  return static_cast<double>(machine.cycle - last) * machine.cycle_s() > 1.0 / watch_hz_;
 }
 
 }  // namespace tactus::ur

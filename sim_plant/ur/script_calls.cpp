@@ -46,7 +46,7 @@ CallResult servo_j(const ScriptCall& call, Machine& machine) {
   ServoLaw law;
   law.lookahead_s = call.number("lookahead_time", 4, law.lookahead_s);
   law.gain = call.number("gain", 5, law.gain);
-  machine.motion.servo_j(q->vector(), call.number("t", 3, kCycle_s), law);
+  machine.motion.servo_j(q->vector(), call.number("t", 3, machine.cycle_s()), law);
   return CallResult::kMotion;
 }
 
@@ -159,7 +159,7 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
                       name == "speedj" || name == "speedl" || name == "stopj" || name == "stopl";
   if (moving) return {moves ? motion(call, machine) : CallResult::kDone};
   if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
-  if (name == "sync") return {CallResult::kWait, kCycle_s};
+  if (name == "sync") return {CallResult::kWait, machine.cycle_s()};
   if (name == "halt" || name == "powerdown") return {CallResult::kHalt};
   if (name == "textmsg") text_message(call, machine);
   if (name == "protective_stop") {
