@@ -1,7 +1,5 @@
 // What a UR's HAL does about everything that can happen to a robot in motion: fault, reaction,
 // cycles until it, and what a recovery finds. docs/ur10.md has the same table.
-#include <limits>
-
 #include "tests/ur_moving_bench.hpp"
 
 namespace tactus::ur {
@@ -71,32 +69,6 @@ void a_connection_that_is_closed_ends_the_motion_in_the_next_cycle(void**) {
   assert_recovers_without_motion(bench);
 }
 
-void a_field_that_is_no_number_ends_the_motion_in_its_cycle(void**) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  struct Row {
-    const char* name;
-    double FakeImage::*number;
-    std::array<double, 6> FakeImage::*six;
-  };
-  for (const Row& row : {Row{"actual_qd", nullptr, &FakeImage::dq},
-                         Row{"target_moment", nullptr, &FakeImage::moment},
-                         Row{"actual_TCP_pose", nullptr, &FakeImage::tcp_pose},
-                         Row{"actual_TCP_force", nullptr, &FakeImage::tcp_force},
-                         Row{"speed_scaling", &FakeImage::speed_scaling, nullptr},
-                         Row{"target_speed_fraction", &FakeImage::speed_fraction, nullptr}}) {
-    UrHalBench& bench = moving();
-    {
-      const std::lock_guard<std::mutex> lock(bench.robot.mutex);
-      if (row.number != nullptr) bench.robot.image.*row.number = nan;
-      if (row.six != nullptr) (bench.robot.image.*row.six)[5] = nan;
-    }
-    ASSERT_STATUS(bench.cycle(), Status::kWireFormat);
-    assert_disabled_by_wire(bench, Status::kWireFormat);
-    assert_true(bench.says(row.name));
-    assert_true(bench.says("is not finite"));
-  }
-}
-
 // Proves URH-13.
 void the_trajectory_waits_for_the_slider(void**) {
   UrHalBench& bench = moving();
@@ -152,7 +124,6 @@ int main() {
       cmocka_unit_test(what_the_robot_says_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_robots_own_code_is_told),
       cmocka_unit_test(a_connection_that_is_closed_ends_the_motion_in_the_next_cycle),
-      cmocka_unit_test(a_field_that_is_no_number_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_trajectory_waits_for_the_slider),
       cmocka_unit_test(slider_and_limiter_slow_the_trajectory_down_together),
   };
