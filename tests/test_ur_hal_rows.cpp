@@ -102,7 +102,17 @@ void packets_that_come_late_begin_no_cycle(void**) {
     const std::int32_t before = bench.hal.set_points();
     for (int i = 0; i < late; ++i) ASSERT_OK(bench.run_cycle());
     for (int i = 0; i < late; ++i) bench.robot.send_package();
-    ASSERT_OK(bench.cycle());
+    std::thread next([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      bench.robot.send_package();
+    });
+    bench.settings.packet_wait = 500.0;
+    const double last_s = bench.hal.state().timestamp_s;
+    const Status status = bench.run_cycle();
+    next.join();
+    bench.settings.packet_wait = 1.5;
+    ASSERT_OK(status);
+    ASSERT_NEAR(bench.hal.state().timestamp_s, last_s + 0.008 * (late + 1), 1e-9);
     bench.robot.set_point(before + late + 1);
     ASSERT_OK(bench.cycles(5));
   }
