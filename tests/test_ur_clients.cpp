@@ -164,7 +164,7 @@ void the_version_of_the_command_line_has_room_for_old_revisions(void**) {
   assert_true(parsed("3.2.19171.0", options));
   assert_int_equal(options.version[1], 2);
   assert_int_equal(options.version[2], 19171);
-  for (const char* wrong : {"3.2.19171", "5.1.0.0", "3.2.x.0", "3.2.0.0.1"})
+  for (const char* wrong : {"3.2.19171", "6.1.0.0", "3.2.x.0", "3.2.0.0.1"})
     assert_false(parsed(wrong, options));
 }
 

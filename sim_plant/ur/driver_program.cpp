@@ -42,7 +42,7 @@ ProgramStep DriverProgram::poll(Machine& machine) {
 
 ProgramStep DriverProgram::command(Machine& machine) {
   if (fresh_) {
-    machine.motion.servo_j(q_, kCycle_s, law_);
+    machine.motion.servo_j(q_, machine.cycle_s(), law_);
   } else if (moving_) {
     machine.motion.stop_j(kBrake);
   }

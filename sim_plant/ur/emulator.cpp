@@ -5,8 +5,8 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kStatesPerCycle = 10.0 * kCycle_s;  // ten times a second
-constexpr int kPatience = 625;                       // cycles that a client may stand still
+constexpr double kStateRate_Hz = 10.0;
+constexpr int kPatience = 625;  // cycles that a client may stand still
 
 }  // namespace
 
@@ -110,7 +110,7 @@ Pace Emulator::pace() const {
 
 /// At ten Hertz, and at once when a protective stop begins.
 bool Emulator::state_is_due() {
-  state_due_ += kStatesPerCycle;
+  state_due_ += kStateRate_Hz * controller_.machine().cycle_s();
   const bool stopped = controller_.machine().safety.protective_stopped();
   const bool sudden = stopped && !protective_before_;
   protective_before_ = stopped;

@@ -133,7 +133,7 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
     case CallResult::kMotion:
       return machine.motion.busy() ? Line::kWait : Line::kNext;
     case CallResult::kWait:
-      wait_until_s_ = machine.time_s() + outcome.wait_s - 0.5 * kCycle_s;
+      wait_until_s_ = machine.time_s() + outcome.wait_s - 0.5 * machine.cycle_s();
       return outcome.wait_s > 0.0 ? Line::kWait : Line::kNext;
     case CallResult::kHalt:
       return Line::kEnded;

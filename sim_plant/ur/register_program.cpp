@@ -108,7 +108,7 @@ RegisterProgram::Outcome RegisterProgram::process(const Row& row, Machine& machi
 
 ProgramStep RegisterProgram::command(Machine& machine) {
   Motion& motion = machine.motion;
-  const double t = t_ > 0.0 ? t_ : kCycle_s;
+  const double t = t_ > 0.0 ? t_ : machine.cycle_s();
   if (!path_.empty()) {
     follow_path(machine);
   } else if (cyclic_ == Cyclic::kServo) {

@@ -135,7 +135,7 @@ void Runner::poll_secondary(Machine& machine) {
 /// C207: an input that the program has put under a watchdog is late.
 void Runner::watch_inputs(Machine& machine) {
   if (!playing()) return;
-  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle);
+  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle, machine.cycle_s());
   if (action == LateAction::kStop) machine.protective_stop({Code::kFieldbusDisconnected, 0});
   if (action != LateAction::kPause) return;
   machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kWarning);

@@ -98,7 +98,7 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   if (is_motion(name)) return {moves ? run_motion(call, machine) : CallResult::kDone};
   if (run_mode_call(call, machine)) return {};
   if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
-  if (name == "sync") return {CallResult::kWait, kCycle_s};
+  if (name == "sync") return {CallResult::kWait, machine.cycle_s()};
   if (name == "halt" || name == "powerdown") return {CallResult::kHalt};
   if (name == "textmsg") text_message(call, machine);
   if (name == "protective_stop") {

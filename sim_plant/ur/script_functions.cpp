@@ -58,7 +58,7 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
   else if (name == "get_target_payload")
     value = number_value(machine.payload);
   else if (name == "get_steptime")
-    value = number_value(kCycle_s);
+    value = number_value(machine.cycle_s());
   else if (name == "is_steady")
     value = truth_value(motion.resting());
   else

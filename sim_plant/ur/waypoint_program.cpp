@@ -140,7 +140,7 @@ ProgramStep WaypointProgram::command(Machine& machine) {
     if (elapsed_s_ <= to_.time_s) return follow(machine);
     phase_ = last_ ? Phase::kSettling : Phase::kWaiting;
   }
-  return servo(hold_, kCycle_s, machine);
+  return servo(hold_, machine.cycle_s(), machine);
 }
 
 void WaypointProgram::begin_segment() {
@@ -154,7 +154,7 @@ void WaypointProgram::begin_segment() {
 ProgramStep WaypointProgram::wait(Machine& machine) {
   if (waited_s_ >= patience_s_) return end(machine, "Closing the connection on waiting too long.");
   waited_s_ += pause_s_;
-  return servo(hold_, kCycle_s, machine);
+  return servo(hold_, machine.cycle_s(), machine);
 }
 
 ProgramStep WaypointProgram::follow(Machine& machine) {
