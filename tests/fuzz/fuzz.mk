@@ -1,5 +1,5 @@
 # Parsers of the UR's wire under libFuzzer: docs/ur10_emulator.md. Included by the Makefile; B and obj are its.
-FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS=
+FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS= OPTIMISED=-O2
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 # A tape stands in the place of the sockets, and a light arm in that of MuJoCo's.
 FUZZED     := $(filter-out hal/ur/socket.cpp hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
@@ -16,6 +16,7 @@ fuzz-built: wcet-setup
 
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
+CXXFLAGS += -fsanitize-ignorelist=tests/fuzz/eigen.ignore -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
 fuzz-targets: $(addprefix $(B)/,$(FUZZ))
 $(B)/libfuzzed.a: $(call obj,$(FUZZED))
 $(addprefix $(B)/,$(FUZZ)): $(B)/%: $(B)/tests/fuzz/%.o $(B)/libfuzzed.a
