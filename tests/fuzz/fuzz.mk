@@ -3,7 +3,7 @@ FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,floa
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 # A tape stands in the place of the sockets, and a light arm in that of MuJoCo's.
 FUZZED     := $(filter-out hal/ur/socket.cpp hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
-              $(wildcard sim_plant/ur/*.cpp) kernel/text.cpp kernel/status.cpp kernel/number.cpp \
+              $(wildcard sim_plant/ur/*.cpp gateway/*.cpp) $(KERNEL) \
               tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp
 
 .PHONY: fuzz fuzz-short fuzz-built
@@ -21,5 +21,5 @@ fuzz-targets: $(addprefix $(B)/,$(FUZZ))
 $(B)/libfuzzed.a: $(call obj,$(FUZZED))
 $(addprefix $(B)/,$(FUZZ)): $(B)/%: $(B)/tests/fuzz/%.o $(B)/libfuzzed.a
 	@echo "  LD    $@"
-	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^
+	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^ -lccd
 endif
