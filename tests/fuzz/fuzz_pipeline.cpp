@@ -8,6 +8,7 @@
 #include "kernel/loader.hpp"
 #include "sim_plant/plant_params.hpp"
 #include "tests/fuzz/guarded_hal.hpp"
+#include "tests/fuzz/number_mutator.hpp"
 #include "tests/fuzz/setting_checker.hpp"
 
 namespace {

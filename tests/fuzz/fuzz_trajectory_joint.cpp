@@ -1,4 +1,5 @@
 // Trajectory files of the joints.
+#include "tests/fuzz/number_mutator.hpp"
 #include "tests/fuzz/trajectory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -95,7 +95,7 @@ class TrajectoryFile {
     for (int i = 1; i < trajectory_.count; ++i) {
       const typename Space::Segment segment = trajectory_.segment(i, terms);
       for (int k = 0; k <= kSamples; ++k) {
-        const auto point = segment.at(segment.duration() * k / kSamples);
+        const auto point = segment.at(segment.duration() * (static_cast<double>(k) / kSamples));
         MUST(point.finite() && within(point, settings.limits));
       }
     }
