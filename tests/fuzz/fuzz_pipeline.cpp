@@ -60,15 +60,29 @@ void check_refusal(const LoadError& error, std::string_view text) {
        reason == "the section is missing");
 }
 
-/// A reference beside the arm, of whichever space.
-void send_reference(Board& board, const JointVector& q) {
+/// What a generator puts out under this name; null: there is none.
+template <class Value>
+const Value* reference(const PortTable& ports, std::string_view name) {
+  for (int i = 0; i < ports.count(); ++i)
+    if (ports[i].port == name) return static_cast<const Value*>(ports[i].value);
+  return nullptr;
+}
+
+/// A reference beside the present one, of whichever space.
+void send_reference(Board& board) {
   std::uint32_t id = 0;
-  JointSpace::Point point;
-  point.q = q + JointVector::Constant(0.02);
-  static_cast<void>(ReferenceClient<JointSpace>(board.joints).send(point, id));
-  TaskSpace::Point pose;
-  pose.x.p = Vector3(-0.3, 0.7, 0.3);
-  static_cast<void>(ReferenceClient<TaskSpace>(board.poses).send(pose, id));
+  const PortTable& ports = board.pipeline.ports;
+  if (const auto* q = reference<JointVector>(ports, "q_d")) {
+    JointSpace::Point point;
+    point.q = *q + JointVector::Constant(0.001);
+    static_cast<void>(ReferenceClient<JointSpace>(board.joints).send(point, id));
+  }
+  if (const auto* x = reference<Pose>(ports, "x_d")) {
+    TaskSpace::Point point;
+    point.x = *x;
+    point.x.p += Vector3::Constant(0.0005);
+    static_cast<void>(ReferenceClient<TaskSpace>(board.poses).send(point, id));
+  }
 }
 
 void run(Board& board) {
@@ -78,8 +92,8 @@ void run(Board& board) {
   fuzz::GuardedHal hal(q, board.pipeline.guard.effective(), robot.period_s());
   Executive executive(hal, board.pipeline, [] { return std::uint64_t{0}; });
   if (executive.start() != Status::kOk) return;
-  send_reference(board, q);
   for (int i = 1; i <= 24; ++i) {
+    if (i < 8) send_reference(board);
     if (i == 16) executive.halt();
     static_cast<void>(executive.cycle({std::int64_t{1000} * robot.period_us * i}));
   }

