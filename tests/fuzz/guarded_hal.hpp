@@ -1,4 +1,5 @@
-// GuardedHal: a robot that does exactly as it is told, and is told nothing beyond its limits.
+// GuardedHal: a robot that does exactly as it is told, of unit inertia where that is a torque, and
+// is told nothing beyond its limits.
 #pragma once
 
 #include "kernel/guard/guard.hpp"
@@ -30,6 +31,8 @@ class GuardedHal final : public Hal {
       judge(value, limits_.tau_max);
       judge(value - state_.tau, limits_.dtau_max * period_s_);
       state_.tau = value;
+      state_.dq += value * period_s_;
+      state_.q += state_.dq * period_s_;
       return Status::kOk;
     }
     const bool position = command.mode == CommandMode::kPosition;

@@ -63,7 +63,7 @@ class TrajectoryFile {
   }
 
  private:
-  static constexpr int kCapacity = 8;
+  static constexpr int kCapacity = 6;
   static constexpr int kSamples = 16;  // per segment
 
   bool reads(const char* path, bool partial) {
