@@ -1,0 +1,9 @@
+// Trajectory files of the joints.
+#include "tests/fuzz/number_mutator.hpp"
+#include "tests/fuzz/trajectory_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static tactus::fuzz::TrajectoryFile<tactus::JointSpace> file;
+  file.play(data, size);
+  return 0;
+}
