@@ -45,12 +45,16 @@ enum PointType : std::int32_t {
   kPointMoveL = 1,
   kPointMoveP = 2,
   kPointMoveC = 3,
+  kPointOptimoveJ = 4,  ///< the optimoves: from software 5.21
+  kPointOptimoveL = 5,
   kPointMoveJPose = 6,
   kPointMoveLJoints = 7,
   kPointMovePJoints = 8,
   kPointMoveCJoints = 9,
   kPointMoveCJointsPose = 10,
   kPointMoveCPoseJoints = 11,
+  kPointOptimoveJPose = 12,
+  kPointOptimoveLJoints = 13,
   kPointSpline = 51,
 };
 enum SplineType : std::int32_t { kCubic = 1, kQuintic = 2 };

@@ -7,6 +7,8 @@ constexpr double kInnerStep_s = 0.001;
 constexpr double kTimeConstant_s = 0.008;
 constexpr double kResidual_s = 0.04;  // time constant of its filter
 
+int inner_steps(double h_s) { return static_cast<int>(h_s / kInnerStep_s + 0.5); }
+
 }  // namespace
 
 Status Body::load(const Joints& q, double payload_kg, const Vector3& payload_com) {
@@ -23,7 +25,7 @@ Status Body::load(const Joints& q, double payload_kg, const Vector3& payload_com
 void Body::move(const Joints& q_t, double h_s) {
   const Joints limit(RobotMjcf::kDriveTorque.data());
   const Joints from = target_, slope = (q_t - target_) / h_s;
-  const int steps = static_cast<int>(h_s / kInnerStep_s + 0.5);
+  const int steps = inner_steps(h_s);
   const double step_s = h_s / steps, T = kTimeConstant_s;
   model_ = arm_.inverse_dynamics((slope - slope_) / h_s);
   Joints sum = Joints::Zero();
@@ -43,16 +45,17 @@ void Body::move(const Joints& q_t, double h_s) {
 
 void Body::drift(double slowing_s, double h_s) {
   const Joints limit(RobotMjcf::kDriveTorque.data());
+  const int steps = inner_steps(h_s);
   Joints sum = Joints::Zero();
-  for (int k = 0; k < kInnerSteps; ++k) {
+  for (int k = 0; k < steps; ++k) {
     const Joints wanted = arm_.inverse_dynamics(-arm_.dq() / slowing_s);
     const Joints tau = wanted.cwiseMax(-limit).cwiseMin(limit);
-    arm_.step(tau + push_, h_s / kInnerSteps);
+    arm_.step(tau + push_, h_s / steps);
     sum += tau;
   }
   target_ = arm_.q();
   slope_ = arm_.dq();
-  model_ = tau_ = sum / kInnerSteps;
+  model_ = tau_ = sum / steps;
   residual_.setZero();
 }
 

@@ -47,6 +47,7 @@ void ExternalControl::start(std::string_view text) {
   TrajectoryRun::Features features;
   features.tells_cancelled = says(text, "socket_send_int(TRAJECTORY_RESULT_CANCELED");
   features.publishes_spline_time = says(text, "write_output_float_register(1,");
+  features.format = find_point_format(text);
   trajectory_.set_features(features);
   const std::size_t behind = behind_loop(text);
   if (behind == std::string_view::npos) return;

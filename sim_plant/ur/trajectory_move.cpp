@@ -1,5 +1,7 @@
 #include "sim_plant/ur/trajectory_move.hpp"
 
+#include "sim_plant/ur/script_text.hpp"
+
 namespace tactus::ur {
 namespace {
 
@@ -16,15 +18,49 @@ Frame frame(const Vector6& values, bool joints, const Motion& motion) {
   return joints ? forward(values) * motion.tool() : Frame::of(values);
 }
 
+/// `place` of what the text assigns to `variable`. A list of URScript that was read from a socket
+/// begins with a count: its elements are one further on.
+void find_place(std::string_view text, std::string_view variable, std::size_t& place) {
+  double element = 0.0;
+  if (!number_after(text, variable, element)) return;
+  if (element >= 1.0 && element <= static_cast<double>(kTrajectoryInts))
+    place = static_cast<std::size_t>(element) - 1;
+}
+
+PointFormat::Places find_places(std::string_view text, PointFormat::Places places) {
+  find_place(text, "velocity = raw_point[", places.v);
+  find_place(text, "acceleration = raw_point[", places.a);
+  return places;
+}
+
 }  // namespace
 
-bool read_move(const Point& point, const Machine& machine, Move& move) {
+PointFormat find_point_format(std::string_view text) {
+  PointFormat format;
+  format.moves = format.circles = find_places(text, format.moves);
+  const std::size_t circle = text.find("== MOTION_TYPE_MOVEC");
+  if (circle != std::string_view::npos)
+    format.circles = find_places(text.substr(circle), format.moves);
+  double scale = 0.0;
+  if (number_after(text, "MULT_time = ", scale) && scale >= 1.0) format.time_scale = scale;
+  return format;
+}
+
+bool is_optimove(std::int32_t type) {
+  return type == kPointOptimoveJ || type == kPointOptimoveL || type == kPointOptimoveJPose ||
+         type == kPointOptimoveLJoints;
+}
+
+bool read_move(const Point& point, const PointFormat& format, const Machine& machine, Move& move) {
   const Motion& motion = machine.motion;
   const Vector6 target = six(point, 0), second = six(point, 6);
-  move.v = point[12] / kFixedPoint;
-  move.a = point[13] / kFixedPoint;
-  move.t = point[18] / kFixedPoint;
-  move.r = point[19] / kFixedPoint;
+  const auto set_speed = [&](const PointFormat::Places& places) {
+    move.v = point[places.v] / kFixedPoint;
+    move.a = point[places.a] / kFixedPoint;
+  };
+  set_speed(format.moves);
+  move.t = point[18] / format.time_scale;
+  move.r = point[19] / format.time_scale;
   const std::int32_t type = point[20];
   switch (type) {
     case kPointMoveJ:
@@ -49,6 +85,7 @@ bool read_move(const Point& point, const Machine& machine, Move& move) {
     case kPointMoveCJointsPose:
     case kPointMoveCPoseJoints:
       move.kind = Move::Kind::kC;
+      set_speed(format.circles);
       move.t = 0.0;
       move.fixed = point[14] != 0;
       // The names have the via point first.

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "sim_plant/ur/trajectory_move.hpp"
-
 namespace tactus::ur {
 namespace {
 
@@ -144,7 +142,7 @@ void TrajectoryRun::take_point(const std::array<std::int32_t, kTrajectoryInts>& 
 void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>& point, bool last,
                                 Machine& machine) {
   const Joints q = machine.motion.q(), q_end = six(point, 0);
-  const double duration_s = point[18] / kFixedPoint;
+  const double duration_s = point[18] / features_.format.time_scale;
   const double way = (q_end - q).cwiseAbs().maxCoeff();
   if (point[19] != kCubic && point[19] != kQuintic) return finish(kFailed, machine);
   if (!(duration_s > 0.0)) {
@@ -163,8 +161,12 @@ void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>&
 
 bool TrajectoryRun::take_move(const std::array<std::int32_t, kTrajectoryInts>& point,
                               Machine& machine) {
+  if (is_optimove(point[20])) {
+    machine.messages.popup("", "Optimoves are only supported from software 5.21.0", false, true);
+    return true;
+  }
   Move move;
-  if (!read_move(point, machine, move)) return false;
+  if (!read_move(point, features_.format, machine, move)) return false;
   if (left_ == 0) move.r = 0.0;  // the last point is not blended
   if (machine.motion.move(move)) return true;
   if (move.kind == Move::Kind::kJ) return false;

@@ -5,6 +5,7 @@
 #include "sim_plant/ur/machine.hpp"
 #include "sim_plant/ur/program_step.hpp"
 #include "sim_plant/ur/spline_run.hpp"
+#include "sim_plant/ur/trajectory_move.hpp"
 
 namespace tactus::ur {
 
@@ -14,6 +15,7 @@ class TrajectoryRun {
   struct Features {
     bool tells_cancelled = true;         ///< the line that sends the result "cancelled"
     bool publishes_spline_time = false;  ///< in output_double_register_1
+    PointFormat format;
   };
   void set_features(const Features& features) { features_ = features; }
 
