@@ -3,7 +3,9 @@
 #include "tests/fuzz/trajectory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static tactus::fuzz::TrajectoryFile<tactus::JointSpace> file;
+  using File = tactus::fuzz::TrajectoryFile<tactus::JointSpace>;
+  static File::Store store;
+  static File file(store);
   file.play(data, size);
   return 0;
 }

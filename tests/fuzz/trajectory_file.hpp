@@ -54,6 +54,11 @@ class MemoryFile {
 template <class Space>
 class TrajectoryFile {
  public:
+  static constexpr int kCapacity = 6;
+  using Store = std::array<Waypoint<Space>, kCapacity>;
+
+  /// `store` is an object of its own, beyond whose end the address sanitizer looks.
+  explicit TrajectoryFile(Store& store) : waypoints_(store.data()) {}
   void play(const std::uint8_t* data, std::size_t size) {
     const char* path = file_.holding(data, size);
     lines_ = static_cast<int>(std::count(data, data + size, '\n')) + 1;
@@ -63,12 +68,11 @@ class TrajectoryFile {
   }
 
  private:
-  static constexpr int kCapacity = 6;
   static constexpr int kSamples = 16;  // per segment
 
   bool reads(const char* path, bool partial) {
     trajectory_ = {};
-    trajectory_.waypoints = waypoints_.data();
+    trajectory_.waypoints = waypoints_;
     trajectory_.capacity = kCapacity;
     CsvError error;
     if (!read_trajectory(path, partial, trajectory_, error)) {
@@ -101,8 +105,7 @@ class TrajectoryFile {
     }
   }
 
-  // Memory of its own, beyond which the address sanitizer looks.
-  static inline std::array<Waypoint<Space>, kCapacity> waypoints_;
+  Waypoint<Space>* waypoints_;
   MemoryFile file_;
   int lines_ = 0;
   Trajectory<Space> trajectory_;
