@@ -22,7 +22,8 @@ O     := build/$(robot)$(HOW)
 # Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
 SEAMS     := boards/program/options.cpp boards/ur10_emulator/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
-NUMERICS  := $(if $(SANITIZE),-O1,-O3) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
+OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
+NUMERICS  := $(OPTIMISED) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
 # Line tables are what back traces, profiles and bounds need; tracking variables too (DEBUG=-g) takes twice as long to
 # compile, sanitized three times.

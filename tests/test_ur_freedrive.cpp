@@ -25,12 +25,16 @@ void in_freedrive_the_arm_yields_and_bears_its_weight(void**) {
   assert_joints(bench.target(), bench.image().actual_q, 1e-9);
   // The hand lets go while the mode ends: the targets brake from where the arm is.
   bench.controller.faults().push = joints({20, 0, 0, 0, 0, 0});
-  Joints before = bench.target();
+  Joints before = bench.target(), before_qd = bench.image().target_qd;
   for (int k = 0; k < 200; ++k) {
     if (k == 130) bench.controller.faults().push.setZero();
     bench.tick();
     assert_true((bench.target() - before).cwiseAbs().maxCoeff() < 2.1 * kCycle_s);
     before = bench.target();
+    const Joints qd = bench.image().target_qd;
+    assert_true((qd - before_qd).cwiseAbs().maxCoeff() < 8.0 * kCycle_s);
+    before_qd = qd;
+    if (bench.machine().freedrive) assert_joints(qd, bench.image().actual_qd, 1e-9);
   }
   assert_false(bench.machine().freedrive);
   assert_int_equal(bench.image().robot_status_bits & 4u, 0u);

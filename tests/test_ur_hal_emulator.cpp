@@ -21,11 +21,14 @@ void upload(const char* text) {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
-/// Cycles until one is not kOk; `most` if none was.
-int cycles_until_stopped(UrArmBench& bench, int most) {
-  int i = 0;
-  while (i < most && bench.run_cycle() == Status::kOk) ++i;
-  return i;
+/// Runs until the robot has stopped: in the cycle of the first packet that says so.
+void assert_stops_in_the_cycle_of_its_packet(UrArmBench& bench, int most) {
+  for (int i = 0; i < most; ++i) {
+    const UrState& said = bench.hal.state();
+    assert_true(said.robot_mode == 7 && said.safety_mode == 1 && said.runtime_state == 2);
+    if (bench.run_cycle() != Status::kOk) return;
+  }
+  _fail(__FILE__, __LINE__);
 }
 
 /// The arm comes to rest without us, and after a rearm it stays where it is.
@@ -77,7 +80,7 @@ void a_robot_without_power_is_switched_on(void**) {
 void a_protective_stop_is_seen_told_and_never_resumed(void**) {
   UrArmBench& bench = moving();
   upload("sec stop():\n  protective_stop()\nend\n");
-  assert_true(cycles_until_stopped(bench, 20) < 20);
+  assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kProtectiveStop);
   assert_true(bench.says("C209"));
   ASSERT_STATUS(bench.executive.rearm(), Status::kProtectiveStop);  // people look first
@@ -88,7 +91,7 @@ void a_protective_stop_is_seen_told_and_never_resumed(void**) {
 void a_program_stopped_at_the_pendant_is_not_started_by_itself(void**) {
   UrArmBench& bench = moving();
   tell("stop", "Stopped");
-  assert_true(cycles_until_stopped(bench, 20) < 20);
+  assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kProgramStopped);
   assert_rearms_at_rest(bench);
 }
@@ -96,7 +99,7 @@ void a_program_stopped_at_the_pendant_is_not_started_by_itself(void**) {
 void power_cut_at_the_pendant_ends_the_motion(void**) {
   UrArmBench& bench = moving();
   tell("power off", "Powering off");
-  assert_true(cycles_until_stopped(bench, 50) < 50);
+  assert_stops_in_the_cycle_of_its_packet(bench, 50);
   assert_true(bench.executive.latched() == Status::kRobotMode ||
               bench.executive.latched() == Status::kProgramStopped);
   g_robot->pass(100);  // until the power is off
@@ -117,7 +120,7 @@ void a_second_client_cannot_have_the_registers(void**) {
 void a_controller_that_goes_away_is_seen_at_once(void**) {
   UrArmBench& bench = moving();
   g_robot.reset();
-  assert_true(cycles_until_stopped(bench, 20) < 20);
+  assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kConnectionLost);
   ASSERT_STATUS(bench.executive.rearm(), Status::kConnectionLost);
   Settings settings;

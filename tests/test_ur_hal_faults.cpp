@@ -1,7 +1,5 @@
 // What a UR's HAL does about everything that can happen to a robot in motion: fault, reaction,
 // cycles until it, and what a recovery finds. docs/ur10.md has the same table.
-#include <limits>
-
 #include "tests/ur_moving_bench.hpp"
 
 namespace tactus::ur {
@@ -71,32 +69,6 @@ void a_connection_that_is_closed_ends_the_motion_in_the_next_cycle(void**) {
   assert_recovers_without_motion(bench);
 }
 
-void a_field_that_is_no_number_ends_the_motion_in_its_cycle(void**) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  struct Row {
-    const char* name;
-    double FakeImage::*number;
-    std::array<double, 6> FakeImage::*six;
-  };
-  for (const Row& row : {Row{"actual_qd", nullptr, &FakeImage::dq},
-                         Row{"target_moment", nullptr, &FakeImage::moment},
-                         Row{"actual_TCP_pose", nullptr, &FakeImage::tcp_pose},
-                         Row{"actual_TCP_force", nullptr, &FakeImage::tcp_force},
-                         Row{"speed_scaling", &FakeImage::speed_scaling, nullptr},
-                         Row{"target_speed_fraction", &FakeImage::speed_fraction, nullptr}}) {
-    UrHalBench& bench = moving();
-    {
-      const std::lock_guard<std::mutex> lock(bench.robot.mutex);
-      if (row.number != nullptr) bench.robot.image.*row.number = nan;
-      if (row.six != nullptr) (bench.robot.image.*row.six)[5] = nan;
-    }
-    ASSERT_STATUS(bench.cycle(), Status::kWireFormat);
-    assert_disabled_by_wire(bench, Status::kWireFormat);
-    assert_true(bench.says(row.name));
-    assert_true(bench.says("is not finite"));
-  }
-}
-
 // Proves URH-13.
 void the_trajectory_waits_for_the_slider(void**) {
   UrHalBench& bench = moving();
@@ -124,6 +96,25 @@ void the_trajectory_waits_for_the_slider(void**) {
               0.008 * 0.7);  // the trajectory's own speed, 0.625 rad/s: nothing is caught up
 }
 
+// Proves URH-24.
+void slider_and_limiter_slow_the_trajectory_down_together(void**) {
+  struct Row {
+    double limiter, slider, share;
+  };
+  for (const Row& row : {Row{1.0, 0.5, 0.5}, Row{0.5, 1.0, 0.5}, Row{0.5, 0.5, 0.25},
+                         Row{0.0, 0.5, 0.0}, Row{1.5, 1.0, 1.0}, Row{-1.0, 1.0, 0.0}}) {
+    UrHalBench& bench = moving();
+    {
+      const std::lock_guard<std::mutex> lock(bench.robot.mutex);
+      bench.robot.image.speed_scaling = row.limiter;
+      bench.robot.image.speed_fraction = row.slider;
+    }
+    ASSERT_OK(bench.cycles(1));
+    const PortEntry* port = bench.pipeline.ports.find("robot.speed_scaling");
+    ASSERT_NEAR(*static_cast<const double*>(port->value), row.share, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -133,8 +124,8 @@ int main() {
       cmocka_unit_test(what_the_robot_says_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_robots_own_code_is_told),
       cmocka_unit_test(a_connection_that_is_closed_ends_the_motion_in_the_next_cycle),
-      cmocka_unit_test(a_field_that_is_no_number_ends_the_motion_in_its_cycle),
       cmocka_unit_test(the_trajectory_waits_for_the_slider),
+      cmocka_unit_test(slider_and_limiter_slow_the_trajectory_down_together),
   };
   const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
   g_bench.reset();

@@ -18,16 +18,6 @@ void up_to_five_packets_may_be_missing(void**) {
   assert_int_equal(bench.executive.telemetry().slips, 0);
 }
 
-void late_packets_begin_no_cycles_of_their_own(void**) {
-  UrHalBench& bench = moving();
-  const std::int32_t before = bench.hal.set_points();
-  for (int i = 0; i < 3; ++i) ASSERT_OK(bench.run_cycle());
-  for (int i = 0; i < 3; ++i) bench.robot.send_package();  // those of the three cycles
-  ASSERT_OK(bench.cycle());
-  bench.robot.set_point(before + 4);
-  assert_int_equal(bench.executive.telemetry().slips, 0);
-}
-
 void from_the_sixth_on_the_wire_is_lost(void**) {
   for (const int missing : {6, 50}) {
     UrHalBench& bench = moving();
@@ -94,7 +84,6 @@ int main() {
   using namespace tactus::ur;
   const CMUnitTest tests[] = {
       cmocka_unit_test(up_to_five_packets_may_be_missing),
-      cmocka_unit_test(late_packets_begin_no_cycles_of_their_own),
       cmocka_unit_test(from_the_sixth_on_the_wire_is_lost),
       cmocka_unit_test(packets_left_out_walk_the_ladder_as_slips),
       cmocka_unit_test(a_timestamp_that_stands_is_no_news),

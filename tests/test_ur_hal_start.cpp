@@ -36,14 +36,30 @@ void the_first_set_point_is_where_the_arm_is(void**) {
   for (std::size_t i = 0; i < q.size(); ++i) ASSERT_NEAR(q[i], FakeImage().q[i], 1e-12);
 }
 
-/// Starts against one fault; its Status and reason.
+/// The fault is over: the next start ends with the arm where it is, and it stays there.
+void assert_starts_now(UrHalBench& bench) {
+  {
+    const std::lock_guard<std::mutex> lock(bench.robot.mutex);
+    bench.robot.faults = {};
+    const double timestamp_s = bench.robot.image.timestamp_s;
+    bench.robot.image = FakeImage();
+    bench.robot.image.timestamp_s = timestamp_s;
+  }
+  ASSERT_OK(bench.start());
+  ASSERT_OK(bench.cycles(5));
+  const std::array<double, 6> q = bench.robot.set_point(bench.hal.set_points());
+  for (std::size_t i = 0; i < q.size(); ++i) ASSERT_NEAR(q[i], FakeImage().q[i], 1e-12);
+}
+
+/// Starts against one fault; its Status and reason. No set-point, and nothing is left of it.
 void refuses(const FakeFaults& faults, Status expected, const char* reason) {
   UrHalBench& bench = fresh();
   bench.robot.faults = faults;
   ASSERT_STATUS(bench.start(), expected);
   assert_true(bench.says(reason));
   ASSERT_STATUS(bench.run_cycle(), expected);
-  assert_true(bench.robot.count() <= 0);  // no set-point
+  assert_true(bench.robot.count() <= 0);
+  assert_starts_now(bench);
 }
 
 // Proves URH-3.
@@ -70,7 +86,9 @@ void silence_in_any_phase_is_named(void**) {
     const char* reason;
   };
   for (const Row& row : {Row{'V', "phase protocol: no reply within 300 ms"},
+                         Row{'v', "phase version: no reply within 300 ms"},
                          Row{'O', "phase outputs: no reply within 300 ms"},
+                         Row{'I', "phase inputs: no reply within 300 ms"},
                          Row{'S', "phase start: no reply within 300 ms"}}) {
     FakeFaults faults;
     faults.silent_at = row.type;
@@ -128,6 +146,7 @@ void a_program_that_never_runs_is_named(void**) {
   bench.robot.faults.drops_program = true;
   ASSERT_STATUS(bench.start(), Status::kRefusedByRobot);
   assert_true(bench.says("start of the program on the robot: not within 300 ms"));
+  assert_starts_now(bench);
 }
 
 void another_program_is_left_alone(void**) {

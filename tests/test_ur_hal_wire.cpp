@@ -1,5 +1,5 @@
-// The bytes between a UR and its HAL: pieces, glue and lengths; when a packet begins a cycle; what
-// becomes of a force.
+// The bytes between a UR and its HAL: pieces and glue; when a packet begins a cycle; what becomes
+// of a force.
 #include "hal/ur/flange_wrench.hpp"
 #include "tests/ur_hal_bench.hpp"
 
@@ -64,38 +64,6 @@ void a_text_message_between_is_passed_over(void**) {
 }
 
 // Proves URH-15.
-void a_length_that_no_packet_has_ends_it(void**) {
-  for (const std::array<std::uint8_t, 3>& head : {std::array<std::uint8_t, 3>{0, 0, 'U'},
-                                                  {0, 2, 'U'},
-                                                  {0x10, 0x01, 'U'},
-                                                  {0xff, 0xff, 'U'}}) {
-    UrHalBench& bench = started();
-    bench.robot.send(head.data(), head.size());
-    ASSERT_STATUS(bench.run_cycle(), Status::kWireFormat);
-    assert_true(bench.says("the length of a packet is outside 3 to 4096"));
-  }
-}
-
-void a_package_of_another_size_or_recipe_ends_it(void**) {
-  struct Row {
-    int longer;
-    std::uint8_t recipe;
-    const char* reason;
-  };
-  for (const Row& row : {Row{-1, 1, "is not that of the recipe"},
-                         Row{1, 1, "is not that of the recipe"}, Row{0, 2, "of another recipe"}}) {
-    UrHalBench& bench = started();
-    std::array<std::uint8_t, 1024> bytes{};
-    auto size =
-        static_cast<std::size_t>(static_cast<int>(bench.robot.package(bytes.data())) + row.longer);
-    bytes[0] = static_cast<std::uint8_t>(size >> 8);
-    bytes[1] = static_cast<std::uint8_t>(size);
-    bytes[3] = row.recipe;
-    bench.robot.send(bytes.data(), size);
-    ASSERT_STATUS(bench.run_cycle(), Status::kWireFormat);
-    assert_true(bench.says(row.reason));
-  }
-}
 
 /// The bytes that a controller's documentation gives for these fields, in our recipe's order.
 void fields_are_where_the_recipe_says(void**) {
@@ -187,8 +155,6 @@ int main() {
       cmocka_unit_test(a_packet_may_be_cut_at_every_byte),
       cmocka_unit_test(of_packets_glued_the_newest_counts),
       cmocka_unit_test(a_text_message_between_is_passed_over),
-      cmocka_unit_test(a_length_that_no_packet_has_ends_it),
-      cmocka_unit_test(a_package_of_another_size_or_recipe_ends_it),
       cmocka_unit_test(fields_are_where_the_recipe_says),
       cmocka_unit_test(one_cycle_for_every_period_whatever_is_lost),
       cmocka_unit_test(the_force_at_the_tip_is_moved_to_the_flange),

@@ -42,6 +42,34 @@ void a_tool_that_is_none_stops_the_arm(void**) {
 }
 
 // Proves FUZ-1.
+void a_servo_law_that_is_none_stops_the_arm(void**) {
+  constexpr const char* kLines[] = {
+      "servoj([0, -1.2, 1.2, -0.1, 1.57, 0], t=0.1, lookahead_time=0 * pow(10, 400), gain=300)\n",
+      "servoj([0, -1.2, 1.2, -0.1, 1.57, 0], t=0.1, lookahead_time=0.1, gain=pow(10, 400))\n"};
+  for (const char* line : kLines) {
+    static ProgramBench bench;
+    bench.upload(line);
+    bench.run(4);
+    assert_true(bench.image().protective_stopped);
+    assert_int_equal(static_cast<int>(bench.machine().last_stop.code), 204);
+    assert_true(bench.image().actual_q.allFinite() && bench.target().allFinite());
+    bench.machine().safety.restart();
+    bench.run(2);
+  }
+}
+
+// Proves FUZ-1.
+void nothing_is_near_to_what_is_no_number(void**) {
+  const Joints q = ProgramBench::settings().initial_q;
+  for (int joint = 0; joint < 6; ++joint) {
+    Joints near = q, found = q;
+    near[joint] = std::nan("");
+    assert_false(inverse(forward(q), {}, near, found));
+    assert_true(found == q);
+  }
+}
+
+// Proves FUZ-1.
 void a_number_beyond_an_integer_is_its_end(void**) {
   assert_int_equal(integer(1e300), 2147483647);
   assert_int_equal(integer(-1e300), -2147483648LL);
@@ -79,6 +107,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_is_no_number_shows_on_no_port),
       cmocka_unit_test(a_tool_that_is_none_stops_the_arm),
+      cmocka_unit_test(a_servo_law_that_is_none_stops_the_arm),
+      cmocka_unit_test(nothing_is_near_to_what_is_no_number),
       cmocka_unit_test(a_number_beyond_an_integer_is_its_end),
       cmocka_unit_test(a_reply_always_ends_its_line),
       cmocka_unit_test(nots_do_not_nest_without_end),

@@ -191,7 +191,7 @@ void a_quintic_segment_follows_its_polynomial_whatever_the_slider(void**) {
     double way = 0.0;
     for (int k = 0; k < 1000; ++k) {
       double left = 0.008 * scaling;
-      while (left > 1e-9 && (motion.busy() || spline.command(motion))) {
+      while (left > 1e-9 && (motion.busy() || spline.command(motion, 0.008))) {
         const double taken = motion.advance(left);
         left -= taken;
         way += taken;

@@ -1,5 +1,5 @@
 // The register program, and the driver program of 2015: two protocols that are simpler.
-#include "tests/ur_program_bench.hpp"
+#include "tests/ur_register_bench.hpp"
 
 namespace {
 
@@ -7,67 +7,6 @@ using namespace tactus;
 using namespace tactus::ur;
 
 const Joints kStart = ProgramBench::settings().initial_q;
-
-constexpr std::string_view kText =
-    "def rtde_control():\n"
-    "  def signal_ready():\n"
-    "    write_output_integer_register(0 + reg_offset_int, 1)\n"
-    "  end\n"
-    "  def rtde_cmd():\n"
-    "    return read_input_integer_register(0 + reg_offset_int)\n"
-    "  end\n"
-    "  def process_cmd(cmd):\n"
-    "    if cmd == 1:\n"
-    "      movej(q, a, v)\n"
-    "    end\n"
-    "  end\n"
-    "  while keep_running:\n"
-    "    process_cmd(rtde_cmd())\n"
-    "    sync()\n"
-    "  end\n"
-    "end\n";
-constexpr std::string_view kOffset =
-    "  global reg_offset_float = 24\n"
-    "  global reg_offset_int = 24\n";
-
-struct RegisterBench : ProgramBench {
-  std::size_t offset = 0;
-  std::array<char, 2048> text;
-
-  void start(bool with_offset = false) {
-    std::size_t size = 0;
-    const auto add = [&](std::string_view part) {
-      std::memcpy(text.data() + size, part.data(), part.size());
-      size += part.size();
-    };
-    const std::size_t first = kText.find('\n') + 1;
-    add(kText.substr(0, first));
-    if (with_offset) add(kOffset);
-    add(kText.substr(first));
-    offset = with_offset ? 24 : 0;
-    upload({text.data(), size});
-    run(3);
-    assert_true(running());
-    assert_int_equal(answer(), 1);
-  }
-  std::int32_t answer() { return machine().io.output.ints[offset]; }
-  void write(std::int32_t command, std::initializer_list<double> values = {}) {
-    std::size_t i = offset;
-    for (const double value : values) machine().io.input.doubles[i++] = value;
-    machine().io.input.ints[offset] = command;
-  }
-  /// As a client: writes, waits for "done", takes the command back, waits for "ready".
-  int command(std::int32_t number, std::initializer_list<double> values = {}) {
-    write(number, values);
-    int cycles = 0;
-    while (answer() != 2 && cycles < 1500) tick(), ++cycles;
-    assert_int_equal(answer(), 2);
-    write(0);
-    run(2);
-    assert_int_equal(answer(), 1);
-    return cycles;
-  }
-};
 
 // Proves URP-10.
 
@@ -151,7 +90,7 @@ void force_mode_is_ready_at_once_and_its_end_done(void**) {
   static RegisterBench bench;
   bench.start();
   bench.machine().io.input.ints[1] = 2, bench.machine().io.input.ints[4] = 1;  // type, z
-  bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1});
+  bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1}, 2);
   bench.run(100), assert_int_equal(bench.answer(), 1);
   assert_true(bench.image().target_tcp_pose[2] - forward(kStart).p.z() > 0.01);
   bench.command(7);
@@ -163,6 +102,28 @@ void a_watchdog_that_is_not_fed_ends_the_program(void**) {
   bench.command(35, {10.0});
   bench.run_s(0.5);
   assert_false(bench.running());
+}
+
+/// The text names a register for each offset, and which is watched hangs on the offset.
+void the_watchdog_is_fed_by_the_register_of_the_offset(void**) {
+  constexpr std::string_view kWatches =
+      "  if reg_offset_int == 0:\n    rtde_set_watchdog(\"input_int_register_0\", hz, \"stop\")\n"
+      "  else:\n    rtde_set_watchdog(\"input_int_register_24\", hz, \"stop\")\n  end\n";
+  for (const bool with_offset : {false, true}) {
+    RegisterBench& bench = *new RegisterBench;
+    bench.start(with_offset, kWatches);
+    bench.command(35, {10.0});
+    const InputField fed =
+        find_input(with_offset ? "input_int_register_24" : "input_int_register_0", {});
+    for (int k = 0; k < 10; ++k) {
+      bench.machine().io.written[fed.variable()] = bench.machine().cycle;
+      bench.run(6);
+      assert_true(bench.running());
+    }
+    bench.run(13);
+    assert_false(bench.running());
+    delete &bench;
+  }
 }
 
 void command_255_ends_it(void**) {
@@ -226,7 +187,7 @@ void a_keep_alive_of_nought_ends_it(void**) {
   static DriverBench bench;
   bench.start();
   bench.set(0.0, 0);
-  bench.run(3);
+  bench.run(15);
   assert_false(bench.running());
 }
 
@@ -242,6 +203,7 @@ int main() {
       cmocka_unit_test(a_move_out_of_a_speed_is_no_jump),
       cmocka_unit_test(force_mode_is_ready_at_once_and_its_end_done),
       cmocka_unit_test(a_watchdog_that_is_not_fed_ends_the_program),
+      cmocka_unit_test(the_watchdog_is_fed_by_the_register_of_the_offset),
       cmocka_unit_test(command_255_ends_it),
       cmocka_unit_test(the_driver_program_follows_and_brakes_with_1_rad_s2),
       cmocka_unit_test(a_keep_alive_of_nought_ends_it),

@@ -25,6 +25,7 @@ struct EvenMotion {
   ServoBench bench;
   Joints q = ProgramBench::settings().initial_q;
   double given_before = 0.0, way = 0.0, way_before = 0.0;
+  double acceleration = 0.0;  ///< of the robot's own joint target, rad/s^2
 
   void start() {
     bench.start();
@@ -40,6 +41,7 @@ struct EvenMotion {
     }
     const double before = bench.target()[0], speed = bench.machine().motion.dq()[0];
     bench.tick();
+    acceleration = (bench.machine().motion.dq()[0] - speed) / kCycle_s;
     const double now = given(bench, before, speed);
     way_before = way;
     way = (now - given_before) / kStep;
@@ -110,6 +112,47 @@ void stalls_in_a_row_do_not_add_up(void**) {
   }
 }
 
+/// Acceleration of the robot's joint target where the target that the program gives jumps by one
+/// cycle's way.
+double hardest_of_a_jump() {
+  double weight = 0.0, unit_speed = 0.0;
+  ServoLaw{2000.0, 0.03}.step(1.0, kCycle_s, weight, unit_speed);
+  return unit_speed / kCycle_s * EvenMotion::kStep;
+}
+
+/// At an even speed, `n` set-points more than one in a cycle, and none in the `n` cycles after it,
+/// or before it: both are caught up over some cycles.
+void set_points_in_a_lump_are_no_jump(void**) {
+  for (const bool early : {true, false}) {
+    for (int n = 1; n <= 5; ++n) {
+      EvenMotion& motion = fresh();
+      double fastest = 0.0, hardest = 0.0;
+      for (int k = 0; k < 40; ++k) {
+        motion.tick(k == (early ? 0 : n) ? n + 1 : k <= n ? 0 : 1);
+        fastest = std::max(fastest, motion.way);
+        hardest = std::max(hardest, std::abs(motion.acceleration));
+      }
+      assert_true(motion.bench.running());
+      assert_true(fastest <= 1.0 + n / 8.0);
+      assert_true(hardest < n * hardest_of_a_jump() / 5.0);
+      ASSERT_NEAR(motion.ahead(), 0.0, 1e-6);
+    }
+  }
+}
+
+/// The second one comes before the first has faded out.
+void lumps_in_a_row_are_no_jumps_either(void**) {
+  EvenMotion& motion = fresh();
+  double hardest = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    const int phase = k % 4;
+    motion.tick(k >= 8 ? 1 : phase == 0 ? 2 : phase == 1 ? 0 : 1);
+    hardest = std::max(hardest, std::abs(motion.acceleration));
+  }
+  assert_true(hardest < hardest_of_a_jump() / 5.0);
+  ASSERT_NEAR(motion.ahead(), 0.0, 1e-6);
+}
+
 }  // namespace
 
 int main() {
@@ -117,6 +160,8 @@ int main() {
       cmocka_unit_test(after_a_stall_the_target_slows_down_and_never_goes_back),
       cmocka_unit_test(after_a_stall_that_ends_in_a_halt_the_way_back_is_slow),
       cmocka_unit_test(stalls_in_a_row_do_not_add_up),
+      cmocka_unit_test(set_points_in_a_lump_are_no_jump),
+      cmocka_unit_test(lumps_in_a_row_are_no_jumps_either),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

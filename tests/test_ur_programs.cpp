@@ -116,7 +116,7 @@ void the_driver_program_brakes_without_set_points_and_stays_alive(void**) {
   tick(60);
   assert_true(playing() && g_bench.image().target_qd.isZero(0.0));
   send_q(0);
-  tick(2);
+  tick(14);
   assert_false(playing());
 }
 

@@ -1,5 +1,5 @@
 // The paper's square on the emulated UR10 while somebody moves the speed slider: the path stays,
-// only the time changes.
+// and the trajectory takes the time that the slider implies.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -80,40 +80,39 @@ double distance_to_square(const Vector3& p) {
 
 struct SquareRun {
   double worst_m = 0.0;  ///< of the true tip, once the reference is on the square
-  double rms_m = 0.0;
-  double took_s = 0.0;  ///< until the trajectory has succeeded
+  double rms_m = 0.0;    ///< over the time of the trajectory, which the slider stretches
+  double took_s = 0.0;   ///< until the reference is 0.2 m behind the second corner
 };
 
-/// Runs the square to its end with the slider at slider(t).
+/// Runs the first side, the second corner and a part of the second side, with the slider at
+/// slider(t).
 template <class Slider>
 SquareRun run_square(Slider slider) {
   static std::optional<SquareBench> kept;
   SquareBench& bench = kept.emplace();
   bench.start();
   SquareRun result;
-  bool on_square = false, succeeded = false;
-  double sum = 0.0;
-  int counted = 0;
-  constexpr int kMost = 60'000;
-  for (int k = 0; k < kMost && !succeeded; ++k) {
-    bench.hal.set_slider(slider(k * kCycle_s));
+  bool on_square = false;
+  double sum = 0.0, passed = 0.0;
+  constexpr int kMost = 10'000;
+  int k = 0;
+  for (; k < kMost && bench.reference().p[0] > -0.1; ++k) {
+    const double share = slider(k * kCycle_s);
+    bench.hal.set_slider(share);
     ASSERT_OK(bench.executive.cycle({k * std::int64_t{8'000'000}}));
     bench.hal.tick();
-    Report report;
-    while (poll_report(bench.session, bench.input, report))
-      succeeded = succeeded || report.outcome == Outcome::kSucceeded;
     // It comes from the side, and is on the first corner a cycle after it has been within 0.1 mm.
     on_square = on_square || distance_to_square(bench.reference().p) < 1e-4;
-    result.took_s = k * kCycle_s;
     if (!on_square) continue;
     const double off = distance_to_square(bench.hal.image().actual_tcp_pose.head<3>());
     result.worst_m = std::max(result.worst_m, off);
-    sum += off * off;
-    ++counted;
+    sum += share * off * off;
+    passed += share;
   }
-  assert_true(succeeded);
-  result.rms_m = std::sqrt(sum / counted);
-  std::printf("    off the path: rms %.3f mm, at most %.3f mm; %.1f s\n", 1e3 * result.rms_m,
+  assert_true(k < kMost);
+  result.took_s = k * kCycle_s;
+  result.rms_m = std::sqrt(sum / passed);
+  std::printf("    off the path: rms %.3f mm, at most %.3f mm; %.2f s\n", 1e3 * result.rms_m,
               1e3 * result.worst_m, result.took_s);
   return result;
 }
@@ -122,28 +121,46 @@ const SquareRun& at_full_speed() {
   static const SquareRun result = run_square([](double) { return 1.0; });
   return result;
 }
+/// Just below, the program on the robot begins its servoj anywhere in a cycle, and the set-point it
+/// takes is up to a cycle old: the most that a slider that stands costs.
+const SquareRun& at_95_percent() {
+  static const SquareRun result = run_square([](double) { return 0.95; });
+  return result;
+}
+void assert_on_the_path(const SquareRun& run) {
+  assert_true(run.rms_m <= 1.01 * at_95_percent().rms_m);
+  assert_true(run.worst_m <= 1.01 * at_95_percent().worst_m);
+}
 
 // Proves URH-23.
 
-void at_full_speed_the_tip_is_on_the_square(void**) {
+void a_slider_that_stands_keeps_the_tip_on_the_square(void**) {
   assert_true(at_full_speed().worst_m < 3e-3);
-  assert_true(at_full_speed().took_s < 67.0);
+  assert_true(at_95_percent().worst_m < 3e-3);
+  ASSERT_NEAR(at_full_speed().took_s, 26.0, 0.1);
+  ASSERT_NEAR(at_95_percent().took_s, at_full_speed().took_s / 0.95, 0.05);
 }
 
 void a_slider_that_sweeps_does_not_lead_off_the_path(void**) {
-  // 100 % -> 10 % -> 100 % in 30 s, about the second corner
+  // 100 % -> 10 % -> 100 % in 30 s, 13.5 s of which the trajectory waits; about the corner
   const SquareRun swept = run_square([](double t) {
-    return t > 15.0 && t < 45.0 ? 0.55 + 0.45 * std::cos(2.0 * M_PI * (t - 15.0) / 30.0) : 1.0;
+    return t > 9.0 && t < 39.0 ? 0.55 + 0.45 * std::cos(2.0 * M_PI * (t - 9.0) / 30.0) : 1.0;
   });
-  assert_true(swept.worst_m <= 1.1 * at_full_speed().worst_m);  // at a corner
-  assert_true(swept.rms_m <= at_full_speed().rms_m);
-  assert_true(swept.took_s > at_full_speed().took_s + 10.0);
+  assert_on_the_path(swept);
+  ASSERT_NEAR(swept.took_s, at_full_speed().took_s + 13.5, 0.05);
 }
 
 void a_slider_at_zero_holds_the_square_and_it_goes_on_afterwards(void**) {
-  const SquareRun held = run_square([](double t) { return t > 24.0 && t < 30.0 ? 0.0 : 1.0; });
-  assert_true(held.worst_m <= 1.02 * at_full_speed().worst_m);  // corners fall between other cycles
-  ASSERT_NEAR(held.took_s, at_full_speed().took_s + 6.0, 0.1);
+  const auto held_from = [](double begin_s) {
+    const SquareRun held =
+        run_square([begin_s](double t) { return t > begin_s && t < begin_s + 3.0 ? 0.0 : 1.0; });
+    ASSERT_NEAR(held.took_s, at_full_speed().took_s + 3.0, 0.1);
+    return held;
+  };
+  assert_on_the_path(held_from(18.0));
+  // In the corner itself: the robot takes 0.2 s to stand, in which it draws closer to the
+  // reference.
+  assert_true(held_from(20.0).worst_m < 3e-3);
 }
 
 }  // namespace
@@ -152,7 +169,7 @@ void a_slider_at_zero_holds_the_square_and_it_goes_on_afterwards(void**) {
 int main() {
   using namespace tactus::ur;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(at_full_speed_the_tip_is_on_the_square),
+      cmocka_unit_test(a_slider_that_stands_keeps_the_tip_on_the_square),
       cmocka_unit_test(a_slider_that_sweeps_does_not_lead_off_the_path),
       cmocka_unit_test(a_slider_at_zero_holds_the_square_and_it_goes_on_afterwards),
   };

@@ -86,12 +86,15 @@ void the_tool_stays_below_its_speed_limit(void**) {
   settings.initial_q << 0.0, -0.3, 0.0, 0.0, 0.0, 0.0;  // stretched out
   connect(settings);
   g_bench.send(g_primary, "movej([2.5,-0.3,0,0,0,0],a=3.0,v=2.0)\n");
-  double fastest = 0.0;
+  double fastest = 0.0, scaling = 1.0;
   for (int i = 0; i < 500; ++i) {
     g_bench.ticks(1);
     fastest = std::max(fastest, g_bench.image().actual_tcp_speed.head<3>().norm());
+    if (g_bench.image().program_running) scaling = std::min(scaling, g_bench.image().speed_scaling);
   }
   assert_true(fastest > 1.3 && fastest < 1.5);
+  assert_true(scaling > 0.3 && scaling < 0.9);  // 2 rad/s at 1.2 m would be 2.4 m/s
+  ASSERT_NEAR(g_bench.image().target_speed_fraction, 1.0, 0.0);
   ASSERT_NEAR(g_bench.image().actual_q[0], 2.5, 1e-6);
   assert_int_equal(g_bench.image().safety_mode, 1);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "hal/ur/servo_script.hpp"
+#include "hal/ur/ur_state.hpp"
 #include "kernel/hal.hpp"
 #include "tests/testing.hpp"
 #include "tests/ur_bench.hpp"
@@ -34,7 +35,7 @@ class CoreHal final : public Hal {
     const Image& image = bench_.image();
     state.q = image.actual_q;
     state.dq = image.actual_qd;
-    state.speed_scaling = image.speed_scaling * image.target_speed_fraction;
+    state.speed_scaling = time_scaling(image.speed_scaling, image.target_speed_fraction);
     return image.program_running ? Status::kOk : Status::kProgramStopped;
   }
   Status write(const RobotCommand& command) override {

@@ -61,11 +61,11 @@ class EmulatedRobot {
 inline std::optional<UrArmBench> g_bench;
 inline std::optional<EmulatedRobot> g_robot;
 
-inline UrArmBench& fresh(const Settings& settings = {}) {
+inline UrArmBench& fresh(const Settings& settings = {}, int period_us = 8000) {
   g_bench.reset();
   g_robot.reset();
   g_robot.emplace(settings);
-  UrArmBench& bench = g_bench.emplace();
+  UrArmBench& bench = g_bench.emplace(period_us);
   bench.pipeline.executive.max_slip = 1000;  // the host's own lateness is no topic here
   bench.settings.packet_wait = 500.0;
   bench.settings.connect_ms = bench.settings.program_ms = 2000;
@@ -77,7 +77,7 @@ inline UrArmBench& fresh(const Settings& settings = {}) {
   tool.mass_kg = 0.749;
   tool.com = {0.0, 0.0, 0.0291};
   tool.tip.p = {0.0, 0.0, 0.0905};
-  bench.hal.configure(bench.settings, tool, 8000);
+  bench.hal.configure(bench.settings, tool, period_us);
   return bench;
 }
 

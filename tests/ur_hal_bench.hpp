@@ -14,11 +14,10 @@
 
 namespace tactus::ur {
 
+/// What follows the period.
 inline constexpr std::string_view kUrPipeline = R"(
-[robot]
-name      = ur10
-period_us = 8000
-q_c       = jrg.q_d
+name = ur10
+q_c  = jrg.q_d
 [jrg]
 type          = joint_reference_generator
 q             = robot.q
@@ -27,6 +26,7 @@ speed_scaling = robot.speed_scaling
 
 /// Executive, pipeline and HAL; the controller is whoever answers at the ports.
 struct UrArmBench {
+  Text<255> file{"[robot]\nperiod_us = "};
   UrSettings settings;
   UrHal hal;
   std::array<Waypoint<JointSpace>, 8> waypoints;
@@ -35,12 +35,13 @@ struct UrArmBench {
   Pipeline pipeline;
   Executive executive{hal, pipeline, nullptr};
 
-  UrArmBench() {
+  explicit UrArmBench(int period_us = 8000) {
+    file << period_us << kUrPipeline;
     channel.stores[0].waypoints = waypoints.data();
     channel.stores[0].capacity = static_cast<int>(waypoints.size());
     Loader loader({&channel}, hal.capabilities());
     LoadError error;
-    if (loader.load(kUrPipeline, pipeline, error) != Status::kOk) {
+    if (loader.load(file, pipeline, error) != Status::kOk) {
       std::fprintf(stderr, "%s\n", error.message().c_str());
       std::abort();
     }

@@ -5,17 +5,22 @@
 
 namespace tactus {
 
+/// One line for all that could not be had. It is a note where the pipeline file goes on without.
 bool prepare(Realtime& realtime, const RealtimeSettings& settings) {
   const RealtimeReport& report = realtime.apply(settings);
+  if (!report.refused()) return true;
+  const bool goes_on = settings.required == Required::kWarn;
+  std::fprintf(stderr, goes_on ? "note: real time without" : "real time: refused:");
+  const char* separator = " ";
   for (const RealtimeStep& step : report.steps) {
     if (step.outcome != StepOutcome::kRefused) continue;
-    std::fprintf(stderr, "real time: %s: refused: %s; %s\n", step.name,
+    std::fprintf(stderr, "%s%s (%s: %s)", separator, step.name,
                  step.error != 0 ? std::strerror(step.error) : "granted, but not in effect",
                  step.remedy);
+    separator = ", ";
   }
-  if (!report.refused() || settings.required == Required::kWarn) return true;
-  std::fprintf(stderr, "real time: refused: [realtime] required = refuse\n");
-  return false;
+  std::fprintf(stderr, goes_on ? "\n" : "; [realtime] required = refuse\n");
+  return goes_on;
 }
 
 void write_realtime(std::FILE* file, const RealtimeResult& result) {
@@ -33,6 +38,7 @@ void write_realtime(std::FILE* file, const RealtimeResult& result) {
   std::fprintf(file, "}\n  },\n");
 }
 
+/// What was refused the note has said.
 void print_realtime(const RealtimeResult& result) {
   const Histogram& latency = result.latency;
   if (latency.count() > 0)  // the robot's own clock has none to tell
@@ -42,7 +48,8 @@ void print_realtime(const RealtimeResult& result) {
                 latency.percentile(0.99) * 1e-3, static_cast<double>(latency.max()) * 1e-3);
   std::printf("\n  real time:");
   for (const RealtimeStep& step : result.report.steps)
-    std::printf(" %s %s,", step.name, kStepOutcomeWords[static_cast<std::size_t>(step.outcome)]);
+    if (step.outcome != StepOutcome::kRefused)
+      std::printf(" %s %s,", step.name, kStepOutcomeWords[static_cast<std::size_t>(step.outcome)]);
   std::printf(" %" PRId64 " page faults\n", result.page_faults);
 }
 

@@ -34,8 +34,9 @@ Settings settings_of(const EmulatorOptions& options) {
 /// clock never leaves one out; after more than a second it lets the time go. In lock-step a cycle
 /// begins before its time when the clients have answered, and one that always did is waited for.
 void run(Emulator& emulator, Server& server, const EmulatorOptions& options) {
-  const auto period_ns = static_cast<std::int64_t>(kCycle_s * 1e9 / options.speed);
-  const auto last = static_cast<std::int64_t>(options.duration_s / kCycle_s + 0.5);
+  const double cycle_s = emulator.controller().machine().cycle_s();
+  const auto period_ns = static_cast<std::int64_t>(cycle_s * 1e9 / options.speed);
+  const auto last = static_cast<std::int64_t>(options.duration_s / cycle_s + 0.5);
   constexpr std::int64_t kLongestLag_ns = 1'000'000'000, kLongestWait_ns = 1'000'000'000;
   std::int64_t next_ns = monotonic_ns() + period_ns;
   for (std::int64_t cycle = 0; g_interrupted == 0 && (last == 0 || cycle < last);) {

@@ -33,9 +33,10 @@ CLI::Validator short_text() {
 
 bool parse_version(const std::string& text, unsigned (&version)[4]) {
   int used = 0;
-  const int read = std::sscanf(text.c_str(), "%3u.%3u.%3u.%9u%n", &version[0], &version[1],
+  const int read = std::sscanf(text.c_str(), "%3u.%3u.%9u.%9u%n", &version[0], &version[1],
                                &version[2], &version[3], &used);
-  return read == 4 && static_cast<std::size_t>(used) == text.size() && version[0] == 3;
+  return read == 4 && static_cast<std::size_t>(used) == text.size() &&
+         (version[0] == 3 || version[0] == 5);
 }
 
 }  // namespace
@@ -60,7 +61,8 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   app.add_option("--joints", q, "six initial joint positions, rad")
       ->expected(6)
       ->check(finite(-6.3, 6.3));
-  app.add_option("--software", version, "version to be (default 3.15.8.106339)");
+  app.add_option("--software", version,
+                 "version to be (default 3.15.8.106339); 5 has the cycle of an e-Series");
   app.add_option("--external-control", host,
                  "address that external_control.urp asks for its script (default: no such program)")
       ->check(short_text());

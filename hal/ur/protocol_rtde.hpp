@@ -74,8 +74,8 @@ constexpr bool next_name(std::string_view& list, std::string_view& name) {
   return true;
 }
 
-/// Rates of a CB3's RTDE, Hz.
-inline constexpr double kRtdeSlowest_Hz = 1.0, kRtdeFastest_Hz = 125.0;
+/// Hz; the fastest is once in every cycle of the controller.
+inline constexpr double kRtdeSlowest_Hz = 1.0;
 
 inline constexpr int kRegisters = 48;      ///< of integers and of doubles, in either direction
 inline constexpr int kBitRegisters = 128;  ///< in either direction

@@ -16,9 +16,11 @@ struct Version {
     if (minor != b) return minor > b;
     return bugfix >= c;
   }
+  /// Of the controller: that of an e-Series from version 5 up.
+  constexpr double cycle_s() const { return major < 5 ? 0.008 : 0.002; }
 };
 
-inline constexpr double kCycle_s = 0.008;  ///< of a CB3
+inline constexpr double kCycle_s = Version{}.cycle_s();  ///< of a CB3
 
 enum Port : std::uint16_t {
   kDashboardPort = 29999,
@@ -31,6 +33,8 @@ enum Port : std::uint16_t {
 /// Bytes of a packet on the real-time port: each version appends to the one before. What 3.14 and
 /// 3.15 send is not published; a reader takes the prefix it knows.
 constexpr std::size_t realtime_size(const Version& version) {
+  if (version.at_least(5, 10)) return 1220;
+  if (version.at_least(5, 9)) return 1140;
   if (version.at_least(3, 10)) return 1116;
   if (version.at_least(3, 5)) return 1108;
   if (version.at_least(3, 2)) return 1060;

@@ -99,7 +99,7 @@ Status RtdeClient::ask_version(Message& why) {
   version_.major = in.u32(), version_.minor = in.u32();
   version_.bugfix = in.u32(), version_.build = in.u32();
   if (!in.done()) return refuse(why, Status::kWireFormat, "a reply of another size");
-  const double fastest_hz = version_.major < 5 ? 125.0 : 500.0;
+  const double fastest_hz = 1.0 / version_.cycle_s();
   const bool at_own_rate = protocol_ == 2 || rate_hz_ == fastest_hz;
   if (version_.at_least(3, 9) && rate_hz_ <= fastest_hz && at_own_rate) return Status::kOk;
   why << "software " << static_cast<int>(version_.major) << "." << static_cast<int>(version_.minor);

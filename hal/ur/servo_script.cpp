@@ -20,6 +20,7 @@ constexpr std::string_view kText =
   step = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
   off = step
   left = 0
+  pace = 1.0
   moving = False
   going = True
   late = 0
@@ -36,7 +37,7 @@ constexpr std::string_view kText =
       q = [read_input_float_register(24), read_input_float_register(25), read_input_float_register(26), read_input_float_register(27), read_input_float_register(28), read_input_float_register(29)]
       jump = norm(q[0] - last[0]) + norm(q[1] - last[1]) + norm(q[2] - last[2]) + norm(q[3] - last[3]) + norm(q[4] - last[4]) + norm(q[5] - last[5])
       steps = count - seen
-      if late > 0:
+      if late > 0 or steps > 1.75 * pace:
         fade = 1.0 - (late + 1) * (late + 1) / @patience@
         off = [led[0] + fade * step[0] + part * off[0] - q[0], led[1] + fade * step[1] + part * off[1] - q[1], led[2] + fade * step[2] + part * off[2] - q[2], led[3] + fade * step[3] + part * off[3] - q[3], led[4] + fade * step[4] + part * off[4] - q[4], led[5] + fade * step[5] + part * off[5] - q[5]]
         left = @blend@
@@ -45,6 +46,9 @@ constexpr std::string_view kText =
       if not moving:
         going = jump <= @first_step@
       elif steps > 0:
+        if late == 0:
+          pace = pace + (steps - pace) / 16.0
+        end
         step = [(q[0] - last[0]) / steps, (q[1] - last[1]) / steps, (q[2] - last[2]) / steps, (q[3] - last[3]) / steps, (q[4] - last[4]) / steps, (q[5] - last[5]) / steps]
       end
       moving = going

@@ -16,6 +16,12 @@
 // 3 x^2 - 2 x^3: by no more than 3/2 d / N a cycle, and with no more than 6 d / N^2 a cycle
 // squared. With set-points of an even speed d is below n steps after n cycles, and below N / 1.5
 // after twelve: the target slows down and never goes back.
+//
+// Set-points may also come in a lump: one that was due in the next cycle just before this one's
+// is read. The target goes on at its speed, and what the lump is ahead by fades out in the same
+// way. A robot that stretches time by its slider finds more than one in a cycle as well, but at an
+// even pace: a lump is more than 1.75 times as many as there were in each of the last cycles.
+
 #pragma once
 
 #include <array>

@@ -1,6 +1,5 @@
 #include "hal/ur/ur_hal.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "hal/ur/flange_wrench.hpp"
@@ -82,7 +81,7 @@ void UrHal::show(RobotState& state) const {
   state.dq = state_.dq;
   state.tau = state_.moment;
   state.ft = flange_wrench(state_, tool_);
-  state.speed_scaling = std::clamp(state_.speed_scaling * state_.speed_fraction, 0.0, 1.0);
+  state.speed_scaling = time_scaling(state_.speed_scaling, state_.speed_fraction);
 }
 
 Status UrHal::write(const RobotCommand& command) {

@@ -15,7 +15,7 @@ struct UrState {
   Vector6 moment = Vector6::Zero();     ///< N m, of the controller's own model
   Vector6 tcp_pose = Vector6::Zero();   ///< base frame: m, rotation vector in rad
   Vector6 tcp_force = Vector6::Zero();  ///< at the tip, in the axes of the base: N, N m
-  double speed_scaling = 0.0;           ///< of the controller's own limiter
+  double speed_scaling = 0.0;           ///< what the trajectory limiter lets pass of the slider's
   double speed_fraction = 0.0;          ///< of the slider
   std::int32_t robot_mode = 0, safety_mode = 0, echo = 0;
   std::uint32_t safety_bits = 0, runtime_state = 0;
@@ -25,6 +25,15 @@ struct UrState {
     return runtime_state == static_cast<std::uint32_t>(RuntimeState::kPlaying);
   }
 };
+
+/// By how much slower than in its own time a set-point is executed. The guide calls the one field
+/// "speed scaling of the trajectory limiter", the other "target speed fraction", and the vendor's
+/// drivers multiply them: the limiter's does not contain the slider's. Were it in both, this would
+/// be too slow, and never ahead of the robot. [cyclic]
+constexpr double time_scaling(double speed_scaling, double speed_fraction) {
+  const double product = speed_scaling * speed_fraction;
+  return product > 1.0 ? 1.0 : product > 0.0 ? product : 0.0;
+}
 
 struct RecipeField {
   std::string_view name;

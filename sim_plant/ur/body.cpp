@@ -3,9 +3,11 @@
 namespace tactus::ur {
 namespace {
 
-constexpr int kInnerSteps = 8;
+constexpr double kInnerStep_s = 0.001;
 constexpr double kTimeConstant_s = 0.008;
 constexpr double kResidual_s = 0.04;  // time constant of its filter
+
+int inner_steps(double h_s) { return static_cast<int>(h_s / kInnerStep_s + 0.5); }
 
 }  // namespace
 
@@ -23,10 +25,11 @@ Status Body::load(const Joints& q, double payload_kg, const Vector3& payload_com
 void Body::move(const Joints& q_t, double h_s) {
   const Joints limit(RobotMjcf::kDriveTorque.data());
   const Joints from = target_, slope = (q_t - target_) / h_s;
-  const double step_s = h_s / kInnerSteps, T = kTimeConstant_s;
+  const int steps = inner_steps(h_s);
+  const double step_s = h_s / steps, T = kTimeConstant_s;
   model_ = arm_.inverse_dynamics((slope - slope_) / h_s);
   Joints sum = Joints::Zero();
-  for (int k = 1; k <= kInnerSteps; ++k) {
+  for (int k = 1; k <= steps; ++k) {
     const Joints target = from + slope * (k * step_s);
     const Joints ddq = 2.0 / T * (slope - arm_.dq()) + (target - arm_.q()) / (T * T);
     // The controller feels a push by the error it makes, and takes it for its own doing.
@@ -36,22 +39,23 @@ void Body::move(const Joints& q_t, double h_s) {
   }
   target_ = q_t;
   slope_ = slope;
-  tau_ = sum / kInnerSteps;
+  tau_ = sum / steps;
   residual_ += (h_s / (kResidual_s + h_s)) * (tau_ - model_ - residual_);
 }
 
 void Body::drift(double slowing_s, double h_s) {
   const Joints limit(RobotMjcf::kDriveTorque.data());
+  const int steps = inner_steps(h_s);
   Joints sum = Joints::Zero();
-  for (int k = 0; k < kInnerSteps; ++k) {
+  for (int k = 0; k < steps; ++k) {
     const Joints wanted = arm_.inverse_dynamics(-arm_.dq() / slowing_s);
     const Joints tau = wanted.cwiseMax(-limit).cwiseMin(limit);
-    arm_.step(tau + push_, h_s / kInnerSteps);
+    arm_.step(tau + push_, h_s / steps);
     sum += tau;
   }
   target_ = arm_.q();
   slope_ = arm_.dq();
-  model_ = tau_ = sum / kInnerSteps;
+  model_ = tau_ = sum / steps;
   residual_.setZero();
 }
 

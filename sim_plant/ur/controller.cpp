@@ -6,7 +6,7 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kScalingPerCycle = 0.04;  // the slider acts within 0.2 s
+constexpr double kSlider_s = 0.2;  // in which it acts
 constexpr int kCommandsPerCycle = 32;
 constexpr double kNothing_s = 1e-9;
 constexpr double kLimiter = 0.95;  // of a safety limit, where the controller begins to slow down
@@ -24,7 +24,7 @@ Status Controller::start() {
 void Controller::tick() {
   ++machine_.cycle;
   machine_.messages.set_time(static_cast<std::uint64_t>(machine_.time_s() * 1e6 + 0.5));
-  machine_.power.tick(kCycle_s);
+  machine_.power.tick(machine_.cycle_s());
   if (!machine_.power.powered() && machine_.safety.protective_stopped()) machine_.safety.restart();
   machine_.body.push(faults_.push);
   dq_before_ = machine_.motion.dq() * machine_.speed_scaling;
@@ -33,7 +33,7 @@ void Controller::tick() {
     if (machine_.freedrive)
       carry_arm();
     else
-      machine_.body.move(machine_.motion.q(), kCycle_s);
+      machine_.body.move(machine_.motion.q(), machine_.cycle_s());
     watch_arm();
   } else {
     machine_.body.stand();
@@ -52,9 +52,9 @@ void Controller::run_program() {
   if (machine_.safety.normal())
     move_targets();
   else
-    machine_.motion.brake(kCycle_s);
+    machine_.motion.brake(machine_.cycle_s());
   machine_.motion.yield(machine_.force_mode, machine_.force_damping, image_.actual_tcp_force,
-                        kCycle_s * machine_.speed_scaling);
+                        machine_.cycle_s() * machine_.speed_scaling);
   if (const Stop fault = machine_.motion.take_fault()) machine_.protective_stop(fault);
   if (machine_.motion.take_overlap())
     machine_.messages.error({Code::kBlend, kOverlappingBlends}, ReportLevel::kWarning);
@@ -63,7 +63,7 @@ void Controller::run_program() {
 /// Freedrive: the drives carry the arm's weight, and the targets are where it is.
 void Controller::carry_arm() {
   Body& body = machine_.body;
-  body.drift(machine_.settings.freedrive_s, kCycle_s);
+  body.drift(machine_.settings.freedrive_s, machine_.cycle_s());
   const double scaling = machine_.speed_scaling;
   machine_.motion.carry(body.q(), scaling > kNothing_s ? Joints(body.dq() / scaling) : body.dq());
 }
@@ -75,7 +75,8 @@ void Controller::scale_speed() {
   double& scaling = machine_.speed_scaling;
   const Motion& motion = machine_.motion;
   if (!runner_.running() && motion.resting()) scaling = goal;
-  scaling += std::clamp(goal - scaling, -kScalingPerCycle, kScalingPerCycle);
+  const double most = machine_.cycle_s() / kSlider_s;
+  scaling += std::clamp(goal - scaling, -most, most);
   const double speed = (jacobian(motion.q(), motion.tool()) * motion.dq()).head<3>().norm();
   const double fastest = kLimiter * limits_.limits().tcp_speed;
   if (speed * scaling > fastest) scaling = fastest / speed;
@@ -84,7 +85,7 @@ void Controller::scale_speed() {
 /// The cycle's share of the stretched time is dealt out to the commands of the program.
 void Controller::move_targets() {
   Motion& motion = machine_.motion;
-  double left_s = kCycle_s * machine_.speed_scaling;
+  double left_s = machine_.cycle_s() * machine_.speed_scaling;
   if (left_s < kNothing_s) left_s = 0.0;
   for (int n = 0; n < kCommandsPerCycle && left_s > kNothing_s; ++n) {
     if (!motion.busy()) runner_.command(machine_);
@@ -130,7 +131,8 @@ void Controller::watch_force_limits(const Joints& q) {
 void Controller::watch_limits(const Joints& q) {
   const Joints dq = machine_.body.dq();
   const double tcp_speed = (jacobian(q, machine_.motion.tool()) * dq).head<3>().norm();
-  const std::int32_t violated = limits_.check(q, dq, tcp_speed, image_.actual_momentum, kCycle_s);
+  const std::int32_t violated =
+      limits_.check(q, dq, tcp_speed, image_.actual_momentum, machine_.cycle_s());
   if (violated == 0 || !machine_.safety.violation()) return;
   machine_.last_stop = {Code::kSafetyViolation, violated};
   machine_.stop_unsaid = true;
@@ -138,7 +140,7 @@ void Controller::watch_limits(const Joints& q) {
 }
 
 void Controller::say_changes() {
-  const bool changed = machine_.safety.tick(kCycle_s);
+  const bool changed = machine_.safety.tick(machine_.cycle_s());
   const Stop& stop = machine_.last_stop;
   if (changed)
     machine_.messages.safety_mode(machine_.safety.mode(), machine_.safety.normal() ? Stop{} : stop);

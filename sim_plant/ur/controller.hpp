@@ -1,4 +1,4 @@
-// Controller: the robot behind the ports. One call of tick() is one cycle of 8 ms; it reads no
+// Controller: the robot behind the ports. One call of tick() is one cycle; it reads no
 // clock and knows no sockets.
 #pragma once
 

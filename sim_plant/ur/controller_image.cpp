@@ -26,7 +26,7 @@ void Controller::show() {
   if (!faults_.frozen_stamp) image_.timestamp = machine_.time_s();
   image_.target_q = motion.q();
   image_.target_qd = motion.dq() * machine_.speed_scaling;
-  image_.target_qdd = (image_.target_qd - dq_before_) / kCycle_s;
+  image_.target_qdd = (image_.target_qd - dq_before_) / machine_.cycle_s();
   image_.target_moment = body.model();
   image_.target_current = body.model().cwiseQuotient(k);
   image_.actual_q = body.q() + faults_.encoder_offset;
@@ -57,12 +57,14 @@ void Controller::show_tool() {
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   const Vector3 g(0.0, 0.0, 9.81);
-  image_.actual_tool_accelerometer = tip.r.transpose() * ((v - tcp_speed_before_) / kCycle_s + g);
+  image_.actual_tool_accelerometer =
+      tip.r.transpose() * ((v - tcp_speed_before_) / machine_.cycle_s() + g);
   tcp_speed_before_ = v;
   image_.actual_momentum = 0.5 * kMovingMass_kg * v.norm();
   const Vector3 before = image_.elbow_position;
   image_.elbow_position = elbow(q);
-  if (!before.isZero(0.0)) image_.elbow_velocity = (image_.elbow_position - before) / kCycle_s;
+  if (!before.isZero(0.0))
+    image_.elbow_velocity = (image_.elbow_position - before) / machine_.cycle_s();
   image_.tcp_offset = machine_.tcp_offset;
   image_.payload = machine_.payload;
   image_.payload_cog = machine_.payload_cog;
@@ -81,7 +83,11 @@ void Controller::show_io() {
   image_.input = io.input;
   image_.output = io.output;
   image_.target_speed_fraction = io.speed_fraction;
-  image_.speed_scaling = runner_.running() ? machine_.speed_scaling : 0.0;
+  // What the trajectory limiter lets pass of the slider's speed; all of it while the slider goes
+  // down.
+  const double scaling = machine_.speed_scaling;
+  const double passes = scaling < io.speed_fraction ? scaling / io.speed_fraction : 1.0;
+  image_.speed_scaling = runner_.running() ? passes : 0.0;
 }
 
 void Controller::show_modes() {

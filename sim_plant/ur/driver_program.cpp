@@ -3,7 +3,8 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kBrake = 1.0;  // rad/s^2
+constexpr double kBrake = 1.0;       // rad/s^2
+constexpr double kFarewell_s = 0.1;  // the program sleeps before it closes its socket
 
 }  // namespace
 
@@ -32,16 +33,16 @@ ProgramStep DriverProgram::poll(Machine& machine) {
     for (int i = 0; i < 6; ++i) q_[i] = message[static_cast<std::size_t>(i)] / kFixedPoint;
     fresh_ = true;
     ending_ = message[6] <= 0;
+    end_s_ = machine.time_s() + kFarewell_s;
   }
-  const bool gone = link->state() == Link::State::kFailed || link->at_end(kDriverInts);
-  if (!ending_ && !gone) return ProgramStep::kRunning;
+  if (!ending_ || machine.time_s() < end_s_) return ProgramStep::kRunning;
   link->close();
   return ProgramStep::kEnded;
 }
 
 ProgramStep DriverProgram::command(Machine& machine) {
   if (fresh_) {
-    machine.motion.servo_j(q_, kCycle_s, law_);
+    machine.motion.servo_j(q_, machine.cycle_s(), law_);
   } else if (moving_) {
     machine.motion.stop_j(kBrake);
   }

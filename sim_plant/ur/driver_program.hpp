@@ -1,6 +1,6 @@
 // DriverProgram: the program of the 2015 ROS driver. It connects to the control computer and reads
 // seven integers at a time: joint positions and keep-alive. Without a new set-point it brakes, and
-// stays alive.
+// stays alive, though the connection be gone; a keep-alive of zero ends it a moment later.
 #pragma once
 
 #include "sim_plant/ur/machine.hpp"
@@ -21,6 +21,7 @@ class DriverProgram {
   SocketPlace place_;
   ServoLaw law_;
   bool wanted_ = false, fresh_ = false, moving_ = false, ending_ = false;
+  double end_s_ = 0.0;
   Joints q_ = Joints::Zero();
 };
 

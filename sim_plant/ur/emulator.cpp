@@ -5,8 +5,8 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kStatesPerCycle = 10.0 * kCycle_s;  // ten times a second
-constexpr int kPatience = 625;                       // cycles that a client may stand still
+constexpr double kStateRate_Hz = 10.0;
+constexpr int kPatience = 625;  // cycles that a client may stand still
 
 }  // namespace
 
@@ -41,7 +41,6 @@ void Emulator::greet(Session& session) {
   ByteWriter writer(bytes.data(), bytes.size());
   controller_.machine().messages.write_version(writer);
   session.out.put(writer.data(), writer.size());
-  send_state(session);
 }
 
 void Emulator::receive(int session, const std::uint8_t* data, std::size_t size) {
@@ -92,7 +91,7 @@ void Emulator::tick() {
     send_cycle(session);
     const bool state =
         session.service == Service::kPrimary || session.service == Service::kSecondary;
-    if (state && due) send_state(session);
+    if (state && (due || !session.told)) send_state(session);
   }
   send_messages();
 }
@@ -111,7 +110,7 @@ Pace Emulator::pace() const {
 
 /// At ten Hertz, and at once when a protective stop begins.
 bool Emulator::state_is_due() {
-  state_due_ += kStatesPerCycle;
+  state_due_ += kStateRate_Hz * controller_.machine().cycle_s();
   const bool stopped = controller_.machine().safety.protective_stopped();
   const bool sudden = stopped && !protective_before_;
   protective_before_ = stopped;

@@ -74,7 +74,7 @@ void ExternalControl::read_reverse(Machine& machine) {
   Message message;
   for (int n = 0; n < kMessagesAtOnce && phase_ == Phase::kRunning; ++n) {
     if (link == nullptr || !link->read_ints(message.data(), message.size())) {
-      silent_s_ += n == 0 ? kCycle_s : 0.0;
+      silent_s_ += n == 0 ? machine.cycle_s() : 0.0;
       const bool late = timeout_s_ > 0.0 && silent_s_ > timeout_s_ + 1e-9;
       if (late || link == nullptr || link->at_end(message.size())) leave(true, machine);
       return;
@@ -156,7 +156,7 @@ void ExternalControl::forward(const Message& message, Machine& machine) {
 }
 
 void ExternalControl::set_point(const Joints& q, Machine& machine) {
-  const double most = kIgnoreSpeed * kCycle_s;
+  const double most = kIgnoreSpeed * machine.cycle_s();
   servo_ = Servo::kNew;
   if ((q - servo_q_).cwiseAbs().maxCoeff() <= most ||
       (q - machine.body.q()).cwiseAbs().maxCoeff() <= most) {
@@ -196,10 +196,10 @@ ProgramStep ExternalControl::command(Machine& machine) {
     case ControlMode::kPose:
       return servo(machine);
     case ControlMode::kSpeedJ:
-      machine.motion.speed_j(speed_, kSpeedAcceleration, kCycle_s);
+      machine.motion.speed_j(speed_, kSpeedAcceleration, machine.cycle_s());
       return ProgramStep::kRunning;
     case ControlMode::kSpeedL:
-      machine.motion.speed_l(speed_, kSpeedAcceleration, kCycle_s);
+      machine.motion.speed_l(speed_, kSpeedAcceleration, machine.cycle_s());
       return ProgramStep::kRunning;
     default:
       return ProgramStep::kWaiting;
@@ -209,9 +209,9 @@ ProgramStep ExternalControl::command(Machine& machine) {
 /// A new target, or the last one carried on at the present target speed.
 ProgramStep ExternalControl::servo(Machine& machine) {
   if (servo_ == Servo::kNone) return ProgramStep::kWaiting;
-  if (servo_ == Servo::kOld) servo_q_ += machine.motion.dq() * kCycle_s;
+  if (servo_ == Servo::kOld) servo_q_ += machine.motion.dq() * machine.cycle_s();
   servo_ = Servo::kOld;
-  machine.motion.servo_j(servo_q_, kCycle_s, law_);
+  machine.motion.servo_j(servo_q_, machine.cycle_s(), law_);
   return machine.motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
 }
 

@@ -23,7 +23,7 @@ class FetchProgram {
     }
     if (link->received().size() != size_) quiet_s_ = 0.0;
     size_ = link->received().size();
-    quiet_s_ += kCycle_s;
+    quiet_s_ += machine.cycle_s();
     // Nothing says where the text ends but that no more comes.
     if (size_ > 0 && quiet_s_ > kQuiet_s) whole_ = true;
     return ProgramStep::kRunning;

@@ -124,6 +124,7 @@ bool inverse(const Frame& target, const Frame& tool, const Joints& near, Joints&
   constexpr double kElbow[] = {0.0, 1.5, -1.5}, kWrist[] = {0.0, 1.2, -1.2}, kBase[] = {0.0, 2.0};
   bool found = false;
   double best = 0.0;
+  if (!near.allFinite()) return false;
   for (const double base : kBase)
     for (const double bend : kElbow)
       for (const double wrist : kWrist) {

@@ -6,21 +6,11 @@
 #include "sim_plant/ur/script_expression.hpp"
 
 namespace tactus::ur {
-namespace {
-
-/// Words that open a block which an `end` closes.
-bool opens_block(std::string_view line) {
-  for (const std::string_view word : {"while", "if", "def", "thread", "sec", "switch"})
-    if (leading_name(line) == word) return true;
-  return false;
-}
-
-}  // namespace
-
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
   *this = {};
   text_ = text;
   now_ = here_ = {0, first_line};
+  first_line_ = first_line;
   moves_ = moves;
 }
 
@@ -64,59 +54,10 @@ LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine)
   const std::string_view word = leading_name(line);
   if (word == "end") return run_end();
   if (word == "break" || word == "continue") return run_jump(word == "break");
-  if (word == "halt" || (word == "return" && depth_ == 0)) return Line::kEnded;
+  if (word == "halt") return Line::kEnded;
+  if (word == "return") return run_return();
   if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
-}
-
-LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view line,
-                                         Machine& machine) {
-  if (word == "while") {
-    if (!holds(line, machine))
-      skip_blocks(1);
-    else if (!enter(true))
-      return Line::kEnded;
-  } else if (word == "if") {
-    if (!holds(line, machine))
-      find_branch(machine);
-    else if (!enter(false))
-      return Line::kEnded;
-  } else if (word == "elif" || word == "else") {
-    if (depth_ > 0) --depth_;  // the branch before was taken
-    skip_blocks(1);
-  } else {
-    skip_blocks(1);
-  }
-  return Line::kNext;
-}
-
-LineProgram::Line LineProgram::run_end() {
-  if (depth_ == 0) return Line::kEnded;
-  const Block& block = blocks_[--depth_];
-  if (block.loop) now_ = block.begin;
-  return Line::kNext;
-}
-
-/// `out`: break; else continue.
-LineProgram::Line LineProgram::run_jump(bool out) {
-  std::size_t left = 0;
-  while (depth_ > 0) {
-    ++left;
-    const Block& block = blocks_[--depth_];
-    if (!block.loop) continue;
-    if (out)
-      skip_blocks(left);
-    else
-      now_ = block.begin;
-    return Line::kNext;
-  }
-  return Line::kEnded;  // of no loop
-}
-
-bool LineProgram::enter(bool loop) {
-  if (depth_ == kDeepest) return false;
-  blocks_[depth_++] = {loop, here_};
-  return true;
 }
 
 /// The condition of "while ...:", "if ...:" or "elif ...:".
@@ -132,31 +73,6 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
   return false;
 }
 
-/// Behind an `if` that does not hold: into the branch that does, or behind its end.
-void LineProgram::find_branch(Machine& machine) {
-  std::string_view line;
-  while (next(line)) {
-    const std::string_view word = leading_name(line);
-    if (opens_block(line)) {
-      skip_blocks(1);
-    } else if (word == "end") {
-      return;
-    } else if (word == "else" || (word == "elif" && holds(line, machine))) {
-      ended_ = !enter(false);
-      return;
-    }
-  }
-}
-
-/// Behind the end of the blocks that are open here.
-void LineProgram::skip_blocks(std::size_t count) {
-  std::string_view line;
-  while (count > 0 && next(line)) {
-    if (opens_block(line)) ++count;
-    if (leading_name(line) == "end") --count;
-  }
-}
-
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
   for (const std::string_view word : {"global ", "local "})
     if (starts_with(line, word)) line = trimmed(line.substr(word.size()));
@@ -164,7 +80,8 @@ LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& mac
   return assign(line, machine, result) ? result : run_call_line(line, machine);
 }
 
-/// "name = value" or "name[index] = value". False: the line is none.
+/// "name = value" or "name[index] = value"; "digital_out[n] = b" is a call as it was written before
+/// version 3. False: the line is none.
 bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
   const ScriptScope scope = {&variables_, &machine};
   const std::string_view name = leading_name(line);
@@ -185,7 +102,9 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
     value.number = 1.0;
   }
   ScriptValue* whole = variables_.find(name);
-  if (element) {
+  if (element && whole == nullptr && name == "digital_out") {
+    run_call({"set_digital_out", {{{"n", index}, {"b", value}}}, 2}, moves_, machine);
+  } else if (element) {
     const bool fits = whole != nullptr && index.numeric() && index.number >= 0.0 &&
                       index.number < static_cast<double>(whole->count);
     if (fits)
@@ -199,6 +118,8 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
+  Line result = Line::kNext;
+  if (call_own(line, result)) return result;
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, {&variables_, &machine}, call)) {
@@ -212,7 +133,7 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
     case CallResult::kMotion:
       return machine.motion.busy() ? Line::kWait : Line::kNext;
     case CallResult::kWait:
-      wait_until_s_ = machine.time_s() + outcome.wait_s - 0.5 * kCycle_s;
+      wait_until_s_ = machine.time_s() + outcome.wait_s - 0.5 * machine.cycle_s();
       return outcome.wait_s > 0.0 ? Line::kWait : Line::kNext;
     case CallResult::kHalt:
       return Line::kEnded;

@@ -1,6 +1,7 @@
 // LineProgram: a program of plain lines, interpreted: calls, assignments, `while` and `if` with
-// conditions. A condition or value that is not understood is left out with its block, and a text
-// message says so; functions and threads of the program's own are not understood.
+// conditions, and functions of the program's own that take nothing and return nothing. A condition
+// or value that is not understood is left out with its block, and a text message says so; threads,
+// and functions with arguments, are not understood.
 #pragma once
 
 #include "sim_plant/ur/program_step.hpp"
@@ -25,10 +26,11 @@ class LineProgram {
     std::size_t at = 0;
     int line = 0;
   };
-  /// A block that is being run; a loop begins again where it stands.
+  /// A block that is being run.
   struct Block {
-    bool loop = false;
-    Place begin;
+    enum Kind : std::uint8_t { kBranch, kLoop, kCall };
+    Kind kind = kBranch;
+    Place next;  ///< behind its end: a loop's beginning, the line after a call
   };
 
   ProgramStep end(const Machine& machine) const;
@@ -37,11 +39,15 @@ class LineProgram {
   Line run_block(std::string_view word, std::string_view line, Machine& machine);
   Line run_end();
   Line run_jump(bool out);
+  Line run_return();
+  bool find_function(std::string_view name, Place& body) const;
+  bool call_own(std::string_view line, Line& result);
   Line run_statement(std::string_view line, Machine& machine);
   Line run_call_line(std::string_view line, Machine& machine);
   bool assign(std::string_view line, Machine& machine, Line& result);
   bool holds(std::string_view line, Machine& machine);
-  bool enter(bool loop);
+  static bool opens_block(std::string_view line);
+  bool enter(Block::Kind kind, const Place& next);
   void find_branch(Machine& machine);
   void skip_blocks(std::size_t count);
   void not_emulated(std::string_view line, Machine& machine);
@@ -51,6 +57,7 @@ class LineProgram {
 
   std::string_view text_;
   Place now_, here_;  // the next line, and the one that is run
+  int first_line_ = 1;
   bool moves_ = true;
   bool ended_ = false;
   bool told_ = false;  // that something is not emulated

@@ -23,7 +23,9 @@ class Link {
   std::string_view name() const { return {name_.data(), name_size_}; }
   /// `count` big-endian integers. False: not as many have come.
   bool read_ints(std::int32_t* values, std::size_t count);
-  /// A line without its end, or nothing.
+  /// A line without its end; of a longer one what there is room for. False: none has come whole.
+  bool read_line(char* line, std::size_t capacity, std::size_t& size);
+  /// All that has come.
   std::string_view received() const {
     return {reinterpret_cast<const char*>(in_.data()), in_size_};
   }

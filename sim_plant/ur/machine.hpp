@@ -51,8 +51,9 @@ struct Machine {
   Stop last_stop;
   bool stop_unsaid = false;  ///< to the clients, who hear of it with the next cycle
 
+  double cycle_s() const { return settings.version.cycle_s(); }
   /// Of the controller's clock, s.
-  double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * kCycle_s; }
+  double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * cycle_s(); }
   /// What is no number, or of no tool and no load, stops the arm.
   void set_tcp(const Vector6& pose) {
     if (!(pose.array().abs() <= kMost).all()) return refuse();

@@ -93,6 +93,10 @@ bool Motion::move_l(const Frame& target, double a, double v, double t, double r)
 }
 
 void Motion::servo_j(const Joints& q, double t, const ServoLaw& law) {
+  if (!std::isfinite(law.gain) || !std::isfinite(law.lookahead_s)) {
+    fault_ = {Code::kPathSanity, kInvalidSetPoint};
+    return;
+  }
   if (!in_reach(q)) {
     fault_ = q.allFinite() ? Stop{Code::kCloseToJointLimit, 0}
                            : Stop{Code::kPathSanity, kInvalidSetPoint};

@@ -49,6 +49,12 @@ void write_realtime(const Image& image, const Version& version, ByteWriter& writ
     put(image.elbow_velocity, writer);
   }
   if (version.at_least(3, 10)) writer.f64(image.safety_status);
+  if (version.at_least(5, 9)) put_zeros(3, writer);  // of the manufacturer's own use
+  if (version.at_least(5, 10)) {
+    writer.f64(image.payload);
+    put(image.payload_cog, writer);
+    put_zeros(6, writer);  // inertia
+  }
 }
 
 }  // namespace tactus::ur

@@ -1,29 +1,91 @@
+// What ur_rtde's program answers: a flag in its second integer, six numbers in its first doubles.
+#include <algorithm>
+
 #include "sim_plant/ur/register_program.hpp"
 
 namespace tactus::ur {
 
-/// What is answered in registers.
-void RegisterProgram::ask(RegisterCommand command, Machine& machine) {
-  Joints q = six(0, machine);
-  const double limit = machine.settings.motion.position;
-  const auto answer_flag = [&](bool flag) {
-    machine.io.output.ints[static_cast<std::size_t>(int_offset_) + 1] = flag ? 1 : 0;
-  };
-  switch (command) {
-    case RegisterCommand::kInverseKinematics:
-      if (inverse(Frame::of(six(0, machine)), machine.motion.tool(), six(6, machine), q))
-        answer_six(q, machine);
-      return;
-    case RegisterCommand::kPoseWithinLimits:
-      return answer_flag(
-          inverse(Frame::of(six(0, machine)), machine.motion.tool(), machine.motion.q(), q));
-    case RegisterCommand::kJointsWithinLimits:
-      return answer_flag(q.cwiseAbs().maxCoeff() <= limit);
-    case RegisterCommand::kJointTorques:
-      return answer_six(machine.body.tau(), machine);
-    default:
-      return;  // not emulated: done at once
-  }
+using Program = RegisterProgram;
+
+Program::Outcome Program::inverse_here(Machine& machine) {
+  return answer_inverse(machine.motion.q(), machine);
+}
+
+Program::Outcome Program::inverse_near(Machine& machine) {
+  return answer_inverse(six(6, machine), machine);
+}
+
+Program::Outcome Program::answer_inverse(const Joints& near, Machine& machine) {
+  Joints q;
+  if (!inverse(Frame::of(six(0, machine)), machine.motion.tool(), near, q))
+    return no_posture(machine);
+  return answer_six(q, machine);
+}
+
+Program::Outcome Program::has_inverse(Machine& machine) {
+  Joints q;
+  const Motion& motion = machine.motion;
+  return answer_flag(inverse(Frame::of(six(0, machine)), motion.tool(), motion.q(), q), machine);
+}
+
+Program::Outcome Program::has_inverse_near(Machine& machine) {
+  Joints q;
+  return answer_flag(inverse(Frame::of(six(0, machine)), machine.motion.tool(), six(6, machine), q),
+                     machine);
+}
+
+Program::Outcome Program::joints_within(Machine& machine) {
+  const double most = machine.settings.motion.position;
+  return answer_flag((six(0, machine).array().abs() <= most).all(), machine);
+}
+
+Program::Outcome Program::forward_here(Machine& machine) {
+  return answer_six((forward(machine.body.q()) * machine.motion.tool()).pose(), machine);
+}
+
+Program::Outcome Program::forward_of(Machine& machine) {
+  return answer_six((forward(six(0, machine)) * Frame::of(six(6, machine))).pose(), machine);
+}
+
+Program::Outcome Program::flange_pose(Machine& machine) {
+  return answer_six(forward(machine.body.q()).pose(), machine);
+}
+
+Program::Outcome Program::pose_trans(Machine& machine) {
+  return answer_six((Frame::of(six(0, machine)) * Frame::of(six(6, machine))).pose(), machine);
+}
+
+Program::Outcome Program::tcp_offset(Machine& machine) {
+  return answer_six(machine.tcp_offset, machine);
+}
+
+/// Without what it takes to hold and move the arm itself.
+Program::Outcome Program::joint_torques(Machine& machine) {
+  return answer_six(machine.body.residual(), machine);
+}
+
+Program::Outcome Program::steady(Machine& machine) {
+  return answer_flag(machine.motion.resting(), machine);
+}
+
+Program::Outcome Program::answer_flag(bool flag, Machine& machine) const {
+  write(1, flag ? 1 : 0, machine);
+  return Outcome::kDone;
+}
+
+/// What is no number is not answered.
+Program::Outcome Program::answer_six(const Vector6& values, Machine& machine) const {
+  auto* doubles = machine.io.output.doubles.data() + double_offset_;
+  if (values.allFinite()) std::copy(values.begin(), values.end(), doubles);
+  return Outcome::kDone;
+}
+
+/// The script's own error: it ends, and the arm stays as it was.
+Program::Outcome Program::no_posture(Machine& machine) const {
+  const std::string_view before = text_.substr(0, text_.find("get_inverse_kin("));
+  const auto line = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  machine.messages.runtime_exception(line, 1, "runtime_error:no inverse kinematics");
+  return Outcome::kEnded;
 }
 
 }  // namespace tactus::ur

@@ -1,19 +1,9 @@
 #include "sim_plant/ur/register_program.hpp"
 
-#include <algorithm>
-
 #include "sim_plant/ur/script_text.hpp"
 
 namespace tactus::ur {
 namespace {
-
-using Command = RegisterCommand;
-
-bool is_cyclic(Command command) {
-  return command == Command::kServoJ || command == Command::kServoL ||
-         command == Command::kSpeedJ || command == Command::kSpeedL ||
-         command == Command::kForceMode;
-}
 
 /// An offset that the text assigns, on that line or, behind a comment, on the next.
 int offset(std::string_view text, std::string_view name) {
@@ -40,11 +30,14 @@ bool RegisterProgram::recognises(std::string_view text) {
 
 void RegisterProgram::start(std::string_view text) {
   *this = {};
+  text_ = text;
   int_offset_ = offset(text, "global reg_offset_int");
   double_offset_ = offset(text, "global reg_offset_float");
   if (int_offset_ < 0 || int_offset_ > kRegisters / 2) int_offset_ = 0;
   if (double_offset_ < 0 || double_offset_ > kRegisters / 2) double_offset_ = 0;
-  async_ = text.find("thread move_thread():") != std::string_view::npos;
+  if (has("thread move_thread():"))
+    progress_ = AsyncProgress(has("async_op_id") ? AsyncProgress::Coding::kCounted
+                                                 : AsyncProgress::Coding::kValue);
 }
 
 double RegisterProgram::input(int i, const Machine& machine) const {
@@ -52,7 +45,7 @@ double RegisterProgram::input(int i, const Machine& machine) const {
       .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)];
 }
 
-std::int32_t RegisterProgram::integer(int i, const Machine& machine) const {
+std::int32_t RegisterProgram::integer_input(int i, const Machine& machine) const {
   return machine.io.input.ints[static_cast<std::size_t>(int_offset_) + static_cast<std::size_t>(i)];
 }
 
@@ -62,170 +55,72 @@ Vector6 RegisterProgram::six(int first, const Machine& machine) const {
   return values;
 }
 
-void RegisterProgram::answer(std::int32_t value, Machine& machine) const {
-  machine.io.output.ints[static_cast<std::size_t>(int_offset_)] = value;
+void RegisterProgram::write(int i, std::int32_t value, Machine& machine) const {
+  machine.io.output.ints[static_cast<std::size_t>(int_offset_) + static_cast<std::size_t>(i)] =
+      value;
 }
 
-void RegisterProgram::answer_six(const Vector6& values, Machine& machine) const {
-  for (int i = 0; i < 6; ++i)
-    machine.io.output
-        .doubles[static_cast<std::size_t>(double_offset_) + static_cast<std::size_t>(i)] =
-        values[i];
+void RegisterProgram::tell_progress(std::int32_t value, Machine& machine) {
+  if (progress_.told()) write(2, progress_.write(value), machine);
 }
 
-/// Bits 24-30 count operations, 16-22 writes; bit 15: one is under way.
-void RegisterProgram::progress(bool running, Machine& machine) {
-  if (!async_) return;
-  writes_ = writes_ % 127 + 1;
-  if (running) operations_ = operations_ % 127 + 1;
-  machine.io.output.ints[static_cast<std::size_t>(int_offset_) + 2] =
-      writes_ << 16 | operations_ << 24 | (running ? 1 << 15 : 0);
+void RegisterProgram::end_async(Machine& machine) {
+  moving_ = false;
+  tell_progress(-1, machine);
 }
 
 ProgramStep RegisterProgram::poll(Machine& machine) {
   if (!started_) {
-    progress(false, machine);
-    answer(kReady, machine);
+    tell_progress(-1, machine);
+    write(0, kReady, machine);
     started_ = true;
   }
-  if (moving_ && !machine.motion.busy()) {
-    moving_ = false;
-    progress(false, machine);
-  }
-  const auto command = static_cast<Command>(integer(0, machine));
+  const bool stands = !machine.motion.busy() && !machine.motion.arriving() && path_.empty();
+  if (moving_ && stands) end_async(machine);
   if (blocked_) {
-    if (machine.motion.busy()) return ProgramStep::kRunning;
-    blocked_ = false;
-    answer(kDone, machine);
+    blocked_ = !stands;
+    if (stands) write(0, kDone, machine);
     return ProgramStep::kRunning;
   }
-  if (command == Command::kStop) return ProgramStep::kEnded;
-  if (is_cyclic(command)) {
-    take_cyclic(command, machine);
-    answer(kReady, machine);
-  } else if (command == Command::kNone) {
+  const auto command = static_cast<RegisterCommand>(integer_input(0, machine));
+  if (command == RegisterCommand::kStop) return ProgramStep::kEnded;
+  if (command == RegisterCommand::kNone) {
     executing_ = false;
-    answer(kReady, machine);
-  } else if (!executing_) {
-    executing_ = true;
-    process(command, machine);
-    if (!blocked_) answer(kDone, machine);
+    write(0, kReady, machine);
+  } else if (process(row_of(command), machine) == Outcome::kEnded) {
+    return ProgramStep::kEnded;
   }
+  last_ = command;
   return ProgramStep::kRunning;
 }
 
-void RegisterProgram::process(Command command, Machine& machine) {
-  switch (command) {
-    case Command::kMoveJ:
-    case Command::kMoveJPose:
-    case Command::kMoveL:
-    case Command::kMoveLJoints:
-      return move(command, machine);
-    case Command::kSpeedStop:
-      return stop(async_ ? input(0, machine) : 10.0, machine);
-    case Command::kServoStop:
-      return stop(async_ ? input(0, machine) : 20.0, machine);
-    case Command::kForceModeStop:
-      machine.force_mode = {};
-      return stop(10.0, machine);
-    case Command::kStopJ:
-    case Command::kStopL:
-      return stop(input(0, machine), machine);
-    case Command::kTeachMode:
-    case Command::kEndTeachMode:
-      machine.freedrive = command == Command::kTeachMode;
-      return;
-    case Command::kSetPayload:
-      machine.set_payload(input(0, machine),
-                          Vector3(input(1, machine), input(2, machine), input(3, machine)));
-      return;
-    case Command::kSetTcp:
-      machine.set_tcp(six(0, machine));
-      return;
-    case Command::kProtectiveStop:
-      machine.protective_stop({Code::kFromScript, 0});
-      return;
-    case Command::kWatchdog:
-      machine.watchdogs.set(
-          {FieldType::kInt32, Input::kInts, static_cast<std::uint8_t>(int_offset_)},
-          input(0, machine), LateAction::kStop, machine.cycle);
-      return;
-    default:
-      return ask(command, machine);
-  }
-}
-
-void RegisterProgram::move(Command command, Machine& machine) {
-  const Vector6 target = six(0, machine);
-  const double v = input(6, machine), a = input(7, machine);
-  Motion& motion = machine.motion;
-  Joints q = target;
-  bool good = true;
-  cyclic_ = Cyclic::kNone;
-  if (command == Command::kMoveJPose)
-    good = inverse(Frame::of(target), motion.tool(), motion.q(), q);
-  if (command == Command::kMoveJ || command == Command::kMoveJPose)
-    good = good && motion.move_j(q, a, v, 0.0);
-  if (command == Command::kMoveL) good = motion.move_l(Frame::of(target), a, v, 0.0);
-  if (command == Command::kMoveLJoints)
-    good = motion.move_l(forward(target) * motion.tool(), a, v, 0.0);
-  if (!good) return machine.protective_stop({Code::kSingularity, 0});
-  moving_ = async_ && integer(1, machine) == 1;
-  blocked_ = !moving_;
-  if (moving_) progress(true, machine);
-}
-
-void RegisterProgram::take_cyclic(Command command, Machine& machine) {
-  const Vector6 values = six(0, machine);
-  switch (command) {
-    case Command::kSpeedJ:
-    case Command::kSpeedL:
-      cyclic_ = command == Command::kSpeedJ ? Cyclic::kSpeedJ : Cyclic::kSpeedL;
-      goal_ = values;
-      a_ = input(6, machine);
-      t_ = input(7, machine);
-      return;
-    case Command::kServoL:
-    case Command::kServoJ: {
-      Joints q = values;
-      if (command == Command::kServoL &&
-          !inverse(Frame::of(values), machine.motion.tool(), machine.motion.q(), q))
-        return machine.protective_stop({Code::kSingularity, 0});
-      cyclic_ = Cyclic::kServo;
-      goal_ = q;
-      t_ = input(8, machine);
-      law_ = {input(10, machine), input(9, machine)};
-      return;
-    }
-    case Command::kForceMode:
-      return start_force_mode(machine);
-    default:
-      return;
-  }
-}
-
-/// Integers 1: type, 2 to 7: selection; doubles 0 to 17: frame, wrench, limits.
-void RegisterProgram::start_force_mode(Machine& machine) const {
-  ForceMode mode;
-  mode.type = integer(1, machine);
-  for (int i = 0; i < 6; ++i) mode.selection[i] = integer(2 + i, machine);
-  mode.task_frame = six(0, machine);
-  mode.wrench = six(6, machine);
-  mode.limits = six(12, machine);
-  machine.start_force_mode(mode);
-}
-
-void RegisterProgram::stop(double a, Machine& machine) {
-  cyclic_ = Cyclic::kNone;
-  machine.motion.stop_j(a);
-  blocked_ = true;
+RegisterProgram::Outcome RegisterProgram::process(const Row& row, Machine& machine) {
+  const bool once = row.shake == Shake::kDone;
+  if (once && executing_) return Outcome::kDone;
+  executing_ = executing_ || once;
+  const bool acts = row.act != nullptr && (row.needs.empty() || has(row.needs));
+  const Outcome outcome = acts ? (this->*row.act)(machine) : Outcome::kDone;
+  blocked_ = outcome == Outcome::kMoves;
+  const bool shows_done = once || (row.shake == Shake::kBoth && row.command != last_);
+  if (outcome == Outcome::kDone) write(0, shows_done ? kDone : kReady, machine);
+  return outcome;
 }
 
 ProgramStep RegisterProgram::command(Machine& machine) {
   Motion& motion = machine.motion;
-  if (cyclic_ == Cyclic::kServo) motion.servo_j(goal_, t_, law_);
-  if (cyclic_ == Cyclic::kSpeedJ) motion.speed_j(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
-  if (cyclic_ == Cyclic::kSpeedL) motion.speed_l(goal_, a_, t_ > 0.0 ? t_ : kCycle_s);
+  const double t = t_ > 0.0 ? t_ : machine.cycle_s();
+  if (!path_.empty()) {
+    follow_path(machine);
+  } else if (cyclic_ == Cyclic::kServo) {
+    motion.servo_j(goal_, t_, law_);
+  } else if (cyclic_ == Cyclic::kServoC) {
+    if (!motion.move_l(Frame::of(goal_), a_, v_, 0.0))
+      machine.protective_stop({Code::kSingularity, 0});
+  } else if (cyclic_ == Cyclic::kSpeedJ) {
+    motion.speed_j(goal_, a_, t);
+  } else if (cyclic_ == Cyclic::kSpeedL) {
+    motion.speed_l(goal_, a_, t);
+  }
   return motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
 }
 

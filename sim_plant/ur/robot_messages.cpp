@@ -98,7 +98,7 @@ void RobotMessages::write_version(ByteWriter& writer) const {
   writer.u8(static_cast<std::uint8_t>(version_.major));
   writer.u8(static_cast<std::uint8_t>(version_.minor));
   writer.u32(version_.bugfix);
-  if (version_.at_least(3, 12)) writer.u32(version_.build);
+  if (version_.at_least(3, 3)) writer.u32(version_.build);
   writer.text("01-01-2022, 00:00:00");
   writer.set_u32(at, writer.size() - at);
 }

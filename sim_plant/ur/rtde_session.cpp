@@ -85,7 +85,7 @@ bool RtdeSession::handle(const Packet& packet, const RtdeContext& context, Outbo
       setup_inputs(in, context, out);
       return true;
     case RtdeType::kStart:
-      reply(type, output_count_ > 0 || recipe_count_ > 0 ? 1 : 0, out);
+      reply(type, output_count_ > 0 ? 1 : 0, out);
       running_ = output_count_ > 0;
       due_ = 0.0;
       return true;
@@ -101,10 +101,11 @@ bool RtdeSession::handle(const Packet& packet, const RtdeContext& context, Outbo
 void RtdeSession::setup_outputs(ByteReader& in, const RtdeContext& context, Outbox& out) {
   std::array<std::uint8_t, kLongestReply> bytes;
   PacketWriter writer(RtdeType::kSetupOutputs, bytes.data(), bytes.size());
-  const double rate_hz = version_ == 1 ? kRtdeFastest_Hz : in.f64();
+  const double fastest_hz = 1.0 / context.version.cycle_s();
+  const double rate_hz = version_ == 1 ? fastest_hz : in.f64();
   std::string_view names = in.rest(), one;
-  bool good = in.ok() && !running_ && !names.empty() && rate_hz >= kRtdeSlowest_Hz &&
-              rate_hz <= kRtdeFastest_Hz;
+  bool good =
+      in.ok() && !running_ && !names.empty() && rate_hz >= kRtdeSlowest_Hz && rate_hz <= fastest_hz;
   if (version_ == 2) writer.u8(good ? 1 : 0);
   std::size_t count = 0;
   while (good && next_name(names, one)) {
@@ -116,8 +117,8 @@ void RtdeSession::setup_outputs(ByteReader& in, const RtdeContext& context, Outb
   for (std::size_t i = 0; i < count; ++i) good = good && outputs_[i].type < FieldType::kNotFound;
   const bool too_long = !names.empty() || !writer.ok();
   if (!running_) output_count_ = good && !too_long ? count : 0;
-  if (output_count_ > 0 && !running_) rate_ = rate_hz / kRtdeFastest_Hz;
-  if (too_long && !running_ && rate_hz >= kRtdeSlowest_Hz && rate_hz <= kRtdeFastest_Hz)
+  if (output_count_ > 0 && !running_) rate_ = rate_hz / fastest_hz;
+  if (too_long && !running_ && rate_hz >= kRtdeSlowest_Hz && rate_hz <= fastest_hz)
     return say(RtdeLevel::kError, "The recipe has more fields than are possible", out);
   writer.send(out);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sim_plant/ur/script_motion.hpp"
 #include "sim_plant/ur/script_names.hpp"
 
 namespace tactus::ur {
@@ -31,26 +32,17 @@ std::string_view body_of(std::string_view text, int& first_line) {
   return text;
 }
 
-/// A name that is too long is refused: cut, it might be another one's.
-bool well_named(std::string_view text, std::size_t longest, Machine& machine) {
-  const std::string_view name = program_name(text);
-  if (name.size() <= longest) return true;
-  std::array<char, 160> words{};
-  constexpr std::string_view kWhat = "compile_error_name_too_long:";
-  std::size_t size = copy(kWhat, words.data(), words.size()).size();
-  size += copy(name, words.data() + size, 120).size();
-  words[size++] = ':';
-  machine.messages.runtime_exception(1, 5, {words.data(), size});
-  return false;
+/// A single line that commands a motion, as clients stream them: the arm goes on from its speed.
+bool takes_over(std::string_view text) {
+  return is_motion(leading_name(trimmed(text)));
 }
 
 /// A program that calls what does not exist does not start.
 bool compiles(std::string_view text, Machine& machine) {
   UnknownName unknown;
   if (!find_unknown_name(text, unknown)) return true;
-  std::array<char, 128> words{};
-  constexpr std::string_view kWhat = "compile_error_name_not_found:";
-  std::size_t size = copy(kWhat, words.data(), words.size()).size();
+  std::array<char, 160> words{};
+  std::size_t size = copy("compile_error_name_not_found:", words.data(), words.size()).size();
   size += copy(unknown.name, words.data() + size, 96).size();
   words[size++] = ':';
   machine.messages.runtime_exception(unknown.line, unknown.column, {words.data(), size});
@@ -73,13 +65,14 @@ void Runner::upload(std::string_view text, Machine& machine) {
 }
 
 void Runner::start(std::string_view text, Machine& machine) {
-  if (!well_named(text, kLongestName, machine)) return;
   if (ExternalControl::recognises(text)) {
     program_.emplace<ExternalControl>().start(text);
   } else if (RegisterProgram::recognises(text)) {
     program_.emplace<RegisterProgram>().start(text);
   } else if (DriverProgram::recognises(text)) {
     program_.emplace<DriverProgram>().start(text);
+  } else if (WaypointProgram::recognises(text)) {
+    program_.emplace<WaypointProgram>().start(text);
   } else {
     if (!compiles(text, machine)) return;
     int first_line = 1;
@@ -87,7 +80,7 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<LineProgram>().start(body, first_line, true);
   }
   paused_ = false;
-  braking_ = !machine.motion.resting();
+  braking_ = !machine.motion.resting() && !takes_over(text);
   if (braking_) machine.motion.stop_j(0.0);
   set_name(program_name(text));
   machine.messages.program_started(name());
@@ -95,8 +88,9 @@ void Runner::start(std::string_view text, Machine& machine) {
 
 void Runner::start_secondary(std::string_view text, Machine& machine) {
   if (text.size() > kLongestSecondary) return machine.messages.text("the program is too long");
+  if (!compiles(text, machine)) return;
+  poll_secondary(machine);  // one that came in the same cycle has its turn first
   text = copy(text, secondary_text_.data(), secondary_text_.size());
-  if (!well_named(text, kLongestName, machine) || !compiles(text, machine)) return;
   int first_line = 1;
   secondary_.start(body_of(text, first_line), first_line, false);
   const std::string_view name = program_name(text);
@@ -132,10 +126,16 @@ void Runner::start_fetched(std::string_view text, Machine& machine) {
   start({text_.data(), size}, machine);
 }
 
+void Runner::poll_secondary(Machine& machine) {
+  if (!secondary_running_ || secondary_.poll(machine) != ProgramStep::kEnded) return;
+  secondary_running_ = false;
+  machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
+}
+
 /// C207: an input that the program has put under a watchdog is late.
 void Runner::watch_inputs(Machine& machine) {
   if (!playing()) return;
-  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle);
+  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle, machine.cycle_s());
   if (action == LateAction::kStop) machine.protective_stop({Code::kFieldbusDisconnected, 0});
   if (action != LateAction::kPause) return;
   machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kWarning);
@@ -143,10 +143,7 @@ void Runner::watch_inputs(Machine& machine) {
 }
 
 void Runner::poll(Machine& machine) {
-  if (secondary_running_ && secondary_.poll(machine) == ProgramStep::kEnded) {
-    secondary_running_ = false;
-    machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
-  }
+  poll_secondary(machine);
   watch_inputs(machine);
   braking_ = braking_ && machine.motion.busy();
   if (!playing() || braking_) return;

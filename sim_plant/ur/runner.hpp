@@ -7,6 +7,7 @@
 #include "sim_plant/ur/external_control.hpp"
 #include "sim_plant/ur/fetch_program.hpp"
 #include "sim_plant/ur/register_program.hpp"
+#include "sim_plant/ur/waypoint_program.hpp"
 
 namespace tactus::ur {
 
@@ -43,12 +44,13 @@ class Runner {
 
   void start(std::string_view text, Machine& machine);
   void start_secondary(std::string_view text, Machine& machine);
+  void poll_secondary(Machine& machine);
   void start_fetched(std::string_view text, Machine& machine);
   void set_name(std::string_view name);
   void watch_inputs(Machine& machine);
 
   std::variant<std::monostate, LineProgram, ExternalControl, DriverProgram, RegisterProgram,
-               FetchProgram>
+               WaypointProgram, FetchProgram>
       program_;
   bool paused_ = false;
   bool braking_ = false;  // from what the program before was doing

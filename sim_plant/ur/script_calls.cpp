@@ -52,15 +52,16 @@ void set_output(const ScriptCall& call, Machine& machine) {
   const bool on = call.number("b", 1, 0.0) != 0.0;
   struct Row {
     std::string_view name;
-    int first, count;
+    int from, first, count;  // as the script counts, and as the bits are
   };
-  constexpr Row kRows[] = {{"set_digital_out", 0, 18},
-                           {"set_standard_digital_out", 0, 8},
-                           {"set_configurable_digital_out", 8, 8},
-                           {"set_tool_digital_out", 16, 2}};
+  constexpr Row kRows[] = {{"set_digital_out", 0, 0, 8},  // before version 3: tool behind standard
+                           {"set_digital_out", 8, 16, 2},
+                           {"set_standard_digital_out", 0, 0, 8},
+                           {"set_configurable_digital_out", 0, 8, 8},
+                           {"set_tool_digital_out", 0, 16, 2}};
   for (const Row& row : kRows)
-    if (row.name == call.name && n >= 0.0 && n < row.count)
-      machine.io.set_digital(row.first + static_cast<int>(n), on);
+    if (row.name == call.name && n >= row.from && n < row.from + row.count)
+      machine.io.set_digital(row.first + static_cast<int>(n) - row.from, on);
 }
 
 void set_payload(const ScriptCall& call, Machine& machine) {
@@ -97,7 +98,7 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   if (is_motion(name)) return {moves ? run_motion(call, machine) : CallResult::kDone};
   if (run_mode_call(call, machine)) return {};
   if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
-  if (name == "sync") return {CallResult::kWait, kCycle_s};
+  if (name == "sync") return {CallResult::kWait, machine.cycle_s()};
   if (name == "halt" || name == "powerdown") return {CallResult::kHalt};
   if (name == "textmsg") text_message(call, machine);
   if (name == "protective_stop") {

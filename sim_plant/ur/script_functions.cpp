@@ -58,7 +58,7 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
   else if (name == "get_target_payload")
     value = number_value(machine.payload);
   else if (name == "get_steptime")
-    value = number_value(kCycle_s);
+    value = number_value(machine.cycle_s());
   else if (name == "is_steady")
     value = truth_value(motion.resting());
   else
@@ -135,18 +135,24 @@ bool of_digital(const ScriptCall& call, const Machine& machine, ScriptValue& val
   struct Row {
     std::string_view name;
     bool input;
-    int first, count;
+    int from, first, count;  // as the script counts, and as the bits are
   };
   constexpr Row kRows[] = {
-      {"get_standard_digital_in", true, 0, 8},   {"get_configurable_digital_in", true, 8, 8},
-      {"get_tool_digital_in", true, 16, 2},      {"get_digital_in", true, 0, 18},
-      {"get_standard_digital_out", false, 0, 8}, {"get_configurable_digital_out", false, 8, 8},
-      {"get_tool_digital_out", false, 16, 2},    {"get_digital_out", false, 0, 18}};
+      {"get_standard_digital_in", true, 0, 0, 8},
+      {"get_configurable_digital_in", true, 0, 8, 8},
+      {"get_tool_digital_in", true, 0, 16, 2},
+      {"get_digital_in", true, 0, 0, 8},  // before version 3: tool behind standard
+      {"get_digital_in", true, 8, 16, 2},
+      {"get_standard_digital_out", false, 0, 0, 8},
+      {"get_configurable_digital_out", false, 0, 8, 8},
+      {"get_tool_digital_out", false, 0, 16, 2},
+      {"get_digital_out", false, 0, 0, 8},
+      {"get_digital_out", false, 8, 16, 2}};
   const double n = call.number("n", 0, -1.0);
   for (const Row& row : kRows) {
-    if (row.name != call.name || !(n >= 0.0 && n < row.count)) continue;
+    if (row.name != call.name || !(n >= row.from && n < row.from + row.count)) continue;
     const std::uint64_t bits = row.input ? machine.io.digital_inputs : machine.io.digital_outputs;
-    value = truth_value(bits >> (row.first + static_cast<int>(n)) & 1u);
+    value = truth_value(bits >> (row.first + static_cast<int>(n) - row.from) & 1u);
     return true;
   }
   return false;

@@ -60,7 +60,7 @@ CallResult servo_j(const ScriptCall& call, Machine& machine) {
   ServoLaw law;
   law.lookahead_s = call.number("lookahead_time", 4, law.lookahead_s);
   law.gain = call.number("gain", 5, law.gain);
-  machine.motion.servo_j(q->vector(), call.number("t", 3, kCycle_s), law);
+  machine.motion.servo_j(q->vector(), call.number("t", 3, machine.cycle_s()), law);
   return CallResult::kMotion;
 }
 

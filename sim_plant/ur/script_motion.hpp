@@ -5,7 +5,7 @@
 
 namespace tactus::ur {
 
-/// A motion command: the program waits until it returns.
+/// A command that moves the arm, or brings it to rest: the program waits until it returns.
 bool is_motion(std::string_view name);
 CallResult run_motion(const ScriptCall& call, Machine& machine);
 

@@ -52,9 +52,9 @@ Joints SplineRun::acceleration(double t) const {
   return sum;
 }
 
-bool SplineRun::too_fast_to_stop(double left_s) const {
-  const double allowed = kFastest - (kStopping_s - (left_s - kCycle_s)) * kDeceleration;
-  return speed(time_s_ + kCycle_s).cwiseAbs().maxCoeff() > allowed;
+bool SplineRun::too_fast_to_stop(double left_s, double cycle_s) const {
+  const double allowed = kFastest - (kStopping_s - (left_s - cycle_s)) * kDeceleration;
+  return speed(time_s_ + cycle_s).cwiseAbs().maxCoeff() > allowed;
 }
 
 void SplineRun::step(double to_s, double step_s, Motion& motion) {
@@ -66,16 +66,16 @@ void SplineRun::step(double to_s, double step_s, Motion& motion) {
   motion.speed_j(dq_, (dq_ - before).cwiseAbs().maxCoeff() / step_s, step_s);
 }
 
-bool SplineRun::command(Motion& motion) {
+bool SplineRun::command(Motion& motion, double cycle_s) {
   const double left_s = duration_s_ - time_s_;
   if (phase_ == Phase::kSteps) {
-    if (left_s > kCycle_s + 1e-9) {
-      if (last_ && !slowing_ && left_s <= kStopping_s && too_fast_to_stop(left_s)) {
+    if (left_s > cycle_s + 1e-9) {
+      if (last_ && !slowing_ && left_s <= kStopping_s && too_fast_to_stop(left_s, cycle_s)) {
         slowing_ = true;
-        slowing_s_ = left_s + kCycle_s;
+        slowing_s_ = left_s + cycle_s;
       }
       if (slowing_) scale_ = left_s / slowing_s_;
-      step(time_s_ + kCycle_s * scale_, kCycle_s, motion);
+      step(time_s_ + cycle_s * scale_, cycle_s, motion);
       return true;
     }
     phase_ = slowing_ ? Phase::kSlowing : Phase::kLast;
@@ -83,7 +83,7 @@ bool SplineRun::command(Motion& motion) {
   if (phase_ == Phase::kSlowing) {
     if (left_s >= kNothing_s) {
       scale_ = left_s / slowing_s_;
-      step(time_s_ + kCycle_s * scale_, kCycle_s, motion);
+      step(time_s_ + cycle_s * scale_, cycle_s, motion);
       return true;
     }
     scale_ = 0.0;

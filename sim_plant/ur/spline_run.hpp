@@ -17,8 +17,8 @@ class SplineRun {
   void forget() { dq_ = ddq_ = Joints::Zero(); }
   void forget_acceleration() { ddq_ = Joints::Zero(); }
 
-  /// Gives the next speedj. False: the segment is at its end.
-  bool command(Motion& motion);
+  /// Gives the next speedj, for a cycle. False: the segment is at its end.
+  bool command(Motion& motion, double cycle_s);
   double travelled_s() const { return time_s_; }
 
  private:
@@ -26,7 +26,7 @@ class SplineRun {
 
   Joints speed(double t) const;
   Joints acceleration(double t) const;
-  bool too_fast_to_stop(double left_s) const;
+  bool too_fast_to_stop(double left_s, double cycle_s) const;
   void step(double to_s, double step_s, Motion& motion);
 
   std::array<Joints, 6> c_{};  // coefficients of the powers of time

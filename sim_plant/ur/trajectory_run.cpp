@@ -85,7 +85,7 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
     }
     case Phase::kClearing:
       read_away(machine);
-      waited_s_ += kCycle_s;
+      waited_s_ += machine.cycle_s();
       if (left_ > 0 && counted() && waited_s_ < kPatience_s) return ProgramStep::kWaiting;
       [[fallthrough]];
     case Phase::kStopping:
@@ -99,7 +99,7 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
 
 /// False: the segment is at its end.
 bool TrajectoryRun::spline_step(Machine& machine) {
-  const bool more = spline_.command(machine.motion);
+  const bool more = spline_.command(machine.motion, machine.cycle_s());
   if (features_.publishes_spline_time) machine.io.output.doubles[1] = spline_.travelled_s();
   return more;
 }
@@ -124,7 +124,7 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
     return ProgramStep::kRunning;
   }
   if (arriving) return ProgramStep::kWaiting;
-  waited_s_ += kCycle_s;
+  waited_s_ += machine.cycle_s();
   const bool moving = !machine.motion.dq().isZero(1e-6);
   if (moving || waited_s_ > kPatience_s) {
     --left_;  // it does not come late either

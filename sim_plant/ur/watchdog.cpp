@@ -16,12 +16,12 @@ void Watchdogs::set(const InputField& field, double min_frequency, LateAction ac
   count_ = std::max(count_, i + 1);
 }
 
-LateAction Watchdogs::check(const Io& io, std::int64_t cycle) {
+LateAction Watchdogs::check(const Io& io, std::int64_t cycle, double cycle_s) {
   LateAction gravest = LateAction::kIgnore;
   for (std::size_t i = 0; i < count_; ++i) {
     Watch& watch = watches_[i];
     const std::int64_t last = std::max(io.written[watch.variable], watch.from);
-    const bool late = static_cast<double>(cycle - last) * kCycle_s > watch.longest_s + 1e-9;
+    const bool late = static_cast<double>(cycle - last) * cycle_s > watch.longest_s + 1e-9;
     if (late && !watch.told) gravest = std::max(gravest, watch.action);
     watch.told = late;
   }

@@ -22,7 +22,7 @@ class Watchdogs {
 
   /// The gravest of what has become late; kIgnore: nothing. A pause is asked for once, until the
   /// input is written again. [cyclic]
-  LateAction check(const Io& io, std::int64_t cycle);
+  LateAction check(const Io& io, std::int64_t cycle, double cycle_s);
 
  private:
   struct Watch {

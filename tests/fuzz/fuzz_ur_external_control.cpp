@@ -46,5 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     size -= 1 + message;
   }
   controller.ticks(4);
+  controller->runner().stop(controller.machine());
+  controller.comes_to_rest();
   return 0;
 }

@@ -33,8 +33,15 @@ class RunningController {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
+  /// What a program leaves behind is an arm that brakes, within seconds.
+  void comes_to_rest() {
+    constexpr int kMost = 1000;  // cycles
+    for (int i = 0; i < kMost && !resting(); ++i) tick();
+    MUST(resting());
+  }
 
  private:
+  bool resting() const { return controller_->image().target_qd.isZero(0.0); }
   static void* memory() {
     alignas(ur::Controller) static unsigned char bytes[sizeof(ur::Controller)];
     return bytes;
@@ -47,6 +54,7 @@ class RunningController {
   static void check(const ur::Image& image) {
     MUST(image.actual_q.allFinite() && image.actual_qd.allFinite());
     MUST(image.target_q.allFinite() && image.target_qd.allFinite());
+    MUST((image.target_qd.cwiseAbs() - ur::MotionLimits().speed).maxCoeff() <= 1e-9);
     MUST(image.actual_tcp_pose.allFinite() && image.actual_tcp_speed.allFinite());
     MUST(image.actual_tcp_force.allFinite() && image.tcp_offset.allFinite());
     MUST(image.speed_scaling >= 0.0 && image.speed_scaling <= 1.0);

@@ -1,0 +1,118 @@
+// Pipeline files. A refusal names a line and a reason; what is accepted lies within its ranges, and
+// runs: whatever its gains, nothing but finite commands within limits is written.
+#include "gateway/gateway_section.hpp"
+#include "gateway/reference_client.hpp"
+#include "hal/os/realtime_settings.hpp"
+#include "hal/ur/ur_settings.hpp"
+#include "kernel/executive.hpp"
+#include "kernel/loader.hpp"
+#include "sim_plant/plant_params.hpp"
+#include "tests/fuzz/guarded_hal.hpp"
+#include "tests/fuzz/number_mutator.hpp"
+#include "tests/fuzz/setting_checker.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr Capabilities kOffered = {true, true, true, 1000, 10000, true};
+
+/// What a board has whose robot is simulated and real at once.
+struct Board {
+  ReferenceChannel<JointSpace> joints;
+  ReferenceChannel<TaskSpace> poses;
+  Pipeline pipeline;
+  GatewaySection gateway;
+  RealtimeSettings realtime;
+  PlantParams plant;
+  ur::UrSettings ur;
+  LoadError error;
+
+  Status load(std::string_view text) {
+    Loader loader({&joints, &poses}, kOffered);
+    loader.add(board_section("gateway", gateway));
+    loader.add(board_section("realtime", realtime));
+    loader.add(board_section("plant", plant));
+    loader.add(board_section("ur", ur));
+    return loader.load(text, pipeline, error);
+  }
+  void check_settings() {
+    fuzz::SettingChecker checker;
+    pipeline.robot.describe(checker);
+    pipeline.robot.describe_command(checker);
+    pipeline.guard.describe(checker);
+    pipeline.collision.describe(checker);
+    pipeline.task_limits.describe(checker);
+    pipeline.executive.describe(checker);
+    pipeline.recorder.describe(checker);
+    gateway.describe(checker);
+    realtime.describe(checker);
+    plant.describe(checker);
+    ur.describe(checker);
+  }
+};
+
+void check_refusal(const LoadError& error, std::string_view text) {
+  const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
+  const std::string_view reason = error.reason;
+  MUST(error.line >= 0 && error.line <= lines && !reason.empty());
+  MUST(error.line > 0 || reason == "the file is empty: it has no section" ||
+       reason == "the section is missing");
+}
+
+/// What a generator puts out under this name; null: there is none.
+template <class Value>
+const Value* reference(const PortTable& ports, std::string_view name) {
+  for (int i = 0; i < ports.count(); ++i)
+    if (ports[i].port == name) return static_cast<const Value*>(ports[i].value);
+  return nullptr;
+}
+
+/// A reference beside the present one, of whichever space.
+void send_reference(Board& board) {
+  std::uint32_t id = 0;
+  const PortTable& ports = board.pipeline.ports;
+  if (const auto* q = reference<JointVector>(ports, "q_d")) {
+    JointSpace::Point point;
+    point.q = *q + JointVector::Constant(0.001);
+    static_cast<void>(ReferenceClient<JointSpace>(board.joints).send(point, id));
+  }
+  if (const auto* x = reference<Pose>(ports, "x_d")) {
+    TaskSpace::Point point;
+    point.x = *x;
+    point.x.p += Vector3::Constant(0.0005);
+    static_cast<void>(ReferenceClient<TaskSpace>(board.poses).send(point, id));
+  }
+}
+
+void run(Board& board) {
+  JointVector q;
+  q << 0.0, -1.67, 1.87, 2.94, -1.57, 0.1;
+  const RobotSection& robot = board.pipeline.robot;
+  fuzz::GuardedHal hal(q, board.pipeline.guard.effective(), robot.period_s());
+  Executive executive(hal, board.pipeline, [] { return std::uint64_t{0}; });
+  if (executive.start() != Status::kOk) return;
+  for (int i = 1; i <= 24; ++i) {
+    if (i < 8) send_reference(board);
+    if (i == 16) executive.halt();
+    static_cast<void>(executive.cycle({std::int64_t{1000} * robot.period_us * i}));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  alignas(Board) static unsigned char bytes[sizeof(Board)];
+  Board& board = *new (bytes) Board;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const Status status = board.load(text);
+  MUST(status == board.error.status);
+  if (status == Status::kOk) {
+    board.check_settings();
+    run(board);
+  } else {
+    check_refusal(board.error, text);
+  }
+  board.~Board();
+  return 0;
+}
