@@ -107,6 +107,25 @@ void it_does_not_run_after_a_time_out(void**) {
   assert_false(bench.running());
 }
 
+void after_a_time_out_it_runs_where_the_text_does_not_halt(void**) {
+  static ExternalBench bench;
+  constexpr std::string_view kSays = "    textmsg(\"Socket timed out waiting for command\")\n",
+                             kHalts =
+                                 "    textmsg(\"Socket timed out waiting for command\")\n"
+                                 "    halt\n";
+  for (const std::string_view text : {kSays, kHalts}) {
+    ExternalText parts;
+    parts.cancelled = text;
+    parts.behind = kBehind;
+    bench.start(parts);
+    stream(bench, 0.0, 0.2, 20);
+    bench.run(25);
+    assert_int_equal(bench.running(), text == kSays);
+    bench.run_s(1.1);
+    assert_false(bench.running());
+  }
+}
+
 void undefined_fields_of_a_stop_are_not_looked_at(void**) {
   static ExternalBench bench;
   bench.start();
@@ -179,6 +198,7 @@ int main() {
       cmocka_unit_test(freedrive_begins_and_ends_as_told),
       cmocka_unit_test(a_change_of_mode_stops_the_old_motion_first),
       cmocka_unit_test(what_stands_behind_the_loop_runs_after_stopped),
+      cmocka_unit_test(after_a_time_out_it_runs_where_the_text_does_not_halt),
       cmocka_unit_test(it_does_not_run_after_a_time_out),
       cmocka_unit_test(undefined_fields_of_a_stop_are_not_looked_at),
       cmocka_unit_test(commands_beside_the_motion_are_obeyed),

@@ -76,8 +76,10 @@ void ExternalControl::read_reverse(Machine& machine) {
     if (link == nullptr || !link->read_ints(message.data(), message.size())) {
       silent_s_ += n == 0 ? machine.cycle_s() : 0.0;
       const bool late = timeout_s_ > 0.0 && silent_s_ > timeout_s_ + 1e-9;
-      if (late || link == nullptr || link->at_end(message.size())) leave(true, machine);
-      return;
+      if (!late && link != nullptr && !link->at_end(message.size())) return;
+      machine.messages.text(
+          "Socket timed out waiting for command on reverse_socket. The script will exit now.");
+      return leave(halts_when_silent_, machine);
     }
     silent_s_ = 0.0;
     take(message, machine);
@@ -174,9 +176,6 @@ void ExternalControl::set_point(const Joints& q, Machine& machine) {
 }
 
 void ExternalControl::leave(bool halts, Machine& machine) {
-  if (halts)
-    machine.messages.text(
-        "Socket timed out waiting for command on reverse_socket. The script will exit now.");
   machine.freedrive = false;
   mode_ = ControlMode::kStopped;
   halts_ = halts;

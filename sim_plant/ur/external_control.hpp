@@ -48,7 +48,7 @@ class ExternalControl {
 
   Phase phase_ = Phase::kConnecting;
   Servo servo_ = Servo::kNone;
-  bool halts_ = false, tool_contact_ = false, warned_ = false;
+  bool halts_when_silent_ = true, halts_ = false, tool_contact_ = false, warned_ = false;
   ControlMode mode_ = ControlMode::kUninitialised;
   Message waiting_{};  // for the old motion to end
   double timeout_s_ = 0.0, silent_s_ = 0.0, log_at_s_ = 0.0;

@@ -30,6 +30,17 @@ std::size_t behind_loop(std::string_view text) {
   return behind;
 }
 
+/// Early releases of the client library go on behind the loop when the control computer is silent.
+bool halts_when_silent(std::string_view text) {
+  const std::size_t at = text.find("Socket timed out");
+  if (at == std::string_view::npos) return true;
+  text.remove_prefix(at);
+  std::string_view line;
+  while (next_line(text, line) && line.find("socket_close") == std::string_view::npos)
+    if (trimmed(without_comment(line)) == "halt") return true;
+  return false;
+}
+
 }  // namespace
 
 bool ExternalControl::recognises(std::string_view text) {
@@ -44,6 +55,7 @@ void ExternalControl::start(std::string_view text) {
     if (!find_socket_named(text, kConnect, kSockets[i], places_[i]))
       find_socket_named(text, "socket_open", kSockets[i], places_[i]);
   law_ = find_servo_law(text);
+  halts_when_silent_ = halts_when_silent(text);
   TrajectoryRun::Features features;
   features.tells_cancelled = says(text, "socket_send_int(TRAJECTORY_RESULT_CANCELED");
   features.publishes_spline_time = says(text, "write_output_float_register(1,");
