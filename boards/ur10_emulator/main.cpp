@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "boards/ur10_emulator/cycle_grid.hpp"
 #include "boards/ur10_emulator/options.hpp"
 #include "boards/ur10_emulator/server.hpp"
 #include "hal/os/cycle_clock.hpp"
@@ -30,19 +31,19 @@ Settings settings_of(const EmulatorOptions& options) {
   return settings;
 }
 
-/// Cycles on a grid of real time. A host that is late catches up cycle by cycle, for the robot's
-/// clock never leaves one out; after more than a second it lets the time go. In lock-step a cycle
-/// begins before its time when the clients have answered, and one that always did is waited for.
+/// Cycles on their grid. In lock-step a cycle begins before its time when the clients have
+/// answered, and one that always did is waited for.
 void run(Emulator& emulator, Server& server, const EmulatorOptions& options) {
   const double cycle_s = emulator.controller().machine().cycle_s();
   const auto period_ns = static_cast<std::int64_t>(cycle_s * 1e9 / options.speed);
   const auto last = static_cast<std::int64_t>(options.duration_s / cycle_s + 0.5);
-  constexpr std::int64_t kLongestLag_ns = 1'000'000'000, kLongestWait_ns = 1'000'000'000;
-  std::int64_t next_ns = monotonic_ns() + period_ns;
+  constexpr std::int64_t kLongestWait_ns = 1'000'000'000;
+  CycleGrid grid(period_ns, monotonic_ns());
   for (std::int64_t cycle = 0; g_interrupted == 0 && (last == 0 || cycle < last);) {
     const Pace pace = options.lock_step ? emulator.pace() : Pace::kByTime;
     const std::int64_t now_ns = monotonic_ns();
-    const std::int64_t left_ns = next_ns - now_ns + (pace == Pace::kWaits ? kLongestWait_ns : 0);
+    const std::int64_t left_ns =
+        grid.left_ns(now_ns) + (pace == Pace::kWaits ? kLongestWait_ns : 0);
     if (left_ns > 0 && pace != Pace::kAtOnce) {
       server.pump(left_ns);
       continue;
@@ -51,8 +52,10 @@ void run(Emulator& emulator, Server& server, const EmulatorOptions& options) {
     emulator.tick();
     server.flush();
     ++cycle;
-    next_ns += period_ns;
-    if (options.lock_step || left_ns < -kLongestLag_ns) next_ns = now_ns + period_ns;
+    if (options.lock_step)
+      grid.begin_anew(now_ns);
+    else
+      grid.begin(now_ns);
   }
 }
 
