@@ -9,8 +9,10 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
+/// Of a positive value as much as arithmetic can take; what is not positive, or no number, is the
+/// default.
 double or_default(double value, double otherwise) {
-  return value > 0.0 ? value : otherwise;
+  return value > 0.0 ? std::clamp(value, 1e-9, 1e9) : otherwise;
 }
 
 }  // namespace
@@ -72,7 +74,7 @@ bool Motion::move_j(const Joints& q, double a, double v, double t) {
   const double fastest = 1.0 / (way_.cwiseAbs().array() / limits_.speed.array()).maxCoeff();
   if (t > 0.0) {
     // A trapezoid of four quarters is fastest by 4/3 of its mean.
-    time_law_ = Trapezoid::by_duration(std::max(t, 4.0 / 3.0 / fastest));
+    time_law_ = Trapezoid::by_duration(std::max(or_default(t, 0.0), 4.0 / 3.0 / fastest));
   } else {
     time_law_ =
         Trapezoid::by_speed(std::min(or_default(v, 1.05) / way, fastest), or_default(a, 1.4) / way);
@@ -98,7 +100,7 @@ bool Motion::move_l(const Frame& target, double a, double v, double t) {
     kind_ = Kind::kRest;
     busy_ = false;
   } else if (t > 0.0) {
-    time_law_ = Trapezoid::by_duration(t);
+    time_law_ = Trapezoid::by_duration(or_default(t, 0.0));
   } else {
     time_law_ = Trapezoid::by_speed(or_default(v, 0.25) / way, or_default(a, 1.2) / way);
   }
