@@ -59,6 +59,27 @@ void a_servo_law_that_is_none_stops_the_arm(void**) {
 }
 
 // Proves FUZ-1.
+void a_motion_at_the_ends_of_arithmetic_is_finite(void**) {
+  const double infinity = HUGE_VAL;
+  const Joints q = ProgramBench::settings().initial_q, to = q + Joints::Constant(2.5);
+  Frame target = forward(q);
+  target.p[2] -= 0.05;
+  for (const double x : {5e-324, 1e-300, 1e300, 1.7e308, infinity, -infinity, std::nan("")})
+    for (int kind = 0; kind < 9; ++kind) {
+      Motion motion;
+      motion.rest(q);
+      if (kind < 3) motion.move_j(to, kind == 0 ? x : 1.4, kind == 1 ? x : 1.0, kind == 2 ? x : 0);
+      if (kind >= 3 && kind < 6)
+        motion.move_l(target, kind == 3 ? x : 1.2, kind == 4 ? x : 0.2, kind == 5 ? x : 0);
+      if (kind == 6) motion.servo_j(q, x, {});
+      if (kind == 7) motion.speed_j(Joints::Constant(0.1), x, x);
+      if (kind == 8) motion.speed_l(Vector6::Constant(0.01), x, x);
+      for (int i = 0; i < 10; ++i) motion.advance(kCycle_s);
+      assert_true(motion.q().allFinite() && motion.dq().allFinite());
+    }
+}
+
+// Proves FUZ-1.
 void nothing_is_near_to_what_is_no_number(void**) {
   const Joints q = ProgramBench::settings().initial_q;
   for (int joint = 0; joint < 6; ++joint) {
@@ -108,6 +129,7 @@ int main() {
       cmocka_unit_test(what_is_no_number_shows_on_no_port),
       cmocka_unit_test(a_tool_that_is_none_stops_the_arm),
       cmocka_unit_test(a_servo_law_that_is_none_stops_the_arm),
+      cmocka_unit_test(a_motion_at_the_ends_of_arithmetic_is_finite),
       cmocka_unit_test(nothing_is_near_to_what_is_no_number),
       cmocka_unit_test(a_number_beyond_an_integer_is_its_end),
       cmocka_unit_test(a_reply_always_ends_its_line),

@@ -9,10 +9,6 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-double or_default(double value, double otherwise) {
-  return value > 0.0 ? value : otherwise;
-}
-
 }  // namespace
 
 MotionLimits::MotionLimits() {
@@ -108,7 +104,7 @@ void Motion::servo_j(const Joints& q, double t, const ServoLaw& law) {
   }
   goal_ = q;
   law_ = {std::clamp(law.gain, 100.0, 2000.0), std::clamp(law.lookahead_s, 0.03, 0.2)};
-  begin(Kind::kServo, or_default(t, 0.008));
+  begin(Kind::kServo, given_or(t, 0.008));
 }
 
 void Motion::speed_j(const Joints& dq, double a, double t) {
@@ -117,8 +113,8 @@ void Motion::speed_j(const Joints& dq, double a, double t) {
     return;
   }
   goal_ = dq.cwiseMax(-limits_.speed).cwiseMin(limits_.speed);
-  a_ = or_default(a, 1.4);
-  begin(Kind::kSpeedJ, or_default(t, kForever));
+  a_ = given_or(a, 1.4);
+  begin(Kind::kSpeedJ, given_or(t, kForever));
 }
 
 void Motion::speed_l(const Vector6& twist, double a, double t) {
@@ -126,13 +122,13 @@ void Motion::speed_l(const Vector6& twist, double a, double t) {
     fault_ = {Code::kPathSanity, kInvalidSetPoint};
     return;
   }
-  begin(Kind::kSpeedL, or_default(t, kForever));
+  begin(Kind::kSpeedL, given_or(t, kForever));
   twist_goal_ = twist;
-  a_ = or_default(a, 1.2);
+  a_ = given_or(a, 1.2);
 }
 
 void Motion::stop_j(double a) {
-  a_ = or_default(a, limits_.stop_acceleration);
+  a_ = given_or(a, limits_.stop_acceleration);
   begin(Kind::kStop, kForever);
 }
 

@@ -2,6 +2,8 @@
 // and rad/s^2.
 #pragma once
 
+#include <algorithm>
+
 #include "sim_plant/ur/kinematics.hpp"
 
 namespace tactus::ur {
@@ -17,5 +19,11 @@ struct MotionLimits {
 
   MotionLimits();
 };
+
+/// A speed, acceleration or time of a script, as much of it as arithmetic can take; what is not
+/// positive, or no number, is the default.
+inline double given_or(double value, double otherwise) {
+  return value > 0.0 ? std::clamp(value, 1e-9, 1e9) : otherwise;
+}
 
 }  // namespace tactus::ur

@@ -10,10 +10,6 @@ constexpr double kTwoPi = 6.28318530717958648;
 constexpr double kNothing = 1e-9;
 constexpr double kLongest_s = 1e6;
 
-double or_default(double value, double otherwise) {
-  return value > 0.0 ? value : otherwise;
-}
-
 }  // namespace
 
 bool Segment::start(const Move& move, const Joints& from, const Frame& tool,
@@ -67,7 +63,7 @@ bool Segment::fit_circle() {
 /// A trapezoid of four quarters is fastest by 4/3 of its mean.
 void Segment::choose_pace() {
   const bool joints = in_joints();
-  pace_ = {or_default(move_.v, joints ? 1.05 : 0.25), or_default(move_.a, joints ? 1.4 : 1.2)};
+  pace_ = {given_or(move_.v, joints ? 1.05 : 0.25), given_or(move_.a, joints ? 1.4 : 1.2)};
   if (move_.t > 0.0) {
     const double v = std::min(length_ / (0.75 * std::min(move_.t, kLongest_s)), most_.v);
     // Where that is too fast, the whole takes longer.
