@@ -47,7 +47,7 @@ void what_was_late_is_caught_up(void**) {
 void clients_have_time_to_answer_between_two_cycles(void**) {
   Host host;
   host.run(1000, 100, 100'000'000);
-  assert_int_equal(host.shortest_ns, kPeriod_ns / 4);
+  assert_int_equal(host.shortest_ns, kPeriod_ns / 2);
 }
 
 void after_more_than_a_second_the_time_is_let_go(void**) {

@@ -11,7 +11,7 @@ namespace tactus::ur {
 class CycleGrid {
  public:
   static constexpr std::int64_t kLongestLag_ns = 1'000'000'000;  ///< beyond it the time is let go
-  static constexpr std::int64_t kCatchUp = 4;                    ///< times as fast as the grid
+  static constexpr std::int64_t kCatchUp = 2;                    ///< times as fast as the grid
 
   CycleGrid(std::int64_t period_ns, std::int64_t now_ns)
       : period_ns_(period_ns), next_ns_(now_ns + period_ns), earliest_ns_(now_ns) {}
