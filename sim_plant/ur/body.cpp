@@ -7,7 +7,9 @@ constexpr double kInnerStep_s = 0.001;
 constexpr double kTimeConstant_s = 0.008;
 constexpr double kResidual_s = 0.04;  // time constant of its filter
 
-int inner_steps(double h_s) { return static_cast<int>(h_s / kInnerStep_s + 0.5); }
+int inner_steps(double h_s) {
+  return static_cast<int>(h_s / kInnerStep_s + 0.5);
+}
 
 }  // namespace
 
