@@ -75,7 +75,7 @@ void movec_stays_on_its_circle(void**) {
 // Proves URE-12.
 
 void a_tool_is_not_faster_than_the_joints(void**) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
     std::mt19937_64 random(seed);
     std::vector<Move> moves;
     for (const Kind kind : {Kind::kL, Kind::kP, Kind::kP, Kind::kL}) {
@@ -168,7 +168,7 @@ std::vector<Move> random_moves(std::mt19937_64& random) {
 /// Every kind of move after every other: continuous, and within the limits of the joints. The
 /// slider changes the time only: what the eighths of a cycle show is what any speed shows.
 void random_paths_are_smooth_and_do_not_know_the_slider(void**) {
-  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     std::mt19937_64 random(seed);
     const std::vector<Move> moves = random_moves(random);
     std::vector<Joints> ends(moves.size());
