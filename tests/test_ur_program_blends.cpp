@@ -115,7 +115,7 @@ void overlapping_blends_are_said_as_c171(void**) {
 
 // Proves URE-15.
 
-void movep_and_movec_of_a_text(void**) {
+void movep_movec_and_servoc_of_a_text(void**) {
   static ProgramBench bench;
   const Vector6 via = pose_beside(0.0, 0.05, 0.05), to = pose_beside(0.0, 0.1, 0.0);
   const Vector6 end = pose_beside(0.0, 0.1, -0.1);
@@ -139,6 +139,14 @@ void movep_and_movec_of_a_text(void**) {
   }
   ASSERT_NEAR(on_circle * kCycle_s, 0.05 * 3.14159 / 0.1 + 0.1 / 1.2, 0.1);
   assert_true((bench.image().target_tcp_pose - end).head<3>().norm() < 1e-6);
+  Text back;
+  back.line("def back():\n");
+  back.call("servoc", via);
+  back.line(", a=1.2, v=0.1)\nend\n");
+  bench.upload(back.text());
+  bench.run(2);
+  bench.run_to_end();
+  assert_true((bench.image().target_tcp_pose - via).head<3>().norm() < 1e-6);
 }
 
 // Proves URE-14.
@@ -229,7 +237,7 @@ int main() {
       cmocka_unit_test(what_takes_time_before_the_next_move_makes_the_arm_stop),
       cmocka_unit_test(the_last_move_is_finished_whatever_its_radius),
       cmocka_unit_test(overlapping_blends_are_said_as_c171),
-      cmocka_unit_test(movep_and_movec_of_a_text),
+      cmocka_unit_test(movep_movec_and_servoc_of_a_text),
       cmocka_unit_test(the_points_of_a_trajectory_are_blended),
       cmocka_unit_test(a_point_that_is_missing_lets_the_arm_stop_at_the_one_before),
       cmocka_unit_test(the_circle_of_a_trajectory_point),

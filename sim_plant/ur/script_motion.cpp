@@ -30,12 +30,13 @@ CallResult move_j(const ScriptCall& call, Machine& machine) {
   return good ? CallResult::kMotion : CallResult::kNoReach;
 }
 
-/// movel(pose, a, v, t, r), movep(pose, a, v, r), movec(pose_via, pose_to, a, v, r, mode).
+/// movel(pose, a, v, t, r), movep(pose, a, v, r), movec(pose_via, pose_to, a, v, r, mode), and
+/// servoc(pose, a, v, r) as a movep.
 CallResult move_tool(const ScriptCall& call, Machine& machine) {
   Move move;
   move.kind = call.name == "movel"   ? Move::Kind::kL
-              : call.name == "movep" ? Move::Kind::kP
-                                     : Move::Kind::kC;
+              : call.name == "movec" ? Move::Kind::kC
+                                     : Move::Kind::kP;
   const bool line = move.kind == Move::Kind::kL, arc = move.kind == Move::Kind::kC;
   const std::size_t first = arc ? 1 : 0;
   const ScriptValue* via = call.find("pose_via", 0);
@@ -78,18 +79,18 @@ CallResult speed(const ScriptCall& call, bool joints, Machine& machine) {
 }  // namespace
 
 bool is_motion(std::string_view name) {
-  constexpr std::string_view kNames[] = {"movej",  "movel",  "movep", "movec", "servoj",
-                                         "speedj", "speedl", "stopj", "stopl"};
+  constexpr std::string_view kNames[] = {"movej",  "movel",  "movep",  "movec", "servoj",
+                                         "servoc", "speedj", "speedl", "stopj", "stopl"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
 CallResult run_motion(const ScriptCall& call, Machine& machine) {
   if (call.name == "movej") return move_j(call, machine);
-  if (starts_with(call.name, "move")) return move_tool(call, machine);
   if (call.name == "servoj") return servo_j(call, machine);
   if (call.name == "speedj") return speed(call, true, machine);
   if (call.name == "speedl") return speed(call, false, machine);
-  machine.motion.stop_j(call.number("a", 0, 0.0));  // stopj, stopl
+  if (!starts_with(call.name, "stop")) return move_tool(call, machine);
+  machine.motion.stop_j(call.number("a", 0, 0.0));
   return CallResult::kMotion;
 }
 
