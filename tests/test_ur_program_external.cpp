@@ -55,6 +55,15 @@ void nobody_listening_is_a_popup_and_no_motion(void**) {
   assert_joints(bench.target(), kStart, 0.0);
 }
 
+void a_socket_that_cannot_be_opened_closes_those_before_it(void**) {
+  static ExternalBench bench;
+  bench.start_unconnected();
+  assert_true(bench.connected("trajectory_socket"));
+  bench.listening = false;
+  bench.run_s(3.0);
+  assert_false(bench.connected("trajectory_socket"));
+}
+
 void the_first_read_waits_for_ever(void**) {
   static ExternalBench bench;
   bench.start();
@@ -180,6 +189,11 @@ void a_set_point_too_far_away_is_ignored(void**) {
     bench.tick();
   }
   ASSERT_NEAR(bench.target()[0], 0.15, 1e-3);
+  for (int k = 0; k < 10; ++k) {  // once more: another popup
+    bench.reverse(20, ControlMode::kServoJ, beside(-0.15));
+    bench.tick();
+  }
+  assert_int_equal(bench.said.count("External Control speed limit"), 2);
 }
 
 }  // namespace
@@ -189,6 +203,7 @@ int main() {
       cmocka_unit_test(it_connects_to_the_address_in_the_text_in_order),
       cmocka_unit_test(it_is_recognised_whichever_line_is_cut_or_added),
       cmocka_unit_test(nobody_listening_is_a_popup_and_no_motion),
+      cmocka_unit_test(a_socket_that_cannot_be_opened_closes_those_before_it),
       cmocka_unit_test(the_first_read_waits_for_ever),
       cmocka_unit_test(the_example_message_moves_the_arm_to_its_position),
       cmocka_unit_test(a_message_in_pieces_is_one_message),

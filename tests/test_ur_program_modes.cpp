@@ -189,6 +189,43 @@ void a_contact_is_told_and_so_is_none(void**) {
   assert_int_equal(bench.received("script_command_socket", &answer, 1), 0);
 }
 
+void a_contact_ends_a_trajectory_that_says_nothing(void**) {
+  static ExternalBench bench;
+  std::int32_t answer = -1;
+  bench.start();
+  command(bench, {6});  // none was begun
+  assert_int_equal(bench.received("script_command_socket", &answer, 1), 1);
+  assert_int_equal(answer, 1);
+  bench.forward(1, 2);
+  for (const double to : {0.3, 0.4})
+    bench.spline_point(beside(to), Joints::Zero(), Joints::Zero(), 2.0, 1);
+  command(bench, {5});
+  bench.controller.faults().push = joints({60, 0, 0, 0, 0, 0});
+  bench.run(100);
+  assert_int_equal(bench.received("script_command_socket", &answer, 1), 1);
+  assert_int_equal(answer, 0);
+  bench.reverse(0, ControlMode::kStopped);  // not before the watch has ended
+  bench.run(50);
+  assert_int_equal(bench.result(), -1);
+  assert_true(bench.running());
+  command(bench, {6});
+  bench.reverse(0, ControlMode::kStopped);
+  bench.run(50);
+  assert_false(bench.running());
+}
+
+// Proves URP-40.
+
+void torques_are_answered_with_a_popup(void**) {
+  static ExternalBench bench;
+  bench.start();
+  for (int k = 0; k < 50; ++k)
+    bench.reverse(20, ControlMode::kTorque, Vector6::Constant(5.0)), bench.tick();
+  assert_true(bench.running());
+  assert_int_equal(bench.said.count("5.23"), 1);
+  assert_joints(bench.target(), kStart, 0.0);
+}
+
 }  // namespace
 
 int main() {
@@ -203,6 +240,8 @@ int main() {
       cmocka_unit_test(undefined_fields_of_a_stop_are_not_looked_at),
       cmocka_unit_test(commands_beside_the_motion_are_obeyed),
       cmocka_unit_test(a_contact_is_told_and_so_is_none),
+      cmocka_unit_test(a_contact_ends_a_trajectory_that_says_nothing),
+      cmocka_unit_test(torques_are_answered_with_a_popup),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

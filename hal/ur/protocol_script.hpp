@@ -27,6 +27,7 @@ enum class ControlMode : std::int32_t {
   kPose = 5,
   kFreedrive = 6,
   kToolInContact = 7,
+  kTorque = 8,  ///< from software 5.23
 };
 
 /// First value of a message in mode kForward.
@@ -51,7 +52,7 @@ enum PointType : std::int32_t {
   kPointMoveLJoints = 7,
   kPointMovePJoints = 8,
   kPointMoveCJoints = 9,
-  kPointMoveCJointsPose = 10,
+  kPointMoveCJointsPose = 10,  ///< of what its end and its via point are, in this order
   kPointMoveCPoseJoints = 11,
   kPointOptimoveJPose = 12,
   kPointOptimoveLJoints = 13,

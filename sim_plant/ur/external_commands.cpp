@@ -51,8 +51,10 @@ void ExternalControl::read_commands(Machine& machine) {
   Command command;
   for (int n = 0; n < kCommandsAtOnce && link->read_ints(command.data(), command.size()); ++n)
     obey_command(command, *link, machine);
-  if (!tool_contact_ || mode_ == ControlMode::kToolInContact || !touches(machine)) return;
-  trajectory_.preempt(machine);
+  const bool watches = tool_contact_ && mode_ != ControlMode::kToolInContact;
+  if (!watches || trajectory_.clearing() || !touches(machine)) return;
+  trajectory_.drop(machine);
+  machine.freedrive = false;
   machine.motion.stop_j(kStop);
   mode_ = ControlMode::kToolInContact;
   link->send_int(kTouched);
@@ -75,7 +77,7 @@ void ExternalControl::obey_command(const Command& command, Link& link, Machine& 
       tool_contact_ = true;
       return;
     case ScriptCommand::kEndToolContact:
-      if (tool_contact_ && mode_ != ControlMode::kToolInContact) link.send_int(kEndedWithout);
+      if (mode_ != ControlMode::kToolInContact) link.send_int(kEndedWithout);
       tool_contact_ = false;
       return;
     case ScriptCommand::kSetTcpOffset:

@@ -23,8 +23,7 @@ ProgramStep ExternalControl::poll(Machine& machine) {
     case Phase::kJoining:
       if (machine.motion.busy() || trajectory_.active()) return ProgramStep::kRunning;
       phase_ = Phase::kRunning;
-      change_mode(static_cast<ControlMode>(waiting_[7]), machine);
-      obey(waiting_, machine);
+      enter(waiting_, machine);
       read_reverse(machine);
       return ProgramStep::kRunning;
     case Phase::kEnding:
@@ -55,11 +54,9 @@ ProgramStep ExternalControl::connect(Machine& machine) {
     if (link->state() == Link::State::kFailed) {
       link->close();
       retry_at_s_ = machine.time_s() + kRetry_s;
-      if (++attempts_ == kAttempts)
-        machine.messages.popup("Error connecting to remote", "a socket could not be opened", false,
-                               true);
+      if (++attempts_ == kAttempts) give_up(machine);
     }
-    if (attempts_ >= kAttempts) return ProgramStep::kRunning;  // the popup waits for a hand
+    if (attempts_ >= kAttempts) return ProgramStep::kRunning;
     if (link->state() == Link::State::kClosed && machine.time_s() >= retry_at_s_)
       link->want(kSockets[connected_], place.host, place.port);
     return ProgramStep::kRunning;
@@ -69,10 +66,18 @@ ProgramStep ExternalControl::connect(Machine& machine) {
   return poll(machine);
 }
 
+/// All are closed, and the popup waits for a hand.
+void ExternalControl::give_up(Machine& machine) {
+  for (std::size_t i = 0; i < connected_; ++i)
+    if (Link* link = machine.links.find(kSockets[i])) link->close();
+  machine.messages.popup("Error connecting to remote", "a socket could not be opened", false, true);
+}
+
 void ExternalControl::read_reverse(Machine& machine) {
   Link* link = machine.links.find(kSockets[2]);
   Message message;
   for (int n = 0; n < kMessagesAtOnce && phase_ == Phase::kRunning; ++n) {
+    if (trajectory_.clearing()) return;
     if (link == nullptr || !link->read_ints(message.data(), message.size())) {
       silent_s_ += n == 0 ? machine.cycle_s() : 0.0;
       const bool late = timeout_s_ > 0.0 && silent_s_ > timeout_s_ + 1e-9;
@@ -89,15 +94,11 @@ void ExternalControl::read_reverse(Machine& machine) {
 void ExternalControl::take(const Message& message, Machine& machine) {
   timeout_s_ = message[0] / 1000.0;
   const auto mode = static_cast<ControlMode>(message[7]);
-  if (mode == ControlMode::kStopped) return leave(false, machine);
-  if (mode == mode_ || (mode_ == ControlMode::kToolInContact && tool_contact_))
-    return obey(message, machine);
+  if (mode_ == ControlMode::kToolInContact && tool_contact_) return;  // which it ends first
+  if (mode == mode_) return obey(message, machine);
   // The old motion ends before the new one begins.
-  const bool cancels = mode_ == ControlMode::kForward && trajectory_.active();
-  if (cancels)
-    trajectory_.preempt(machine);
-  else if (!machine.motion.resting())
-    machine.motion.stop_j(kStop);
+  if (mode_ == ControlMode::kForward) trajectory_.leave(machine);
+  if (!trajectory_.active() && !machine.motion.resting()) machine.motion.stop_j(kStop);
   if (mode_ == ControlMode::kFreedrive) machine.freedrive = false;
   mode_ = ControlMode::kIdle;
   if (machine.motion.busy() || trajectory_.active()) {
@@ -105,15 +106,19 @@ void ExternalControl::take(const Message& message, Machine& machine) {
     phase_ = Phase::kJoining;
     return;
   }
-  change_mode(mode, machine);
-  obey(message, machine);
+  enter(message, machine);
 }
 
-void ExternalControl::change_mode(ControlMode mode, Machine& machine) {
-  mode_ = mode;
-  if (mode != ControlMode::kServoJ && mode != ControlMode::kPose) return;
-  servo_q_ = machine.body.q();
-  servo_ = Servo::kNone;
+void ExternalControl::enter(const Message& message, Machine& machine) {
+  mode_ = static_cast<ControlMode>(message[7]);
+  if (mode_ == ControlMode::kStopped) return leave(false, machine);
+  if (mode_ == ControlMode::kServoJ || mode_ == ControlMode::kPose) {
+    servo_q_ = machine.body.q();
+    servo_ = Servo::kNone;
+  }
+  if (mode_ == ControlMode::kTorque)
+    machine.messages.popup("", "Torques are only supported from software 5.23.0", false, true);
+  obey(message, machine);
 }
 
 void ExternalControl::obey(const Message& message, Machine& machine) {
@@ -151,7 +156,7 @@ void ExternalControl::forward(const Message& message, Machine& machine) {
     case kForwardStreamEnd:
       return trajectory_.end_stream(message[2]);
     case kForwardCancel:
-      return trajectory_.cancel(machine);
+      return trajectory_.cancel(message[2], machine);
     default:
       return;
   }
@@ -163,12 +168,14 @@ void ExternalControl::set_point(const Joints& q, Machine& machine) {
   if ((q - servo_q_).cwiseAbs().maxCoeff() <= most ||
       (q - machine.body.q()).cwiseAbs().maxCoeff() <= most) {
     servo_q_ = q;
+    if (warned_) machine.messages.text("ExternalControl: set-points are near enough again");
+    warned_ = false;
     return;
   }
   if (!warned_)
     machine.messages.popup("External Control speed limit",
                            "A set-point is too far away and is ignored", true, false);
-  if (machine.time_s() >= log_at_s_) {
+  if (!warned_ || machine.time_s() >= log_at_s_) {
     machine.messages.text("ExternalControl: a set-point is too far away and is ignored");
     log_at_s_ = machine.time_s() + kLog_s;
   }

@@ -25,9 +25,10 @@ class ExternalControl {
   using Message = std::array<std::int32_t, kReverseInts>;
 
   ProgramStep connect(Machine& machine);
+  void give_up(Machine& machine);
   void read_reverse(Machine& machine);
   void take(const Message& message, Machine& machine);
-  void change_mode(ControlMode mode, Machine& machine);
+  void enter(const Message& message, Machine& machine);
   void obey(const Message& message, Machine& machine);
   void forward(const Message& message, Machine& machine);
   void read_commands(Machine& machine);

@@ -58,6 +58,10 @@ void ExternalControl::start(std::string_view text) {
   halts_when_silent_ = halts_when_silent(text);
   TrajectoryRun::Features features;
   features.tells_cancelled = says(text, "socket_send_int(TRAJECTORY_RESULT_CANCELED");
+  features.tells_left_only = says(text, "if trajectory_points_left > 0");
+  const std::size_t cancel = text.find("== TRAJECTORY_MODE_CANCEL");
+  features.counts_cancelled =
+      cancel != std::string_view::npos && says(text.substr(cancel), "STREAMING_SENTINEL -");
   features.publishes_spline_time = says(text, "write_output_float_register(1,");
   features.format = find_point_format(text);
   trajectory_.set_features(features);

@@ -33,6 +33,11 @@ PointFormat::Places find_places(std::string_view text, PointFormat::Places place
   return places;
 }
 
+void find_scale(std::string_view text, std::string_view variable, double& scale) {
+  double value = 0.0;
+  if (number_after(text, variable, value) && value >= 1.0) scale = value;
+}
+
 }  // namespace
 
 PointFormat find_point_format(std::string_view text) {
@@ -41,14 +46,19 @@ PointFormat find_point_format(std::string_view text) {
   const std::size_t circle = text.find("== MOTION_TYPE_MOVEC");
   if (circle != std::string_view::npos)
     format.circles = find_places(text.substr(circle), format.moves);
-  double scale = 0.0;
-  if (number_after(text, "MULT_time = ", scale) && scale >= 1.0) format.time_scale = scale;
+  find_scale(text, "MULT_time = ", format.time_scale);
+  find_scale(text, "MULT_velacc = ", format.rate_scale);
   return format;
 }
 
 bool is_optimove(std::int32_t type) {
   return type == kPointOptimoveJ || type == kPointOptimoveL || type == kPointOptimoveJPose ||
          type == kPointOptimoveLJoints;
+}
+
+bool is_move(std::int32_t type) {
+  return (type >= kPointMoveJ && type <= kPointMoveC) ||
+         (type >= kPointMoveJPose && type <= kPointMoveCPoseJoints);
 }
 
 bool read_move(const Point& point, const PointFormat& format, const Machine& machine, Move& move) {
@@ -88,10 +98,10 @@ bool read_move(const Point& point, const PointFormat& format, const Machine& mac
       set_speed(format.circles);
       move.t = 0.0;
       move.fixed = point[14] != 0;
-      // The names have the via point first.
-      move.via = frame(second, type == kPointMoveCJoints || type == kPointMoveCJointsPose, motion);
+      // The names have the end first.
+      move.via = frame(second, type == kPointMoveCJoints || type == kPointMoveCPoseJoints, motion);
       move.target =
-          frame(target, type == kPointMoveCJoints || type == kPointMoveCPoseJoints, motion);
+          frame(target, type == kPointMoveCJoints || type == kPointMoveCJointsPose, motion);
       return true;
     default:
       return false;

@@ -1,6 +1,7 @@
 #include "sim_plant/ur/trajectory_run.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace tactus::ur {
 namespace {
@@ -10,56 +11,95 @@ constexpr double kStop = 4.0;          // rad/s^2
 constexpr double kIgnoreSpeed = 20.0;  // rad/s
 constexpr double kPatience_s = 0.5;    // for a point, while the robot stands
 constexpr double kSamePlace = 0.01;    // rad
-constexpr std::int32_t kUnknown = 1 << 30;
+constexpr std::int64_t kEndless = std::numeric_limits<std::int32_t>::max();
 
-Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t first) {
+Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t first,
+            double scale = kFixedPoint) {
   Vector6 values;
-  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / kFixedPoint;
+  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / scale;
   return values;
 }
 
 }  // namespace
 
-/// How many points are to come is known.
-bool TrajectoryRun::counted() const {
-  return left_ < kUnknown / 2;
-}
-
-/// The points that have come for a trajectory that has ended.
-void TrajectoryRun::read_away(Machine& machine) {
+/// True: none is left, or no more have come for a while.
+bool TrajectoryRun::read_away(Machine& machine) {
   std::array<std::int32_t, kTrajectoryInts> point;
   Link* link = machine.links.find(kSocket);
-  while (left_ > 0 && link != nullptr && link->read_ints(point.data(), point.size())) --left_;
+  while (left_ > 0 && link != nullptr && link->read_ints(point.data(), point.size())) {
+    --left_;
+    waited_s_ = 0.0;
+  }
+  if (left_ <= 0) return true;
+  waited_s_ += machine.cycle_s();
+  return waited_s_ >= kPatience_s;
 }
 
 void TrajectoryRun::start(std::int32_t points, bool stream, Machine& machine) {
-  if (active() || counted()) read_away(machine);
+  next_points_ = points;
+  next_stream_ = stream;
+  if (left_ <= 0 && !active()) return begin();
+  clear(Then::kStart, machine);
+}
+
+void TrajectoryRun::begin() {
   phase_ = Phase::kPoints;
-  stream_ = stream;
-  stream_ended_ = false;
+  stream_ = next_stream_;
+  left_ = stream_ ? kEndless : next_points_;
   first_ = true;
-  left_ = stream ? kUnknown : points;
-  taken_ = 0;
   waited_s_ = 0.0;
   result_ = kSucceeded;
   spline_.forget();
 }
 
 void TrajectoryRun::end_stream(std::int32_t points) {
-  if (!stream_ || stream_ended_ || phase_ == Phase::kIdle) return;
-  stream_ended_ = true;
-  left_ = points > taken_ ? points - taken_ : 0;
+  if (!stream_) return;
+  stream_ = false;
+  left_ = points - (kEndless - left_);
 }
 
-void TrajectoryRun::cancel(Machine& machine) {
-  machine.motion.stop_j(kStop);
-  phase_ = Phase::kClearing;
+void TrajectoryRun::cancel(std::int32_t points, Machine& machine) {
+  if (features_.counts_cancelled) end_stream(points);
   result_ = kCancelled;
+  clear(Then::kTell, machine);
+}
+
+void TrajectoryRun::leave(Machine& machine) {
+  const bool runs = phase_ == Phase::kPoints || phase_ == Phase::kSpline;
+  if (features_.tells_left_only ? left_ > 0 : runs) {
+    result_ = kCancelled;
+    clear(Then::kTell, machine);
+  } else if (features_.tells_left_only) {
+    drop(machine);
+  }
+}
+
+void TrajectoryRun::drop(Machine& machine) {
+  if (active() || left_ > 0) clear(Then::kNothing, machine);
+}
+
+void TrajectoryRun::clear(Then then, Machine& machine) {
+  if (!machine.motion.resting()) machine.motion.stop_j(kStop);
+  phase_ = Phase::kClearing;
+  then_ = then;
   waited_s_ = 0.0;
 }
 
-void TrajectoryRun::preempt(Machine& machine) {
-  if (phase_ == Phase::kPoints || phase_ == Phase::kSpline) cancel(machine);
+ProgramStep TrajectoryRun::cleared(Machine& machine) {
+  left_ = 0;
+  stream_ = false;
+  if (then_ == Then::kStart) {
+    begin();
+    return command(machine);
+  }
+  phase_ = Phase::kIdle;
+  if (then_ == Then::kTell) tell(machine);
+  return ProgramStep::kEnded;
+}
+
+void TrajectoryRun::tell(Machine& machine) {
+  if (result_ == kCancelled && !features_.tells_cancelled) return;
+  if (Link* link = machine.links.find(kSocket)) link->send_int(result_);
 }
 
 void TrajectoryRun::finish(TrajectoryResult result, Machine& machine) {
@@ -84,14 +124,10 @@ ProgramStep TrajectoryRun::command(Machine& machine) {
       return step;
     }
     case Phase::kClearing:
-      read_away(machine);
-      waited_s_ += machine.cycle_s();
-      if (left_ > 0 && counted() && waited_s_ < kPatience_s) return ProgramStep::kWaiting;
-      [[fallthrough]];
+      return read_away(machine) ? cleared(machine) : ProgramStep::kWaiting;
     case Phase::kStopping:
       phase_ = Phase::kIdle;
-      if (result_ != kCancelled || features_.tells_cancelled)
-        if (Link* link = machine.links.find(kSocket)) link->send_int(result_);
+      tell(machine);
       return ProgramStep::kEnded;
   }
   return ProgramStep::kEnded;
@@ -117,7 +153,6 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
   Link* link = machine.links.find(kSocket);
   if (link != nullptr && link->read_ints(point.data(), point.size())) {
     --left_;
-    ++taken_;
     waited_s_ = 0.0;
     take_point(point, machine);
     first_ = false;
@@ -126,7 +161,7 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
   if (arriving) return ProgramStep::kWaiting;
   waited_s_ += machine.cycle_s();
   const bool moving = !machine.motion.dq().isZero(1e-6);
-  if (moving || waited_s_ > kPatience_s) {
+  if (waited_s_ > (moving ? 1.5 * machine.cycle_s() : kPatience_s)) {
     --left_;  // it does not come late either
     finish(kFailed, machine);
     return ProgramStep::kRunning;
@@ -140,6 +175,7 @@ void TrajectoryRun::take_point(const std::array<std::int32_t, kTrajectoryInts>& 
     take_spline(point, left_ == 0, machine);
     return;
   }
+  if (!is_move(point[20]) && !is_optimove(point[20])) return;  // the script passes over it
   spline_.forget();
   if (!take_move(point, machine)) finish(kFailed, machine);
 }
@@ -149,17 +185,25 @@ void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>&
   const Joints q = machine.motion.q(), q_end = six(point, 0);
   const double duration_s = point[18] / features_.format.time_scale;
   const double way = (q_end - q).cwiseAbs().maxCoeff();
-  if (point[19] != kCubic && point[19] != kQuintic) return finish(kFailed, machine);
+  if (point[19] != kCubic && point[19] != kQuintic) {
+    result_ = kFailed;
+    return clear(Then::kTell, machine);
+  }
   if (!(duration_s > 0.0)) {
     if (first_ && duration_s == 0.0 && (q_end - q).norm() < kSamePlace) {
       if (features_.publishes_spline_time) machine.io.output.doubles[1] = 0.0;
       return;
     }
+    machine.messages.popup("External Control error", "A spline takes time", false, true);
     return finish(kCancelled, machine);
   }
-  if (way / duration_s > kIgnoreSpeed) return finish(kCancelled, machine);
+  if (way / duration_s > kIgnoreSpeed) {
+    machine.messages.popup("External Control speed limit", "A point is too far away", true, false);
+    return finish(kCancelled, machine);
+  }
   const bool quintic = point[19] == kQuintic;
-  spline_.start(q, q_end, six(point, 6), six(point, 12), duration_s, quintic, last);
+  const double scale = features_.format.rate_scale;
+  spline_.start(q, q_end, six(point, 6, scale), six(point, 12, scale), duration_s, quintic, last);
   if (!quintic) spline_.forget_acceleration();
   phase_ = Phase::kSpline;
 }
