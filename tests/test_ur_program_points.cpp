@@ -183,6 +183,22 @@ void a_point_that_did_not_come_is_not_waited_for(void**) {
   ASSERT_NEAR(bench.target()[0], 0.1, 1e-3);
 }
 
+void in_motion_a_point_has_a_cycle_more_to_come(void**) {
+  static ExternalBench bench;
+  ExternalText parts;
+  parts.spline = "    write_output_float_register(1, splineTimerTraveled)\n";
+  bench.start(parts);
+  bench.forward(1, 2);
+  Joints dq = Joints::Zero();
+  dq[0] = 0.4;
+  bench.spline_point(beside(0.2), dq, Joints::Zero(), 1.0, 1);
+  while (bench.machine().io.output.doubles[1] < 1.0 - 1e-9) bench.tick();
+  bench.tick();  // without it
+  point_to(bench, 0.4, 1.0);
+  assert_int_equal(bench.await_result(), 0);
+  ASSERT_NEAR(bench.target()[0], 0.4, 1e-3);
+}
+
 }  // namespace
 
 int main() {
@@ -195,6 +211,7 @@ int main() {
       cmocka_unit_test(an_optimove_is_passed_over_with_a_popup),
       cmocka_unit_test(points_behind_a_refused_one_are_none_of_the_next_trajectory),
       cmocka_unit_test(a_point_that_did_not_come_is_not_waited_for),
+      cmocka_unit_test(in_motion_a_point_has_a_cycle_more_to_come),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
