@@ -69,6 +69,23 @@ void without_contact_the_damping_sets_the_speed(void**) {
   }
 }
 
+void beside_a_motion_at_full_speed_the_joints_keep_to_theirs(void**) {
+  for (const char* wrench : {"60", "-60"}) {
+    static ProgramBench bench;
+    std::array<char, 256> lines;
+    std::snprintf(lines.data(), lines.size(),
+                  "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,%s,0,0,0],2,[1,1,0.15,1,1,1])\n"
+                  "  speedj([0,0,0,3.1415,0,0],40,0.3)\n",
+                  wrench);
+    start_and_wait(bench, lines.data());
+    for (int k = 0; k < 30; ++k) {
+      bench.tick();
+      assert_true((bench.image().target_qd.cwiseAbs() - MotionLimits().speed).maxCoeff() <= 1e-9);
+    }
+    bench.run(200);
+  }
+}
+
 void a_compliant_axis_keeps_to_its_speed_limit(void**) {
   static ProgramBench bench;
   start_and_wait(
@@ -216,6 +233,7 @@ void random_force_modes_never_jump(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(without_contact_the_damping_sets_the_speed),
+      cmocka_unit_test(beside_a_motion_at_full_speed_the_joints_keep_to_theirs),
       cmocka_unit_test(a_compliant_axis_keeps_to_its_speed_limit),
       cmocka_unit_test(in_contact_the_force_becomes_the_wrench),
       cmocka_unit_test(the_task_frame_turns_the_axes),

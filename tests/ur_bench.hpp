@@ -13,8 +13,9 @@ namespace tactus::ur {
 /// One controller at a time; MuJoCo's memory outlives a failed assertion.
 class Bench {
  public:
+  ~Bench() { end(); }
   Emulator& start(const Settings& settings = {}) {
-    if (emulator_ != nullptr) emulator_->~Emulator();
+    end();
     emulator_ = new (memory_) Emulator(settings);
     started_ = emulator_->start() == Status::kOk;
     return *emulator_;
@@ -47,6 +48,9 @@ class Bench {
   }
 
  private:
+  void end() {
+    if (emulator_ != nullptr) emulator_->~Emulator();
+  }
   alignas(Emulator) unsigned char memory_[sizeof(Emulator)];
   Emulator* emulator_ = nullptr;
   bool started_ = false;

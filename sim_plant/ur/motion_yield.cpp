@@ -5,6 +5,18 @@
 #include "sim_plant/ur/motion.hpp"
 
 namespace tactus::ur {
+namespace {
+
+/// The share of a step, rad/s, that the joints have speed left for beside what they do already.
+double room(const Joints& dq, const Joints& step, const Joints& limit) {
+  double share = 1.0;
+  for (int j = 0; j < 6; ++j)
+    if (step[j] != 0.0)
+      share = std::min(share, (limit[j] - std::copysign(1.0, step[j]) * dq[j]) / std::abs(step[j]));
+  return std::max(share, 0.0);
+}
+
+}  // namespace
 
 /// The targets are the posture, next to the last one, that has the tip of the commands, displaced.
 void Motion::yield(const ForceMode& mode, double damping, const Vector6& force, double h_s) {
@@ -18,14 +30,13 @@ void Motion::yield(const ForceMode& mode, double damping, const Vector6& force, 
   tip.r = force_law_.displacement().r * tip.r;
   Joints found;
   const bool there = inverse(tip, tool_, q(), found);
-  const Joints offset = found - q_;
-  const Joints fast = limits_.speed * 1.05;
-  if (!there || !((offset - offset_).cwiseAbs().array() <= fast.array() * h_s).all()) {
+  const Joints step = (found - q_ - offset_) / h_s;
+  if (!there || !(step.cwiseAbs().array() <= 1.05 * limits_.speed.array()).all()) {
     fault_ = {Code::kSingularity, 0};
     return;
   }
-  offset_dq_ = (offset - offset_) / h_s;
-  offset_ = offset;
+  offset_dq_ = room(dq_, step, limits_.speed) * step;
+  offset_ += offset_dq_ * h_s;
   if (!in_reach(q())) fault_ = {Code::kCloseToJointLimit, 0};
 }
 
