@@ -33,6 +33,7 @@ void Motion::yield(const ForceMode& mode, double damping, const Vector6& force, 
   const Joints step = (found - q_ - offset_) / h_s;
   if (!there || !(step.cwiseAbs().array() <= 1.05 * limits_.speed.array()).all()) {
     fault_ = {Code::kSingularity, 0};
+    offset_dq_.setZero();  // the displacement stays as it is
     return;
   }
   offset_dq_ = room(dq_, step, limits_.speed) * step;
