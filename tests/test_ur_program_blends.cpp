@@ -51,19 +51,25 @@ Seen watch(ProgramBench& bench, const Vector6& point) {
   return seen;
 }
 
+/// Two lines with a blend radius of 0.03 m, and what stands between them.
+void start_lines(ProgramBench& bench, const Vector6& corner, const char* between,
+                 const Vector6& end) {
+  Text text;
+  text.line("def lines():\n");
+  text.call("movel", corner);
+  text.line(", a=1.2, v=0.25, r=0.03)\n  %s\n", between);
+  text.call("movel", end);
+  text.line(", a=1.2, v=0.25)\nend\n");
+  bench.upload(text.text());
+  bench.run(2);
+}
+
 // Proves URE-14.
 
 void a_text_blends_and_runs_what_stands_between(void**) {
   static ProgramBench bench;
   const Vector6 corner = pose_beside(0.0, 0.15, 0.0), end = pose_beside(0.0, 0.15, 0.12);
-  Text text;
-  text.line("def blended():\n");
-  text.call("movel", corner);
-  text.line(", a=1.2, v=0.25, r=0.03)\n  set_digital_out(3, True)\n");
-  text.call("movel", end);
-  text.line(", a=1.2, v=0.25)\nend\n");
-  bench.upload(text.text());
-  bench.run(2);
+  start_lines(bench, corner, "set_digital_out(3, True)", end);
   assert_true(bench.running());
   assert_int_equal(bench.machine().io.digital_outputs, 0);  // not before the blend
   const Seen seen = watch(bench, corner);
@@ -75,14 +81,7 @@ void a_text_blends_and_runs_what_stands_between(void**) {
 void what_takes_time_before_the_next_move_makes_the_arm_stop(void**) {
   static ProgramBench bench;
   const Vector6 corner = pose_beside(0.0, 0.15, 0.0), end = pose_beside(0.0, 0.15, 0.12);
-  Text text;
-  text.line("def stops():\n");
-  text.call("movel", corner);
-  text.line(", r=0.03)\n  sleep(1.0)\n");
-  text.call("movel", end);
-  text.line(")\nend\n");
-  bench.upload(text.text());
-  bench.run(2);
+  start_lines(bench, corner, "sleep(1.0)", end);
   assert_true(watch(bench, corner).nearest < 1e-7);
   assert_true((bench.image().target_tcp_pose - end).head<3>().norm() < 1e-6);
 }

@@ -120,13 +120,17 @@ void left_on_its_last_point_a_trajectory_says_nothing(void**) {
   ASSERT_NEAR(bench.image().target_qd.norm(), 0.0, 0.0);
 }
 
-void left_with_points_to_come_it_says_cancelled(void**) {
-  static ExternalBench bench;
+void on_the_first_of_two(ExternalBench& bench) {
   begin(bench, kLeftOnly);
   bench.forward(1, 2);
   spline_to(bench, 0.5, 1.0);
   spline_to(bench, 0.6, 1.0);
   bench.run(60);
+}
+
+void left_with_points_to_come_it_says_cancelled(void**) {
+  static ExternalBench bench;
+  on_the_first_of_two(bench);
   bench.reverse(0, ControlMode::kIdle);
   assert_int_equal(bench.await_result(100), 1);
   // So it does where a point was refused and others stand behind it.
@@ -140,11 +144,7 @@ void left_with_points_to_come_it_says_cancelled(void**) {
 
 void stopped_it_says_cancelled_before_the_program_goes_on(void**) {
   static ExternalBench bench;
-  begin(bench, kLeftOnly);
-  bench.forward(1, 2);
-  spline_to(bench, 0.5, 1.0);
-  spline_to(bench, 0.6, 1.0);
-  bench.run(60);
+  on_the_first_of_two(bench);
   bench.reverse(100, ControlMode::kStopped);
   assert_int_equal(bench.await_result(100), 1);
 }

@@ -21,7 +21,6 @@
 // is read. The target goes on at its speed, and what the lump is ahead by fades out in the same
 // way. A robot that stretches time by its slider finds more than one in a cycle as well, but at an
 // even pace: a lump is more than 1.75 times as many as there were in each of the last cycles.
-
 #pragma once
 
 #include <array>
