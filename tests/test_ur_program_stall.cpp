@@ -132,6 +132,8 @@ void set_points_in_a_lump_are_no_jump(void**) {
         fastest = std::max(fastest, motion.way);
         hardest = std::max(hardest, std::abs(motion.acceleration));
       }
+      print_message("    %d set-points in one cycle, %s: %.2f rad/s^2\n", n + 1,
+                    early ? "early" : "late", hardest);
       assert_true(motion.bench.running());
       assert_true(fastest <= 1.0 + n / 8.0);
       assert_true(hardest < n * hardest_of_a_jump() / 5.0);
