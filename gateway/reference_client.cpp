@@ -1,5 +1,7 @@
 #include "gateway/reference_client.hpp"
 
+#include <algorithm>
+
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -88,19 +90,14 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
   return post(request, id);
 }
 
+/// A control is sent only if its report has its room: see kControls.
 template <class Space>
-Verdict ReferenceClient<Space>::set_override(double rate, std::uint32_t& id) {
-  Request<Space> request;
-  request.kind = RequestKind::kOverride;
-  request.rate = rate;
-  return post(request, id);
-}
-
-template <class Space>
-Verdict ReferenceClient<Space>::ask(RequestKind kind, std::uint32_t& id) {
-  Request<Space> request;
-  request.kind = kind;
-  return post(request, id);
+Verdict ReferenceClient<Space>::control(ControlKind kind, std::uint32_t& id, double rate) {
+  const auto free = std::find(unanswered_.begin(), unanswered_.end(), 0U);
+  if (free == unanswered_.end() || !channel_.controls.post({next_id_, kind, rate}))
+    return {Status::kMailboxFull};
+  *free = id = next_id_++;
+  return {};
 }
 
 template <class Space>
@@ -114,6 +111,7 @@ Verdict ReferenceClient<Space>::post(Request<Space> request, std::uint32_t& id) 
 template <class Space>
 bool ReferenceClient<Space>::poll(Report& report) {
   if (!channel_.reports.take(report)) return false;
+  if (report.id != 0) std::replace(unanswered_.begin(), unanswered_.end(), report.id, 0U);
   if (report.store >= 0) away_[static_cast<std::size_t>(report.store)] = false;
   return true;
 }

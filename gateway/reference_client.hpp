@@ -29,14 +29,16 @@ class ReferenceClient {
   /// Admits and sends one online point, given in `terms`.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
                const typename Space::Terms& terms = {});
-  /// Asks for the running trajectory to be stopped on its path and given up.
-  Verdict cancel(std::uint32_t& id) { return ask(RequestKind::kCancel, id); }
+  /// Whatever was sent before is given up: a trajectory stops on its path, the way to a point ends.
+  Verdict cancel(std::uint32_t& id) { return control(ControlKind::kCancel, id); }
 
   /// Trajectories pass at `rate`, 0..1, of their speed from now on.
-  Verdict set_override(double rate, std::uint32_t& id);
+  Verdict set_override(double rate, std::uint32_t& id) {
+    return control(ControlKind::kOverride, id, rate);
+  }
   /// Stops on the path and keeps the trajectory alive; goes on with it.
-  Verdict pause(std::uint32_t& id) { return ask(RequestKind::kPause, id); }
-  Verdict resume(std::uint32_t& id) { return ask(RequestKind::kResume, id); }
+  Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
+  Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }
 
   /// The next report, if there is one. A report that gives a store back frees it.
   bool poll(Report& report);
@@ -55,13 +57,14 @@ class ReferenceClient {
   std::size_t index_of(const Trajectory<Space>& trajectory) const {
     return static_cast<std::size_t>(&trajectory - channel_.stores.data());
   }
-  Verdict ask(RequestKind kind, std::uint32_t& id);
+  Verdict control(ControlKind kind, std::uint32_t& id, double rate = 1.0);
   Verdict post(Request<Space> request, std::uint32_t& id);
 
   ReferenceChannel<Space>& channel_;
   std::array<bool, kStores> away_{};  // sent and not yet reported final
   std::array<Stream, kStores> streams_{};
   std::uint32_t next_id_ = 1;
+  std::array<std::uint32_t, kControls> unanswered_{};  // numbers of controls; 0: none
 };
 
 }  // namespace tactus

@@ -45,6 +45,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kNothingToExtend, "kNothingToExtend"},
     {Status::kWindowFull, "kWindowFull"},
     {Status::kNotStreamable, "kNotStreamable"},
+    {Status::kLeftPath, "kLeftPath"},
     {Status::kStateNotFinite, "kStateNotFinite"},
     {Status::kReferenceFault, "kReferenceFault"},
     {Status::kCommandNotFinite, "kCommandNotFinite"},

@@ -45,6 +45,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNothingToExtend = 53,
     kWindowFull = 54,
     kNotStreamable = 55,
+    kLeftPath = 57,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

@@ -1,10 +1,6 @@
 #include "kernel/reference/joint_space.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-
-#include "kernel/reference/bridge_time.hpp"
 
 namespace tactus {
 
@@ -83,23 +79,16 @@ JointSpace::Point JointSpace::Segment::at(double t) const {
 }
 
 JointSpace::Difference JointSpace::difference(const Point& a, const Point& b) {
-  return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq, a.tau - b.tau};
+  return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq};
 }
 
 JointSpace::Point JointSpace::sum(const Point& b, const Difference& d) {
-  return {b.q + d.q, b.dq + d.dq, b.ddq + d.ddq, b.tau + d.tau};
+  return {b.q + d.x, b.dq + d.dx, b.ddq + d.ddx, b.tau};
 }
 
-double JointSpace::bridge_time_s(const Difference& difference, const Limits& limits) {
-  double time = 0.0;
-  for (int j = 0; j < kDof; ++j) {
-    const BridgeStart start = {std::abs(difference.q[j]), std::abs(difference.dq[j]),
-                               std::abs(difference.ddq[j])};
-    const double a = limits.ddq_max[j];
-    time = std::max({time, tactus::bridge_time_s(start, 0.5 * limits.dq_max[j], 0.5 * a),
-                     bridge_jerk_time_s(a, limits.dddq_max[j])});
-  }
-  return time;
+JointSpace::Error JointSpace::error(const Point& desired, const Point& actual) {
+  return {desired.q - actual.q, desired.dq - actual.dq, desired.ddq - actual.ddq,
+          desired.tau - actual.tau};
 }
 
 }  // namespace tactus

@@ -7,6 +7,7 @@
 
 #include "kernel/joint_limits.hpp"
 #include "kernel/reference/interpolation.hpp"
+#include "kernel/reference/offset_law.hpp"
 #include "kernel/reference/path_use.hpp"
 #include "kernel/reference/polynomial.hpp"
 #include "kernel/reference/tolerance.hpp"
@@ -51,8 +52,14 @@ struct JointSpace {
     /// [any]
     Point at_rate(double rate, double slope) const;
   };
-  using Difference = Point;  ///< of two references, in every field
+  using Error = Point;              ///< desired - actual, in every field
+  using Difference = Offset<kDof>;  ///< a - b of two references, rad and its derivatives
   using Rates = JointVector;
+
+  /// What a reference feeds forward.
+  struct Effort {
+    JointVector tau = JointVector::Zero();  ///< N m
+  };
 
   /// Which joints the references of a client give: bit i of `held` is joint i, which keeps where it
   /// is when the reference is accepted.
@@ -72,8 +79,6 @@ struct JointSpace {
     /// Of a path of two parts. [any]
     static Use largest(const Use& a, const Use& b);
   };
-  using Error = Point;  ///< desired - actual, likewise
-
   /// Motion between two points in a given time: position by one polynomial per joint, velocity and
   /// acceleration its exact derivatives, effort linear.
   class Segment {
@@ -94,20 +99,6 @@ struct JointSpace {
     JointVector tau_from_ = JointVector::Zero(), tau_to_ = JointVector::Zero();
     double duration_ = 1.0;
     Interpolation order_ = Interpolation::kLinear;
-  };
-
-  /// A difference that goes to zero in a given time, with its velocity and acceleration.
-  class Bridge {
-   public:
-    Bridge() = default;
-    Bridge(const Difference& from, double T)
-        : segment_(from, Difference(), T, Interpolation::kQuintic, 0) {}
-    Difference at(double t) const { return segment_.at(t); }
-    double duration() const { return segment_.duration(); }
-    const Polynomial& position(int joint) const { return segment_.position(joint); }
-
-   private:
-    Segment segment_;
   };
 
   /// Judges one online point: finite and within position, velocity and effort limits. [cyclic]
@@ -134,13 +125,9 @@ struct JointSpace {
   static Use use(const Segment& segment, const Limits& limits, const Use& known);
   /// Of a point at which nothing moves. [cyclic]
   static Use use(const Point& held);
-  /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
-  /// on: kPositionLimit if the two together might leave the range of a joint. [cyclic]
-  static Verdict judge_room(const Point& begin, const Use& use, const Bridge& bridge,
-                            const Limits& limits);
-
-  /// The terms as of now, with `reference` put out. [cyclic]
-  static Latched latch(const Terms& terms, const Point& reference);
+  /// The terms as of now, with `reference` put out: joints that are held come to rest where they can
+  /// first. [cyclic]
+  static Latched latch(const Terms& terms, const Point& reference, const Limits& limits);
   /// Terms for admission, to which where the robot is then is unknown: joints that are held stand
   /// in the middle of their ranges. [any]
   static Latched anywhere(const Terms& terms, const Limits& limits);
@@ -157,19 +144,27 @@ struct JointSpace {
   static Rates secant(const Point& from, const Point& to, double T) { return (to.q - from.q) / T; }
   static Rates& rates(Point& point) { return point.dq; }
 
-  /// a - b, and b + difference = a. [any]
+  /// a - b, and b + difference = a but for the effort, which is b's. [any]
   static Difference difference(const Point& a, const Point& b);
   static Point sum(const Point& b, const Difference& difference);
   /// [any]
-  static Error error(const Point& desired, const Point& actual) {
-    return difference(desired, actual);
+  static Error error(const Point& desired, const Point& actual);
+
+  /// What a feeds forward beyond b; and adds `left` of it, which changes at `rate` 1/s. [any]
+  static Effort effort_beyond(const Point& a, const Point& b) { return {a.tau - b.tau}; }
+  static void add_effort(Point& point, const Effort& effort, double left, double /*rate*/) {
+    point.tau += left * effort.tau;
   }
 
-  /// Seconds in which a quintic takes `difference` to zero with at most half of each velocity,
-  /// acceleration and jerk limit, or what the difference begins with where that is more; the other
-  /// half is left to the motion underneath. An acceleration it begins with adds up to 0.068 ddq T
-  /// to the velocity. [any]
-  static double bridge_time_s(const Difference& difference, const Limits& limits);
+  /// The reference one period on, on its way to a base that moves from `base` to `next` in that
+  /// period, and its offset from it likewise: within all limits if it is within them now, but for
+  /// what the base steps by nature. [cyclic]
+  static Point approach(const Point& reference, Difference& offset, const Point& base,
+                        const Point& next, const Limits& limits, double dt_s);
+  /// The reference one period on, every joint on its fastest way to rest. [cyclic]
+  static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
+  /// Where that way ends. [cyclic]
+  static Point rest_of(const Point& reference, const Limits& limits);
 };
 
 }  // namespace tactus

@@ -134,24 +134,4 @@ JointSpace::Use JointSpace::use(const Segment& segment, const Limits& limits, co
   return use;
 }
 
-/// The path is somewhere in its range, which admission found within limits, and not farther from
-/// where it begins than it can get while the bridge lasts.
-Verdict JointSpace::judge_room(const Point& begin, const Use& use, const Bridge& bridge,
-                               const Limits& limits) {
-  const double T = bridge.duration();
-  for (int j = 0; j < kDof; ++j) {
-    const Extremes beside = extremes(bridge.position(j), T);
-    const double reach = use.velocity * limits.dq_max[j] * T;
-    const double lowest =
-        std::max({use.q_min[j], limits.q_min[j], begin.q[j] - reach}) + std::min(beside.min, 0.0);
-    const double highest =
-        std::min({use.q_max[j], limits.q_max[j], begin.q[j] + reach}) + std::max(beside.max, 0.0);
-    if (exceeds(highest, limits.q_max[j]))
-      return {Status::kPositionLimit, -1, j, highest, limits.q_max[j]};
-    if (exceeds(-lowest, -limits.q_min[j]))
-      return {Status::kPositionLimit, -1, j, lowest, limits.q_min[j]};
-  }
-  return {};
-}
-
 }  // namespace tactus

@@ -3,8 +3,9 @@
 
 namespace tactus {
 
-JointSpace::Latched JointSpace::latch(const Terms& terms, const Point& reference) {
-  return {terms.held, reference.q};
+JointSpace::Latched JointSpace::latch(const Terms& terms, const Point& reference,
+                                      const Limits& limits) {
+  return {terms.held, terms.held != 0 ? rest_of(reference, limits).q : reference.q};
 }
 
 JointSpace::Latched JointSpace::anywhere(const Terms& terms, const Limits& limits) {

@@ -16,10 +16,6 @@ namespace tactus {
 enum class RequestKind : std::uint8_t {
   kPoint,       ///< this reference from now on
   kTrajectory,  ///< follow the trajectory in a store
-  kCancel,      ///< stop on the path and hold
-  kOverride,    ///< pass trajectories at a fraction of their speed
-  kPause,       ///< stop on the path, the trajectory stays alive
-  kResume,      ///< go on after a pause
   kAppend,      ///< the open trajectory in a store has become longer
 };
 
@@ -30,10 +26,24 @@ struct Request {
   int store = -1;               ///< kTrajectory: which store it lies in
   typename Space::Point point;  ///< kPoint
   typename Space::Terms terms;  ///< kPoint: which joints, or which frames, it is given in
-  double rate = 1.0;            ///< kOverride: 0..1
   int count = 0;                ///< kAppend: waypoints so far
   bool last = false;            ///< kAppend: none will follow
   typename Space::Use use;      ///< kAppend: what the new part takes
+};
+
+enum class ControlKind : std::uint8_t {
+  kCancel,    ///< stop and hold; whatever was sent before is void
+  kOverride,  ///< pass trajectories at a fraction of their speed
+  kPause,     ///< stop on the path, the trajectory stays alive
+  kResume,    ///< go on after a pause
+};
+
+/// What must never wait behind a point, a trajectory or a report that nobody fetches. Numbers are
+/// of the same row as those of requests.
+struct Control {
+  std::uint32_t id = 0;
+  ControlKind kind = ControlKind::kCancel;
+  double rate = 1.0;  ///< kOverride: 0..1
 };
 
 enum class Outcome : std::uint8_t {
@@ -80,12 +90,16 @@ struct AdmissionSettings {
 /// One running, one waiting for its start time or in the mailbox, one being filled.
 inline constexpr int kStores = 3;
 
+/// So many controls can be unanswered: sent, and their final reports not yet fetched.
+inline constexpr std::size_t kControls = 16;
+
 /// The way into one reference generator and back out. Owned by the board; one client, one
 /// generator.
 template <class Space>
 struct ReferenceChannel {
   AdmissionSettings<Space> settings;
   Mailbox<Request<Space>, 16> requests;
+  Mailbox<Control, kControls> controls;  ///< all are taken in every cycle
   Mailbox<Report, 64> reports;
   FeedbackMailbox<Space> feedback;
   std::array<Trajectory<Space>, kStores> stores;

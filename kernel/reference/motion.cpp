@@ -1,15 +1,15 @@
 #include "kernel/reference/motion.hpp"
 
-#include <algorithm>
-
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
 namespace tactus {
 namespace {
 
-// A bridge always gets at least this share of the limits, even beside a path that leaves nothing.
-constexpr double kLeastShare = 0.02;
+/// What was fed forward goes in this time, or in that between two points of a stream.
+constexpr double kFade_s = 0.1;
+/// A path that brakes at its limits all along can take seconds to be stopped on: it is left then.
+constexpr double kLongestBrake_s = 0.5;
 
 }  // namespace
 
@@ -17,159 +17,170 @@ template <class Space>
 void Motion<Space>::start(const Point& point, const Settings& settings) {
   *this = Motion();
   settings_ = &settings;
-  reference_ = held_ = point.at_rest();
+  reference_ = point.at_rest();
+  hold(reference_);
 }
 
 template <class Space>
 void Motion<Space>::move_on(double dt_s) {
-  watch_end(dt_s);
-  law_.advance(dt_s);
-  bridge_time_s_ += dt_s;
-  reference_ = base();
-  bridging_ = bridging_ && bridge_time_s_ < bridge_.duration();
-  if (bridging_) reference_ = Space::sum(reference_, bridge_.at(bridge_time_s_));
+  time_s_ += dt_s;
+  if (phase_ == Phase::kStopping) {
+    reference_ = Space::come_to_rest(reference_, settings_->limits, dt_s);
+    if (reference_.standing()) hold(reference_), tell(MotionEvent::kAtRest);
+  } else {
+    const Point before = on_path() ? base_ : base_of_points(time_s_ - dt_s);
+    base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
+    if (phase_ == Phase::kReaching) offset_ = Space::difference(reference_, before);
+    reference_ = offset_.zero() ? base_
+                                : Space::approach(reference_, offset_, before, base_,
+                                                  settings_->limits, dt_s);
+    settle();
+  }
+  fade(dt_s);
 }
 
-/// A path that is not yet whole is never run to where it ends so far: the arm stops before, and
-/// goes on when there is room for twice the way that a stop takes.
+/// Whatever is no path: a stream, or what is held.
 template <class Space>
-void Motion<Space>::watch_end(double dt_s) {
-  if (!on_path() || braking_) return;
-  const RateBounds bounds = rate_bounds();
-  const double left_s = path_.end_s() - law_.s();
-  const bool open = path_.open();
-  if (!starving_ && open && left_s <= law_.stopping_s(bounds) + 2.0 * law_.rate() * dt_s) {
-    starving_ = true;
-    law_.plan(0.0, bounds);
-    return;
-  }
-  if (!starving_) return;
-  TimeLaw again;
-  again.start(rate_);
-  if (!open || left_s > 2.0 * again.stopping_s(bounds) + 4.0 * dt_s) {
-    starving_ = false;
-    law_.plan(rate_, bounds);
-  }
+typename Space::Point Motion<Space>::base_of_points(double time_s) const {
+  return phase_ == Phase::kReaching && stream_.moves(time_s_) ? stream_.target(time_s) : held_;
 }
 
-/// The path at its present time, or the point that is held. Leaves a path that has come to its end
-/// or to rest.
+/// The path one period on; held where it has ended, or rests when it is given up.
 template <class Space>
-typename Space::Point Motion<Space>::base() {
-  if (!on_path()) return held_;
-  const bool ended = path_.ended(law_.s());
+typename Space::Point Motion<Space>::base_of_path(double dt_s) {
+  const bool stands = phase_ == Phase::kPaused || phase_ == Phase::kBraking;
+  law_.step(path_, stands ? 0.0 : rate_, Space::left_beside(settings_->limits, offset_), dt_s);
   const Point point = path_.at(law_.s()).at_rate(law_.rate(), law_.slope());
-  if (!ended && !(braking_ && law_.standing())) return point;
-  held_ = ended ? path_.end().at_rest() : point.at_rest();
-  leave_path();
-  // The position is held from now on; what the path fed forward is taken to zero.
-  if (!bridging_) {
-    reference_ = point.stopped();
-    start_bridge(bridge_to(held_, 1.0));
-  }
-  return held_;
+  if (path_.ended(law_.s())) return end_path(point);
+  braking_s_ += dt_s;
+  if (phase_ == Phase::kBraking && law_.standing()) return end_path(point);
+  if (phase_ == Phase::kBraking && braking_s_ > kLongestBrake_s) lost_path_ = true, stop();
+  if (law_.standing() && rate_ > 0.0 && path_.open()) tell(MotionEvent::kDry);
+  if (!law_.standing() && phase_ == Phase::kStarving) tell(MotionEvent::kFed);
+  return point;
+}
+
+/// From `last` on nothing moves the base. Quintics may end with an acceleration, which the
+/// reference then runs out; that of a cubic and the velocity of a line step by nature.
+template <class Space>
+typename Space::Point Motion<Space>::end_path(const Point& last) {
+  const Point rest = last.at_rest();
+  if (path_.smooth()) offset_.ddx += Space::difference(last, rest).ddx;
+  path_.leave();
+  feed_beyond(last, rest, kFade_s);
+  held_ = rest;
+  tell(MotionEvent::kEnd);
+  return rest;
 }
 
 template <class Space>
-void Motion<Space>::leave_path() {
+void Motion<Space>::settle() {
+  if (!offset_.zero()) return;
+  if (phase_ == Phase::kJoining) tell(MotionEvent::kJoined);
+  if (phase_ == Phase::kReaching && base_.standing()) tell(MotionEvent::kAtRest);
+}
+
+template <class Space>
+void Motion<Space>::hold(const Point& point) {
   path_.leave();
-  braking_ = starving_ = false;
-  law_.start(0.0);
+  held_ = base_ = point;
+  offset_ = {};
+}
+
+template <class Space>
+void Motion<Space>::feed_beyond(const Point& fed, const Point& base, double fade_s) {
+  effort_ = Space::effort_beyond(fed, base);
+  fade_s_ = fade_s;
+  faded_s_ = 0.0;
+}
+
+/// The quintic from one to zero that begins and ends at rest.
+template <class Space>
+void Motion<Space>::fade(double dt_s) {
+  faded_s_ += dt_s;
+  if (!(faded_s_ < fade_s_)) return;
+  const double x = faded_s_ / fade_s_, y = 1.0 - x;
+  Space::add_effort(reference_, effort_, y * y * y * (1.0 + 3.0 * x + 6.0 * x * x),
+                    -30.0 * x * x * y * y / fade_s_);
 }
 
 template <class Space>
 void Motion<Space>::forward(const Point& point) {
-  leave_path();
-  bridging_ = false;
-  reference_ = held_ = point;
+  reference_ = point;
+  hold(point);
+  stream_.clear();
+  fade_s_ = 0.0;
+  tell(MotionEvent::kPoint);
 }
 
 template <class Space>
-Verdict Motion<Space>::shape(const Point& point) {
-  const Point held = point.at_rest();
-  const Bridge bridge = bridge_to(held, 1.0);
-  const Verdict verdict = Space::judge_room(held, Space::use(held), bridge, settings_->limits);
-  if (!verdict.ok()) return verdict;
-  leave_path();
-  held_ = held;
-  start_bridge(bridge);
-  return {};
-}
-
-/// Takes what is between the reference and a base that begins with `begin` to zero, with half of
-/// `share` of the limits.
-template <class Space>
-typename Space::Bridge Motion<Space>::bridge_to(const Point& begin, double share) const {
-  const typename Space::Difference difference = Space::difference(reference_, begin);
-  return {difference, Space::bridge_time_s(difference, settings_->limits.scaled(share))};
+void Motion<Space>::reach(const Point& point) {
+  if (phase_ != Phase::kReaching) stream_.clear();
+  stream_.push(point, time_s_);
+  path_.leave();
+  held_ = point.stopped();
+  feed_beyond(reference_, held_, stream_.moves(time_s_) ? stream_.period_s() : kFade_s);
+  tell(MotionEvent::kPoint);
 }
 
 template <class Space>
-void Motion<Space>::start_bridge(const Bridge& bridge) {
-  bridge_ = bridge;
-  bridge_time_s_ = 0.0;
-  bridging_ = true;
+void Motion<Space>::stop() {
+  const Point rest = reference_.at_rest();
+  feed_beyond(reference_, rest, kFade_s);
+  if (reference_.standing()) hold(rest);
+  path_.leave();
+  tell(MotionEvent::kStop);
+}
+
+template <class Space>
+void Motion<Space>::cancel() {
+  if (phase_ == Phase::kReaching) return stop();
+  if (phase_ != Phase::kBraking) braking_s_ = 0.0;
+  tell(MotionEvent::kCancel);
+}
+
+template <class Space>
+void Motion<Space>::pause(bool on) {
+  paused_ = on;
+  tell(on ? MotionEvent::kPause : MotionEvent::kResume);
 }
 
 template <class Space>
 Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
                               const typename Space::Tolerance& tolerance, double elapsed_s) {
-  Path<Space> path(trajectory, reference_);
+  Path<Space> path(trajectory, reference_, settings_->limits);
   Verdict verdict = path.judge_terms(*settings_);
-  if (verdict.ok()) verdict = meet(path, tolerance, elapsed_s);
+  if (verdict.ok()) verdict = enter(path, tolerance, elapsed_s);
   if (!verdict.ok()) return verdict;
-  // Out of a motion the path is met at full rate; from rest any rate meets it. Where a path begins
-  // with a step by nature, that is its own; the bridge ends the old motion only.
-  const double rate = reference_.standing() ? rate_ : 1.0;
-  const Point begin = path.begin().at_rate(rate, 0.0);
-  const typename Space::Use& use = path.use();
-  const double left = 1.0 - std::max({use.velocity, use.acceleration, use.jerk});
-  const Bridge bridge = bridge_to(begin, std::max(left, kLeastShare));
-  verdict = Space::judge_room(begin, use, bridge, settings_->limits);
-  if (!verdict.ok()) return verdict;
-  start_bridge(bridge);
+  // Out of a motion the path is met at full rate; from rest any rate meets it.
+  const double rate = !reference_.standing() ? 1.0 : paused_ ? 0.0 : rate_;
   path_ = path;
-  braking_ = starving_ = false;
-  law_.start(rate, elapsed_s);
+  law_.start(path_, elapsed_s, rate);
+  base_ = path_.begin().at_rate(law_.rate(), 0.0);
+  offset_ = Space::difference(reference_, base_);
+  feed_beyond(reference_, base_, kFade_s);
+  lost_path_ = false;
+  tell(MotionEvent::kTrajectory);
+  if (paused_) tell(MotionEvent::kPause);
   return {};
 }
 
-/// Where a path is joined: on the way to its first waypoint, at it, or late.
+/// By a segment to its first waypoint, if that lies ahead: out of a motion by one that continues
+/// it, or by one from where it can be stopped. Else where the path is by now.
 template <class Space>
-Verdict Motion<Space>::meet(Path<Space>& path, const typename Space::Tolerance& tolerance,
-                            double elapsed_s) const {
-  if (path.first_s() > elapsed_s) return path.lead_in(reference_, elapsed_s, 0, *settings_);
-  if (elapsed_s > 0.0) return catch_up(path, elapsed_s);
-  path.enter(0.0);
+Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance& tolerance,
+                             double elapsed_s) const {
+  if (path.first_s() > elapsed_s) {
+    const Verdict verdict = path.lead_in(reference_, elapsed_s, *settings_);
+    if (verdict.ok() || reference_.standing()) return verdict;
+    const Point rest = Space::rest_of(reference_, settings_->limits);
+    return path.lead_in(rest, elapsed_s, *settings_).ok() ? Verdict() : verdict;
+  }
+  path.enter(elapsed_s);
+  if (elapsed_s > 0.0) return {};
   Verdict verdict = Space::judge_near(path.begin(), reference_, tolerance);
   verdict.waypoint = 0;
   return verdict;
-}
-
-/// To the first waypoint that is as far ahead as a bridge to where the path is now would take.
-template <class Space>
-Verdict Motion<Space>::catch_up(Path<Space>& path, double elapsed_s) const {
-  path.enter(elapsed_s);
-  const double ahead_s = bridge_to(path.at(elapsed_s), 1.0).duration();
-  return path.lead_in(reference_, elapsed_s, path.waypoint_from(elapsed_s + ahead_s), *settings_);
-}
-
-template <class Space>
-void Motion<Space>::set_rate(double rate) {
-  rate_ = rate;
-  if (on_path() && !braking_ && !starving_) law_.plan(rate, rate_bounds());
-}
-
-template <class Space>
-void Motion<Space>::brake() {
-  if (!on_path()) return;
-  law_.plan(0.0, rate_bounds());
-  braking_ = true;
-}
-
-template <class Space>
-Verdict Motion<Space>::extend(const typename Space::Use& more) {
-  return on_path() ? path_.extend(more, *settings_) : Verdict();
 }
 
 template class Motion<JointSpace>;

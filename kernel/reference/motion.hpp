@@ -1,13 +1,15 @@
-// Motion: where the reference goes. Nothing of messages here, only of continuity.
+// Motion: where the reference goes. Nothing of messages here, only of phases and continuity.
 //
-// The reference is the sum of a base and a bridge. The base is a path, run through at the rate of a
-// time law, or a point that is held. The bridge is a quintic that takes the difference between
-// where the reference was and where its new base begins to zero. Stop, pause, resume and override
-// are rates of the one time law, so they never leave the path.
+// The reference is a base and an offset from it. The base is a path, run along at the rate of its
+// law, a stream of points, or a point that is held. The offset is what the reference was beside its
+// base when that began; the state-to-state law takes it to zero (offset_law.hpp), from where the
+// reference is the base, bit by bit. What a base fed forward beyond the next one fades.
 #pragma once
 
+#include "kernel/reference/motion_phase.hpp"
 #include "kernel/reference/path.hpp"
-#include "kernel/reference/time_law.hpp"
+#include "kernel/reference/path_law.hpp"
+#include "kernel/reference/point_stream.hpp"
 
 namespace tactus {
 
@@ -15,64 +17,75 @@ template <class Space>
 class Motion {
  public:
   using Point = typename Space::Point;
-  using Bridge = typename Space::Bridge;
   using Settings = AdmissionSettings<Space>;
 
   /// Holds `point`, at rest; moves by `settings`, which must outlive the motion. [init]
   void start(const Point& point, const Settings& settings);
-  /// One period further: along the path, or at rest where it was. [cyclic]
+  /// One period further. [cyclic]
   void move_on(double dt_s);
 
-  /// Puts out `point` as it is and holds it; the path is left at once. [cyclic]
+  /// Puts out `point` as it is and holds it; what it followed is left at once. [cyclic]
   void forward(const Point& point);
-  /// Goes to `point` within limits and holds it; the path is left at once. Refused, and nothing
-  /// changes, if a limit of position is in the way. [cyclic]
-  Verdict shape(const Point& point);
+  /// Goes to `point` within limits, or along the stream that it belongs to; what it followed is
+  /// left at once. [cyclic]
+  void reach(const Point& point);
   /// Leaves whatever it follows for a trajectory that began `elapsed_s` ago: by one segment to its
-  /// first waypoint if that lies ahead; by a bridge to it if that is now; else by one segment to
-  /// the first waypoint that is as far ahead as such a bridge would take. Refused, and nothing
-  /// changes, if a limit is in the way or a waypoint that is now is not near. [cyclic]
+  /// first waypoint if that lies ahead, else where its path is by now. Refused, and nothing
+  /// changes, if that segment breaks a limit or a waypoint that is now is not near. [cyclic]
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
                  double elapsed_s = 0.0);
-  /// From now on the path is passed at `rate`, 0..1, reached as fast as limits allow. [cyclic]
-  void set_rate(double rate);
-  /// The open trajectory it follows has become longer; refused as by Path::extend. [cyclic]
-  Verdict extend(const typename Space::Use& more);
-  /// Stops on the path, then leaves it. [cyclic]
-  void brake();
+  /// From now on paths are run at `rate`, 0..1, reached as fast as limits allow. [cyclic]
+  void set_rate(double rate) { rate_ = rate; }
+  /// Paths are brought to rest, and go on after it, those of later trajectories too. [cyclic]
+  void pause(bool on);
+  /// Comes to rest on its path, and leaves it there; off a path at once. [cyclic]
+  void cancel();
+  /// Leaves what it follows and comes to rest the fastest way, wherever that is. [cyclic]
+  void stop();
+  /// The robot is where it should be: nothing is followed any more. [cyclic]
+  void complete() { tell(MotionEvent::kComplete); }
 
   const Point& reference() const { return reference_; }
-  /// A trajectory is still read. False once its end is reached or a brake has come to rest.
-  bool on_path() const { return path_.running(); }
-  /// An open trajectory has run out of waypoints: the arm stops, or stands, on the path.
-  bool starving() const { return starving_; }
+  Phase phase() const { return phase_; }
+  /// A trajectory is still read.
+  bool on_path() const { return tactus::on_path(phase_); }
+  /// The path could not be braked on in kLongestBrake_s, and was left.
+  bool lost_path() const { return lost_path_; }
   /// First waypoint it still needs.
   int needed() const { return path_.needed(); }
-  /// The reference does not move, and will not unless told to.
-  bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
+  /// A stream moved the reference, and has gone silent.
+  bool silent() const { return phase_ == Phase::kReaching && stream_.silent(time_s_); }
+  bool gives_velocity() const { return stream_.gives_velocity(); }
 
  private:
-  void watch_end(double dt_s);
-  Point base();
-  Verdict meet(Path<Space>& path, const typename Space::Tolerance& tolerance,
-               double elapsed_s) const;
-  Verdict catch_up(Path<Space>& path, double elapsed_s) const;
-  void leave_path();
-  Bridge bridge_to(const Point& begin, double share) const;
-  void start_bridge(const Bridge& bridge);
-  RateBounds rate_bounds() const { return path_.use().rate_bounds(bridging_ ? 0.5 : 1.0); }
+  void tell(MotionEvent event) { phase_ = next(phase_, event); }
+  Point base_of_points(double time_s) const;
+  Point base_of_path(double dt_s);
+  Point end_path(const Point& last);
+  void settle();
+  void hold(const Point& point);
+  void feed_beyond(const Point& fed, const Point& base, double fade_s);
+  void fade(double dt_s);
+  Verdict enter(Path<Space>& path, const typename Space::Tolerance& tolerance,
+                double elapsed_s) const;
 
   const Settings* settings_ = nullptr;
-  Point reference_;   // put out in this cycle
-  Point held_;        // the base off the path
-  Path<Space> path_;  // the base on it
-  TimeLaw law_;
-  double rate_ = 1.0;  // wanted, and taken up again after starving
-  bool braking_ = false, starving_ = false;
+  double time_s_ = 0.0;  // since the start
+  Phase phase_ = Phase::kHolding;
+  Point reference_;  // put out in this cycle
 
-  Bridge bridge_;
-  double bridge_time_s_ = 0.0;
-  bool bridging_ = false;
+  Point base_;        // in this cycle
+  Point held_;        // the base where nothing moves it
+  Path<Space> path_;  // the base on a path
+  PathLaw<Space> law_;
+  double rate_ = 1.0;
+  bool paused_ = false, lost_path_ = false;
+  double braking_s_ = 0.0;
+  PointStream<Space> stream_;  // the base of points
+
+  typename Space::Difference offset_;
+  typename Space::Effort effort_;  // fed forward beyond the base's when that began
+  double fade_s_ = 0.0, faded_s_ = 0.0;
 };
 
 }  // namespace tactus

@@ -1,10 +1,14 @@
-// ReferenceGenerator: the paper's reference generator, once for every space. Takes requests from
-// its channel, tells its motion what to follow, and accounts for every request in exactly one final
-// report.
+// ReferenceGenerator: the paper's reference generator, once for every space. Takes controls and
+// requests from its channel, tells its motion what to follow, and accounts for every one of them in
+// exactly one final report.
+//
+// What the generator is doing is the phase of its motion (motion_phase.hpp); beside it there may be
+// a trajectory that waits for its start time, and the reason for which the executive has everything
+// refused.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/reference/motion.hpp"
-#include "kernel/reference/reference_state.hpp"
 #include "kernel/reference/tolerance_monitor.hpp"
 
 namespace tactus {
@@ -12,7 +16,7 @@ namespace tactus {
 /// What is done with an online point.
 enum class OnlineMode : std::uint8_t {
   kForward,  ///< put out as it came
-  kLimit,    ///< gone to within velocity, acceleration and jerk limits
+  kLimit,    ///< gone to, or along with, within velocity, acceleration and jerk limits
   kRefuse,   ///< put out as it came, but refused if that takes more than the velocity limits
 };
 
@@ -32,16 +36,16 @@ class ReferenceGenerator {
     /// Without a new point for so long, an online reference that moves is stopped; 0: never.
     double timeout_s = 0.0;
     int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none
-    Fields measured = 0;       ///< what step() is given beside the position, for feedback
+    Fields measured = 0;       ///< what step() is given beside the position
   };
 
-  /// Holds `measured` until told otherwise. What ran before is aborted, and requests that came
-  /// before are refused: after a start old targets are void. kStateNotFinite if `measured` is not
-  /// finite. [init]
+  /// Holds `measured` until told otherwise. What ran before is aborted, and what was sent before is
+  /// refused: after a start old targets are void. kStateNotFinite if `measured` is not finite.
+  /// [init]
   Status start(ReferenceChannel<Space>& channel, const Params& params, const Point& measured);
 
-  /// Moves on by one period, compares with what was measured, answers requests, publishes feedback.
-  /// kReferenceFault if the reference is not finite. [cyclic]
+  /// Moves on by one period, compares with what was measured, answers controls and requests,
+  /// publishes feedback. kReferenceFault if the reference is not finite. [cyclic]
   Status step(double dt_s, const Point& measured);
 
   /// How fast the robot lets motions pass, 0 standing, 1 as sent: trajectories pass at that times
@@ -50,12 +54,14 @@ class ReferenceGenerator {
   void scale_speed(double scaling);
 
   /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
-  /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
-  /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
-  void brake(Status why);
+  /// comes to rest within limits, on its path or at once; requests are refused with `why` from now
+  /// on, in this cycle too, until the next start. To be called in every cycle in which they are.
+  /// [cyclic]
+  void brake(Status why, BrakeWay way);
 
   const Point& reference() const { return motion_.reference(); }
-  ReferenceState state() const { return state_; }
+  Phase phase() const { return motion_.phase(); }
+  ReferenceState state() const { return state_of(phase()); }
   /// The generator's time: periods since start, s.
   double time_s() const { return static_cast<double>(cycles_) * period_s_; }
 
@@ -64,58 +70,59 @@ class ReferenceGenerator {
   struct Goal {
     std::uint32_t id = 0;
     int store = -1;
+    bool any() const { return store >= 0; }
   };
 
-  double rate() const { return paused_ ? 0.0 : override_ * speed_scaling_; }
-  bool executing() const { return state_ == ReferenceState::kTrajectoryExecution; }
+  Trajectory<Space>& trajectory(const Goal& goal) const {
+    return channel_->stores[static_cast<std::size_t>(goal.store)];
+  }
+  bool has_room() const;
+  void take_controls();
+  void answer(const Control& control);
+  Verdict cancel(std::uint32_t id);
+  Verdict set_override(double rate);
   void take_requests();
-  void refuse(const Request<Space>& request, Status why);
-  void stand();
   void answer(const Request<Space>& request);
+  bool canceled(const Request<Space>& request);
+  void refuse(const Request<Space>& request, Status why);
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
-  void take_cancel(const Request<Space>& request);
-  void take_override(const Request<Space>& request);
-  void take_pause(const Request<Space>& request);
   void take_append(const Request<Space>& request);
   void watch_supply();
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
   void watch_start();
-  Verdict shape(const Point& point);
   bool begin(const Goal& goal, double elapsed_s);
   void end_waiting(Outcome outcome, const Verdict& verdict = {});
-  void end_execution(ReferenceEvent event, Outcome outcome, bool path_left,
-                     const Verdict& verdict = {});
+  void end_running(Outcome outcome, bool path_left, const Verdict& verdict = {});
   void release_store();
   void settle_point(Outcome outcome);
   void report(std::uint32_t id, Outcome outcome, int store = -1, const Verdict& verdict = {});
 
   ReferenceChannel<Space>* channel_ = nullptr;
   Params params_;
-  std::size_t void_requests_ = 0;  // that came before the start and are still to be refused
-  Status refusing_ = Status::kOk;  // while the executive brakes: why
+  std::size_t void_requests_ = 0, void_controls_ = 0;  // sent before the start, to be refused
+  Status refusing_ = Status::kOk;                      // while the executive brakes: why
 
   double period_s_ = 0.0;
   std::int64_t cycles_ = 0;
-  ReferenceState state_ = ReferenceState::kOnlineReference;
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
   FeedbackPublisher<Space> feedback_;
   double override_ = 1.0, speed_scaling_ = 1.0;
-  bool paused_ = false;
 
-  Goal running_;           // executed, or braked on: the motion still reads its store
+  Goal running_;           // being executed
   Goal waiting_;           // for its start time
+  int braked_on_ = -1;     // store of one that was given up, and which the motion still reads
   bool starving_ = false;  // and the client has been told
+  /// In this cycle a trajectory has begun, the way to which takes longest of all to judge: what else
+  /// was requested waits for the next.
+  bool begun_ = false;
+  std::uint32_t canceled_before_ = 0;  // number of the last cancel
 
-  /// In this cycle the way to a trajectory or to rest has been judged against the limits, which
-  /// takes longest of all: once in a cycle, and what else is asked for waits for the next.
-  bool planned_ = false;
-
-  double point_age_s_ = 0.0;    // since the last online point
-  bool point_pending_ = false;  // a point was taken in this cycle and is not yet put out
+  double point_age_s_ = -kInfinity;  // since the last online point; -infinity: none is watched
+  bool point_pending_ = false;       // a point was taken in this cycle and is not yet put out
   std::uint32_t point_id_ = 0;
 };
 

@@ -1,11 +1,9 @@
 #include "kernel/reference/task_space.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/bridge_time.hpp"
 
 namespace tactus {
 namespace {
@@ -126,25 +124,6 @@ TaskSpace::Point TaskSpace::Segment::at(double t) const {
   return point;
 }
 
-TaskSpace::Bridge::Bridge(const Difference& from, double T) : h_(from.h), duration_(T) {
-  const VectorEnd zero = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  p_ = joined(quintic, {from.p, from.dp, from.ddp}, zero, T);
-  phi_ = joined(quintic, {from.phi, from.dphi, from.ddphi}, zero, T);
-  left_ = quintic({1.0, 0.0, 0.0}, {}, T);
-}
-
-TaskSpace::Difference TaskSpace::Bridge::at(double t) const {
-  const VectorPolynomial dp = p_.derivative(), dphi = phi_.derivative();
-  return {p_.at(t),
-          dp.at(t),
-          dp.derivative().at(t),
-          phi_.at(t),
-          dphi.at(t),
-          dphi.derivative().at(t),
-          left_.at(t) * h_,
-          left_.derivative().at(t) * h_};
-}
-
 // With R_a = R_b exp(phi), w = J_r(phi) dphi the turning of exp(phi) in a's frame and u = R_a w the
 // same in the base frame,
 //   omega_a = omega_b + u,
@@ -152,36 +131,32 @@ TaskSpace::Difference TaskSpace::Bridge::at(double t) const {
 //   dw/dt = J_r ddphi + dJ_r/dt dphi.
 
 TaskSpace::Point TaskSpace::sum(const Point& b, const Difference& d) {
-  const RightJacobian j(d.phi);
+  const Vector3 phi = d.x.tail<3>(), dphi = d.dx.tail<3>(), ddphi = d.ddx.tail<3>();
+  const RightJacobian j(phi);
   const Vector3 omega = b.v.tail<3>();
-  Point a;
-  a.x = {b.x.p + d.p, unit(b.x.r) * exp_so3(d.phi)};
-  const Vector3 u = a.x.r * j.times(d.dphi);
-  const Vector3 dw = j.times(d.ddphi) + j.rate_times(d.dphi, d.dphi);
-  a.v.head<3>() = b.v.head<3>() + d.dp;
-  a.v.tail<3>() = omega + u;
-  a.a.head<3>() = b.a.head<3>() + d.ddp;
-  a.a.tail<3>() = b.a.tail<3>() + omega.cross(u) + a.x.r * dw;
-  a.h = b.h + d.h;
-  a.dh = b.dh + d.dh;
+  Point a = b;
+  a.x = {b.x.p + d.x.head<3>(), unit(b.x.r) * exp_so3(phi)};
+  const Vector3 u = a.x.r * j.times(dphi);
+  const Vector3 dw = j.times(ddphi) + j.rate_times(dphi, dphi);
+  a.v.head<3>() += d.dx.head<3>();
+  a.v.tail<3>() += u;
+  a.a.head<3>() += d.ddx.head<3>();
+  a.a.tail<3>() += omega.cross(u) + a.x.r * dw;
   return a;
 }
 
 TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
   const Eigen::Quaterniond base_in_a = unit(a.x.r).conjugate();
   const Vector3 omega = b.v.tail<3>();
-  Difference d;
-  d.p = a.x.p - b.x.p;
-  d.dp = a.v.head<3>() - b.v.head<3>();
-  d.ddp = a.a.head<3>() - b.a.head<3>();
-  d.phi = log_so3(b.x.r.conjugate() * a.x.r);
-  const RightJacobian j(d.phi);
+  const Vector3 phi = log_so3(b.x.r.conjugate() * a.x.r);
+  const RightJacobian j(phi);
   const Vector3 u = a.v.tail<3>() - omega;
   const Vector3 dw = base_in_a * (a.a.tail<3>() - b.a.tail<3>() - omega.cross(u));
-  d.dphi = j.inverse_times(base_in_a * u);
-  d.ddphi = j.inverse_times(dw - j.rate_times(d.dphi, d.dphi));
-  d.h = a.h - b.h;
-  d.dh = a.dh - b.dh;
+  const Vector3 dphi = j.inverse_times(base_in_a * u);
+  Difference d;
+  d.x << a.x.p - b.x.p, phi;
+  d.dx << a.v.head<3>() - b.v.head<3>(), dphi;
+  d.ddx << a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi));
   return d;
 }
 
@@ -189,21 +164,6 @@ TaskSpace::Error TaskSpace::error(const Point& desired, const Point& actual) {
   return {desired.x.p - actual.x.p, log_so3(desired.x.r * actual.x.r.conjugate()),
           desired.v - actual.v,     desired.a - actual.a,
           desired.h - actual.h,     desired.dh - actual.dh};
-}
-
-double TaskSpace::bridge_time_s(const Difference& d, const Limits& limits) {
-  const double translation = tactus::bridge_time_s({d.p.norm(), d.dp.norm(), d.ddp.norm()},
-                                                   0.5 * limits.v_max, 0.5 * limits.a_max);
-  // |u| <= |dphi| and |dw/dt| <= |ddphi| + |dphi|^2 / 2, to which the base, turning at no more than
-  // the robot may, adds |omega_b| |dphi|. With |dphi| bounded by w, 3/16 of alpha_max or more are
-  // left to ddphi.
-  constexpr double kFastest = Robot::kTaskLimit.w_max;
-  const double w = std::min(0.5 * limits.w_max, 0.25 * limits.alpha_max / kFastest);
-  const double alpha = 0.5 * limits.alpha_max - w * (0.5 * w + kFastest);
-  const double rotation =
-      tactus::bridge_time_s({d.phi.norm(), d.dphi.norm(), d.ddphi.norm()}, w, alpha);
-  return std::max({translation, rotation, bridge_jerk_time_s(limits.a_max, limits.j_max),
-                   bridge_jerk_time_s(limits.alpha_max, limits.dalpha_max)});
 }
 
 }  // namespace tactus

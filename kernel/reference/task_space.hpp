@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernel/reference/interpolation.hpp"
+#include "kernel/reference/offset_law.hpp"
 #include "kernel/reference/path_use.hpp"
 #include "kernel/reference/rotation_segment.hpp"
 #include "kernel/reference/tolerance.hpp"
@@ -82,13 +83,13 @@ struct TaskSpace {
     static Use largest(const Use& a, const Use& b);
   };
 
-  /// a - b of two references. The orientation is a path phi(t) of which sum() makes R_a = R_b
-  /// exp(phi) and its exact derivatives.
-  struct Difference {
-    Vector3 p = Vector3::Zero(), dp = Vector3::Zero(), ddp = Vector3::Zero();  ///< m, m/s, m/s^2
-    Vector3 phi = Vector3::Zero();                            ///< rad, rotation vector in b's frame
-    Vector3 dphi = Vector3::Zero(), ddphi = Vector3::Zero();  ///< its derivatives
-    Vector6 h = Vector6::Zero(), dh = Vector6::Zero();        ///< N, N m; N/s, N m/s
+  /// a - b of two references: x is the difference of the positions, m, and below it the rotation
+  /// vector phi, rad, in b's frame: R_a = R_b exp(phi). dx and ddx are its derivatives.
+  using Difference = Offset<6>;
+
+  /// What a reference feeds forward.
+  struct Effort {
+    Vector6 h = Vector6::Zero();  ///< N, N m
   };
 
   /// desired - actual, in the base frame.
@@ -126,24 +127,6 @@ struct TaskSpace {
     Interpolation order_ = Interpolation::kLinear;
   };
 
-  /// A difference that goes to zero in a given time, with its velocity and acceleration: quintics
-  /// of position and rotation vector. The wrench falls without overshoot, from rate zero to rate
-  /// zero.
-  class Bridge {
-   public:
-    Bridge() = default;
-    Bridge(const Difference& from, double T);
-    Difference at(double t) const;
-    double duration() const { return duration_; }
-    const VectorPolynomial& translation() const { return p_; }
-
-   private:
-    VectorPolynomial p_, phi_;
-    Vector6 h_ = Vector6::Zero();
-    Polynomial left_;  // of the wrench: 1 to 0
-    double duration_ = 1.0;
-  };
-
   // Axes of a verdict: 0, 1, 2 are x, y, z, and 3, 4, 5 the rotations about them. Where a vector's
   // length counts it is 0 for translation and force, 3 for rotation and moment.
 
@@ -173,13 +156,8 @@ struct TaskSpace {
   static Use use(const Segment& segment, const Limits& limits, const Use& known);
   /// Of a point at which nothing moves. [cyclic]
   static Use use(const Point& held);
-  /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
-  /// on: kWorkspace if the two together might leave the box of the task. [cyclic]
-  static Verdict judge_room(const Point& begin, const Use& use, const Bridge& bridge,
-                            const Limits& limits);
-
   /// The terms as of now. [cyclic]
-  static Latched latch(const Terms& terms, const Point& reference);
+  static Latched latch(const Terms& terms, const Point& reference, const Limits& limits);
   /// Terms for admission, to which the frames are unknown. [any]
   static Latched anywhere(const Terms&, const Limits&) { return {}; }
   /// The limits that can be judged in a client's terms: no box in a frame that is not the base, no
@@ -197,17 +175,27 @@ struct TaskSpace {
   static Rates secant(const Point& from, const Point& to, double T);
   static Rates& rates(Point& point) { return point.v; }
 
-  /// a - b along the shortest arc, and b + difference = a but for the quaternion's sign. [any]
+  /// a - b along the shortest arc, and b + difference = a but for the quaternion's sign and the
+  /// wrench, which is b's. [any]
   static Difference difference(const Point& a, const Point& b);
   static Point sum(const Point& b, const Difference& difference);
   /// [any]
   static Error error(const Point& desired, const Point& actual);
 
-  /// Seconds in which a bridge takes `difference` to zero with at most half of each velocity,
-  /// acceleration and jerk limit, or what the difference begins with where that is more; the other
-  /// half is left to the motion underneath. Counted are lengths, and of the angular acceleration
-  /// also what arises because the difference turns and its base turns with it. [any]
-  static double bridge_time_s(const Difference& difference, const Limits& limits);
+  /// What a feeds forward beyond b; and adds `left` of it, which changes at `rate` 1/s. [any]
+  static Effort effort_beyond(const Point& a, const Point& b) { return {a.h - b.h}; }
+  static void add_effort(Point& point, const Effort& effort, double left, double rate) {
+    point.h += left * effort.h;
+    point.dh += rate * effort.h;
+  }
+
+  /// The reference one period on, on its way to a base that moves from `base` to `next` in that
+  /// period, and its offset from it likewise: within all limits if it is within them now, but for
+  /// what the base steps by nature. [cyclic]
+  static Point approach(const Point& reference, Difference& offset, const Point& base,
+                        const Point& next, const Limits& limits, double dt_s);
+  /// The reference one period on, translation and rotation on their stops. [cyclic]
+  static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
 };
 
 }  // namespace tactus

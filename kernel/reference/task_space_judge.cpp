@@ -174,20 +174,6 @@ TaskSpace::Use TaskSpace::use(const Segment& segment, const Limits& limits, cons
   return Use::largest(known, own);
 }
 
-/// As JointSpace::judge_room.
-Verdict TaskSpace::judge_room(const Point& begin, const Use& use, const Bridge& bridge,
-                              const Limits& limits) {
-  const double T = bridge.duration(), reach = use.velocity * limits.v_max * T;
-  Vector3 lowest, highest;
-  for (int i = 0; i < 3; ++i) {
-    const Extremes beside = extremes(bridge.translation().axis[static_cast<std::size_t>(i)], T);
-    const double p = begin.x.p[i];
-    lowest[i] = std::max({use.p_min[i], limits.p_min[i], p - reach}) + std::min(beside.min, 0.0);
-    highest[i] = std::min({use.p_max[i], limits.p_max[i], p + reach}) + std::max(beside.max, 0.0);
-  }
-  return first_of({judge_place(lowest, limits), judge_place(highest, limits)});
-}
-
 Verdict TaskSpace::judge_placed(const Use& placed, const Latched& terms, const Limits& limits) {
   Verdict verdict;
   if (terms.moved)

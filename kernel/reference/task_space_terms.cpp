@@ -14,7 +14,8 @@ Vector6 turned(const Eigen::Quaterniond& r, const Vector6& vector) {
 
 }  // namespace
 
-TaskSpace::Latched TaskSpace::latch(const Terms& terms, const Point& /*reference*/) {
+TaskSpace::Latched TaskSpace::latch(const Terms& terms, const Point& /*reference*/,
+                                    const Limits& /*limits*/) {
   Latched now;
   if (terms.motion != nullptr) now = {*terms.motion, now.wrench, true, now.levered};
   if (terms.wrench != nullptr) now = {now.motion, *terms.wrench, now.moved, true};

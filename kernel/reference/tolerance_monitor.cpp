@@ -6,8 +6,10 @@
 namespace tactus {
 
 template <class Space>
-void ToleranceMonitor<Space>::start(const Point& reference, int latency_cycles) {
+void ToleranceMonitor<Space>::start(const Point& reference, int latency_cycles,
+                                    bool measures_velocity) {
   *this = ToleranceMonitor();
+  measures_velocity_ = measures_velocity;
   line_.fill(reference);
   latency_ = static_cast<std::size_t>(latency_cycles);
 }
@@ -15,7 +17,8 @@ void ToleranceMonitor<Space>::start(const Point& reference, int latency_cycles) 
 template <class Space>
 void ToleranceMonitor<Space>::begin(const Tolerances<Space>& tolerances) {
   tolerances_ = tolerances;
-  waiting_s_ = inside_s_ = 0.0;
+  waiting_s_ = inside_s_ = window_s_ = 0.0;
+  found_ = {Status::kGoalTolerance};
 }
 
 template <class Space>
@@ -40,11 +43,27 @@ typename ToleranceMonitor<Space>::Arrival ToleranceMonitor<Space>::arrived(const
                                                                            double dt_s,
                                                                            Verdict& why) {
   why = Space::judge_error(expected(), measured, tolerances_.goal, Status::kGoalTolerance);
-  if (why.ok()) why = Space::judge_stopped(measured, tolerances_.stopped_velocity);
+  if (why.ok()) why = stopped(measured, dt_s);
   inside_s_ = why.ok() ? inside_s_ + dt_s : 0.0;
   if (why.ok() && inside_s_ >= tolerances_.dwell_s) return Arrival::kArrived;
   waiting_s_ += dt_s;
-  return waiting_s_ > tolerances_.goal_time_s ? Arrival::kLate : Arrival::kWaiting;
+  const bool late = tolerances_.goal_time_s > 0.0 && waiting_s_ > tolerances_.goal_time_s;
+  return late ? Arrival::kLate : Arrival::kWaiting;
+}
+
+template <class Space>
+Verdict ToleranceMonitor<Space>::stopped(const Point& measured, double dt_s) {
+  const double limit = tolerances_.stopped_velocity;
+  if (measures_velocity_ || !(limit > 0.0)) return Space::judge_stopped(measured, limit);
+  if (window_s_ > 0.0 && window_s_ + 0.5 * dt_s >= kWindow_s) {
+    Point moved = measured;
+    Space::rates(moved) = Space::secant(window_from_, measured, window_s_);
+    found_ = Space::judge_stopped(moved, limit);
+    window_s_ = 0.0;
+  }
+  if (window_s_ == 0.0) window_from_ = measured;
+  window_s_ += dt_s;
+  return found_;
 }
 
 template class ToleranceMonitor<JointSpace>;

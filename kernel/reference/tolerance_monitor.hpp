@@ -17,8 +17,9 @@ class ToleranceMonitor {
  public:
   using Point = typename Space::Point;
 
-  /// Nothing was put out before `reference`. [init]
-  void start(const Point& reference, int latency_cycles);
+  /// Nothing was put out before `reference`. Where no velocity is measured it is taken from the
+  /// positions, over kWindow_s. [init]
+  void start(const Point& reference, int latency_cycles, bool measures_velocity);
   /// A goal begins, with the tolerances that hold for it. [cyclic]
   void begin(const Tolerances<Space>& tolerances);
   /// The reference of this cycle. [cyclic]
@@ -33,12 +34,20 @@ class ToleranceMonitor {
   Arrival arrived(const Point& measured, double dt_s, Verdict& why);
 
  private:
+  static constexpr double kWindow_s = 0.1;
+
   const Point& expected() const;
+  Verdict stopped(const Point& measured, double dt_s);
 
   Tolerances<Space> tolerances_;
   std::array<Point, kMaxLatencyCycles + 1> line_;
   std::size_t newest_ = 0, latency_ = 0;
   double waiting_s_ = 0.0, inside_s_ = 0.0;
+
+  bool measures_velocity_ = true;
+  Point window_from_;      // measured at the beginning of the window
+  double window_s_ = 0.0;  // since then; 0: there is none yet
+  Verdict found_{Status::kGoalTolerance};  // by the last window
 };
 
 }  // namespace tactus

@@ -1,0 +1,111 @@
+// How the joints go to what they follow, and to rest: the laws of offset_law.hpp, joint by joint.
+#include <algorithm>
+#include <cmath>
+
+#include "kernel/reference/joint_space.hpp"
+
+namespace tactus {
+namespace {
+
+/// Rounding that a state at a limit may have, of that limit.
+constexpr double kRounding = 1e-11;
+
+AxisLimits axis_limits(const JointLimits& limits, int j) {
+  return {-limits.dq_max[j], limits.dq_max[j], limits.ddq_max[j], limits.ddq_max[j],
+          limits.dddq_max[j]};
+}
+
+AxisState axis_of(const JointSpace::Point& point, int j) {
+  return {point.q[j], point.dq[j], point.ddq[j]};
+}
+
+/// One period takes joint j from `before` to `after` within its limits, and it can stop within
+/// them. What the base steps by nature, a cubic its acceleration, is no fault of the reference.
+bool within_limits(const AxisState& before, const AxisState& after, const AxisLimits& limits,
+                   const AxisRange& range, double base_step, double dt_s) {
+  const double most = 1.0 + kRounding, change = limits.j * dt_s * most;
+  const double run_out = after.v + 0.5 * after.a * std::abs(after.a) / limits.j;
+  const AxisRange stop = stop_range(after, limits);
+  const bool smooth = std::abs(base_step) > change || std::abs(after.a - before.a) <= change;
+  return smooth && std::abs(after.v) <= limits.v_hi * most &&
+         std::abs(run_out) <= limits.v_hi * most && std::abs(after.a) <= limits.a_up * most &&
+         stop.lowest >= range.lowest && stop.highest <= range.highest;
+}
+
+/// Where joint j goes in this period when the offset it had at best leaves a limit: it keeps the
+/// offset it comes to rest at, beside a base that takes all there is; otherwise it is on its way to
+/// rest at the base, which is always possible.
+AxisState yield(const JointSpace::Point& reference, const AxisState& offset, const AxisLimits& left,
+                const JointSpace::Point& base, const JointSpace::Point& next,
+                const JointLimits& limits, int j, double dt_s) {
+  const AxisLimits own = axis_limits(limits, j);
+  const AxisRange range = {limits.q_min[j], limits.q_max[j]};
+  const AxisState from = axis_of(reference, j), to = axis_of(next, j);
+  const AxisState kept = plan_stop(offset, left).at(dt_s);
+  const AxisState beside = {to.p + kept.p, to.v + kept.v, to.a + kept.a};
+  if (within_limits(from, beside, own, range, next.ddq[j] - base.ddq[j], dt_s)) return beside;
+  return plan_inside(from, to.p, own, range.lowest, range.highest).at(dt_s);
+}
+
+void set_axis(JointSpace::Point& point, int j, const AxisState& state) {
+  point.q[j] = state.p, point.dq[j] = state.v, point.ddq[j] = state.a;
+}
+
+}  // namespace
+
+JointSpace::Point JointSpace::approach(const Point& reference, Difference& offset,
+                                       const Point& base, const Point& next, const Limits& limits,
+                                       double dt_s) {
+  const bool moves = !(base.standing() && next.standing());
+  std::array<AxisLimits, kDof> left;
+  std::array<AxisRange, kDof> room;
+  LineLimits line;
+  for (int j = 0; j < kDof; ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    left[i] = left_beside(axis_limits(limits, j), axis_of(base, j), axis_of(next, j), dt_s);
+    room[i] = {-kInfinity, kInfinity};
+    if (!moves) room[i] = {limits.q_min[j] - next.q[j], limits.q_max[j] - next.q[j]};
+    line.add(offset.x[j], left[i]);
+  }
+  const Difference before = offset;
+  AxisState s;
+  if (on_line<kDof>(offset, left, s))
+    follow_line<kDof>(offset, s, line.limits(), dt_s);
+  else
+    synchronise<kDof>(offset, left, room, dt_s);
+  Point point = sum(next, offset);
+  for (int j = 0; moves && j < kDof; ++j) {
+    const AxisState from = axis_of(reference, j), to = axis_of(next, j);
+    const double step = next.ddq[j] - base.ddq[j];
+    const AxisRange range = {limits.q_min[j], limits.q_max[j]};
+    if (within_limits(from, axis_of(point, j), axis_limits(limits, j), range, step, dt_s)) continue;
+    const AxisState now = yield(reference, before.axis(j), left[static_cast<std::size_t>(j)], base,
+                                next, limits, j, dt_s);
+    set_axis(point, j, now);
+    offset.set(j, {now.p - to.p, now.v - to.v, now.a - to.a});
+  }
+  return point;
+}
+
+JointSpace::Point JointSpace::come_to_rest(const Point& reference, const Limits& limits,
+                                           double dt_s) {
+  const Point rest = rest_of(reference, limits);
+  Point point = reference;
+  for (int j = 0; j < kDof; ++j) {
+    const AxisPlan plan = plan_inside(axis_of(reference, j), rest.q[j], axis_limits(limits, j),
+                                      limits.q_min[j], limits.q_max[j]);
+    set_axis(point, j, plan.at(dt_s));
+  }
+  return point;
+}
+
+JointSpace::Point JointSpace::rest_of(const Point& reference, const Limits& limits) {
+  Point rest = reference.at_rest();
+  for (int j = 0; j < kDof; ++j) {
+    const AxisPlan stop = plan_stop(axis_of(reference, j), axis_limits(limits, j));
+    rest.q[j] = stop.at(stop.duration()).p;
+  }
+  return rest;
+}
+
+}  // namespace tactus
