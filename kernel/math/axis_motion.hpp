@@ -33,33 +33,39 @@ class AxisPlan {
   struct Phase {
     double duration, jerk;
   };
-  static constexpr int kPhases = 10;
+  static constexpr int kPhases = 12;  ///< most that a plan has
 
   /// A plan whose duration and states are NaN.
   AxisPlan();
   /// A plan without phases from `from` to (p, v, 0).
   AxisPlan(const AxisState& from, double p, double v);
 
-  /// Adds a phase; one that is not longer than zero is left out. At most kPhases. [any]
+  /// Adds a phase; one not longer than zero is left out, one too many makes the duration NaN. [any]
   void append(double duration, double jerk);
+  /// Where it ends. [any]
+  void end_at(double p, double v) { p_ = p, v_ = v; }
+  /// What is appended so far leads back inside limits; stretching keeps it as it is. [any]
+  void end_lead() { lead_ = phases_; }
 
   /// The state at t >= 0; from the end on exactly {p + v (t - duration), v, 0}. [cyclic]
   AxisState at(double t) const;
   double duration() const { return duration_; }
 
   int phases() const { return phases_; }
+  int lead() const { return lead_; }
+  AxisState after_lead() const;
   const Phase& phase(int i) const { return phase_[static_cast<std::size_t>(i)]; }
 
  private:
   AxisState from_;
   double p_, v_;  // at the end
-  double duration_;
-  int phases_ = 0;
+  double duration_ = 0.0;
+  int phases_ = 0, lead_ = 0;
   std::array<Phase, kPhases> phase_;
 };
 
-/// The shortest motion to (p, v, 0), v within the limits. A state outside the limits comes back by
-/// the shortest way first, and never goes further out. [cyclic]
+/// The shortest motion to (p, v, 0), v clipped into the limits. A state outside the limits comes
+/// back by the shortest way first, and never goes further out. [cyclic]
 AxisPlan plan_to(const AxisState& from, double p, double v, const AxisLimits& limits);
 
 /// The shortest motion to rest at p, clipped into [p_lo, p_hi]. Positions stay inside if the direct
