@@ -1,0 +1,37 @@
+// What the plans of axis_motion.hpp begin with: the check of what is given, and the direct change
+// of velocity, which decides the direction of everything else.
+#pragma once
+
+#include "kernel/math/velocity_change.hpp"
+
+namespace tactus {
+
+/// All finite, limits positive. Sums of numbers are finite only if each is.
+inline bool usable(const AxisState& s, double p, double v, const AxisLimits& l) {
+  const double sum = s.p + s.v + s.a + p + v + l.v_lo + l.v_hi + l.a_dn + l.a_up + l.j;
+  return sum - sum == 0.0 && l.v_lo < 0.0 && l.v_hi > 0.0 && l.a_dn > 0.0 && l.a_up > 0.0 &&
+         l.j > 0.0;
+}
+
+/// A plan that has left the range of doubles becomes the one that is NaN.
+inline void make_finite(AxisPlan& plan) {
+  if (!(plan.duration() - plan.duration() == 0.0)) plan = AxisPlan();
+}
+
+struct DirectChange {
+  VelocityChange change;
+  double jerk;  ///< of its first ramp
+};
+
+/// The fastest way from a state to (w, 0), w >= v_lo and <= v_hi, wherever it ends.
+inline DirectChange direct_change(const AxisState& s, double w, const AxisLimits& limits) {
+  const double j = limits.j;
+  return w >= rest_velocity(s.v, s.a, j) ? DirectChange{rise(s.v, s.a, w, limits.a_up, j), j}
+                                         : DirectChange{fall(s.v, s.a, w, limits.a_dn, j), -j};
+}
+
+/// Appends the return inside the limits and the shortest motion from there to (p, v, 0).
+void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
+                   const AxisLimits& limits);
+
+}  // namespace tactus

@@ -1,0 +1,59 @@
+#include "kernel/math/axis_motion.hpp"
+
+#include "kernel/math/axis_ascent.hpp"
+#include "kernel/math/axis_direct.hpp"
+#include "kernel/math/axis_return.hpp"
+
+namespace tactus {
+namespace {
+
+/// Of the distances summed: two units of rounding for each of the about fifty operations.
+constexpr double kTolerance = 2e-14;
+
+}  // namespace
+
+Ascent ascent_of(const AxisState& s, double p, double v, const AxisLimits& limits, double missing) {
+  const bool up = !(missing < 0.0);
+  const double side = up ? 1.0 : -1.0;
+  Ascent ascent;
+  ascent.limits = up ? limits : mirrored(limits);
+  ascent.side = side;
+  ascent.v = side * s.v;
+  ascent.a = side * s.a;
+  ascent.v1 = rest_velocity(ascent.v, ascent.a, limits.j);
+  ascent.vf = side * v;
+  ascent.distance = side * (p - s.p);
+  ascent.missing = side * missing;
+  ascent.tolerance = 0.0;
+  return ascent;
+}
+
+void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
+                   const AxisLimits& limits) {
+  const AxisState inside = append_return(plan, from, limits);
+  plan.end_lead();
+  const double distance = p - inside.p;
+  const DirectChange direct = direct_change(inside, v, limits);
+  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance));
+  const double missing = distance - direct.change.distance;
+  if (std::abs(missing) <= tolerance) {
+    append(plan, direct.change, direct.jerk);
+    return;
+  }
+  Ascent ascent = ascent_of(inside, p, v, limits, missing);
+  ascent.tolerance = tolerance;
+  const bool brakes = ascent.a < 0.0 && !ascent.rises_to_end();
+  if (brakes && append_while_braking(plan, ascent)) return;
+  append_over_velocity(plan, ascent);
+}
+
+AxisPlan plan_to(const AxisState& from, double p, double v, const AxisLimits& limits) {
+  if (!usable(from, p, v, limits)) return AxisPlan();
+  const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
+  AxisPlan plan(from, p, vf);
+  append_motion(plan, from, p, vf, limits);
+  make_finite(plan);
+  return plan;
+}
+
+}  // namespace tactus

@@ -1,0 +1,130 @@
+// A motion to (vf, 0) at the distance D in the time T, longer than the shortest: over a velocity w,
+// both changes direct, the rest of T a cruise at w. Its distance
+//
+//   L(w) = d_1(w) + d_2(w) + w (T - T_1(w) - T_2(w)),  dL/dw = t_cruise + (alpha + beta) / 2j,
+//
+// alpha and beta the peaks of the two changes (velocity_change.hpp: the terms w dT_i/dw cancel),
+// grows with w wherever the cruise is not negative. Seen so that D >= L(vf), w is between vf and
+// v_hi; below v1, the rest velocity of the start, the first change is a fall.
+//
+// d2L/dw2 is -(1/alpha + 1/beta), the second of T_1 + T_2's, plus where a change has no hold a
+// quarter of its part (x' = j / 2x), and the signs of a first fall reversed. With holds it is
+// constant, L is a parabola, and one step solves it.
+#include "kernel/math/axis_ascent.hpp"
+#include "kernel/math/axis_direct.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kSteps = 20;
+/// Of the way, and of a thousandth of what the velocities reach in the time.
+constexpr double kTolerance = 1e-12;
+
+class Stretched {
+ public:
+  Stretched(const Ascent& ascent, double duration) : ascent_(ascent), duration_(duration) {
+    const AxisLimits& limits = ascent.limits;
+    tolerance_ =
+        kTolerance * (std::abs(ascent.distance) + 1e-3 * (limits.v_hi - limits.v_lo) * duration);
+  }
+
+  bool find() {
+    const double vf = ascent_.vf, v1 = ascent_.v1, v_hi = ascent_.limits.v_hi;
+    if (vf >= v1) return meet(vf, v_hi, false, 0.5 * (vf + v_hi));
+    const double top = std::min(v1, v_hi);
+    evaluate(top);
+    if (cruise_ >= 0.0 && beyond_ <= tolerance_) return meet(top, v_hi, false, top);
+    // Between vf and v1 the two changes may take more than the time. They take most of it near the
+    // middle of what a first fall without a hold would reach.
+    const double middle =
+        std::min(top, 0.5 * (v1 + vf + 0.5 * ascent_.a * ascent_.a / ascent_.limits.j));
+    evaluate(middle);
+    if (cruise_ >= 0.0)
+      return beyond_ >= 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
+    return meet(vf, middle, false, 0.5 * (vf + middle)) ||
+           meet(middle, top, true, 0.5 * (middle + top));
+  }
+
+  void append_to(AxisPlan& plan) const {
+    const double jerk = ascent_.side * ascent_.limits.j;
+    append(plan, first_, w_ >= ascent_.v1 ? jerk : -jerk);
+    plan.append(cruise_, 0.0);
+    append(plan, second_, -jerk);
+  }
+
+ private:
+  void evaluate(double w) {
+    const AxisLimits& limits = ascent_.limits;
+    const double j = limits.j, vf = ascent_.vf;
+    const bool rises = w >= ascent_.v1;
+    w_ = w;
+    first_ = rises ? rise(ascent_.v, ascent_.a, w, limits.a_up, j)
+                   : fall(ascent_.v, ascent_.a, w, limits.a_dn, j);
+    second_ = change_from_rest(std::max(0.0, j * (w - vf)), w, vf, limits.a_dn, j);
+    cruise_ = duration_ - first_.duration() - second_.duration();
+    beyond_ = first_.distance + second_.distance + w * cruise_ - ascent_.distance;
+    slope_ = cruise_ + 0.5 * (first_.peak + second_.peak) / j;
+    curvature_ = (rises ? -bend(first_) : bend(first_)) - bend(second_);
+  }
+
+  static double bend(const VelocityChange& change) {
+    return (change.hold > 0.0 ? 1.0 : 0.75) / change.peak;
+  }
+
+  /// The root within [low, high] if there is one where there is time for it. Where there is not, it
+  /// is sought further up or further down.
+  bool meet(double low, double high, bool time_above, double first) {
+    double w = first;
+    for (int i = 0; i < kSteps; ++i) {
+      evaluate(w);
+      if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;
+      const bool down = cruise_ < 0.0 ? !time_above : beyond_ > 0.0;
+      (down ? high : low) = w;
+      const double next = w + parabola_step();
+      w = next > low && next < high ? next : 0.5 * (low + high);
+    }
+    constexpr double kRounding = 1e3;  // of tolerances: a bracket that rounding keeps open
+    return cruise_ >= 0.0 && std::abs(beyond_) <= kRounding * tolerance_;
+  }
+
+  /// To the root of the parabola through L that lies on its rising branch; NaN if it has none.
+  double parabola_step() const {
+    const double root = std::sqrt(slope_ * slope_ - 2.0 * beyond_ * curvature_);
+    return slope_ > 0.0 ? -2.0 * beyond_ / (slope_ + root) : (root - slope_) / curvature_;
+  }
+
+  const Ascent& ascent_;
+  double duration_, tolerance_;
+  double w_, cruise_, beyond_, slope_, curvature_;  // of the w evaluated last
+  VelocityChange first_, second_;
+};
+
+/// The phases that lead back inside, and nothing else.
+AxisPlan lead_of(const AxisPlan& plan, const AxisState& from, double p, double v) {
+  AxisPlan lead(from, p, v);
+  for (int i = 0; i < AxisPlan::kPhases; ++i)
+    if (i < plan.lead()) lead.append(plan.phase(i).duration, plan.phase(i).jerk);
+  lead.end_lead();
+  return lead;
+}
+
+}  // namespace
+
+bool stretch(AxisPlan& plan, const AxisState& from, double p, double v, const AxisLimits& limits,
+             double duration) {
+  if (duration <= plan.duration()) return true;
+  const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
+  AxisPlan slow = lead_of(plan, from, p, vf);
+  const AxisState s = slow.after_lead();
+  const double rest = duration - slow.duration();
+  const DirectChange direct = direct_change(s, vf, limits);
+  const double missing = p - s.p - direct.change.distance - vf * (rest - direct.change.duration());
+  const Ascent ascent = ascent_of(s, p, vf, limits, missing);
+  Stretched longer(ascent, rest);
+  if (!longer.find()) return false;
+  longer.append_to(slow);
+  plan = slow;
+  return true;
+}
+
+}  // namespace tactus

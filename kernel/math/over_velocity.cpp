@@ -1,0 +1,117 @@
+// The motion over a velocity w without acceleration. With alpha and beta the peaks of its rise and
+// its fall (velocity_change.hpp),
+//
+//   D(w) = d_rise + d_fall,  dD/dw = (1/alpha + 1/beta) (w + alpha beta / 2j).
+//
+// The bracket grows with w: D falls first (if w may be negative), then grows, and as it begins
+// below the target it meets it once. If D(v_hi) is still short of it, the rest is a cruise at v_hi.
+//
+// Just above its least value w, D is like the root of what is above it, so the unknown is x,
+//
+//   w = w_least + x^2,
+//
+// and the radicands are j x^2 + constants that are not worked out from differences of w.
+#include "kernel/math/axis_ascent.hpp"
+#include "kernel/math/sincos.hpp"  // bits_of, double_of
+#include "kernel/math/velocity_change.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kSteps = 16;
+
+/// The cube root within 6 percent, for a trial: a third of the exponent, the rest on a line.
+double about_cube_root(double x) {
+  return double_of(bits_of(x) / 3 + 0x2A9F84FE36D22425u);
+}
+
+class OverVelocity {
+ public:
+  explicit OverVelocity(const Ascent& ascent) : ascent_(ascent), j_(ascent.limits.j) {
+    const double v = ascent.v, a = ascent.a, v1 = ascent.v1, vf = ascent.vf;
+    if (ascent.rises_to_end()) {
+      least_ = vf;
+      rise_constant_ = std::max(0.0, j_ * (vf - v) + 0.5 * a * a);
+      fall_constant_ = 0.0;
+    } else {
+      least_ = v1;
+      rise_constant_ = a > 0.0 ? a * a : 0.0;
+      fall_constant_ = j_ * (v1 - vf);
+    }
+    x_most_ = std::sqrt(std::max(0.0, ascent.limits.v_hi - least_));
+  }
+
+  void append_to(AxisPlan& plan) {
+    evaluate(x_most_);
+    double cruise = 0.0;
+    if (beyond_ <= 0.0)
+      cruise = w_ > 0.0 ? -beyond_ / w_ : 0.0;
+    else if (!find())
+      cruise = rest_as_cruise();
+    append(plan, rise_, ascent_.side * j_);
+    plan.append(cruise, 0.0);
+    append(plan, fall_, -ascent_.side * j_);
+  }
+
+ private:
+  void evaluate(double x) {
+    const AxisLimits& limits = ascent_.limits;
+    const double square = x * x;
+    w_ = least_ + square;
+    rise_ =
+        rise_of_radicand(j_ * square + rise_constant_, ascent_.v, ascent_.a, w_, limits.a_up, j_);
+    fall_ = change_from_rest(j_ * square + fall_constant_, w_, ascent_.vf, limits.a_dn, j_);
+    beyond_ = rise_.distance + fall_.distance - ascent_.distance;
+  }
+
+  /// Newton's method for x within a bracket whose upper end is beyond the target. False if it ends
+  /// where only rounding is left to decide, with the bracket about it.
+  bool find() {
+    low_ = 0.0, high_ = x_most_;
+    double x = x_most_;
+    const double trial = about_cube_root(0.5 * ascent_.missing * std::sqrt(j_));
+    if (trial < x_most_) evaluate(x = trial);
+    for (int i = 0; i < kSteps; ++i) {
+      (beyond_ > 0.0 ? high_ : low_) = x;
+      if (std::abs(beyond_) <= ascent_.tolerance) return true;
+      x = next(x, i);
+      evaluate(x);
+    }
+    return false;
+  }
+
+  double next(double x, int step) const {
+    const double alpha = rise_.peak, beta = fall_.peak;
+    const double slope =
+        2.0 * x * (alpha + beta) * (w_ + 0.5 * alpha * beta / j_);  // dD/dx, times alpha beta
+    const double newton = slope > 0.0 ? x - beyond_ * alpha * beta / slope : low_;
+    if (newton > low_ && newton < high_) return newton;
+    if (step < 2 || low_ * 16.0 > high_) return 0.5 * (low_ + high_);
+    return low_ > 0.0 ? std::sqrt(low_ * high_) : high_ / 16.0;
+  }
+
+  /// Takes the end of the bracket that is on the near side of the target and gives the time at its
+  /// velocity that the rest takes.
+  double rest_as_cruise() {
+    evaluate(w_ > 0.0 ? low_ : high_);
+    constexpr double kNothing = 16.0;  // so few tolerances are rounding
+    if (std::abs(beyond_) <= kNothing * ascent_.tolerance) return 0.0;
+    return beyond_ * w_ < 0.0 ? -beyond_ / w_ : 0.0;
+  }
+
+  const Ascent& ascent_;
+  double j_;
+  double least_, x_most_;
+  double rise_constant_, fall_constant_;
+  double w_, beyond_;  // of the x evaluated last; beyond_: the distance less the one wanted
+  VelocityChange rise_, fall_;
+  double low_, high_;
+};
+
+}  // namespace
+
+void append_over_velocity(AxisPlan& plan, const Ascent& ascent) {
+  OverVelocity(ascent).append_to(plan);
+}
+
+}  // namespace tactus
