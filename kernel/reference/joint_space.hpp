@@ -125,8 +125,8 @@ struct JointSpace {
   static Use use(const Segment& segment, const Limits& limits, const Use& known);
   /// Of a point at which nothing moves. [cyclic]
   static Use use(const Point& held);
-  /// The terms as of now, with `reference` put out: joints that are held come to rest where they can
-  /// first. [cyclic]
+  /// The terms as of now, with `reference` put out: joints that are held come to rest where they
+  /// can first. [cyclic]
   static Latched latch(const Terms& terms, const Point& reference, const Limits& limits);
   /// Terms for admission, to which where the robot is then is unknown: joints that are held stand
   /// in the middle of their ranges. [any]

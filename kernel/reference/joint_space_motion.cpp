@@ -8,7 +8,7 @@ namespace tactus {
 namespace {
 
 /// Rounding that a state at a limit may have, of that limit.
-constexpr double kRounding = 1e-11;
+constexpr double kRounding = 3e-10;
 
 AxisLimits axis_limits(const JointLimits& limits, int j) {
   return {-limits.dq_max[j], limits.dq_max[j], limits.ddq_max[j], limits.ddq_max[j],
@@ -63,7 +63,7 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
   for (int j = 0; j < kDof; ++j) {
     const auto i = static_cast<std::size_t>(j);
     left[i] = left_beside(axis_limits(limits, j), axis_of(base, j), axis_of(next, j), dt_s);
-    room[i] = {-kInfinity, kInfinity};
+    room[i] = kAnywhere;
     if (!moves) room[i] = {limits.q_min[j] - next.q[j], limits.q_max[j] - next.q[j]};
     line.add(offset.x[j], left[i]);
   }

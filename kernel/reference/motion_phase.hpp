@@ -46,9 +46,9 @@ enum class MotionEvent : std::uint8_t {
 };
 
 inline constexpr std::size_t kPhases = 9, kMotionEvents = 12;
-inline constexpr std::array<const char*, kPhases> kPhaseNames = {
-    "holding", "reaching", "stopping", "braking", "joining",
-    "following", "paused", "starving", "settling"};
+inline constexpr std::array<const char*, kPhases> kPhaseNames = {"holding", "reaching", "stopping",
+                                                                 "braking", "joining",  "following",
+                                                                 "paused",  "starving", "settling"};
 
 namespace detail {
 using P = Phase;

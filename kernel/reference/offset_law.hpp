@@ -25,10 +25,11 @@ struct Offset {
 
   bool zero() const { return x == Vector::Zero() && dx == x && ddx == x; }
   AxisState axis(int i) const { return {x[i], dx[i], ddx[i]}; }
-  void set(int i, const AxisState& state) {
-    x[i] = state.p, dx[i] = state.v, ddx[i] = state.a;
-  }
+  void set(int i, const AxisState& state) { x[i] = state.p, dx[i] = state.v, ddx[i] = state.a; }
 };
+
+/// Room without bounds, as large as a plan can count with.
+inline constexpr AxisRange kAnywhere = {-1e9, 1e9};
 
 /// What a line from x to zero may do, s being 1 at x: velocity, acceleration and jerk of s.
 class LineLimits {
@@ -42,11 +43,12 @@ class LineLimits {
   static constexpr double kUnlimited = 1e300;
 };
 
-/// True if the offset moves along itself, but for 1e-10 of the limits: `s` is its state on the line,
-/// at 1. [cyclic]
+/// True if the offset moves along itself: `s` is its state on the line, at 1. What rounding adds to
+/// its direction when little of it is left, 1e-9 of the velocity limits and ten times that of the
+/// accelerations', is left out. [cyclic]
 template <int N>
 bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits, AxisState& s) {
-  constexpr double kAlong = 1e-10;
+  constexpr double kAlong = 1e-9;
   const double length = offset.x.squaredNorm();
   if (!(length > 0.0)) return false;
   s = {1.0, offset.dx.dot(offset.x) / length, offset.ddx.dot(offset.x) / length};
@@ -54,7 +56,7 @@ bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits, A
     const AxisLimits& axis = limits[static_cast<std::size_t>(i)];
     const double v = std::abs(offset.dx[i] - s.v * offset.x[i]);
     const double a = std::abs(offset.ddx[i] - s.a * offset.x[i]);
-    if (!(v <= kAlong * (axis.v_hi - axis.v_lo) && a <= kAlong * (axis.a_up + axis.a_dn)))
+    if (!(v <= kAlong * (axis.v_hi - axis.v_lo) && a <= 10.0 * kAlong * (axis.a_up + axis.a_dn)))
       return false;
   }
   return true;

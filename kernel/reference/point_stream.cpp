@@ -33,8 +33,8 @@ Difference faded(const Difference& e, double x, double T) {
           y * y *
               (-30.0 * x * x / T * e.x + (1.0 + 2.0 * x - 15.0 * x * x) * e.dx +
                0.5 * T * x * (2.0 - 5.0 * x) * e.ddx),
-          y * (-60.0 * x * (1.0 - 2.0 * x) / (T * T) * e.x +
-               x * (-36.0 + 60.0 * x) / T * e.dx + (1.0 - 8.0 * x + 10.0 * x * x) * e.ddx)};
+          y * (-60.0 * x * (1.0 - 2.0 * x) / (T * T) * e.x + x * (-36.0 + 60.0 * x) / T * e.dx +
+               (1.0 - 8.0 * x + 10.0 * x * x) * e.ddx)};
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ bool PointStream<Space>::silent(double now_s) const {
 template <class Space>
 void PointStream<Space>::keep_time(double now_s) {
   const double interval = now_s - arrival_s_;
-  if (count_ == 0 || interval > kSlowest_s || silent(now_s)) {
+  if (count_ == 0 || interval > kSlowest_s || (count_ > 1 && silent(now_s))) {
     count_ = 0;
     given_ = false;
     time_s_ = now_s;

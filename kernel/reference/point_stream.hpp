@@ -55,8 +55,8 @@ class PointStream {
   bool given_ = false;                 // velocities are given
   double arrival_s_ = 0.0;             // of the newest
   double time_s_ = 0.0, period_s_ = 0.0;
-  Difference fit_;          // at time_s_, in the chart of the newest point
-  Difference jump_;         // at jump_s_, from the prediction to the target
+  Difference fit_;   // at time_s_, in the chart of the newest point
+  Difference jump_;  // at jump_s_, from the prediction to the target
   double jump_s_ = 0.0;
 };
 

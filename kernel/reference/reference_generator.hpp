@@ -116,8 +116,8 @@ class ReferenceGenerator {
   Goal waiting_;           // for its start time
   int braked_on_ = -1;     // store of one that was given up, and which the motion still reads
   bool starving_ = false;  // and the client has been told
-  /// In this cycle a trajectory has begun, the way to which takes longest of all to judge: what else
-  /// was requested waits for the next.
+  /// In this cycle a trajectory has begun, the way to which takes longest of all to judge: what
+  /// else was requested waits for the next.
   bool begun_ = false;
   std::uint32_t canceled_before_ = 0;  // number of the last cancel
 

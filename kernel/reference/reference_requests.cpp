@@ -132,7 +132,8 @@ Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
 template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   const typename Space::Limits& limits = channel_->settings.limits;
-  const Point point = Space::placed(request.point, Space::latch(request.terms, reference(), limits));
+  const Point point =
+      Space::placed(request.point, Space::latch(request.terms, reference(), limits));
   const Verdict verdict = judge_point(point);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   settle_point(Outcome::kSuperseded);

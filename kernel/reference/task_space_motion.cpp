@@ -15,7 +15,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kRounding = 1e-11;  // of a limit, that a state at it may have
+constexpr double kRounding = 3e-10;  // of a limit, that a state at it may have
 constexpr double kLeastShare = 0.2;  // of an axis that has nothing to go, before they are scaled
 
 /// Limits of one length, translation or rotation.
@@ -60,14 +60,22 @@ Most rotation_vector(const Most& most, double w) {
   return {std::min(most.v, v), 0.75 * most.a, 0.5 * most.j};
 }
 
+/// What is left to it on a line: the base turns its axis with it, which adds w |dphi| to the
+/// acceleration and 2 w |ddphi| + (w^2 + |alpha|) |dphi| to the jerk.
+Most line_beside(const Most& most, double w) {
+  if (!(w > 0.0)) return most;
+  return {std::min(most.v, 0.25 * most.a / w), 0.75 * most.a,
+          std::max(most.j - 3.0 * w * most.a, 0.5 * most.j)};
+}
+
 /// Shares of the three axes from `first` on, for what each of them has to do.
 Vector3 shares(const Offset<6>& offset, int first, const Most& most) {
   const double t = most.v / most.a;
   Vector3 need;
   for (int i = 0; i < 3; ++i) {
     const int axis = first + i;
-    need[i] = std::abs(offset.x[axis]) + t * (std::abs(offset.dx[axis]) +
-                                              t * std::abs(offset.ddx[axis]));
+    need[i] =
+        std::abs(offset.x[axis]) + t * (std::abs(offset.dx[axis]) + t * std::abs(offset.ddx[axis]));
   }
   const double length = need.norm();
   if (!(length > 0.0)) return Vector3::Constant(std::sqrt(1.0 / 3.0));
@@ -122,7 +130,7 @@ void move_offset(TaskSpace::Difference& offset, const Allowed& allowed, double d
   Vector6 share;
   share << shares(offset, 0, allowed.p), shares(offset, 3, allowed.phi);
   std::array<AxisRange, 6> room;
-  room.fill({-kInfinity, kInfinity});
+  room.fill(kAnywhere);
   for (std::size_t i = 0; i < 6; ++i) {
     const Most& most = i < 3 ? allowed.p : allowed.phi;
     const double part = share[static_cast<int>(i)];
@@ -135,10 +143,9 @@ void move_offset(TaskSpace::Difference& offset, const Allowed& allowed, double d
 void rest_offset(TaskSpace::Difference& offset, const Allowed& allowed, double dt_s) {
   for (const int first : {0, 3}) {
     const Most& most = first == 0 ? allowed.p : allowed.phi;
-    const VectorState rest =
-        stop_on({offset.x.segment<3>(first), offset.dx.segment<3>(first),
-                 offset.ddx.segment<3>(first)},
-                most.a, most.j, dt_s);
+    const VectorState rest = stop_on(
+        {offset.x.segment<3>(first), offset.dx.segment<3>(first), offset.ddx.segment<3>(first)},
+        most.a, most.j, dt_s);
     offset.x.segment<3>(first) = rest.p;
     offset.dx.segment<3>(first) = rest.v;
     offset.ddx.segment<3>(first) = rest.a;
@@ -160,8 +167,10 @@ TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset,
                                      const Point& next, const Limits& limits, double dt_s) {
   Allowed allowed;
   allowed.p = left(translation_limits(limits), translation_of(base), translation_of(next), dt_s);
-  allowed.r = left(rotation_limits(limits), rotation_of(base), rotation_of(next), dt_s);
-  allowed.phi = rotation_vector(allowed.r, next.v.tail<3>().norm());
+  const Most r = left(rotation_limits(limits), rotation_of(base), rotation_of(next), dt_s);
+  const double turning = next.v.tail<3>().norm();
+  allowed.r = line_beside(r, turning);
+  allowed.phi = rotation_vector(r, turning);
   const Vector6 step = next.a - base.a;
   const Difference before = offset;
   move_offset(offset, allowed, dt_s);

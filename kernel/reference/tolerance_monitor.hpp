@@ -45,8 +45,8 @@ class ToleranceMonitor {
   double waiting_s_ = 0.0, inside_s_ = 0.0;
 
   bool measures_velocity_ = true;
-  Point window_from_;      // measured at the beginning of the window
-  double window_s_ = 0.0;  // since then; 0: there is none yet
+  Point window_from_;                      // measured at the beginning of the window
+  double window_s_ = 0.0;                  // since then; 0: there is none yet
   Verdict found_{Status::kGoalTolerance};  // by the last window
 };
 
