@@ -24,8 +24,8 @@ Status start_block(Kind& block, double period_s) {
 
 /// A block that has a brake() brakes; the others follow it.
 template <class Kind>
-auto brake_block(Kind& block, Status why, int) -> decltype(block.brake(why)) {
-  block.brake(why);
+auto brake_block(Kind& block, Status why, int) -> decltype(block.brake(why, BrakeWay::kOnPath)) {
+  block.brake(why, BrakeWay::kOnPath);
 }
 template <class Kind>
 void brake_block(Kind&, Status, long) {}

@@ -9,6 +9,8 @@ namespace {
 
 /// Rounding that a state at a limit may have, of that limit.
 constexpr double kRounding = 3e-10;
+/// Of the jerk limits, for a path beside an offset.
+constexpr double kPathJerk = 0.5;
 
 AxisLimits axis_limits(const JointLimits& limits, int j) {
   return {-limits.dq_max[j], limits.dq_max[j], limits.ddq_max[j], limits.ddq_max[j],
@@ -53,6 +55,16 @@ void set_axis(JointSpace::Point& point, int j, const AxisState& state) {
 
 }  // namespace
 
+JointSpace::Peaks JointSpace::left_to_path(const Limits& limits, const Difference& offset) {
+  Peaks left = peaks(limits);
+  if (offset.zero()) return left;
+  for (std::size_t i = 0; i < kDof; ++i) {
+    left.a[i] = std::max(left.a[i] - std::abs(offset.ddx[static_cast<int>(i)]), 0.0);
+    left.j[i] *= kPathJerk;
+  }
+  return left;
+}
+
 JointSpace::Point JointSpace::approach(const Point& reference, Difference& offset,
                                        const Point& base, const Point& next, const Limits& limits,
                                        double dt_s) {
@@ -90,7 +102,7 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
 JointSpace::Point JointSpace::come_to_rest(const Point& reference, const Limits& limits,
                                            double dt_s) {
   const Point rest = rest_of(reference, limits);
-  Point point = reference;
+  Point point;
   for (int j = 0; j < kDof; ++j) {
     const AxisPlan plan = plan_inside(axis_of(reference, j), rest.q[j], axis_limits(limits, j),
                                       limits.q_min[j], limits.q_max[j]);

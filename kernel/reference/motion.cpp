@@ -49,7 +49,7 @@ typename Space::Point Motion<Space>::base_of_points(double time_s) const {
 template <class Space>
 typename Space::Point Motion<Space>::base_of_path(double dt_s) {
   const bool stands = phase_ == Phase::kPaused || phase_ == Phase::kBraking;
-  law_.step(path_, stands ? 0.0 : rate_, Space::left_beside(settings_->limits, offset_), dt_s);
+  law_.step(path_, stands ? 0.0 : rate_, Space::left_to_path(settings_->limits, offset_), dt_s);
   const Point point = path_.at(law_.s()).at_rate(law_.rate(), law_.slope());
   if (path_.ended(law_.s())) return end_path(point);
   braking_s_ += dt_s;
@@ -155,7 +155,7 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   // Out of a motion the path is met at full rate; from rest any rate meets it.
   const double rate = !reference_.standing() ? 1.0 : paused_ ? 0.0 : rate_;
   path_ = path;
-  law_.start(path_, elapsed_s, rate);
+  law_.start(path_, elapsed_s, rate, Space::peaks(settings_->limits), settings_->period_s);
   base_ = path_.begin().at_rate(law_.rate(), 0.0);
   offset_ = Space::difference(reference_, base_);
   feed_beyond(reference_, base_, kFade_s);
@@ -171,16 +171,21 @@ template <class Space>
 Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance& tolerance,
                              double elapsed_s) const {
   if (path.first_s() > elapsed_s) {
-    const Verdict verdict = path.lead_in(reference_, elapsed_s, *settings_);
+    const Verdict verdict = path.lead_in(reference_, elapsed_s, 0, *settings_);
     if (verdict.ok() || reference_.standing()) return verdict;
     const Point rest = Space::rest_of(reference_, settings_->limits);
-    return path.lead_in(rest, elapsed_s, *settings_).ok() ? Verdict() : verdict;
+    return path.lead_in(rest, elapsed_s, 0, *settings_).ok() ? Verdict() : verdict;
   }
   path.enter(elapsed_s);
   if (elapsed_s > 0.0) return {};
   Verdict verdict = Space::judge_near(path.begin(), reference_, tolerance);
   verdict.waypoint = 0;
   return verdict;
+}
+
+template <class Space>
+Verdict Motion<Space>::extend(const typename Space::Use& more) {
+  return path_.extend(more, *settings_);
 }
 
 template class Motion<JointSpace>;

@@ -45,6 +45,9 @@ class Motion {
   /// The robot is where it should be: nothing is followed any more. [cyclic]
   void complete() { tell(MotionEvent::kComplete); }
 
+  /// The open trajectory it follows has become longer; refused as by Path::extend. [cyclic]
+  Verdict extend(const typename Space::Use& more);
+
   const Point& reference() const { return reference_; }
   Phase phase() const { return phase_; }
   /// A trajectory is still read.

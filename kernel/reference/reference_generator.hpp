@@ -78,7 +78,7 @@ class ReferenceGenerator {
   }
   bool has_room() const;
   void take_controls();
-  void answer(const Control& control);
+  Verdict answer(const Control& control);
   Verdict cancel(std::uint32_t id);
   Verdict set_override(double rate);
   void take_requests();

@@ -155,7 +155,7 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
   if (!known || trajectory(goal).count < 1)
     return report(request.id, Outcome::kRefused, -1, {Status::kReferenceSize});
   const double start_s = trajectory(goal).start_s, elapsed_s = time_s() - start_s;
-  const bool now = start_s == kAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
+  const bool now = start_s == kStartAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
   if (!now && !(std::isfinite(elapsed_s) && elapsed_s < trajectory(goal).end_s()))
     return report(request.id, Outcome::kRefused, request.store,
                   {Status::kReferenceTime, -1, -1, start_s, time_s()});
@@ -178,6 +178,8 @@ void ReferenceGenerator<Space>::take_append(const Request<Space>& request) {
   const Verdict verdict = runs ? motion_.extend(request.use) : Verdict();
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   trajectory(goal).count = request.count;
+  channel_->known[static_cast<std::size_t>(request.store)].store(
+      request.last ? -request.count : request.count, std::memory_order_release);
   trajectory(goal).open = !request.last;
   trajectory(goal).use = Space::Use::largest(trajectory(goal).use, request.use);
   report(request.id, Outcome::kExecuted);

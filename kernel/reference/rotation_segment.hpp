@@ -49,6 +49,13 @@ class RotationSegment {
   RotationBoundary at(double t) const;
   double duration() const { return duration_; }
 
+  /// Angular velocity and its derivatives in the base, written in the axes of the rotated frame.
+  struct Rates {
+    Vector3 w, alpha, jerk;
+  };
+  /// [any]
+  Rates rates(double t) const;
+
   /// No |w| [rad/s], |alpha| [rad/s^2] and |dalpha/dt| [rad/s^3] on [0, T] is larger, to rounding.
   struct Bounds {
     double w, alpha, jerk;

@@ -124,6 +124,16 @@ TaskSpace::Point TaskSpace::Segment::at(double t) const {
   return point;
 }
 
+TaskSpace::Local TaskSpace::Segment::local(double t) const {
+  const VectorPolynomial dp = p_.derivative(), ddp = dp.derivative(), dddp = ddp.derivative();
+  const RotationSegment::Rates turning = rotation_.rates(t);
+  Local local;
+  local.d1 << dp.at(t), turning.w;
+  local.d2 << ddp.at(t), turning.alpha;
+  local.d3 << dddp.at(t), turning.jerk;
+  return local;
+}
+
 // With R_a = R_b exp(phi), w = J_r(phi) dphi the turning of exp(phi) in a's frame and u = R_a w the
 // same in the base frame,
 //   omega_a = omega_b + u,

@@ -16,6 +16,7 @@ namespace tactus {
 namespace {
 
 constexpr double kRounding = 3e-10;  // of a limit, that a state at it may have
+constexpr double kPathJerk = 0.5;    // of the limit, for a path beside an offset
 constexpr double kLeastShare = 0.2;  // of an axis that has nothing to go, before they are scaled
 
 /// Limits of one length, translation or rotation.
@@ -157,11 +158,22 @@ void rest_offset(TaskSpace::Difference& offset, const Allowed& allowed, double d
 /// [Magnus 1954; Iserles, Munthe-Kaas, Norsett, Zanna, Lie-group methods, 2000, eq. 4.14]
 Eigen::Quaterniond turned(const Eigen::Quaterniond& r, const VectorState& from,
                           const VectorState& to, double dt_s) {
-  const Vector3 apart = dt_s * dt_s / 12.0 * to.v.cross(from.v);
+  const Vector3 apart = (dt_s * dt_s / 12.0) * to.v.cross(from.v);
   return exp_so3(to.p + apart) * r;
 }
 
 }  // namespace
+
+TaskSpace::Peaks TaskSpace::left_to_path(const Limits& limits, const Difference& offset) {
+  Peaks left = peaks(limits);
+  if (offset.zero()) return left;
+  for (std::size_t i = 0; i < kChannels; ++i) {
+    const double taken = offset.ddx.segment<3>(3 * static_cast<int>(i)).norm();
+    left.a[i] = std::max(left.a[i] - taken, 0.0);
+    left.j[i] *= kPathJerk;
+  }
+  return left;
+}
 
 TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset, const Point& base,
                                      const Point& next, const Limits& limits, double dt_s) {
@@ -182,6 +194,7 @@ TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset,
   point = sum(next, offset);
   if (within_limits(reference, point, limits, step, dt_s)) return point;
   point = come_to_rest(reference, limits, dt_s);
+  point.h = next.h, point.dh = next.dh;
   offset = difference(point, next);
   return point;
 }
@@ -191,11 +204,16 @@ TaskSpace::Point TaskSpace::come_to_rest(const Point& reference, const Limits& l
   const Most p = translation_limits(limits), r = rotation_limits(limits);
   const VectorState moved = stop_on(translation_of(reference), p.a, p.j, dt_s);
   const VectorState from = rotation_of(reference), to = stop_on(from, r.a, r.j, dt_s);
-  Point point = reference;
+  Point point;
   point.x = {moved.p, turned(reference.x.r, from, to, dt_s)};
   point.v << moved.v, to.v;
   point.a << moved.a, to.a;
   return point;
+}
+
+TaskSpace::Point TaskSpace::rest_of(const Point& reference, const Limits& limits) {
+  constexpr double kLongest_s = 1e3;  // no stop takes longer
+  return come_to_rest(reference, limits, kLongest_s).at_rest();
 }
 
 }  // namespace tactus
