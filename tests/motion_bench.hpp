@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gateway/reference_client.hpp"
+#include "kernel/math/so3.hpp"
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/reference_generator.hpp"
 #include "kernel/reference/task_space.hpp"
