@@ -80,6 +80,8 @@ struct MotionBench {
   /// What the executive does in every cycle in which it brakes, after the step.
   void brake(Status why) { generator.brake(why); }
   const Point& out() const { return generator.reference(); }
+  /// A trajectory runs, or stands for a while.
+  bool executing() const { return generator.state() == ReferenceState::kTrajectoryExecution; }
   int cycles(double time_s) const { return static_cast<int>(time_s / period_s + 0.5); }
 
   /// An empty trajectory that gives `fields` at each waypoint; null when no store is free.

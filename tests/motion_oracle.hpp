@@ -18,6 +18,8 @@ namespace tactus {
 inline constexpr double kOverLimit = 1e-9;  ///< over a limit, of the limit: rounding
 /// Over the limits where the rate on a path changes: what comes of linearising within a period.
 inline constexpr double kRateAcceleration = 1e-3, kRateJerk = 0.05;
+/// Of a path of lines: so many lines may meet within a period.
+inline constexpr int kCorners = 2;
 /// Rounding of a velocity and an angle beside the limits.
 inline constexpr double kRounding = 1e-12;
 
@@ -84,8 +86,9 @@ class MotionOracle {
     const double turning =
         limits.turns ? 0.1 * h_ * h_ * h_ * limits.v * (limits.a + limits.v * limits.v) : 0.0;
     expect("way in a period", way.norm(), limits.v * h_ * (1.0 + kOverLimit) + kRounding);
+    const double corners = smoothness_ == Smoothness::kPosition ? kCorners * limits.v_step : 0.0;
+    expect("change of velocity in a period", dv.norm(), corners + a * h_ + kRounding);
     if (smoothness_ == Smoothness::kPosition) return;
-    expect("change of velocity in a period", dv.norm(), a * h_ + kRounding);
     expect("way against velocity", (way - h_ * mean).norm(),
            0.25 * a * h_ * h_ + turning + kRounding);
     if (smoothness_ == Smoothness::kVelocity) return;

@@ -191,16 +191,18 @@ class RandomClient {
       from = to;
     }
   }
-  /// Takes more time until it is admitted.
+  /// Takes more time until it is admitted, and where it swings out of range moves more slowly at
+  /// its waypoints.
   bool fit(Trajectory<Space>& motion) {
-    constexpr double kMore = 1.12;
-    for (int i = 0; i < 24; ++i) {
+    constexpr double kMore = 1.12, kSlower = 0.5;
+    for (int i = 0; i < 30; ++i) {
       const Status status = bench_.client.judge(motion).status;
       if (status == Status::kOk) return true;
-      if (status == Tracks<Space>::kOutside || status == Status::kReferenceNotFinite) return false;
+      if (status == Status::kReferenceNotFinite) return false;
+      const bool outside = status == Tracks<Space>::kOutside;
       for (int k = 0; k < motion.count; ++k) {
-        motion.waypoints[k].time_s *= kMore;
-        Cases::scale_rates(motion.waypoints[k].point, 1.0 / kMore);
+        motion.waypoints[k].time_s *= outside ? 1.0 : kMore;
+        Cases::scale_rates(motion.waypoints[k].point, outside ? kSlower : 1.0 / kMore);
       }
     }
     return false;

@@ -104,7 +104,7 @@ class Feeder {
     const Point to = Cases::somewhere(dice, limits, end_.point.at_rest(), dice.uniform(0.0, 0.2));
     Waypoint<Space> next = {0.0, to};
     if (!rest) Cases::set_moving(dice, limits, share_, next.point);
-    double T = connecting_time_s<Space>(end_.point, next.point, limits) + 0.25 * bench.period_s;
+    double T = connecting_time_s<Space>(end_.point, next.point, limits) + bench.period_s;
     for (int i = 0; i < 12; ++i, T *= 1.3) {
       next.time_s = end_.time_s + T;
       const Verdict verdict = bench.client.append(*trajectory_, next);

@@ -139,7 +139,7 @@ void out_of_a_motion_no_point_is_refused_and_the_least_time_is_taken(void**) {
     if (!set_off(bench, dice)) continue;
     bench.run(dice.uniform(0.1, 1.5));
     measure(bench, random_point(dice, bench), ratios);
-    if (bench.generator.state() == ReferenceState::kTrajectoryExecution) bench.cancel();
+    if (bench.executing()) bench.cancel();
     bench.stop(5.0);
     bench.report_of(0);
   }
