@@ -51,7 +51,7 @@ KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
 PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/os/*.cpp) $(PARTS)
 ORACLES  := $(wildcard tests/oracles/*.cpp)
 TESTS    := $(TESTS:%=$(B)/tests/test_%)
-LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle)
+LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle test_every_motion)
 TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,'$$ORIGIN/../..'
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
 say       = @mkdir -p $(@D) && echo "  $(1)"

@@ -9,7 +9,7 @@ RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_tr
 
 # The tests that are not written for the FER.
 TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop
-TESTS  += admittance cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times
+TESTS  += admittance cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times every_motion
 TESTS  += pipelines free_pipelines contact_pipelines
 TESTS  += collision collision_rules collision_file collision_pipelines separation stopping
 
