@@ -78,7 +78,7 @@ struct MotionBench {
   Status step() { return generator.step(period_s, out()); }
   Status step(const Point& measured) { return generator.step(period_s, measured); }
   /// What the executive does in every cycle in which it brakes, after the step.
-  void brake(Status why) { generator.brake(why); }
+  void brake(Status why) { generator.brake(why, BrakeWay::kOnPath); }
   const Point& out() const { return generator.reference(); }
   /// A trajectory runs, or stands for a while.
   bool executing() const { return generator.state() == ReferenceState::kTrajectoryExecution; }
@@ -93,7 +93,7 @@ struct MotionBench {
     empty->fields = fields;
     empty->interpolation = Interpolation::kByFields;
     empty->terms = {};
-    empty->start_s = kAtOnce;
+    empty->start_s = kStartAtOnce;
     empty->tolerances = {};
     return empty;
   }

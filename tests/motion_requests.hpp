@@ -212,7 +212,7 @@ class RandomClient {
   MotionAccounts& accounts_;
   Dice& dice_;
   Smoothness smoothness_;
-  PointStream<Space> stream_;
+  SentStream<Space> stream_;
   Feeder<Space> feeder_;
   double listening_ = 1.0, scaling_ = 1.0, stray_ = 0.0, stray_until_s_ = 0.0;
   int braking_ = 0, asked_ = 0;

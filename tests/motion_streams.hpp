@@ -8,7 +8,7 @@ namespace tactus {
 
 /// Points at a rate, with jitter, along a signal or anywhere.
 template <class Space>
-class PointStream {
+class SentStream {
  public:
   using Cases = MotionCases<Space>;
 

@@ -19,7 +19,7 @@ struct Wanderer {
   double p = 0.0, v = 0.0, a = 0.0;
   double jerk[3] = {}, part[3] = {};  // of this period; parts of it
 
-  void choose(const AxisLimits& limits, double h) {
+  void choose(const OptimumLimits& limits, double h) {
     const bool free = std::abs(v) < 0.7 * limits.v;
     const double to = free ? limits.a * dice.uniform(-0.9, 0.9) : (v > 0.0 ? -0.9 : 0.9) * limits.a;
     const double j = std::clamp((to - a) / h, -limits.j, limits.j);

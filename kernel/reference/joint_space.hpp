@@ -163,6 +163,10 @@ struct JointSpace {
   static Point only(Fields given, const Point& point);
   /// A client's point as a reference of all joints. [cyclic]
   static Point placed(const Point& given, const Latched& terms);
+  /// A reference whose held joints stand where they are held. [cyclic]
+  static Point without_held(const Point& reference, const Latched& terms) {
+    return placed(reference, terms);
+  }
   /// The use of a path of a client's points as that of their references. [cyclic]
   static Use placed(const Use& given, const Latched& terms);
   /// Judges what known_limits() could not: nothing. [cyclic]

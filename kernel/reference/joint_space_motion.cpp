@@ -29,9 +29,10 @@ bool within_limits(const AxisState& before, const AxisState& after, const AxisLi
   const double run_out = after.v + 0.5 * after.a * std::abs(after.a) / limits.j;
   const AxisRange stop = stop_range(after, limits);
   const bool smooth = std::abs(base_step) > change || std::abs(after.a - before.a) <= change;
-  return smooth && std::abs(after.v) <= limits.v_hi * most &&
-         std::abs(run_out) <= limits.v_hi * most && std::abs(after.a) <= limits.a_up * most &&
-         stop.lowest >= range.lowest && stop.highest <= range.highest;
+  return smooth && std::abs(after.v - before.v) <= limits.a_up * dt_s * most &&
+         std::abs(after.v) <= limits.v_hi * most && std::abs(run_out) <= limits.v_hi * most &&
+         std::abs(after.a) <= limits.a_up * most && stop.lowest >= range.lowest &&
+         stop.highest <= range.highest;
 }
 
 /// Where joint j goes in this period when the offset it had at best leaves a limit: it keeps the

@@ -115,7 +115,6 @@ void Motion<Space>::forward(const Point& point) {
 
 template <class Space>
 void Motion<Space>::reach(const Point& point) {
-  if (phase_ != Phase::kReaching) stream_.clear();
   stream_.push(point, time_s_);
   path_.leave();
   held_ = point.stopped();
@@ -147,16 +146,19 @@ void Motion<Space>::pause(bool on) {
 
 template <class Space>
 Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
-                              const typename Space::Tolerance& tolerance, double elapsed_s) {
+                              const typename Space::Tolerance& tolerance, const Point& measured,
+                              double elapsed_s) {
   Path<Space> path(trajectory, reference_, settings_->limits);
   Verdict verdict = path.judge_terms(*settings_);
-  if (verdict.ok()) verdict = enter(path, tolerance, elapsed_s);
+  if (verdict.ok()) verdict = enter(path, tolerance, measured, elapsed_s);
   if (!verdict.ok()) return verdict;
   // Out of a motion the path is met at full rate; from rest any rate meets it.
   const double rate = !reference_.standing() ? 1.0 : paused_ ? 0.0 : rate_;
   path_ = path;
   law_.start(path_, elapsed_s, rate, Space::peaks(settings_->limits), settings_->period_s);
-  base_ = path_.begin().at_rate(law_.rate(), 0.0);
+  stream_.clear();
+  const bool late = elapsed_s > path_.first_s();
+  base_ = (late ? path_.at(elapsed_s) : path_.begin()).at_rate(law_.rate(), 0.0);
   offset_ = Space::difference(reference_, base_);
   feed_beyond(reference_, base_, kFade_s);
   lost_path_ = false;
@@ -166,10 +168,11 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
 }
 
 /// By a segment to its first waypoint, if that lies ahead: out of a motion by one that continues
-/// it, or by one from where it can be stopped. Else where the path is by now.
+/// it, or by one from where it can be stopped. Else where the path is by now. A planner's first
+/// waypoint is where the robot is measured to be, from which the reference may be apart.
 template <class Space>
 Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance& tolerance,
-                             double elapsed_s) const {
+                             const Point& measured, double elapsed_s) const {
   if (path.first_s() > elapsed_s) {
     const Verdict verdict = path.lead_in(reference_, elapsed_s, 0, *settings_);
     if (verdict.ok() || reference_.standing()) return verdict;
@@ -179,6 +182,7 @@ Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance&
   path.enter(elapsed_s);
   if (elapsed_s > 0.0) return {};
   Verdict verdict = Space::judge_near(path.begin(), reference_, tolerance);
+  if (Space::judge_near(path.begin(), measured, tolerance).ok()) verdict = {};
   verdict.waypoint = 0;
   return verdict;
 }

@@ -31,9 +31,10 @@ class Motion {
   void reach(const Point& point);
   /// Leaves whatever it follows for a trajectory that began `elapsed_s` ago: by one segment to its
   /// first waypoint if that lies ahead, else where its path is by now. Refused, and nothing
-  /// changes, if that segment breaks a limit or a waypoint that is now is not near. [cyclic]
+  /// changes, if that segment breaks a limit or a waypoint that is now is near neither the
+  /// reference nor what is measured. [cyclic]
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
-                 double elapsed_s = 0.0);
+                 const Point& measured, double elapsed_s = 0.0);
   /// From now on paths are run at `rate`, 0..1, reached as fast as limits allow. [cyclic]
   void set_rate(double rate) { rate_ = rate; }
   /// Paths are brought to rest, and go on after it, those of later trajectories too. [cyclic]
@@ -70,7 +71,7 @@ class Motion {
   void feed_beyond(const Point& fed, const Point& base, double fade_s);
   void fade(double dt_s);
   Verdict enter(Path<Space>& path, const typename Space::Tolerance& tolerance,
-                double elapsed_s) const;
+                const Point& measured, double elapsed_s) const;
 
   const Settings* settings_ = nullptr;
   double time_s_ = 0.0;  // since the start

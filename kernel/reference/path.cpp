@@ -61,8 +61,8 @@ void Path<Space>::enter(double s) {
 }
 
 template <class Space>
-Verdict Path<Space>::lead_in(const Point& reference, double s, int target,
-                             const Settings& settings) {
+Verdict Path<Space>::lead_in(const Point& put_out, double s, int target, const Settings& settings) {
+  const Point reference = Space::without_held(put_out, latched_);
   // From rest by the fields the trajectory gives; out of a motion so that nothing steps.
   const Interpolation how =
       reference.standing() ? trajectory_->interpolation : Interpolation::kQuintic;

@@ -35,9 +35,9 @@ class Path {
   }
   /// Enters the path where it is at path time s, which is not before its first waypoint. [cyclic]
   void enter(double s);
-  /// Enters by one segment from `reference` at path time s to the waypoint `target` ahead; refused,
-  /// with that waypoint named, if the segment breaks a limit. [cyclic]
-  Verdict lead_in(const Point& reference, double s, int target, const Settings& settings);
+  /// Enters by one segment from what is `put_out` at path time s to the waypoint `target` ahead;
+  /// refused, with that waypoint named, if the segment breaks a limit. [cyclic]
+  Verdict lead_in(const Point& put_out, double s, int target, const Settings& settings);
   /// The path is followed no more. [cyclic]
   void leave() { trajectory_ = nullptr; }
   bool running() const { return trajectory_ != nullptr; }

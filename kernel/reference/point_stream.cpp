@@ -41,6 +41,7 @@ Difference faded(const Difference& e, double x, double T) {
 
 template <class Space>
 double PointStream<Space>::patience_s() const {
+  if (count_ < 2) return kSlowest_s;
   return std::clamp(kSilentPeriods * period_s_, kLeastPatience_s, period_s_ + kMostPatience_s);
 }
 
@@ -91,11 +92,13 @@ template <class Space>
 void PointStream<Space>::push(const Point& point, double now_s) {
   const bool moved_before = moves(now_s);
   const Point old = moved_before ? target(now_s) : point;
-  keep_time(now_s);
-  for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
+  if (count_ == 0 || now_s > arrival_s_) {  // else it takes the place of the newest
+    keep_time(now_s);
+    for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
+    count_ = std::min(count_ + 1, kMost);
+  }
   points_[0] = point;
   given_ = given_ || !point.standing();
-  count_ = std::min(count_ + 1, kMost);
   jump_ = {};
   if (!streams()) return;
   fit_ = fit();

@@ -25,7 +25,7 @@ class PointStream {
  public:
   using Point = typename Space::Point;
 
-  /// A point arrives at `now_s`. [cyclic]
+  /// A point arrives at `now_s`; of several at one time the last counts. [cyclic]
   void push(const Point& point, double now_s);
   /// Nothing was ever said. [cyclic]
   void clear() { count_ = 0; }

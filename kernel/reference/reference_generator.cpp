@@ -40,6 +40,7 @@ template <class Space>
 Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if (channel_ == nullptr) return Status::kNotStarted;
   period_s_ = dt_s;
+  measured_ = measured;
   ++cycles_;
   begun_ = false;
   motion_.move_on(dt_s);
@@ -125,7 +126,8 @@ void ReferenceGenerator<Space>::watch_start() {
 template <class Space>
 bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   begun_ = true;
-  const Verdict verdict = motion_.follow(trajectory(goal), params_.start_tolerance, elapsed_s);
+  const Verdict verdict =
+      motion_.follow(trajectory(goal), params_.start_tolerance, measured_, elapsed_s);
   if (!verdict.ok()) return report(goal.id, Outcome::kRefused, goal.store, verdict), false;
   end_running(Outcome::kPreempted, true);
   running_ = goal;

@@ -107,6 +107,7 @@ class ReferenceGenerator {
 
   double period_s_ = 0.0;
   std::int64_t cycles_ = 0;
+  Point measured_;  // in this cycle
   Motion<Space> motion_;
   ToleranceMonitor<Space> monitor_;
   FeedbackPublisher<Space> feedback_;

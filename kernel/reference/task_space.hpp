@@ -194,6 +194,8 @@ struct TaskSpace {
   static Point only(Fields given, const Point& point);
   /// A client's point as a reference in the base frame. [cyclic]
   static Point placed(const Point& given, const Latched& terms);
+  /// Of the tip nothing is held. [cyclic]
+  static Point without_held(const Point& reference, const Latched&) { return reference; }
   /// The use of a path of a client's points as that of their references; boxes and moments are
   /// bounds from outside. [cyclic]
   static Use placed(const Use& given, const Latched& terms);

@@ -88,6 +88,7 @@ bool within(const VectorState& before, const VectorState& after, const Most& mos
   const double rounding = 1.0 + kRounding, change = most.j * dt_s * rounding;
   const Vector3 run_out = after.v + 0.5 * after.a * after.a.norm() / most.j;
   return (step > change || (after.a - before.a).norm() <= change) &&
+         (after.v - before.v).norm() <= most.a * dt_s * rounding &&
          after.v.norm() <= most.v * rounding && run_out.norm() <= most.v * rounding &&
          after.a.norm() <= most.a * rounding;
 }

@@ -34,7 +34,7 @@ class ToleranceMonitor {
   Arrival arrived(const Point& measured, double dt_s, Verdict& why);
 
  private:
-  static constexpr double kWindow_s = 0.1;
+  static constexpr double kWindow_s = 0.04;
 
   const Point& expected() const;
   Verdict stopped(const Point& measured, double dt_s);

@@ -51,8 +51,8 @@ struct Trajectory {
   bool open = false;  ///< more waypoints follow, over those that the motion has passed
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
-  typename Space::Terms terms;  ///< which joints, or which frames, the waypoints are given in
-  double start_s = kStartAtOnce;     ///< when it begins, by the generator's time
+  typename Space::Terms terms;    ///< which joints, or which frames, the waypoints are given in
+  double start_s = kStartAtOnce;  ///< when it begins, by the generator's time
   Tolerances<Space> tolerances;
   /// To be passed in exactly these times: refused where that is beyond a limit, not slowed down.
   bool exact = false;
