@@ -19,7 +19,7 @@ struct Wanderer {
   double p = 0.0, v = 0.0, a = 0.0;
   double jerk[3] = {}, part[3] = {};  // of this period; parts of it
 
-  void choose(const AxisLimits& limits, double h) {
+  void choose(const SymmetricLimits& limits, double h) {
     const bool free = std::abs(v) < 0.7 * limits.v;
     const double to = free ? limits.a * dice.uniform(-0.9, 0.9) : (v > 0.0 ? -0.9 : 0.9) * limits.a;
     const double j = std::clamp((to - a) / h, -limits.j, limits.j);
@@ -134,7 +134,7 @@ void it_accepts_nothing_else(void**) {
 /// From rest to rest: with a stretch at the largest velocity, and so short that nothing but the
 /// jerk counts.
 void the_optimum_is_the_closed_form_where_there_is_one(void**) {
-  const AxisLimits limits = {2.0, 15.0, 7500.0};
+  const SymmetricLimits limits = {2.0, 15.0, 7500.0};
   const TimeOptimum axis(limits);
   for (const double way : {0.5, -1.0, 3.0}) {
     const double least_s = std::abs(way) / limits.v + limits.v / limits.a + limits.a / limits.j;
