@@ -56,7 +56,7 @@ struct CheckedMotion : MotionBench<Space> {
 using CheckedJoints = CheckedMotion<JointSpace>;
 using CheckedTip = CheckedMotion<TaskSpace>;
 
-inline OptimumLimits axis_limits(int joint) {
+inline SymmetricLimits axis_limits(int joint) {
   const JointLimits limits;
   return {limits.dq_max[joint], limits.ddq_max[joint], limits.dddq_max[joint]};
 }

@@ -19,7 +19,7 @@ struct Wanderer {
   double p = 0.0, v = 0.0, a = 0.0;
   double jerk[3] = {}, part[3] = {};  // of this period; parts of it
 
-  void choose(const OptimumLimits& limits, double h) {
+  void choose(const SymmetricLimits& limits, double h) {
     const bool free = std::abs(v) < 0.7 * limits.v;
     const double to = free ? limits.a * dice.uniform(-0.9, 0.9) : (v > 0.0 ? -0.9 : 0.9) * limits.a;
     const double j = std::clamp((to - a) / h, -limits.j, limits.j);
@@ -131,6 +131,21 @@ void it_accepts_nothing_else(void**) {
   assert_non_null(oracle.check(point).what);
 }
 
+/// From rest to rest: with a stretch at the largest velocity, and so short that nothing but the
+/// jerk counts.
+void the_optimum_is_the_closed_form_where_there_is_one(void**) {
+  const SymmetricLimits limits = {2.0, 15.0, 7500.0};
+  const TimeOptimum axis(limits);
+  for (const double way : {0.5, -1.0, 3.0}) {
+    const double least_s = std::abs(way) / limits.v + limits.v / limits.a + limits.a / limits.j;
+    ASSERT_NEAR(axis.time_s(0.0, 0.0, way), least_s, 1e-12);
+  }
+  for (const double way : {1e-6, -3e-5})
+    ASSERT_NEAR(axis.time_s(0.0, 0.0, way), 4.0 * std::cbrt(std::abs(way) / (2.0 * limits.j)),
+                1e-9);
+  ASSERT_NEAR(axis.stopping_way(2.0), 0.5 * 2.0 * axis.stopping_time_s(2.0), 1e-12);
+}
+
 }  // namespace
 
 int main() {
@@ -138,6 +153,7 @@ int main() {
       cmocka_unit_test(it_accepts_joints_within_their_limits),
       cmocka_unit_test(it_accepts_a_tip_within_its_limits),
       cmocka_unit_test(it_accepts_nothing_else),
+      cmocka_unit_test(the_optimum_is_the_closed_form_where_there_is_one),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

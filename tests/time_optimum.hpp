@@ -11,13 +11,13 @@
 
 namespace tactus {
 
-struct OptimumLimits {
+struct SymmetricLimits {
   double v, a, j;
 };
 
 class TimeOptimum {
  public:
-  explicit TimeOptimum(const OptimumLimits& limits) : limits_(limits) {}
+  explicit TimeOptimum(const SymmetricLimits& limits) : limits_(limits) {}
 
   /// Seconds from velocity v and acceleration a to rest at `distance` from here.
   double time_s(double v, double a, double distance) const {
@@ -89,7 +89,7 @@ class TimeOptimum {
     }
   }
 
-  OptimumLimits limits_;
+  SymmetricLimits limits_;
 };
 
 }  // namespace tactus
