@@ -30,19 +30,14 @@ class Stretched {
 
   bool find() {
     const double vf = ascent_.vf, v1 = ascent_.v1, v_hi = ascent_.limits.v_hi;
-    if (vf >= v1) return meet(vf, v_hi, false, 0.5 * (vf + v_hi));
+    if (vf >= v1 || ascent_.missing <= tolerance_) {
+      evaluate(vf);
+      return meet(vf, v_hi, false, begin_at(vf, v_hi));
+    }
     const double top = std::min(v1, v_hi);
     evaluate(top);
-    if (cruise_ >= 0.0 && beyond_ <= tolerance_) return meet(top, v_hi, false, top);
-    // Between vf and v1 the two changes may take more than the time. They take most of it near the
-    // middle of what a first fall without a hold would reach.
-    const double middle =
-        std::min(top, 0.5 * (v1 + vf + 0.5 * ascent_.a * ascent_.a / ascent_.limits.j));
-    evaluate(middle);
-    if (cruise_ >= 0.0)
-      return beyond_ >= 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
-    return meet(vf, middle, false, 0.5 * (vf + middle)) ||
-           meet(middle, top, true, 0.5 * (middle + top));
+    if (cruise_ >= 0.0 && beyond_ <= tolerance_) return meet(top, v_hi, false, begin_at(top, v_hi));
+    return find_below(vf, top);
   }
 
   void append_to(AxisPlan& plan) const {
@@ -53,6 +48,18 @@ class Stretched {
   }
 
  private:
+  /// Between vf and v1 the two changes may take more than the time. They take most of it about the
+  /// middle of what a first fall without a hold reaches, and there L grows least.
+  bool find_below(double vf, double top) {
+    const double reach = 0.5 * ascent_.a * ascent_.a / ascent_.limits.j;
+    const double middle = std::min(top, 0.5 * (ascent_.v1 + vf + reach));
+    evaluate(middle);
+    if (slope_ > 0.0)  // then everywhere
+      return beyond_ > 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
+    return meet(vf, middle, false, 0.5 * (vf + middle)) ||
+           meet(middle, top, true, 0.5 * (middle + top));
+  }
+
   void evaluate(double w) {
     const AxisLimits& limits = ascent_.limits;
     const double j = limits.j, vf = ascent_.vf;
@@ -65,6 +72,14 @@ class Stretched {
     beyond_ = first_.distance + second_.distance + w * cruise_ - ascent_.distance;
     slope_ = cruise_ + 0.5 * (first_.peak + second_.peak) / j;
     curvature_ = (rises ? -bend(first_) : bend(first_)) - bend(second_);
+  }
+
+  /// From the lower end evaluated last, on the parabola of changes that hold.
+  double begin_at(double low, double high) {
+    if (beyond_ >= -tolerance_) return low;
+    const AxisLimits& limits = ascent_.limits;
+    curvature_ = -1.0 / limits.a_up - 1.0 / limits.a_dn;
+    return next(low, low, high);
   }
 
   static double bend(const VelocityChange& change) {
@@ -80,17 +95,25 @@ class Stretched {
       if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;
       const bool down = cruise_ < 0.0 ? !time_above : beyond_ > 0.0;
       (down ? high : low) = w;
-      const double next = w + parabola_step();
-      w = next > low && next < high ? next : 0.5 * (low + high);
+      w = i % 4 == 3 ? 0.5 * (low + high) : next(w, low, high);
     }
     constexpr double kRounding = 1e3;  // of tolerances: a bracket that rounding keeps open
     return cruise_ >= 0.0 && std::abs(beyond_) <= kRounding * tolerance_;
   }
 
-  /// To the root of the parabola through L that lies on its rising branch; NaN if it has none.
-  double parabola_step() const {
-    const double root = std::sqrt(slope_ * slope_ - 2.0 * beyond_ * curvature_);
-    return slope_ > 0.0 ? -2.0 * beyond_ / (slope_ + root) : (root - slope_) / curvature_;
+  /// The root of the parabola through L on its rising branch, or where it has none, of the tangent;
+  /// close to the end of the bracket that it leaves.
+  double next(double w, double low, double high) const {
+    constexpr double kClose = 1.0 / 32.0;
+    const double square = slope_ * slope_ - 2.0 * beyond_ * curvature_;
+    const double root = std::sqrt(std::max(0.0, square));
+    double to = w - beyond_ / slope_;
+    if (slope_ <= 0.0)
+      to = w + (root - slope_) / curvature_;
+    else if (square >= 0.0)
+      to = w - 2.0 * beyond_ / (slope_ + root);
+    if (to > low && to < high) return to;
+    return beyond_ > 0.0 || cruise_ < 0.0 ? low + kClose * (w - low) : high - kClose * (high - w);
   }
 
   const Ascent& ascent_;
