@@ -15,7 +15,7 @@ inline bool usable(const AxisState& s, double p, double v, const AxisLimits& l) 
 
 /// A plan that has left the range of doubles becomes the one that is NaN.
 inline void make_finite(AxisPlan& plan) {
-  if (!(plan.duration() - plan.duration() == 0.0)) plan = AxisPlan();
+  if (!(plan.duration() - plan.duration() == 0.0)) plan = {};
 }
 
 struct DirectChange {

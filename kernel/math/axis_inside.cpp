@@ -72,9 +72,10 @@ double braking_time(const Brake& brake, const AxisLimits& limits, double lo, dou
 
 AxisPlan plan_inside(const AxisState& from, double p, const AxisLimits& limits, double p_lo,
                      double p_hi) {
+  AxisPlan plan;
+  if (!usable(from, p + p_lo + p_hi, 0.0, limits)) return plan;
   const double end = std::max(p_lo, std::min(p_hi, p));
-  if (!usable(from, p + p_lo + p_hi, 0.0, limits)) return AxisPlan();
-  AxisPlan plan(from, end, 0.0);
+  plan.start(from, end, 0.0);
   const AxisRange stop = stop_range(from, limits);
   const bool over = stop.highest > p_hi, under = stop.lowest < p_lo;
   AxisState state = from;

@@ -30,7 +30,7 @@ Ascent ascent_of(const AxisState& s, double p, double v, const AxisLimits& limit
 
 void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
                    const AxisLimits& limits) {
-  const AxisState inside = append_return(plan, from, limits);
+  const AxisState inside = is_inside(from, limits) ? from : append_return(plan, from, limits);
   plan.end_lead();
   const double distance = p - inside.p;
   const DirectChange direct = direct_change(inside, v, limits);
@@ -48,9 +48,10 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
 }
 
 AxisPlan plan_to(const AxisState& from, double p, double v, const AxisLimits& limits) {
-  if (!usable(from, p, v, limits)) return AxisPlan();
+  AxisPlan plan;
+  if (!usable(from, p, v, limits)) return plan;
   const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
-  AxisPlan plan(from, p, vf);
+  plan.start(from, p, vf);
   append_motion(plan, from, p, vf, limits);
   make_finite(plan);
   return plan;

@@ -28,15 +28,15 @@ class Stretched {
         kTolerance * (std::abs(ascent.distance) + 1e-3 * (limits.v_hi - limits.v_lo) * duration);
   }
 
-  bool find() {
+  /// `slope` is that of L at vf. False if there is no such motion.
+  bool find(double slope) {
     const double vf = ascent_.vf, v1 = ascent_.v1, v_hi = ascent_.limits.v_hi;
-    if (vf >= v1 || ascent_.missing <= tolerance_) {
-      evaluate(vf);
-      return meet(vf, v_hi, false, begin_at(vf, v_hi));
-    }
+    if (vf >= v1 || ascent_.missing <= tolerance_)
+      return meet(vf, v_hi, false, begin_at(vf, v_hi, -ascent_.missing, slope));
     const double top = std::min(v1, v_hi);
     evaluate(top);
-    if (cruise_ >= 0.0 && beyond_ <= tolerance_) return meet(top, v_hi, false, begin_at(top, v_hi));
+    if (cruise_ >= 0.0 && beyond_ <= tolerance_)
+      return meet(top, v_hi, false, begin_at(top, v_hi, beyond_, slope_));
     return find_below(vf, top);
   }
 
@@ -74,10 +74,11 @@ class Stretched {
     curvature_ = (rises ? -bend(first_) : bend(first_)) - bend(second_);
   }
 
-  /// From the lower end evaluated last, on the parabola of changes that hold.
-  double begin_at(double low, double high) {
-    if (beyond_ >= -tolerance_) return low;
+  /// From the lower end of the bracket, on the parabola of changes that hold.
+  double begin_at(double low, double high, double beyond, double slope) {
+    if (beyond >= -tolerance_) return low;
     const AxisLimits& limits = ascent_.limits;
+    beyond_ = beyond, slope_ = slope, cruise_ = 0.0;
     curvature_ = -1.0 / limits.a_up - 1.0 / limits.a_dn;
     return next(low, low, high);
   }
@@ -116,37 +117,29 @@ class Stretched {
     return beyond_ > 0.0 || cruise_ < 0.0 ? low + kClose * (w - low) : high - kClose * (high - w);
   }
 
-  const Ascent& ascent_;
+  Ascent ascent_;
   double duration_, tolerance_;
   double w_, cruise_, beyond_, slope_, curvature_;  // of the w evaluated last
   VelocityChange first_, second_;
 };
-
-/// The phases that lead back inside, and nothing else.
-AxisPlan lead_of(const AxisPlan& plan, const AxisState& from, double p, double v) {
-  AxisPlan lead(from, p, v);
-  for (int i = 0; i < AxisPlan::kPhases; ++i)
-    if (i < plan.lead()) lead.append(plan.phase(i).duration, plan.phase(i).jerk);
-  lead.end_lead();
-  return lead;
-}
 
 }  // namespace
 
 bool stretch(AxisPlan& plan, const AxisState& from, double p, double v, const AxisLimits& limits,
              double duration) {
   if (duration <= plan.duration()) return true;
+  const double more = duration - plan.duration();
+  if (!(more - more == 0.0)) return false;  // something is not finite
   const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
-  AxisPlan slow = lead_of(plan, from, p, vf);
-  const AxisState s = slow.after_lead();
-  const double rest = duration - slow.duration();
+  const AxisState s = plan.lead() > 0 ? plan.after_lead() : from;
+  const double rest = duration - plan.lead_duration();
   const DirectChange direct = direct_change(s, vf, limits);
-  const double missing = p - s.p - direct.change.distance - vf * (rest - direct.change.duration());
-  const Ascent ascent = ascent_of(s, p, vf, limits, missing);
-  Stretched longer(ascent, rest);
-  if (!longer.find()) return false;
-  longer.append_to(slow);
-  plan = slow;
+  const double cruise = rest - direct.change.duration();
+  const double missing = p - s.p - direct.change.distance - vf * cruise;
+  Stretched longer(ascent_of(s, p, vf, limits, missing), rest);
+  if (!longer.find(cruise + 0.5 * direct.change.peak / limits.j)) return false;
+  plan.cut_to_lead();
+  longer.append_to(plan);
   return true;
 }
 
