@@ -84,17 +84,26 @@ struct LongState {
   }
 };
 
-/// Largest and smallest velocity and acceleration on the way, its end, and whether all phases are
-/// longer than zero and of jerk 0 or +-j.
+/// Largest and smallest position, velocity and acceleration on the way, its end, and whether all
+/// phases are longer than zero and of jerk 0 or +-j.
 struct Judged {
-  double v_lo, v_hi, a_lo, a_hi, end_p, end_v, end_a, path;
+  double p_lo, p_hi, v_lo, v_hi, a_lo, a_hi, end_p, end_v, end_a, path;
   bool lawful = true;
 };
 
+/// When the acceleration and, twice, the velocity pass zero with constant jerk; NaN if they do not.
+inline std::array<long double, 3> turns(const LongState& s, long double j) {
+  const long double root = std::sqrt(s.a * s.a - 2 * j * s.v);
+  if (j == 0) return {NAN, -s.v / s.a, NAN};
+  return {-s.a / j, (-s.a - root) / j, (-s.a + root) / j};
+}
+
 inline Judged judge(const AxisPlan& plan, const AxisState& from, double j) {
   LongState s{from.p, from.v, from.a};
-  Judged judged{from.v, from.v, from.a, from.a, 0, 0, 0, 0};
+  Judged judged{from.p, from.p, from.v, from.v, from.a, from.a, 0, 0, 0, 0};
   const auto see = [&judged](const LongState& at) {
+    judged.p_lo = std::min(judged.p_lo, static_cast<double>(at.p));
+    judged.p_hi = std::max(judged.p_hi, static_cast<double>(at.p));
     judged.v_lo = std::min(judged.v_lo, static_cast<double>(at.v));
     judged.v_hi = std::max(judged.v_hi, static_cast<double>(at.v));
     judged.a_lo = std::min(judged.a_lo, static_cast<double>(at.a));
@@ -103,8 +112,8 @@ inline Judged judge(const AxisPlan& plan, const AxisState& from, double j) {
   for (int i = 0; i < plan.phases(); ++i) {
     const auto& phase = plan.phase(i);
     judged.lawful &= phase.duration > 0.0 && (phase.jerk == 0.0 || std::abs(phase.jerk) == j);
-    const long double top = phase.jerk == 0.0 ? -1.0L : -s.a / phase.jerk;
-    if (top > 0 && top < phase.duration) see(s.after(top, phase.jerk));
+    for (const long double t : turns(s, phase.jerk))
+      if (t > 0 && t < phase.duration) see(s.after(t, phase.jerk));
     const LongState next = s.after(phase.duration, phase.jerk);
     judged.path +=
         std::max(std::abs(static_cast<double>(s.v)), std::abs(static_cast<double>(next.v))) *
@@ -118,9 +127,31 @@ inline Judged judge(const AxisPlan& plan, const AxisState& from, double j) {
   return judged;
 }
 
+/// The FER's joints; see tests/otg/README.md.
+constexpr std::array<AxisLimits, 7> kFerAxes{{{-2.175, 2.175, 15.0, 15.0, 7500.0},
+                                              {-2.175, 2.175, 7.5, 7.5, 3750.0},
+                                              {-2.175, 2.175, 10.0, 10.0, 5000.0},
+                                              {-2.175, 2.175, 12.5, 12.5, 6250.0},
+                                              {-2.61, 2.61, 15.0, 15.0, 7500.0},
+                                              {-2.61, 2.61, 20.0, 20.0, 10000.0},
+                                              {-2.61, 2.61, 20.0, 20.0, 10000.0}}};
+
 /// By how much of the limit the range [lo, hi] leaves [least, most].
 inline double excess(double lo, double hi, double least, double most) {
   return std::max((hi - most) / (most - least), (least - lo) / (most - least));
+}
+
+/// Phases of full jerk or none, velocity and acceleration within `kept` (whose jerk is the law's),
+/// the target met; all to what rounding leaves, a^2 / j being up to 1e4 times a velocity limit.
+inline void assert_lawful(const AxisPlan& plan, const AxisState& from, const AxisTarget& target,
+                          const AxisLimits& law, const AxisLimits& kept) {
+  const Judged judged = judge(plan, from, law.j);
+  assert_true(judged.lawful);
+  assert_true(excess(judged.v_lo, judged.v_hi, kept.v_lo, kept.v_hi) <= 1e-9);
+  assert_true(excess(judged.a_lo, judged.a_hi, -kept.a_dn, kept.a_up) <= 1e-9);
+  ASSERT_NEAR(judged.end_p, target.p, 1e-9 * judged.path + 1e-14 * std::abs(from.p));
+  ASSERT_NEAR(judged.end_v, target.v, 1e-9 * (kept.v_hi - kept.v_lo));
+  ASSERT_NEAR(judged.end_a, 0.0, 1e-9 * (kept.a_up + kept.a_dn));
 }
 
 }  // namespace tactus

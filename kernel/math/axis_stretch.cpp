@@ -78,9 +78,9 @@ class Stretched {
   double begin_at(double low, double high, double beyond, double slope) {
     if (beyond >= -tolerance_) return low;
     const AxisLimits& limits = ascent_.limits;
-    beyond_ = beyond, slope_ = slope, cruise_ = 0.0;
+    beyond_ = beyond, slope_ = slope;
     curvature_ = -1.0 / limits.a_up - 1.0 / limits.a_dn;
-    return next(low, low, high);
+    return next(low, low, high, false);
   }
 
   static double bend(const VelocityChange& change) {
@@ -96,7 +96,7 @@ class Stretched {
       if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;
       const bool down = cruise_ < 0.0 ? !time_above : beyond_ > 0.0;
       (down ? high : low) = w;
-      w = i % 4 == 3 ? 0.5 * (low + high) : next(w, low, high);
+      w = i % 4 == 3 ? 0.5 * (low + high) : next(w, low, high, down);
     }
     constexpr double kRounding = 1e3;  // of tolerances: a bracket that rounding keeps open
     return cruise_ >= 0.0 && std::abs(beyond_) <= kRounding * tolerance_;
@@ -104,7 +104,7 @@ class Stretched {
 
   /// The root of the parabola through L on its rising branch, or where it has none, of the tangent;
   /// close to the end of the bracket that it leaves.
-  double next(double w, double low, double high) const {
+  double next(double w, double low, double high, bool down) const {
     constexpr double kClose = 1.0 / 32.0;
     const double square = slope_ * slope_ - 2.0 * beyond_ * curvature_;
     const double root = std::sqrt(std::max(0.0, square));
@@ -114,7 +114,7 @@ class Stretched {
     else if (square >= 0.0)
       to = w - 2.0 * beyond_ / (slope_ + root);
     if (to > low && to < high) return to;
-    return beyond_ > 0.0 || cruise_ < 0.0 ? low + kClose * (w - low) : high - kClose * (high - w);
+    return down ? low + kClose * (w - low) : high - kClose * (high - w);
   }
 
   Ascent ascent_;
