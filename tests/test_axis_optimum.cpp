@@ -70,6 +70,61 @@ double rounding_of_time(const AxisState& s, double j) {
   return 2.0 * std::cbrt(6e-16 * std::abs(s.p) / j);
 }
 
+/// A motion put together at random, as far as it goes.
+struct Feasible {
+  LongState state;
+  long double duration = 0;
+
+  void go(long double t, long double jerk) {
+    state = state.after(t, jerk);
+    duration += t;
+  }
+  /// Jerk, hold, jerk back to (w, 0).
+  void change(long double w, const AxisLimits& l) {
+    const long double j = l.j, rest = state.v + state.a * std::abs(state.a) / (2 * j);
+    const long double side = w >= rest ? 1 : -1, most = side > 0 ? l.a_up : l.a_dn;
+    const long double q = j * side * (w - state.v) + state.a * state.a / 2;
+    const long double peak = std::min(most, std::sqrt(q));
+    go((peak - side * state.a) / j, side * j);
+    if (peak > 0) go((q - peak * peak) / (j * peak), 0);
+    go(peak / j, -side * j);
+  }
+  bool inside(const AxisLimits& l) const {
+    const long double rest = state.v + state.a * std::abs(state.a) / (2 * l.j);
+    return std::max(state.v, rest) <= l.v_hi && std::min(state.v, rest) >= l.v_lo &&
+           state.a <= l.a_up && state.a >= -l.a_dn;
+  }
+};
+
+/// Half of the states brake, half of those on the limit: where jerk up, then down again, may be the
+/// shortest way to a target that moves back.
+void no_motion_put_together_at_random_is_shorter(void**) {
+  AxisRandom random;
+  int tried = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const AxisLimits limits = random_limits(random);
+    AxisState from = random_inside(random, limits);
+    if (random.one_in(2)) from.a = -std::abs(from.v > 0.0 ? from.a : -from.a);
+    if (random.one_in(4)) from.a = from.v > 0.0 ? -limits.a_dn : limits.a_up;
+    Feasible motion{{from.p, from.v, from.a}};
+    if (!motion.inside(limits)) continue;
+    const double ramp = (limits.a_up + limits.a_dn) / limits.j;
+    for (int phase = 0; phase < 3 && motion.inside(limits); ++phase)
+      if (random.one_in(2))
+        motion.go(ramp * random.decades(-3, 0), random.between(-1, 1) > 0 ? limits.j : -limits.j);
+    if (!motion.inside(limits)) continue;
+    const double v = random.one_in(2) ? 0.0 : random.between(limits.v_lo, limits.v_hi);
+    motion.change(v, limits);
+    const double p = static_cast<double>(motion.state.p);
+    const double duration = static_cast<double>(motion.duration);
+    const double tolerance = 1e-7 * duration + rounding_of_time({p, 0.0, 0.0}, limits.j) +
+                             rounding_of_time(from, limits.j);
+    assert_true(plan_to(from, p, v, limits).duration() <= duration + tolerance);
+    ++tried;
+  }
+  assert_true(tried > 30000);
+}
+
 void planning_again_on_the_way_gains_nothing_and_loses_nothing(void**) {
   AxisRandom random;
   for (int i = 0; i < 40000; ++i) {
@@ -94,6 +149,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(one_axis_takes_as_long_as_the_shortest_motion),
       cmocka_unit_test(seven_axes_arrive_together_after_the_shortest_motion_of_the_slowest),
+      cmocka_unit_test(no_motion_put_together_at_random_is_shorter),
       cmocka_unit_test(planning_again_on_the_way_gains_nothing_and_loses_nothing),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

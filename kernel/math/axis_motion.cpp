@@ -9,6 +9,9 @@ namespace {
 
 /// Of the distances summed: two units of rounding for each of the about fifty operations.
 constexpr double kTolerance = 2e-14;
+/// Of the positions: two units of rounding. A way is not known better, and a moving target that is
+/// missed by less costs another approach.
+constexpr double kPositionRounding = 4.5e-16;
 
 }  // namespace
 
@@ -34,7 +37,8 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
   plan.end_lead();
   const double distance = p - inside.p;
   const DirectChange direct = direct_change(inside, v, limits);
-  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance));
+  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance)) +
+                           kPositionRounding * (std::abs(p) + std::abs(inside.p));
   const double missing = distance - direct.change.distance;
   if (std::abs(missing) <= tolerance) {
     append(plan, direct.change, direct.jerk);
