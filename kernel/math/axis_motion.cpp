@@ -9,9 +9,6 @@ namespace {
 
 /// Of the distances summed: two units of rounding for each of the about fifty operations.
 constexpr double kTolerance = 2e-14;
-/// Of the positions: two units of rounding. A way is not known better, and a moving target that is
-/// missed by less costs another approach.
-constexpr double kPositionRounding = 4.5e-16;
 
 }  // namespace
 
@@ -27,7 +24,7 @@ Ascent ascent_of(const AxisState& s, double p, double v, const AxisLimits& limit
   ascent.vf = side * v;
   ascent.distance = side * (p - s.p);
   ascent.missing = side * missing;
-  ascent.tolerance = 0.0;
+  ascent.tolerance = rounding_of_way(s.p, p);
   return ascent;
 }
 
@@ -38,7 +35,7 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
   const double distance = p - inside.p;
   const DirectChange direct = direct_change(inside, v, limits);
   const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance)) +
-                           kPositionRounding * (std::abs(p) + std::abs(inside.p));
+                           rounding_of_way(inside.p, p);
   const double missing = distance - direct.change.distance;
   if (std::abs(missing) <= tolerance) {
     append(plan, direct.change, direct.jerk);

@@ -24,8 +24,8 @@ class Stretched {
  public:
   Stretched(const Ascent& ascent, double duration) : ascent_(ascent), duration_(duration) {
     const AxisLimits& limits = ascent.limits;
-    tolerance_ =
-        kTolerance * (std::abs(ascent.distance) + 1e-3 * (limits.v_hi - limits.v_lo) * duration);
+    tolerance_ = ascent.tolerance + kTolerance * (std::abs(ascent.distance) +
+                                                  1e-3 * (limits.v_hi - limits.v_lo) * duration);
   }
 
   /// `slope` is that of L at vf. False if there is no such motion.
