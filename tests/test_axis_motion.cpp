@@ -61,6 +61,19 @@ void stretched_motions_keep_limits_and_take_the_time_given(void**) {
   assert_true(blocked * 200 < at_rest);  // 3 of 1000 are
 }
 
+void nothing_is_left_of_an_acceleration_that_runs_out_at_the_velocity_limit(void**) {
+  AxisRandom random;
+  for (int i = 0; i < kCases; ++i) {
+    const AxisLimits limits = random_limits(random);
+    const double a =
+        std::min(limits.a_up, std::sqrt(limits.j * limits.v_hi)) * random.decades(-4, 0);
+    const AxisState from{0.0, limits.v_hi - 0.5 * a * a / limits.j, a};
+    const AxisTarget target{limits.v_hi * random.decades(2, 5),
+                            random.one_in(2) ? 0.0 : limits.v_hi};
+    assert_lawful(plan_to(from, target.p, target.v, limits), from, target, limits, limits);
+  }
+}
+
 void position_velocity_and_acceleration_are_derivatives_of_each_other(void**) {
   over_cases(1.0, [](AxisRandom& random, const AxisState& from, const AxisTarget& target,
                      const AxisLimits& limits) {
@@ -199,6 +212,10 @@ void what_is_not_finite_or_no_limit_gives_a_plan_that_is_not_a_number(void**) {
     assert_false(stretch(good, {}, 1.0, 0.0, {-1.0, 1.0, 1.0, 1.0, 1.0}, std::abs(bad)));
     assert_true(good.duration() < 10.0);
   }
+  const AxisLimits tiny{-1e-300, 1e-300, 1e-300, 1e-300, 1e-300};
+  assert_true(std::isnan(plan_to({}, 1e300, 0.0, tiny).duration()));
+  assert_true(std::isnan(plan_inside({}, 1e300, tiny, -1e300, 1e300).at(1.0).p));
+  assert_true(std::isnan(plan_stop({0.0, 1e300, 0.0}, tiny).duration()));
   for (int i = 0; i < 5; ++i) {
     double n[5] = {-1.0, 1.0, 2.0, 2.0, 50.0};
     n[i] = 0.0;
@@ -214,6 +231,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(limits_are_kept_and_the_end_is_met),
       cmocka_unit_test(stretched_motions_keep_limits_and_take_the_time_given),
+      cmocka_unit_test(nothing_is_left_of_an_acceleration_that_runs_out_at_the_velocity_limit),
       cmocka_unit_test(position_velocity_and_acceleration_are_derivatives_of_each_other),
       cmocka_unit_test(scales_of_length_and_time_change_nothing),
       cmocka_unit_test(from_outside_nothing_goes_further_out_and_the_end_is_met),
