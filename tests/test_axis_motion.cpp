@@ -206,7 +206,10 @@ void what_is_not_finite_or_no_limit_gives_a_plan_that_is_not_a_number(void**) {
       const AxisPlan inside = plan_inside(from, n[3], limits, n[10], n[11]);
       if (i != 4) assert_true(std::isnan(inside.duration()) && std::isnan(inside.at(0.1).v));
       const AxisPlan stop = plan_stop(from, limits);
-      if (i < 3 || (i >= 5 && i < 10)) assert_true(std::isnan(stop.duration()));
+      if (i >= 3 && (i < 5 || i >= 10)) continue;
+      assert_true(std::isnan(stop.duration()));
+      const AxisRange range = stop_range(from, limits);
+      assert_true(std::isnan(range.lowest) && std::isnan(range.highest));
     }
     AxisPlan good = plan_to({}, 1.0, 0.0, {-1.0, 1.0, 1.0, 1.0, 1.0});
     assert_false(stretch(good, {}, 1.0, 0.0, {-1.0, 1.0, 1.0, 1.0, 1.0}, std::abs(bad)));

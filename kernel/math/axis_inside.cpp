@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kHalvings = 24;            // of the time of braking
 constexpr double kAlmostTwo = 1.999999;  // as in axis_return.cpp
+constexpr double kRounding = 1e-14;      // of the range
 
 /// Braking with all there is, against an ascent.
 class Brake {
@@ -77,7 +78,9 @@ AxisPlan plan_inside(const AxisState& from, double p, const AxisLimits& limits, 
   const double end = std::max(p_lo, std::min(p_hi, p));
   plan.start(from, end, 0.0);
   const AxisRange stop = stop_range(from, limits);
-  const bool over = stop.highest > p_hi, under = stop.lowest < p_lo;
+  // A stop planned to end on a limit is off it by rounding.
+  const double rounding = kRounding * (p_hi - p_lo) + rounding_of_way(p_lo, p_hi);
+  const bool over = stop.highest > p_hi + rounding, under = stop.lowest < p_lo - rounding;
   AxisState state = from;
   if (over || under) {
     const bool up = over && (!under || from.v >= 0.0);

@@ -99,7 +99,7 @@ struct AxisRange {
   double lowest, highest;
 };
 
-/// The positions that the direct stop passes. [cyclic]
+/// The positions that the direct stop passes; NaN for what is not finite. [cyclic]
 AxisRange stop_range(const AxisState& from, const AxisLimits& limits);
 
 }  // namespace tactus

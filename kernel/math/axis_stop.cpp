@@ -34,6 +34,8 @@ AxisPlan plan_stop(const AxisState& from, const AxisLimits& limits) {
 }
 
 AxisRange stop_range(const AxisState& from, const AxisLimits& limits) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (!usable(from, 0.0, 0.0, limits)) return {kNaN, kNaN};
   const double j = limits.j;
   AxisRange range{from.p, from.p};
   AxisState s = from;

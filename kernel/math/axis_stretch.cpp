@@ -119,8 +119,9 @@ class Stretched {
 
   Ascent ascent_;
   double duration_, tolerance_;
-  double w_, cruise_, beyond_, slope_, curvature_;  // of the w evaluated last
-  VelocityChange first_, second_;
+  // Of the w evaluated last.
+  double w_ = 0.0, cruise_ = 0.0, beyond_ = 0.0, slope_ = 0.0, curvature_ = 0.0;
+  VelocityChange first_{}, second_{};
 };
 
 }  // namespace

@@ -21,7 +21,9 @@ namespace {
 constexpr int kSteps = 16;
 constexpr double kRounding = 1e-15;  // of the way there and back
 
-/// The cube root within 6 percent, for a trial: a third of the exponent, the rest on a line.
+/// The cube root within 6 percent, for a trial: a third of the exponent, the rest on a line. The
+/// constant is two thirds of the bits of one, less 0.03 of a unit of the exponent, which levels the
+/// error.
 double about_cube_root(double x) {
   return double_of(bits_of(x) / 3 + 0x2A9F84FE36D22425u);
 }
@@ -82,8 +84,8 @@ class OverVelocity {
 
   /// Exact from rest to rest. Without holds D = 2 w sqrt(w / j) there; with alpha and beta at the
   /// limits A and B all along
-  ///   dD/dw = (1/A + 1/B) (w + c), c = A B / 2j  =>  (w + c)^2 = (w_least + c)^2 + 2 D A B / (A +
-  ///   B).
+  ///   dD/dw = (1/A + 1/B) (w + c), c = A B / 2j
+  ///   (w + c)^2 = (w_least + c)^2 + 2 D A B / (A + B)
   /// Never a negative velocity, where D may still fall.
   double trial_x() const {
     const double a = ascent_.limits.a_up, b = ascent_.limits.a_dn, missing = ascent_.missing;
@@ -110,9 +112,10 @@ class OverVelocity {
   double j_;
   double least_, x_most_;
   double rise_constant_, fall_constant_;
-  double w_, beyond_, close_;  // of the x evaluated last; beyond_: the distance less the one wanted
-  VelocityChange rise_, fall_;
-  double low_, high_;
+  // Of the x evaluated last. beyond_: the distance less the one wanted; close_: what may be left.
+  double w_ = 0.0, beyond_ = 0.0, close_ = 0.0;
+  VelocityChange rise_{}, fall_{};
+  double low_ = 0.0, high_ = 0.0;
 };
 
 }  // namespace
