@@ -23,12 +23,13 @@ struct Ascent {
   double vf;         ///< at the end
   double distance;   ///< D
   double missing;    ///< of what has been tried: D less its distance, > 0
-  double tolerance;  ///< of distances: two units of rounding of what they are sums of
+  double tolerance;  ///< of distances: what rounding leaves
 
   bool rises_to_end() const { return vf >= v1; }
 };
 
-/// The state and the target (p, v, 0) seen so that what is missing is not negative; no tolerance.
+/// The state and the target (p, v, 0) seen so that what is missing is not negative. The
+/// tolerance is the rounding of the way.
 Ascent ascent_of(const AxisState& s, double p, double v, const AxisLimits& limits, double missing);
 /// Appends form 2 if it is the shortest; else false, and what is missing is that of its end.
 bool append_while_braking(AxisPlan& plan, Ascent& ascent);

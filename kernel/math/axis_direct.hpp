@@ -13,9 +13,15 @@ inline bool usable(const AxisState& s, double p, double v, const AxisLimits& l) 
          l.j > 0.0;
 }
 
+/// Two units of rounding of the positions. A way is not known better, and a moving target that is
+/// missed by less costs another approach.
+inline double rounding_of_way(double from, double to) {
+  return 4.5e-16 * (std::abs(from) + std::abs(to));
+}
+
 /// A plan that has left the range of doubles becomes the one that is NaN.
 inline void make_finite(AxisPlan& plan) {
-  if (!(plan.duration() - plan.duration() == 0.0)) plan = AxisPlan();
+  if (!(plan.duration() - plan.duration() == 0.0)) plan = {};
 }
 
 struct DirectChange {

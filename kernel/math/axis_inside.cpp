@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kHalvings = 24;            // of the time of braking
 constexpr double kAlmostTwo = 1.999999;  // as in axis_return.cpp
+constexpr double kRounding = 1e-14;      // of the range
 
 /// Braking with all there is, against an ascent.
 class Brake {
@@ -72,11 +73,14 @@ double braking_time(const Brake& brake, const AxisLimits& limits, double lo, dou
 
 AxisPlan plan_inside(const AxisState& from, double p, const AxisLimits& limits, double p_lo,
                      double p_hi) {
+  AxisPlan plan;
+  if (!usable(from, p + p_lo + p_hi, 0.0, limits)) return plan;
   const double end = std::max(p_lo, std::min(p_hi, p));
-  if (!usable(from, p + p_lo + p_hi, 0.0, limits)) return AxisPlan();
-  AxisPlan plan(from, end, 0.0);
+  plan.start(from, end, 0.0);
   const AxisRange stop = stop_range(from, limits);
-  const bool over = stop.highest > p_hi, under = stop.lowest < p_lo;
+  // A stop planned to end on a limit is off it by rounding.
+  const double rounding = kRounding * (p_hi - p_lo) + rounding_of_way(p_lo, p_hi);
+  const bool over = stop.highest > p_hi + rounding, under = stop.lowest < p_lo - rounding;
   AxisState state = from;
   if (over || under) {
     const bool up = over && (!under || from.v >= 0.0);

@@ -24,17 +24,18 @@ Ascent ascent_of(const AxisState& s, double p, double v, const AxisLimits& limit
   ascent.vf = side * v;
   ascent.distance = side * (p - s.p);
   ascent.missing = side * missing;
-  ascent.tolerance = 0.0;
+  ascent.tolerance = rounding_of_way(s.p, p);
   return ascent;
 }
 
 void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
                    const AxisLimits& limits) {
-  const AxisState inside = append_return(plan, from, limits);
+  const AxisState inside = is_inside(from, limits) ? from : append_return(plan, from, limits);
   plan.end_lead();
   const double distance = p - inside.p;
   const DirectChange direct = direct_change(inside, v, limits);
-  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance));
+  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance)) +
+                           rounding_of_way(inside.p, p);
   const double missing = distance - direct.change.distance;
   if (std::abs(missing) <= tolerance) {
     append(plan, direct.change, direct.jerk);
@@ -48,9 +49,10 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
 }
 
 AxisPlan plan_to(const AxisState& from, double p, double v, const AxisLimits& limits) {
-  if (!usable(from, p, v, limits)) return AxisPlan();
+  AxisPlan plan;
+  if (!usable(from, p, v, limits)) return plan;
   const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
-  AxisPlan plan(from, p, vf);
+  plan.start(from, p, vf);
   append_motion(plan, from, p, vf, limits);
   make_finite(plan);
   return plan;

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace tactus {
 
@@ -35,17 +36,25 @@ class AxisPlan {
   };
   static constexpr int kPhases = 12;  ///< most that a plan has
 
-  /// A plan whose duration and states are NaN.
-  AxisPlan();
-  /// A plan without phases from `from` to (p, v, 0).
-  AxisPlan(const AxisState& from, double p, double v);
-
+  /// Its duration and states are NaN.
+  AxisPlan() = default;
+  /// From `from` to (p, v, 0), without phases. [any]
+  void start(const AxisState& from, double p, double v) {
+    from_ = from, p_ = p, v_ = v;
+    duration_ = 0.0, phases_ = lead_ = 0;
+  }
   /// Adds a phase; one not longer than zero is left out, one too many makes the duration NaN. [any]
-  void append(double duration, double jerk);
+  void append(double duration, double jerk) {
+    if (duration <= 0.0) return;
+    duration_ = phases_ < kPhases ? duration_ + duration : kNaN;
+    if (phases_ < kPhases) phase_[static_cast<std::size_t>(phases_++)] = {duration, jerk};
+  }
   /// Where it ends. [any]
   void end_at(double p, double v) { p_ = p, v_ = v; }
   /// What is appended so far leads back inside limits; stretching keeps it as it is. [any]
   void end_lead() { lead_ = phases_; }
+  /// Takes off all that is appended behind the lead. [any]
+  void cut_to_lead();
 
   /// The state at t >= 0; from the end on exactly {p + v (t - duration), v, 0}. [cyclic]
   AxisState at(double t) const;
@@ -54,12 +63,15 @@ class AxisPlan {
   int phases() const { return phases_; }
   int lead() const { return lead_; }
   AxisState after_lead() const;
+  double lead_duration() const;
   const Phase& phase(int i) const { return phase_[static_cast<std::size_t>(i)]; }
 
  private:
-  AxisState from_;
-  double p_, v_;  // at the end
-  double duration_ = 0.0;
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+  AxisState from_{kNaN, kNaN, kNaN};
+  double p_ = kNaN, v_ = kNaN;  // at the end
+  double duration_ = kNaN;
   int phases_ = 0, lead_ = 0;
   std::array<Phase, kPhases> phase_;
 };
@@ -87,7 +99,7 @@ struct AxisRange {
   double lowest, highest;
 };
 
-/// The positions that the direct stop passes. [cyclic]
+/// The positions that the direct stop passes; NaN for what is not finite. [cyclic]
 AxisRange stop_range(const AxisState& from, const AxisLimits& limits);
 
 }  // namespace tactus

@@ -1,32 +1,10 @@
-#include <limits>
-
 #include "kernel/math/axis_motion.hpp"
 
 namespace tactus {
-namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 AxisState moved(const AxisState& from, double t, double jerk) {
   return {from.p + t * (from.v + t * (0.5 * from.a + t * jerk / 6.0)),
           from.v + t * (from.a + 0.5 * t * jerk), from.a + t * jerk};
-}
-
-AxisPlan::AxisPlan() : AxisPlan({kNaN, kNaN, kNaN}, kNaN, kNaN) {
-  duration_ = kNaN;
-}
-
-AxisPlan::AxisPlan(const AxisState& from, double p, double v) : from_(from), p_(p), v_(v) {}
-
-void AxisPlan::append(double duration, double jerk) {
-  if (duration <= 0.0) return;
-  duration_ += duration;
-  if (phases_ < kPhases)
-    phase_[static_cast<std::size_t>(phases_++)] = {duration, jerk};
-  else
-    duration_ = kNaN;  // no motion of ours has more
 }
 
 AxisState AxisPlan::at(double t) const {
@@ -44,9 +22,25 @@ AxisState AxisPlan::at(double t) const {
 
 AxisState AxisPlan::after_lead() const {
   AxisState state = from_;
-  for (int i = 0; i < kPhases; ++i)
-    if (i < lead_) state = moved(state, phase(i).duration, phase(i).jerk);
+  for (int i = 0; i < kPhases; ++i) {
+    if (i >= lead_) break;
+    state = moved(state, phase(i).duration, phase(i).jerk);
+  }
   return state;
+}
+
+double AxisPlan::lead_duration() const {
+  double sum = 0.0;
+  for (int i = 0; i < kPhases; ++i) {
+    if (i >= lead_) break;
+    sum += phase(i).duration;
+  }
+  return sum;
+}
+
+void AxisPlan::cut_to_lead() {
+  duration_ = lead_duration();
+  phases_ = lead_;
 }
 
 }  // namespace tactus

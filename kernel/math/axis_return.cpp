@@ -1,7 +1,5 @@
 #include "kernel/math/axis_return.hpp"
 
-#include "kernel/math/velocity_change.hpp"
-
 namespace tactus {
 namespace {
 
@@ -76,8 +74,6 @@ AxisState append_acceleration_return(AxisPlan& plan, AxisState state, const Axis
 
 AxisState append_return(AxisPlan& plan, AxisState state, const AxisLimits& limits) {
   state = append_acceleration_return(plan, state, limits);
-  const double v = state.v, v1 = rest_velocity(v, state.a, limits.j);
-  if (std::max(v, v1) <= limits.v_hi && std::min(v, v1) >= limits.v_lo) return state;
   for (int i = 0; i < 2; ++i) {
     Return back(plan, state, i == 0 ? 1.0 : -1.0);
     back.velocity(i == 0 ? limits : mirrored(limits));

@@ -13,9 +13,16 @@
 // same in the mirror.
 #pragma once
 
-#include "kernel/math/axis_motion.hpp"
+#include "kernel/math/velocity_change.hpp"
 
 namespace tactus {
+
+/// Neither velocity nor acceleration is outside, nor the velocity that this runs out to.
+inline bool is_inside(const AxisState& state, const AxisLimits& limits) {
+  const double v = state.v, rest = rest_velocity(v, state.a, limits.j);
+  return state.a <= limits.a_up && state.a >= -limits.a_dn && std::max(v, rest) <= limits.v_hi &&
+         std::min(v, rest) >= limits.v_lo;
+}
 
 /// Appends at most three phases and returns the state behind them; none for a state inside.
 AxisState append_return(AxisPlan& plan, AxisState state, const AxisLimits& limits);

@@ -21,8 +21,9 @@ void include_turn(AxisRange& range, const AxisState& s, double jerk, double dura
 }  // namespace
 
 AxisPlan plan_stop(const AxisState& from, const AxisLimits& limits) {
-  if (!usable(from, 0.0, 0.0, limits)) return AxisPlan();
-  AxisPlan plan(from, from.p, 0.0);
+  AxisPlan plan;
+  if (!usable(from, 0.0, 0.0, limits)) return plan;
+  plan.start(from, from.p, 0.0);
   const AxisState s = append_acceleration_return(plan, from, limits);
   plan.end_lead();
   const DirectChange direct = direct_change(s, 0.0, limits);
@@ -33,6 +34,8 @@ AxisPlan plan_stop(const AxisState& from, const AxisLimits& limits) {
 }
 
 AxisRange stop_range(const AxisState& from, const AxisLimits& limits) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (!usable(from, 0.0, 0.0, limits)) return {kNaN, kNaN};
   const double j = limits.j;
   AxisRange range{from.p, from.p};
   AxisState s = from;

@@ -24,25 +24,20 @@ class Stretched {
  public:
   Stretched(const Ascent& ascent, double duration) : ascent_(ascent), duration_(duration) {
     const AxisLimits& limits = ascent.limits;
-    tolerance_ =
-        kTolerance * (std::abs(ascent.distance) + 1e-3 * (limits.v_hi - limits.v_lo) * duration);
+    tolerance_ = ascent.tolerance + kTolerance * (std::abs(ascent.distance) +
+                                                  1e-3 * (limits.v_hi - limits.v_lo) * duration);
   }
 
-  bool find() {
+  /// `slope` is that of L at vf. False if there is no such motion.
+  bool find(double slope) {
     const double vf = ascent_.vf, v1 = ascent_.v1, v_hi = ascent_.limits.v_hi;
-    if (vf >= v1) return meet(vf, v_hi, false, 0.5 * (vf + v_hi));
+    if (vf >= v1 || ascent_.missing <= tolerance_)
+      return meet(vf, v_hi, false, begin_at(vf, v_hi, -ascent_.missing, slope));
     const double top = std::min(v1, v_hi);
     evaluate(top);
-    if (cruise_ >= 0.0 && beyond_ <= tolerance_) return meet(top, v_hi, false, top);
-    // Between vf and v1 the two changes may take more than the time. They take most of it near the
-    // middle of what a first fall without a hold would reach.
-    const double middle =
-        std::min(top, 0.5 * (v1 + vf + 0.5 * ascent_.a * ascent_.a / ascent_.limits.j));
-    evaluate(middle);
-    if (cruise_ >= 0.0)
-      return beyond_ >= 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
-    return meet(vf, middle, false, 0.5 * (vf + middle)) ||
-           meet(middle, top, true, 0.5 * (middle + top));
+    if (cruise_ >= 0.0 && beyond_ <= tolerance_)
+      return meet(top, v_hi, false, begin_at(top, v_hi, beyond_, slope_));
+    return find_below(vf, top);
   }
 
   void append_to(AxisPlan& plan) const {
@@ -53,6 +48,18 @@ class Stretched {
   }
 
  private:
+  /// Between vf and v1 the two changes may take more than the time. They take most of it about the
+  /// middle of what a first fall without a hold reaches, and there L grows least.
+  bool find_below(double vf, double top) {
+    const double reach = 0.5 * ascent_.a * ascent_.a / ascent_.limits.j;
+    const double middle = std::min(top, 0.5 * (ascent_.v1 + vf + reach));
+    evaluate(middle);
+    if (slope_ > 0.0)  // then everywhere
+      return beyond_ > 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
+    return meet(vf, middle, false, 0.5 * (vf + middle)) ||
+           meet(middle, top, true, 0.5 * (middle + top));
+  }
+
   void evaluate(double w) {
     const AxisLimits& limits = ascent_.limits;
     const double j = limits.j, vf = ascent_.vf;
@@ -65,6 +72,15 @@ class Stretched {
     beyond_ = first_.distance + second_.distance + w * cruise_ - ascent_.distance;
     slope_ = cruise_ + 0.5 * (first_.peak + second_.peak) / j;
     curvature_ = (rises ? -bend(first_) : bend(first_)) - bend(second_);
+  }
+
+  /// From the lower end of the bracket, on the parabola of changes that hold.
+  double begin_at(double low, double high, double beyond, double slope) {
+    if (beyond >= -tolerance_) return low;
+    const AxisLimits& limits = ascent_.limits;
+    beyond_ = beyond, slope_ = slope;
+    curvature_ = -1.0 / limits.a_up - 1.0 / limits.a_dn;
+    return next(low, low, high, false);
   }
 
   static double bend(const VelocityChange& change) {
@@ -80,50 +96,51 @@ class Stretched {
       if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;
       const bool down = cruise_ < 0.0 ? !time_above : beyond_ > 0.0;
       (down ? high : low) = w;
-      const double next = w + parabola_step();
-      w = next > low && next < high ? next : 0.5 * (low + high);
+      w = i % 4 == 3 ? 0.5 * (low + high) : next(w, low, high, down);
     }
     constexpr double kRounding = 1e3;  // of tolerances: a bracket that rounding keeps open
     return cruise_ >= 0.0 && std::abs(beyond_) <= kRounding * tolerance_;
   }
 
-  /// To the root of the parabola through L that lies on its rising branch; NaN if it has none.
-  double parabola_step() const {
-    const double root = std::sqrt(slope_ * slope_ - 2.0 * beyond_ * curvature_);
-    return slope_ > 0.0 ? -2.0 * beyond_ / (slope_ + root) : (root - slope_) / curvature_;
+  /// The root of the parabola through L on its rising branch, or where it has none, of the tangent;
+  /// close to the end of the bracket that it leaves.
+  double next(double w, double low, double high, bool down) const {
+    constexpr double kClose = 1.0 / 32.0;
+    const double square = slope_ * slope_ - 2.0 * beyond_ * curvature_;
+    const double root = std::sqrt(std::max(0.0, square));
+    double to = w - beyond_ / slope_;
+    if (slope_ <= 0.0)
+      to = w + (root - slope_) / curvature_;
+    else if (square >= 0.0)
+      to = w - 2.0 * beyond_ / (slope_ + root);
+    if (to > low && to < high) return to;
+    return down ? low + kClose * (w - low) : high - kClose * (high - w);
   }
 
-  const Ascent& ascent_;
+  Ascent ascent_;
   double duration_, tolerance_;
-  double w_, cruise_, beyond_, slope_, curvature_;  // of the w evaluated last
-  VelocityChange first_, second_;
+  // Of the w evaluated last.
+  double w_ = 0.0, cruise_ = 0.0, beyond_ = 0.0, slope_ = 0.0, curvature_ = 0.0;
+  VelocityChange first_{}, second_{};
 };
-
-/// The phases that lead back inside, and nothing else.
-AxisPlan lead_of(const AxisPlan& plan, const AxisState& from, double p, double v) {
-  AxisPlan lead(from, p, v);
-  for (int i = 0; i < AxisPlan::kPhases; ++i)
-    if (i < plan.lead()) lead.append(plan.phase(i).duration, plan.phase(i).jerk);
-  lead.end_lead();
-  return lead;
-}
 
 }  // namespace
 
 bool stretch(AxisPlan& plan, const AxisState& from, double p, double v, const AxisLimits& limits,
              double duration) {
   if (duration <= plan.duration()) return true;
+  const double more = duration - plan.duration();
+  if (!(more - more == 0.0)) return false;  // something is not finite
   const double vf = std::clamp(v, limits.v_lo, limits.v_hi);
-  AxisPlan slow = lead_of(plan, from, p, vf);
-  const AxisState s = slow.after_lead();
-  const double rest = duration - slow.duration();
+  const AxisState s = plan.lead() > 0 ? plan.after_lead() : from;
+  const double rest = duration - plan.lead_duration();
   const DirectChange direct = direct_change(s, vf, limits);
-  const double missing = p - s.p - direct.change.distance - vf * (rest - direct.change.duration());
-  const Ascent ascent = ascent_of(s, p, vf, limits, missing);
-  Stretched longer(ascent, rest);
-  if (!longer.find()) return false;
-  longer.append_to(slow);
-  plan = slow;
+  const double cruise = rest - direct.change.duration();
+  const double missing = p - s.p - direct.change.distance - vf * cruise;
+  Stretched longer(ascent_of(s, p, vf, limits, missing), rest);
+  if (!longer.find(cruise + 0.5 * direct.change.peak / limits.j)) return false;
+  plan.cut_to_lead();
+  longer.append_to(plan);
   return true;
 }
 

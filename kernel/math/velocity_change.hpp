@@ -64,9 +64,15 @@ inline VelocityChange change_from_rest(double q, double v, double w, double a_ma
   return {x / j, hold, x / j, x, 0.5 * (v + w) * (2.0 * x / j + hold)};
 }
 
+/// The radicand of a rise; w = rest_velocity(v, a, j) gives the least, of which the difference of
+/// the velocities leaves nothing but rounding.
+inline double rise_radicand(double v, double a, double w, double j) {
+  return std::max(a > 0.0 ? a * a : 0.0, j * (w - v) + 0.5 * a * a);
+}
+
 /// w >= rest_velocity(v, a, j), a <= a_max.
 inline VelocityChange rise(double v, double a, double w, double a_max, double j) {
-  return rise_of_radicand(std::max(0.0, j * (w - v) + 0.5 * a * a), v, a, w, a_max, j);
+  return rise_of_radicand(rise_radicand(v, a, w, j), v, a, w, a_max, j);
 }
 
 /// w <= rest_velocity(v, a, j), a >= -a_max; a_max is a magnitude.

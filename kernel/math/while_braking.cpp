@@ -7,15 +7,16 @@
 // which gives dD/dt = v' + F_v a' + F_a j = 2 (v' + F_v a'), and moving both its velocities by one
 // moves it by its duration, F_v = T - dF/dw = T + vf/b - b/2j.
 //
-// Towards vf >= 0 D only grows. With v > 0 > vf it may have a hump: grow beyond the target and
-// shrink below it again. The target is then met on the way up.
+// D only grows or only shrinks, except for v > 0 > vf: there it may have a hump, grow beyond the
+// target and shrink below it again, and, where v1 > 0, grow a second time towards the end. The
+// target is met on the first way up.
 #include "kernel/math/axis_ascent.hpp"
 #include "kernel/math/velocity_change.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr int kNewtonSteps = 20, kHumpSteps = 10;
+constexpr int kNewtonSteps = 20, kScanned = 8, kHumpSteps = 10;
 
 struct Turn {
   AxisState state;
@@ -33,10 +34,9 @@ Turn turn_at(double t, const Ascent& ascent) {
           2.0 * (s.v + s.a * (f.on + f.hold) + share * (vf + 0.5 * f.peak * f.peak / j))};
 }
 
-/// A time at which D is beyond the target, on a hump; negative if none is found.
-double on_hump(double last, const Ascent& ascent) {
-  double low = 0.0, high = last;
-  if (!(turn_at(0.0, ascent).slope > 0.0)) return -1.0;
+/// A time at which D is beyond the target, about its maximum between two times; negative if that is
+/// short of it.
+double on_top(double low, double high, const Ascent& ascent) {
   for (int i = 0; i < kHumpSteps; ++i) {
     const double t = 0.5 * (low + high);
     const Turn turn = turn_at(t, ascent);
@@ -46,9 +46,26 @@ double on_hump(double last, const Ascent& ascent) {
   return -1.0;
 }
 
+/// A time at which D is beyond the target, on the first way up; negative if it never is.
+double on_hump(double last, const Ascent& ascent) {
+  double before = 0.0;
+  for (int i = 1; i <= kScanned; ++i) {
+    const double t = last * i / kScanned;
+    const Turn turn = turn_at(t, ascent);
+    if (turn.beyond >= 0.0) return t;
+    if (turn.slope < 0.0) {
+      const double top = on_top(before, t, ascent);
+      if (top >= 0.0) return top;
+    }
+    before = t;
+  }
+  return -1.0;
+}
+
 /// D(0) is short of the target, D(high) is not: Newton's method within the bracket.
-double meeting_turn(double high, double first, const Ascent& ascent) {
-  double low = 0.0, t = first;
+double meeting_turn(double high, const Ascent& ascent) {
+  double low = 0.0;
+  double t = high * ascent.missing / (ascent.missing + turn_at(high, ascent).beyond);
   for (int i = 0; i < kNewtonSteps; ++i) {
     const Turn turn = turn_at(t, ascent);
     if (std::abs(turn.beyond) <= ascent.tolerance) break;
@@ -62,20 +79,15 @@ double meeting_turn(double high, double first, const Ascent& ascent) {
 }  // namespace
 
 bool append_while_braking(AxisPlan& plan, Ascent& ascent) {
-  const double j = ascent.limits.j;
-  double last = -ascent.a / j;
-  double beyond = turn_at(last, ascent).beyond;
-  if (beyond < 0.0) {
-    const double hump = ascent.v > 0.0 && ascent.vf < 0.0 ? on_hump(last, ascent) : -1.0;
-    if (hump < 0.0) {
-      ascent.missing = -beyond;
-      return false;
-    }
-    last = hump;
-    beyond = turn_at(last, ascent).beyond;
+  const double j = ascent.limits.j, end = -ascent.a / j;
+  const double beyond_end = turn_at(end, ascent).beyond;
+  double last = beyond_end >= 0.0 ? end : -1.0;
+  if (ascent.v > 0.0 && ascent.vf < 0.0) last = on_hump(end, ascent);
+  if (last < 0.0) {
+    ascent.missing = -beyond_end;
+    return false;
   }
-  const double linear = last * ascent.missing / (ascent.missing + beyond);
-  const double t = meeting_turn(last, linear, ascent);
+  const double t = meeting_turn(last, ascent);
   plan.append(t, ascent.side * j);
   append(plan, turn_at(t, ascent).fall, -ascent.side * j);
   return true;
