@@ -1,5 +1,7 @@
 #include "gateway/reference_client.hpp"
 
+#include <cstdlib>
+
 #include "kernel/reference/joint_space.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -28,9 +30,14 @@ Verdict ReferenceClient<Space>::send(Trajectory<Space>& trajectory, std::uint32_
   request.kind = RequestKind::kTrajectory;
   request.store = static_cast<int>(store);
   channel_.needed[store].store(0, std::memory_order_relaxed);
+  channel_.known[store].store(trajectory.count, std::memory_order_relaxed);
   const int last = trajectory.count - 1;
   const typename Space::Latched terms = Space::anywhere(trajectory.terms, channel_.settings.limits);
-  streams_[store] = {trajectory.count, trajectory.point(last, terms), {}};
+  Stream& stream = streams_[store];
+  stream = {};
+  stream.count = stream.flushed = stream.settled = trajectory.count;
+  stream.admitted.end = trajectory.point(last, terms);
+  stream.sent = stream.admitted;
   verdict = post(request, id);
   away_[store] = verdict.ok();
   return verdict;
@@ -41,6 +48,7 @@ Verdict ReferenceClient<Space>::append(const Trajectory<Space>& trajectory,
                                        const Waypoint<Space>& waypoint) {
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
+  settle(store);
   Stream& stream = streams_[store];
   const int needed = channel_.needed[store].load(std::memory_order_acquire);
   if (stream.count - needed >= trajectory.capacity) return {Status::kWindowFull};
@@ -50,7 +58,7 @@ Verdict ReferenceClient<Space>::append(const Trajectory<Space>& trajectory,
     return {Status::kReferenceTime, stream.count, -1, waypoint.time_s, earliest};
   trajectory.waypoints[stream.count % trajectory.capacity] = waypoint;
   const Verdict verdict =
-      admit_waypoint(trajectory, stream.count, channel_.settings, stream.end, stream.use);
+      admit_waypoint(trajectory, stream.count, channel_.settings, stream.admitted);
   stream.count += verdict.ok() ? 1 : 0;
   return verdict;
 }
@@ -60,18 +68,48 @@ Verdict ReferenceClient<Space>::flush(const Trajectory<Space>& trajectory, bool 
                                       std::uint32_t& id) {
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
+  settle(store);
   Stream& stream = streams_[store];
-  const Verdict verdict =
-      last ? admit_end(trajectory, stream.count - 1, channel_.settings, stream.end) : Verdict();
+  Verdict verdict =
+      last ? admit_end(trajectory, stream.count - 1, channel_.settings, stream.admitted)
+           : Verdict();
   if (!verdict.ok()) return verdict;
+  verdict = admit_part(trajectory, stream.flushed - 1, stream.count - 1, channel_.settings,
+                       stream.admitted);
+  if (!verdict.ok()) {
+    stream.count = stream.flushed;
+    stream.admitted = stream.sent;
+    return verdict;
+  }
   Request<Space> request;
   request.kind = RequestKind::kAppend;
   request.store = static_cast<int>(store);
   request.count = stream.count;
   request.last = last;
-  request.use = stream.use;
-  stream.use = {};
-  return post(request, id);
+  request.use = stream.admitted.use;
+  verdict = post(request, id);
+  if (!verdict.ok()) return verdict;
+  stream.flushed = stream.count;
+  stream.admitted.use = {};
+  stream.admitted.room = 1.0;
+  stream.sent = stream.admitted;
+  return {};
+}
+
+/// Raises the rooms of an open trajectory once the generator knows that it has become longer; not
+/// before, as it may refuse.
+template <class Space>
+void ReferenceClient<Space>::settle(std::size_t store) {
+  Stream& stream = streams_[store];
+  const int known = channel_.known[store].load(std::memory_order_acquire);
+  const int count = std::abs(known);
+  const bool whole = known < 0;
+  if (!away_[store] || (count == stream.settled && whole == stream.whole)) return;
+  const int needed = channel_.needed[store].load(std::memory_order_acquire);
+  set_rooms(channel_.stores[store], channel_.settings, needed, stream.settled, count - 1,
+            whole ? 1.0 : 0.0);
+  stream.settled = count;
+  stream.whole = whole;
 }
 
 template <class Space>
@@ -113,6 +151,7 @@ Verdict ReferenceClient<Space>::post(Request<Space> request, std::uint32_t& id) 
 
 template <class Space>
 bool ReferenceClient<Space>::poll(Report& report) {
+  for (std::size_t store = 0; store < away_.size(); ++store) settle(store);
   if (!channel_.reports.take(report)) return false;
   if (report.store >= 0) away_[static_cast<std::size_t>(report.store)] = false;
   return true;

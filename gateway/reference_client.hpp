@@ -5,6 +5,7 @@
 #include <array>
 
 #include "kernel/reference/admission.hpp"
+#include "kernel/reference/admission_room.hpp"
 
 namespace tactus {
 
@@ -24,7 +25,9 @@ class ReferenceClient {
   /// Judges one more waypoint of an open trajectory that was sent and puts it behind the others.
   /// kWindowFull while the motion still needs all that are there; the trajectory is then unchanged.
   Verdict append(const Trajectory<Space>& trajectory, const Waypoint<Space>& waypoint);
-  /// Tells the generator of what was appended; after the `last` no more can be.
+  /// Tells the generator of what was appended; after the `last` no more can be. Refused as a whole
+  /// if it must be slowed down too much: then what was appended is gone. The motion counts on it as
+  /// soon as the generator has taken it and this client is called again, by poll() too.
   Verdict flush(const Trajectory<Space>& trajectory, bool last, std::uint32_t& id);
   /// Admits and sends one online point, given in `terms`.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
@@ -47,14 +50,16 @@ class ReferenceClient {
   /// The client's own account of an open trajectory, whose count is the generator's once it is
   /// sent.
   struct Stream {
-    int count = 0;
-    typename Space::Point end;  // of the last segment
-    typename Space::Use use;    // of what is not yet flushed
+    int count = 0, flushed = 0, settled = 0;  // waypoints: all, sent, and their rooms set
+    bool whole = false;                       // and none will follow
+    Admitted<Space> admitted;                 // up to the last; use and room: of what is not sent
+    Admitted<Space> sent;                     // up to the last that was
   };
 
   std::size_t index_of(const Trajectory<Space>& trajectory) const {
     return static_cast<std::size_t>(&trajectory - channel_.stores.data());
   }
+  void settle(std::size_t store);
   Verdict ask(RequestKind kind, std::uint32_t& id);
   Verdict post(Request<Space> request, std::uint32_t& id);
 

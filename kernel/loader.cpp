@@ -86,11 +86,13 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   TRY(read_collision(ini, pipeline, error));
   TRY(read_schedule(ini, pipeline, error));
   const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
+  const double stretch = pipeline.guard.max_stretch;
   pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
   pipeline.takes_poses = channels_.task != nullptr && left_.task == nullptr;
   if (pipeline.takes_joints)
-    channels_.joint->settings = {pipeline.guard.effective(), period_s, reserve};
-  if (pipeline.takes_poses) channels_.task->settings = {pipeline.task_limits, period_s, reserve};
+    channels_.joint->settings = {pipeline.guard.effective(), period_s, reserve, stretch};
+  if (pipeline.takes_poses)
+    channels_.task->settings = {pipeline.task_limits, period_s, reserve, stretch};
   return Status::kOk;
 }
 

@@ -73,6 +73,7 @@ void every_hostile_trajectory_gets_the_verdict_of_its_first_line(void**) {
     CsvError error;
     assert_non_null(trajectory);
     assert_true(read_trajectory(file.path.data(), false, *trajectory, error));
+    trajectory->exact = true;
     const Verdict verdict = judge(client, *trajectory);
     const bool valued = file.expected.find(" value ") != std::string_view::npos;
     return file.expects(valued ? words_with_value(verdict) : words(verdict));
@@ -107,6 +108,7 @@ void a_number_that_is_not_finite_is_refused_wherever_it_stands(void**) {
   for (const double bad : {kRequired, kInfinity, -kInfinity}) {
     for (int field = 0; field < 4; ++field) {
       Trajectory<JointSpace>& trajectory = two_waypoints(client);
+      trajectory.fields = kVelocityField | kAccelerationField | kEffortField;
       JointSpace::Point& point = trajectory.waypoints[1].point;
       JointVector* const values[] = {&point.q, &point.dq, &point.ddq, &point.tau};
       (*values[field])[4] = bad;
@@ -125,6 +127,7 @@ void what_touches_its_limits_and_no_more_is_admitted(void**) {
   ReferenceClient<JointSpace>& client = start();
   const JointLimits limits;
   Trajectory<JointSpace>& trajectory = two_waypoints(client);
+  trajectory.fields = kEffortField;
   trajectory.waypoints[0].time_s = 100.0;
   trajectory.waypoints[0].point.q = limits.q_max;
   trajectory.waypoints[0].point.tau = limits.tau_max;

@@ -2,6 +2,7 @@
 // every refusal names code, axis, value and limit.
 #include <algorithm>
 
+#include "kernel/reference/limit_check.hpp"
 #include "kernel/reference/translation_bounds.hpp"
 #include "tests/task_cases.hpp"
 #include "tests/testing.hpp"
@@ -17,6 +18,14 @@ void assert_refused(const Verdict& verdict, Status status, int axis, double valu
   assert_int_equal(verdict.axis, axis);
   ASSERT_NEAR(verdict.value, value, 1e-12);
   ASSERT_NEAR(verdict.limit, limit, 1e-12);
+}
+
+/// A segment against `share` of the limits of acceleration and jerk.
+Verdict judge(const TaskSegment& segment, const TaskLimits& limits, double share) {
+  const TaskSpace::Peaks most = TaskSpace::peaks(limits).reserved(share);
+  const TaskSpace::Measure measure = TaskSpace::measure(segment, limits, most);
+  const Verdict verdict = TaskSpace::judge_room(measure, limits);
+  return verdict.ok() ? judge(measure.peaks, most, TaskSpace::kChannelSize) : verdict;
 }
 
 /// Largest of what the limits are about, at many times.
@@ -91,7 +100,7 @@ void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const double share = i % 2 == 0 ? 1.0 : 0.9;
     const TaskLimits limits = limits_of(i / 7);
-    if (!TaskSpace::judge(segment, limits, share).ok()) continue;
+    if (!judge(segment, limits, share).ok()) continue;
     ++accepted;
     assert_true(Sampled(segment).within(limits, share));
   }
@@ -104,7 +113,7 @@ void a_refused_segment_is_hardly_below_the_limit(void**) {
   double loosest[2][3] = {};  // by vector and derivative
   for (int i = 0; i < 6000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
-    const Verdict verdict = TaskSpace::judge(segment, limits_of(i / 7), 1.0);
+    const Verdict verdict = judge(segment, limits_of(i / 7), 1.0);
     if (verdict.ok() || verdict.status == Status::kWorkspace) continue;
     const double seen = Sampled(segment).of(verdict);
     assert_true(verdict.value > verdict.limit && seen <= verdict.value * (1.0 + 1e-9));
@@ -142,13 +151,13 @@ void the_bounds_hold_where_no_time_is_looked_at(void**) {
 void a_limit_reached_exactly_passes_and_a_little_more_does_not(void**) {
   TaskEnds ends;
   ends.to.x.p = kLimits.v_max * Vector3(0.6, 0.0, 0.8);
-  assert_true(TaskSpace::judge(ends.join(Interpolation::kLinear), kLimits, 1.0).ok());
+  assert_true(judge(ends.join(Interpolation::kLinear), kLimits, 1.0).ok());
   ends.to.x.p *= 1.0 + 1e-6;
-  assert_refused(TaskSpace::judge(ends.join(Interpolation::kLinear), kLimits, 1.0),
-                 Status::kVelocityLimit, 0, kLimits.v_max * (1.0 + 1e-6), kLimits.v_max);
+  assert_refused(judge(ends.join(Interpolation::kLinear), kLimits, 1.0), Status::kVelocityLimit, 0,
+                 kLimits.v_max * (1.0 + 1e-6), kLimits.v_max);
   ends.to.x = {Vector3::Zero(), exp_so3({0.0, 1.0001 * kLimits.w_max, 0.0})};
-  assert_refused(TaskSpace::judge(ends.join(Interpolation::kLinear), kLimits, 1.0),
-                 Status::kVelocityLimit, 3, 1.0001 * kLimits.w_max, kLimits.w_max);
+  assert_refused(judge(ends.join(Interpolation::kLinear), kLimits, 1.0), Status::kVelocityLimit, 3,
+                 1.0001 * kLimits.w_max, kLimits.w_max);
 }
 
 void acceleration_and_jerk_are_judged_against_their_share(void**) {
@@ -158,14 +167,14 @@ void acceleration_and_jerk_are_judged_against_their_share(void**) {
   TaskLimits limits = kLimits.scaled(1.0);
   limits.v_max = 3.0;
   const TaskSegment segment = ends.join(Interpolation::kQuintic);
-  assert_true(TaskSpace::judge(segment, limits, 1.0).ok());
-  const Verdict verdict = TaskSpace::judge(segment, limits, 0.9);
+  assert_true(judge(segment, limits, 1.0).ok());
+  const Verdict verdict = judge(segment, limits, 0.9);
   ASSERT_STATUS(verdict.status, Status::kAccelerationLimit);
   ASSERT_NEAR(verdict.limit, 0.9 * limits.a_max, 1e-12);
   ASSERT_NEAR(verdict.value, 12.0, 0.2);
   limits.j_max = 190.0;
-  assert_true(TaskSpace::judge(segment, limits, 1.0).ok());
-  assert_true(TaskSpace::judge(segment, limits, 0.93).status == Status::kJerkLimit);
+  assert_true(judge(segment, limits, 1.0).ok());
+  assert_true(judge(segment, limits, 0.93).status == Status::kJerkLimit);
 }
 
 void a_segment_that_leaves_the_workspace_between_its_ends_is_refused(void**) {
@@ -174,15 +183,16 @@ void a_segment_that_leaves_the_workspace_between_its_ends_is_refused(void**) {
   ends.from.v[1] = 0.5;
   ends.to.v[1] = -0.5;
   // the cubic rises by v T / 4 in the middle
-  assert_refused(TaskSpace::judge(ends.join(Interpolation::kCubic), kLimits, 1.0),
-                 Status::kWorkspace, 1, 1.95 + 0.125, kLimits.p_max[1]);
+  assert_refused(judge(ends.join(Interpolation::kCubic), kLimits, 1.0), Status::kWorkspace, 1,
+                 1.95 + 0.125, kLimits.p_max[1]);
 }
 
 void the_use_of_the_limits_is_what_the_segment_takes_or_more(void**) {
   Random random;
   for (int i = 0; i < 2000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
-    const PathUse use = TaskSpace::use(segment, kLimits, {});
+    const TaskSpace::Peaks peaks = TaskSpace::peaks(kLimits);
+    const TaskSpace::Use use = TaskSpace::use(TaskSpace::measure(segment, kLimits, peaks), peaks);
     const Sampled most(segment);
     const auto covers = [](double used, double p, double p_limit, double r, double r_limit) {
       return used * (1.0 + 1e-9) + 1e-12 >= std::max(p / p_limit, r / r_limit);
@@ -191,12 +201,9 @@ void the_use_of_the_limits_is_what_the_segment_takes_or_more(void**) {
     assert_true(covers(use.velocity, most.v, l.v_max, most.w, l.w_max));
     assert_true(covers(use.acceleration, most.a, l.a_max, most.alpha, l.alpha_max));
     assert_true(covers(use.jerk, most.j, l.j_max, most.dalpha, l.dalpha_max));
-    assert_true(covers(use.velocity_by_a, most.v, l.a_max, most.w, l.alpha_max));
-    assert_true(covers(use.velocity_by_j, most.v, l.j_max, most.w, l.dalpha_max));
-    assert_true(covers(use.acceleration_by_j, most.a, l.j_max, most.alpha, l.dalpha_max));
     TaskSpace::Use known;
     known.velocity = 9.0;
-    assert_true(TaskSpace::use(segment, kLimits, known).velocity >= 9.0);
+    assert_true(TaskSpace::Use::largest(use, known).velocity >= 9.0);
   }
 }
 
@@ -210,7 +217,7 @@ void a_segment_with_nan_is_refused(void**) {
      : i < 7  ? point.x.r.coeffs()[i - 3]
      : i < 13 ? point.v[i - 7]
               : point.a[i - 13]) = kNaN;
-    assert_false(TaskSpace::judge(ends.join(Interpolation::kQuintic), kLimits, 1.0).ok());
+    assert_false(judge(ends.join(Interpolation::kQuintic), kLimits, 1.0).ok());
   }
 }
 

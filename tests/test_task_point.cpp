@@ -110,13 +110,13 @@ void whoever_arrives_at_the_end_must_stand(void**) {
   end.h.setConstant(1.0);
   assert_true(TaskSpace::judge_end(end).ok());
   for (int i = 0; i < 6; ++i) {
-    for (Vector6 TaskPoint::*field : {&TaskPoint::v, &TaskPoint::a}) {
-      TaskPoint moving;
-      (moving.*field)[i] = -2e-6;
-      assert_refused(TaskSpace::judge_end(moving), Status::kNotAtRest, i, -2e-6, 0.0);
-      (moving.*field)[i] = std::nan("");
-      ASSERT_STATUS(TaskSpace::judge_end(moving).status, Status::kNotAtRest);
-    }
+    TaskPoint moving;
+    moving.a[i] = 1.0;  // it may still brake when it arrives
+    assert_true(TaskSpace::judge_end(moving).ok());
+    moving.v[i] = -2e-6;
+    assert_refused(TaskSpace::judge_end(moving), Status::kNotAtRest, i, -2e-6, 0.0);
+    moving.v[i] = std::nan("");
+    ASSERT_STATUS(TaskSpace::judge_end(moving).status, Status::kNotAtRest);
   }
 }
 

@@ -21,9 +21,12 @@ class Guard {
   struct Params {
     JointLimits limits;
     JointVector position_margin = JointVector::Zero();  ///< rad, taken off both position limits
-    /// Fraction of acceleration and jerk limits that a trajectory must leave free, so that it can
-    /// be stopped on its path at any time.
-    double stop_reserve = 0.1;
+    /// Fraction of acceleration and jerk limits that a trajectory leaves free, so that it can be
+    /// stopped on its path at any time.
+    double stop_reserve = 0.02;
+    /// How much longer a trajectory may become by being slowed down where it is beyond a limit, as
+    /// a fraction.
+    double max_stretch = 0.1;
     /// How far a robot may be from the position it was sent: following_error rad, and
     /// following_time s times its measured speed. 0.1 rad is what the demonstrations of Risi et al.
     /// 2026 allow the real UR10; a servo loop of 0.1 s lags by that time.
@@ -38,7 +41,8 @@ class Guard {
       visit.limit("max_velocity_step", limits.velocity_step, "rad/s");
       visit.limit("max_torque", limits.tau_max, "N m");
       visit.limit("max_torque_rate", limits.dtau_max, "N m/s");
-      visit.param("stop_reserve", stop_reserve, Range{0.01, 0.9}, "1");
+      visit.param("stop_reserve", stop_reserve, Range{0.0, 0.9}, "1");
+      visit.param("max_stretch", max_stretch, Range{0.0, 10.0}, "1");
       visit.param("position_margin", position_margin, Range{0.0, 0.5}, "rad");
       visit.param("following_error", following_error, kPositive, "rad");
       visit.param("following_time", following_time, kNonNegative, "s");

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "kernel/reference/admission_room.hpp"
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/limit_check.hpp"
 #include "kernel/reference/monotone.hpp"
 #include "kernel/reference/task_space.hpp"
 
@@ -34,42 +36,70 @@ Verdict at_waypoint(Verdict verdict, int waypoint) {
 
 template <class Space>
 Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
-                       const AdmissionSettings<Space>& settings, typename Space::Point& before,
-                       typename Space::Use& use) {
+                       const AdmissionSettings<Space>& settings, Admitted<Space>& so_far) {
   const typename Space::Limits limits = Space::known_limits(trajectory.terms, settings.limits);
   const typename Space::Latched terms = Space::anywhere(trajectory.terms, limits);
   const typename Space::Point point = trajectory.point(index, terms);
-  Verdict verdict = Space::judge(point, limits);
-  if (verdict.ok()) use = Space::Use::largest(use, Space::use(point));
-  if (verdict.ok() && index > 0) {
-    const typename Space::Segment segment = trajectory.segment(index, terms);
-    verdict = Space::judge(segment, limits, 1.0 - settings.stop_reserve);
-    if (verdict.ok()) verdict = Space::judge_step(before, segment.at(0.0), limits);
-    if (verdict.ok()) use = Space::use(segment, limits, use);
-    if (verdict.ok()) before = segment.at(segment.duration());
+  Verdict verdict = Space::judge_waypoint(point, limits);
+  if (verdict.ok() && index == 0) so_far.use = Space::Use::largest(so_far.use, Space::use(point));
+  if (!verdict.ok() || index == 0) return at_waypoint(verdict, index);
+  const typename Space::Segment segment = trajectory.segment(index, terms);
+  const typename Space::Peaks all = Space::peaks(limits);
+  const typename Space::Peaks most = all.reserved(1.0 - settings.stop_reserve);
+  const typename Space::Measure measure = Space::measure(segment, limits, most);
+  const double pause_s =
+      index > 1 ? trajectory.at(index - 1).time_s - trajectory.at(index - 2).time_s : 0.0;
+  verdict = Space::judge_room(measure, limits);
+  if (verdict.ok() && trajectory.exact) verdict = judge(measure.peaks, most, Space::kChannelSize);
+  if (verdict.ok())
+    verdict = Space::judge_step(so_far.end, segment.at(0.0), limits, pause_s, so_far.steps);
+  if (!verdict.ok()) return at_waypoint(verdict, index);
+  const OwnRoom own = own_room(measure.peaks, most, Space::kChannelSize);
+  if (own.most < so_far.room) {
+    so_far.room = own.most;
+    so_far.worst = at_waypoint(own.worst, index);
   }
-  return at_waypoint(verdict, index);
+  so_far.use = Space::Use::largest(so_far.use, Space::use(measure, all));
+  so_far.use.slowed = so_far.use.slowed || own.most < 1.0;
+  so_far.end = segment.at(segment.duration());
+  return {};
 }
 
 template <class Space>
 Verdict admit_end(const Trajectory<Space>& trajectory, int last,
-                  const AdmissionSettings<Space>& settings, const typename Space::Point& before) {
+                  const AdmissionSettings<Space>& settings, Admitted<Space> so_far) {
   const typename Space::Point end =
       trajectory.point(last, Space::anywhere(trajectory.terms, settings.limits));
   Verdict verdict = Space::judge_end(end);
-  if (verdict.ok() && last > 0) verdict = Space::judge_step(before, end.at_rest(), settings.limits);
+  if (verdict.ok() && last > 0) {
+    const double pause_s = trajectory.at(last).time_s - trajectory.at(last - 1).time_s;
+    verdict = Space::judge_step(so_far.end, end.at_rest(), settings.limits, pause_s, so_far.steps);
+  }
   return at_waypoint(verdict, last);
 }
 
-/// What comes before the first segment. A first waypoint at zero is left from rest; the way to a
-/// later one is judged when it begins.
 template <class Space>
-typename Space::Point before_first(const Trajectory<Space>& trajectory,
-                                   const typename Space::Limits& limits) {
-  const typename Space::Latched terms = Space::anywhere(trajectory.terms, limits);
-  if (trajectory.count < 2) return trajectory.point(0, terms).at_rest();
+Admitted<Space> nothing_yet(const Trajectory<Space>& trajectory,
+                            const AdmissionSettings<Space>& settings) {
+  const typename Space::Latched terms = Space::anywhere(trajectory.terms, settings.limits);
+  Admitted<Space> nothing;
+  nothing.end = trajectory.point(0, terms).at_rest();
+  if (trajectory.count < 2) return nothing;
   const typename Space::Segment first = trajectory.segment(1, terms);
-  return trajectory.at(0).time_s > 0.0 ? first.at(0.0) : first.corner();
+  nothing.end = trajectory.at(0).time_s > 0.0 ? first.at(0.0) : first.corner();
+  return nothing;
+}
+
+template <class Space>
+Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
+                   const AdmissionSettings<Space>& settings, const Admitted<Space>& part) {
+  double longer = 0.0;
+  if (part.room < 1.0) {
+    set_rooms(trajectory, settings, first + 1, first + 1, last, 1.0);
+    longer = stretch(trajectory, settings, first, last, trajectory.at(first + 1).room);
+  }
+  for (int i = first + 1; i <= last; ++i) trajectory.waypoints[i % trajectory.capacity].room = 0.0F;
+  return longer <= settings.max_stretch ? Verdict() : part.worst;
 }
 
 /// Gives a trajectory that asks for it velocities with which it does not overshoot.
@@ -81,7 +111,7 @@ Verdict shape_monotone(const Trajectory<Space>& trajectory,
   const typename Space::Limits limits = Space::known_limits(trajectory.terms, settings.limits);
   const typename Space::Latched terms = Space::anywhere(trajectory.terms, limits);
   for (int i = 0; i < trajectory.count; ++i) {
-    const Verdict verdict = Space::judge(trajectory.point(i, terms), limits);
+    const Verdict verdict = Space::judge_waypoint(trajectory.point(i, terms), limits);
     if (!verdict.ok()) return at_waypoint(verdict, i);
   }
   make_monotone(trajectory);
@@ -96,27 +126,37 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   Verdict verdict = admit_times(trajectory, settings.period_s);
   if (verdict.ok()) verdict = shape_monotone(trajectory, settings);
   if (!verdict.ok()) return verdict;
-  trajectory.use = {};
-  typename Space::Point before = before_first(trajectory, settings.limits);
+  Admitted<Space> whole = nothing_yet(trajectory, settings);
   for (int i = 0; i < trajectory.count; ++i) {
-    verdict = admit_waypoint(trajectory, i, settings, before, trajectory.use);
+    verdict = admit_waypoint(trajectory, i, settings, whole);
     if (!verdict.ok()) return verdict;
   }
-  if (trajectory.open) return {};
-  return admit_end(trajectory, trajectory.count - 1, settings, before);
+  const int last = trajectory.count - 1;
+  if (!trajectory.open) verdict = admit_end(trajectory, last, settings, whole);
+  if (!verdict.ok()) return verdict;
+  trajectory.use = whole.use;
+  trajectory.stretch = 0.0;
+  if (whole.room < 1.0) {
+    set_rooms(trajectory, settings, 0, 0, last, 1.0);
+    trajectory.stretch = stretch(trajectory, settings, 0, last, trajectory.at(0).room);
+    if (!(trajectory.stretch <= settings.max_stretch)) return whole.worst;
+  }
+  if (trajectory.open) set_rooms(trajectory, settings, 0, 0, last, 0.0);
+  return {};
 }
 
-template Verdict admit(Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&);
-template Verdict admit_waypoint(const Trajectory<JointSpace>&, int,
-                                const AdmissionSettings<JointSpace>&, JointSpace::Point&,
-                                JointSpace::Use&);
-template Verdict admit_end(const Trajectory<JointSpace>&, int, const AdmissionSettings<JointSpace>&,
-                           const JointSpace::Point&);
-template Verdict admit(Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&);
-template Verdict admit_waypoint(const Trajectory<TaskSpace>&, int,
-                                const AdmissionSettings<TaskSpace>&, TaskSpace::Point&,
-                                TaskSpace::Use&);
-template Verdict admit_end(const Trajectory<TaskSpace>&, int, const AdmissionSettings<TaskSpace>&,
-                           const TaskSpace::Point&);
+#define TACTUS_ADMISSION(Space)                                                                    \
+  template Verdict admit(Trajectory<Space>&, const AdmissionSettings<Space>&);                     \
+  template Admitted<Space> nothing_yet(const Trajectory<Space>&, const AdmissionSettings<Space>&); \
+  template Verdict admit_waypoint(const Trajectory<Space>&, int, const AdmissionSettings<Space>&,  \
+                                  Admitted<Space>&);                                               \
+  template Verdict admit_end(const Trajectory<Space>&, int, const AdmissionSettings<Space>&,       \
+                             Admitted<Space>);                                                     \
+  template Verdict admit_part(const Trajectory<Space>&, int, int, const AdmissionSettings<Space>&, \
+                              const Admitted<Space>&)
+
+TACTUS_ADMISSION(JointSpace);
+TACTUS_ADMISSION(TaskSpace);
+#undef TACTUS_ADMISSION
 
 }  // namespace tactus

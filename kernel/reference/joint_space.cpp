@@ -82,6 +82,26 @@ JointSpace::Point JointSpace::Segment::at(double t) const {
   return point;
 }
 
+JointSpace::Segment JointSpace::Segment::part(double begin, double duration) const {
+  Segment part = *this;
+  for (Polynomial& q : part.q_) q = q.from(begin);
+  part.tau_from_ = at(begin).tau;
+  part.tau_to_ = at(begin + duration).tau;
+  part.duration_ = duration;
+  return part;
+}
+
+JointSpace::Local JointSpace::Segment::local(double t) const {
+  Local local;
+  for (int i = 0; i < kDof; ++i) {
+    const auto& c = position(i).c;
+    local.d1[i] = c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * 5.0 * c[5])));
+    local.d2[i] = 2.0 * c[2] + t * (6.0 * c[3] + t * (12.0 * c[4] + t * 20.0 * c[5]));
+    local.d3[i] = 6.0 * c[3] + t * (24.0 * c[4] + t * 60.0 * c[5]);
+  }
+  return local;
+}
+
 JointSpace::Difference JointSpace::difference(const Point& a, const Point& b) {
   return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq, a.tau - b.tau};
 }

@@ -7,7 +7,7 @@
 
 #include "kernel/joint_limits.hpp"
 #include "kernel/reference/interpolation.hpp"
-#include "kernel/reference/path_use.hpp"
+#include "kernel/reference/peaks.hpp"
 #include "kernel/reference/polynomial.hpp"
 #include "kernel/reference/tolerance.hpp"
 #include "kernel/reference/verdict.hpp"
@@ -16,6 +16,9 @@ namespace tactus {
 
 struct JointSpace {
   using Limits = JointLimits;
+  static constexpr int kChannels = kDof, kChannelSize = 1;  ///< what limits are counted by
+  using Peaks = MotionPeaks<kChannels>;
+  using Levels = std::array<double, kChannels>;
 
   /// How far beside the reference a trajectory may begin.
   struct Tolerance {
@@ -65,12 +68,25 @@ struct JointSpace {
     JointVector q = JointVector::Zero();  ///< rad, of the joints that are held
   };
 
-  /// What a path takes: of the limits, and of the room.
-  struct Use : PathUse {
+  /// What a segment takes: the largest of each derivative, and the room.
+  struct Measure {
+    Peaks peaks;
+    std::array<double, kChannels> slowing{};               ///< largest |ddq| against dq, rad/s^2
+    JointVector q_min = JointVector::Constant(kInfinity);  ///< rad
+    JointVector q_max = JointVector::Constant(-kInfinity);
+  };
+  /// What a path takes: of the limits at its own rate, and of the room.
+  struct Use {
+    double velocity = 0.0, acceleration = 0.0, jerk = 0.0;  ///< largest ratios to the limits
+    bool slowed = false;  ///< these are above one: it is passed more slowly there
     JointVector q_min = JointVector::Constant(kInfinity);  ///< rad
     JointVector q_max = JointVector::Constant(-kInfinity);
     /// Of a path of two parts. [any]
     static Use largest(const Use& a, const Use& b);
+  };
+  /// Derivatives of a path with respect to its time.
+  struct Local {
+    Rates d1, d2, d3;  ///< rad/s, rad/s^2, rad/s^3
   };
   using Error = Point;  ///< desired - actual, likewise
 
@@ -83,7 +99,11 @@ struct JointSpace {
     Segment(const Point& from, const Point& to, double T, Interpolation how, Fields fields);
 
     Point at(double t) const;
+    /// [cyclic]
+    Local local(double t) const;
     double duration() const { return duration_; }
+    /// What it is from `begin` on for so long. [any]
+    Segment part(double begin, double duration) const;
     /// Its beginning without what steps there by nature: the velocity of a straight line, the
     /// acceleration of a cubic. [any]
     Point corner() const;
@@ -110,17 +130,26 @@ struct JointSpace {
     Segment segment_;
   };
 
+  /// Judges what no time can mend in a waypoint: finite, range and effort. [cyclic]
+  static Verdict judge_waypoint(const Point& point, const Limits& limits);
   /// Judges one online point: finite and within position, velocity and effort limits. [cyclic]
   static Verdict judge(const Point& point, const Limits& limits);
-  /// Judges one segment at its extrema, acceleration and jerk against the fraction `share` of their
-  /// limits. [cyclic, some microseconds]
-  static Verdict judge(const Segment& segment, const Limits& limits, double share);
+  /// Velocity, acceleration and jerk limits. [any]
+  static Peaks peaks(const Limits& limits);
+  /// What a segment takes: exact where it is beyond `most` or a position limit, else a bound from
+  /// outside. [cyclic, some microseconds]
+  static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most);
+  /// Judges the room that a segment takes. [cyclic]
+  static Verdict judge_room(const Measure& measure, const Limits& limits);
   /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
   static Verdict judge_end(const Point& end);
   /// Judges the distance of two positions against a tolerance. [cyclic]
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
-  /// Judges the step in velocity from one segment's end to the next one's beginning. [cyclic]
-  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits);
+  /// Judges the step in velocity from one segment's end to the next one's beginning, dt seconds
+  /// after the one before. Steps add up in `level`, from which the acceleration limit takes away in
+  /// time what it can: so close steps count as one. [cyclic]
+  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits,
+                            double dt_s, Levels& level);
   /// Judges whether `to` can be put out one period after `from`: kVelocityLimit if not. [cyclic]
   static Verdict judge_reach(const Point& from, const Point& to, const Limits& limits, double dt_s);
   /// Judges a position error; the verdict has `code`. An error that is NaN exceeds every band.
@@ -129,9 +158,8 @@ struct JointSpace {
                              Status code);
   /// Judges a measured velocity against one limit for all joints, rad/s; 0: not checked. [cyclic]
   static Verdict judge_stopped(const Point& measured, double limit);
-  /// What a segment takes of the limits at its extrema, and of the room by a bound from outside; as
-  /// `known` where it takes no more. [cyclic]
-  static Use use(const Segment& segment, const Limits& limits, const Use& known);
+  /// A measure as a use of the limits. [cyclic]
+  static Use use(const Measure& measure, const Peaks& limits);
   /// Of a point at which nothing moves. [cyclic]
   static Use use(const Point& held);
   /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
@@ -146,6 +174,8 @@ struct JointSpace {
   static Latched anywhere(const Terms& terms, const Limits& limits);
   /// The limits that can be judged in a client's terms: all of them. [any]
   static Limits known_limits(const Terms&, const Limits& limits) { return limits; }
+  /// A client's point with zeros where its fields are not given. [cyclic]
+  static Point only(Fields given, const Point& point);
   /// A client's point as a reference of all joints. [cyclic]
   static Point placed(const Point& given, const Latched& terms);
   /// The use of a path of a client's points as that of their references. [cyclic]

@@ -8,47 +8,89 @@
 namespace tactus {
 namespace {
 
-Verdict symmetric(const Polynomial& polynomial, double T, double limit, Status status, int axis) {
-  return bounded(polynomial, T, -limit, limit, status, axis);
+double largest(const Extremes& range) {
+  return std::max(-range.min, range.max);
 }
 
-/// Largest magnitude of a polynomial on [0, T] over `limit`, exact where it is more than `known`.
-double ratio(const Polynomial& polynomial, double T, double limit, double known) {
-  const auto largest = [](const Extremes& e) { return std::max(-e.min, e.max); };
-  if (largest(hull(polynomial, T)) <= known * limit) return known;
-  return std::max(known, largest(extremes(polynomial, T)) / limit);
+/// Largest magnitude of a polynomial on [0, T] by its `outer` bound, exact beyond `most`.
+double peak(const Polynomial& polynomial, double T, const Extremes& outer, double most) {
+  const double bound = largest(outer);
+  return bound <= most ? bound : largest(extremes(polynomial, T));
+}
+
+/// Largest acceleration against the velocity, by bounds of both.
+double against(const Extremes& dq, const Extremes& ddq) {
+  if (dq.min >= 0.0) return std::max(0.0, -ddq.min);
+  if (dq.max <= 0.0) return std::max(0.0, ddq.max);
+  return largest(ddq);
 }
 
 }  // namespace
 
-Verdict JointSpace::judge(const Point& point, const Limits& limits) {
+Verdict JointSpace::judge_waypoint(const Point& point, const Limits& limits) {
   for (int j = 0; j < kDof; ++j) {
     for (const double value : {point.q[j], point.dq[j], point.ddq[j], point.tau[j]}) {
       if (!std::isfinite(value)) return {Status::kReferenceNotFinite, -1, j, value, 0.0};
     }
-    const double q = point.q[j], dq = point.dq[j], tau = point.tau[j];
+    const double q = point.q[j], tau = point.tau[j];
     if (exceeds(q, limits.q_max[j])) return {Status::kPositionLimit, -1, j, q, limits.q_max[j]};
     if (exceeds(-q, -limits.q_min[j])) return {Status::kPositionLimit, -1, j, q, limits.q_min[j]};
-    if (exceeds(std::abs(dq), limits.dq_max[j]))
-      return {Status::kVelocityLimit, -1, j, dq, limits.dq_max[j]};
     if (exceeds(std::abs(tau), limits.tau_max[j]))
       return {Status::kEffortLimit, -1, j, tau, limits.tau_max[j]};
   }
   return {};
 }
 
-Verdict JointSpace::judge(const Segment& segment, const Limits& limits, double share) {
-  const double T = segment.duration();
+Verdict JointSpace::judge(const Point& point, const Limits& limits) {
+  Verdict verdict = judge_waypoint(point, limits);
+  for (int j = 0; verdict.ok() && j < kDof; ++j) {
+    const double dq = point.dq[j];
+    if (exceeds(std::abs(dq), limits.dq_max[j]))
+      verdict = {Status::kVelocityLimit, -1, j, dq, limits.dq_max[j]};
+  }
+  return verdict;
+}
+
+JointSpace::Peaks JointSpace::peaks(const Limits& limits) {
+  Peaks peaks;
   for (int j = 0; j < kDof; ++j) {
+    const std::size_t c = static_cast<std::size_t>(j);
+    peaks.v[c] = limits.dq_max[j];
+    peaks.a[c] = limits.ddq_max[j];
+    peaks.j[c] = limits.dddq_max[j];
+  }
+  return peaks;
+}
+
+JointSpace::Measure JointSpace::measure(const Segment& segment, const Limits& limits,
+                                        const Peaks& most) {
+  const double T = segment.duration();
+  Measure measure;
+  for (int j = 0; j < kDof; ++j) {
+    const std::size_t c = static_cast<std::size_t>(j);
     const Polynomial& q = segment.position(j);
     const Polynomial dq = q.derivative(), ddq = dq.derivative(), dddq = ddq.derivative();
-    Verdict verdict = bounded(q, T, limits.q_min[j], limits.q_max[j], Status::kPositionLimit, j);
-    if (verdict.ok()) verdict = symmetric(dq, T, limits.dq_max[j], Status::kVelocityLimit, j);
-    if (verdict.ok())
-      verdict = symmetric(ddq, T, share * limits.ddq_max[j], Status::kAccelerationLimit, j);
-    if (verdict.ok())
-      verdict = symmetric(dddq, T, share * limits.dddq_max[j], Status::kJerkLimit, j);
-    if (!verdict.ok()) return verdict;
+    const Extremes velocity = hull(dq, T), acceleration = hull(ddq, T);
+    measure.peaks.v[c] = peak(dq, T, velocity, most.v[c]);
+    measure.peaks.a[c] = peak(ddq, T, acceleration, most.a[c]);
+    measure.peaks.j[c] = peak(dddq, T, hull(dddq, T), most.j[c]);
+    measure.slowing[c] = against(velocity, acceleration);
+    Extremes room = hull(q, T);
+    const bool inside = room.min >= limits.q_min[j] && room.max <= limits.q_max[j];
+    if (!inside) room = extremes(q, T);
+    measure.q_min[j] = room.min;
+    measure.q_max[j] = room.max;
+  }
+  return measure;
+}
+
+Verdict JointSpace::judge_room(const Measure& measure, const Limits& limits) {
+  for (int j = 0; j < kDof; ++j) {
+    const double lowest = measure.q_min[j], highest = measure.q_max[j];
+    if (exceeds(highest, limits.q_max[j]))
+      return {Status::kPositionLimit, -1, j, highest, limits.q_max[j]};
+    if (exceeds(-lowest, -limits.q_min[j]))
+      return {Status::kPositionLimit, -1, j, lowest, limits.q_min[j]};
   }
   return {};
 }
@@ -56,7 +98,6 @@ Verdict JointSpace::judge(const Segment& segment, const Limits& limits, double s
 Verdict JointSpace::judge_end(const Point& end) {
   for (int j = 0; j < kDof; ++j) {
     if (exceeds(std::abs(end.dq[j]), kRest)) return {Status::kNotAtRest, -1, j, end.dq[j], 0.0};
-    if (exceeds(std::abs(end.ddq[j]), kRest)) return {Status::kNotAtRest, -1, j, end.ddq[j], 0.0};
   }
   return {};
 }
@@ -70,11 +111,13 @@ Verdict JointSpace::judge_near(const Point& a, const Point& b, const Tolerance& 
   return {};
 }
 
-Verdict JointSpace::judge_step(const Point& before, const Point& after, const Limits& limits) {
+Verdict JointSpace::judge_step(const Point& before, const Point& after, const Limits& limits,
+                               double dt_s, Levels& level) {
   for (int j = 0; j < kDof; ++j) {
-    const double step = after.dq[j] - before.dq[j];
-    if (exceeds(std::abs(step), limits.velocity_step[j]))
-      return {Status::kVelocityStep, -1, j, step, limits.velocity_step[j]};
+    double& steps = level[static_cast<std::size_t>(j)];
+    steps = std::max(0.0, steps - limits.ddq_max[j] * dt_s) + std::abs(after.dq[j] - before.dq[j]);
+    if (exceeds(steps, limits.velocity_step[j]))
+      return {Status::kVelocityStep, -1, j, steps, limits.velocity_step[j]};
   }
   return {};
 }
@@ -107,29 +150,21 @@ Verdict JointSpace::judge_stopped(const Point& measured, double limit) {
 }
 
 JointSpace::Use JointSpace::Use::largest(const Use& a, const Use& b) {
-  return {PathUse::largest(a, b), a.q_min.cwiseMin(b.q_min), a.q_max.cwiseMax(b.q_max)};
+  return {std::max(a.velocity, b.velocity), std::max(a.acceleration, b.acceleration),
+          std::max(a.jerk, b.jerk),         a.slowed || b.slowed,
+          a.q_min.cwiseMin(b.q_min),        a.q_max.cwiseMax(b.q_max)};
 }
 
 JointSpace::Use JointSpace::use(const Point& held) {
-  return {PathUse(), held.q, held.q};
+  return {0.0, 0.0, 0.0, false, held.q, held.q};
 }
 
-JointSpace::Use JointSpace::use(const Segment& segment, const Limits& limits, const Use& known) {
-  const double T = segment.duration();
-  Use use = known;
-  for (int j = 0; j < kDof; ++j) {
-    const Polynomial dq = segment.position(j).derivative();
-    const Polynomial ddq = dq.derivative(), dddq = ddq.derivative();
-    const double v = limits.dq_max[j], a = limits.ddq_max[j], jerk = limits.dddq_max[j];
-    const Extremes room = hull(segment.position(j), T);
-    use.q_min[j] = std::min(use.q_min[j], room.min);
-    use.q_max[j] = std::max(use.q_max[j], room.max);
-    use.velocity = ratio(dq, T, v, use.velocity);
-    use.velocity_by_a = ratio(dq, T, a, use.velocity_by_a);
-    use.velocity_by_j = ratio(dq, T, jerk, use.velocity_by_j);
-    use.acceleration = ratio(ddq, T, a, use.acceleration);
-    use.acceleration_by_j = ratio(ddq, T, jerk, use.acceleration_by_j);
-    use.jerk = ratio(dddq, T, jerk, use.jerk);
+JointSpace::Use JointSpace::use(const Measure& measure, const Peaks& limits) {
+  Use use = {0.0, 0.0, 0.0, false, measure.q_min, measure.q_max};
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    use.velocity = std::max(use.velocity, measure.peaks.v[c] / limits.v[c]);
+    use.acceleration = std::max(use.acceleration, measure.peaks.a[c] / limits.a[c]);
+    use.jerk = std::max(use.jerk, measure.peaks.j[c] / limits.j[c]);
   }
   return use;
 }

@@ -11,6 +11,14 @@ JointSpace::Latched JointSpace::anywhere(const Terms& terms, const Limits& limit
   return {terms.held, 0.5 * (limits.q_min + limits.q_max)};
 }
 
+JointSpace::Point JointSpace::only(Fields given, const Point& point) {
+  Point known = point;
+  if (!(given & kVelocityField)) known.dq.setZero();
+  if (!(given & kAccelerationField)) known.ddq.setZero();
+  if (!(given & kEffortField)) known.tau.setZero();
+  return known;
+}
+
 JointSpace::Point JointSpace::placed(const Point& given, const Latched& terms) {
   Point point = given;
   for (int j = 0; j < kDof; ++j) {

@@ -1,6 +1,7 @@
 // What it means to exceed a limit, the same for every space.
 #pragma once
 
+#include "kernel/reference/peaks.hpp"
 #include "kernel/reference/polynomial.hpp"
 #include "kernel/reference/verdict.hpp"
 
@@ -22,16 +23,18 @@ inline Verdict at_most(double value, double limit, Status status, int axis) {
   return exceeds(value, limit) ? Verdict{status, -1, axis, value, limit} : Verdict{};
 }
 
-/// Judges the range of one polynomial on [0, T] against lo and hi, both of which it may touch.
+/// The first channel of `peaks` beyond `limits`, if there is one; channels are `size` axes apart.
 /// [any]
-inline Verdict bounded(const Polynomial& polynomial, double T, double lo, double hi, Status status,
-                       int axis) {
-  const Extremes outer = hull(polynomial, T);
-  if (outer.max <= hi && outer.min >= lo) return {};
-  const Extremes found = extremes(polynomial, T);
-  if (exceeds(found.max, hi)) return {status, -1, axis, found.max, hi};
-  if (exceeds(-found.min, -lo)) return {status, -1, axis, found.min, lo};
-  return {};
+template <int n>
+Verdict judge(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int size) {
+  Verdict verdict;
+  for (std::size_t c = 0; verdict.ok() && c < peaks.v.size(); ++c) {
+    const int axis = size * static_cast<int>(c);
+    verdict = at_most(peaks.v[c], limits.v[c], Status::kVelocityLimit, axis);
+    if (verdict.ok()) verdict = at_most(peaks.a[c], limits.a[c], Status::kAccelerationLimit, axis);
+    if (verdict.ok()) verdict = at_most(peaks.j[c], limits.j[c], Status::kJerkLimit, axis);
+  }
+  return verdict;
 }
 
 }  // namespace tactus

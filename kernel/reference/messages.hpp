@@ -72,9 +72,12 @@ template <class Space>
 struct AdmissionSettings {
   typename Space::Limits limits;
   double period_s = 0.0;
-  /// Fraction of acceleration and jerk limits that a trajectory must leave free, so that it can be
+  /// Fraction of acceleration and jerk limits that a trajectory leaves free, so that it can be
   /// stopped on its path at any time.
-  double stop_reserve = 0.1;
+  double stop_reserve = 0.02;
+  /// How much longer a trajectory may become by being slowed down where it is beyond a limit, as a
+  /// fraction.
+  double max_stretch = 0.1;
 };
 
 /// One running, one waiting for its start time or in the mailbox, one being filled.
@@ -91,6 +94,8 @@ struct ReferenceChannel {
   std::array<Trajectory<Space>, kStores> stores;
   /// First waypoint of each store that the motion still needs; those before may be overwritten.
   std::array<std::atomic<int>, kStores> needed{};
+  /// Waypoints of each store that the generator knows of; their negative when none will follow.
+  std::array<std::atomic<int>, kStores> known{};
 };
 
 }  // namespace tactus

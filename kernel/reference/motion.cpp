@@ -22,34 +22,23 @@ void Motion<Space>::start(const Point& point, const Settings& settings) {
 
 template <class Space>
 void Motion<Space>::move_on(double dt_s) {
-  watch_end(dt_s);
-  law_.advance(dt_s);
+  if (on_path()) follow_path(dt_s);
   bridge_time_s_ += dt_s;
   reference_ = base();
   bridging_ = bridging_ && bridge_time_s_ < bridge_.duration();
   if (bridging_) reference_ = Space::sum(reference_, bridge_.at(bridge_time_s_));
 }
 
-/// A path that is not yet whole is never run to where it ends so far: the arm stops before, and
-/// goes on when there is room for twice the way that a stop takes.
 template <class Space>
-void Motion<Space>::watch_end(double dt_s) {
-  if (!on_path() || braking_) return;
-  const RateBounds bounds = rate_bounds();
-  const double left_s = path_.end_s() - law_.s();
-  const bool open = path_.open();
-  if (!starving_ && open && left_s <= law_.stopping_s(bounds) + 2.0 * law_.rate() * dt_s) {
-    starving_ = true;
-    law_.plan(0.0, bounds);
-    return;
-  }
-  if (!starving_) return;
-  TimeLaw again;
-  again.start(rate_);
-  if (!open || left_s > 2.0 * again.stopping_s(bounds) + 4.0 * dt_s) {
-    starving_ = false;
-    law_.plan(rate_, bounds);
-  }
+void Motion<Space>::follow_path(double dt_s) {
+  law_.step(path_, braking_ ? 0.0 : rate_, path_limits(), dt_s);
+  starving_ = path_.open() && !braking_ && rate_ > 0.0 && law_.standing();
+}
+
+/// What the bridge leaves, which takes half of them at most.
+template <class Space>
+typename Space::Peaks Motion<Space>::path_limits() const {
+  return Space::peaks(settings_->limits).reserved(bridging_ ? 0.5 : 1.0);
 }
 
 /// The path at its present time, or the point that is held. Leaves a path that has come to its end
@@ -74,7 +63,7 @@ template <class Space>
 void Motion<Space>::leave_path() {
   path_.leave();
   braking_ = starving_ = false;
-  law_.start(0.0);
+  law_.stop();
 }
 
 template <class Space>
@@ -120,7 +109,10 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   if (!verdict.ok()) return verdict;
   // Out of a motion the path is met at full rate; from rest any rate meets it. Where a path begins
   // with a step by nature, that is its own; the bridge ends the old motion only.
-  const double rate = reference_.standing() ? rate_ : 1.0;
+  PathLaw<Space> law;
+  law.start(path, elapsed_s, reference_.standing() ? rate_ : 1.0, path_limits(),
+            settings_->period_s);
+  const double rate = law.rate();
   const Point begin = path.begin().at_rate(rate, 0.0);
   const typename Space::Use& use = path.use();
   const double left = 1.0 - std::max({use.velocity, use.acceleration, use.jerk});
@@ -130,7 +122,7 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   start_bridge(bridge);
   path_ = path;
   braking_ = starving_ = false;
-  law_.start(rate, elapsed_s);
+  law_ = law;
   return {};
 }
 
@@ -157,14 +149,11 @@ Verdict Motion<Space>::catch_up(Path<Space>& path, double elapsed_s) const {
 template <class Space>
 void Motion<Space>::set_rate(double rate) {
   rate_ = rate;
-  if (on_path() && !braking_ && !starving_) law_.plan(rate, rate_bounds());
 }
 
 template <class Space>
 void Motion<Space>::brake() {
-  if (!on_path()) return;
-  law_.plan(0.0, rate_bounds());
-  braking_ = true;
+  braking_ = on_path();
 }
 
 template <class Space>

@@ -6,8 +6,7 @@
 // are rates of the one time law, so they never leave the path.
 #pragma once
 
-#include "kernel/reference/path.hpp"
-#include "kernel/reference/time_law.hpp"
+#include "kernel/reference/path_law.hpp"
 
 namespace tactus {
 
@@ -52,7 +51,7 @@ class Motion {
   bool standing() const { return !bridging_ && (!on_path() || law_.standing()); }
 
  private:
-  void watch_end(double dt_s);
+  void follow_path(double dt_s);
   Point base();
   Verdict meet(Path<Space>& path, const typename Space::Tolerance& tolerance,
                double elapsed_s) const;
@@ -60,13 +59,13 @@ class Motion {
   void leave_path();
   Bridge bridge_to(const Point& begin, double share) const;
   void start_bridge(const Bridge& bridge);
-  RateBounds rate_bounds() const { return path_.use().rate_bounds(bridging_ ? 0.5 : 1.0); }
+  typename Space::Peaks path_limits() const;
 
   const Settings* settings_ = nullptr;
   Point reference_;   // put out in this cycle
   Point held_;        // the base off the path
   Path<Space> path_;  // the base on it
-  TimeLaw law_;
+  PathLaw<Space> law_;
   double rate_ = 1.0;  // wanted, and taken up again after starving
   bool braking_ = false, starving_ = false;
 

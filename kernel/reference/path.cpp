@@ -4,6 +4,7 @@
 
 #include "kernel/loop_bound.hpp"
 #include "kernel/reference/joint_space.hpp"
+#include "kernel/reference/limit_check.hpp"
 #include "kernel/reference/task_space.hpp"
 
 namespace tactus {
@@ -21,10 +22,11 @@ Path<Space>::Path(const Trajectory<Space>& trajectory, const Point& reference)
       latched_(Space::latch(trajectory.terms, reference)),
       use_(Space::placed(trajectory.use, latched_)) {}
 
+/// Of the waypoints behind `before`.
 template <class Space>
-int Path<Space>::waypoint_from(double s) const {
-  int before = -1, found = trajectory_->count - 1;  // before < the one looked for <= found
-  LoopBound<31> halvings;                           // of an int
+int Path<Space>::waypoint_from(double s, int before) const {
+  int found = trajectory_->count - 1;  // before < the one looked for <= found
+  LoopBound<31> halvings;              // of an int
   while (found - before > 1) {
     halvings.tick();
     const int middle = before + (found - before) / 2;
@@ -33,17 +35,28 @@ int Path<Space>::waypoint_from(double s) const {
   return found;
 }
 
+/// The waypoint at which the segment ends that path time s lies on. Most often it is the present
+/// one or the next.
+template <class Space>
+int Path<Space>::target_at(double s) const {
+  const int last = trajectory_->count - 1, present = present_.target;
+  const double later = s + kTimeRounding_s;
+  if (present == last || later < trajectory_->at(present).time_s) return present;
+  if (later < trajectory_->at(present + 1).time_s) return present + 1;
+  return waypoint_from(later, present);
+}
+
+template <class Space>
+typename Path<Space>::Piece Path<Space>::piece(int target) const {
+  return {target, trajectory_->at(target - 1).time_s, trajectory_->segment(target, latched_)};
+}
+
 template <class Space>
 void Path<Space>::enter(double s) {
-  if (trajectory_->count == 1) {
-    target_ = 0;
-    segment_start_s_ = first_s();
-    segment_ = Segment(end(), end(), 1.0, Interpolation::kLinear, 0);
-    return;
-  }
-  target_ = std::max(waypoint_from(s + kTimeRounding_s), 1);
-  segment_start_s_ = trajectory_->at(target_ - 1).time_s;
-  segment_ = trajectory_->segment(target_, latched_);
+  if (trajectory_->count == 1)
+    present_ = {0, first_s(), Segment(end(), end(), 1.0, Interpolation::kLinear, 0)};
+  else
+    present_ = piece(std::max(waypoint_from(s + kTimeRounding_s), 1));
 }
 
 template <class Space>
@@ -52,14 +65,17 @@ Verdict Path<Space>::lead_in(const Point& reference, double s, int target,
   // From rest by the fields the trajectory gives; out of a motion so that nothing steps.
   const Interpolation how =
       reference.standing() ? trajectory_->interpolation : Interpolation::kQuintic;
-  target_ = target;
-  segment_start_s_ = s;
-  segment_ = Segment(reference, trajectory_->point(target, latched_),
-                     trajectory_->at(target).time_s - s, how, trajectory_->fields);
-  Verdict verdict = Space::judge(segment_, settings.limits, 1.0 - 0.5 * settings.stop_reserve);
+  const double T = trajectory_->at(target).time_s - s;
+  const Point to = trajectory_->point(target, latched_);
+  present_ = {target, s, Segment(reference, to, T, how, trajectory_->fields)};
+  const typename Space::Peaks most =
+      Space::peaks(settings.limits).reserved(1.0 - settings.stop_reserve);
+  const typename Space::Measure measure = Space::measure(present_.segment, settings.limits, most);
+  Verdict verdict = Space::judge_room(measure, settings.limits);
+  if (verdict.ok()) verdict = judge(measure.peaks, most, Space::kChannelSize);
   if (verdict.ok()) verdict = judge_corners(reference, settings);
   if (verdict.ok())
-    use_ = Space::use(segment_, settings.limits, use_);
+    use_ = Space::Use::largest(Space::use(measure, Space::peaks(settings.limits)), use_);
   else
     verdict.waypoint = target;
   return verdict;
@@ -68,13 +84,16 @@ Verdict Path<Space>::lead_in(const Point& reference, double s, int target,
 /// The steps in velocity at both ends of the segment that leads in.
 template <class Space>
 Verdict Path<Space>::judge_corners(const Point& reference, const Settings& settings) const {
-  const Verdict verdict = Space::judge_step(reference, segment_.at(0.0), settings.limits);
+  const Segment& segment = present_.segment;
+  const int next = present_.target + 1;
+  typename Space::Levels level{};
+  const Verdict verdict =
+      Space::judge_step(reference, segment.at(0.0), settings.limits, 0.0, level);
   if (!verdict.ok()) return verdict;
-  const Point arrival = segment_.at(segment_.duration());
-  const Point onward = target_ + 1 < trajectory_->count
-                           ? trajectory_->segment(target_ + 1, latched_).at(0.0)
-                           : arrival.at_rest();
-  return Space::judge_step(arrival, onward, settings.limits);
+  const Point arrival = segment.at(segment.duration());
+  const Point onward =
+      next < trajectory_->count ? trajectory_->segment(next, latched_).at(0.0) : arrival.at_rest();
+  return Space::judge_step(arrival, onward, settings.limits, segment.duration(), level);
 }
 
 template <class Space>
@@ -84,18 +103,33 @@ bool Path<Space>::ended(double s) const {
 
 template <class Space>
 typename Space::Point Path<Space>::at(double s) {
-  int target = target_;
-  for (int i = 0; i < kMaxSegmentsPerCycle && target + 1 < trajectory_->count &&
-                  s + kTimeRounding_s >= trajectory_->at(target).time_s;
-       ++i) {
-    ++target;
-  }
-  if (target != target_) {
-    target_ = target;
-    segment_ = trajectory_->segment(target, latched_);
-    segment_start_s_ = trajectory_->at(target - 1).time_s;
-  }
-  return segment_.at(std::min(s - segment_start_s_, segment_.duration()));
+  const int target = target_at(s);
+  if (target != present_.target) present_ = piece(target);
+  return present_.segment.at(std::min(s - present_.start_s, present_.segment.duration()));
+}
+
+template <class Space>
+typename Space::Local Path<Space>::local(double s, Piece& ahead) const {
+  const int target = target_at(s);
+  const bool built = target == present_.target || target == ahead.target;
+  if (!built) ahead = piece(target);
+  const Piece& on = target == present_.target ? present_ : ahead;
+  return on.segment.local(std::clamp(s - on.start_s, 0.0, on.segment.duration()));
+}
+
+template <class Space>
+Room Path<Space>::room(double s) const {
+  if (free()) return {};
+  const int target = target_at(s);
+  const Waypoint<Space>& to = trajectory_->at(target);
+  // On the way in, which is admitted at the full rate, what holds at its end will do.
+  if (target == 0 ||
+      (target == present_.target && present_.start_s != trajectory_->at(target - 1).time_s))
+    return {to.room, 0.0};
+  const Waypoint<Space>& from = trajectory_->at(target - 1);
+  const double begin = static_cast<float>(from.room), end = static_cast<float>(to.room);
+  const double T = to.time_s - from.time_s, slope = (end - begin) / T;
+  return {begin + slope * std::clamp(s - from.time_s, 0.0, T), slope};
 }
 
 template <class Space>

@@ -5,12 +5,24 @@
 
 namespace tactus {
 
+/// Largest square of the rate at a place of a path, and how it changes with path time there, 1/s.
+struct Room {
+  double most = 1.0, slope = 0.0;
+};
+
 template <class Space>
 class Path {
  public:
   using Point = typename Space::Point;
   using Segment = typename Space::Segment;
   using Settings = AdmissionSettings<Space>;
+
+  /// One segment: where it begins, and the waypoint at which it ends.
+  struct Piece {
+    int target = -1;
+    double start_s = 0.0;
+    Segment segment;
+  };
 
   Path() = default;
   /// The trajectory in its terms as of now, with `reference` put out; not entered yet. [cyclic]
@@ -31,19 +43,27 @@ class Path {
 
   /// The path at time s, to which the present segment is moved on. [cyclic]
   Point at(double s);
+  /// Its derivatives at a time s that the present segment has not passed. `ahead` keeps the segment
+  /// that had to be built for it, for the next call. [cyclic]
+  typename Space::Local local(double s, Piece& ahead) const;
+  /// How fast it may be passed at a time s that the present segment has not passed, so that it can
+  /// be slowed down in time for all that follows. [cyclic]
+  Room room(double s) const;
+  /// There is room for the full rate everywhere. [cyclic]
+  bool free() const { return !open() && !use_.slowed; }
   /// Nothing of it is left at path time s, and nothing more will come. [cyclic]
   bool ended(double s) const;
   Point end() const { return trajectory_->point(trajectory_->count - 1, latched_); }
   /// Where the present segment begins, without what steps there by nature. [cyclic]
-  Point begin() const { return segment_.corner(); }
+  Point begin() const { return present_.segment.corner(); }
 
   double first_s() const { return trajectory_->at(0).time_s; }
   double end_s() const { return trajectory_->end_s(); }
   bool open() const { return trajectory_->open; }
   /// First waypoint at path time s or later; the last if there is none. A bisection. [cyclic]
-  int waypoint_from(double s) const;
+  int waypoint_from(double s) const { return waypoint_from(s, -1); }
   /// First waypoint it still needs.
-  int needed() const { return target_ > 0 ? target_ - 1 : 0; }
+  int needed() const { return present_.target > 0 ? present_.target - 1 : 0; }
 
   const typename Space::Use& use() const { return use_; }
   /// More of an open trajectory has come; refused if its terms put that out of limits. [cyclic]
@@ -51,13 +71,14 @@ class Path {
 
  private:
   Verdict judge_corners(const Point& reference, const Settings& settings) const;
+  int waypoint_from(double s, int before) const;
+  int target_at(double s) const;
+  Piece piece(int target) const;
 
   const Trajectory<Space>* trajectory_ = nullptr;
   typename Space::Latched latched_;
   typename Space::Use use_;
-  int target_ = 0;  // waypoint at which the present segment ends
-  double segment_start_s_ = 0.0;
-  Segment segment_;
+  Piece present_;
 };
 
 }  // namespace tactus

@@ -124,6 +124,8 @@ void ReferenceGenerator<Space>::take_append(const Request<Space>& request) {
   const Verdict verdict = runs ? motion_.extend(request.use) : Verdict();
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   trajectory->count = request.count;
+  channel_->known[static_cast<std::size_t>(request.store)].store(
+      request.last ? -request.count : request.count, std::memory_order_release);
   trajectory->open = !request.last;
   trajectory->use = Space::Use::largest(trajectory->use, request.use);
   report(request.id, Outcome::kExecuted);

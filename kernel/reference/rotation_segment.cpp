@@ -43,6 +43,17 @@ using Bounds = RotationSegment::Bounds;
 /// phi and its derivatives, by number.
 using Derivatives = std::array<VectorPolynomial, Polynomial::kOrder + 1>;
 
+/// phi passed with these derivatives. The axes turn: w x w is zero and w x alpha is not.
+RotationSegment::Rates rates_of(const Vector3& phi, const Vector3& dphi, const Vector3& ddphi,
+                                const Vector3& dddphi) {
+  const RightJacobian j(phi);
+  RotationSegment::Rates rates;
+  rates.w = j.times(dphi);
+  rates.alpha = j.times(ddphi) + j.rate_times(dphi, dphi);
+  rates.jerk = j.second_rate(dphi, ddphi, dddphi) + rates.w.cross(rates.alpha);
+  return rates;
+}
+
 /// Norms at one time: of the first four derivatives of phi, and of the motion.
 struct Norms {
   double v, a, p, snap;
@@ -51,15 +62,12 @@ struct Norms {
 
 Norms norms_at(const Derivatives& phi, double t) {
   const Vector3 dphi = phi[1].at(t), ddphi = phi[2].at(t), dddphi = phi[3].at(t);
-  const RightJacobian j(phi[0].at(t));
-  const Vector3 w = j.times(dphi), alpha = j.times(ddphi) + j.rate_times(dphi, dphi);
-  // in the rotated frame, where w x w is zero and w x alpha is not
-  const Vector3 jerk = j.second_rate(dphi, ddphi, dddphi) + w.cross(alpha);
+  const RotationSegment::Rates rates = rates_of(phi[0].at(t), dphi, ddphi, dddphi);
   return {dphi.norm(),
           ddphi.norm(),
           dddphi.norm(),
           phi[4].at(t).norm(),
-          {w.norm(), alpha.norm(), jerk.norm()}};
+          {rates.w.norm(), rates.alpha.norm(), rates.jerk.norm()}};
 }
 
 // Bounds between two times h apart. A function f of time stays within h^2/8 max |f''| of its chord,
@@ -125,6 +133,18 @@ RotationBoundary RotationSegment::at(double t) const {
   now.w = now.r * motion.w;
   now.alpha = now.r * motion.alpha;
   return now;
+}
+
+RotationSegment RotationSegment::part(double begin, double duration) const {
+  RotationSegment part = *this;
+  part.phi_ = phi_.from(begin);
+  part.duration_ = duration;
+  return part;
+}
+
+RotationSegment::Rates RotationSegment::rates(double t) const {
+  const VectorPolynomial dphi = phi_.derivative(), ddphi = dphi.derivative();
+  return rates_of(phi_.at(t), dphi.at(t), ddphi.at(t), ddphi.derivative().at(t));
 }
 
 RotationSegment::Bounds RotationSegment::bounds() const {

@@ -126,6 +126,24 @@ TaskSpace::Point TaskSpace::Segment::at(double t) const {
   return point;
 }
 
+TaskSpace::Segment TaskSpace::Segment::part(double begin, double duration) const {
+  Segment part = *this;
+  part.p_ = p_.from(begin);
+  part.rotation_ = rotation_.part(begin, duration);
+  part.h_ = h_ + begin * dh_;
+  return part;
+}
+
+TaskSpace::Local TaskSpace::Segment::local(double t) const {
+  const VectorPolynomial dp = p_.derivative(), ddp = dp.derivative(), dddp = ddp.derivative();
+  const RotationSegment::Rates turning = rotation_.rates(t);
+  Local local;
+  local.d1 << dp.at(t), turning.w;
+  local.d2 << ddp.at(t), turning.alpha;
+  local.d3 << dddp.at(t), turning.jerk;
+  return local;
+}
+
 TaskSpace::Bridge::Bridge(const Difference& from, double T) : h_(from.h), duration_(T) {
   const VectorEnd zero = {Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
   p_ = joined(quintic, {from.p, from.dp, from.ddp}, zero, T);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "kernel/reference/interpolation.hpp"
-#include "kernel/reference/path_use.hpp"
+#include "kernel/reference/peaks.hpp"
 #include "kernel/reference/rotation_segment.hpp"
 #include "kernel/reference/tolerance.hpp"
 #include "kernel/reference/verdict.hpp"
@@ -20,6 +20,9 @@ Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quatern
 
 struct TaskSpace {
   using Limits = TaskLimits;
+  static constexpr int kChannels = 2, kChannelSize = 3;  ///< translation and rotation: lengths
+  using Peaks = MotionPeaks<kChannels>;
+  using Levels = std::array<double, kChannels>;
 
   /// How far beside the reference a trajectory may begin.
   struct Tolerance {
@@ -73,13 +76,28 @@ struct TaskSpace {
     bool moved = false, levered = false;  ///< the terms named a motion frame, a wrench frame
   };
 
-  /// What a path takes: of the limits, of the room, and of the wrench's limits.
-  struct Use : PathUse {
+  /// What a segment takes: bounds of the lengths, the room, and the wrench.
+  struct Measure {
+    Peaks peaks;
+    std::array<double, kChannels> slowing{};       ///< largest acceleration against the motion
+    Vector3 p_min = Vector3::Constant(kInfinity);  ///< m
+    Vector3 p_max = Vector3::Constant(-kInfinity);
+    double force = 0.0, moment = 0.0;  ///< N, N m
+  };
+  /// What a path takes: of the limits at its own rate, of the room, and of the wrench's limits.
+  struct Use {
+    double velocity = 0.0, acceleration = 0.0, jerk = 0.0;  ///< largest ratios to the limits
+    bool slowed = false;  ///< these are above one: it is passed more slowly there
     Vector3 p_min = Vector3::Constant(kInfinity);  ///< m
     Vector3 p_max = Vector3::Constant(-kInfinity);
     double force = 0.0, moment = 0.0;  ///< N, N m
     /// Of a path of two parts. [any]
     static Use largest(const Use& a, const Use& b);
+  };
+  /// Derivatives of a path with respect to its time; those of the rotation are the angular velocity
+  /// and its derivatives in the base, written in the axes of the tip, as only lengths count.
+  struct Local {
+    Rates d1, d2, d3;  ///< m/s, rad/s and so on
   };
 
   /// a - b of two references. The orientation is a path phi(t) of which sum() makes R_a = R_b
@@ -112,7 +130,11 @@ struct TaskSpace {
     Segment(const Point& from, const Point& to, double T, Interpolation how, Fields fields);
 
     Point at(double t) const;
+    /// [cyclic]
+    Local local(double t) const;
     double duration() const { return rotation_.duration(); }
+    /// What it is from `begin` on for so long. [any]
+    Segment part(double begin, double duration) const;
     /// Its beginning without what steps there by nature: the velocity of a straight line, the
     /// acceleration of a cubic. [any]
     Point corner() const;
@@ -147,20 +169,28 @@ struct TaskSpace {
   // Axes of a verdict: 0, 1, 2 are x, y, z, and 3, 4, 5 the rotations about them. Where a vector's
   // length counts it is 0 for translation and force, 3 for rotation and moment.
 
+  /// Judges what no time can mend in a waypoint: finite, unit quaternion, workspace, wrench.
+  /// [cyclic]
+  static Verdict judge_waypoint(const Point& point, const Limits& limits);
   /// Judges one online point: finite, unit quaternion within 1e-3, workspace, speeds, wrench.
   /// [cyclic]
   static Verdict judge(const Point& point, const Limits& limits);
-  /// Judges one segment: the position at its extrema, the lengths of velocity, acceleration and
+  /// Velocity, acceleration and jerk limits. [any]
+  static Peaks peaks(const Limits& limits);
+  /// What a segment takes: the position at its extrema, the lengths of velocity, acceleration and
   /// jerk by bounds from outside (translation_bounds.hpp, rotation_segment.hpp), so that none
-  /// beyond a limit is accepted; acceleration and jerk against the fraction `share` of their
-  /// limits. The wrench between ends within limits is within them. [cyclic, some microseconds]
-  static Verdict judge(const Segment& segment, const Limits& limits, double share);
+  /// beyond a limit is missed. The wrench between ends within limits is within them. [cyclic, some
+  /// microseconds]
+  static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most);
+  /// Judges the room that a segment takes. [cyclic]
+  static Verdict judge_room(const Measure& measure, const Limits& limits);
   /// Judges the end of a trajectory: nothing follows it, so whoever arrives there must stand. [any]
   static Verdict judge_end(const Point& end);
   /// Judges distance and angle of two poses against a tolerance. [cyclic]
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
-  /// Judges the step in velocity from one segment's end to the next one's beginning. [cyclic]
-  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits);
+  /// Judges the length of a step in velocity; as JointSpace's. [cyclic]
+  static Verdict judge_step(const Point& before, const Point& after, const Limits& limits,
+                            double dt_s, Levels& level);
   /// Judges whether `to` can be put out one period after `from`: kVelocityLimit if not. [cyclic]
   static Verdict judge_reach(const Point& from, const Point& to, const Limits& limits, double dt_s);
   /// Judges a pose error; the verdict has `code`. An error that is NaN exceeds every band. [cyclic]
@@ -168,9 +198,8 @@ struct TaskSpace {
                              Status code);
   /// Judges a measured twist, m/s and rad/s against the one `limit`; 0: not checked. [cyclic]
   static Verdict judge_stopped(const Point& measured, double limit);
-  /// What a segment takes of the limits, by the same bounds as judge(); as `known` where it takes
-  /// no more. [cyclic]
-  static Use use(const Segment& segment, const Limits& limits, const Use& known);
+  /// A measure as a use of the limits. [cyclic]
+  static Use use(const Measure& measure, const Peaks& limits);
   /// Of a point at which nothing moves. [cyclic]
   static Use use(const Point& held);
   /// Judges whether there is room for `bridge` beside whatever a path of that use does from `begin`
@@ -185,6 +214,8 @@ struct TaskSpace {
   /// The limits that can be judged in a client's terms: no box in a frame that is not the base, no
   /// moment about another point than the tip. [any]
   static Limits known_limits(const Terms& terms, const Limits& limits);
+  /// A client's point with zeros where its fields are not given. [cyclic]
+  static Point only(Fields given, const Point& point);
   /// A client's point as a reference in the base frame. [cyclic]
   static Point placed(const Point& given, const Latched& terms);
   /// The use of a path of a client's points as that of their references; boxes and moments are

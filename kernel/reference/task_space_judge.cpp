@@ -53,15 +53,6 @@ Verdict judge_place(const Vector3& p, const TaskLimits& limits) {
   return {};
 }
 
-Verdict judge_path(const VectorPolynomial& p, double T, const TaskLimits& limits) {
-  Verdict verdict;
-  for (int i = 0; verdict.ok() && i < 3; ++i) {
-    verdict = bounded(p.axis[static_cast<std::size_t>(i)], T, limits.p_min[i], limits.p_max[i],
-                      Status::kWorkspace, i);
-  }
-  return verdict;
-}
-
 /// Judges an error against a tolerance, without rounding; NaN is outside.
 Verdict within(double error, double tolerance, Status status, int axis) {
   if (error <= tolerance) return {};
@@ -74,35 +65,55 @@ double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 
 }  // namespace
 
-Verdict TaskSpace::judge(const Point& point, const Limits& limits) {
+Verdict TaskSpace::judge_waypoint(const Point& point, const Limits& limits) {
   return first_of(
       {judge_finite(point), judge_unit(point.x.r), judge_place(point.x.p, limits),
-       at_most(point.v.head<3>().norm(), limits.v_max, Status::kVelocityLimit, kTranslation),
-       at_most(point.v.tail<3>().norm(), limits.w_max, Status::kVelocityLimit, kRotation),
        at_most(point.h.head<3>().norm(), limits.force_max, Status::kEffortLimit, kTranslation),
        at_most(point.h.tail<3>().norm(), limits.moment_max, Status::kEffortLimit, kRotation)});
 }
 
-Verdict TaskSpace::judge(const Segment& segment, const Limits& limits, double share) {
+Verdict TaskSpace::judge(const Point& point, const Limits& limits) {
+  return first_of(
+      {judge_waypoint(point, limits),
+       at_most(point.v.head<3>().norm(), limits.v_max, Status::kVelocityLimit, kTranslation),
+       at_most(point.v.tail<3>().norm(), limits.w_max, Status::kVelocityLimit, kRotation)});
+}
+
+TaskSpace::Peaks TaskSpace::peaks(const Limits& limits) {
+  return {{limits.v_max, limits.w_max},
+          {limits.a_max, limits.alpha_max},
+          {limits.j_max, limits.dalpha_max}};
+}
+
+TaskSpace::Measure TaskSpace::measure(const Segment& segment, const Limits&, const Peaks&) {
   const double T = segment.duration();
   const TranslationBounds p = translation_bounds(segment.translation(), T);
   const RotationSegment::Bounds r = segment.rotation().bounds();
-  const Status kA = Status::kAccelerationLimit;
-  return first_of({judge_path(segment.translation(), T, limits),
-                   at_most(p.v, limits.v_max, Status::kVelocityLimit, kTranslation),
-                   at_most(r.w, limits.w_max, Status::kVelocityLimit, kRotation),
-                   at_most(p.a, share * limits.a_max, kA, kTranslation),
-                   at_most(r.alpha, share * limits.alpha_max, kA, kRotation),
-                   at_most(p.j, share * limits.j_max, Status::kJerkLimit, kTranslation),
-                   at_most(r.jerk, share * limits.dalpha_max, Status::kJerkLimit, kRotation)});
+  Measure measure;
+  measure.peaks = {{p.v, r.w}, {p.a, r.alpha}, {p.j, r.jerk}};
+  measure.slowing = measure.peaks.a;
+  for (int i = 0; i < 3; ++i) {
+    const Extremes room = extremes(segment.translation().axis[static_cast<std::size_t>(i)], T);
+    measure.p_min[i] = room.min;
+    measure.p_max[i] = room.max;
+  }
+  // The wrench, being linear, is largest at an end.
+  for (const double t : {0.0, T}) {
+    const Vector6 h = segment.at(t).h;
+    measure.force = std::max(measure.force, h.head<3>().norm());
+    measure.moment = std::max(measure.moment, h.tail<3>().norm());
+  }
+  return measure;
+}
+
+Verdict TaskSpace::judge_room(const Measure& measure, const Limits& limits) {
+  return first_of({judge_place(measure.p_min, limits), judge_place(measure.p_max, limits)});
 }
 
 Verdict TaskSpace::judge_end(const Point& end) {
   Verdict verdict;
   for (int i = 0; verdict.ok() && i < 6; ++i) {
-    for (const double value : {end.v[i], end.a[i]}) {
-      if (exceeds(std::abs(value), kRest)) return {Status::kNotAtRest, -1, i, value, 0.0};
-    }
+    if (exceeds(std::abs(end.v[i]), kRest)) verdict = {Status::kNotAtRest, -1, i, end.v[i], 0.0};
   }
   return {};
 }
@@ -114,11 +125,13 @@ Verdict TaskSpace::judge_near(const Point& a, const Point& b, const Tolerance& t
               kRotation)});
 }
 
-Verdict TaskSpace::judge_step(const Point& before, const Point& after, const Limits& limits) {
+Verdict TaskSpace::judge_step(const Point& before, const Point& after, const Limits& limits,
+                              double dt_s, Levels& level) {
   const Vector6 step = after.v - before.v;
-  return first_of(
-      {at_most(step.head<3>().norm(), limits.v_step, Status::kVelocityStep, kTranslation),
-       at_most(step.tail<3>().norm(), limits.w_step, Status::kVelocityStep, kRotation)});
+  level[0] = std::max(0.0, level[0] - limits.a_max * dt_s) + step.head<3>().norm();
+  level[1] = std::max(0.0, level[1] - limits.alpha_max * dt_s) + step.tail<3>().norm();
+  return first_of({at_most(level[0], limits.v_step, Status::kVelocityStep, kTranslation),
+                   at_most(level[1], limits.w_step, Status::kVelocityStep, kRotation)});
 }
 
 Verdict TaskSpace::judge_reach(const Point& from, const Point& to, const Limits& limits,
@@ -146,32 +159,25 @@ Verdict TaskSpace::judge_stopped(const Point& measured, double limit) {
 }
 
 TaskSpace::Use TaskSpace::Use::largest(const Use& a, const Use& b) {
-  return {PathUse::largest(a, b), a.p_min.cwiseMin(b.p_min), a.p_max.cwiseMax(b.p_max),
-          std::max(a.force, b.force), std::max(a.moment, b.moment)};
+  return {std::max(a.velocity, b.velocity), std::max(a.acceleration, b.acceleration),
+          std::max(a.jerk, b.jerk),         a.slowed || b.slowed,
+          a.p_min.cwiseMin(b.p_min),        a.p_max.cwiseMax(b.p_max),
+          std::max(a.force, b.force),       std::max(a.moment, b.moment)};
 }
 
 TaskSpace::Use TaskSpace::use(const Point& held) {
-  return {PathUse(), held.x.p, held.x.p, held.h.head<3>().norm(), held.h.tail<3>().norm()};
+  return {
+      0.0, 0.0, 0.0, false, held.x.p, held.x.p, held.h.head<3>().norm(), held.h.tail<3>().norm()};
 }
 
-TaskSpace::Use TaskSpace::use(const Segment& segment, const Limits& limits, const Use& known) {
-  const TranslationBounds p = translation_bounds(segment.translation(), segment.duration());
-  const RotationSegment::Bounds r = segment.rotation().bounds();
-  const PathUse translation = {p.v / limits.v_max, p.a / limits.a_max, p.j / limits.j_max,
-                               p.v / limits.a_max, p.v / limits.j_max, p.a / limits.j_max};
-  const PathUse rotation = {r.w / limits.w_max,         r.alpha / limits.alpha_max,
-                            r.jerk / limits.dalpha_max, r.w / limits.alpha_max,
-                            r.w / limits.dalpha_max,    r.alpha / limits.dalpha_max};
-  // The wrench, being linear, is largest at an end.
-  Use own = Use::largest(use(segment.at(0.0)), use(segment.at(segment.duration())));
-  static_cast<PathUse&>(own) = PathUse::largest(translation, rotation);
-  for (int i = 0; i < 3; ++i) {
-    const Extremes room =
-        extremes(segment.translation().axis[static_cast<std::size_t>(i)], segment.duration());
-    own.p_min[i] = room.min;
-    own.p_max[i] = room.max;
+TaskSpace::Use TaskSpace::use(const Measure& m, const Peaks& limits) {
+  Use use = {0.0, 0.0, 0.0, false, m.p_min, m.p_max, m.force, m.moment};
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    use.velocity = std::max(use.velocity, m.peaks.v[c] / limits.v[c]);
+    use.acceleration = std::max(use.acceleration, m.peaks.a[c] / limits.a[c]);
+    use.jerk = std::max(use.jerk, m.peaks.j[c] / limits.j[c]);
   }
-  return Use::largest(known, own);
+  return use;
 }
 
 /// As JointSpace::judge_room.

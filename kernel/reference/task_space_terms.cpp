@@ -31,6 +31,14 @@ TaskSpace::Limits TaskSpace::known_limits(const Terms& terms, const Limits& limi
   return known;
 }
 
+TaskSpace::Point TaskSpace::only(Fields given, const Point& point) {
+  Point known = point;
+  if (!(given & kVelocityField)) known.v.setZero();
+  if (!(given & kAccelerationField)) known.a.setZero();
+  if (!(given & kEffortField)) known.h.setZero(), known.dh.setZero();
+  return known;
+}
+
 // With the pose (p_F, R_F) of the motion frame, which stands still,
 //   p = p_F + R_F p_given,  R = R_F R_given,  twist and acceleration turned by R_F,
 // and with the wrench (f, m) given about the origin p_W of its frame,

@@ -7,6 +7,7 @@
 #include "kernel/describe.hpp"
 #include "kernel/reference/interpolation.hpp"
 #include "kernel/reference/tolerance.hpp"
+#include "kernel/shown.hpp"
 
 namespace tactus {
 
@@ -14,6 +15,9 @@ template <class Space>
 struct Waypoint {
   double time_s = 0.0;  ///< from the start of the trajectory
   typename Space::Point point;
+  /// Largest square of the rate here with which all that follows can be met; the client may raise
+  /// it while the motion runs.
+  Shown<float> room = 1.0F;
 };
 
 /// When a goal is followed, and when it is reached. In a goal, a value > 0 holds for it, 0 keeps
@@ -50,13 +54,18 @@ struct Trajectory {
   typename Space::Terms terms;  ///< which joints, or which frames, the waypoints are given in
   double start_s = kAtOnce;     ///< when it begins, by the generator's time
   Tolerances<Space> tolerances;
+  /// To be passed in exactly these times: refused where that is beyond a limit, not slowed down.
+  bool exact = false;
   typename Space::Use use;  ///< noted by admission
+  double stretch = 0.0;     ///< likewise: how much longer it takes, slowed down, as a fraction
 
   const Waypoint<Space>& at(int index) const { return waypoints[index % capacity]; }
   double end_s() const { return at(count - 1).time_s; }
-  /// A waypoint as a reference, when its terms are `latched`. [any]
+  /// A waypoint as a reference, when its terms are `latched`; what is not given is zero. [any]
   typename Space::Point point(int index, const typename Space::Latched& latched) const {
-    return Space::placed(at(index).point, latched);
+    const bool chosen = interpolation == Interpolation::kMonotone;
+    const Fields given = static_cast<Fields>(fields | (chosen ? kVelocityField : 0));
+    return Space::placed(Space::only(given, at(index).point), latched);
   }
   /// The segment that ends at waypoint `index` >= 1. [any]
   typename Space::Segment segment(int index, const typename Space::Latched& latched) const {

@@ -1,0 +1,124 @@
+// The rate along a path: limits kept whatever is asked for, and stops nearly as quick as any that
+// acceleration allows. The oracle (path_cases.hpp) differentiates the paths by itself.
+#include <cstdlib>
+#include <vector>
+
+#include "kernel/reference/path_law.hpp"
+#include "tests/path_cases.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kPeriod_s = 1e-3, kShare = 0.98;
+
+/// How many paths of each kind are tried.
+int trials() {
+  const char* wanted = std::getenv("TACTUS_TRIALS");
+  return wanted != nullptr ? std::atoi(wanted) : 200;
+}
+
+/// A random path with the law that runs along it, and the largest use of the limits so far.
+struct Runner {
+  std::array<Waypoint<JointSpace>, RandomPath::kPieces + 1> waypoints;
+  Trajectory<JointSpace> trajectory;
+  RandomPath own;
+  Path<JointSpace> path;
+  PathLaw<JointSpace> law;
+  JointLimits limits;
+  double v = 0.0, a = 0.0, jerk = 0.0;
+
+  Runner(PathKind kind, Random& random) : own(kind, random, kShare) {
+    trajectory.waypoints = waypoints.data();
+    trajectory.capacity = trajectory.count = RandomPath::kPieces + 1;
+    own.fill(trajectory, 0, RandomPath::kPieces);
+  }
+  void start(double s, double rate) {
+    path = Path<JointSpace>(trajectory, {});
+    path.enter(s);
+    law.start(path, s, rate, JointSpace::peaks(limits), kPeriod_s);
+  }
+  JointVector acceleration(const PathPlace& p) const {
+    return p.d2 * (law.rate() * law.rate()) + p.d1 * law.slope();
+  }
+  void step(double target) {
+    const double s = law.s(), rate = law.rate(), slope = law.slope();
+    const JointVector before = acceleration(own.place(s + 1e-9));
+    law.step(path, target, JointSpace::peaks(limits), kPeriod_s);
+    const JointSpace::Point out = path.at(law.s());
+    const PathPlace now = own.place(law.s() + 1e-9);
+    const JointVector after = acceleration(now);
+    assert_true(law.rate() >= 0.0 && law.rate() <= 1.0 && law.s() >= s);
+    JointVector steps = JointVector::Zero();  // of the path itself
+    for (int k = 1; k < RandomPath::kPieces; ++k) {
+      const double knot = own.time_s(k);
+      if (knot <= s + 1e-9 || knot > law.s() + 1e-9) continue;
+      const PathPlace first = own.on_piece(k - 1, knot), next = own.on_piece(k, knot);
+      steps += (next.d2 - first.d2) * (rate * rate) + (next.d1 - first.d1) * slope;
+    }
+    for (int j = 0; j < kDof; ++j) {
+      ASSERT_NEAR(out.q[j], now.q[j], 1e-8);
+      v = std::fmax(v, std::fabs(now.d1[j] * law.rate()) / limits.dq_max[j]);
+      a = std::fmax(a, std::fabs(after[j]) / limits.ddq_max[j]);
+      jerk = std::fmax(
+          jerk, std::fabs(after[j] - before[j] - steps[j]) / (kPeriod_s * limits.dddq_max[j]));
+    }
+  }
+};
+
+double percentile(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (values.size() - 1.0))];
+}
+
+void stops_of(PathKind kind) {
+  Random random{20261122 + static_cast<std::uint64_t>(kind)};
+  std::vector<double> ratios, jerks, times;
+  double v = 0.0, a = 0.0;
+  int never = 0;
+  for (int n = trials(); n > 0; --n) {
+    Runner runner(kind, random);
+    const double begin = random.uniform(0.02, 0.7) * runner.own.end_s();
+    runner.start(begin, 1.0);
+    int cycles = 0;
+    const double end = runner.own.end_s();
+    while (!runner.law.standing() && runner.law.s() < end && cycles < 20000)
+      runner.step(0.0), ++cycles;
+    const double quickest = runner.own.quickest_stop_s(begin);
+    if (!runner.law.standing())
+      ++never;
+    else if (quickest > 0.02 && quickest < kInfinity) {
+      ratios.push_back(cycles * kPeriod_s / quickest);
+      times.push_back(quickest);
+    }
+    v = std::fmax(v, runner.v);
+    a = std::fmax(a, runner.a);
+    jerks.push_back(runner.jerk);
+  }
+  print_message(
+      "  %-22s optimum %3.0f/%3.0f ms, ratio %.3f/%.3f/%.3f/%.2f, a %.10f, v %.6f, jerk "
+      "%.3f/%.3f/%.3f, never %d\n",
+      kPathKindNames[static_cast<std::size_t>(kind)], 1e3 * percentile(times, 0.5),
+      1e3 * percentile(times, 0.9), percentile(ratios, 0.5), percentile(ratios, 0.9),
+      percentile(ratios, 0.99), percentile(ratios, 1.0), a, v, percentile(jerks, 0.5),
+      percentile(jerks, 0.99), percentile(jerks, 1.0), never);
+  assert_true(v <= 1.0 + 1e-9);
+  assert_true(a <= 1.0 + 1e-9);
+}
+
+// Proves RG-11.
+
+void a_stop_keeps_limits_and_is_nearly_as_quick_as_acceleration_allows(void**) {
+  for (const PathKind kind : kPathKinds) stops_of(kind);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_stop_keeps_limits_and_is_nearly_as_quick_as_acceleration_allows),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
