@@ -98,7 +98,10 @@ Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
     set_rooms(trajectory, settings, first + 1, first + 1, last, 1.0);
     longer = stretch(trajectory, settings, first, last, trajectory.at(first + 1).room);
   }
-  for (int i = first + 1; i <= last; ++i) trajectory.waypoints[i % trajectory.capacity].room = 0.0F;
+  for (int i = first + 1; i <= last; ++i) {
+    Waypoint<Space>& waypoint = trajectory.waypoints[i % trajectory.capacity];
+    waypoint.room = waypoint.halfway = 0.0F;
+  }
   return longer <= settings.max_stretch ? Verdict() : part.worst;
 }
 

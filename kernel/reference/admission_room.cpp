@@ -36,9 +36,13 @@ double room_across(double far, const Values& v, const Values& own, const Values&
   return room;
 }
 
+/// A path that takes nothing itself; in the mean it helps here and hinders there.
+template <class Space>
+constexpr typename Space::Levels kNone{};
+
 /// The room on a segment of its own, in parts of equal length.
 struct PartRooms {
-  static constexpr int kParts = 16;
+  static constexpr int kParts = 8;
   std::array<double, kParts> most;
   double least = 1.0;
 
@@ -88,8 +92,16 @@ struct Judge {
   double own(const typename Space::Measure& measure) const {
     return own_room(measure.peaks, most, Space::kChannelSize).most;
   }
-  double duration_s(int index) const {
-    return trajectory.at(index).time_s - trajectory.at(index - 1).time_s;
+  /// The half of a segment that ends at place `index`.
+  typename Space::Segment half(int index) const {
+    const typename Space::Segment segment = trajectory.segment((index + 1) / 2, terms);
+    const double T = 0.5 * segment.duration();
+    return segment.part(index % 2 == 0 ? T : 0.0, T);
+  }
+  /// Waypoint k is place 2 k, the middle of the way to it 2 k - 1.
+  Shown<float>& room(int index) const {
+    Waypoint<Space>& to = trajectory.waypoints[(index + 1) / 2 % trajectory.capacity];
+    return index % 2 == 0 ? to.room : to.halfway;
   }
   PartRooms parts(const typename Space::Segment& segment, double least) const {
     PartRooms rooms;
@@ -131,44 +143,40 @@ void set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Spac
                int first, int fresh, int last, double end) {
   const Judge<Space> judge{trajectory, settings};
   const auto write = [&](int index, double room) {
-    Shown<float>& now = trajectory.waypoints[index % trajectory.capacity].room;
+    Shown<float>& now = judge.room(index);
     const float wanted = rounded_down(room);
-    if (index < fresh && wanted <= now) return false;
+    if (index < 2 * fresh && wanted <= now) return false;
     now = wanted;
     return true;
   };
-  constexpr typename Space::Levels kNone{};
   double room = end;
-  for (int k = last; k > first; --k) {
-    const typename Space::Segment segment = trajectory.segment(k, judge.terms);
-    const typename Space::Measure measure = judge.measure(segment);
-    const PartRooms own = judge.parts(segment, judge.own(measure));
-    const double T = judge.duration_s(k);
-    const double rise = room_across(0.0, measure.peaks.v, kNone, judge.slowing.a, T);
+  for (int k = 2 * last; k > 2 * first; --k) {
+    const typename Space::Segment half = judge.half(k);
+    const typename Space::Measure measure = judge.measure(half);
+    const PartRooms own = judge.parts(half, judge.own(measure));
+    const double T = half.duration();
+    const double rise = room_across(0.0, measure.peaks.v, kNone<Space>, judge.slowing.a, T);
     if (!write(k, std::min(room, own.at_end(rise)))) return;
-    const double after = trajectory.at(k).room;
-    const double before =
-        room_across(after, measure.peaks.v, measure.slowing, judge.slowing.a, judge.duration_s(k));
+    const double after = static_cast<float>(judge.room(k));
+    const double before = room_across(after, measure.peaks.v, measure.slowing, judge.slowing.a, T);
     // Its least room, kept up, needs no slowing down.
     room = std::min(own.at_begin(after), std::max(before, std::min(own.least, after)));
   }
-  static_cast<void>(write(first, room));
+  static_cast<void>(write(2 * first, room));
 }
 
 template <class Space>
 double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
                int first, int last, double begin) {
   const Judge<Space> judge{trajectory, settings};
-  constexpr typename Space::Levels kNone{};  // the path itself helps here and hinders there
   double room = begin, longer_s = 0.0;
-  for (int k = first + 1; k <= last; ++k) {
-    const double T = judge.duration_s(k);
-    double next = trajectory.at(k).room;
-    if (next > room) {
-      const typename Space::Measure measure = judge.measure(trajectory.segment(k, judge.terms));
-      const double reached = room_across(room, measure.peaks.v, kNone, judge.slowing.a, T);
-      next = std::min(next, reached);
-    }
+  for (int k = 2 * first + 1; k <= 2 * last; ++k) {
+    const typename Space::Segment half = judge.half(k);
+    const double T = half.duration();
+    double next = static_cast<float>(judge.room(k));
+    if (next > room)
+      next = std::min(
+          next, room_across(room, judge.measure(half).peaks.v, kNone<Space>, judge.slowing.a, T));
     longer_s += 2.0 * T / (std::sqrt(room) + std::sqrt(next)) - T;
     room = next;
   }
