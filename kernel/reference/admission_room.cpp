@@ -139,8 +139,8 @@ OwnRoom own_room(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int 
 }
 
 template <class Space>
-void set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int fresh, int last, double end) {
+float set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
+                int first, int fresh, int last, double end) {
   const Judge<Space> judge{trajectory, settings};
   const auto write = [&](int index, double room) {
     Shown<float>& now = judge.room(index);
@@ -156,20 +156,20 @@ void set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Spac
     const PartRooms own = judge.parts(half, judge.own(measure));
     const double T = half.duration();
     const double rise = room_across(0.0, measure.peaks.v, kNone<Space>, judge.slowing.a, T);
-    if (!write(k, std::min(room, own.at_end(rise)))) return;
+    if (!write(k, std::min(room, own.at_end(rise)))) return 0.0F;
     const double after = static_cast<float>(judge.room(k));
     const double before = room_across(after, measure.peaks.v, measure.slowing, judge.slowing.a, T);
     // Its least room, kept up, needs no slowing down.
     room = std::min(own.at_begin(after), std::max(before, std::min(own.least, after)));
   }
-  static_cast<void>(write(2 * first, room));
+  return rounded_down(room);
 }
 
 template <class Space>
 double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int last, double begin) {
+               int first, int last, float begin) {
   const Judge<Space> judge{trajectory, settings};
-  double room = begin, longer_s = 0.0;
+  double room = static_cast<double>(begin), longer_s = 0.0;
   for (int k = 2 * first + 1; k <= 2 * last; ++k) {
     const typename Space::Segment half = judge.half(k);
     const double T = half.duration();
@@ -184,14 +184,14 @@ double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Spac
 }
 
 template OwnRoom own_room(const JointSpace::Peaks&, const JointSpace::Peaks&, int);
-template void set_rooms(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
-                        int, int, double);
+template float set_rooms(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
+                         int, int, double);
 template double stretch(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
-                        int, double);
+                        int, float);
 template OwnRoom own_room(const TaskSpace::Peaks&, const TaskSpace::Peaks&, int);
-template void set_rooms(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int, int,
-                        int, double);
+template float set_rooms(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int,
+                         int, int, double);
 template double stretch(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int, int,
-                        double);
+                        float);
 
 }  // namespace tactus
