@@ -107,8 +107,11 @@ void ReferenceClient<Space>::settle(std::size_t store) {
   const bool whole = known < 0;
   if (!away_[store] || (count == stream.settled && whole == stream.whole)) return;
   const int needed = channel_.needed[store].load(std::memory_order_acquire);
-  set_rooms(channel_.stores[store], channel_.settings, needed, stream.settled, count - 1,
-            whole ? 1.0 : 0.0);
+  const Trajectory<Space>& trajectory = channel_.stores[store];
+  const float room = set_rooms(trajectory, channel_.settings, needed, stream.settled, count - 1,
+                               whole ? 1.0 : 0.0);
+  Shown<float>& first = trajectory.waypoints[needed % trajectory.capacity].room;
+  if (room > first) first = room;
   stream.settled = count;
   stream.whole = whole;
 }

@@ -25,26 +25,27 @@ struct PathPlace {
   JointVector q, d1, d2, d3;
 };
 
-class RandomPath {
+/// Polynomials between knots, and what is known of them.
+class KnownPath {
  public:
-  static constexpr int kPieces = 63;
+  static constexpr int kMostPieces = 100;
 
-  RandomPath(PathKind kind, Random& random, double share) : kind_(kind) {
-    static constexpr double kShortest[] = {0.1, 0.05, 0.02, 0.02, 0.05};
-    static constexpr double kLongest[] = {0.3, 0.3, 0.15, 0.15, 0.3};
-    const std::size_t k = static_cast<std::size_t>(kind);
-    for (int i = 0; i < kPieces; ++i)
-      time_[at(i + 1)] = time_[at(i)] + random.uniform(kShortest[k], kLongest[k]);
-    for (int j = 0; j < kDof; ++j) {
-      if (kind == PathKind::kSmooth || kind == PathKind::kWild) quintics(j, random);
-      if (kind == PathKind::kLines) lines(j, random);
-      if (kind == PathKind::kLinearAcceleration) accelerations(j, random, false);
-      if (kind == PathKind::kConstantAcceleration) accelerations(j, random, true);
+  KnownPath() = default;
+  /// The cubics or quintics through the waypoints of a trajectory.
+  explicit KnownPath(const Trajectory<JointSpace>& trajectory) : pieces_(trajectory.count - 1) {
+    for (int i = 0; i <= pieces_; ++i) time_[at(i)] = trajectory.at(i).time_s;
+    for (int i = 0; i < pieces_; ++i) {
+      const JointSpace::Point &from = trajectory.at(i).point, &to = trajectory.at(i + 1).point;
+      const bool quintic = (trajectory.fields & kAccelerationField) != 0;
+      for (int j = 0; j < kDof; ++j) {
+        const double begin[3] = {from.q[j], from.dq[j], from.ddq[j]};
+        const double end[3] = {to.q[j], to.dq[j], to.ddq[j]};
+        quintic ? join_quintic(i, j, begin, end) : join_cubic(i, j, begin, end);
+      }
     }
-    scale(worst(share) * (1.0 + 1e-4));  // extremes lie between samples
   }
 
-  double end_s() const { return time_[kPieces]; }
+  double end_s() const { return time_[at(pieces_)]; }
   double time_s(int knot) const { return time_[at(knot)]; }
 
   /// At path time s; at a knot of what comes after it.
@@ -63,20 +64,6 @@ class RandomPath {
       place.q[j] = d[0], place.d1[j] = d[1], place.d2[j] = d[2], place.d3[j] = d[3];
     }
     return place;
-  }
-
-  /// As waypoints of a trajectory, with the fields that give the same path.
-  void fill(Trajectory<JointSpace>& trajectory, int first, int last) const {
-    const bool quintic = kind_ == PathKind::kSmooth || kind_ == PathKind::kWild;
-    trajectory.fields = kind_ == PathKind::kLines ? Fields{0}
-                        : quintic ? static_cast<Fields>(kVelocityField | kAccelerationField)
-                                  : Fields{kVelocityField};
-    for (int i = first; i <= last; ++i) {
-      const PathPlace here = on_piece(std::min(i, kPieces - 1), time_[at(i)]);
-      Waypoint<JointSpace>& waypoint = trajectory.waypoints[i % trajectory.capacity];
-      waypoint.time_s = time_[at(i)];
-      waypoint.point = {here.q, here.d1, here.d2, JointVector::Zero()};
-    }
   }
 
   /// Time and way of the stop from rate 1 at s that brakes at any place as hard as acceleration
@@ -99,11 +86,11 @@ class RandomPath {
     return w > 1e-9 ? kInfinity : time_s;
   }
 
- private:
+ protected:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   int piece(double s) const {
-    const auto after = std::upper_bound(time_.begin(), time_.end(), s);
-    return std::clamp(static_cast<int>(after - time_.begin()) - 1, 0, kPieces - 1);
+    const auto after = std::upper_bound(time_.begin(), time_.begin() + pieces_ + 1, s);
+    return std::clamp(static_cast<int>(after - time_.begin()) - 1, 0, pieces_ - 1);
   }
   double lowest_slope(const PathPlace& p, double w) const {
     double lo = -1e9;
@@ -115,22 +102,77 @@ class RandomPath {
     return std::fmin(lo, 0.0);
   }
 
+  void join_quintic(int k, int j, const double* from, const double* to) {
+    const double T = time_[at(k + 1)] - time_[at(k)];
+    auto& c = c_[at(k)][at(j)];
+    c = {from[0], from[1], 0.5 * from[2], 0.0, 0.0, 0.0};
+    // What the last three must add at T to position, velocity and acceleration.
+    const double p = to[0] - c[0] - T * (c[1] + T * c[2]), v = to[1] - c[1] - 2.0 * T * c[2];
+    const double a = to[2] - 2.0 * c[2];
+    c[3] = (10.0 * p - 4.0 * v * T + 0.5 * a * T * T) / (T * T * T);
+    c[4] = (-15.0 * p + 7.0 * v * T - a * T * T) / (T * T * T * T);
+    c[5] = (6.0 * p - 3.0 * v * T + 0.5 * a * T * T) / (T * T * T * T * T);
+  }
+  void join_cubic(int k, int j, const double* from, const double* to) {
+    const double T = time_[at(k + 1)] - time_[at(k)];
+    auto& c = c_[at(k)][at(j)];
+    c = {from[0], from[1], 0.0, 0.0, 0.0, 0.0};
+    const double p = to[0] - c[0] - T * c[1], v = to[1] - c[1];
+    c[2] = (3.0 * p - v * T) / (T * T);
+    c[3] = (v * T - 2.0 * p) / (T * T * T);
+  }
+
+  int pieces_ = 0;
+  JointLimits limits_;
+  std::array<double, kMostPieces + 1> time_{};
+  std::array<std::array<std::array<double, 6>, kDof>, kMostPieces> c_{};
+};
+
+class RandomPath : public KnownPath {
+ public:
+  static constexpr int kPieces = 63;
+
+  RandomPath(PathKind kind, Random& random, double share) : kind_(kind) {
+    pieces_ = kPieces;
+    static constexpr double kShortest[] = {0.3, 0.15, 0.1, 0.1, 0.05};
+    static constexpr double kLongest[] = {0.9, 0.9, 0.45, 0.45, 0.3};
+    const std::size_t k = static_cast<std::size_t>(kind);
+    for (int i = 0; i < kPieces; ++i)
+      time_[at(i + 1)] = time_[at(i)] + random.uniform(kShortest[k], kLongest[k]);
+    for (int j = 0; j < kDof; ++j) {
+      if (kind == PathKind::kSmooth || kind == PathKind::kWild) quintics(j, random);
+      if (kind == PathKind::kLines) lines(j, random);
+      if (kind == PathKind::kLinearAcceleration) accelerations(j, random, false);
+      if (kind == PathKind::kConstantAcceleration) accelerations(j, random, true);
+    }
+    scale(worst(share) * (1.0 + 1e-4));  // extremes lie between samples
+  }
+
+  /// As waypoints of a trajectory, with the fields that give the same path.
+  void fill(Trajectory<JointSpace>& trajectory, int first, int last) const {
+    const bool quintic = kind_ == PathKind::kSmooth || kind_ == PathKind::kWild;
+    trajectory.fields = kind_ == PathKind::kLines ? Fields{0}
+                        : quintic ? static_cast<Fields>(kVelocityField | kAccelerationField)
+                                  : Fields{kVelocityField};
+    for (int i = first; i <= last; ++i) {
+      const PathPlace here = on_piece(std::min(i, kPieces - 1), time_[at(i)]);
+      Waypoint<JointSpace>& waypoint = trajectory.waypoints[i % trajectory.capacity];
+      waypoint.time_s = time_[at(i)];
+      waypoint.point = {here.q, here.d1, here.d2, JointVector::Zero()};
+    }
+  }
+
+ private:
   void quintics(int j, Random& random) {
     const bool wild = kind_ == PathKind::kWild;
     double from[3] = {};
     for (int k = 0; k < kPieces; ++k) {
-      const double T = time_[at(k + 1)] - time_[at(k)], size = wild ? 1.0 : 0.4;
-      const double to[3] = {from[0] + random.uniform(-1.0, 1.0) * T,
-                            size * random.uniform(-1.0, 1.0),
+      const double T = time_[at(k + 1)] - time_[at(k)];
+      const double v1 = random.uniform(-1.0, 1.0), mean = 0.5 * (from[1] + v1);
+      const double beside = (wild ? 0.5 : 0.05) * random.uniform(-1.0, 1.0);
+      const double to[3] = {from[0] + (mean + beside) * T, v1,
                             (wild ? 3.0 : 0.5) * random.uniform(-1.0, 1.0) / T};
-      auto& c = c_[at(k)][at(j)];
-      c = {from[0], from[1], 0.5 * from[2], 0.0, 0.0, 0.0};
-      // What the last three must add at T to position, velocity and acceleration.
-      const double p = to[0] - c[0] - T * (c[1] + T * c[2]), v = to[1] - c[1] - 2.0 * T * c[2];
-      const double a = to[2] - 2.0 * c[2];
-      c[3] = (10.0 * p - 4.0 * v * T + 0.5 * a * T * T) / (T * T * T);
-      c[4] = (-15.0 * p + 7.0 * v * T - a * T * T) / (T * T * T * T);
-      c[5] = (6.0 * p - 3.0 * v * T + 0.5 * a * T * T) / (T * T * T * T * T);
+      join_quintic(k, j, from, to);
       std::copy(to, to + 3, from);
     }
   }
@@ -146,7 +188,7 @@ class RandomPath {
     double q = 0.0, v = 0.0, a = 0.0;
     for (int k = 0; k < kPieces; ++k) {
       const double T = time_[at(k + 1)] - time_[at(k)], bias = v > 0.0 ? -0.6 : 0.6;
-      const double next = random.uniform(-1.0, 1.0) + bias * std::fabs(v) / 0.3;
+      const double next = random.uniform(-1.0, 1.0) + bias * std::fabs(v) / 1.5;
       if (steps) a = next;
       const double j3 = steps ? 0.0 : (next - a) / T;
       c_[at(k)][at(j)] = {q, v, 0.5 * a, j3 / 6.0, 0.0, 0.0};
@@ -182,9 +224,6 @@ class RandomPath {
   }
 
   PathKind kind_;
-  JointLimits limits_;
-  std::array<double, kPieces + 1> time_{};
-  std::array<std::array<std::array<double, 6>, kDof>, kPieces> c_{};
 };
 
 }  // namespace tactus

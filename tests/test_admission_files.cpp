@@ -21,6 +21,7 @@ ReferenceClient<JointSpace>& start() {
   static ReferenceClient<JointSpace> client(bench.channel);
   ASSERT_OK(
       bench.load("[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n"
+                 "[guard]\nstop_reserve = 0.1\n"
                  "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"));
   ASSERT_OK(bench.pipeline.start(state_at(0.0, 0.0)));
   for (std::size_t i = 0; i < storage.size(); ++i) {

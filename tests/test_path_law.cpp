@@ -54,8 +54,7 @@ struct Runner {
       const double knot = own.time_s(k);
       if (knot <= s + 1e-9 || knot > law.s() + 1e-9) continue;
       const PathPlace first = own.on_piece(k - 1, knot), next = own.on_piece(k, knot);
-      const double r = 0.5 * (rate + law.rate()), u = 0.5 * (slope + law.slope());
-      steps += (next.d2 - first.d2) * (r * r) + (next.d1 - first.d1) * u;
+      steps += (next.d2 - first.d2) * (rate * rate) + (next.d1 - first.d1) * slope;
     }
     for (int j = 0; j < kDof; ++j) {
       ASSERT_NEAR(out.q[j], now.q[j], 1e-8);

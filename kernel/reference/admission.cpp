@@ -95,10 +95,13 @@ Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
                    const AdmissionSettings<Space>& settings, const Admitted<Space>& part) {
   double longer = 0.0;
   if (part.room < 1.0) {
-    set_rooms(trajectory, settings, first + 1, first + 1, last, 1.0);
-    longer = stretch(trajectory, settings, first, last, trajectory.at(first + 1).room);
+    const float begin = set_rooms(trajectory, settings, first, first, last, 1.0);
+    longer = stretch(trajectory, settings, first, last, begin);
   }
-  for (int i = first + 1; i <= last; ++i) trajectory.waypoints[i % trajectory.capacity].room = 0.0F;
+  for (int i = first + 1; i <= last; ++i) {
+    Waypoint<Space>& waypoint = trajectory.waypoints[i % trajectory.capacity];
+    waypoint.room = waypoint.halfway = 0.0F;
+  }
   return longer <= settings.max_stretch ? Verdict() : part.worst;
 }
 
@@ -137,11 +140,12 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   trajectory.use = whole.use;
   trajectory.stretch = 0.0;
   if (whole.room < 1.0) {
-    set_rooms(trajectory, settings, 0, 0, last, 1.0);
+    trajectory.waypoints[0].room = set_rooms(trajectory, settings, 0, 0, last, 1.0);
     trajectory.stretch = stretch(trajectory, settings, 0, last, trajectory.at(0).room);
     if (!(trajectory.stretch <= settings.max_stretch)) return whole.worst;
   }
-  if (trajectory.open) set_rooms(trajectory, settings, 0, 0, last, 0.0);
+  if (trajectory.open)
+    trajectory.waypoints[0].room = set_rooms(trajectory, settings, 0, 0, last, 0.0);
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include "kernel/reference/admission_room.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kernel/reference/joint_space.hpp"
@@ -35,6 +36,45 @@ double room_across(double far, const Values& v, const Values& own, const Values&
   return room;
 }
 
+/// A path that takes nothing itself; in the mean it helps here and hinders there.
+template <class Space>
+constexpr typename Space::Levels kNone{};
+
+/// The room on a segment of its own, in parts of equal length.
+struct PartRooms {
+  static constexpr int kParts = 8;
+  std::array<double, kParts> most;
+  double least = 1.0;
+
+  /// Calls what(room, x) at both ends x, 0..1, of every part.
+  template <class What>
+  void for_ends(What what) const {
+    for (int i = 0; i < kParts; ++i) {
+      for (const int end : {i, i + 1})
+        what(most[static_cast<std::size_t>(i)], static_cast<double>(end) / kParts);
+    }
+  }
+  /// Room at the end. Where a segment breaks a limit at its beginning only, a little less there
+  /// lets it rise by up to `rise` from there on.
+  double at_end(double rise) const {
+    const double begin = least - std::min(least, rise) / kParts;
+    double room = 1.0;
+    for_ends([&](double own, double x) {
+      if (x > 0.0) room = std::min(room, (own - begin * (1.0 - x)) / x);
+    });
+    return room;
+  }
+  /// Room at the beginning so that a straight line from there to `end` is below it everywhere.
+  double at_begin(double end) const {
+    double room = 1.0;
+    for_ends([&](double own, double x) {
+      if (x < 1.0) room = std::min(room, (own - end * x) / (1.0 - x));
+    });
+    return room;
+  }
+};
+
+/// A trajectory as admission sees it.
 template <class Space>
 struct Judge {
   const Trajectory<Space>& trajectory;
@@ -46,11 +86,32 @@ struct Judge {
   // Half of the reserve is for what the law that follows is late.
   typename Space::Peaks slowing = all.reserved(1.0 - 0.5 * settings.stop_reserve);
 
-  typename Space::Measure measure(int index) const {
-    return Space::measure(trajectory.segment(index, terms), limits, most);
+  typename Space::Measure measure(const typename Space::Segment& segment) const {
+    return Space::measure(segment, limits, most);
   }
-  double duration_s(int index) const {
-    return trajectory.at(index).time_s - trajectory.at(index - 1).time_s;
+  double own(const typename Space::Measure& measure) const {
+    return own_room(measure.peaks, most, Space::kChannelSize).most;
+  }
+  /// The half of a segment that ends at place `index`.
+  typename Space::Segment half(int index) const {
+    const typename Space::Segment segment = trajectory.segment((index + 1) / 2, terms);
+    const double T = 0.5 * segment.duration();
+    return segment.part(index % 2 == 0 ? T : 0.0, T);
+  }
+  /// Waypoint k is place 2 k, the middle of the way to it 2 k - 1.
+  Shown<float>& room(int index) const {
+    Waypoint<Space>& to = trajectory.waypoints[(index + 1) / 2 % trajectory.capacity];
+    return index % 2 == 0 ? to.room : to.halfway;
+  }
+  PartRooms parts(const typename Space::Segment& segment, double least) const {
+    PartRooms rooms;
+    rooms.least = least;
+    rooms.most.fill(1.0);
+    const double T = segment.duration() / PartRooms::kParts;
+    for (int i = 0; least < 1.0 && i < PartRooms::kParts; ++i)
+      rooms.most[static_cast<std::size_t>(i)] =
+          std::max(least, own(measure(segment.part(i * T, T))));
+    return rooms;
   }
 };
 
@@ -78,42 +139,44 @@ OwnRoom own_room(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int 
 }
 
 template <class Space>
-void set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int fresh, int last, double end) {
+float set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
+                int first, int fresh, int last, double end) {
   const Judge<Space> judge{trajectory, settings};
   const auto write = [&](int index, double room) {
-    Shown<float>& now = trajectory.waypoints[index % trajectory.capacity].room;
+    Shown<float>& now = judge.room(index);
     const float wanted = rounded_down(room);
-    if (index < fresh && wanted <= now) return false;
+    if (index < 2 * fresh && wanted <= now) return false;
     now = wanted;
     return true;
   };
   double room = end;
-  for (int k = last; k > first; --k) {
-    const typename Space::Measure measure = judge.measure(k);
-    const double own = own_room(measure.peaks, judge.most, Space::kChannelSize).most;
-    room = std::min(room, own);
-    if (!write(k, room)) return;
-    const double before = room_across(trajectory.at(k).room, measure.peaks.v, measure.slowing,
-                                      judge.slowing.a, judge.duration_s(k));
-    room = std::min(before, own);
+  for (int k = 2 * last; k > 2 * first; --k) {
+    const typename Space::Segment half = judge.half(k);
+    const typename Space::Measure measure = judge.measure(half);
+    const PartRooms own = judge.parts(half, judge.own(measure));
+    const double T = half.duration();
+    const double rise = room_across(0.0, measure.peaks.v, kNone<Space>, judge.slowing.a, T);
+    if (!write(k, std::min(room, own.at_end(rise)))) return 0.0F;
+    const double after = static_cast<float>(judge.room(k));
+    const double before = room_across(after, measure.peaks.v, measure.slowing, judge.slowing.a, T);
+    // Its least room, kept up, needs no slowing down.
+    room = std::min(own.at_begin(after), std::max(before, std::min(own.least, after)));
   }
-  static_cast<void>(write(first, room));
+  return rounded_down(room);
 }
 
 template <class Space>
 double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int last, double begin) {
+               int first, int last, float begin) {
   const Judge<Space> judge{trajectory, settings};
-  double room = begin, longer_s = 0.0;
-  for (int k = first + 1; k <= last; ++k) {
-    const double T = judge.duration_s(k);
-    double next = trajectory.at(k).room;
-    if (next > room) {
-      const typename Space::Measure measure = judge.measure(k);
-      next =
-          std::min(next, room_across(room, measure.peaks.v, measure.peaks.a, judge.slowing.a, T));
-    }
+  double room = static_cast<double>(begin), longer_s = 0.0;
+  for (int k = 2 * first + 1; k <= 2 * last; ++k) {
+    const typename Space::Segment half = judge.half(k);
+    const double T = half.duration();
+    double next = static_cast<float>(judge.room(k));
+    if (next > room)
+      next = std::min(
+          next, room_across(room, judge.measure(half).peaks.v, kNone<Space>, judge.slowing.a, T));
     longer_s += 2.0 * T / (std::sqrt(room) + std::sqrt(next)) - T;
     room = next;
   }
@@ -121,14 +184,14 @@ double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Spac
 }
 
 template OwnRoom own_room(const JointSpace::Peaks&, const JointSpace::Peaks&, int);
-template void set_rooms(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
-                        int, int, double);
+template float set_rooms(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
+                         int, int, double);
 template double stretch(const Trajectory<JointSpace>&, const AdmissionSettings<JointSpace>&, int,
-                        int, double);
+                        int, float);
 template OwnRoom own_room(const TaskSpace::Peaks&, const TaskSpace::Peaks&, int);
-template void set_rooms(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int, int,
-                        int, double);
+template float set_rooms(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int,
+                         int, int, double);
 template double stretch(const Trajectory<TaskSpace>&, const AdmissionSettings<TaskSpace>&, int, int,
-                        double);
+                        float);
 
 }  // namespace tactus

@@ -29,18 +29,18 @@ struct OwnRoom {
 template <int n>
 OwnRoom own_room(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int channel_size);
 
-/// Sets the rooms of the waypoints from `first` to `last`, which gets at most `end`. Of those below
-/// `fresh` they may only rise: it stops at the first that does not. [any, not cyclic: proportional
-/// to its length]
+/// Sets the rooms of the waypoints behind `first` up to `last`, which gets at most `end`; the room
+/// at `first` is returned. Of those below `fresh` they may only rise: it stops at the first that
+/// does not, and returns 0. [any, not cyclic: proportional to its length]
 template <class Space>
-void set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int fresh, int last, double end);
+float set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
+                int first, int fresh, int last, double end);
 
 /// How much longer the way from `first` to `last` takes within the rooms, begun with `begin`, as a
 /// fraction: infinite if it cannot be passed. Takes acceleration for granted, jerk not at all.
 /// [any, not cyclic: proportional to its length]
 template <class Space>
 double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
-               int first, int last, double begin);
+               int first, int last, float begin);
 
 }  // namespace tactus

@@ -78,6 +78,15 @@ JointSpace::Point JointSpace::Segment::at(double t) const {
   return point;
 }
 
+JointSpace::Segment JointSpace::Segment::part(double begin, double duration) const {
+  Segment part = *this;
+  for (Polynomial& q : part.q_) q = q.from(begin);
+  part.tau_from_ = at(begin).tau;
+  part.tau_to_ = at(begin + duration).tau;
+  part.duration_ = duration;
+  return part;
+}
+
 JointSpace::Local JointSpace::Segment::local(double t) const {
   Local local;
   for (int i = 0; i < kDof; ++i) {

@@ -107,6 +107,8 @@ struct JointSpace {
     /// [cyclic]
     Local local(double t) const;
     double duration() const { return duration_; }
+    /// What it is from `begin` on for so long. [any]
+    Segment part(double begin, double duration) const;
     /// Its beginning without what steps there by nature: the velocity of a straight line, the
     /// acceleration of a cubic. [any]
     Point corner() const;

@@ -128,9 +128,12 @@ Room Path<Space>::room(double s) const {
       (target == present_.target && present_.start_s != trajectory_->at(target - 1).time_s))
     return {to.room, 0.0};
   const Waypoint<Space>& from = trajectory_->at(target - 1);
-  const double begin = static_cast<float>(from.room), end = static_cast<float>(to.room);
-  const double T = to.time_s - from.time_s, slope = (end - begin) / T;
-  return {begin + slope * std::clamp(s - from.time_s, 0.0, T), slope};
+  const double T = 0.5 * (to.time_s - from.time_s), t = std::max(0.0, s - from.time_s);
+  const bool second = t > T;
+  const double begin = static_cast<float>(second ? to.halfway : from.room);
+  const double end = static_cast<float>(second ? to.room : to.halfway);
+  const double slope = (end - begin) / T;
+  return {begin + slope * std::min(second ? t - T : t, T), slope};
 }
 
 template <class Space>

@@ -43,6 +43,15 @@ Knots zeros(const Polynomial& f, const Knots& monotone, LoopBound<10>& brackets)
 
 }  // namespace
 
+/// Horner's rule with the remainders kept.
+Polynomial Polynomial::from(double begin) const {
+  Polynomial moved = *this;
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    for (std::size_t k = kOrder; k > i; --k) moved.c[k - 1] += begin * moved.c[k];
+  }
+  return moved;
+}
+
 Polynomial linear(const Boundary& from, const Boundary& to, double T) {
   return {{from.p, (to.p - from.p) / T}};
 }

@@ -25,6 +25,8 @@ struct Polynomial {
     }
     return d;
   }
+  /// The same counted from t = begin. [any]
+  Polynomial from(double begin) const;
 };
 
 /// Position and its first two derivatives at one end of a segment.

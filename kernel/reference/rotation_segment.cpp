@@ -135,6 +135,13 @@ RotationBoundary RotationSegment::at(double t) const {
   return now;
 }
 
+RotationSegment RotationSegment::part(double begin, double duration) const {
+  RotationSegment part = *this;
+  part.phi_ = phi_.from(begin);
+  part.duration_ = duration;
+  return part;
+}
+
 RotationSegment::Rates RotationSegment::rates(double t) const {
   const VectorPolynomial dphi = phi_.derivative(), ddphi = dphi.derivative();
   return rates_of(phi_.at(t), dphi.at(t), ddphi.at(t), ddphi.derivative().at(t));

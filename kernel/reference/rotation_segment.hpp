@@ -32,6 +32,9 @@ struct VectorPolynomial {
   VectorPolynomial derivative() const {
     return {{axis[0].derivative(), axis[1].derivative(), axis[2].derivative()}};
   }
+  VectorPolynomial from(double begin) const {
+    return {{axis[0].from(begin), axis[1].from(begin), axis[2].from(begin)}};
+  }
 };
 
 class RotationSegment {
@@ -48,6 +51,8 @@ class RotationSegment {
   /// For t in [0, T]. [any]
   RotationBoundary at(double t) const;
   double duration() const { return duration_; }
+  /// What it is from `begin` on for so long. [any]
+  RotationSegment part(double begin, double duration) const;
 
   /// Angular velocity and its derivatives in the base, written in the axes of the rotated frame.
   struct Rates {

@@ -124,6 +124,14 @@ TaskSpace::Point TaskSpace::Segment::at(double t) const {
   return point;
 }
 
+TaskSpace::Segment TaskSpace::Segment::part(double begin, double duration) const {
+  Segment part = *this;
+  part.p_ = p_.from(begin);
+  part.rotation_ = rotation_.part(begin, duration);
+  part.h_ = h_ + begin * dh_;
+  return part;
+}
+
 TaskSpace::Local TaskSpace::Segment::local(double t) const {
   const VectorPolynomial dp = p_.derivative(), ddp = dp.derivative(), dddp = ddp.derivative();
   const RotationSegment::Rates turning = rotation_.rates(t);

@@ -134,6 +134,8 @@ struct TaskSpace {
     /// [cyclic]
     Local local(double t) const;
     double duration() const { return rotation_.duration(); }
+    /// What it is from `begin` on for so long. [any]
+    Segment part(double begin, double duration) const;
     /// Its beginning without what steps there by nature: the velocity of a straight line, the
     /// acceleration of a cubic. [any]
     Point corner() const;

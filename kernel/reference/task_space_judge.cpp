@@ -115,7 +115,7 @@ Verdict TaskSpace::judge_end(const Point& end) {
   for (int i = 0; verdict.ok() && i < 6; ++i) {
     if (exceeds(std::abs(end.v[i]), kRest)) verdict = {Status::kNotAtRest, -1, i, end.v[i], 0.0};
   }
-  return {};
+  return verdict;
 }
 
 Verdict TaskSpace::judge_near(const Point& a, const Point& b, const Tolerance& tolerance) {

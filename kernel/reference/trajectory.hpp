@@ -15,9 +15,9 @@ template <class Space>
 struct Waypoint {
   double time_s = 0.0;  ///< from the start of the trajectory
   typename Space::Point point;
-  /// Largest square of the rate here with which all that follows can be met; the client may raise
-  /// it while the motion runs.
-  Shown<float> room = 1.0F;
+  /// Largest square of the rate with which all that follows can be met, here and in the middle of
+  /// the way to here; the client may raise it while the motion runs.
+  Shown<float> room = 1.0F, halfway = 1.0F;
 };
 
 /// When a goal is followed, and when it is reached. In a goal, a value > 0 holds for it, 0 keeps

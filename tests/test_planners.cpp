@@ -1,0 +1,104 @@
+// Motions as time-optimal planners send them: computed to the limits and sampled, so that what is
+// interpolated between the samples exceeds them here and there. tests/otg/planner holds three of
+// the FER from its ready pose, sampled every 8 and 100 ms as positions and velocities (pv) or with
+// accelerations too (pva), as an independent library of time-optimal motions computed them.
+#include <cstdio>
+
+#include "gateway/trajectory_csv.hpp"
+#include "kernel/reference/path_law.hpp"
+#include "tests/path_cases.hpp"
+#include "tests/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+
+struct File {
+  const char* name;
+  double longest;  ///< stretch, as a fraction
+};
+constexpr File kFiles[] = {
+    {"planner_1_8ms_pv", 0.1},    {"planner_1_8ms_pva", 0.1},   {"planner_1_100ms_pv", 0.1},
+    {"planner_1_100ms_pva", 0.1}, {"planner_2_8ms_pv", 0.1},    {"planner_2_8ms_pva", 0.1},
+    {"planner_2_100ms_pv", 0.1},  {"planner_2_100ms_pva", 0.1}, {"planner_3_8ms_pv", 0.1},
+    {"planner_3_8ms_pva", 0.1},   {"planner_3_100ms_pv", 0.1},  {"planner_3_100ms_pva", 0.1},
+};
+
+std::array<Waypoint<JointSpace>, 128> waypoints;
+
+Trajectory<JointSpace> load(const char* name) {
+  std::array<char, 128> path;
+  std::snprintf(path.data(), path.size(), "tests/otg/planner/%s.csv", name);
+  Trajectory<JointSpace> trajectory;
+  trajectory.waypoints = waypoints.data();
+  trajectory.capacity = static_cast<int>(waypoints.size());
+  CsvError error;
+  assert_true(read_trajectory(path.data(), false, trajectory, error));
+  return trajectory;
+}
+
+AdmissionSettings<JointSpace> settings() {
+  AdmissionSettings<JointSpace> settings;
+  settings.period_s = kPeriod_s;
+  return settings;
+}
+
+/// Runs it to its end; the largest use of velocity, acceleration and jerk, and how long it took.
+struct Run {
+  double v = 0.0, a = 0.0, jerk = 0.0, time_s = 0.0;
+
+  explicit Run(const Trajectory<JointSpace>& trajectory) {
+    const KnownPath own(trajectory);
+    const JointLimits limits;
+    Path<JointSpace> path(trajectory, {});
+    PathLaw<JointSpace> law;
+    path.enter(0.0);
+    law.start(path, 0.0, 1.0, JointSpace::peaks(limits), kPeriod_s);
+    JointVector last = JointVector::Zero();
+    while (!path.ended(law.s()) && time_s < 10.0) {
+      law.step(path, 1.0, JointSpace::peaks(limits), kPeriod_s);
+      time_s += kPeriod_s;
+      const PathPlace now = own.place(law.s());
+      const JointSpace::Point out = path.at(law.s()).at_rate(law.rate(), law.slope());
+      const JointVector ddq = now.d2 * (law.rate() * law.rate()) + now.d1 * law.slope();
+      for (int j = 0; j < kDof; ++j) {
+        ASSERT_NEAR(out.q[j], now.q[j], 1e-9);
+        ASSERT_NEAR(out.dq[j], now.d1[j] * law.rate(), 1e-8);
+        v = std::fmax(v, std::fabs(out.dq[j]) / limits.dq_max[j]);
+        a = std::fmax(a, std::fabs(ddq[j]) / limits.ddq_max[j]);
+        jerk = std::fmax(jerk, std::fabs(ddq[j] - last[j]) / (kPeriod_s * limits.dddq_max[j]));
+      }
+      last = ddq;
+    }
+  }
+};
+
+// Proves RG-6, RG-11.
+
+void what_a_planner_sampled_is_admitted_and_kept_within_limits(void**) {
+  for (const File& file : kFiles) {
+    Trajectory<JointSpace> trajectory = load(file.name);
+    const Verdict verdict = admit(trajectory, settings());
+    ASSERT_OK(verdict.status);
+    const Run run(trajectory);
+    const double planned_s = trajectory.end_s();
+    print_message("  %-20s admitted %.2f %% longer, ran %.2f %%; use v %.9f a %.9f j %.3f\n",
+                  file.name, 100.0 * trajectory.stretch, 100.0 * (run.time_s / planned_s - 1.0),
+                  run.v, run.a, run.jerk);
+    assert_true(trajectory.stretch > 0.0 && trajectory.stretch <= file.longest);
+    assert_true(run.time_s <= (1.0 + file.longest) * planned_s);
+    assert_true(run.v <= 1.0 + 1e-9 && run.a <= 1.0 + 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_a_planner_sampled_is_admitted_and_kept_within_limits),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
