@@ -65,7 +65,7 @@ struct ReferenceBench {
     empty->fields = fields;
     empty->interpolation = Interpolation::kByFields;
     empty->terms = {};
-    empty->start_s = kAtOnce;
+    empty->start_s = kStartAtOnce;
     return empty;
   }
   /// Appends a waypoint at `offset` rad from home on every joint.

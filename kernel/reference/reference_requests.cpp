@@ -69,7 +69,7 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
   if (trajectory == nullptr || trajectory->count < 1)
     return report(request.id, Outcome::kRefused, -1, {Status::kReferenceSize});
   const double start_s = trajectory->start_s, elapsed_s = time_s() - start_s;
-  const bool now = start_s == kAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
+  const bool now = start_s == kStartAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
   if (!now && !(std::isfinite(elapsed_s) && elapsed_s < trajectory->end_s()))
     return report(request.id, Outcome::kRefused, request.store,
                   {Status::kReferenceTime, -1, -1, start_s, time_s()});

@@ -37,7 +37,7 @@ struct Tolerances {
 };
 
 /// A start time that is always now.
-inline constexpr double kAtOnce = -kInfinity;
+inline constexpr double kStartAtOnce = -kInfinity;
 
 template <class Space>
 struct Trajectory {
@@ -47,8 +47,8 @@ struct Trajectory {
   bool open = false;  ///< more waypoints follow, over those that the motion has passed
   Fields fields = 0;  ///< given at every waypoint
   Interpolation interpolation = Interpolation::kByFields;
-  typename Space::Terms terms;  ///< which joints, or which frames, the waypoints are given in
-  double start_s = kAtOnce;     ///< when it begins, by the generator's time
+  typename Space::Terms terms;    ///< which joints, or which frames, the waypoints are given in
+  double start_s = kStartAtOnce;  ///< when it begins, by the generator's time
   Tolerances<Space> tolerances;
   typename Space::Use use;  ///< noted by admission
 

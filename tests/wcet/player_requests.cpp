@@ -87,7 +87,7 @@ void Player::take_trajectory() {
   to.open = (fields & 8) != 0;
   to.interpolation = static_cast<Interpolation>(how % 5);
   const double now_s = static_cast<double>(executive_.telemetry().cycles) * period_s;
-  to.start_s = start == 0 ? kAtOnce : now_s + start * period_s;
+  to.start_s = start == 0 ? kStartAtOnce : now_s + start * period_s;
   to.count = count;
   double time_s = 0.0;
   for (int i = 0; i < count; ++i) {
