@@ -62,6 +62,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kOverrun, "kOverrun"},
     {Status::kStopTime, "kStopTime"},
     {Status::kHalted, "kHalted"},
+    {Status::kLimiting, "kLimiting"},
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},

@@ -52,9 +52,9 @@ struct JointReferenceGenerator {
   Status start();
   /// The reference of this cycle. kReferenceFault. [cyclic]
   Status step(double dt_s);
-  /// The reference comes to rest on its path; references are refused with `why` until the next
-  /// start. To be called in every cycle in which they are. [cyclic]
-  void brake(Status why) { generator_.brake(why); }
+  /// The reference comes to rest; references are refused with `why` until the next start. To be
+  /// called in every cycle in which they are. [cyclic]
+  void brake(Status why, BrakeWay way) { generator_.brake(why, way); }
 
   ReferenceChannel<JointSpace>* channel = nullptr;  ///< bound by the loader
 

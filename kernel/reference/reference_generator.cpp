@@ -79,7 +79,7 @@ void ReferenceGenerator<Space>::take_requests() {
 
 /// The reports of what ends here have their room: see kReportsPerRequest.
 template <class Space>
-void ReferenceGenerator<Space>::brake(Status why) {
+void ReferenceGenerator<Space>::brake(Status why, BrakeWay /*way*/) {
   if (channel_ == nullptr) return;
   if (refusing_ == Status::kOk) {
     end_waiting(Outcome::kAborted, {why});

@@ -3,6 +3,7 @@
 // report.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/reference/motion.hpp"
 #include "kernel/reference/reference_state.hpp"
 #include "kernel/reference/tolerance_monitor.hpp"
@@ -52,7 +53,7 @@ class ReferenceGenerator {
   /// The executive brakes, for the reason `why`: what runs and what waits is aborted, the reference
   /// comes to rest on its path, within limits; requests are refused with `why` from now on, in this
   /// cycle too, until the next start. To be called in every cycle in which they are. [cyclic]
-  void brake(Status why);
+  void brake(Status why, BrakeWay way);
 
   const Point& reference() const { return motion_.reference(); }
   ReferenceState state() const { return state_; }
