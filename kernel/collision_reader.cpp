@@ -68,6 +68,18 @@ Status allow_pair(std::string_view pair, CollisionScene& scene, const Place& pla
   return Status::kOk;
 }
 
+/// What the file gives, or all there is; more than that no joint brakes with.
+Status check_braking(const JointVector& most, const Place& place, JointVector& braking) {
+  if (place.ini.find(place.section, "braking") == nullptr) braking = most;
+  for (int i = 0; i < kDof; ++i) {
+    if (braking[i] <= most[i]) continue;
+    return place.refuse(Status::kBadValue, "braking",
+                        Message("joint ") << i + 1 << ": " << braking[i]
+                                          << " rad/s^2, but it brakes with " << most[i]);
+  }
+  return Status::kOk;
+}
+
 }  // namespace
 
 Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
@@ -79,9 +91,7 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
     return place.refuse(Status::kBadValue, "offset",
                         Message("") << collision.offset << " cycles must be less than divisor, "
                                     << collision.divisor);
-  // No brake on a path is promised more than what every trajectory must leave free for it.
-  if (ini.find(*section, "braking") == nullptr)
-    collision.limits.ddq_max = pipeline.guard.stop_reserve * pipeline.guard.limits.ddq_max;
+  TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;
   for (bool more = !list.empty(); more;)

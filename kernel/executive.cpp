@@ -32,7 +32,6 @@ Status Executive::start() {
 
 /// From drives that are disabled.
 Status Executive::attach() {
-  const ExecutiveSection& settings = pipeline_.executive;
   const CommandMode mode = pipeline_.robot.mode();
   Status status = hal_.start(mode, measured_);
   if (status == Status::kOk)
@@ -40,7 +39,7 @@ Status Executive::attach() {
   if (status == Status::kOk) status = pipeline_.start(measured_);
   if (status != Status::kOk) return hal_.stop(), status;
   stamp_ns_ = -1;  // before any clock
-  overruns_.start(settings.max_overruns, settings.overrun_window, settings.clean_cycles);
+  watch_anew();
   move(Cause::kRearm, Status::kOk, 0.0);
   return status;
 }
@@ -53,8 +52,17 @@ Status Executive::rearm() {
   if (!rest_.at_rest()) return Status::kNotAtRest;
   TRY(guard_.check(measured_));
   TRY(pipeline_.start(measured_));
+  watch_anew();
   move(Cause::kRearm, Status::kOk, 0.0);
   return Status::kOk;
+}
+
+void Executive::watch_anew() {
+  const ExecutiveSection& settings = pipeline_.executive;
+  overruns_.start(settings.max_overruns, settings.overrun_window, settings.clean_cycles);
+  const Guard::Params& guard = pipeline_.guard;
+  limiting_.start(guard.limiting_share, static_cast<std::int64_t>(guard.limiting_window * 1e6) /
+                                            pipeline_.robot.period_us);
 }
 
 void Executive::stop() {
@@ -63,7 +71,7 @@ void Executive::stop() {
 }
 
 Status Executive::cycle(const CycleTime& now) {
-  if (!enabled()) return pipeline_.brake(latched_), latched_;
+  if (!enabled()) return pipeline_.brake(latched_, way_), latched_;
   timing_.mark();
   const std::uint64_t begin_ns = timing_.marked();
   ++cycles_, ++telemetry_.cycles;
@@ -97,7 +105,7 @@ bool Executive::accept(const RobotState& state) {
 
 /// The chain's command as the guard allows it; where there is none, the guard brakes.
 bool Executive::decide(RobotCommand& command) {
-  if (refuses(rung())) pipeline_.brake(latched_);
+  if (refuses(rung())) pipeline_.brake(latched_, way_);
   const std::uint64_t begin_ns = timing_.marked();
   if (chain_) {
     const Status status = pipeline_.step(measured_, &timing_);
@@ -105,7 +113,7 @@ bool Executive::decide(RobotCommand& command) {
     timing_.close(Stage::kStep, begin_ns);
   }
   command = pipeline_.robot.command();
-  if (chain_) passes(Cause::kCommand, guard_.limit(measured_, command));
+  if (chain_ && passes(Cause::kCommand, guard_.limit(measured_, command))) watch_limiting();
   if (!chain_) command = guard_.brake(measured_);
   return enabled();
 }
@@ -150,6 +158,11 @@ void Executive::check_clock(const CycleTime& now) {
            static_cast<double>(missed));
 }
 
+void Executive::watch_limiting() {
+  if (limiting_.add(guard_.telemetry().limited))
+    move(Cause::kLimiting, Status::kLimiting, pipeline_.guard.limiting_share);
+}
+
 /// An arm that is braked has come to rest, or has not in time.
 void Executive::watch_rest() {
   if (!brakes(rung())) return;
@@ -174,15 +187,18 @@ bool Executive::passes(Cause cause, Status status, double value) {
   return false;
 }
 
-/// To where the ladder says `cause` leads; what changes by it, and why, is in the log, a chain that
-/// is given up too.
+/// To where the ladder says `cause` leads; what changes by it, and why, is in the log: a chain that
+/// is given up, a brake that becomes harder and one that has come to rest too.
 void Executive::move(Cause cause, Status status, double value) {
   const Rung from = rung(), to = next(from, cause, pipeline_.robot.mode());
   const bool lost = chain_ && !rule(cause).chain;
+  const bool harder = rule(cause).way == BrakeWay::kAtOnce && way_ == BrakeWay::kOnPath;
   chain_ = cause == Cause::kRearm || (chain_ && rule(cause).chain);
   skips_ =
       cause == Cause::kOverruns || (skips_ && cause != Cause::kClean && cause != Cause::kRearm);
-  if (to == from && !lost) return;
+  if (harder) way_ = BrakeWay::kAtOnce;
+  if (cause == Cause::kRearm) way_ = BrakeWay::kOnPath;
+  if (to == from && !lost && !harder && cause != Cause::kAtRest) return;
   const Guard::Telemetry& guard = guard_.telemetry();
   const bool joint = cause == Cause::kState || cause == Cause::kCommand;
   events_.add({stamp_ns_, telemetry_.cycles,

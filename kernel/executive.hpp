@@ -9,6 +9,7 @@
 #include "kernel/guard/guard.hpp"
 #include "kernel/hal.hpp"
 #include "kernel/ladder.hpp"
+#include "kernel/limiting_watch.hpp"
 #include "kernel/overrun_watch.hpp"
 #include "kernel/pipeline.hpp"
 #include "kernel/rest_watch.hpp"
@@ -85,6 +86,8 @@ class Executive {
   bool passes(Cause cause, Status status, double value = 0.0);
   void move(Cause cause, Status status, double value);
   void check_clock(const CycleTime& now);
+  void watch_anew();
+  void watch_limiting();
   void watch_rest();
   void watch_overruns(std::uint64_t took_ns);
   void run_rows();
@@ -94,7 +97,8 @@ class Executive {
   Guard guard_;
   RobotState measured_;  // the newest that was finite
   Shown<std::uint8_t> rung_ = static_cast<std::uint8_t>(Rung::kDisabled);
-  bool chain_ = true;   // it can be evaluated
+  bool chain_ = true;                 // it can be evaluated
+  BrakeWay way_ = BrakeWay::kOnPath;  // of the brake that is on
   bool skips_ = false;  // optional rows, since overruns and until they are over, on any rung
   Status latched_ = Status::kNotStarted;
   EventLog events_;
@@ -103,6 +107,7 @@ class Executive {
   int early_ = 0;  // cycles in a row that began less than half a period after the last
   bool judges_overruns_ = true;
   OverrunWatch overruns_;
+  LimitingWatch limiting_;
   RestWatch rest_;
   Telemetry telemetry_;
   Timing timing_;

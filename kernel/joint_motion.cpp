@@ -51,4 +51,10 @@ void JointMotion::step(const JointVector& wanted_dq, const JointVector& q, doubl
   }
 }
 
+void JointMotion::brake(double dt_s) {
+  const JointVector most = dt_s * bounds_.ddq_max;
+  dq_ -= dq_.cwiseMax(-most).cwiseMin(most);
+  q_ += dt_s * dq_;
+}
+
 }  // namespace tactus

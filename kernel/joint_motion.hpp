@@ -36,6 +36,9 @@ class JointMotion {
 
   /// Begins at q, at rest. From outside the position limits it can only move towards them. [init]
   void start(const Bounds& bounds, const JointVector& q);
+  /// Moves on by one period, every joint towards rest by itself, with its whole acceleration.
+  /// [cyclic]
+  void brake(double dt_s);
   /// Stops the command where it is. [any]
   void halt() { dq_.setZero(); }
 

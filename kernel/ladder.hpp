@@ -4,11 +4,13 @@
 //
 //   nominal        everything runs
 //   skip_optional  optional rows are left out; nothing moves otherwise than before
-//   hold           category 2: brakes on its path, then holds; the drives stay enabled
-//   stop           category 1: brakes on its path, then, at rest or after a bounded time, the
-//                  drives are disabled
+//   hold           category 2: brakes, then holds; the drives stay enabled
+//   stop           category 1: brakes, then, at rest or after a bounded time, the drives are
+//                  disabled
 //   disabled       category 0: the drives are disabled at once
 //
+// A brake is on the path, or at once where the path itself is the danger; the cause says which, and
+// a brake that has been at once is not on the path again.
 // Below skip_optional only a rearm leads up again.
 #pragma once
 
@@ -16,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/brake.hpp"
 #include "kernel/hal.hpp"
 
 namespace tactus {
@@ -33,6 +36,7 @@ enum class Cause : std::uint8_t {
   kStage,     ///< a block's step returned any other Status that is not kOk
   kCommand,   ///< the guard found a command that is not finite
   kState,     ///< the guard found a measured state that must not be
+  kLimiting,  ///< the guard limited the command in too many cycles
   kWire,      ///< reading or writing failed, or the robot could not be started
   kAtRest,    ///< a brake has come to rest
   kStopTime,  ///< a brake has not come to rest in time
@@ -41,12 +45,12 @@ enum class Cause : std::uint8_t {
   kRearm,     ///< somebody said so, and the robot was at rest
 };
 
-inline constexpr std::size_t kRungs = 5, kCauses = 16;
+inline constexpr std::size_t kRungs = 5, kCauses = 17;
 inline constexpr std::array<const char*, kRungs> kRungNames = {"nominal", "skip_optional", "hold",
                                                                "stop", "disabled"};
 inline constexpr std::array<const char*, kCauses> kCauseNames = {
-    "overruns", "clean", "slip", "long_slip", "clock",     "row",  "sensor", "stage",
-    "command",  "state", "wire", "at_rest",   "stop_time", "halt", "off",    "rearm"};
+    "overruns", "clean",    "slip", "long_slip", "clock",     "row",  "sensor", "stage", "command",
+    "state",    "limiting", "wire", "at_rest",   "stop_time", "halt", "off",    "rearm"};
 
 /// Where one cause leads from every rung. Where the chain cannot be evaluated any more, the guard
 /// brakes positions and velocities within limits; nobody can brake efforts, and the drives are
@@ -55,27 +59,29 @@ struct LadderRow {
   Cause cause;
   std::array<Rung, kRungs> to;
   bool chain;  ///< the chain can still be evaluated
+  BrakeWay way;
 };
 
 // clang-format off
 inline constexpr std::array<LadderRow, kCauses> kLadder = {{
-    //                   nominal              skip_optional        hold             stop             disabled           chain
-    {Cause::kOverruns, {Rung::kSkipOptional, Rung::kHold,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kClean,    {Rung::kNominal,      Rung::kNominal,      Rung::kHold,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kSlip,     {Rung::kHold,         Rung::kHold,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kLongSlip, {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kClock,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kRow,      {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kSensor,   {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false},
-    {Cause::kStage,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false},
-    {Cause::kCommand,  {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false},
-    {Cause::kState,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false},
-    {Cause::kWire,     {Rung::kDisabled,     Rung::kDisabled,     Rung::kDisabled, Rung::kDisabled, Rung::kDisabled}, false},
-    {Cause::kAtRest,   {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,     Rung::kDisabled, Rung::kDisabled}, true},
-    {Cause::kStopTime, {Rung::kNominal,      Rung::kSkipOptional, Rung::kStop,     Rung::kDisabled, Rung::kDisabled}, true},
-    {Cause::kHalt,     {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true},
-    {Cause::kOff,      {Rung::kDisabled,     Rung::kDisabled,     Rung::kDisabled, Rung::kDisabled, Rung::kDisabled}, true},
-    {Cause::kRearm,    {Rung::kNominal,      Rung::kSkipOptional, Rung::kNominal,  Rung::kNominal,  Rung::kNominal},  true},
+    //                   nominal              skip_optional        hold             stop             disabled           chain  way
+    {Cause::kOverruns, {Rung::kSkipOptional, Rung::kHold,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kClean,    {Rung::kNominal,      Rung::kNominal,      Rung::kHold,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kSlip,     {Rung::kHold,         Rung::kHold,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kLongSlip, {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kClock,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kRow,      {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kAtOnce},
+    {Cause::kSensor,   {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false, BrakeWay::kAtOnce},
+    {Cause::kStage,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false, BrakeWay::kAtOnce},
+    {Cause::kCommand,  {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false, BrakeWay::kAtOnce},
+    {Cause::kState,    {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, false, BrakeWay::kAtOnce},
+    {Cause::kLimiting, {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kWire,     {Rung::kDisabled,     Rung::kDisabled,     Rung::kDisabled, Rung::kDisabled, Rung::kDisabled}, false, BrakeWay::kAtOnce},
+    {Cause::kAtRest,   {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,     Rung::kDisabled, Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kStopTime, {Rung::kNominal,      Rung::kSkipOptional, Rung::kStop,     Rung::kDisabled, Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kHalt,     {Rung::kStop,         Rung::kStop,         Rung::kStop,     Rung::kStop,     Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kOff,      {Rung::kDisabled,     Rung::kDisabled,     Rung::kDisabled, Rung::kDisabled, Rung::kDisabled}, true,  BrakeWay::kOnPath},
+    {Cause::kRearm,    {Rung::kNominal,      Rung::kSkipOptional, Rung::kNominal,  Rung::kNominal,  Rung::kNominal},  true,  BrakeWay::kOnPath},
 }};
 // clang-format on
 

@@ -22,14 +22,6 @@ Status start_block(Kind& block, double period_s) {
     return block.start();
 }
 
-/// A block that has a brake() brakes; the others follow it.
-template <class Kind>
-auto brake_block(Kind& block, Status why, int) -> decltype(block.brake(why, BrakeWay::kOnPath)) {
-  block.brake(why, BrakeWay::kOnPath);
-}
-template <class Kind>
-void brake_block(Kind&, Status, long) {}
-
 }  // namespace
 
 Status Pipeline::start(const RobotState& measured) {
@@ -68,11 +60,24 @@ Status Pipeline::step(const RobotState& measured, Timing* timing) {
   return Status::kOk;
 }
 
-void Pipeline::brake(Status why) {
+void Pipeline::brake(Status why, BrakeWay way) {
+  LoopBound<kMaxBlocks> brakes;
   for (int i = 0; i < count_; ++i) {
-    std::visit([why](auto& block) { brake_block(block, why, 0); },
-               blocks_[static_cast<std::size_t>(i)]);
+    brakes.tick();
+    std::visit(
+        [why, way](auto& block) {
+          if constexpr (!std::is_same_v<decltype(block), std::monostate&>) block.brake(why, way);
+        },
+        blocks_[static_cast<std::size_t>(i)]);
   }
+}
+
+JointVector Pipeline::deceleration() const {
+  JointVector least = guard.limits.ddq_max;
+  for (const Block& block : blocks_)
+    if (const auto* law = std::get_if<CartesianPose>(&block))
+      least = least.cwiseMin(law->params.limits.ddq_max);
+  return least;
 }
 
 }  // namespace tactus

@@ -78,8 +78,10 @@ class Pipeline {
   Status start(const RobotState& measured);
   /// Steps every block in order, and times each. The first Status that is not kOk. [cyclic]
   Status step(const RobotState& measured, Timing* timing = nullptr);
-  /// Brakes every block that can: see ReferenceGenerator::brake. [cyclic]
-  void brake(Status why);
+  /// Every block ends its own motion: see kernel/brake.hpp. [cyclic]
+  void brake(Status why, BrakeWay way);
+  /// What every joint brakes with at once, rad/s^2: the guard's limit, or a block's own. [init]
+  JointVector deceleration() const;
 
  private:
   std::array<Name, kMaxBlocks> names_;

@@ -63,6 +63,7 @@ constexpr StatusName kStatusNames[] = {
     {Status::kOverrun, "kOverrun"},
     {Status::kStopTime, "kStopTime"},
     {Status::kHalted, "kHalted"},
+    {Status::kLimiting, "kLimiting"},
     {Status::kBusTimeout, "kBusTimeout"},
     {Status::kDriveFault, "kDriveFault"},
     {Status::kConnectionLost, "kConnectionLost"},

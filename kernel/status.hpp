@@ -64,6 +64,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kOverrun = 80,
     kStopTime = 81,
     kHalted = 82,
+    kLimiting = 83,
     // 96..127 wire
     kBusTimeout = 96,
     kDriveFault = 97,

@@ -121,6 +121,41 @@ void what_is_not_finite_never_becomes_a_pose(void**) {
     }
 }
 
+// Proves AD-6.
+
+/// Pushed, moving and stretched: the displacement stops within the robot's acceleration, and then
+/// neither spring nor wrench moves it; the next start begins without it.
+void braked_the_displacement_comes_to_rest_and_is_held(void**) {
+  for (const BrakeWay way : {BrakeWay::kOnPath, BrakeWay::kAtOnce}) {
+    AdmittanceBench bench;
+    bench.h = wrench({30.0, -20.0, 10.0}, {1.0, 0.5, -1.0});
+    ASSERT_OK(bench.ac.start());
+    bench.run(0.1);
+    bench.h.setZero();  // the spring would pull back
+    Vector6 v = bench.ac.v_c.value;
+    assert_true(v.head<3>().norm() > 0.05 && v.tail<3>().norm() > 0.05);
+    constexpr double kDt_s = 1e-3;
+    for (int k = 0; k < 500; ++k) {
+      bench.ac.brake(Status::kHalted, way);
+      const Vector3 before = bench.moved();
+      ASSERT_OK(bench.ac.step(kDt_s));
+      const Vector6& now = bench.ac.v_c.value;
+      assert_true((now - v).head<3>().norm() <= Robot::kTaskLimit.a_max * kDt_s);
+      assert_true((now - v).tail<3>().norm() <= Robot::kTaskLimit.alpha_max * kDt_s);
+      assert_close(bench.moved() - before, 0.5 * kDt_s * (now + v).head<3>(), 1e-12);
+      v = now;
+    }
+    ASSERT_NEAR(v.norm(), 0.0, 0.0);
+    const Vector3 held = bench.moved();
+    assert_true(held.norm() > 0.01);
+    bench.h = wrench({50.0, 50.0, 50.0}, Vector3::Zero());
+    bench.run(1.0);
+    assert_close(bench.moved(), held, 1e-12);
+    ASSERT_OK(bench.ac.start());
+    assert_close(bench.moved(), Vector3::Zero(), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -133,6 +168,7 @@ int main() {
       cmocka_unit_test(a_force_beyond_its_bound_counts_as_the_bound),
       cmocka_unit_test(starting_moves_nothing_whatever_pushes_and_whatever_was_before),
       cmocka_unit_test(what_is_not_finite_never_becomes_a_pose),
+      cmocka_unit_test(braked_the_displacement_comes_to_rest_and_is_held),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -62,7 +62,7 @@ void assert_within_limits(const Point& a, const Point& b, double dt) {
 
 Point next_towards(const Point& reference, const Point& from, const Point& to, double dt) {
   JointSpace::Difference offset = JointSpace::difference(reference, from);
-  return JointSpace::approach(reference, offset, from, to, kLimits, dt);
+  return JointSpace::approach(reference, offset, from, to, false, kLimits, dt);
 }
 
 // Proves RG-4, RG-11, RG-12.
@@ -157,7 +157,7 @@ void a_moving_base_is_joined_within_the_limits_of_the_sum(void**) {
       for (; cycles * dt < 20.0 && !offset.zero(); ++cycles) {
         const Point before = point, base = moving(cycles * dt, share, w),
                     next = moving((cycles + 1) * dt, share, w);
-        point = JointSpace::approach(before, offset, base, next, kLimits, dt);
+        point = JointSpace::approach(before, offset, base, next, false, kLimits, dt);
         assert_within_limits(before, point, dt);
       }
       assert_true(cycles * dt < 20.0);

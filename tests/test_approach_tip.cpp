@@ -49,7 +49,8 @@ void assert_within_limits(const TaskPoint& a, const TaskPoint& b, double dt) {
 
 TaskPoint next_towards(const TaskPoint& reference, const TaskPoint& place, double dt) {
   TaskSpace::Difference offset = TaskSpace::difference(reference, place);
-  return offset.zero() ? place : TaskSpace::approach(reference, offset, place, place, kLimits, dt);
+  return offset.zero() ? place
+                       : TaskSpace::approach(reference, offset, place, place, false, kLimits, dt);
 }
 
 int cycles_to(const TaskPoint& place, TaskPoint point, double dt) {
@@ -141,7 +142,7 @@ void a_moving_base_is_joined_within_the_limits_of_the_sum(void**) {
       for (; cycles < 20000 && !offset.zero(); ++cycles) {
         const TaskPoint before = point, base = circling(cycles * dt, share),
                         next = circling((cycles + 1) * dt, share);
-        point = TaskSpace::approach(before, offset, base, next, kLimits, dt);
+        point = TaskSpace::approach(before, offset, base, next, false, kLimits, dt);
         assert_within_limits(before, point, dt);
       }
       assert_true(cycles < 20000);

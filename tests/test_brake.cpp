@@ -62,7 +62,7 @@ void a_trajectory_is_braked_on_its_path_within_limits_and_everything_is_accounte
     for (int k = 0; k < 3000; ++k) {
       if (random.below(100) == 0 && waited < 20) waited += send_random(b, random) > 0 ? 1 : 0;
       const JointSpace::Point before = b.out();
-      b.generator.brake(Status::kSlip);
+      b.generator.brake(Status::kSlip, BrakeWay::kOnPath);
       ASSERT_OK(b.step());
       finals.take(b);
       const JointSpace::Point& now = b.out();
@@ -104,7 +104,7 @@ void a_trajectory_that_waits_is_aborted_and_a_stream_of_points_is_brought_to_res
   Finals finals;
   for (int k = 0; k < 3000; ++k) {
     const JointVector dq = b.out().dq;
-    b.generator.brake(Status::kOverrun);
+    b.generator.brake(Status::kOverrun, BrakeWay::kOnPath);
     ASSERT_OK(b.step());
     finals.take(b);
     const JointVector change = b.out().dq - dq;
@@ -125,12 +125,12 @@ void nothing_is_lost_when_reports_are_not_read_while_it_brakes(void**) {
   for (int round = 0; round < 12; ++round) {
     std::uint32_t id = 0;
     while (b.client.cancel(id).ok()) sent = id;  // until the mailbox is full
-    for (int k = 0; k < 5; ++k) b.generator.brake(Status::kClock);
+    for (int k = 0; k < 5; ++k) b.generator.brake(Status::kClock, BrakeWay::kOnPath);
   }
   Report report;
   for (int round = 0; round < 100; ++round) {
     while (b.client.poll(report)) ++finals[report.id];
-    b.generator.brake(Status::kClock);
+    b.generator.brake(Status::kClock, BrakeWay::kOnPath);
   }
   assert_true(sent > 60);
   for (std::uint32_t id = 1; id <= sent; ++id) assert_int_equal(finals[id], 1);

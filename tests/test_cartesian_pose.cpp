@@ -64,7 +64,7 @@ void a_slow_robot_is_corrected_slowly_and_a_standing_one_not_at_all(void**) {
 void a_turn_is_made_on_the_shortest_arc(void**) {
   PoseBench bench;
   ASSERT_OK(bench.start(regular(2)));
-  bench.x_d.r = negative(exp_so3({0.0, 0.0, -0.3}) * bench.x_d.r);
+  bench.x_d.r = negative(exp_so3({0.0, 0.0, -0.02}) * bench.x_d.r);
   ASSERT_OK(bench.step());
   const Vector6 v = bench.J * bench.dq_c();
   assert_true(v[5] < 0.0);

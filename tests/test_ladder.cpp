@@ -33,7 +33,7 @@ std::string documented(const char* first) {
   return found;
 }
 
-// Proves LAD-1.
+// Proves LAD-1, LAD-13.
 
 void every_cell_of_the_table_is_as_documented(void**) {
   for (std::size_t c = 0; c < kCauses; ++c) {
@@ -44,6 +44,7 @@ void every_cell_of_the_table_is_as_documented(void**) {
       expected +=
           std::string(" ") + name(next(static_cast<Rung>(r), cause, CommandMode::kPosition)) + " |";
     expected += rule(cause).chain ? " yes |" : " no |";
+    expected += rule(cause).way == BrakeWay::kAtOnce ? " at once |" : " on path |";
     if (line.compare(0, expected.size(), expected) != 0)
       print_error("docs/executive.md: expected\n%s\nfound\n%s\n", expected.c_str(), line.c_str());
     assert_true(line.compare(0, expected.size(), expected) == 0);

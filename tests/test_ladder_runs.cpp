@@ -143,7 +143,9 @@ class Run {
       assert_true(event.from == explained_);
       const CommandMode mode = efforts_ ? CommandMode::kEffort : CommandMode::kPosition;
       assert_true(event.to == next(event.from, event.cause, mode));
-      assert_true(event.to != event.from || !rule(event.cause).chain);
+      const LadderRow& row = rule(event.cause);
+      assert_true(event.to != event.from || !row.chain || row.way == BrakeWay::kAtOnce ||
+                  event.cause == Cause::kAtRest);
       assert_true((event.status == Status::kOk) ==
                   (event.cause == Cause::kClean || event.cause == Cause::kRearm));
       explained_ = event.to;

@@ -116,6 +116,29 @@ void its_time_constant_is_by_default_between_integral_and_derivative(void**) {
   ASSERT_NEAR(b.pid.integral()[0], -10.0 * (1.0 - std::exp(-0.01)), 1e-9);
 }
 
+// Proves PI-7.
+
+void braked_the_integral_stays_until_the_next_start(void**) {
+  for (const BrakeWay way : {BrakeWay::kOnPath, BrakeWay::kAtOnce}) {
+    PidBench b;
+    b.gains(100.0, 50.0, 10.0);
+    ASSERT_OK(b.pid.start());
+    b.q_d = kOnes;
+    for (int k = 0; k < 100; ++k) b.step(1e-2);
+    const JointVector before = b.pid.integral();
+    assert_true(before[0] > 1.0);
+    for (int k = 0; k < 1000; ++k) {
+      b.pid.brake(Status::kHalted, way);
+      b.step(1e-2);
+    }
+    assert_true(b.pid.integral() == before);
+    b.torque_is(100.0 * kOnes + before);  // the other terms go on
+    ASSERT_OK(b.pid.start());
+    b.step(1e-2);
+    assert_true(b.pid.integral()[0] > 0.0 && b.pid.integral()[0] < before[0]);
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -123,6 +146,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(anti_windup_bounds_overshoot_and_recovery),
+      cmocka_unit_test(braked_the_integral_stays_until_the_next_start),
       cmocka_unit_test(without_anti_windup_it_takes_as_long_to_unwind_as_to_wind_up),
       cmocka_unit_test(with_anti_windup_the_torque_leaves_its_limit_at_once),
       cmocka_unit_test(what_saturates_without_the_integral_does_not_move_a_conditional_one),

@@ -9,8 +9,8 @@ RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_tr
 
 # The tests that are not written for the FER.
 TESTS  := model_against_kdl model_agreement model_mechanics robot_model sim_plant sim_hal servo closed_loop
-TESTS  += admittance cartesian_pose cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times every_motion
-TESTS  += pipelines free_pipelines contact_pipelines
+TESTS  += admittance cartesian_pose cartesian_lag cartesian_brake cartesian_singularities damped_inverse joint_motion pid guard_motion motion start_times every_motion
+TESTS  += pipelines free_pipelines contact_pipelines stops
 TESTS  += collision collision_rules collision_file collision_pipelines separation stopping
 
 # Memory in bytes that `make certificate` holds the kernel to: static and stack on a Cortex-M7, an exception included,

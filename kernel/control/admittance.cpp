@@ -6,6 +6,12 @@
 #include "kernel/math/so3.hpp"
 
 namespace tactus {
+namespace {
+
+/// Of the robot's limits of the tip: three axes together stay within them.
+constexpr double kBrakingShare = 0.5;
+
+}  // namespace
 
 Admittance::Axis Admittance::axis_of(int i) const {
   const bool linear = i < 3;
@@ -18,6 +24,8 @@ Admittance::Axis Admittance::axis_of(int i) const {
   axis.stiffness = linear ? params.stiffness[k] : params.rotational_stiffness[k];
   axis.max_displacement = linear ? params.max_displacement : params.max_rotation;
   axis.max_velocity = linear ? params.max_velocity : params.max_angular_velocity;
+  axis.deceleration =
+      kBrakingShare * (linear ? Robot::kTaskLimit.a_max : Robot::kTaskLimit.alpha_max);
   axis.max_force = linear ? params.max_force : params.max_moment;
   if (params.damping_given == DampingGiven::kAsRatio)
     axis.damping *= 2.0 * std::sqrt(axis.mass * axis.stiffness);
@@ -32,6 +40,7 @@ Status Admittance::start() {
     axes_[static_cast<std::size_t>(i)] = axis;
   }
   period_s_ = 0.0;
+  braked_ = false;
   limited.value = false;
   return inputs_finite() ? command() : Status::kCommandNotFinite;
 }
@@ -48,7 +57,11 @@ Status Admittance::step(double dt_s) {
   force << to_axes * wrench.head<3>(), to_axes * wrench.tail<3>();
   limited.value = false;
   for (int i = 0; i < 6; ++i) {
-    if (axes_[static_cast<std::size_t>(i)].move(force[i], dt_s)) limited.value = true;
+    Axis& axis = axes_[static_cast<std::size_t>(i)];
+    if (braked_)
+      axis.brake(dt_s);
+    else if (axis.move(force[i], dt_s))
+      limited.value = true;
   }
   return command();
 }
@@ -56,17 +69,28 @@ Status Admittance::step(double dt_s) {
 bool Admittance::Axis::move(double force, double dt_s) {
   if (!compliant) return false;
   const double f = std::clamp(force, -max_force, max_force);
-  const MassSpringDamper::State free = law.step(state, f);
+  const MassSpringDamper::State free = law.step(state, f), next = bounded(free, dt_s);
+  state = next;
+  return f != force || next.x != free.x || next.v != free.v;
+}
+
+void Admittance::Axis::brake(double dt_s) {
+  const double change = std::clamp(state.v, -deceleration * dt_s, deceleration * dt_s);
+  const double v = state.v - change;
+  state = bounded({state.x + 0.5 * dt_s * (state.v + v), v}, dt_s);
+}
+
+MassSpringDamper::State Admittance::Axis::bounded(const MassSpringDamper::State& wanted,
+                                                  double dt_s) const {
   const double reach = max_velocity * dt_s;
   MassSpringDamper::State next;
-  next.x = std::clamp(free.x, state.x - reach, state.x + reach);
-  next.v = std::clamp(free.v, -max_velocity, max_velocity);
+  next.x = std::clamp(wanted.x, state.x - reach, state.x + reach);
+  next.v = std::clamp(wanted.v, -max_velocity, max_velocity);
   if (std::abs(next.x) >= max_displacement) {
     next.x = std::clamp(next.x, -max_displacement, max_displacement);
     if (next.v * next.x > 0.0) next.v = 0.0;
   }
-  state = next;
-  return f != force || next.x != free.x || next.v != free.v;
+  return next;
 }
 
 Matrix3 Admittance::frame() const {

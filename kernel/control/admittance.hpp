@@ -25,10 +25,14 @@
 //
 // What is kept is the state itself: nothing winds up behind a bound. The largest step of v_c on an
 // axis is max_velocity, when it meets max_displacement.
+//
+// Braked, v is brought to zero on each axis with half the robot's acceleration limit of the tip,
+// within the same bounds, and e is held there: neither wrench nor spring moves it any more.
 #pragma once
 
 #include <array>
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/math/mass_spring_damper.hpp"
 #include "kernel/port.hpp"
@@ -109,6 +113,9 @@ class Admittance {
   /// period works the coefficients out anew. [cyclic]
   Status step(double dt_s);
 
+  /// The displacement comes to rest and stays until the next start. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) { braked_ = true; }
+
  private:
   static constexpr Range kMasses = {1e-4, 1e4}, kGains = {0.0, 1e6};
 
@@ -116,11 +123,16 @@ class Admittance {
     bool compliant = false;
     double mass = 1.0, damping = 0.0, stiffness = 0.0;
     double max_displacement = 0.0, max_velocity = 0.0, max_force = 0.0;
+    double deceleration = 0.0;
     MassSpringDamper law;
     MassSpringDamper::State state;
 
     /// One period under `force`; true if a bound acted.
     bool move(double force, double dt_s);
+    /// One period towards rest.
+    void brake(double dt_s);
+    /// Keeps a state within the bounds, from the one before.
+    MassSpringDamper::State bounded(const MassSpringDamper::State& wanted, double dt_s) const;
   };
 
   Axis axis_of(int i) const;
@@ -131,6 +143,7 @@ class Admittance {
 
   std::array<Axis, 6> axes_;  // three translations, three rotations
   double period_s_ = 0.0;     // for which the laws hold
+  bool braked_ = false;
 };
 
 }  // namespace tactus

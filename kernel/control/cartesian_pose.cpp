@@ -51,24 +51,48 @@ double share_within(const JointVector& to, const JointVector& dq, const JointVec
 
 }  // namespace
 
-/// Joint velocities for a twist, and the inverse without the joints that were left out.
+/// What the tip is to do: its reference's twist, and the correction of its error with the floor of
+/// its damping.
+struct CartesianPose::Demand {
+  Vector6 v_d, correction;
+  double floor;
+
+  Vector6 v() const { return v_d + correction; }
+  JointVector joints(const Inverse& inverse) const {
+    return inverse.times(v_d) + inverse.correcting(correction);
+  }
+};
+
+/// Joint velocities for a demand, and the inverse without the joints that were left out.
 struct CartesianPose::Task {
   JointVector dq;
   Inverse inverse;
   Eigen::Array<bool, kDof, 1> free;
 };
 
+double CartesianPose::largest_gain() const {
+  return std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
+}
+
+/// By how much a twist is beyond the tip's speed limits; 1 within.
+double CartesianPose::excess(const Vector6& v) const {
+  return std::max(
+      {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
+}
+
 Status CartesianPose::start(double dt_s) {
-  const double most = std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
-  if (!(most * (dt_s + params.measurement_delay) <= kMaxGainPeriods)) return Status::kUnstableGain;
+  if (!(largest_gain() * (dt_s + params.measurement_delay) <= kMaxGainPeriods))
+    return Status::kUnstableGain;
   if (!q->allFinite()) return Status::kStateNotFinite;
   const JointLimits& limits = params.limits;
   motion_.start({limits.q_min + params.position_margin, limits.q_max - params.position_margin,
                  limits.dq_max, limits.ddq_max, params.max_lead},
                 *q);
-  q_c.value = *q;
+  q_c.value = posture_ = *q;
   dq_c.value.setZero();
   posture_dq_.setZero();
+  braked_ = at_once_ = false;
+  tracking_ = 1.0;
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
   return Status::kOk;
@@ -76,8 +100,10 @@ Status CartesianPose::start(double dt_s) {
 
 Status CartesianPose::step(double dt_s) {
   JointVector dq;
-  const Status status = command_velocity(dt_s, dq);
-  if (status == Status::kOk)
+  Status status = Status::kOk;
+  if (at_once_)
+    motion_.brake(dt_s);
+  else if (status = command_velocity(dt_s, dq); status == Status::kOk)
     motion_.step(dq, *q, dt_s);
   else
     motion_.halt();
@@ -89,28 +115,31 @@ Status CartesianPose::step(double dt_s) {
 Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   if (!(finite(*x) && J->allFinite() && q->allFinite())) return Status::kStateNotFinite;
   const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
-  const JointVector posture =
-      q_posture.wired() ? *q_posture : 0.5 * (params.limits.q_min + params.limits.q_max);
   const double passed = speed_scaling.wired() ? *speed_scaling : 1.0;
-  if (!(e.allFinite() && v_d->allFinite() && posture.allFinite() && passed >= 0.0 && passed <= 1.0))
+  if (!(e.allFinite() && v_d->allFinite() && q_posture->allFinite() && passed >= 0.0 &&
+        passed <= 1.0))
     return Status::kReferenceFault;
+  run_down(dt_s);
 
-  const Inverse inverse(*J, params.damping_onset);
-  Vector6 v = *v_d + passed * correction(e, inverse, dt_s);
-  const double fastest = std::max(
-      {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
-  v /= fastest;
-  const Task task = solve(v, inverse, dt_s);
+  Vector6 wanted;
+  wanted << params.position_gain.cwiseProduct(e.head<3>()),
+      params.rotation_gain.cwiseProduct(e.tail<3>());
+  wanted /= excess(wanted);
+  const double rate = largest_gain();
+  Demand demand{*v_d, wanted, rate > 0.0 ? kBend * wanted.norm() / rate : 0.0};
+  const Inverse inverse(*J, params.damping_onset, demand.floor);
+  share_out(inverse, dt_s, demand);
+  demand.correction *= passed * tracking_;
+  const double fastest = excess(demand.v());
+  demand.v_d /= fastest, demand.correction /= fastest;
+  const Task task = solve(demand, inverse, dt_s);
 
   const JointVector low = motion_.lowest(dt_s).cwiseMax(-params.limits.dq_max);
   const JointVector high = motion_.highest(dt_s).cwiseMin(params.limits.dq_max);
   const double share = share_within(JointVector::Zero(), task.dq, low, high);
   dq = share * task.dq;
   if constexpr (kDof > 6) {
-    const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
-    const JointVector change = params.posture_gain * (posture - *q) - posture_dq_;
-    posture_dq_ += change.cwiseMax(-most).cwiseMin(most);
-    const JointVector rest = task.inverse.null_space(task.free.select(posture_dq_, 0.0));
+    const JointVector rest = posture_velocity(task, dt_s);
     dq += share_within(dq, rest, low, high) * rest;
   }
   if (!dq.allFinite()) return Status::kCommandNotFinite;
@@ -120,14 +149,18 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   return Status::kOk;
 }
 
-/// K e, scaled so that every joint can still brake when it is done: at the rate of the greatest
-/// gain it has |dq| / K to go.
-Vector6 CartesianPose::correction(const Vector6& e, const Inverse& inverse, double dt_s) const {
-  Vector6 v;
-  v << params.position_gain.cwiseProduct(e.head<3>()),
-      params.rotation_gain.cwiseProduct(e.tail<3>());
-  const double rate = std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
-  const JointVector dq = inverse.times(v);
+/// Braked on the path: what is left of the error when the reference stands is given up.
+void CartesianPose::run_down(double dt_s) {
+  const bool stands = x_d->p == last_x_d_.p && x_d->r.coeffs() == last_x_d_.r.coeffs();
+  if (braked_ && stands) tracking_ = std::max(0.0, tracking_ - dt_s / kRunDown_s);
+  last_x_d_ = *x_d;
+}
+
+/// Scales the correction so that every joint can still brake when it is done: at the rate of the
+/// greatest gain it has |dq| / K to go.
+void CartesianPose::share_out(const Inverse& inverse, double dt_s, Demand& demand) const {
+  const double rate = largest_gain();
+  const JointVector dq = inverse.correcting(demand.correction);
   double share = 1.0;
   for (int i = 0; i < kDof; ++i) {
     const double speed = std::abs(dq[i]);
@@ -135,29 +168,39 @@ Vector6 CartesianPose::correction(const Vector6& e, const Inverse& inverse, doub
         stopping_speed(speed / rate, kBrakingShare * params.limits.ddq_max[i], dt_s);
     if (speed * share > most) share = most / speed;
   }
-  return share * v;
+  demand.correction *= share;
 }
 
-/// Joints whose share of v is beyond what their position limits admit move as far as they may, one
-/// after the other, the furthest beyond first; the free ones take the rest of the task.
-CartesianPose::Task CartesianPose::solve(const Vector6& v, const Inverse& inverse,
+/// Joints whose share of the demand is beyond what their position limits admit move as far as they
+/// may, one after the other, the furthest beyond first; the free ones take the rest of the task.
+CartesianPose::Task CartesianPose::solve(const Demand& demand, const Inverse& inverse,
                                          double dt_s) const {
   const JointVector low = motion_.lowest(dt_s), high = motion_.highest(dt_s);
-  Task task{inverse.times(v), inverse, Eigen::Array<bool, kDof, 1>::Constant(true)};
+  Task task{demand.joints(inverse), inverse, Eigen::Array<bool, kDof, 1>::Constant(true)};
   Jacobian free_J = *J;
-  Vector6 rest = v;
+  Demand rest = demand;
   JointVector fixed = JointVector::Zero();
   for (int left_out = 0; left_out < kDof; ++left_out) {
     const int i = worst_joint(task.dq, low, high);
     if (i < 0) break;
     fixed[i] = std::clamp(task.dq[i], low[i], high[i]);
-    rest -= J->col(i) * fixed[i];
+    rest.v_d -= J->col(i) * fixed[i];
     free_J.col(i).setZero();
     task.free[i] = false;
-    task.inverse = Inverse(free_J, params.damping_onset);
-    task.dq = task.inverse.times(rest) + fixed;
+    task.inverse = Inverse(free_J, params.damping_onset, demand.floor);
+    task.dq = rest.joints(task.inverse) + fixed;
   }
   return task;
+}
+
+/// The null space takes what moves the free joints towards the posture, or, braked, to rest.
+JointVector CartesianPose::posture_velocity(const Task& task, double dt_s) {
+  const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
+  const JointVector& posture = q_posture.wired() ? *q_posture : posture_;
+  const JointVector wanted = braked_ ? JointVector(JointVector::Zero())
+                                     : JointVector(params.posture_gain * (posture - *q));
+  posture_dq_ += (wanted - posture_dq_).cwiseMax(-most).cwiseMin(most);
+  return task.inverse.null_space(task.free.select(posture_dq_, 0.0));
 }
 
 }  // namespace tactus

@@ -5,6 +5,19 @@
 //   dq_c = J# v + (I - J# J) k_n (q_posture - q)        [Risi et al. 2026, eq. 6; Chiacchio et al.
 //   q_c  = integral of dq_c                              1991; J#: kernel/math/damped_inverse.hpp]
 //
+// An error that stays. Where the target is out of reach e does not vanish, and J turns with the
+// joints: near rest the loop is
+//   d(dq_c) = -K (J^T J + lambda^2 I)^-1 (J^T J + H) dq,    H = -sum over i of e_i Hessian(x_i)
+// With a Hessian of length h, H is of the order of h |e|, and in a direction in which J loses rank
+// the gain is K h |e| / lambda^2: some 300 1/s at 0.3 m out of reach with a damping of 0.05,
+// however small K, and a servo that lags by 5 ms is driven into a limit cycle. So corrections, and
+// only they, are damped by lambda_c^2 >= kBend |e| - sigma^2 [as Sugihara, IEEE Trans. Robotics 27,
+// 2011, has the damping grow with the error]: the gain is then at most about K in every direction
+// whatever the error, and a lag that the loop stands within reach it stands out of reach. Two links
+// a and b, stretched out, are shortened by a b / (a + b) theta^2 / 2 when bent: h <= reach / 4,
+// 0.33 m for the longest arm here. kBend is half as large again. Where sigma^2 > kBend |e| nothing
+// changes. |e| is taken as far as it is worked off: K e no faster than the tip may be.
+//
 // Discretisation: the pose error of this period is worked off during the next, q_c(k) = q_c(k-1) +
 // dt dq_c(k), so that with a servo that is at q_c(k) when period k ends e(k+1) = (1 - K dt) e(k).
 // The response is exp(-K t) at every period, to K dt / 2 of itself. x, J and q are measured; a
@@ -20,8 +33,13 @@
 //   - posture takes what speed is left;
 //   - a large error is worked off no faster than the joints can brake (half their acceleration);
 //   - JointMotion bounds what is left: position, velocity, lead, acceleration.
+//
+// Braked on the path, the posture's velocity is run down at once, and what is left of the error is
+// worked off no longer than kRunDown_s once the reference stands. Braked at once, every joint stops
+// by itself with max_acceleration.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/joint_motion.hpp"
 #include "kernel/math/damped_inverse.hpp"
@@ -51,7 +69,7 @@ class CartesianPose {
   In<Quantity::kPose> x;                   ///< measured
   In<Quantity::kJacobian> J;               ///< at the measured joints
   In<Quantity::kJointPosition> q;          ///< measured
-  In<Quantity::kJointPosition> q_posture;  ///< not wired: the middle of the joints' ranges
+  In<Quantity::kJointPosition> q_posture;  ///< not wired: where the arm stood at start
   In<Quantity::kScalar> speed_scaling;     ///< of the robot, 0 to 1; not wired: 1
   Out<Quantity::kJointPosition> q_c;
   Out<Quantity::kJointVelocity> dq_c;
@@ -88,20 +106,38 @@ class CartesianPose {
   /// of no length), kCommandNotFinite. The command then stays where it was, at rest. [cyclic]
   Status step(double dt_s);
 
+  /// From now on until the next start the arm comes to rest, after kAtOnce without its reference,
+  /// and stays. [cyclic]
+  void brake(Status /*why*/, BrakeWay way) {
+    braked_ = true;
+    at_once_ = at_once_ || way == BrakeWay::kAtOnce;
+  }
+
   /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
   /// overshoot below 1; with two periods of delay that nobody told of the limit of stability is
   /// 2 sin(pi / 10) = 0.618.
   static constexpr double kMaxGainPeriods = 0.5;
 
  private:
+  static constexpr double kBend = 0.5;       // m, or rad
+  static constexpr double kRunDown_s = 0.3;  // three times 1/K at the gains of the paper
+  struct Demand;
   struct Task;
 
+  double largest_gain() const;
+  double excess(const Vector6& v) const;
   Status command_velocity(double dt_s, JointVector& dq);
-  Vector6 correction(const Vector6& e, const DampedInverse<kDof>& inverse, double dt_s) const;
-  Task solve(const Vector6& v, const DampedInverse<kDof>& inverse, double dt_s) const;
+  void run_down(double dt_s);
+  void share_out(const DampedInverse<kDof>& inverse, double dt_s, Demand& demand) const;
+  Task solve(const Demand& demand, const DampedInverse<kDof>& inverse, double dt_s) const;
+  JointVector posture_velocity(const Task& task, double dt_s);
 
   JointMotion motion_;
+  JointVector posture_ = JointVector::Zero();  // where the arm stood at start
   JointVector posture_dq_ = JointVector::Zero();
+  bool braked_ = false, at_once_ = false;
+  double tracking_ = 1.0;  // share of the correction; less once a brake's reference stands
+  Pose last_x_d_;
 };
 
 }  // namespace tactus

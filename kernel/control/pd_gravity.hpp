@@ -7,6 +7,7 @@
 // for every law alike.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/port.hpp"
 #include "kernel/status.hpp"
@@ -42,6 +43,8 @@ struct PdGravity {
     tau.value = params.kp.cwiseProduct(*q_d - *q) - params.kd.cwiseProduct(*dq) + *g;
     return tau.value.allFinite() ? Status::kOk : Status::kCommandNotFinite;
   }
+  /// Has no motion of its own. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) {}
 };
 
 }  // namespace tactus

@@ -30,6 +30,7 @@ Status Pid::start() {
                     (!ddq_d.wired() && params.acceleration_gain.maxCoeff() > 0.0);
   if (deaf) return Status::kNotConnected;
   if (!tau_measured->allFinite()) return Status::kCommandNotFinite;
+  frozen_ = false;
   const JointVector e = error(), de = error_rate(0.0);
   JointVector integral = JointVector::Zero();
   if (tau_measured.wired()) {
@@ -88,7 +89,7 @@ JointVector Pid::filtered(const JointVector& rate, double dt_s) const {
 
 double Pid::integrated(int i, double e, double others, double dt_s) const {
   const double ki = params.gains.ki[i], limit = params.output_limit[i];
-  if (ki == 0.0) return integral_[i];
+  if (ki == 0.0 || frozen_) return integral_[i];
   const double growth = ki * 0.5 * (e_[i] + e) * dt_s;
   double integral = integral_[i] + growth;
   const double sum = others + integral;

@@ -15,8 +15,11 @@
 //   back_calculation   what the output limit takes off drives the integral back with a time
 //                      constant
 //   conditional        the integral does not grow where it would push the torque beyond the limit
+//
+// Braked, the integral is frozen.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/joint_limits.hpp"
 #include "kernel/port.hpp"
@@ -95,6 +98,10 @@ class Pid {
   /// are. [cyclic]
   Status step(double dt_s);
 
+  /// The integral stays as it is until the next start: an arm that is held, or meets something
+  /// while it brakes, winds nothing up. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) { frozen_ = true; }
+
   /// Changes the gains and moves the integral by what the other terms of the last cycle change, so
   /// that the torque does not step. What is beyond the integral's limit steps, and at a joint whose
   /// new ki is 0 all of it, at most |new kp - old kp| |e| + |new kd - old kd| |rate of e|; the
@@ -118,6 +125,7 @@ class Pid {
   JointVector e_ = JointVector::Zero(), de_ = JointVector::Zero();
   JointVector q_ = JointVector::Zero(), q_d_ = JointVector::Zero();
   JointVector integral_ = JointVector::Zero();  // N m
+  bool frozen_ = false;
 };
 
 }  // namespace tactus

@@ -19,6 +19,7 @@
 // with a time constant, h does not step; without, it steps by what the tare tolerances allow.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/port.hpp"
 #include "kernel/status.hpp"
@@ -71,6 +72,8 @@ class WrenchFrontEnd {
   /// sensor's range. kSensorStuck: ft the same to the last bit for stuck_s. kSensorNotSteady: no
   /// tare within tare_timeout_s. [cyclic]
   Status step(double dt_s);
+  /// Measures, and has no motion of its own. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) {}
 
  private:
   Status check() const;

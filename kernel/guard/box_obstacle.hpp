@@ -2,6 +2,7 @@
 // cycle; what it says is where it stands.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/math/so3.hpp"
 #include "kernel/port.hpp"
@@ -37,6 +38,8 @@ struct BoxObstacle {
   }
   /// It stands still. [cyclic]
   Status step(double /*dt_s*/) { return Status::kOk; }
+  /// Has no motion of its own. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) {}
 };
 
 }  // namespace tactus

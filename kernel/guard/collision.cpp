@@ -31,6 +31,12 @@ JointVector reach_of(const Capsule& shape, int link) {
   return reach;
 }
 
+/// Until a joint that accelerates brakes, with its jerk: while the acceleration turns round, and
+/// while it fades at the end, the joint is nowhere further than after that time of acceleration.
+double jerk_ramp_s(const JointLimits& limits, const JointVector& braking) {
+  return (limits.ddq_max + braking).cwiseQuotient(limits.dddq_max).maxCoeff();
+}
+
 }  // namespace
 
 void Collision::start(const CollisionSection& section, const JointLimits& limits,
@@ -38,8 +44,9 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
   scene_ = &section.scene;
   margin_ = section.margin;
   support_calls_ = section.support_calls;
-  braking_ = {(section.divisor + 1) * period_s + section.delay_s, limits.ddq_max,
-              section.limits.ddq_max};
+  const JointVector& braking = section.limits.ddq_max;
+  braking_ = {(section.divisor + 1) * period_s + section.delay_s + jerk_ramp_s(limits, braking),
+              limits.ddq_max, braking};
   telemetry_ = {};
   add_capsules(tip, section.tool_radius);
   add_pairs();

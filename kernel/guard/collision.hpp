@@ -12,7 +12,9 @@
 //   - the joints are where they were measured, or as late as delay_s says, and the tables are true;
 //   - until one cycle after the next check no joint accelerates with more than the limit of
 //   [guard];
-//   - from then on the arm brakes as stopping.hpp says, if that next check is not kOk.
+//   - from then on, if that next check is not kOk, every joint brakes with `braking`, which the
+//   acceleration reaches with the jerk of [guard]: the executive brakes at once after a row's
+//   fault.
 // Between the positions looked at nothing is missed. In a section of the way joint k is within
 // half_k of the middle; a point of link j moves by at most sum over k of (half_k times its largest
 // distance from axis k) against link i < j, k = i+1 ... j, and the pair is made thicker by that.

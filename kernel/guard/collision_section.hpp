@@ -37,7 +37,7 @@ struct CollisionSection {
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip
   int support_calls = 4000;   ///< most support points that one check asks for: its worst case
   double delay_s = 0.0;       ///< by which the measured state and the brake together are late
-  JointLimits limits;         ///< of it ddq_max: what the robot brakes with, rad/s^2
+  JointLimits limits;         ///< of it ddq_max: what every joint brakes with at once, rad/s^2
   Value allow;                ///< "tool table, link7 table"
 
   bool given = false;  ///< whether the file has the section

@@ -79,6 +79,7 @@ Status Guard::limit(const RobotState& state, RobotCommand& command) {
       telemetry_.limited_joints |= 1U << i;
     }
   }
+  telemetry_.limited = limited;
   telemetry_.limited_cycles += limited ? 1 : 0;
   telemetry_.jerky_cycles += rough ? 1 : 0;
   return Status::kOk;

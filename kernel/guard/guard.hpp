@@ -32,6 +32,11 @@ class Guard {
     /// 2026 allow the real UR10; a servo loop of 0.1 s lags by that time.
     JointVector following_error = JointVector::Constant(0.1);
     JointVector following_time = JointVector::Constant(0.1);
+    /// Limiting in more than limiting_share of the cycles of limiting_window s stops the robot: a
+    /// law whose every other command is limited is not the law that was meant. 1: never, for a
+    /// limit that is to act for long.
+    double limiting_share = 0.5;
+    double limiting_window = 1.0;
 
     template <class Visitor>
     void describe(Visitor& visit) {
@@ -46,6 +51,8 @@ class Guard {
       visit.param("position_margin", position_margin, Range{0.0, 0.5}, "rad");
       visit.param("following_error", following_error, kPositive, "rad");
       visit.param("following_time", following_time, kNonNegative, "s");
+      visit.param("limiting_share", limiting_share, Range{0.0, 1.0}, "1");
+      visit.param("limiting_window", limiting_window, Range{0.01, 60.0}, "s");
     }
     /// The limits with the margin taken off. [init]
     JointLimits effective() const;
@@ -53,6 +60,7 @@ class Guard {
 
   /// Counters since start.
   struct Telemetry {
+    bool limited = false;              ///< the last command was
     std::uint32_t limited_cycles = 0;  ///< cycles in which a command was limited
     std::uint32_t limited_joints = 0;  ///< bit i: joint i was limited at least once
     std::uint32_t jerky_cycles = 0;    ///< cycles in which a position or velocity sent took more

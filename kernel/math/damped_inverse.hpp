@@ -17,6 +17,10 @@
 // there is nothing to chatter about and no hysteresis is needed: lambda^2 and its derivative are
 // continuous in the joints.
 //
+// For corrections, the twists that come from an error that is left, the damping can be larger: by
+// lambda_c, so that sigma^2 + lambda_c^2 is at least a given floor. Where sigma^2 is above the
+// floor nothing changes.
+//
 // Metres and radians are weighted alike.
 #pragma once
 
@@ -33,9 +37,9 @@ class DampedInverse {
   using Joints = Eigen::Matrix<double, n, 1>;
   using Twist = Eigen::Matrix<double, 6, 1>;
 
-  /// `onset` > 0: where the damping begins. A column of zeros leaves its joint out. From a J that
-  /// is not finite nothing finite comes. [cyclic]
-  DampedInverse(const JacobianMatrix& J, double onset) : J_(J) {
+  /// `onset` > 0: where the damping begins; `floor` >= 0: of sigma^2 + lambda_c^2. A column of
+  /// zeros leaves its joint out. From a J that is not finite nothing finite comes. [cyclic]
+  DampedInverse(const JacobianMatrix& J, double onset, double floor = 0.0) : J_(J) {
     Matrix6 JJt = J_ * J_.transpose();
     JJt.diagonal().array() += kRounding;
     hardly_damped_.compute(JJt);
@@ -45,10 +49,17 @@ class DampedInverse {
       hardly_damped_.compute(plus(JJt, kNullShare * lambda_));
     }
     damped_.compute(plus(JJt, lambda_));
+    const double missing = floor - sigma_ * sigma_;
+    if (missing > lambda_ * lambda_)
+      corrective_.compute(plus(JJt, std::sqrt(missing)));
+    else
+      corrective_ = damped_;
   }
 
   /// J# v. [cyclic]
   Joints times(const Twist& v) const { return J_.transpose() * damped_.solve(v); }
+  /// The same for a correction, with lambda_c. [cyclic]
+  Joints correcting(const Twist& v) const { return J_.transpose() * corrective_.solve(v); }
   /// (I - J# J) dq, which moves the task by no more than lambda |dq| / 20, and not at all where
   /// nothing is damped. [cyclic]
   Joints null_space(const Joints& dq) const {
@@ -81,7 +92,7 @@ class DampedInverse {
   }
 
   JacobianMatrix J_;
-  Eigen::LLT<Matrix6> damped_, hardly_damped_;
+  Eigen::LLT<Matrix6> damped_, corrective_, hardly_damped_;
   double sigma_ = 0.0, lambda_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 // Block: what the other blocks know of the arm, at the tool tip and in the base frame.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/port.hpp"
 #include "kernel/status.hpp"
 
@@ -35,6 +36,8 @@ struct RobotModel {
   /// kStateNotFinite when any output is not finite, as for an input that is not finite or an angle
   /// beyond kSinCosMax_rad; the outputs then must not be used. [cyclic]
   Status step(double dt_s);
+  /// Has no motion of its own. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) {}
 };
 
 }  // namespace tactus

@@ -2,6 +2,7 @@
 // references to be given in.
 #pragma once
 
+#include "kernel/brake.hpp"
 #include "kernel/describe.hpp"
 #include "kernel/math/so3.hpp"
 #include "kernel/port.hpp"
@@ -32,6 +33,8 @@ struct Frame {
   }
   /// It stands still. [cyclic]
   Status step(double /*dt_s*/) { return Status::kOk; }
+  /// Has no motion of its own. [cyclic]
+  void brake(Status /*why*/, BrakeWay /*way*/) {}
 };
 
 }  // namespace tactus

@@ -194,9 +194,9 @@ struct JointSpace {
   static Peaks left_to_path(const Limits& limits, const Difference& offset);
   /// The reference one period on, on its way to a base that moves from `base` to `next` in that
   /// period, and its offset from it likewise: within all limits if it is within them now, but for
-  /// what the base steps by nature. [cyclic]
+  /// what a base that `steps` by nature does. [cyclic]
   static Point approach(const Point& reference, Difference& offset, const Point& base,
-                        const Point& next, const Limits& limits, double dt_s);
+                        const Point& next, bool steps, const Limits& limits, double dt_s);
   /// The reference one period on, every joint on its fastest way to rest. [cyclic]
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
   /// Where that way ends. [cyclic]

@@ -21,15 +21,27 @@ AxisState axis_of(const JointSpace::Point& point, int j) {
   return {point.q[j], point.dq[j], point.ddq[j]};
 }
 
-/// One period takes joint j from `before` to `after` within its limits, and it can stop within
-/// them. What the base steps by nature, a cubic its acceleration, is no fault of the reference.
+/// Velocity and position change by what acceleration and velocity at both ends say, but for what a
+/// jerk of at most j can do meanwhile (kernels of Peano for the trapezium and its correction).
+bool derived(const AxisState& before, const AxisState& after, double j, double dt_s) {
+  const double v = after.v - before.v - 0.5 * dt_s * (before.a + after.a);
+  const double p = after.p - before.p - 0.5 * dt_s * (before.v + after.v) +
+                   dt_s * dt_s / 12.0 * (after.a - before.a);
+  return std::abs(v) <= kVelocityGap * j * dt_s * dt_s + kPositionRounding / dt_s &&
+         std::abs(p) <= kPositionGap * j * dt_s * dt_s * dt_s + kPositionRounding;
+}
+
+/// One period takes joint j from `before` to `after` within its limits, it can stop within them,
+/// and each is the derivative of the one before, as far as jerk lets it differ. Where the base
+/// steps by nature, a cubic its acceleration, that is no fault of the reference.
 bool within_limits(const AxisState& before, const AxisState& after, const AxisLimits& limits,
-                   const AxisRange& range, double base_step, double dt_s) {
+                   const AxisRange& range, bool steps, double dt_s) {
   const double most = 1.0 + kRounding, change = limits.j * dt_s * most;
   const double run_out = after.v + 0.5 * after.a * std::abs(after.a) / limits.j;
   const AxisRange stop = stop_range(after, limits);
-  const bool smooth = std::abs(base_step) > change || std::abs(after.a - before.a) <= change;
-  return smooth && std::abs(after.v - before.v) <= limits.a_up * dt_s * most &&
+  return (steps ||
+          (std::abs(after.a - before.a) <= change && derived(before, after, limits.j, dt_s))) &&
+         std::abs(after.v - before.v) <= limits.a_up * dt_s * most &&
          std::abs(after.v) <= limits.v_hi * most && std::abs(run_out) <= limits.v_hi * most &&
          std::abs(after.a) <= limits.a_up * most && stop.lowest >= range.lowest &&
          stop.highest <= range.highest;
@@ -39,14 +51,14 @@ bool within_limits(const AxisState& before, const AxisState& after, const AxisLi
 /// offset it comes to rest at, beside a base that takes all there is; otherwise it is on its way to
 /// rest at the base, which is always possible.
 AxisState yield(const JointSpace::Point& reference, const AxisState& offset, const AxisLimits& left,
-                const JointSpace::Point& base, const JointSpace::Point& next,
-                const JointLimits& limits, int j, double dt_s) {
+                const JointSpace::Point& next, const JointLimits& limits, int j, bool steps,
+                double dt_s) {
   const AxisLimits own = axis_limits(limits, j);
   const AxisRange range = {limits.q_min[j], limits.q_max[j]};
   const AxisState from = axis_of(reference, j), to = axis_of(next, j);
   const AxisState kept = plan_stop(offset, left).at(dt_s);
   const AxisState beside = {to.p + kept.p, to.v + kept.v, to.a + kept.a};
-  if (within_limits(from, beside, own, range, next.ddq[j] - base.ddq[j], dt_s)) return beside;
+  if (within_limits(from, beside, own, range, steps, dt_s)) return beside;
   return plan_inside(from, to.p, own, range.lowest, range.highest).at(dt_s);
 }
 
@@ -67,8 +79,8 @@ JointSpace::Peaks JointSpace::left_to_path(const Limits& limits, const Differenc
 }
 
 JointSpace::Point JointSpace::approach(const Point& reference, Difference& offset,
-                                       const Point& base, const Point& next, const Limits& limits,
-                                       double dt_s) {
+                                       const Point& base, const Point& next, bool steps,
+                                       const Limits& limits, double dt_s) {
   const bool moves = !(base.standing() && next.standing());
   std::array<AxisLimits, kDof> left;
   std::array<AxisRange, kDof> room;
@@ -89,11 +101,11 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
   Point point = sum(next, offset);
   for (int j = 0; moves && j < kDof; ++j) {
     const AxisState from = axis_of(reference, j), to = axis_of(next, j);
-    const double step = next.ddq[j] - base.ddq[j];
     const AxisRange range = {limits.q_min[j], limits.q_max[j]};
-    if (within_limits(from, axis_of(point, j), axis_limits(limits, j), range, step, dt_s)) continue;
-    const AxisState now = yield(reference, before.axis(j), left[static_cast<std::size_t>(j)], base,
-                                next, limits, j, dt_s);
+    if (within_limits(from, axis_of(point, j), axis_limits(limits, j), range, steps, dt_s))
+      continue;
+    const AxisState now = yield(reference, before.axis(j), left[static_cast<std::size_t>(j)], next,
+                                limits, j, steps, dt_s);
     set_axis(point, j, now);
     offset.set(j, {now.p - to.p, now.v - to.v, now.a - to.a});
   }

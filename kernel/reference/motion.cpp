@@ -31,9 +31,9 @@ void Motion<Space>::move_on(double dt_s) {
     const Point before = on_path() ? base_ : base_of_points(time_s_ - dt_s);
     base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
     if (phase_ == Phase::kReaching) offset_ = Space::difference(reference_, before);
-    reference_ = offset_.zero()
-                     ? base_
-                     : Space::approach(reference_, offset_, before, base_, settings_->limits, dt_s);
+    reference_ = offset_.zero() ? base_
+                                : Space::approach(reference_, offset_, before, base_, steps(),
+                                                  settings_->limits, dt_s);
     settle();
   }
   fade(dt_s);
@@ -115,7 +115,7 @@ void Motion<Space>::forward(const Point& point) {
 
 template <class Space>
 void Motion<Space>::reach(const Point& point) {
-  stream_.push(point, time_s_);
+  stream_.push(point, time_s_ - settings_->period_s);  // it was sent before this cycle
   path_.leave();
   held_ = point.stopped();
   feed_beyond(reference_, held_, stream_.moves(time_s_) ? stream_.period_s() : kFade_s);

@@ -63,6 +63,7 @@ class Motion {
 
  private:
   void tell(MotionEvent event) { phase_ = next(phase_, event); }
+  bool steps() const { return on_path() && !path_.smooth(); }
   Point base_of_points(double time_s) const;
   Point base_of_path(double dt_s);
   Point end_path(const Point& last);

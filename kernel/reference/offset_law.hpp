@@ -28,6 +28,11 @@ struct Offset {
   void set(int i, const AxisState& state) { x[i] = state.p, dx[i] = state.v, ddx[i] = state.a; }
 };
 
+/// Of j dt^2 and j dt^3: how far velocity and position can be from what acceleration and velocity
+/// at both ends of a period say, while the jerk is at most j.
+inline constexpr double kVelocityGap = 0.25, kPositionGap = 0.0320751;  // 1/4, 1/(18 sqrt(3))
+inline constexpr double kPositionRounding = 1e-13;                      // m or rad
+
 /// Room without bounds, as large as a plan can count with.
 inline constexpr AxisRange kAnywhere = {-1e9, 1e9};
 

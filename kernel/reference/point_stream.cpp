@@ -8,8 +8,9 @@
 namespace tactus {
 namespace {
 
-constexpr double kSlowest_s = 0.25;   // points farther apart are no stream
-constexpr double kLeastGain = 0.05;   // of the clock
+constexpr double kSlowest_s = 0.25;  // points farther apart are no stream
+constexpr double kLeastGain = 0.05;  // of the clock; one that comes early was less delayed
+constexpr double kEarlyGain = 0.2;
 constexpr double kFadePeriods = 3.0;  // over which a jump fades
 // For how long a stream may be silent: three periods, at least what a busy sender is late by, and
 // not long beyond one period.
@@ -67,7 +68,8 @@ void PointStream<Space>::keep_time(double now_s) {
     const double gain = std::max(1.0 / count_, kLeastGain);
     period_s_ += gain * (interval - period_s_);
     time_s_ += period_s_;
-    time_s_ += std::max(1.0 / (count_ + 1), kLeastGain) * (now_s - time_s_);
+    const double late_s = now_s - time_s_;
+    time_s_ += std::max(1.0 / (count_ + 1), late_s < 0.0 ? kEarlyGain : kLeastGain) * late_s;
   }
   arrival_s_ = now_s;
 }

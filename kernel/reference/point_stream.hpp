@@ -1,7 +1,8 @@
 // PointStream: online points as people stream them, made a target that moves smoothly.
 //
 // Points arrive about every D seconds, sooner or later. Their times are smoothed,
-//   t_k = t_(k-1) + D + g (arrival - t_(k-1) - D),   D likewise,   g = 1/k, at least 0.05.
+//   t_k = t_(k-1) + D + g (arrival - t_(k-1) - D),   D likewise,   g = 1/k, at least 0.05,
+// and at least 0.2 for one that is early: what comes is delayed, more or less, and never ahead.
 // Through the newest four goes the parabola that fits them best; of a stream that gives velocities,
 // through the newest with the change of velocity since the one before. In the chart of the newest
 // point, p_k being the difference to it,

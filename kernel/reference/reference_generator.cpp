@@ -17,6 +17,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
     motion_.stop();
     release_store();
   }
+  const Point held = measured;  // which may be the reference of what ends here
   FeedbackPublisher<Space> feedback = feedback_;
   feedback.start(params.feedback_divisor, params.measured);
   *this = ReferenceGenerator();
@@ -25,8 +26,8 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   params_ = params;
   void_requests_ = channel.requests.size();
   void_controls_ = channel.controls.size();
-  motion_.start(measured, channel.settings);
-  monitor_.start(measured, params.latency_cycles, (params.measured & kVelocityField) != 0);
+  motion_.start(held, channel.settings);
+  monitor_.start(held, params.latency_cycles, (params.measured & kVelocityField) != 0);
   return Status::kOk;
 }
 

@@ -83,14 +83,24 @@ Vector3 shares(const Offset<6>& offset, int first, const Most& most) {
   return (need / length).cwiseMax(kLeastShare).normalized();
 }
 
-bool within(const VectorState& before, const VectorState& after, const Most& most, double step,
+/// Of a translation or a rotation, whose angle is not looked at: as for a joint.
+bool within(const VectorState& before, const VectorState& after, const Most& most, bool steps,
             double dt_s) {
   const double rounding = 1.0 + kRounding, change = most.j * dt_s * rounding;
   const Vector3 run_out = after.v + 0.5 * after.a * after.a.norm() / most.j;
-  return (step > change || (after.a - before.a).norm() <= change) &&
-         (after.v - before.v).norm() <= most.a * dt_s * rounding &&
+  const Vector3 gap = after.v - before.v - 0.5 * dt_s * (before.a + after.a);
+  const bool smooth = (after.a - before.a).norm() <= change &&
+                      gap.norm() <= kVelocityGap * dt_s * change + kPositionRounding / dt_s;
+  return (steps || smooth) && (after.v - before.v).norm() <= most.a * dt_s * rounding &&
          after.v.norm() <= most.v * rounding && run_out.norm() <= most.v * rounding &&
          after.a.norm() <= most.a * rounding;
+}
+
+/// The way is that of the velocity at both ends, as for a joint, and no longer than it may be.
+bool derived(const VectorState& before, const VectorState& after, const Most& most, double dt_s) {
+  const Vector3 gap = after.p - before.p - 0.5 * dt_s * (before.v + after.v) +
+                      dt_s * dt_s / 12.0 * (after.a - before.a);
+  return gap.norm() <= kPositionGap * most.j * dt_s * dt_s * dt_s + kPositionRounding;
 }
 
 bool inside(const VectorState& state, const TaskLimits& limits) {
@@ -103,14 +113,13 @@ bool inside(const VectorState& state, const TaskLimits& limits) {
 }
 
 /// One period takes the tip from `before` to `after` within its limits, and it can stop within
-/// them. What the base steps by nature is no fault of the reference.
+/// them. What a base that steps by nature does is no fault of the reference.
 bool within_limits(const TaskSpace::Point& before, const TaskSpace::Point& after,
-                   const TaskLimits& limits, const Vector6& base_step, double dt_s) {
-  return within(translation_of(before), translation_of(after), translation_limits(limits),
-                base_step.head<3>().norm(), dt_s) &&
-         within(rotation_of(before), rotation_of(after), rotation_limits(limits),
-                base_step.tail<3>().norm(), dt_s) &&
-         inside(translation_of(after), limits);
+                   const TaskLimits& limits, bool steps, double dt_s) {
+  const Most p = translation_limits(limits), r = rotation_limits(limits);
+  const VectorState from = translation_of(before), to = translation_of(after);
+  return within(from, to, p, steps, dt_s) && (steps || derived(from, to, p, dt_s)) &&
+         within(rotation_of(before), rotation_of(after), r, steps, dt_s) && inside(to, limits);
 }
 
 /// What the offset may do: of the translation, and of the rotation vector off a line.
@@ -177,23 +186,23 @@ TaskSpace::Peaks TaskSpace::left_to_path(const Limits& limits, const Difference&
 }
 
 TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset, const Point& base,
-                                     const Point& next, const Limits& limits, double dt_s) {
+                                     const Point& next, bool steps, const Limits& limits,
+                                     double dt_s) {
   Allowed allowed;
   allowed.p = left(translation_limits(limits), translation_of(base), translation_of(next), dt_s);
   const Most r = left(rotation_limits(limits), rotation_of(base), rotation_of(next), dt_s);
   const double turning = next.v.tail<3>().norm();
   allowed.r = line_beside(r, turning);
   allowed.phi = rotation_vector(r, turning);
-  const Vector6 step = next.a - base.a;
   const Difference before = offset;
   move_offset(offset, allowed, dt_s);
   Point point = sum(next, offset);
-  if (within_limits(reference, point, limits, step, dt_s)) return point;
+  if (within_limits(reference, point, limits, steps, dt_s)) return point;
   // Beside a base that takes all there is the offset rests; otherwise the tip does.
   offset = before;
   rest_offset(offset, allowed, dt_s);
   point = sum(next, offset);
-  if (within_limits(reference, point, limits, step, dt_s)) return point;
+  if (within_limits(reference, point, limits, steps, dt_s)) return point;
   point = come_to_rest(reference, limits, dt_s);
   point.h = next.h, point.dh = next.dh;
   offset = difference(point, next);

@@ -55,14 +55,15 @@ template <class Space>
 Verdict ToleranceMonitor<Space>::stopped(const Point& measured, double dt_s) {
   const double limit = tolerances_.stopped_velocity;
   if (measures_velocity_ || !(limit > 0.0)) return Space::judge_stopped(measured, limit);
-  if (window_s_ > 0.0 && window_s_ + 0.5 * dt_s >= kWindow_s) {
-    Point moved = measured;
-    Space::rates(moved) = Space::secant(window_from_, measured, window_s_);
-    found_ = Space::judge_stopped(moved, limit);
+  Point moved = measured;
+  Space::rates(moved) = Space::secant(window_from_, measured, kWindow_s);
+  window_s_ += dt_s;
+  const Verdict within = Space::judge_stopped(moved, limit);
+  if (window_s_ > kWindow_s || !within.ok()) {
+    found_ = within;
+    window_from_ = measured;
     window_s_ = 0.0;
   }
-  if (window_s_ == 0.0) window_from_ = measured;
-  window_s_ += dt_s;
   return found_;
 }
 

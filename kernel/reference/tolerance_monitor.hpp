@@ -17,8 +17,9 @@ class ToleranceMonitor {
  public:
   using Point = typename Space::Point;
 
-  /// Nothing was put out before `reference`. Where no velocity is measured it is taken from the
-  /// positions, over kWindow_s. [init]
+  /// Nothing was put out before `reference`. Where no velocity is measured the robot has stopped
+  /// once its position has been as near to one place for kWindow_s as the limit lets it get in that
+  /// time. [init]
   void start(const Point& reference, int latency_cycles, bool measures_velocity);
   /// A goal begins, with the tolerances that hold for it. [cyclic]
   void begin(const Tolerances<Space>& tolerances);
