@@ -17,7 +17,7 @@ namespace tactus {
 
 inline constexpr double kOverLimit = 1e-9;  ///< over a limit, of the limit: rounding
 /// Over the limits where the rate on a path changes: what comes of linearising within a period.
-inline constexpr double kRateAcceleration = 1e-3, kRateJerk = 0.05;
+inline constexpr double kRateAcceleration = 2.5e-3, kRateJerk = 0.05;
 /// Of a path of lines: so many lines may meet within a period.
 inline constexpr int kCorners = 2;
 /// Rounding of a velocity and an angle beside the limits.

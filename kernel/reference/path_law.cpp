@@ -15,6 +15,7 @@ constexpr double kPlanned = 0.8;    // share of the jerk that is counted on
 constexpr double kUnsure = 0.005;   // of a period: how far off the next sample may turn out to be
 constexpr int kCorrections = 4;
 constexpr double kRounding = 1e-11;  // of a limit
+constexpr double kThere = 1e-10;     // of a rate, from the target
 
 constexpr Interval kAnySlope = {-kFastest, kFastest};
 
@@ -42,6 +43,14 @@ double length(const double* channel) {
     return std::abs(*channel);
   else
     return Eigen::Map<const Vector3>(channel).norm();
+}
+
+/// The slope one period on from which a bend takes the rate `way` farther without passing: on the
+/// parabola that ends there, or, nearer than that can be told in whole periods, so that it is there
+/// in the one after, with none left.
+double onto(double way, double bend, double dt_s) {
+  if (way <= bend * dt_s * dt_s) return way / dt_s;
+  return bend * (std::sqrt(0.25 * dt_s * dt_s + 2.0 * way / bend) - 0.5 * dt_s);
 }
 
 /// From full acceleration one way to full acceleration the other.
@@ -196,9 +205,7 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
 
   const Interval reach = advice(path, limits, dt_s, ahead);
   const double way = target - rate_ - 0.5 * slope_ * dt_s;
-  const double onto =
-      bend_ * (std::sqrt(0.25 * dt_s * dt_s + 2.0 * std::abs(way) / bend_) - 0.5 * dt_s);
-  const double wanted = reach.nearest(std::copysign(onto, way));
+  const double wanted = reach.nearest(std::copysign(onto(std::abs(way), bend_, dt_s), way));
   const double slope = hard.nearest(next_sample.soft.nearest(wanted));
   return corrected(path, slope, falling, limits, dt_s, ahead);
 }
@@ -235,9 +242,8 @@ double PathLaw<Space>::corrected(const Path<Space>& path, double slope, double f
 template <class Space>
 void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope, double dt_s) {
   Next now = next(slope, dt_s);
-  const double flat = 1.2 * bend_ * dt_s;
-  const bool there = std::abs(now.rate - target) <= 0.2 * flat * dt_s && target == target_;
-  if (there && std::max(std::abs(slope_), std::abs(slope)) <= flat) now = {now.s, target, 0.0};
+  const bool there = std::abs(now.rate - target) <= kThere && std::abs(slope) * dt_s <= kThere;
+  if (there) now = {now.s, target, 0.0};
   if (now.rate <= 0.0) now.slope = 0.0;
   if (now.rate >= 1.0) now = {now.s, 1.0, 0.0};
   const double way = 0.5 * dt_s * (rate_ + now.rate) - (now.slope - slope_) * dt_s * dt_s / 12.0;
@@ -259,7 +265,6 @@ void PathLaw<Space>::step(const Path<Space>& path, double target, const Limits& 
   const double reached = std::min(target, std::sqrt(least_room(path, limits, dt_s)));
   const bool steady = slope_ == 0.0 && rate_ == reached;
   settle(path, reached, steady ? 0.0 : choose(path, reached, limits, dt_s), dt_s);
-  target_ = reached;
   assert(rate_ >= 0.0 && rate_ <= 1.0 && s_ >= 0.0 && s_ <= path.end_s());
 }
 

@@ -69,8 +69,7 @@ class PathLaw {
 
   double carry_ = 0.0;  // what s_ has lost to rounding, of millions of periods added up
   double s_ = 0.0, rate_ = 0.0, slope_ = 0.0;
-  double target_ = 0.0;  // of the last period, room considered
-  double bend_ = 0.0;    // largest |du/dt| that all that lies ahead allows, 1/s^2
+  double bend_ = 0.0;  // largest |du/dt| that all that lies ahead allows, 1/s^2
 };
 
 }  // namespace tactus

@@ -100,7 +100,16 @@ bool within(const VectorState& before, const VectorState& after, const Most& mos
 bool derived(const VectorState& before, const VectorState& after, const Most& most, double dt_s) {
   const Vector3 gap = after.p - before.p - 0.5 * dt_s * (before.v + after.v) +
                       dt_s * dt_s / 12.0 * (after.a - before.a);
-  return gap.norm() <= kPositionGap * most.j * dt_s * dt_s * dt_s + kPositionRounding;
+  return gap.norm() <= kPositionGap * most.j * dt_s * dt_s * dt_s + kPositionRounding &&
+         (after.p - before.p).norm() <= most.v * dt_s * (1.0 + kRounding);
+}
+
+/// No angle longer than a period lets it be; looked at where the speed is near its limit.
+bool turned_within(const TaskSpace::Point& before, const TaskSpace::Point& after, double w_max,
+                   double dt_s) {
+  if ((before.v + after.v).tail<3>().norm() < 1.9 * w_max) return true;
+  const double angle = log_so3(before.x.r.conjugate() * after.x.r).norm();
+  return angle <= w_max * dt_s * (1.0 + kRounding);
 }
 
 bool inside(const VectorState& state, const TaskLimits& limits) {
@@ -119,7 +128,8 @@ bool within_limits(const TaskSpace::Point& before, const TaskSpace::Point& after
   const Most p = translation_limits(limits), r = rotation_limits(limits);
   const VectorState from = translation_of(before), to = translation_of(after);
   return within(from, to, p, steps, dt_s) && (steps || derived(from, to, p, dt_s)) &&
-         within(rotation_of(before), rotation_of(after), r, steps, dt_s) && inside(to, limits);
+         within(rotation_of(before), rotation_of(after), r, steps, dt_s) &&
+         turned_within(before, after, r.v, dt_s) && inside(to, limits);
 }
 
 /// What the offset may do: of the translation, and of the rotation vector off a line.
