@@ -48,8 +48,8 @@ class KnownPath {
   double end_s() const { return time_[at(pieces_)]; }
   double time_s(int knot) const { return time_[at(knot)]; }
 
-  /// At path time s; at a knot of what comes after it.
-  PathPlace place(double s) const { return on_piece(piece(s), s); }
+  /// At path time s; at a knot, or a billionth of a second before it, of what comes after it.
+  PathPlace place(double s) const { return on_piece(piece(s + 1e-9), s); }
   PathPlace on_piece(int k, double s) const {
     const double t = s - time_[at(k)];
     PathPlace place;
@@ -72,7 +72,7 @@ class KnownPath {
     constexpr double kStep_s = 5e-5;
     double w = 1.0, time_s = 0.0;
     while (w > 1e-9 && s < end_s()) {
-      const double u = lowest_slope(place(s + 1e-12), w);
+      const double u = lowest_slope(place(s), w);
       const double ahead = std::min(kStep_s, end_s() - s + 1e-9);
       const double next = std::max(0.0, w + 2.0 * u * ahead);
       if (u >= 0.0 || next > 0.0) {

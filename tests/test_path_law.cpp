@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "kernel/reference/admission_room.hpp"
 #include "kernel/reference/path_law.hpp"
 #include "tests/path_cases.hpp"
 #include "tests/testing.hpp"
@@ -33,6 +34,16 @@ struct Runner {
     trajectory.capacity = trajectory.count = RandomPath::kPieces + 1;
     own.fill(trajectory, 0, RandomPath::kPieces);
   }
+  /// Known up to waypoint `last` only; the values that let it stop there are set.
+  void open_until(int last) {
+    trajectory.open = last < RandomPath::kPieces;
+    trajectory.count = last + 1;
+    const AdmissionSettings<JointSpace> settings;
+    trajectory.waypoints[0].room =
+        set_rooms(trajectory, settings, 0, 0, last, trajectory.open ? 0.0 : 1.0);
+    if (!trajectory.open)
+      for (Waypoint<JointSpace>& waypoint : waypoints) waypoint.room = waypoint.halfway = 1.0F;
+  }
   void start(double s, double rate) {
     path = Path<JointSpace>(trajectory, {});
     path.enter(s);
@@ -43,10 +54,10 @@ struct Runner {
   }
   void step(double target) {
     const double s = law.s(), rate = law.rate(), slope = law.slope();
-    const JointVector before = acceleration(own.place(s + 1e-9));
+    const JointVector before = acceleration(own.place(s));
     law.step(path, target, JointSpace::peaks(limits), kPeriod_s);
     const JointSpace::Point out = path.at(law.s());
-    const PathPlace now = own.place(law.s() + 1e-9);
+    const PathPlace now = own.place(law.s());
     const JointVector after = acceleration(now);
     assert_true(law.rate() >= 0.0 && law.rate() <= 1.0 && law.s() >= s);
     JointVector steps = JointVector::Zero();  // of the path itself
@@ -104,12 +115,91 @@ void stops_of(PathKind kind) {
       percentile(jerks, 0.99), percentile(jerks, 1.0), never);
   assert_true(v <= 1.0 + 1e-9);
   assert_true(a <= 1.0 + 1e-9);
+  assert_true(percentile(jerks, 0.99) <= 1.05);
+  assert_true(percentile(ratios, 0.5) <= 1.1 && percentile(ratios, 0.99) <= 1.3);
+  assert_int_equal(never, 0);
 }
 
 // Proves RG-11.
 
 void a_stop_keeps_limits_and_is_nearly_as_quick_as_acceleration_allows(void**) {
   for (const PathKind kind : kPathKinds) stops_of(kind);
+}
+
+/// Targets 0, 1 and any, every 1..30 or 30..500 ms.
+void a_path_keeps_limits_whatever_rate_is_asked_for_and_when(void**) {
+  for (const PathKind kind : kPathKinds) {
+    Random random{7 + static_cast<std::uint64_t>(kind)};
+    std::vector<double> jerks;
+    double v = 0.0, a = 0.0;
+    for (int n = trials() / 4; n > 0; --n) {
+      Runner runner(kind, random);
+      runner.start(0.0, 1.0);
+      double target = 1.0;
+      int left = 0;
+      for (int k = 0; k < 20000 && runner.law.s() < runner.own.end_s(); ++k, --left) {
+        if (left == 0) {
+          const int which = random.below(4);
+          target = which == 0 ? 0.0 : which == 1 ? 1.0 : random.uniform(0.0, 1.0);
+          left = random.below(2) != 0 ? 1 + random.below(30) : 30 + random.below(470);
+        }
+        runner.step(target);
+      }
+      v = std::fmax(v, runner.v);
+      a = std::fmax(a, runner.a);
+      jerks.push_back(runner.jerk);
+    }
+    print_message("  %-22s a %.10f, v %.6f, jerk %.3f/%.3f/%.3f\n",
+                  kPathKindNames[static_cast<std::size_t>(kind)], a, v, percentile(jerks, 0.5),
+                  percentile(jerks, 0.99), percentile(jerks, 1.0));
+    assert_true(v <= 1.0 + 1e-9);
+    assert_true(a <= 1.0 + 1e-9);
+  }
+}
+
+// Proves RG-14.
+
+void an_open_path_is_never_run_to_its_end(void**) {
+  for (const PathKind kind : kPathKinds) {
+    Random random{99 + static_cast<std::uint64_t>(kind)};
+    double v = 0.0, a = 0.0, least_s = kInfinity, rates = 0.0, jerk = 0.0;
+    int cycles = 0;
+    for (int n = trials() / 4; n > 0; --n) {
+      Runner runner(kind, random);
+      int known = 1 + random.below(3);
+      const bool cut_off = random.below(10) < 3, targets = random.below(2) != 0;
+      const int cut = cut_off ? RandomPath::kPieces / 2 : RandomPath::kPieces;
+      runner.open_until(known);
+      runner.start(0.0, 1.0);
+      const double ahead_s = random.uniform(0.02, 0.3);
+      double target = 1.0;
+      for (int k = 0; k < 60000 && runner.law.s() < runner.own.end_s(); ++k) {
+        if (targets && random.below(100) == 0)
+          target = random.below(2) != 0 ? 1.0 : random.uniform(0.0, 1.0);
+        if (known < cut && runner.own.time_s(known) - runner.law.s() < ahead_s) {
+          known = std::min(cut, known + 1 + random.below(2));
+          runner.open_until(known);
+        }
+        if (cut_off && known == cut && runner.law.standing()) break;
+        runner.step(target);
+        rates += runner.law.rate();
+        ++cycles;
+        if (runner.trajectory.open) {
+          least_s = std::fmin(least_s, runner.path.end_s() - runner.law.s());
+        }
+      }
+      if (cut_off) assert_true(runner.law.standing());
+      v = std::fmax(v, runner.v);
+      a = std::fmax(a, runner.a);
+      jerk = std::fmax(jerk, runner.jerk);
+    }
+    print_message("  %-22s a %.10f, v %.6f, jerk %.3f, least way left %.3f ms, mean rate %.2f\n",
+                  kPathKindNames[static_cast<std::size_t>(kind)], a, v, jerk, 1e3 * least_s,
+                  rates / cycles);
+    assert_true(v <= 1.0 + 1e-9);
+    assert_true(a <= 1.0 + 1e-9);
+    assert_true(least_s > 0.0);
+  }
 }
 
 }  // namespace
@@ -119,6 +209,8 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_stop_keeps_limits_and_is_nearly_as_quick_as_acceleration_allows),
+      cmocka_unit_test(a_path_keeps_limits_whatever_rate_is_asked_for_and_when),
+      cmocka_unit_test(an_open_path_is_never_run_to_its_end),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -168,7 +168,8 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
   Interval slopes = kAnySlope;
   bend_ = kFastest * kFastest;
   for (int i = 0; i < kAhead; ++i) {
-    const double away_s = i * spacing_s, time_s = dt_s + away_s;
+    // Something may have changed since one period behind the place before.
+    const double time_s = dt_s + i * spacing_s, away_s = i > 0 ? (i - 1) * spacing_s + dt_s : 0.0;
     const Local at = path.local(later_s(time_s), ahead);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
     const typename Space::Rates offset = at.d2 * (rate * rate);
@@ -207,18 +208,20 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
   const double way = target - rate_ - 0.5 * slope_ * dt_s;
   const double wanted = reach.nearest(std::copysign(onto(std::abs(way), bend_, dt_s), way));
   const double slope = hard.nearest(next_sample.soft.nearest(wanted));
-  return corrected(path, slope, falling, limits, dt_s, ahead);
+  return corrected(path, slope, limits, dt_s, ahead);
 }
 
 /// Acceleration is not linear in the slope, and the next sample may lie on another segment than
 /// thought: the slope is put right until it is within limits where it takes the path.
 template <class Space>
-double PathLaw<Space>::corrected(const Path<Space>& path, double slope, double falling,
-                                 const Limits& limits, double dt_s, Piece& ahead) const {
+double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Limits& limits,
+                                 double dt_s, Piece& ahead) const {
   constexpr int n = Space::kChannelSize;
+  double falling = 0.0;
   for (int i = 0; i < kCorrections; ++i) {
-    if (slope <= 0.0 && slope >= falling) return slope;
     const Next there = next(slope, dt_s);
+    falling = std::min(0.0, 0.5 * path.room(there.s).slope);
+    if (slope <= 0.0 && slope >= falling) return slope;
     const Local at = path.local(there.s, ahead);
     const typename Space::Rates own = at.d2 * (there.rate * there.rate);
     const typename Space::Rates all = own + at.d1 * slope;

@@ -63,8 +63,8 @@ class PathLaw {
   Slopes slopes(const Path<Space>& path, const Limits& limits, double dt_s, Piece& ahead) const;
   Interval advice(const Path<Space>& path, const Limits& limits, double dt_s, Piece& ahead);
   double choose(const Path<Space>& path, double target, const Limits& limits, double dt_s);
-  double corrected(const Path<Space>& path, double slope, double falling, const Limits& limits,
-                   double dt_s, Piece& ahead) const;
+  double corrected(const Path<Space>& path, double slope, const Limits& limits, double dt_s,
+                   Piece& ahead) const;
   void settle(const Path<Space>& path, double target, double slope, double dt_s);
 
   double carry_ = 0.0;  // what s_ has lost to rounding, of millions of periods added up
