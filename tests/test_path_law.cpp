@@ -45,7 +45,7 @@ struct Runner {
       for (Waypoint<JointSpace>& waypoint : waypoints) waypoint.room = waypoint.halfway = 1.0F;
   }
   void start(double s, double rate) {
-    path = Path<JointSpace>(trajectory, {});
+    path = Path<JointSpace>(trajectory, {}, JointLimits());
     path.enter(s);
     law.start(path, s, rate, JointSpace::peaks(limits), kPeriod_s);
   }
@@ -79,7 +79,7 @@ struct Runner {
 
 double percentile(std::vector<double>& values, double share) {
   std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (values.size() - 1.0))];
+  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (static_cast<double>(values.size()) - 1.0))];
 }
 
 void stops_of(PathKind kind) {

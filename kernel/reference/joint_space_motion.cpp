@@ -9,6 +9,9 @@ namespace {
 
 /// Rounding that a state at a limit may have, of that limit.
 constexpr double kRounding = 3e-10;
+/// Of a range, rad: what its end is kept from beside a moving base, for the rounding of many
+/// periods.
+constexpr double kInset = 1e-8;
 /// Of the jerk limits, for a path beside an offset.
 constexpr double kPathJerk = 0.5;
 
@@ -43,8 +46,8 @@ bool within_limits(const AxisState& before, const AxisState& after, const AxisLi
           (std::abs(after.a - before.a) <= change && derived(before, after, limits.j, dt_s))) &&
          std::abs(after.v - before.v) <= limits.a_up * dt_s * most &&
          std::abs(after.v) <= limits.v_hi * most && std::abs(run_out) <= limits.v_hi * most &&
-         std::abs(after.a) <= limits.a_up * most && stop.lowest >= range.lowest &&
-         stop.highest <= range.highest;
+         std::abs(after.a) <= limits.a_up * most && stop.lowest >= range.lowest + kInset &&
+         stop.highest <= range.highest - kInset;
 }
 
 /// Where joint j goes in this period when the offset it had at best leaves a limit: it keeps the
