@@ -185,6 +185,7 @@ void a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met(void**) {
   Trajectory<TaskSpace>& motion = bench.add(3.0, point);
   point.x.p = {0.0, -0.2, 0.0};
   bench.add(6.0, point);
+  motion.fields = static_cast<Fields>(motion.fields | kEffortField);
   motion.terms.wrench = &frame;
   std::uint32_t id = 0;
   assert_true(bench.client.send(motion, id).ok());

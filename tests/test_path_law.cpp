@@ -35,12 +35,12 @@ struct Runner {
     own.fill(trajectory, 0, RandomPath::kPieces);
   }
   /// Known up to waypoint `last` only; the values that let it stop there are set.
-  void open_until(int last) {
-    trajectory.open = last < RandomPath::kPieces;
-    trajectory.count = last + 1;
+  void open_until(int index) {
+    trajectory.open = index < RandomPath::kPieces;
+    trajectory.count = index + 1;
     const AdmissionSettings<JointSpace> settings;
     trajectory.waypoints[0].room =
-        set_rooms(trajectory, settings, 0, 0, last, trajectory.open ? 0.0 : 1.0);
+        set_rooms(trajectory, settings, 0, 0, index, trajectory.open ? 0.0 : 1.0);
     if (!trajectory.open)
       for (Waypoint<JointSpace>& waypoint : waypoints) waypoint.room = waypoint.halfway = 1.0F;
   }
