@@ -69,7 +69,7 @@ void a_trajectory_is_braked_on_its_path_within_limits_and_everything_is_accounte
       const double offset = now.q[0] - b.home[0];
       for (int i = 0; i < kDof; ++i) {
         assert_true(std::abs(now.dq[i]) <= limits.dq_max[i] * 1.000001);
-        assert_true(std::abs(now.dq[i] - before.dq[i]) <= limits.ddq_max[i] * kPeriod_s * 1.0001);
+        assert_true(std::abs(now.dq[i] - before.dq[i]) <= limits.ddq_max[i] * kPeriod_s * 1.001);
         ASSERT_NEAR(now.q[i] - b.home[i], offset, 1e-9);  // the path is a line through all joints
       }
     }
@@ -109,8 +109,7 @@ void a_trajectory_that_waits_is_aborted_and_a_stream_of_points_is_brought_to_res
     finals.take(b);
     const JointVector change = b.out().dq - dq;
     for (int i = 0; i < kDof; ++i)
-      assert_true(std::abs(change[i]) <=
-                  b.channel.settings.limits.ddq_max[i] * kPeriod_s * 1.0001);
+      assert_true(std::abs(change[i]) <= b.channel.settings.limits.ddq_max[i] * kPeriod_s * 1.0001);
   }
   assert_true(b.out().dq.isZero(0.0));
   assert_true(finals.outcome[waiting] == Outcome::kAborted && finals.count[waiting] == 1);

@@ -74,7 +74,7 @@ void a_pose_and_its_motion_are_those_of_the_frame_they_are_given_in(void**) {
     given.v = any_six(random, 1.0);
     given.a = any_six(random, 1.0);
     given.h = any_six(random, 10.0);
-    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({&frame, {}}, {}));
+    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({&frame, {}}, {}, TaskLimits()));
     const Eigen::Isometry3d expected = transform(frame) * transform(given.x);
     assert_true(transform(placed.x).isApprox(expected, 1e-13));
     // After a short time, the pose of the moving tip taken along with its frame.
@@ -96,7 +96,7 @@ void a_wrench_about_its_frame_does_the_same_work_at_the_tip(void**) {
     TaskSpace::Point given;
     given.x = any_pose(random, 1.0);
     given.h = any_six(random, 10.0);
-    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({{}, &frame}, {}));
+    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({{}, &frame}, {}, TaskLimits()));
     const Vector6 twist = any_six(random, 1.0);  // of the body, at the tip, in the base frame
     const Eigen::Matrix3d to_frame = transform(frame).linear().transpose();
     const Vector3 w = twist.tail<3>();
@@ -112,7 +112,7 @@ void the_rate_of_a_wrench_counts_the_tip_that_moves(void**) {
   Random random{3};
   for (int i = 0; i < 50; ++i) {
     const Pose frame = any_pose(random, 1.0);
-    const TaskSpace::Latched terms = TaskSpace::latch({{}, &frame}, {});
+    const TaskSpace::Latched terms = TaskSpace::latch({{}, &frame}, {}, TaskLimits());
     TaskSpace::Point given;
     given.x = any_pose(random, 1.0);
     given.v = any_six(random, 1.0);
@@ -185,6 +185,7 @@ void a_lever_that_makes_a_moment_too_large_is_refused_when_it_is_met(void**) {
   Trajectory<TaskSpace>& motion = bench.add(3.0, point);
   point.x.p = {0.0, -0.2, 0.0};
   bench.add(6.0, point);
+  motion.fields = static_cast<Fields>(motion.fields | kEffortField);
   motion.terms.wrench = &frame;
   std::uint32_t id = 0;
   assert_true(bench.client.send(motion, id).ok());

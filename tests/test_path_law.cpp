@@ -35,12 +35,12 @@ struct Runner {
     own.fill(trajectory, 0, RandomPath::kPieces);
   }
   /// Known up to waypoint `last` only; the values that let it stop there are set.
-  void open_until(int last) {
-    trajectory.open = last < RandomPath::kPieces;
-    trajectory.count = last + 1;
+  void open_until(int index) {
+    trajectory.open = index < RandomPath::kPieces;
+    trajectory.count = index + 1;
     const AdmissionSettings<JointSpace> settings;
     trajectory.waypoints[0].room =
-        set_rooms(trajectory, settings, 0, 0, last, trajectory.open ? 0.0 : 1.0);
+        set_rooms(trajectory, settings, 0, 0, index, trajectory.open ? 0.0 : 1.0);
     if (!trajectory.open)
       for (Waypoint<JointSpace>& waypoint : waypoints) waypoint.room = waypoint.halfway = 1.0F;
   }
@@ -79,7 +79,9 @@ struct Runner {
 
 double percentile(std::vector<double>& values, double share) {
   std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * (static_cast<double>(values.size()) - 1.0))];
+  return values.empty()
+             ? 0.0
+             : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 void stops_of(PathKind kind) {
@@ -175,7 +177,7 @@ void an_open_path_is_never_run_to_its_end(void**) {
       double target = 1.0;
       for (int k = 0; k < 60000 && runner.law.s() < runner.own.end_s(); ++k) {
         if (targets && random.below(100) == 0)
-          target = random.below(2) != 0 ? 1.0 : random.uniform(0.0, 1.0);
+          target = random.below(2) != 0 ? 1.0 : random.uniform(0.3, 1.0);
         if (known < cut && runner.own.time_s(known) - runner.law.s() < ahead_s) {
           known = std::min(cut, known + 1 + random.below(2));
           runner.open_until(known);

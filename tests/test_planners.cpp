@@ -74,7 +74,7 @@ struct Run {
   }
 };
 
-// Proves RG-6, RG-11.
+// Proves RG-6, RG-24.
 
 void what_a_planner_sampled_is_admitted_and_kept_within_limits(void**) {
   for (const File& file : kFiles) {
@@ -92,6 +92,35 @@ void what_a_planner_sampled_is_admitted_and_kept_within_limits(void**) {
   }
 }
 
+void what_must_keep_its_times_or_be_hardly_longer_is_refused(void**) {
+  Trajectory<JointSpace> trajectory = load("planner_1_8ms_pva");
+  trajectory.exact = true;
+  assert_false(admit(trajectory, settings()).ok());
+  trajectory.exact = false;
+  AdmissionSettings<JointSpace> strict = settings();
+  strict.max_stretch = 0.01;
+  const Verdict verdict = admit(trajectory, strict);
+  assert_true(verdict.value > verdict.limit && verdict.waypoint > 0 && verdict.axis >= 0);
+}
+
+void positions_alone_may_be_dense_but_no_zigzag(void**) {
+  for (const char* name : {"planner_1_8ms_pv", "planner_2_8ms_pv", "planner_3_8ms_pv"}) {
+    Trajectory<JointSpace> trajectory = load(name);
+    trajectory.fields = 0;
+    ASSERT_OK(admit(trajectory, settings()).status);
+  }
+  Trajectory<JointSpace> zigzag = load("planner_1_8ms_pv");
+  zigzag.fields = 0;
+  for (int i = 0; i < zigzag.count; ++i) {
+    zigzag.waypoints[i].time_s = 1e-3 * i;
+    zigzag.waypoints[i].point = zigzag.waypoints[0].point;
+    zigzag.waypoints[i].point.q[0] += i % 2 == 0 ? 0.0 : 0.27e-3;  // 0.54 rad/s at each corner
+  }
+  const Verdict verdict = admit(zigzag, settings());
+  ASSERT_STATUS(verdict.status, Status::kVelocityStep);
+  assert_int_equal(verdict.axis, 0);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -99,6 +128,8 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_a_planner_sampled_is_admitted_and_kept_within_limits),
+      cmocka_unit_test(what_must_keep_its_times_or_be_hardly_longer_is_refused),
+      cmocka_unit_test(positions_alone_may_be_dense_but_no_zigzag),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -91,13 +91,13 @@ struct Runner {
       waypoint.point.a /= factor * factor;
     }
   }
-  void open_until(int last) {
-    trajectory.open = last < kPieces;
-    trajectory.count = last + 1;
-    waypoints[0].room = set_rooms(trajectory, settings, 0, 0, last, trajectory.open ? 0.0 : 1.0);
+  void open_until(int index) {
+    trajectory.open = index < kPieces;
+    trajectory.count = index + 1;
+    waypoints[0].room = set_rooms(trajectory, settings, 0, 0, index, trajectory.open ? 0.0 : 1.0);
   }
   void start(double s, double rate) {
-    path = Path<TaskSpace>(trajectory, {});
+    path = Path<TaskSpace>(trajectory, {}, TaskLimits());
     path.enter(s);
     law.start(path, s, rate, TaskSpace::peaks(limits), kPeriod_s);
     last = path.at(s).at_rate(law.rate(), 0.0);

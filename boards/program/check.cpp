@@ -33,6 +33,7 @@ int check(Session& session, const Options& options, const RobotState& initial) {
   if (input.given())
     std::printf("; %s: accepted, %d waypoints, %.6g s", input.path.c_str(), input.count(),
                 input.end_s());
+  if (input.stretch() > 0.0) std::printf(", %.1f %% longer", 100.0 * input.stretch());
   std::printf("\n");
   return kSucceeded;
 }

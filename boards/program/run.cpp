@@ -102,6 +102,7 @@ int run(Session& session, const Options& options) {
 
   static RunResult result;
   result.seed = options.seed;
+  result.stretch = input.stretch();
   result.realtime.asked = options.realtime;
   result.realtime.report = realtime.report();
   result.config_hash = fnv1a_of_file(input.path.c_str(), fnv1a(session.text));
@@ -122,6 +123,8 @@ int run(Session& session, const Options& options) {
     written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
                                *recording.tracking[0].reference);
   print_table(pipeline, session, result);
+  if (input.stretch() > 0.0)
+    std::printf("  trajectory accepted, %.1f %% longer\n", 100.0 * input.stretch());
   if (!written) std::fprintf(stderr, "%s: not everything could be written\n", folder.c_str());
   if (options.figure && written) draw_figure(folder.c_str());
   std::printf("  written to %s\n", folder.c_str());

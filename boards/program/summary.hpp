@@ -14,6 +14,7 @@ struct RunResult {
   const char* name = "succeeded";
   Rung rung = Rung::kDisabled;  ///< on which the last cycle left it
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
+  double stretch = 0.0;  ///< of its trajectory
   double wall_s = 0.0, simulated_s = 0.0;
   std::array<TrackingError, kMaxTracking> tracking;
   int tracking_count = 0;

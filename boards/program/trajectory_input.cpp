@@ -74,6 +74,7 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
     return false;
   }
   trajectory->interpolation = session.gateway.interpolation;
+  trajectory->exact = session.gateway.times == Times::kExact;
   input.start_s = session.gateway.start_s;
   if (input.start_s > 0.0) trajectory->start_s = input.start_s;
   input.trajectory = trajectory;
@@ -91,6 +92,10 @@ int TrajectoryInput::count() const {
 double TrajectoryInput::time_s(int waypoint) const {
   return with_trajectory(
       *this, 0.0, [waypoint](const auto& motion) { return motion.waypoints[waypoint].time_s; });
+}
+
+double TrajectoryInput::stretch() const {
+  return with_trajectory(*this, 0.0, [](const auto& motion) { return motion.stretch; });
 }
 
 void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {

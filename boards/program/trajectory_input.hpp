@@ -18,6 +18,7 @@ struct TrajectoryInput {
   bool given() const { return trajectory.index() != 0; }
   int count() const;                  ///< waypoints
   double time_s(int waypoint) const;  ///< of a waypoint, from its beginning
+  double stretch() const;             ///< by how much it is slowed down, as a fraction of its time
   double end_s() const { return given() ? time_s(count() - 1) : 0.0; }
 };
 

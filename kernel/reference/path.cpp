@@ -70,7 +70,7 @@ Verdict Path<Space>::lead_in(const Point& put_out, double s, int target, const S
   const Point to = trajectory_->point(target, latched_);
   present_ = {target, s, Segment(reference, to, T, how, trajectory_->fields)};
   const typename Space::Peaks most =
-      Space::peaks(settings.limits).reserved(1.0 - settings.stop_reserve);
+      Space::peaks(settings.limits).reserved(1.0 - 0.5 * settings.stop_reserve);
   const typename Space::Measure measure = Space::measure(present_.segment, settings.limits, most);
   Verdict verdict = Space::judge_room(measure, settings.limits);
   if (verdict.ok()) verdict = judge(measure.peaks, most, Space::kChannelSize);

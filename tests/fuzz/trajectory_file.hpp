@@ -93,6 +93,7 @@ class TrajectoryFile {
 
   void judge(Interpolation how) {
     trajectory_.interpolation = how;
+    trajectory_.exact = true;
     const AdmissionSettings<Space> settings{{}, 1e-3, 0.1};
     if (!admit(trajectory_, settings).ok()) return;
     const typename Space::Latched terms = Space::anywhere(trajectory_.terms, settings.limits);
