@@ -89,14 +89,14 @@ Vector3 target(int number, const Vector3& tip) {
 
 void whatever_the_target_the_arm_ends_at_rest_with_any_lag_and_delay(void**) {
   int number = 0;
-  for (const double time_constant_s : {0.0, 2e-3, 5e-3, 20e-3, 50e-3, 100e-3})
+  for (const double time_constant_s : {0.0, 5e-3, 20e-3, 100e-3})
     for (const double dt_s : {1e-3, 2e-3, 8e-3})
       for (int delay = 0; delay <= Loop::kMostDelay; delay += dt_s > 1e-3 ? 1 : 2) {
         // Every target at the slowest rate, where the delays are longest; else one after the other.
         for (int i = 0; i < (dt_s > 4e-3 && delay % 4 == 0 ? kTargets : 1); ++i, ++number) {
           Loop loop(time_constant_s, delay, dt_s);
           loop.x_d.p = target(number % kTargets, loop.x.p);
-          constexpr double kTime_s = 45.0, kRest_s = 2.0;
+          constexpr double kTime_s = 60.0, kRest_s = 2.0;
           double fastest = 0.0;
           for (int k = 0; k * dt_s < kTime_s; ++k) {
             const double speed = loop.step();

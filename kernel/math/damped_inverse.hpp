@@ -42,18 +42,18 @@ class DampedInverse {
   DampedInverse(const JacobianMatrix& J, double onset, double floor = 0.0) : J_(J) {
     Matrix6 JJt = J_ * J_.transpose();
     JJt.diagonal().array() += kRounding;
-    hardly_damped_.compute(JJt);
-    sigma_ = 1.0 / std::sqrt(trace_of_inverse(hardly_damped_));
-    if (sigma_ < onset) {
-      lambda_ = onset - sigma_;
-      hardly_damped_.compute(plus(JJt, kNullShare * lambda_));
-    }
+    null_.compute(JJt);
+    sigma_ = 1.0 / std::sqrt(trace_of_inverse(null_));
+    if (sigma_ < onset) lambda_ = onset - sigma_;
     damped_.compute(plus(JJt, lambda_));
-    const double missing = floor - sigma_ * sigma_;
-    if (missing > lambda_ * lambda_)
-      corrective_.compute(plus(JJt, std::sqrt(missing)));
-    else
-      corrective_ = damped_;
+    corrective_ = damped_;
+    double null_lambda = kNullShare * lambda_;
+    if (const double missing = floor - sigma_ * sigma_; missing > lambda_ * lambda_) {
+      const double lambda_c = std::sqrt(missing);
+      corrective_.compute(plus(JJt, lambda_c));
+      null_lambda += lambda_c - lambda_;
+    }
+    if (null_lambda > 0.0) null_.compute(plus(JJt, null_lambda));
   }
 
   /// J# v. [cyclic]
@@ -61,10 +61,8 @@ class DampedInverse {
   /// The same for a correction, with lambda_c. [cyclic]
   Joints correcting(const Twist& v) const { return J_.transpose() * corrective_.solve(v); }
   /// (I - J# J) dq, which moves the task by no more than lambda |dq| / 20, and not at all where
-  /// nothing is damped. [cyclic]
-  Joints null_space(const Joints& dq) const {
-    return dq - J_.transpose() * hardly_damped_.solve(J_ * dq);
-  }
+  /// nothing is damped; where the floor acts by no more than lambda_c |dq| / 2. [cyclic]
+  Joints null_space(const Joints& dq) const { return dq - J_.transpose() * null_.solve(J_ * dq); }
 
   /// Distance from a singularity; about 1e-6 where the rank is lost. [any]
   double sigma() const { return sigma_; }
@@ -78,7 +76,9 @@ class DampedInverse {
   static constexpr double kRounding = 1e-12;
   // Share of the damping in the null-space projector. None at all, and it would jump at a
   // singularity, where the posture also decides to which side an arm bends that was stretched out;
-  // the whole, and the task would move: by s l^2 / (s^2 + l^2) <= l / 2, l being the share.
+  // the whole, and the task would move: by s l^2 / (s^2 + l^2) <= l / 2, l being the share. The
+  // projector turns with the joints by up to 1 / l: where an error stays the rest of lambda_c is in
+  // it too, so that this gain of the posture is bounded as that of the corrections is.
   static constexpr double kNullShare = 0.1;
 
   static Matrix6 plus(Matrix6 JJt, double lambda) {
@@ -92,7 +92,7 @@ class DampedInverse {
   }
 
   JacobianMatrix J_;
-  Eigen::LLT<Matrix6> damped_, corrective_, hardly_damped_;
+  Eigen::LLT<Matrix6> damped_, corrective_, null_;
   double sigma_ = 0.0, lambda_ = 0.0;
 };
 
