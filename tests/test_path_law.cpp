@@ -118,7 +118,11 @@ void stops_of(PathKind kind) {
   assert_true(v <= 1.0 + 1e-9);
   assert_true(a <= 1.0 + 1e-9);
   assert_true(percentile(jerks, 0.99) <= 1.05);
-  assert_true(percentile(ratios, 0.5) <= 1.1 && percentile(ratios, 0.99) <= 1.3);
+  // The optimum knows no jerk: slow jerk costs what it takes to build the acceleration up.
+  const JointLimits limits;
+  const bool quick = limits.ddq_max[0] <= 2.1e-3 * limits.dddq_max[0];
+  assert_true(percentile(ratios, 0.5) <= (quick ? 1.1 : 1.2));
+  assert_true(percentile(ratios, 0.99) <= (quick ? 1.3 : 1.5));
   assert_int_equal(never, 0);
 }
 
