@@ -133,7 +133,7 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
 /// A control is sent only if its report has its room: see kControls.
 template <class Space>
 Verdict ReferenceClient<Space>::control(ControlKind kind, std::uint32_t& id, double rate) {
-  const auto free = std::find(unanswered_.begin(), unanswered_.end(), 0U);
+  const auto free = std::find(unanswered_.begin(), unanswered_.end(), std::uint32_t{0});
   if (free == unanswered_.end() || !channel_.controls.post({next_id_, kind, rate}))
     return {Status::kMailboxFull};
   *free = id = next_id_++;
@@ -152,7 +152,8 @@ template <class Space>
 bool ReferenceClient<Space>::poll(Report& report) {
   for (std::size_t store = 0; store < away_.size(); ++store) settle(store);
   if (!channel_.reports.take(report)) return false;
-  if (report.id != 0) std::replace(unanswered_.begin(), unanswered_.end(), report.id, 0U);
+  if (report.id != 0)
+    std::replace(unanswered_.begin(), unanswered_.end(), report.id, std::uint32_t{0});
   if (report.store >= 0) away_[static_cast<std::size_t>(report.store)] = false;
   return true;
 }

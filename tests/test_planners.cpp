@@ -51,7 +51,7 @@ struct Run {
   explicit Run(const Trajectory<JointSpace>& trajectory) {
     const KnownPath own(trajectory);
     const JointLimits limits;
-    Path<JointSpace> path(trajectory, {});
+    Path<JointSpace> path(trajectory, {}, limits);
     PathLaw<JointSpace> law;
     path.enter(0.0);
     law.start(path, 0.0, 1.0, JointSpace::peaks(limits), kPeriod_s);
