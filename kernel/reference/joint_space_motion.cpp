@@ -12,6 +12,8 @@ constexpr double kRounding = 3e-10;
 /// Of a range, rad: what its end is kept from beside a moving base, for the rounding of many
 /// periods.
 constexpr double kInset = 1e-8;
+/// Of the acceleration limits, which hold at the samples of a path: so they do between them.
+constexpr double kBetweenSamples = 0.997;
 /// Of the jerk limits, for a path beside an offset.
 constexpr double kPathJerk = 0.5;
 
@@ -73,6 +75,7 @@ void set_axis(JointSpace::Point& point, int j, const AxisState& state) {
 
 JointSpace::Peaks JointSpace::left_to_path(const Limits& limits, const Difference& offset) {
   Peaks left = peaks(limits);
+  for (double& a : left.a) a *= kBetweenSamples;
   if (offset.zero()) return left;
   for (std::size_t i = 0; i < kDof; ++i) {
     left.a[i] = std::max(left.a[i] - std::abs(offset.ddx[static_cast<int>(i)]), 0.0);

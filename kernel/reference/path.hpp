@@ -62,10 +62,6 @@ class Path {
   bool smooth() const {
     return order_of(trajectory_->interpolation, trajectory_->fields) == Interpolation::kQuintic;
   }
-  /// Its velocity steps by nature, where lines meet.
-  bool corners() const {
-    return order_of(trajectory_->interpolation, trajectory_->fields) == Interpolation::kLinear;
-  }
   double first_s() const { return trajectory_->at(0).time_s; }
   double end_s() const { return trajectory_->end_s(); }
   bool open() const { return trajectory_->open; }

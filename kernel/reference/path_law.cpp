@@ -159,13 +159,11 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
 }
 
 /// Acceleration is not linear in the slope, and the next sample may lie on another segment than
-/// thought: the slope is put right until it is within limits where it takes the path, and so is the
-/// velocity that is gained meanwhile, but where lines step.
+/// thought: the slope is put right until it is within limits where it takes the path.
 template <class Space>
 double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Limits& limits,
                                  double dt_s, Piece& ahead) const {
   constexpr int n = Space::kChannelSize;
-  const typename Space::Rates before = path.local(s_, ahead).d1 * rate_;
   double falling = 0.0;
   for (int i = 0; i < kCorrections; ++i) {
     const Next there = next(slope, dt_s);
@@ -173,20 +171,15 @@ double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Li
     if (slope <= 0.0 && slope >= falling) return slope;
     const Local at = path.local(there.s, ahead);
     const typename Space::Rates own = at.d2 * (there.rate * there.rate);
-    const typename Space::Rates all = own + at.d1 * slope, gained = at.d1 * there.rate - before;
-    const typename Space::Rates gain = at.d1 * (0.5 * dt_s), rest = gained - gain * slope;
-    Interval hard = kAnySlope;
+    const typename Space::Rates all = own + at.d1 * slope;
     bool within = true;
     for (std::size_t c = 0; c < limits.a.size(); ++c) {
       const Eigen::Index k = static_cast<Eigen::Index>(c) * n;
-      const double most = std::max(limits.a[c], length<n>(&own[k])) * (1.0 + kRounding);
-      const bool gains = path.corners() || length<n>(&gained[k]) <= most * dt_s;
-      if (!gains) keep<n>(hard, &rest[k], &gain[k], limits.a[c] * dt_s);
-      within = within && gains && length<n>(&all[k]) <= most;
+      const double most = std::max(limits.a[c], length<n>(&own[k]));
+      within = within && length<n>(&all[k]) <= most * (1.0 + kRounding);
     }
     if (within) return slope;
-    const Interval at_sample = about(at, there, limits, dt_s).hard;
-    hard.cut(at_sample.lo, at_sample.hi);
+    Interval hard = about(at, there, limits, dt_s).hard;
     hard.include(0.0);
     hard.include(falling);
     slope = hard.nearest(slope);

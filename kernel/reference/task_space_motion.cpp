@@ -15,8 +15,9 @@
 namespace tactus {
 namespace {
 
-constexpr double kRounding = 3e-10;  // of a limit, that a state at it may have
-constexpr double kPathJerk = 0.5;    // of the limit, for a path beside an offset
+constexpr double kRounding = 3e-10;        // of a limit, that a state at it may have
+constexpr double kBetweenSamples = 0.997;  // of an acceleration that holds at samples of a path
+constexpr double kPathJerk = 0.5;          // of the limit, for a path beside an offset
 constexpr double kLeastShare = 0.2;  // of an axis that has nothing to go, before they are scaled
 
 /// Limits of one length, translation or rotation.
@@ -186,6 +187,7 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& r, const VectorState& from,
 
 TaskSpace::Peaks TaskSpace::left_to_path(const Limits& limits, const Difference& offset) {
   Peaks left = peaks(limits);
+  for (double& a : left.a) a *= kBetweenSamples;
   if (offset.zero()) return left;
   for (std::size_t i = 0; i < kChannels; ++i) {
     const double taken = offset.ddx.segment<3>(3 * static_cast<int>(i)).norm();
