@@ -31,9 +31,11 @@ void Motion<Space>::move_on(double dt_s) {
     const Point before = on_path() ? base_ : base_of_points(time_s_ - dt_s);
     base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
     if (phase_ == Phase::kReaching) offset_ = Space::difference(reference_, before);
-    reference_ = offset_.zero() ? base_
-                                : Space::approach(reference_, offset_, before, base_, steps(),
-                                                  settings_->limits, dt_s);
+    // A path is within limits by itself, and so is what stands; a stream of points is not.
+    const bool there = offset_.zero() && (on_path() || base_.standing());
+    reference_ = there ? base_
+                       : Space::approach(reference_, offset_, before, base_, steps(),
+                                         settings_->limits, dt_s);
     settle();
   }
   fade(dt_s);
