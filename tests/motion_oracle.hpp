@@ -85,7 +85,9 @@ class MotionOracle {
     // h^3 |w x alpha| / 12 to the order that counts here.
     const double turning =
         limits.turns ? 0.1 * h_ * h_ * h_ * limits.v * (limits.a + limits.v * limits.v) : 0.0;
-    expect("way in a period", way.norm(), limits.v * h_ * (1.0 + kOverLimit) + kRounding);
+    // Where only velocities are told, one of lines may lie between those of two samples.
+    const double between = smoothness_ == Smoothness::kPosition ? a * h_ * h_ / 12.0 : 0.0;
+    expect("way in a period", way.norm(), limits.v * h_ * (1.0 + kOverLimit) + between + kRounding);
     const double corners = smoothness_ == Smoothness::kPosition ? kCorners * limits.v_step : 0.0;
     expect("change of velocity in a period", dv.norm(), corners + a * h_ + kRounding);
     if (smoothness_ == Smoothness::kPosition) return;

@@ -29,6 +29,7 @@ struct ReferenceBench {
 
   ReferenceBench() {
     channel.settings.period_s = kPeriod_s;
+    params.measured = kVelocityField;
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = kWaypoints;

@@ -31,8 +31,8 @@ void Motion<Space>::move_on(double dt_s) {
     const Point before = on_path() ? base_ : base_of_points(time_s_ - dt_s);
     base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
     if (phase_ == Phase::kReaching) offset_ = Space::difference(reference_, before);
-    // A path is within limits by itself, and so is what stands; a stream of points is not.
-    const bool there = offset_.zero() && (on_path() || base_.standing());
+    // A path is within limits by itself, and what is held is put out as it is; a stream is neither.
+    const bool there = offset_.zero() && !streaming();
     reference_ = there ? base_
                        : Space::approach(reference_, offset_, before, base_, steps(),
                                          settings_->limits, dt_s);
@@ -44,7 +44,7 @@ void Motion<Space>::move_on(double dt_s) {
 /// Whatever is no path: a stream, or what is held.
 template <class Space>
 typename Space::Point Motion<Space>::base_of_points(double time_s) const {
-  return phase_ == Phase::kReaching && stream_.moves(time_s_) ? stream_.target(time_s) : held_;
+  return streaming() ? stream_.target(time_s) : held_;
 }
 
 /// The path one period on; held where it has ended, or rests when it is given up.
@@ -135,7 +135,7 @@ void Motion<Space>::stop() {
 
 template <class Space>
 void Motion<Space>::cancel() {
-  if (phase_ == Phase::kReaching) return stop();
+  if (phase_ == Phase::kReaching || !offset_.zero()) return stop();
   if (phase_ != Phase::kBraking) braking_s_ = 0.0;
   tell(MotionEvent::kCancel);
 }

@@ -39,7 +39,7 @@ class Motion {
   void set_rate(double rate) { rate_ = rate; }
   /// Paths are brought to rest, and go on after it, those of later trajectories too. [cyclic]
   void pause(bool on);
-  /// Comes to rest on its path, and leaves it there; off a path at once. [cyclic]
+  /// Comes to rest on its path, and leaves it there; beside a path or off it at once. [cyclic]
   void cancel();
   /// Leaves what it follows and comes to rest the fastest way, wherever that is. [cyclic]
   void stop();
@@ -63,6 +63,7 @@ class Motion {
 
  private:
   void tell(MotionEvent event) { phase_ = next(phase_, event); }
+  bool streaming() const { return phase_ == Phase::kReaching && stream_.moves(time_s_); }
   bool steps() const { return on_path() && !path_.smooth(); }
   Point base_of_points(double time_s) const;
   Point base_of_path(double dt_s);
