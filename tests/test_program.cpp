@@ -55,7 +55,8 @@ void run_refuses_as_check_does_and_writes_nothing(void**) {
 // Proves RG-6, RUN-2.
 
 void check_refuses_every_trajectory_that_breaks_a_limit_and_no_other(void**) {
-  const Line pipeline = write("p.ini", {kPipeline});
+  const Line pipeline =
+      write("p.ini", {kPipeline, "[guard]\nstop_reserve = 0.1\n[gateway]\ntimes = exact\n"});
   const auto as_expected = [&](const RefusedFile& file) {
     const char* path = file.path.data();
     const int code = tactus_run({"check", pipeline.c_str(), "--trajectory", path});

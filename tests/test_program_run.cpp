@@ -129,7 +129,7 @@ void the_signals_of_the_summary_have_the_columns_of_the_log(void**) {
 void a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   const Line trajectory = write("t.csv", {kHeader, kReady});
-  assert_int_equal(run_into("a", pipeline.c_str(), "1", trajectory.c_str()), 0);
+  assert_int_equal(run_into("a", pipeline.c_str(), "1", trajectory.c_str(), "0.2"), 0);
   assert_true(has(file_of("a/summary.json"), "\"name\": \"succeeded\""));
   assert_true(has(file_of("a/waypoints.csv"), "time_s,jrg.q_d_1,"));
   assert_int_equal(run_into("b", pipeline.c_str(), "1", trajectory.c_str(), "0.01"), 1);

@@ -1,7 +1,11 @@
 // The two-state machine of the reference generators, against the paper's sentences: a trajectory
 // that is received switches to its execution; when it is completed, aborted, or a new reference is
 // received, the generator returns to online references.   [Risi et al. 2026, section II]
+// Of the phases which the two states are made of: what can be reached, and that there is always a
+// way to rest and to a new trajectory.
 #include "kernel/reference/reference_state.hpp"
+
+#include "kernel/reference/motion_phase.hpp"
 
 #include "tests/testing.hpp"
 
@@ -52,6 +56,74 @@ void the_table_has_one_row_for_every_state_and_event_and_next_reads_that_row(voi
   }
 }
 
+constexpr Phase phase(std::size_t i) {
+  return static_cast<Phase>(i);
+}
+constexpr MotionEvent event(std::size_t i) {
+  return static_cast<MotionEvent>(i);
+}
+
+// Proves RG-1, RG-3.
+
+void every_phase_can_be_reached_from_holding(void**) {
+  std::array<bool, kPhases> reached{};
+  reached[static_cast<std::size_t>(Phase::kHolding)] = true;
+  for (std::size_t round = 0; round < kPhases; ++round) {
+    for (std::size_t from = 0; from < kPhases; ++from) {
+      for (std::size_t e = 0; reached[from] && e < kMotionEvents; ++e)
+        reached[static_cast<std::size_t>(next(phase(from), event(e)))] = true;
+    }
+  }
+  for (const bool is : reached) assert_true(is);
+}
+
+/// Whatever happens meanwhile that is neither a point nor a trajectory, a stop is on its way to
+/// rest or there, and rest ends it.
+void a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_keeps_it(void**) {
+  for (std::size_t from = 0; from < kPhases; ++from) {
+    const Phase stopped = next(phase(from), MotionEvent::kStop);
+    assert_true(stopped == Phase::kStopping || stopped == Phase::kHolding);
+    assert_true(next(stopped, MotionEvent::kAtRest) == Phase::kHolding);
+  }
+  for (const Phase resting : {Phase::kStopping, Phase::kHolding}) {
+    for (std::size_t e = 0; e < kMotionEvents; ++e) {
+      if (event(e) == MotionEvent::kPoint || event(e) == MotionEvent::kTrajectory) continue;
+      const Phase then = next(resting, event(e));
+      assert_true(then == resting || then == Phase::kHolding);
+    }
+  }
+}
+
+/// On the path or off it: a cancelled trajectory ends where its path has come to rest.
+void a_cancel_leads_to_rest_and_ends_every_trajectory(void**) {
+  for (std::size_t from = 0; from < kPhases; ++from) {
+    Phase then = next(phase(from), MotionEvent::kCancel);
+    assert_true(state_of(then) == ReferenceState::kOnlineReference);
+    assert_int_equal(on_path(then), on_path(phase(from)));
+    if (on_path(then)) then = next(then, MotionEvent::kEnd);
+    assert_true(!on_path(then) && next(then, MotionEvent::kAtRest) == Phase::kHolding);
+  }
+}
+
+void an_accepted_trajectory_is_joined_and_a_point_is_reached_from_everywhere(void**) {
+  for (std::size_t from = 0; from < kPhases; ++from) {
+    assert_true(next(phase(from), MotionEvent::kTrajectory) == Phase::kJoining);
+    assert_true(next(phase(from), MotionEvent::kPoint) == Phase::kReaching);
+  }
+}
+
+/// From every phase of a trajectory its end can be reached by what its path does and by a resume.
+void a_trajectory_that_is_fed_and_resumed_can_always_complete(void**) {
+  for (std::size_t from = 0; from < kPhases; ++from) {
+    if (state_of(phase(from)) != ReferenceState::kTrajectoryExecution) continue;
+    Phase then = next(next(phase(from), MotionEvent::kResume), MotionEvent::kFed);
+    assert_true(then == Phase::kJoining || then == Phase::kFollowing || then == Phase::kSettling);
+    then = next(next(then, MotionEvent::kJoined), MotionEvent::kEnd);
+    assert_true(then == Phase::kSettling);
+    assert_true(state_of(next(then, MotionEvent::kComplete)) == ReferenceState::kOnlineReference);
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -64,6 +136,12 @@ int main() {
       cmocka_unit_test(a_new_reference_ends_a_trajectory),
       cmocka_unit_test(online_nothing_but_a_trajectory_changes_the_state),
       cmocka_unit_test(the_table_has_one_row_for_every_state_and_event_and_next_reads_that_row),
+      cmocka_unit_test(every_phase_can_be_reached_from_holding),
+      cmocka_unit_test(
+          a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_keeps_it),
+      cmocka_unit_test(a_cancel_leads_to_rest_and_ends_every_trajectory),
+      cmocka_unit_test(an_accepted_trajectory_is_joined_and_a_point_is_reached_from_everywhere),
+      cmocka_unit_test(a_trajectory_that_is_fed_and_resumed_can_always_complete),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
