@@ -74,7 +74,8 @@ void a_pose_and_its_motion_are_those_of_the_frame_they_are_given_in(void**) {
     given.v = any_six(random, 1.0);
     given.a = any_six(random, 1.0);
     given.h = any_six(random, 10.0);
-    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({&frame, {}}, {}, TaskLimits()));
+    const TaskSpace::Point placed =
+        TaskSpace::placed(given, TaskSpace::latch({&frame, {}}, {}, TaskLimits()));
     const Eigen::Isometry3d expected = transform(frame) * transform(given.x);
     assert_true(transform(placed.x).isApprox(expected, 1e-13));
     // After a short time, the pose of the moving tip taken along with its frame.
@@ -96,7 +97,8 @@ void a_wrench_about_its_frame_does_the_same_work_at_the_tip(void**) {
     TaskSpace::Point given;
     given.x = any_pose(random, 1.0);
     given.h = any_six(random, 10.0);
-    const TaskSpace::Point placed = TaskSpace::placed(given, TaskSpace::latch({{}, &frame}, {}, TaskLimits()));
+    const TaskSpace::Point placed =
+        TaskSpace::placed(given, TaskSpace::latch({{}, &frame}, {}, TaskLimits()));
     const Vector6 twist = any_six(random, 1.0);  // of the body, at the tip, in the base frame
     const Eigen::Matrix3d to_frame = transform(frame).linear().transpose();
     const Vector3 w = twist.tail<3>();

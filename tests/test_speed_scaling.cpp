@@ -99,7 +99,8 @@ void after_a_start_a_trajectory_runs_at_full_speed_until_told_otherwise(void**) 
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
 }
 
-/// Between two cycles no limit is exceeded, but for what lies between samples, nothing steps, and the way never turns back.
+/// Between two cycles no limit is exceeded, but for what lies between samples, nothing steps, and
+/// the way never turns back.
 void assert_smooth(const JointSpace::Point& before, const JointSpace::Point& after,
                    const JointLimits& limits) {
   constexpr double kOver = 1.0 + 1e-9;
