@@ -62,6 +62,14 @@ class Return {
   double side_;
 };
 
+/// Back inside v_hi, or in the mirror inside v_lo.
+AxisState append_velocity_return(AxisPlan& plan, const AxisState& state, double side,
+                                 const AxisLimits& limits) {
+  Return back(plan, state, side);
+  back.velocity(limits);
+  return back.state();
+}
+
 }  // namespace
 
 AxisState append_acceleration_return(AxisPlan& plan, AxisState state, const AxisLimits& limits) {
@@ -74,12 +82,8 @@ AxisState append_acceleration_return(AxisPlan& plan, AxisState state, const Axis
 
 AxisState append_return(AxisPlan& plan, AxisState state, const AxisLimits& limits) {
   state = append_acceleration_return(plan, state, limits);
-  for (int i = 0; i < 2; ++i) {
-    Return back(plan, state, i == 0 ? 1.0 : -1.0);
-    back.velocity(i == 0 ? limits : mirrored(limits));
-    state = back.state();
-  }
-  return state;
+  state = append_velocity_return(plan, state, 1.0, limits);
+  return append_velocity_return(plan, state, -1.0, mirrored(limits));
 }
 
 }  // namespace tactus

@@ -161,17 +161,20 @@ void move_offset(TaskSpace::Difference& offset, const Allowed& allowed, double d
   synchronise<6>(offset, limits, room, dt_s);
 }
 
+/// The three axes of an offset from `first` on come to rest where they can.
+void rest_axes(TaskSpace::Difference& offset, int first, const Most& most, double dt_s) {
+  const VectorState rest = stop_on(
+      {offset.x.segment<3>(first), offset.dx.segment<3>(first), offset.ddx.segment<3>(first)},
+      most.a, most.j, dt_s);
+  offset.x.segment<3>(first) = rest.p;
+  offset.dx.segment<3>(first) = rest.v;
+  offset.ddx.segment<3>(first) = rest.a;
+}
+
 /// The offset comes to rest where it can, and stays.
 void rest_offset(TaskSpace::Difference& offset, const Allowed& allowed, double dt_s) {
-  for (const int first : {0, 3}) {
-    const Most& most = first == 0 ? allowed.p : allowed.phi;
-    const VectorState rest = stop_on(
-        {offset.x.segment<3>(first), offset.dx.segment<3>(first), offset.ddx.segment<3>(first)},
-        most.a, most.j, dt_s);
-    offset.x.segment<3>(first) = rest.p;
-    offset.dx.segment<3>(first) = rest.v;
-    offset.ddx.segment<3>(first) = rest.a;
-  }
+  rest_axes(offset, 0, allowed.p, dt_s);
+  rest_axes(offset, 3, allowed.phi, dt_s);
 }
 
 /// R turned by what a rotation from w0 to w1 in dt_s adds up to in the base frame, to the fourth

@@ -1,5 +1,6 @@
 """Tapes that seek the longest cycle: made by hand for what is known to take long, and at random from seeds."""
 
+import math
 import random
 
 from tape import Tape
@@ -63,38 +64,54 @@ def all_at_once(dof, signs, velocity, step):
     return tape.cycles(8)
 
 
-# Late trajectories whose way in is judged at its dearest: near a corner of the workspace and moving on towards it, the
-# hull of every axis is outside the box and the way itself is not, so that all extremes are looked for, and many are found.
-# Frames, corner, steps back from it, twist and acceleration there, how late, how long the way, where to, and the twist there.
-EDGES = (
-    (ALL_FRAMES, (-1, -1, 1), (19, 3, 15), (-16, -4, -13, 9, -18, -2), (-43, 0, -12, 24, -6, 21), 37, 199,
-     (3, 17, 8, 0, -15, 11), (0, 21, -2, 29, -15, -20), CORNERED[1][0]),
-    (BASE, (1, -1, -1), (16, 12, 21), (18, -18, -19, -15, 5, 9), (2, -28, -6, -29, 14, 33), 36, 198,
-     (-16, 14, 12, -1, -13, 6), (3, -1, -24, 27, -30, -14), CORNERED[3][0]),
+def half_wave(count, spacing_s, way, turn, beside):
+    """Waypoints on half a cosine along x and about z, in a frame and beside it, up to rest."""
+    k, waypoints = math.pi / (count * spacing_s), []
+    for i in range(1, count + 1):
+        c, s = math.cos(k * i * spacing_s), math.sin(k * i * spacing_s)
+        u, du, ddu = 0.5 * (1 - c), 0.5 * k * s * (i < count), 0.5 * k * k * c
+        quaternion = (math.cos(0.5 * turn * u), 0, 0, math.sin(0.5 * turn * u))
+        along = lambda x: (way * x, 0, 0, 0, 0, turn * x)
+        place = (beside[0] + way * u, beside[1], beside[2])
+        waypoints.append((i * spacing_s, *place, *quaternion, *along(du), *along(ddu), *(5, 4, 3, 2, 1, 1), *REST))
+    return waypoints
+
+
+def stopped_while_joining(dof, request, way=0.001, turn=0.0045, after=12):
+    """A path of segments as long as a cycle, joined late from beside it: every place that is looked at ahead lies on a
+    segment of its own. It is stopped on before it is joined."""
+    tape = Tape().numbers("joints", READY[dof]).cycles(5)
+    tape.waypoints(ALL_FRAMES, EVERYTHING, QUINTIC, 0.001, half_wave(30, 0.001, way, turn, (0.002, 0.001, 0)))
+    return tape.cycles(after).add(request)
+
+
+# Points and trajectories whose lead-in changes the signs of its derivatives often. It is refused out of the motion, and
+# judged again from where the arm can be stopped. Frames; twist and acceleration of the points; time of the first waypoint,
+# where it is, twist and acceleration there; time of the second; joints left out meanwhile.
+LEAD_INS = (
+    (BASE, (-17, -4, 13, -20, -11, 7), (-53, -1, -59, -36, 38, -36), 47, (27, 13, -2, -5, 12, 2),
+     (0, -12, 3, -26, -29, 19), (21, 12, -52, 50, 55, -38), 152, CORNERED[3][0]),
 )  # fmt: skip
 
 
-def at_edge(dof, frames, corner, back, twist, acceleration, cycles, time, beside, end, signs):
-    """Points into a corner of the workspace; then, between two checks of collisions, joints at their limits, a full mailbox
-    and a late trajectory."""
-    tape = Tape().numbers("joints", READY[dof]).cycles(2)
-    for axis in range(3):
-        for step in (127,) * 12 + (64, 32, 16, 8, 4, 2, 1):  # those that lead outside are refused
-            tape.point(BASE, POINT, [corner[axis] * step if i == axis else 0 for i in range(6)]).cycles(1)
-    tape.point(BASE, POINT, [-corner[i] * back[i] for i in range(3)] + [0, 0, 0]).cycles(3)
+def judged_twice(dof, frames, twist, acceleration, time, beside, end, end_acceleration, second, signs, cycles):
+    """While a dense path is stopped on and joined, joints at their limits, a full mailbox, whose last request is a
+    trajectory with a lead-in that is judged twice."""
+    tape = stopped_while_joining(dof, "pause").cycles(cycles)
     tape.numbers("joints", [127 * sign for sign in signs[:dof]])
     for _ in range(14):
         tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + twist + (2, 2, 2, 2, 2, 2) + REST)
     tape.point(BASE, EVERYTHING, REST + twist + acceleration + (1, 1, 1, 1, 1, 1))
-    waypoints = [(time, beside + end + REST + (5, 4, 3, 2, 1, 1)), (200, beside + REST + REST + REST)]
-    return tape.trajectory(frames, EVERYTHING, QUINTIC, -cycles, waypoints).cycles(1)
+    waypoints = [(time, beside + end + end_acceleration + (5, 4, 3, 2, 1, 1)), (second, beside + REST + REST + REST)]
+    return tape.trajectory(frames, EVERYTHING, QUINTIC, 0, waypoints).cycles(2)
 
 
 def by_hand(dof):
     tapes = [joined(dof, stream, joins, step) for stream in (0, 1, 13) for joins in (1, 3) for step in (1, 4, 12)]
     signs = (1, -1, 1, -1, 1, -1, 1)
     tapes += [at_limits(dof, turned, v) for turned in (signs, [-s for s in signs]) for v in ((90, 60, -60) * 2, REST)]
-    tapes += [at_edge(dof, *edge) for edge in EDGES]
+    tapes += [judged_twice(dof, *lead_in, cycles) for lead_in in LEAD_INS for cycles in (1, 2, 3)]
+    tapes += [stopped_while_joining(dof, request).cycles(40) for request in ("pause", "cancel")]
     return tapes + [all_at_once(dof, corner, twist, step) for corner, twist in CORNERED for step in (1, 12)]
 
 

@@ -45,8 +45,8 @@ def tell(facts, path):
     for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
         if command not in keys.get("robot", {}):  # the guard limits what the robot takes
             facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
-    if not any("timeout_ms" in section for section in keys.values()):  # a stream that dries up is not watched
-        facts.add("calls", r"ReferenceGenerator<.*>::watch_stream\(", r"::shape\(", "0")
+    if not any(section.get("online") == "limit" for section in keys.values()):  # points are put out as they come
+        facts.add("calls", r"ReferenceGenerator<.*>::(take_requests|take_point)\(", r"Motion<.*>::reach\(", "0")
 
 
 def robot_capsules(robot):

@@ -14,6 +14,7 @@ import re
 from wcet.image import ROOT, Unbounded
 
 CONSTANT = re.compile(r"constexpr\s+(?:std::size_t|int|Eigen::Index)\s+(k\w+)\s*=\s*([^;]+);")
+ANOTHER = re.compile(r"\b(k\w+)\s*=\s*((?:(?!,\s*k\w+\s*=).)+)", re.DOTALL)
 ARRAY = re.compile(r"std::array<[^;{}()]*?,\s*([^<>;]+?)>\s*&?\s*(\w+)\s*[;{=(,)]")
 ALIAS = re.compile(r"using\s+(\w+)\s*=\s*std::array<[^;]*?,\s*([^<>;]+?)>;")
 HEADER = re.compile(r"\b(for|while)\s*\(")
@@ -58,8 +59,9 @@ def loops_of(file):
 def constants_of(files):
     table = {}
     for file in files:
-        for name, value in CONSTANT.findall(without_comments((ROOT / file).read_text(encoding="utf-8"))):
-            table.setdefault(name, set()).add(" ".join(value.split()))
+        for first, values in CONSTANT.findall(without_comments((ROOT / file).read_text(encoding="utf-8"))):
+            for name, value in ANOTHER.findall(f"{first} = {values}"):  # one declaration may hold several
+                table.setdefault(name, set()).add(" ".join(value.split()))
     return table
 
 

@@ -44,6 +44,11 @@ class Tape:
         head = bytes([frames, fields, interpolation]) + byte(start) + bytes([len(waypoints) - 1])
         return self.add("trajectory", head + b"".join(bytes([t]) + b"".join(map(byte, v)) for t, v in waypoints))
 
+    def waypoints(self, frames, fields, interpolation, start_s, waypoints):
+        """waypoints: (time, position, quaternion, velocity, acceleration, wrench, its rate), 32 numbers each."""
+        head = bytes([frames, fields, interpolation, len(waypoints)]) + struct.pack("<d", start_s)
+        return self.add("waypoints", head + b"".join(struct.pack("<32d", *w) for w in waypoints))
+
 
 def write_reel(path, tapes):
     """A reel: every tape behind its length."""
