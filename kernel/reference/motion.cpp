@@ -56,7 +56,8 @@ typename Space::Point Motion<Space>::base_of_path(double dt_s) {
   if (path_.ended(law_.s())) return end_path(point);
   braking_s_ += dt_s;
   if (phase_ == Phase::kBraking && law_.standing()) return end_path(point);
-  if (phase_ == Phase::kBraking && braking_s_ > kLongestBrake_s) lost_path_ = true, stop();
+  if (phase_ == Phase::kBraking && braking_s_ > kLongestBrake_s)
+    return lost_path_ = true, stop(), point;
   if (law_.standing() && rate_ > 0.0 && path_.open()) tell(MotionEvent::kDry);
   if (!law_.standing() && phase_ == Phase::kStarving) tell(MotionEvent::kFed);
   return point;
