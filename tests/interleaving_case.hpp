@@ -8,13 +8,22 @@ namespace tactus {
 inline constexpr int kCycles = 3, kMostAsked = 4;
 
 /// Where a case begins. The generator is brought there by requests of the same kinds.
-enum class Begin { kOnline, kExecuting, kBraking, kPausing, kPaused };
-inline constexpr Begin kBegins[] = {Begin::kOnline, Begin::kExecuting, Begin::kBraking,
-                                    Begin::kPausing, Begin::kPaused};
-inline constexpr std::array<const char*, 5> kBeginWords = {"online", "executing", "braking",
-                                                           "pausing", "paused"};
+enum class Begin {
+  kOnline,
+  kExecuting,
+  kBraking,
+  kPausing,
+  kPaused,
+  kWaiting,    ///< for the start time of a trajectory, some cycles ahead
+  kRefusing,   ///< while the executive brakes
+  kStreaming,  ///< on an open trajectory
+  kStarving,   ///< at its end so far
+};
+inline constexpr std::array<const char*, 9> kBeginWords = {"online",   "executing", "braking",
+                                                           "pausing",  "paused",    "waiting",
+                                                           "refusing", "streaming", "starving"};
 
-/// Requests in their order, each with the cycle in which it is answered.
+/// Requests in their order, each with the cycle before which it is sent.
 struct Case {
   Begin begin;
   int count;

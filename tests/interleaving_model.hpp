@@ -13,14 +13,28 @@ enum class Ask : std::uint8_t {
   kTrajectory,  ///< can be joined from wherever the reference is
   kLater,       ///< the same, to begin in the cycle after the one that takes it
   kTooFast,     ///< admitted by the client, refused in the cycle
+  kOpen,        ///< a trajectory to which more will be appended
+  kFeed,        ///< one more waypoint for the last open trajectory
+  kLast,        ///< the same, and none will follow
   kCancel,
   kHalf,  ///< override 0.5
   kPause,
   kResume,
 };
-inline constexpr int kAsks = 8;
-inline constexpr std::array<const char*, kAsks> kAskWords = {
-    "point", "trajectory", "later", "too fast", "cancel", "half", "pause", "resume"};
+inline constexpr std::array<const char*, 11> kAskWords = {
+    "point", "trajectory", "later", "too fast", "open",  "feed",
+    "last",  "cancel",     "half",  "pause",    "resume"};
+
+/// Has a lane of its own, and is answered in the next cycle before all others.
+constexpr bool is_control(Ask ask) {
+  return ask >= Ask::kCancel;
+}
+constexpr bool carries_store(Ask ask) {
+  return ask >= Ask::kTrajectory && ask <= Ask::kOpen;
+}
+constexpr bool extends(Ask ask) {
+  return ask == Ask::kFeed || ask == Ask::kLast;
+}
 
 /// What was reported of one request, or should have been.
 struct Fate {
@@ -36,12 +50,20 @@ struct Fate {
 
 class InterleavingModel {
  public:
-  static constexpr int kMost = 8;  ///< requests of one case
+  static constexpr int kMost = 10;  ///< requests of one case
 
   std::array<Fate, kMost> fates{};  ///< by the number of the request
 
   bool executing() const { return running_ >= 0; }
+  int waiting() const { return waiting_; }
+  /// It was sent before the last cancel, and is not taken yet.
+  bool voids(int request) const { return request < cancel_; }
   bool paused() const { return paused_; }
+  /// What runs or waits can be given more waypoints.
+  bool open() const {
+    return (executing() && open_[index(running_store_)]) ||
+           (waiting_ >= 0 && open_[index(waiting_store_)]);
+  }
   /// The point that stays the reference until told otherwise, or -1.
   int held_point() const { return held_; }
   /// The point that became the reference in this cycle, or -1.
@@ -54,21 +76,41 @@ class InterleavingModel {
   bool free(int store) const { return stores_[index(store)] == StoreState::kFree; }
   bool any_free() const { return free(0) || free(1) || free(2); }
   bool all_free() const { return free(0) && free(1) && free(2); }
-  void send(int store) { stores_[index(store)] = StoreState::kTaken; }
+  void send(int store, bool open) {
+    stores_[index(store)] = StoreState::kTaken;
+    open_[index(store)] = open;
+  }
 
-  /// True if what waited for its time begins.
-  bool begin_cycle() {
+  /// `due`: what waited for its time begins.
+  void begin_cycle(bool due) {
     pending_ = new_point_ = -1;
-    const bool begins = waiting_ >= 0;
-    if (begins) run(waiting_, waiting_store_);
+    if (!due) return;
+    run(waiting_, waiting_store_);
     waiting_ = -1;
-    return begins;
+  }
+  /// From now on the executive brakes.
+  void refuse_all() {
+    refusing_ = true;
+    end_waiting(Outcome::kAborted);
+    give_up(Outcome::kAborted);
+  }
+  /// `alone`: none of those that are no controls has been sent and not been taken yet.
+  void control(Ask ask, int request, bool alone) {
+    if (refusing_) return end(request, Outcome::kRefused, -1);
+    if (ask == Ask::kCancel) return take_cancel(request, alone);
+    if (ask != Ask::kHalf) paused_ = ask == Ask::kPause;
+    end(request, Outcome::kExecuted, -1);
   }
   void take(Ask ask, int request, int store) {
+    if (refusing_) return end(request, Outcome::kRefused, carries_store(ask) ? store : -1);
+    if (voids(request) && !extends(ask))
+      return ask == Ask::kPoint ? end(request, Outcome::kSuperseded, -1)
+                                : end(request, Outcome::kCanceled, store);
     switch (ask) {
       case Ask::kPoint:
         return take_point(request);
       case Ask::kTrajectory:
+      case Ask::kOpen:
         run(request, store);
         return end_waiting(Outcome::kSuperseded);
       case Ask::kLater:
@@ -78,14 +120,11 @@ class InterleavingModel {
         return;
       case Ask::kTooFast:
         return end(request, Outcome::kRefused, store);
-      case Ask::kCancel:
-        return take_cancel(request);
-      case Ask::kPause:
-      case Ask::kResume:
-        paused_ = ask == Ask::kPause;
-        [[fallthrough]];
-      case Ask::kHalf:
-        return end(request, Outcome::kExecuted, -1);
+      case Ask::kFeed:
+      case Ask::kLast:
+        return take_more(request, store, ask == Ask::kLast);
+      default:
+        return;
     }
   }
   /// False if a store should have come back in this cycle and did not.
@@ -126,7 +165,7 @@ class InterleavingModel {
     fates[index(request)].started = 1;
     running_ = aim_ = request;
     running_store_ = store;
-    held_ = -1;
+    held_ = canceled_ = -1;
   }
   void end_waiting(Outcome outcome) {
     if (waiting_ >= 0) end(waiting_, outcome, waiting_store_);
@@ -144,20 +183,38 @@ class InterleavingModel {
     if (pending_ >= 0) end(pending_, Outcome::kSuperseded, -1);
     leave_path(Outcome::kAborted);
     pending_ = held_ = aim_ = request;
+    canceled_ = -1;
   }
-  void take_cancel(int request) {
-    if (!executing() && waiting_ < 0) return end(request, Outcome::kRefused, -1);
+  void take_more(int request, int store, bool last) {
+    const bool known =
+        (executing() && store == running_store_) || (waiting_ >= 0 && store == waiting_store_);
+    const bool extended = known && open_[index(store)];
+    end(request, extended ? Outcome::kExecuted : Outcome::kRefused, -1);
+    if (extended) open_[index(store)] = !last;
+  }
+  /// A point, which within so few cycles is not reached, is on its way too.
+  void take_cancel(int request, bool alone) {
+    const bool goes = executing() || waiting_ >= 0 || held_ >= 0;
+    if (!goes && alone) return end(request, Outcome::kRefused, -1);
+    cancel_ = request;
     end_waiting(Outcome::kCanceled);
     end(request, Outcome::kExecuted, -1);
+    if (goes) held_ = aim_ = -1;
+    if (executing()) canceled_ = running_;
+    give_up(Outcome::kCanceled);
+  }
+  /// What runs is braked on its path.
+  void give_up(Outcome outcome) {
     if (!executing()) return;
-    end(running_, Outcome::kCanceled, -1);
+    end(running_, outcome, -1);
     stores_[index(running_store_)] = StoreState::kBraking;
-    canceled_ = running_;
     running_ = aim_ = -1;
   }
 
   std::array<StoreState, kStores> stores_{};
-  bool paused_ = false;
+  std::array<bool, kStores> open_{};
+  bool paused_ = false, refusing_ = false;
+  int cancel_ = -1;  // the last that was not refused
   int running_ = -1, running_store_ = -1;
   int waiting_ = -1, waiting_store_ = -1;
   int pending_ = -1, new_point_ = -1, held_ = -1, aim_ = -1, canceled_ = -1;
