@@ -89,8 +89,8 @@ def stopped_while_joining(dof, request, way=0.001, turn=0.0045, after=12):
 # judged again from where the arm can be stopped. Frames; twist and acceleration of the points; time of the first waypoint,
 # where it is, twist and acceleration there; time of the second; joints left out meanwhile.
 LEAD_INS = (
-    (BASE, (-17, -4, 13, -20, -11, 7), (-53, -1, -59, -36, 38, -36), 47, (27, 13, -2, -5, 12, 2),
-     (0, -12, 3, -26, -29, 19), (21, 12, -52, 50, 55, -38), 152, CORNERED[3][0]),
+    (BASE, (-17, -4, 0, -20, 8, 7), (-38, -49, 41, 17, -14, 44), 47, (27, 13, -2, -5, 7, 2),
+     (0, -12, 25, -21, -29, 25), (21, 29, -52, 50, 55, -38), 152, CORNERED[3][0]),
 )  # fmt: skip
 
 

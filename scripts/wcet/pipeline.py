@@ -47,6 +47,8 @@ def tell(facts, path):
             facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
     if not any(section.get("online") == "limit" for section in keys.values()):  # points are put out as they come
         facts.add("calls", r"ReferenceGenerator<.*>::(take_requests|take_point)\(", r"Motion<.*>::reach\(", "0")
+    if "JointReferenceGenerator" not in [kind for _, kind in steps]:  # an offset of the tip has room without bounds
+        facts.add("loop", r"tactus::plan_inside\(", r"i < kHalvings", "0")
 
 
 def robot_capsules(robot):
