@@ -94,7 +94,7 @@ void twice_the_same_tapes_give_the_same_counts(void**) {
       "first, second = count(), count()\n"
       "assert first == second and len(first) == 11\n"
       "rows = [row for _, mine in first for row in mine]\n"
-      "assert all(row[0] > sum(row[1:]) for row in rows) and max(rows)[0] > 200000\""));
+      "assert all(row[0] > sum(row[1:]) for row in rows) and max(rows)[0] > 300000\""));
 }
 
 // Proves TIM-4.
@@ -117,15 +117,15 @@ void a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash(void**) {
       "$d"));
 }
 
-void a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error(void**) {
+void a_bound_of_the_cycle_more_than_three_times_its_worst_is_an_error(void**) {
   assert_true(passes(
       "d=$(mktemp -d) && root=$PWD && mkdir -p $d/build/wcet/x && cd $d/build/wcet/x && "
       "echo '{\"symbols\": {}, \"stages\": {\"cycle\": {\"typical\": {\"instructions\": 5}, "
       "\"worst\": {\"instructions\": 60, \"tape\": \"t\", \"cycle\": 3}}}}' >counted.json && "
       "bound() { echo '{\"stages\": {\"cycle\": {\"instructions\": '$1'}}}' >bounds.json; } && "
-      "bound 120 && (cd $d && $root/scripts/wcet/table x >out) && bound 121 && cd $d && "
+      "bound 180 && (cd $d && $root/scripts/wcet/table x >out) && bound 181 && cd $d && "
       "! $root/scripts/wcet/table x >out 2>err && "
-      "grep -q 'x: cycle: its tightness is 0.496, less than 0.5' err && rm -r $d"));
+      "grep -q 'x: cycle: its tightness is 0.331, less than 0.333' err && rm -r $d"));
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ int main() {
       cmocka_unit_test(a_loop_counted_by_hand_has_the_plugins_count),
       cmocka_unit_test(twice_the_same_tapes_give_the_same_counts),
       cmocka_unit_test(a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash),
-      cmocka_unit_test(a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error),
+      cmocka_unit_test(a_bound_of_the_cycle_more_than_three_times_its_worst_is_an_error),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

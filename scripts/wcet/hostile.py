@@ -77,12 +77,16 @@ def half_wave(count, spacing_s, way, turn, beside):
     return waypoints
 
 
-def stopped_while_joining(dof, request, way=0.001, turn=0.0045, after=12):
-    """A path of segments as long as a cycle, joined late from beside it: every place that is looked at ahead lies on a
-    segment of its own. It is stopped on before it is joined."""
+# Spacing of the waypoints, way and turn: within the limits of acceleration of each robot.
+WAVE = {6: (0.002, 0.0013, 0.0022), 7: (0.001, 0.001, 0.0045)}
+
+
+def stopped_while_joining(dof, request):
+    """A path of segments of a cycle or two, joined late from beside it: nearly every place that is looked at ahead lies on
+    a segment of its own. It is stopped on before it is joined."""
     tape = Tape().numbers("joints", READY[dof]).cycles(5)
-    tape.waypoints(ALL_FRAMES, EVERYTHING, QUINTIC, 0.001, half_wave(30, 0.001, way, turn, (0.002, 0.001, 0)))
-    return tape.cycles(after).add(request)
+    tape.waypoints(ALL_FRAMES, EVERYTHING, QUINTIC, 0.001, half_wave(30, *WAVE[dof], (0.002, 0.001, 0)))
+    return tape.cycles(12).add(request)
 
 
 # Points and trajectories whose lead-in changes the signs of its derivatives often. It is refused out of the motion, and
