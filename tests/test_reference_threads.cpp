@@ -3,6 +3,7 @@
 #include <atomic>
 #include <thread>
 
+#include "tests/motion_oracle.hpp"
 #include "tests/reference_bench.hpp"
 #include "tests/testing.hpp"
 
@@ -96,11 +97,90 @@ void a_client_that_never_sleeps_neither_tears_nor_loses_anything(void**) {
   for (std::uint32_t i = 1; i <= shared.sent; ++i) assert_int_equal(shared.finals[i], 1);
 }
 
+constexpr int kStreamed = 3001;  // waypoints, of one minute
+constexpr double kSpacing_s = 0.02;
+
+/// From rest to rest, by ten swings of all joints about home.
+Waypoint<JointSpace> swing(const ReferenceBench& bench, int index) {
+  constexpr double kAmplitude = 0.1, w = 20.0 * 3.14159265358979323846 / 60.0;
+  Waypoint<JointSpace> waypoint;
+  waypoint.time_s = kSpacing_s * index;
+  const double s = std::sin(w * waypoint.time_s), c = std::cos(w * waypoint.time_s);
+  waypoint.point.q = bench.home + JointVector::Constant(kAmplitude * s * s * s);
+  waypoint.point.dq.setConstant(kAmplitude * 3.0 * w * s * s * c);
+  waypoint.point.ddq.setConstant(kAmplitude * 3.0 * w * w * s * (2.0 * c * c - s * s));
+  return waypoint;
+}
+
+/// Keeps the window as full as it can, in parts of all sizes; false if anything is refused.
+bool feed(ReferenceBench& bench, const Trajectory<JointSpace>& stream, Random& random, int& sent) {
+  std::uint32_t id = 0;
+  const int most = std::min(kStreamed, sent + 1 + random.below(16)), before = sent;
+  while (sent < most) {
+    const Verdict verdict = bench.client.append(stream, swing(bench, sent));
+    if (verdict.status == Status::kWindowFull) break;
+    if (!verdict.ok()) return false;
+    ++sent;
+  }
+  return sent == before || bench.client.flush(stream, sent == kStreamed, id).ok();
+}
+
+struct Streaming {
+  ReferenceBench bench;
+  std::atomic<bool> running{true}, good{true}, succeeded{false};
+};
+
+void stream_all(Streaming& shared) {
+  ReferenceBench& bench = shared.bench;
+  Random random{5};
+  Trajectory<JointSpace>* stream = bench.trajectory(kVelocityField | kAccelerationField);
+  stream->open = true;
+  for (; stream->count < 4; ++stream->count)
+    stream->waypoints[stream->count] = swing(bench, stream->count);
+  int sent = stream->count;
+  std::uint32_t goal = 0;
+  shared.good = bench.client.send(*stream, goal).ok();
+  while (shared.running && shared.good && !shared.succeeded) {
+    if (sent < kStreamed && !feed(bench, *stream, random, sent)) shared.good = false;
+    Report report;
+    while (bench.client.poll(report)) {
+      if (report.outcome == Outcome::kRefused) shared.good = false;
+      if (report.outcome == Outcome::kSucceeded) shared.succeeded = report.id == goal;
+    }
+    std::this_thread::yield();
+  }
+}
+
+// Proves KER-4, RG-14.
+
+void a_client_that_streams_beside_the_cycle_is_followed_to_the_end_within_limits(void**) {
+  static Streaming shared;
+  MotionOracle<JointSpace> oracle;
+  oracle.begin(shared.bench.channel.settings.limits, ReferenceBench::kPeriod_s,
+               Smoothness::kVelocity, kRateAcceleration, kRateJerk);
+  std::thread client(stream_all, std::ref(shared));
+  bool within = true;
+  Status status = Status::kOk;
+  for (int k = 0; k < kMaxCycles && shared.good && !shared.succeeded && status == Status::kOk;
+       ++k) {
+    status = shared.bench.step();
+    within = within && oracle.check(shared.bench.out()).what == nullptr;
+    if (shared.bench.generator.phase() == Phase::kStarving) std::this_thread::yield();
+  }
+  shared.running = false;
+  client.join();
+  ASSERT_OK(status);
+  assert_true(shared.good && shared.succeeded && within);
+  const JointVector end = swing(shared.bench, kStreamed - 1).point.q;
+  for (int j = 0; j < kDof; ++j) ASSERT_NEAR(shared.bench.out().q[j], end[j], 1e-9);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_client_that_never_sleeps_neither_tears_nor_loses_anything),
+      cmocka_unit_test(a_client_that_streams_beside_the_cycle_is_followed_to_the_end_within_limits),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
