@@ -17,7 +17,8 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
     motion_.stop();
     release_store();
   }
-  const Point held = measured;  // which may be the reference of what ends here
+  // A copy: it may be the reference of what ends here.
+  const Point held = measured;  // NOLINT(performance-unnecessary-copy-initialization)
   FeedbackPublisher<Space> feedback = feedback_;
   feedback.start(params.feedback_divisor, params.measured);
   *this = ReferenceGenerator();
