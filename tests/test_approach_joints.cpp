@@ -93,6 +93,25 @@ void from_any_state_any_place_is_reached_in_the_time_of_the_slowest_joint(void**
   }
 }
 
+/// Away from the place on the very line to it, joint 1 just able to stop before the end of its
+/// range, joint 2 with half its acceleration: on the line joint 1 would stop too late.
+void turning_back_on_a_line_leaves_no_range(void**) {
+  Point point;
+  point.q = 0.5 * (kLimits.q_min + kLimits.q_max);
+  point.dq[0] = 1.5, point.dq[1] = 1.35;
+  const double a = kLimits.ddq_max[0], j = kLimits.dddq_max[0];
+  point.q[0] = kLimits.q_max[0] - 0.5 * 1.5 * (1.5 / a + a / j) - 1e-6;
+  point.q[1] = 0.0;
+  Point place = point.at_rest();
+  place.q -= 0.4 * point.dq;
+  for (int cycles = 0; cycles < 5000 && point.q != place.q; ++cycles) {
+    const Point before = point;
+    point = next_towards(before, place, place, 1e-3);
+    assert_within_limits(before, point, 1e-3);
+  }
+  assert_true(point.q == place.q);
+}
+
 void from_rest_the_way_is_a_straight_line(void**) {
   Random random{7};
   for (int trial = 0; trial < 100; ++trial) {
@@ -171,6 +190,7 @@ void a_moving_base_is_joined_within_the_limits_of_the_sum(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(from_any_state_any_place_is_reached_in_the_time_of_the_slowest_joint),
+      cmocka_unit_test(turning_back_on_a_line_leaves_no_range),
       cmocka_unit_test(from_rest_the_way_is_a_straight_line),
       cmocka_unit_test(every_stop_is_the_shortest_and_never_comes_back),
       cmocka_unit_test(a_moving_base_is_joined_within_the_limits_of_the_sum),

@@ -100,7 +100,7 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
   }
   const Difference before = offset;
   AxisState s;
-  if (on_line<kDof>(offset, left, s))
+  if (on_line<kDof>(offset, left, line.limits(), s))
     follow_line<kDof>(offset, s, line.limits(), dt_s);
   else
     synchronise<kDof>(offset, left, room, dt_s);

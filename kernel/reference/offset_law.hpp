@@ -48,12 +48,14 @@ class LineLimits {
   static constexpr double kUnlimited = 1e300;
 };
 
-/// True if the offset moves along itself: `s` is its state on the line, at 1. What rounding adds to
-/// its direction when little of it is left, 1e-9 of the velocity limits and ten times that of the
-/// accelerations', is left out. [cyclic]
+/// True if the offset moves along itself and its stop on that line ends between where it is and
+/// zero, so that a motion on the line leaves no room that both ends lie in: `s` is its state on the
+/// line, at 1. What rounding adds to its direction when little of it is left, 1e-9 of the velocity
+/// limits and ten times that of the accelerations', is left out. [cyclic]
 template <int N>
-bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits, AxisState& s) {
-  constexpr double kAlong = 1e-9;
+bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits,
+             const AxisLimits& line, AxisState& s) {
+  constexpr double kAlong = 1e-9, kBeyond = 1e-9;
   const double length = offset.x.squaredNorm();
   if (!(length > 0.0)) return false;
   s = {1.0, offset.dx.dot(offset.x) / length, offset.ddx.dot(offset.x) / length};
@@ -64,7 +66,8 @@ bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits, A
     if (!(v <= kAlong * (axis.v_hi - axis.v_lo) && a <= 10.0 * kAlong * (axis.a_up + axis.a_dn)))
       return false;
   }
-  return true;
+  const AxisRange stop = stop_range(s, line);
+  return stop.lowest >= -kBeyond && stop.highest <= 1.0 + kBeyond;
 }
 
 /// The offset one period on, on its line. [cyclic]

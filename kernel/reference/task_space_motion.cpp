@@ -142,13 +142,12 @@ struct Allowed {
 void move_offset(TaskSpace::Difference& offset, const Allowed& allowed, double dt_s) {
   std::array<AxisLimits, 6> limits;
   for (std::size_t i = 0; i < 6; ++i) limits[i] = symmetric(i < 3 ? allowed.p : allowed.r);
+  LineLimits line;
+  line.add(offset.x.head<3>().norm(), symmetric(allowed.p));
+  line.add(offset.x.tail<3>().norm(), symmetric(allowed.r));
   AxisState s;
-  if (on_line<6>(offset, limits, s)) {
-    LineLimits line;
-    line.add(offset.x.head<3>().norm(), symmetric(allowed.p));
-    line.add(offset.x.tail<3>().norm(), symmetric(allowed.r));
+  if (on_line<6>(offset, limits, line.limits(), s))
     return follow_line<6>(offset, s, line.limits(), dt_s);
-  }
   Vector6 share;
   share << shares(offset, 0, allowed.p), shares(offset, 3, allowed.phi);
   std::array<AxisRange, 6> room;
