@@ -6,90 +6,111 @@ ARCH  ?= host
 HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
 B     := build/$(BOARD)$(HOW)
 
-# What a board.mk says: robot, sources, libraries, runs and who runs them, and its tests if they are not all.
+# Of the files named after a robot, only those of the board's robot are compiled.
+ROBOTS   := $(patsubst kernel/robots/%_capsules.hpp,%,$(wildcard kernel/robots/*_capsules.hpp))
+of_robot  = $(filter-out $(foreach other,$(filter-out $(robot),$(ROBOTS)),%/$(other)_mjcf.cpp %_$(other).cpp),$(wildcard $(1)))
+
+# A board.mk sets: robot, sources, libraries, runs and their runner, the name and own parts of its program, and its
+# tests, if not all.
 BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
+$(if $(strip $(BOARDS)),,$(error BOARDS is empty: name boards of boards/*/board.mk))
 SRCS   :=
 LDLIBS :=
 RUNS   :=
-RUNNER  = $(B)/tactus
+NAME   := tactus
+RUNNER  = $(B)/$(NAME)
 PARTS  :=
-TESTS  := $(patsubst tests/test_%.cpp,%,$(wildcard tests/test_*.cpp))
+ARM     = $(call of_robot,sim_plant/arm/*.cpp)
+SIM     = $(ARM) $(wildcard program/sim/*.cpp)
+TESTS  := $(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp)
+include tests/any_robot.mk
+robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
-# Programs are a board's; objects are a robot's, whatever board links them.
-robot := $(shell echo $(ROBOT) | tr A-Z a-z)
+# Each board has its programs; boards with the same robot share objects.
+robot := $(robot)
 O     := build/$(robot)$(HOW)
 
-# Everything of ours is compiled alike; the seams to libraries that need exceptions include no Eigen header of ours.
-SEAMS     := boards/program/options.cpp boards/ur10_emulator/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
-WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror
+# All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
+SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+# GCC 12 sees reads beyond a string_view where its header is precompiled, and none without.
+WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror -Wno-stringop-overread
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
 NUMERICS  := $(OPTIMISED) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
-# Line tables are what back traces, profiles and bounds need; tracking variables too (DEBUG=-g) takes twice as long to
-# compile, sanitized three times.
+# One build for sanitized tests and fuzzers. clang has no libquadmath of its own.
+SANITIZED := SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS=
+QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-name=include))
+# Back traces, profiles and bounds need line tables. To track variables too (DEBUG=-g) takes twice as long to compile,
+# with sanitizers three times.
 DEBUG     ?= -g1
 SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
-             -DTACTUS_ROBOT_$(ROBOT)
+             $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED) \
+             -DTACTUS_ROBOT=$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
-# The machines the kernel is built for: host, arm64, m7 (bare metal, linked with no C library).
+# The kernel is built for these machines: host, arm64, m7 (bare metal, linked without a C library).
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_m7    := arm-none-eabi-
 FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
-               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections
+               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
-# Where Debian has no binary of libccd, its source.
+# The source of libccd, for machines without a binary package in Debian.
 CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
 CCD_SRCS := $(if $(CCD),$(patsubst %,$(CCD)/src/%.c,ccd mpr polytope support vec3))
 CXXFLAGS += $(CCD:%=-isystem %/src)
 
-KERNEL   := $(wildcard kernel/*.cpp kernel/*/*.cpp)
-PROGRAM  := $(wildcard boards/program/*.cpp gateway/*.cpp sim_plant/*.cpp hal/os/*.cpp) $(PARTS)
-ORACLES  := $(wildcard tests/oracles/*.cpp)
-TESTS    := $(TESTS:%=$(B)/tests/test_%)
-LONG     := $(addprefix $(B)/tests/,test_motion test_admission_oracle test_every_motion)
-TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,'$$ORIGIN/../..'
+KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
+ORACLES  := $(call of_robot,tests/oracles/*.cpp)
+TESTS    := $(TESTS:%.cpp=$(B)/%)
+LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
+TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
+PCH      := $(O)/precompiled.hpp
+QUICK    := $(filter-out $(SEAMS),$(ORACLES) $(TESTS:$(B)/%=%.cpp))
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
 say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help
-all: $(B)/tactus                              ## build the program of BOARD
+all: $(B)/$(NAME)                             ## build the program of BOARD
 
 run: setup                                    ## run every pipeline of every board; out/report.html
 	$(Q)$(call each,-j2 all trajectories)
-	$(Q)scripts/run_all $$($(call each,list-runs))
+	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $$runs
 test: setup                                   ## build and run all tests of every board
-	$(Q)$(call each,-j2 all trajectories run-tests)
-test-long: setup                              ## the long random tests at full count
+	$(Q)$(call each,-j2 tests)
+	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
+test-long: setup                              ## run the long random tests at full count
 	$(Q)$(MAKE) --no-print-directory -j2 $(LONG)
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
-check: test                                   ## what must hold before a change lands, tests included
+check: test                                   ## run all tests and checks that a change must pass
 	$(Q)scripts/check
-docs: $(B)/tactus                             ## write the documents that are generated
-	$(Q)$(B)/tactus ports > docs/ports.md
-bench: $(B)/bench                             ## time per call beside Orocos KDL, in one run
+docs: $(B)/$(NAME)                            ## write the generated documents
+	$(Q)$(B)/$(NAME) ports > docs/ports.md
+bench: $(B)/bench                             ## measure the time per call, and that of Orocos KDL, in one run
 	$(Q)$(B)/bench
-setup:                                        ## install the Debian packages that are missing
+setup:                                        ## install missing Debian packages
 	$(Q)scripts/setup
 format:                                       ## clang-format every source
-	$(Q)clang-format -i $$(git ls-files '*.hpp' '*.cpp')
+	$(Q)clang-format -i $$(git ls-files -co --exclude-standard '*.[ch]pp' '*.[ch]')
 compile_commands.json:                        ## for editors and clang-tidy
 	$(Q)bear -- $(MAKE) -B all $(TESTS)
-clean:                                        ## remove everything that was built
+clean:                                        ## remove everything that make has built
 	$(Q)rm -rf build out compile_commands.json
-help:                                         ## this list
+help:                                         ## list the targets
 	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories list-runs run-tests run-thread-tests kernel each-board
+.PHONY: sanitized-tests trajectories list-runs tests list-tests run-tests run-thread-tests kernel each-board
 each-board:
 	$(Q)$(call each,$(TARGETS))
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
+list-tests:
+	@echo $(TESTS)
 kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
 $(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a $(O)/libccd.a
@@ -100,12 +121,22 @@ trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
-run-thread-tests: $(addprefix $(B)/tests/,test_mailbox test_recorder test_reference_threads test_histogram test_ladder)
+sanitized-tests:
+	$(Q)$(call each,-j2 $(SANITIZED) run-tests)
+run-thread-tests: $(addprefix $(B)/tests/,core/test_mailbox core/test_histogram pipeline/test_recorder \
+                    reference/generator/test_reference_threads cycle/test_ladder)
 	$(Q)scripts/run_tests $^
-run-tests: $(B)/tactus $(TESTS)
-	$(Q)scripts/run_tests $(TESTS)
+tests: trajectories $(B)/$(NAME) $(TESTS)
+	@:
+run-tests: tests
+	$(Q)$(if $(TESTS),scripts/run_tests $(TESTS))
 
-$(call obj,$(SEAMS)): CXXFLAGS := $(SEAMFLAGS)
+$(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
+$(call obj,$(SEAMS)): private PCH :=
+$(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
+$(call obj,$(QUICK)): private PCH := $(O)/quick.hpp
+$(O)/tests/pipeline/test_pipelines.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
+$(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
 $(O)/libkernel.a: $(call obj,$(KERNEL))
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
 $(O)/libccd.a: $(CCD_SRCS:%.c=$(O)/%.o)
@@ -113,10 +144,10 @@ $(O)/liboracles.a: $(call obj,$(ORACLES))
 build/%.a:
 	$(call say,AR    $@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
-$(B)/tactus: $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
+$(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS) -lccd
-# Debian's FCL is compiled with vectorised Eigen: who calls it too, and hidden from all that is not.
+# Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
 build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
 	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
@@ -127,9 +158,13 @@ $(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lccd -lpthread
-$(O)/%.o: %.cpp Makefile
+$(O)/%.o: %.cpp Makefile | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch
 	$(call say,CXX   $<)
-	$(Q)$(CXX) $(CXXFLAGS) -c $< -o $@
+	$(Q)$(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
+# Eigen and the standard library, parsed once for what is shipped and once for tests, which need not be fast.
+$(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefile
+	$(call say,PCH   $@)
+	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
 
 $(CCD_SRCS:%.c=$(O)/%.o): $(O)/%.o: %.c
 	$(call say,CC    $<)

@@ -1,22 +1,34 @@
-// The [gateway] section of a pipeline file: how references reach the pipeline.
+// GatewaySection: the [gateway] section of a pipeline file, which says how references reach the
+// pipeline.
 #pragma once
 
-#include "kernel/describe.hpp"
-#include "kernel/load_error.hpp"
-#include "kernel/reference/joint_space.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/load_error.hpp"
+#include "kernel/reference/space/joint_space.hpp"
 
 namespace tactus {
 
-inline constexpr std::array<const char*, 5> kInterpolationWords = {"by_fields", "linear", "cubic",
-                                                                   "quintic", "monotone"};
-
-/// What is done with a trajectory file that gives only some of the joints.
+/// Treatment of a trajectory file that gives only some of the joints.
 enum class PartialJoints : std::uint8_t { kRefuse, kHold };
-inline constexpr std::array<const char*, 2> kPartialJointsWords = {"refuse", "hold"};
 
-/// What is done with a trajectory that is beyond a limit in its own times.
+constexpr const char* name(PartialJoints rule) {
+  switch (rule) {
+    case PartialJoints::kRefuse: return "refuse";
+    case PartialJoints::kHold: return "hold";
+  }
+  return nullptr;
+}
+
+/// Treatment of a trajectory that exceeds a limit in its own times.
 enum class Times : std::uint8_t { kStretched, kExact };
-inline constexpr std::array<const char*, 2> kTimesWords = {"stretched", "exact"};
+
+constexpr const char* name(Times times) {
+  switch (times) {
+    case Times::kStretched: return "stretched";
+    case Times::kExact: return "exact";
+  }
+  return nullptr;
+}
 
 struct GatewaySection {
   Value trajectory;  ///< default trajectory file, relative to the pipeline file
@@ -25,16 +37,16 @@ struct GatewaySection {
   double start_s = 0.0;  ///< when the trajectory begins, by the generator's clock; 0: at once
   PartialJoints partial_joints = PartialJoints::kRefuse;
   Value motion_frame;     ///< a pose of the pipeline, "block.port"; none: the base
-  Value wrench_frame;     ///< likewise; none: the axes of the base, about the tip
-  double settle_s = 2.0;  ///< how long a run goes on after its trajectory has ended
+  Value wrench_frame;     ///< a pose of the pipeline; none: the axes of the base, about the tip
+  double settle_s = 2.0;  ///< time for which a run continues after its trajectory has ended
 
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.text("trajectory", trajectory, "default trajectory file");
-    visit.choice("interpolation", interpolation, kInterpolationWords);
-    visit.choice("times", times, kTimesWords);
+    visit.choice("interpolation", interpolation);
+    visit.choice("times", times);
     visit.param("start_s", start_s, Range{0.0, 3600.0}, "s");
-    visit.choice("partial_joints", partial_joints, kPartialJointsWords);
+    visit.choice("partial_joints", partial_joints);
     visit.text("motion_frame", motion_frame, "the pose in whose frame the trajectory is given");
     visit.text("wrench_frame", wrench_frame, "the pose in whose frame its wrench is given");
     visit.param("settle_s", settle_s, Range{0.0, 3600.0}, "s");

@@ -1,4 +1,4 @@
-// The columns of the joints: a prefix, the joint's number or its name, and the unit.
+// The columns of the joints: prefix, number or name of the joint, unit.
 #include "gateway/trajectory_columns.hpp"
 
 namespace tactus {
@@ -8,7 +8,7 @@ struct GroupWords {
   std::string_view prefix, suffix;
 };
 
-// In the order of the groups, from the positions on; the joint stands between prefix and suffix.
+// In the order of the groups, from the positions on; the joint is between prefix and suffix.
 constexpr std::array<GroupWords, 4> kGroupWords = {{
     {"q", "_rad"},
     {"dq", "_rad_s"},
@@ -23,7 +23,7 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// Joint by number from 1, or by its name after an underscore; -1 if it is none.
+/// Returns the joint given by its number from 1, or by an underscore and its name; -1 if unknown.
 int joint_of(std::string_view word) {
   for (int i = 0; i < kDof; ++i) {
     Name number, named("_");
@@ -56,7 +56,7 @@ double& ColumnTable<JointSpace>::value(const ColumnPlace& place, JointSpace::Poi
 }
 
 void ColumnTable<JointSpace>::name_them(Message& message) {
-  message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm to joint " << kDof;
+  message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " << kDof;
 }
 
 }  // namespace tactus

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "kernel/reference/joint_space.hpp"
-#include "kernel/reference/task_space.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/judge_channels.hpp"
+#include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
 
@@ -17,28 +18,25 @@ Trajectory<Space>* ReferenceClient<Space>::acquire() {
 }
 
 template <class Space>
-Verdict ReferenceClient<Space>::judge(Trajectory<Space>& trajectory) const {
-  return admit(trajectory, channel_.settings);
+Verdict ReferenceClient<Space>::admit(Trajectory<Space>& trajectory) const {
+  return tactus::admit(trajectory, channel_.settings);
 }
 
 template <class Space>
 Verdict ReferenceClient<Space>::send(Trajectory<Space>& trajectory, std::uint32_t& id) {
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || away_[store]) return {Status::kNoFreeStore};
-  Verdict verdict = judge(trajectory);
+  Stream stream;
+  Verdict verdict = tactus::admit(trajectory, channel_.settings, stream.admitted);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kTrajectory;
   request.store = static_cast<int>(store);
   channel_.needed[store].store(0, std::memory_order_relaxed);
   channel_.known[store].store(trajectory.count, std::memory_order_relaxed);
-  const int last = trajectory.count - 1;
-  const typename Space::Latched terms = Space::anywhere(trajectory.terms, channel_.settings.limits);
-  Stream& stream = streams_[store];
-  stream = {};
   stream.count = stream.flushed = stream.settled = trajectory.count;
-  stream.admitted.end = trajectory.point(last, terms);
-  stream.sent = stream.admitted;
+  begin_part(stream);
+  streams_[store] = stream;
   verdict = post(request, id);
   away_[store] = verdict.ok();
   return verdict;
@@ -87,18 +85,25 @@ Verdict ReferenceClient<Space>::flush(const Trajectory<Space>& trajectory, bool 
   request.store = static_cast<int>(store);
   request.count = stream.count;
   request.last = last;
-  request.use = stream.admitted.use;
+  request.extent = stream.admitted.extent;
   verdict = post(request, id);
   if (!verdict.ok()) return verdict;
   stream.flushed = stream.count;
-  stream.admitted.use = {};
-  stream.admitted.room = 1.0;
-  stream.sent = stream.admitted;
+  begin_part(stream);
   return {};
 }
 
-/// Raises the rooms of an open trajectory once the generator knows that it has become longer; not
-/// before, as it may refuse.
+/// Begins the account of a new part: it continues the end of the last one, and its own extent and
+/// room are empty.
+template <class Space>
+void ReferenceClient<Space>::begin_part(Stream& stream) {
+  stream.admitted.extent = {};
+  stream.admitted.room = 1.0;
+  stream.sent = stream.admitted;
+}
+
+/// Raises the rooms of an open trajectory once the generator has taken its new part; not before, as
+/// the generator may refuse it.
 template <class Space>
 void ReferenceClient<Space>::settle(std::size_t store) {
   Stream& stream = streams_[store];
@@ -110,7 +115,7 @@ void ReferenceClient<Space>::settle(std::size_t store) {
   const Trajectory<Space>& trajectory = channel_.stores[store];
   const float room = set_rooms(trajectory, channel_.settings, needed, stream.settled, count - 1,
                                whole ? 1.0 : 0.0);
-  Shown<float>& first = trajectory.waypoints[needed % trajectory.capacity].room;
+  Published<float>& first = trajectory.waypoints[needed % trajectory.capacity].room;
   if (room > first) first = room;
   stream.settled = count;
   stream.whole = whole;
@@ -118,19 +123,19 @@ void ReferenceClient<Space>::settle(std::size_t store) {
 
 template <class Space>
 Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::uint32_t& id,
-                                     const typename Space::Terms& terms) {
-  const typename Space::Limits limits = Space::known_limits(terms, channel_.settings.limits);
+                                     const typename Space::Header& header) {
+  const typename Space::Limits limits = Space::known_limits(header, channel_.settings.limits);
   const Verdict verdict =
-      Space::judge(Space::placed(point, Space::anywhere(terms, limits)), limits);
+      judge_online<Space>(Space::placed(point, Space::anywhere(header, limits)), limits);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kPoint;
   request.point = point;
-  request.terms = terms;
+  request.header = header;
   return post(request, id);
 }
 
-/// A control is sent only if its report has its room: see kControls.
+/// Sends a control only if there is space for its report: see kControls.
 template <class Space>
 Verdict ReferenceClient<Space>::control(ControlKind kind, std::uint32_t& id, double rate) {
   const auto free = std::find(unanswered_.begin(), unanswered_.end(), std::uint32_t{0});

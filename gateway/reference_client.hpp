@@ -1,11 +1,12 @@
-// ReferenceClient: the planner's end of a reference channel. Judges before it sends, and knows
-// which stores are its own. Runs outside the cycle; one client per channel.
+// ReferenceClient: the planner's end of a reference channel. It judges what it sends and keeps
+// account of its stores. Runs outside the cycle; one client per channel.
 #pragma once
 
 #include <array>
 
-#include "kernel/reference/admission.hpp"
-#include "kernel/reference/admission_room.hpp"
+#include "kernel/reference/generator/messages.hpp"
+#include "kernel/reference/motion/admission.hpp"
+#include "kernel/reference/motion/admission_room.hpp"
 
 namespace tactus {
 
@@ -14,59 +15,64 @@ class ReferenceClient {
  public:
   explicit ReferenceClient(ReferenceChannel<Space>& channel) : channel_(channel) {}
 
-  /// A store to fill with waypoints, or null while all are on their way. Yours until sent.
+  /// Returns a store to fill with waypoints, or null while all are in use. It is the caller's until
+  /// it is sent.
   Trajectory<Space>* acquire();
 
-  /// What `send` would say of a trajectory, but for the way from the robot to its first waypoint.
-  Verdict judge(Trajectory<Space>& trajectory) const;
-  /// Admits and sends an acquired trajectory; `id` comes back in its reports. When refused the
-  /// store stays yours.
+  /// Writes into the waypoints what admission derives (see admit()) without sending them, and
+  /// returns the verdict that send() would give. Like send(), it does not judge the way from the
+  /// robot to the first waypoint.
+  Verdict admit(Trajectory<Space>& trajectory) const;
+  /// Admits and sends an acquired trajectory; its reports carry `id`. If it is refused, the store
+  /// stays the caller's.
   Verdict send(Trajectory<Space>& trajectory, std::uint32_t& id);
-  /// Judges one more waypoint of an open trajectory that was sent and puts it behind the others.
-  /// kWindowFull while the motion still needs all that are there; the trajectory is then unchanged.
+  /// Judges one more waypoint of an open trajectory that was sent, and appends it. kWindowFull
+  /// while the motion still needs all waypoints in the store; the trajectory is then unchanged.
   Verdict append(const Trajectory<Space>& trajectory, const Waypoint<Space>& waypoint);
-  /// Tells the generator of what was appended; after the `last` no more can be. Refused as a whole
-  /// if it must be slowed down too much: then what was appended is gone. The motion counts on it as
-  /// soon as the generator has taken it and this client is called again, by poll() too.
+  /// Sends the generator what was appended; after the `last` part nothing can be appended. Refuses
+  /// the part as a whole, and drops it, if it must be slowed down too much. The motion uses it once
+  /// the generator has taken it and a function of this client, such as poll(), has been called.
   Verdict flush(const Trajectory<Space>& trajectory, bool last, std::uint32_t& id);
-  /// Admits and sends one online point, given in `terms`.
+  /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
-               const typename Space::Terms& terms = {});
-  /// Whatever was sent before is given up: a trajectory stops on its path, the way to a point ends.
+               const typename Space::Header& header = {});
+  /// Gives up everything that was sent before: a trajectory stops on its path, a motion to a point
+  /// comes to rest.
   Verdict cancel(std::uint32_t& id) { return control(ControlKind::kCancel, id); }
 
-  /// Trajectories pass at `rate`, 0..1, of their speed from now on.
+  /// Passes trajectories at `rate`, 0..1, times their speed from now on.
   Verdict set_override(double rate, std::uint32_t& id) {
     return control(ControlKind::kOverride, id, rate);
   }
-  /// Stops on the path and keeps the trajectory alive; goes on with it.
+  /// pause() stops on the path and keeps the trajectory; resume() continues it.
   Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
   Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }
 
-  /// The next report, if there is one. A report that gives a store back frees it.
+  /// Takes the next report; false if there is none. Frees the store that the report returns.
   bool poll(Report& report);
-  /// The oldest message of feedback that waits, if there is one.
+  /// Takes the oldest message of feedback; false if there is none.
   bool poll_feedback(Feedback<Space>& feedback) { return channel_.feedback.take(feedback); }
 
  private:
-  /// The client's own account of an open trajectory, whose count is the generator's once it is
-  /// sent.
+  /// The client's account of an open trajectory; the count in the trajectory belongs to the
+  /// generator once it is sent.
   struct Stream {
-    int count = 0, flushed = 0, settled = 0;  // waypoints: all, sent, and their rooms set
-    bool whole = false;                       // and none will follow
-    Admitted<Space> admitted;                 // up to the last; use and room: of what is not sent
-    Admitted<Space> sent;                     // up to the last that was
+    int count = 0, flushed = 0, settled = 0;  // waypoints: all, sent, those whose rooms are set
+    bool whole = false;                       // no more waypoints follow those settled
+    Admitted<Space> admitted;                 // up to the last; extent and room of the unsent part
+    Admitted<Space> sent;                     // up to the last that was sent
   };
 
   std::size_t index_of(const Trajectory<Space>& trajectory) const {
     return static_cast<std::size_t>(&trajectory - channel_.stores.data());
   }
   Verdict control(ControlKind kind, std::uint32_t& id, double rate = 1.0);
+  static void begin_part(Stream& stream);
   void settle(std::size_t store);
   Verdict post(Request<Space> request, std::uint32_t& id);
 
   ReferenceChannel<Space>& channel_;
-  std::array<bool, kStores> away_{};  // sent and not yet reported final
+  std::array<bool, kStores> away_{};  // sent and not yet returned by a report
   std::array<Stream, kStores> streams_{};
   std::uint32_t next_id_ = 1;
   std::array<std::uint32_t, kControls> unanswered_{};  // numbers of controls; 0: none

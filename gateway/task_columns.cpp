@@ -1,4 +1,4 @@
-// The columns of the tool tip: one name for each number.
+// The columns of the tool tip, each with a name of its own.
 #include "gateway/trajectory_columns.hpp"
 
 namespace tactus {

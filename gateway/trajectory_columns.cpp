@@ -9,14 +9,14 @@ bool Columns<Space>::add(std::string_view header, Message& reason) {
   Column column;
   column.name = Name(header);
   if (header != "time_s" && !Table::find(header, column.place)) {
-    reason << "unknown column; expected time_s and ";
+    reason << "unknown column; expected one of time_s, ";
     Table::name_them(reason);
     return false;
   }
   for (int i = 0; i < count_; ++i) {
     const ColumnPlace& earlier = columns_[static_cast<std::size_t>(i)].place;
     if (earlier.group == column.place.group && earlier.index == column.place.index) {
-      reason << "the column stands already at " << i + 1;
+      reason << "already given in column " << i + 1;
       return false;
     }
   }
@@ -46,13 +46,13 @@ bool Columns<Space>::complete(Message& reason) const {
     reason << group.meaning << ": " << static_cast<int>(count)
            << (count == 1 ? " column" : " columns") << ", expected ";
     if (some)
-      reason << "those of the positions";
+      reason << "one for each given position";
     else
       reason << group.width;
     return false;
   }
   if ((fields() & kAccelerationField) && !(fields() & kVelocityField)) {
-    reason << "acceleration without velocity";
+    reason << "acceleration is given without velocity";
     return false;
   }
   return true;

@@ -1,35 +1,35 @@
-// Columns: what each column of a trajectory file holds, by its header. The words are a table per
-// space; whatever goes by them is written once.
+// Columns: the meaning of the columns of a trajectory file, by their headers. Each space has its
+// own table of headers (ColumnTable).
 #pragma once
 
 #include <array>
 #include <string_view>
 
-#include "kernel/load_error.hpp"
-#include "kernel/reference/joint_space.hpp"
-#include "kernel/reference/task_space.hpp"
-#include "kernel/reference/trajectory.hpp"
+#include "kernel/core/load_error.hpp"
+#include "kernel/reference/motion/trajectory.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
 
-/// Columns that are given together or left out together.
+/// Columns that are all given or all left out.
 struct ColumnGroup {
   std::string_view meaning;
   int width;             ///< columns
   bool required = true;  ///< may not be left out
-  Fields field = 0;      ///< of a trajectory, given with them
+  Fields field = 0;      ///< the field of a trajectory that they give
 };
 
-/// Where the number of a column belongs.
+/// The place of a column: its group, and its index in the group.
 struct ColumnPlace {
   int group = 0, index = 0;
 };
 
-/// The columns of one space: kGroups, the first of which is the time, and
-///   find(header, place)    the place of a column; false if the space has none of that name
-///   value(place, point)    the number at a place that is not the time
-///   name_them(message)     appends what headers may be
-///   leave_out(bits, terms) notes what the positions do not give, where kPartial allows that
+/// The columns of one space: kGroups, of which the first is the time, and
+///   find(header, place)     finds the place of a column; false if the space has none of that name
+///   value(place, point)     returns the number at a place that is not the time
+///   name_them(message)      appends the allowed headers
+///   leave_out(bits, header) writes the joints that are not given into the header, if kPartial
 template <class Space>
 struct ColumnTable;
 
@@ -46,7 +46,7 @@ struct ColumnTable<JointSpace> {
   static bool find(std::string_view header, ColumnPlace& place);
   static double& value(const ColumnPlace& place, JointSpace::Point& point);
   static void name_them(Message& message);
-  static void leave_out(std::uint32_t joints, JointSpace::Terms& terms) { terms.held = joints; }
+  static void leave_out(std::uint32_t joints, JointSpace::Header& header) { header.held = joints; }
 };
 
 template <>
@@ -63,32 +63,33 @@ struct ColumnTable<TaskSpace> {
   static bool find(std::string_view header, ColumnPlace& place);
   static double& value(const ColumnPlace& place, TaskSpace::Point& point);
   static void name_them(Message& message);
-  static void leave_out(std::uint32_t, TaskSpace::Terms&) {}
+  static void leave_out(std::uint32_t, TaskSpace::Header&) {}
 };
 
 template <class Space>
 class Columns {
  public:
-  /// `partial`: positions of some joints only will do, where the space knows that.
+  /// `partial`: positions of some of the joints are enough, if the space allows it.
   explicit Columns(bool partial) : partial_(partial) {}
 
-  /// Takes the next header cell; false with the reason if it is unknown or a repetition.
+  /// Adds the next header cell; false with the reason if it is unknown or repeated.
   bool add(std::string_view header, Message& reason);
-  /// After the last: time and positions are there, every other group whole or absent; else false
-  /// with the reason. Whole is what the positions give, if they may be partial.
+  /// Checks the header after its last cell: time and positions are given, every other group is
+  /// whole or absent; else false with the reason. With partial positions, a whole group has the
+  /// same joints as the positions.
   bool complete(Message& reason) const;
 
   int count() const { return count_; }
   std::string_view name(int column) const {
     return columns_[static_cast<std::size_t>(column)].name;
   }
-  /// Where the number of a column belongs.
+  /// Returns the number of a waypoint that a column gives.
   double& value(int column, Waypoint<Space>& waypoint) const;
-  /// The fields that are given.
+  /// Returns the fields that are given.
   Fields fields() const;
-  /// What the positions leave out, after complete() has let it pass.
-  void note_left_out(typename Space::Terms& terms) const {
-    Table::leave_out(whole(kPositions) & ~given(kPositions), terms);
+  /// Writes the joints that the positions leave out into the header; call after complete().
+  void note_left_out(typename Space::Header& header) const {
+    Table::leave_out(whole(kPositions) & ~given(kPositions), header);
   }
 
  private:
@@ -107,7 +108,7 @@ class Columns {
   static constexpr std::uint32_t whole(std::size_t group) {
     return (1U << Table::kGroups[group].width) - 1U;
   }
-  /// Bit i: number i of the group is given.
+  /// Returns a bit for each number of the group that is given: bit i for number i.
   std::uint32_t given(std::size_t group) const;
 
   std::array<Column, max_columns()> columns_;

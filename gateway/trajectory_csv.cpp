@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "gateway/trajectory_columns.hpp"
-#include "kernel/ini.hpp"
+#include "kernel/load/ini.hpp"
 
 namespace tactus {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxRowLength = 4096;
 using Row = std::array<char, kMaxRowLength>;
 
-/// Cuts the first cell off `row`; false when there is none left.
+/// Cuts the first cell off `row`; false if none is left. `more` is true if another one follows.
 bool take_cell(std::string_view& row, bool& more, std::string_view& cell) {
   if (!more) return false;
   const std::size_t comma = row.find(',');
@@ -63,7 +63,7 @@ bool read_row(std::string_view row, int line, const Columns<Space>& columns,
   while (take_cell(row, more, cell)) {
     if (++column > columns.count()) {
       return refuse(error, line, column, {},
-                    Message("more cells than the ") << columns.count() << " of the header");
+                    Message("more cells than the ") << columns.count() << " columns of the header");
     }
     const std::string_view header = columns.name(column - 1);
     if (cell.empty()) return refuse(error, line, column, header, "the cell is empty");
@@ -72,12 +72,13 @@ bool read_row(std::string_view row, int line, const Columns<Space>& columns,
                     Message("'") << cell << "' is not a finite number");
   }
   if (column == columns.count()) return true;
-  return refuse(error, line, 0, {},
-                Message("") << column << " cells, the header has " << columns.count());
+  return refuse(
+      error, line, 0, {},
+      Message("") << column << " cells, but the header has " << columns.count() << " columns");
 }
 
-/// One line without its end, as far as the buffer holds it; false at the end of the file. `fits`
-/// tells whether that was the whole line.
+/// Reads one line without its end, up to the size of the buffer; false at the end of the file.
+/// `fits` is false if the line is longer.
 bool read_line(std::FILE* file, Row& buffer, std::string_view& line, bool& fits) {
   std::size_t size = 0;
   fits = true;
@@ -93,15 +94,14 @@ bool read_line(std::FILE* file, Row& buffer, std::string_view& line, bool& fits)
   return true;
 }
 
-/// Takes the header, or the next waypoint.
+/// Reads the header if there is none yet, else the next waypoint.
 template <class Space>
 bool take_row(std::string_view row, int line, Columns<Space>& columns,
               Trajectory<Space>& trajectory, CsvError& error) {
   if (columns.count() == 0) return read_header(row, line, columns, error);
   if (trajectory.count == trajectory.capacity)
     return refuse(error, line, 0, {},
-                  Message("more than the ")
-                      << trajectory.capacity << " waypoints there is room for");
+                  Message("too many waypoints; at most ") << trajectory.capacity << " fit");
   if (!read_row(row, line, columns, trajectory.waypoints[trajectory.count], error)) return false;
   ++trajectory.count;
   return true;
@@ -117,16 +117,17 @@ bool read_file(std::FILE* file, bool partial, Trajectory<Space>& trajectory, Csv
     if (!fits)
       return refuse(error, line, 0, {},
                     Message("the line is longer than ") << kMaxRowLength << " characters");
-    if (!is_text(row)) return refuse(error, line, 0, {}, "the line holds bytes that are not text");
+    if (!is_text(row))
+      return refuse(error, line, 0, {}, "the line contains bytes that are not text");
     if (line == 1) row = without_byte_order_mark(row);
     row = trim(row);
     if (row.empty() || row.front() == '#') continue;
     if (!take_row(row, line, columns, trajectory, error)) return false;
   }
-  if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file is empty: it has no header");
-  if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoint");
+  if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file has no header");
+  if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoints");
   trajectory.fields = columns.fields();
-  columns.note_left_out(trajectory.terms);
+  columns.note_left_out(trajectory.header);
   return true;
 }
 
@@ -138,7 +139,8 @@ PlacedMessage CsvError::message() const {
   if (column > 0) text << column << ":";
   if (line > 0) text << " ";
   if (!header.empty()) text << header << ": ";
-  return text << reason, text;
+  text << reason;
+  return text;
 }
 
 template <class Space>

@@ -1,5 +1,5 @@
 // fer_sim: a simulated Franka FER in virtual time.
-#include "boards/program/sim_board.hpp"
+#include "program/sim/sim_board.hpp"
 
 int main(int argc, char** argv) {
   return tactus::run_sim_board(argc, argv, "fer_sim");

@@ -1,16 +1,17 @@
 # A simulated Franka FER in virtual time, on the host.
-ROBOT  := FER
+ROBOT  := Fer
 SRCS   += boards/fer_sim/board.cpp
+PARTS  := $(SIM)
 LDLIBS += -lmujoco
 
-# What `make run` runs: pipeline, or pipeline:trajectory.
+# The runs of `make run`: pipeline, or pipeline:trajectory.
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
 
-# Memory in bytes that `make certificate` holds the kernel to: static and stack on a Cortex-M7, an exception included,
-# and stack on the host.
+# Limits in bytes that `make certificate` checks: static memory and stack on a Cortex-M7, with one exception, and stack
+# on the host.
 STATIC_BUDGET     := 262144
 STACK_BUDGET      := 24576
 HOST_STACK_BUDGET := 32768
 
-# All tests but those of the UR's wire.
-TESTS  := $(filter-out ur_%,$(TESTS))
+# All tests except those of the UR interfaces.
+TESTS  := $(filter-out tests/ur/%,$(TESTS))

@@ -1,9 +1,10 @@
 # An emulated Universal Robots UR10 controller (CB3) behind its TCP ports, on the host.
-ROBOT  := UR10
-SRCS   += boards/ur10_emulator/main.cpp
+ROBOT  := Ur10
+NAME   := ur10_emulator
+SRCS   += sim_plant/ur/server/main.cpp
 LDLIBS += -lmujoco
 
-# What the tests link as well.
-PARTS  := $(wildcard sim_plant/ur/*.cpp hal/ur/*.cpp) boards/ur10_emulator/options.cpp boards/ur10_emulator/server.cpp
+# Sources that the tests link in addition.
+PARTS  := $(filter-out $(SRCS),$(ARM) $(wildcard sim_plant/ur/*/*.cpp hal/net/*.cpp hal/ur/*.cpp))
 
-TESTS  := $(filter ur_%,$(TESTS))
+TESTS  := $(filter tests/ur/%,$(TESTS))

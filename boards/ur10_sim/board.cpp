@@ -1,5 +1,5 @@
 // ur10_sim: a simulated Universal Robots UR10 (CB3) in virtual time.
-#include "boards/program/sim_board.hpp"
+#include "program/sim/sim_board.hpp"
 
 int main(int argc, char** argv) {
   return tactus::run_sim_board(argc, argv, "ur10_sim");

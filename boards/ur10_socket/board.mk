@@ -1,11 +1,11 @@
-# A Universal Robots UR10 behind its own ports, on Linux.
-ROBOT  := UR10
+# A Universal Robots UR10 behind its own TCP ports, on Linux.
+ROBOT  := Ur10
 SRCS   += boards/ur10_socket/board.cpp
-PARTS  := $(wildcard hal/ur/*.cpp)
+PARTS  := $(wildcard hal/net/*.cpp hal/ur/*.cpp)
 
-# What `make run` runs, each beside an emulated controller of its own.
+# The pipelines that `make run` runs, each with an emulated controller of its own.
 RUNS   += ur10_trg_cpc_real ur10_trg_ac_cpc_real
 RUNNER := scripts/beside_emulator
 
-# Its tests need a controller: they are those of ur10_emulator.
-TESTS  :=
+# All other tests need a controller: they are those of ur10_emulator.
+TESTS  := tests/program/test_sections.cpp

@@ -1,39 +1,70 @@
-// Host: what on this Linux host would hurt a real-time cycle, read from /proc and /sys and changed
-// nowhere.
+// Host: reads from /proc, /sys and the network card which settings of this Linux host would hurt a
+// real-time cycle, and changes none of them.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "kernel/text.hpp"
+#include "hal/os/ioctl.hpp"
+#include "kernel/core/text.hpp"
 
 namespace tactus {
 
 enum class Finding : std::uint8_t { kOk, kHurts, kUnknown };
-inline constexpr std::array<const char*, 3> kFindingWords = {"ok", "hurts", "unknown"};
+
+constexpr const char* name(Finding finding) {
+  switch (finding) {
+    case Finding::kOk: return "ok";
+    case Finding::kHurts: return "hurts";
+    case Finding::kUnknown: return "unknown";
+  }
+  return nullptr;
+}
+
+/// How much an item matters.
+enum class Need : std::uint8_t {
+  kBetter,  ///< improves latencies
+  kRight,   ///< no bound on the latency without it; a start requests it and reads it back
+  kHost     ///< no bound on the latency without it; a start can only look
+};
+
+constexpr const char* name(Need need) {
+  switch (need) {
+    case Need::kBetter: return "better";
+    case Need::kRight:
+    case Need::kHost: return "required";
+  }
+  return nullptr;
+}
 
 struct HostQuery {
-  const char* root = "";  ///< before /proc and /sys; empty: this host's own
-  int cpu = -1;           ///< the one the cycle is to run on; -1: any
-  int priority = 80;      ///< the one it is to run at
+  const char* root = "";         ///< folder that contains proc and sys; empty: this host's own
+  int cpu = -1;                  ///< CPU of the cycle; -1: any
+  int priority = 80;             ///< priority of the cycle
+  const char* interface = "";    ///< network interface of the robot; empty: none
+  Ioctl ethtool = system_ioctl;  ///< asks the network card; null: the card cannot be asked
 };
 
 struct HostItem {
   const char* name = "";
-  bool required = false;  ///< without it no bound on the latency can be expected
+  Need need = Need::kBetter;
   Finding finding = Finding::kUnknown;
-  Text<127> value;          ///< what was found
-  const char* remedy = "";  ///< how to mend what hurts
+  Text<127> value;          ///< the present setting, or why it is unknown
+  const char* place = "";   ///< where it is read
+  const char* reason = "";  ///< what it does to a cycle when it hurts
+  const char* remedy = "";  ///< how to change it
 };
 
 struct HostReport {
-  std::array<HostItem, 12> items;
+  std::array<HostItem, 22> items;
 
-  /// False if anything that is required hurts.
+  /// False if an item hurts without which no bound on the latency can be expected.
   bool fit() const;
+  /// Returns the number of items that are unknown.
+  int unknown() const;
 };
 
-/// Looks at every item; what cannot be read is unknown. [init]
+/// Inspects every item; one that cannot be read is unknown. [init]
 HostReport inspect_host(const HostQuery& query);
 
 }  // namespace tactus

@@ -17,7 +17,7 @@ namespace tactus {
 namespace {
 
 constexpr std::size_t kKiB = 1024;
-constexpr std::size_t kPage = 4096;  // the smallest of any machine: no page is left out
+constexpr std::size_t kPage = 4096;  // the smallest of any machine, so that no page is left out
 constexpr int kReadsBackOtherwise = 0;
 constexpr int kGranted = -1;
 
@@ -28,26 +28,26 @@ struct StepText {
 
 // In the order of RealtimeStage.
 constexpr std::array<StepText, 6> kTexts = {{
-    {"cpu", "name a CPU that is online and in the process's cpuset"},
-    {"lock_memory", "raise RLIMIT_MEMLOCK (limits.conf: memlock unlimited) or give CAP_IPC_LOCK"},
-    {"stack", "lock the memory, and see that there is enough of it"},
-    {"heap", "see that there is enough memory"},
-    {"dma_latency", "let this user write /dev/cpu_dma_latency"},
-    {"priority", "raise RLIMIT_RTPRIO (limits.conf: rtprio 98) or give CAP_SYS_NICE"},
+    {"cpu", "choose a CPU that is online and in the process's cpuset"},
+    {"lock_memory", "raise RLIMIT_MEMLOCK (limits.conf: memlock unlimited) or grant CAP_IPC_LOCK"},
+    {"stack", "set lock_memory = on, or lower stack_KiB"},
+    {"heap", "free memory, or lower heap_KiB"},
+    {"dma_latency", "give this user write access to /dev/cpu_dma_latency"},
+    {"priority", "raise RLIMIT_RTPRIO (limits.conf: rtprio 98) or grant CAP_SYS_NICE"},
 }};
 
 void touch(volatile char* bytes, std::size_t size) {
   for (std::size_t i = 0; i < size; i += kPage) bytes[i] = 0;
 }
 
-/// The stack grows downwards: what is touched is the end nearest to the caller.
+/// Touches `size` bytes of the stack below the caller; the stack grows downwards.
 [[gnu::noinline]] void touch_stack(std::size_t size) {
   constexpr std::size_t kLargest = std::size_t{kMaxStack_KiB} * kKiB;
   volatile char bytes[kLargest];
   touch(bytes + (kLargest - size), size);
 }
 
-/// The second time nothing may have to be fetched any more.
+/// Touches the stack twice; the second time must cause no page fault.
 int prefault_stack(std::size_t size) {
   touch_stack(size);
   const std::int64_t before = page_faults();
@@ -55,8 +55,8 @@ int prefault_stack(std::size_t size) {
   return page_faults() == before ? kGranted : kReadsBackOtherwise;
 }
 
-/// From here on the C library neither gives memory back nor maps large pieces of their own, so what
-/// was touched once is there for good.
+/// Makes the C library keep freed memory and take large pieces from the heap too, so that memory
+/// touched once stays resident.
 int prefault_heap(std::size_t size) {
 #ifdef __GLIBC__
   if (mallopt(M_TRIM_THRESHOLD, -1) == 0 || mallopt(M_MMAP_MAX, 0) == 0) return EINVAL;
@@ -94,9 +94,9 @@ int Realtime::set_cpu(int cpu) {
   return CPU_EQUAL(&wanted, &granted) ? kGranted : kReadsBackOtherwise;
 }
 
-/// A yes alone proves nothing, a sandbox may give it for no deed: the kernel's account of what is
-/// locked must cover what is resident, which is counted roughly and has pages that never are
-/// locked.
+/// Locks the memory and checks the result: a sandbox may report success without locking anything.
+/// The locked size must be at least half of the resident size, which is approximate and includes
+/// pages that are never locked.
 int Realtime::lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) return errno;
   SmallFile status;
@@ -151,7 +151,7 @@ const RealtimeReport& Realtime::apply(const RealtimeSettings& settings) {
        [&] { return prefault_heap(bytes(settings.heap_KiB)); });
   take(RealtimeStage::kDmaLatency, settings.dma_latency == Switch::kOn,
        [&] { return hold_dma_latency(); });
-  // The priority comes last: nothing of the above holds up the rest of the machine.
+  // The priority comes last, so that the steps above do not hold up the rest of the machine.
   take(RealtimeStage::kScheduler, settings.priority > 0,
        [&] { return set_priority(settings.priority); });
   return report_;

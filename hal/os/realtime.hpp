@@ -1,5 +1,5 @@
-// Realtime: asks Linux for what a cycle needs, step by step, and reads every step back from the
-// system: what was granted is what the report says, not what was asked for.
+// Realtime: requests from Linux what a cycle needs, step by step, and reads every step back, so
+// that the report says what was granted, not what was requested.
 #pragma once
 
 #include <sched.h>
@@ -13,16 +13,24 @@
 namespace tactus {
 
 enum class StepOutcome : std::uint8_t { kNotAsked, kOk, kRefused };
-inline constexpr std::array<const char*, 3> kStepOutcomeWords = {"not asked", "ok", "refused"};
+
+constexpr const char* name(StepOutcome outcome) {
+  switch (outcome) {
+    case StepOutcome::kNotAsked: return "not asked";
+    case StepOutcome::kOk: return "ok";
+    case StepOutcome::kRefused: return "refused";
+  }
+  return nullptr;
+}
 
 struct RealtimeStep {
   const char* name = "";
   StepOutcome outcome = StepOutcome::kNotAsked;
-  int error = 0;  ///< errno of a refusal; 0: granted, but reading back says otherwise
+  int error = 0;  ///< errno of a refusal; 0: granted, but not in effect when read back
   const char* remedy = "";
 };
 
-/// The steps in the order they are taken in.
+/// The steps, in the order in which they are taken.
 enum class RealtimeStage : std::uint8_t { kCpu, kMemory, kStack, kHeap, kDmaLatency, kScheduler };
 
 struct RealtimeReport {
@@ -31,7 +39,7 @@ struct RealtimeReport {
   const RealtimeStep& operator[](RealtimeStage stage) const {
     return steps[static_cast<std::size_t>(stage)];
   }
-  /// Whether any step was asked for and refused.
+  /// True if any requested step was refused.
   bool refused() const;
 };
 
@@ -42,13 +50,12 @@ class Realtime {
   Realtime(const Realtime&) = delete;
   Realtime& operator=(const Realtime&) = delete;
 
-  /// Takes every step that is asked for, for the calling thread; a step that is refused does not
-  /// keep the others from being taken. Threads and programs started later inherit priority and CPU.
-  /// [init]
+  /// Takes every requested step for the calling thread; after a refused step the others are still
+  /// taken. Threads and programs started later inherit priority and CPU. [init]
   const RealtimeReport& apply(const RealtimeSettings& settings);
   const RealtimeReport& report() const { return report_; }
-  /// Gives back what was granted, but for the C library's way with the heap; from the thread that
-  /// applied. [any]
+  /// Undoes the steps, except the settings of the C library's heap. Call it from the thread that
+  /// called apply(). [any]
   void release();
 
  private:
@@ -59,12 +66,12 @@ class Realtime {
 
   RealtimeReport report_;
   bool applied_ = false;
-  int dma_latency_ = -1;  // the open file; the demand ends when it is closed
+  int dma_latency_ = -1;  // the open file; the request ends when it is closed
   int policy_before_ = 0, priority_before_ = 0;
   cpu_set_t cpus_before_{};
 };
 
-/// Pages the calling thread had to wait for since it began. [any]
+/// Returns the number of page faults of the calling thread since it began. [any]
 std::int64_t page_faults();
 
 }  // namespace tactus

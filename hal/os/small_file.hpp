@@ -1,4 +1,4 @@
-// SmallFile: a file of /proc or /sys, read whole into fixed memory.
+// SmallFile: reads a file of /proc or /sys into fixed memory.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ class SmallFile {
   bool read(const char* path);
   /// The errno of the last read(); 0 if it succeeded.
   int error() const { return error_; }
-  /// What was read, without the blanks and line ends behind it.
+  /// The content without trailing blanks and line ends.
   std::string_view text() const { return {bytes_.data(), size_}; }
-  /// What follows `key` on the first line that begins with it, without blanks around; empty if
-  /// there is no such line.
+  /// Returns the text after `key` on the first line that begins with it, without blanks around;
+  /// empty if there is no such line.
   std::string_view line(std::string_view key) const;
 
  private:
@@ -25,14 +25,14 @@ class SmallFile {
   int error_ = 0;
 };
 
-/// Whether a list of CPUs as the kernel prints it, "0-3,5", has `cpu` in it. [init]
+/// True if a list of CPUs as the kernel prints it, "0-3,5", contains `cpu`. [init]
 bool lists_cpu(std::string_view list, int cpu);
 
-/// The whole number a text begins with; -1 if it begins with none or with one of more than nine
-/// digits. [init]
+/// Returns the whole number at the beginning of a text; -1 if there is none or it has more than
+/// nine digits. [init]
 int leading_int(std::string_view text);
 
-/// The text up to its first blank.
+/// Returns the text up to its first blank.
 std::string_view first_word(std::string_view text);
 
 }  // namespace tactus

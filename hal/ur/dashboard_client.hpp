@@ -1,26 +1,53 @@
-// DashboardClient: power, brakes and protective stops, by the text commands of port 29999. For the
-// start alone: in the cycle nobody asks it anything.
+// DashboardClient: power, brakes and protective stops, by the text commands of port 29999. A
+// command is sent in one cycle, and its reply is taken in a later one.
 #pragma once
 
-#include "hal/ur/socket.hpp"
+#include "hal/net/socket.hpp"
 
 namespace tactus::ur {
 
 class DashboardClient {
  public:
-  /// Connects and waits for the greeting. kConnectionLost, kBusTimeout. [init]
-  Status connect(const char* address, int port, int timeout_ms, Message& why);
-  /// One command; kRefusedByRobot, and `why` has command and reply, unless the reply begins with
-  /// `expected`. [init]
-  Status ask(std::string_view command, std::string_view expected, Message& why);
+  enum class Answer : std::uint8_t {
+    kNone,     ///< no command was given
+    kPending,  ///< the reply has not come
+    kYes,      ///< the reply is the expected one
+    kNo,       ///< it is another one
+    kLost,     ///< the connection is lost
+  };
+
+  /// Connects and waits for the greeting. kConnectionLost, kBusTimeout, kRefusedByRobot. [init]
+  Status connect(const char* address, int port, const Deadline& deadline, Message& why);
+  /// Gives a command whose reply begins with `expected`; both texts must be constants. If the reply
+  /// to the command before has not come, it is passed over. [cyclic]
+  void ask(std::string_view command, std::string_view expected);
+  /// Sends the command if it was not sent, and takes what has come of the reply. Returns the answer
+  /// from then on; `why` explains the first kNo or kLost. [cyclic]
+  Answer poll(Message& why);
+  /// The Status of kLost: kConnectionLost, or kWireFormat for a reply without an end. [cyclic]
+  Status loss() const { return endless_ ? Status::kWireFormat : Status::kConnectionLost; }
   void close() { socket_.close(); }
 
  private:
   using Line = Text<255>;
-  Status read_line(Line& line, Message& why);
+
+  /// False: the connection is lost.
+  bool send();
+  /// Takes bytes unless there is a whole line. False: the connection is lost, or a line has no end.
+  bool receive();
+  /// Takes a whole line off the bytes that have come.
+  bool next_line(Line& line);
+  Answer judge(std::string_view reply, Message& why);
+  void explain_loss(Message& why) const;
 
   Socket socket_;
-  int timeout_ms_ = 0;
+  std::array<char, Line::capacity() + 1> bytes_;
+  std::size_t size_ = 0;
+  std::string_view command_, expected_;
+  bool sent_ = false;
+  int unread_ = 0;        // replies that have not come
+  bool endless_ = false;  // a line is longer than any reply
+  Answer answer_ = Answer::kNone;
 };
 
 }  // namespace tactus::ur

@@ -1,7 +1,7 @@
-// What a force/torque sensor at the flange would show, from the force that a controller states at
-// the tip: there it is what the environment exerts, at the tip and in the axes of the base, without
-// the weight of the payload. Turned into the axes of the flange, moved to its origin, the weight
-// added again:
+// Converts the force that a controller reports to the reading of a force/torque sensor at the
+// flange. The controller reports the force of the environment at the tip, in the axes of the base,
+// without the weight of the payload. The sensor's reading is about the origin of the flange, in its
+// axes, with the weight:
 //
 //   f = R^T (f_tcp + m g),  m_0 = R^T m_tcp + p_tip x R^T f_tcp + c x R^T m g
 //
@@ -10,11 +10,11 @@
 
 #include "hal/ur/ur_state.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/model/robot_table.hpp"
+#include "kernel/robots/robot_table.hpp"
 
 namespace tactus::ur {
 
-/// [force; moment] in N, N m; `tool` is the payload that the controller was told. [cyclic]
+/// Returns [force; moment] in N, N m; `tool` is the payload set in the controller. [cyclic]
 inline Vector6 flange_wrench(const UrState& state, const Tool& tool) {
   const Eigen::Quaterniond to_flange = exp_so3(state.tcp_pose.tail<3>()).conjugate();
   const Vector3 force = to_flange * Vector3(state.tcp_force.head<3>());

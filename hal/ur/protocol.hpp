@@ -1,8 +1,8 @@
-// The bytes between a Universal Robots controller (CB3, software 3.x) and its clients, defined once
-// for both ends of the wire.
+// The protocols between a Universal Robots controller (CB3, software 3.x) and its clients, defined
+// once for both ends.
 #pragma once
 
-#include "hal/ur/protocol_bytes.hpp"
+#include "hal/net/protocol_bytes.hpp"
 #include "hal/ur/protocol_frames.hpp"
 #include "hal/ur/protocol_modes.hpp"
 #include "hal/ur/protocol_rtde.hpp"

@@ -1,5 +1,5 @@
-// Frames: cuts a stream of bytes into packets that begin with their own length. TCP keeps the order
-// of bytes and nothing else: a packet may come in pieces, and several in one piece.
+// Frames: cuts a stream of bytes into packets that begin with their own length. TCP preserves only
+// the order of bytes: a packet may come in pieces, or several in one piece.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct Packet {
 
 enum class NextPacket : std::uint8_t {
   kNone,    ///< the next packet is not complete
-  kPacket,  ///< here it is
-  kBroken,  ///< a length that no packet has: the stream cannot be followed any further
+  kPacket,  ///< the packet is complete
+  kBroken,  ///< the length is impossible, and the stream cannot be read any further
 };
 
 /// `LengthBytes` hold the length of the whole packet (2: RTDE, 4: the other binary ports), which is
@@ -27,7 +27,7 @@ class Frames {
   static_assert(LengthBytes <= Shortest && Shortest <= Capacity);
 
  public:
-  /// Takes as many bytes as there is room for; returns how many. Packets got before are void.
+  /// Takes as many bytes as fit and returns their number. Packets returned before become invalid.
   std::size_t take(const std::uint8_t* data, std::size_t size) {
     if (begin_ > 0) {
       std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
@@ -40,7 +40,7 @@ class Frames {
     return size;
   }
 
-  /// The next whole packet; valid until more is taken.
+  /// Returns the next whole packet, which is valid until the next take().
   NextPacket next(Packet& packet) {
     const std::size_t held = end_ - begin_;
     if (held < LengthBytes) return NextPacket::kNone;
@@ -53,7 +53,7 @@ class Frames {
     return NextPacket::kPacket;
   }
 
-  /// How many bytes take() has room for; at least one after next() has said kNone.
+  /// How many bytes take() can take; at least one after next() has returned kNone.
   std::size_t room() const { return Capacity - (end_ - begin_); }
   void clear() { begin_ = end_ = 0; }
 
@@ -62,7 +62,7 @@ class Frames {
   std::size_t begin_ = 0, end_ = 0;
 };
 
-/// RTDE: u16 length, u8 type, payload. No packet is longer than its length can say.
+/// RTDE: u16 length, u8 type, payload. The type of the length field limits the size of a packet.
 inline constexpr std::size_t kRtdeHeader = 3, kRtdeLongest = 65535;
 using RtdeFrames = Frames<2, kRtdeHeader, kRtdeLongest>;
 

@@ -1,5 +1,5 @@
-// The numbers by which a UR controller names its modes on every port, and their names on the
-// dashboard. Universal Robots, "Remote Control Via TCP/IP" and "Real-Time Data Exchange Guide".
+// The numbers of a UR controller's modes on all ports, and their names on the dashboard. Universal
+// Robots, "Remote Control Via TCP/IP" and "Real-Time Data Exchange Guide".
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,19 @@ enum class RobotMode : std::int8_t {
 };
 
 constexpr const char* name(RobotMode mode) {
-  constexpr const char* kNames[] = {
-      "NO_CONTROLLER", "DISCONNECTED", "CONFIRM_SAFETY", "BOOTING", "POWER_OFF",
-      "POWER_ON",      "IDLE",         "BACKDRIVE",      "RUNNING", "UPDATING_FIRMWARE"};
-  return kNames[static_cast<int>(mode) + 1];
+  switch (mode) {
+    case RobotMode::kNoController: return "NO_CONTROLLER";
+    case RobotMode::kDisconnected: return "DISCONNECTED";
+    case RobotMode::kConfirmSafety: return "CONFIRM_SAFETY";
+    case RobotMode::kBooting: return "BOOTING";
+    case RobotMode::kPowerOff: return "POWER_OFF";
+    case RobotMode::kPowerOn: return "POWER_ON";
+    case RobotMode::kIdle: return "IDLE";
+    case RobotMode::kBackdrive: return "BACKDRIVE";
+    case RobotMode::kRunning: return "RUNNING";
+    case RobotMode::kUpdatingFirmware: return "UPDATING_FIRMWARE";
+  }
+  return nullptr;
 }
 
 enum class SafetyMode : std::uint8_t {
@@ -41,19 +50,20 @@ enum class SafetyMode : std::uint8_t {
 };
 
 constexpr const char* name(SafetyMode mode) {
-  constexpr const char* kNames[] = {"",
-                                    "NORMAL",
-                                    "REDUCED",
-                                    "PROTECTIVE_STOP",
-                                    "RECOVERY",
-                                    "SAFEGUARD_STOP",
-                                    "SYSTEM_EMERGENCY_STOP",
-                                    "ROBOT_EMERGENCY_STOP",
-                                    "VIOLATION",
-                                    "FAULT",
-                                    "VALIDATE_JOINT_ID",
-                                    "UNDEFINED"};
-  return kNames[static_cast<int>(mode)];
+  switch (mode) {
+    case SafetyMode::kNormal: return "NORMAL";
+    case SafetyMode::kReduced: return "REDUCED";
+    case SafetyMode::kProtectiveStop: return "PROTECTIVE_STOP";
+    case SafetyMode::kRecovery: return "RECOVERY";
+    case SafetyMode::kSafeguardStop: return "SAFEGUARD_STOP";
+    case SafetyMode::kSystemEmergencyStop: return "SYSTEM_EMERGENCY_STOP";
+    case SafetyMode::kRobotEmergencyStop: return "ROBOT_EMERGENCY_STOP";
+    case SafetyMode::kViolation: return "VIOLATION";
+    case SafetyMode::kFault: return "FAULT";
+    case SafetyMode::kValidateJointId: return "VALIDATE_JOINT_ID";
+    case SafetyMode::kUndefined: return "UNDEFINED";
+  }
+  return nullptr;
 }
 
 enum class JointMode : std::uint8_t {
@@ -65,7 +75,7 @@ enum class JointMode : std::uint8_t {
   kIdle = 255,
 };
 
-enum class RuntimeState : std::uint8_t {
+enum class RuntimeState : std::uint32_t {
   kStopping = 0,
   kStopped = 1,
   kPlaying = 2,
@@ -74,7 +84,19 @@ enum class RuntimeState : std::uint8_t {
   kResuming = 5,
 };
 
-/// robot_status_bits.
+constexpr const char* name(RuntimeState state) {
+  switch (state) {
+    case RuntimeState::kStopping: return "stopping";
+    case RuntimeState::kStopped: return "stopped";
+    case RuntimeState::kPlaying: return "playing";
+    case RuntimeState::kPausing: return "pausing";
+    case RuntimeState::kPaused: return "paused";
+    case RuntimeState::kResuming: return "resuming";
+  }
+  return nullptr;
+}
+
+/// Bits of the RTDE field robot_status_bits.
 enum RobotStatusBit : std::uint32_t {
   kPowerOnBit = 1u << 0,
   kProgramRunningBit = 1u << 1,
@@ -82,7 +104,7 @@ enum RobotStatusBit : std::uint32_t {
   kPowerButtonBit = 1u << 3,
 };
 
-/// safety_status_bits.
+/// Bits of the RTDE field safety_status_bits.
 enum SafetyStatusBit : std::uint32_t {
   kNormalBit = 1u << 0,
   kReducedBit = 1u << 1,

@@ -33,7 +33,7 @@ enum class FieldType : std::uint8_t {
   kVector6d,
   kVector6Int32,
   kVector6Uint32,
-  // In place of a type:
+  // Given in place of a type:
   kNotFound,
   kInUse,
 };
@@ -64,8 +64,8 @@ constexpr std::size_t size_of(FieldType type) {
   return kFieldTypes[static_cast<std::size_t>(type)].size;
 }
 
-/// Cuts the next name off a list separated by commas. False when there is none left; a comma at the
-/// end adds no name.
+/// Cuts the next name off a list separated by commas. False if none is left; a comma at the end
+/// adds no name.
 constexpr bool next_name(std::string_view& list, std::string_view& name) {
   if (list.empty()) return false;
   const std::size_t comma = list.find(',');
@@ -74,10 +74,10 @@ constexpr bool next_name(std::string_view& list, std::string_view& name) {
   return true;
 }
 
-/// Hz; the fastest is once in every cycle of the controller.
+/// Lowest rate; the highest is one packet in every cycle of the controller.
 inline constexpr double kRtdeSlowest_Hz = 1.0;
 
-inline constexpr int kRegisters = 48;      ///< of integers and of doubles, in either direction
+inline constexpr int kRegisters = 48;      ///< of integers, and of doubles, in either direction
 inline constexpr int kBitRegisters = 128;  ///< in either direction
 
 }  // namespace tactus::ur

@@ -1,6 +1,6 @@
-// What an uploaded program and the control computer say to each other, by programs in the field:
-// all 32-bit integers, most of them a value times a million. Universal Robots Client Library
-// (external control), ur_modern_driver (driver program), ur_rtde (registers).
+// The messages between an uploaded program and the control computer, for three programs in common
+// use: all are 32-bit integers, most of them a value times a million. Universal Robots Client
+// Library (external control), ur_modern_driver (driver program), ur_rtde (registers).
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ inline constexpr double kFixedPoint = 1e6;
 // ---- external control -------------------------------------------------------------------------
 
 inline constexpr std::size_t kReverseInts = 8;         ///< timeout in ms, six values, mode
-inline constexpr std::size_t kTrajectoryInts = 21;     ///< a point
+inline constexpr std::size_t kTrajectoryInts = 21;     ///< of one point
 inline constexpr std::size_t kScriptCommandInts = 28;  ///< command and parameters
 
 enum class ControlMode : std::int32_t {
@@ -52,7 +52,7 @@ enum PointType : std::int32_t {
   kPointMoveLJoints = 7,
   kPointMovePJoints = 8,
   kPointMoveCJoints = 9,
-  kPointMoveCJointsPose = 10,  ///< of what its end and its via point are, in this order
+  kPointMoveCJointsPose = 10,  ///< named after the types of end and via point, in this order
   kPointMoveCPoseJoints = 11,
   kPointOptimoveJPose = 12,
   kPointOptimoveLJoints = 13,
@@ -132,7 +132,7 @@ enum class RegisterCommand : std::int32_t {
   kStop = 255,
 };
 
-/// What the program answers in its first integer register.
+/// Answers of the program in its first integer register.
 enum Handshake : std::int32_t { kReady = 1, kDone = 2 };
 
 }  // namespace tactus::ur

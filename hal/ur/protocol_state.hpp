@@ -7,7 +7,7 @@
 
 namespace tactus::ur {
 
-/// Of the controller's software: 3.15.8.106339.
+/// Version of the controller's software: 3.15.8.106339.
 struct Version {
   std::uint32_t major = 3, minor = 15, bugfix = 8, build = 106339;
 
@@ -16,7 +16,7 @@ struct Version {
     if (minor != b) return minor > b;
     return bugfix >= c;
   }
-  /// Of the controller: that of an e-Series from version 5 up.
+  /// Cycle of the controller; versions from 5 up are of the e-Series.
   constexpr double cycle_s() const { return major < 5 ? 0.008 : 0.002; }
 };
 
@@ -30,8 +30,8 @@ enum Port : std::uint16_t {
   kRtdePort = 30004,
 };
 
-/// Bytes of a packet on the real-time port: each version appends to the one before. What 3.14 and
-/// 3.15 send is not published; a reader takes the prefix it knows.
+/// Bytes of a packet on the real-time port: each version appends to the one before. The packets of
+/// 3.14 and 3.15 are not published; a reader takes the prefix it knows.
 constexpr std::size_t realtime_size(const Version& version) {
   if (version.at_least(5, 10)) return 1220;
   if (version.at_least(5, 9)) return 1140;
@@ -41,7 +41,7 @@ constexpr std::size_t realtime_size(const Version& version) {
   return 1044;
 }
 
-/// Offsets in a packet of the real-time port; a `d` of the published table is a double.
+/// Offsets of doubles in a packet of the real-time port.
 enum RealtimeOffset : std::size_t {
   kTimeOffset = 4,
   kQTargetOffset = 12,
@@ -62,7 +62,7 @@ enum RealtimeOffset : std::size_t {
 /// Types of packets on the primary and secondary port.
 enum class StateType : std::int8_t { kRobotState = 16, kRobotMessage = 20 };
 
-/// Parts of a robot state, each u32 length and u8 type before its body.
+/// Parts of a robot state; each begins with a u32 length and a u8 type.
 enum class StatePart : std::uint8_t {
   kRobotMode = 0,
   kJoints = 1,
@@ -87,7 +87,7 @@ enum class MessageType : std::uint8_t {
   kRuntimeException = 10,
 };
 
-/// Who a robot message comes from.
+/// Source of a robot message.
 enum class MessageSource : std::int8_t { kRobotInterface = -2, kRuntimeMachine = -3 };
 
 enum class ReportLevel : std::int32_t {

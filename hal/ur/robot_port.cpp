@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hal/net/printable.hpp"
 #include "hal/ur/stop_codes.hpp"
 
 namespace tactus::ur {
@@ -12,21 +13,32 @@ constexpr std::array<const char*, 6> kJoints = {"base",    "shoulder", "elbow",
 
 }  // namespace
 
-Status RobotPort::connect(const char* address, int port, int timeout_ms, Message& why) {
+Status RobotPort::connect(const char* address, int port, const Deadline& deadline, Message& why) {
   frames_.clear();
-  stop_ = exception_ = Message();
-  return socket_.connect(address, port, timeout_ms, why);
-}
-
-Status RobotPort::upload(std::string_view program, int timeout_ms, Message& why) {
+  unsent_ = {};
+  broken_ = false;
   exception_ = Message();
-  if (socket_.send_all(program, timeout_ms)) return Status::kOk;
-  why = Message("the robot does not take the program");
-  return Status::kConnectionLost;
+  forget_stop();
+  return socket_.connect(address, port, deadline, why);
 }
 
-/// Nothing here is needed for motion: a port that is lost or cannot be followed is closed, and RTDE
-/// says what is to be done.
+void RobotPort::upload(std::string_view program) {
+  exception_ = Message();
+  unsent_ = program;
+}
+
+void RobotPort::send() {
+  if (socket_.connected() && uploading() && !socket_.send_some(unsent_)) socket_.close();
+  if (!socket_.connected()) unsent_ = {};
+}
+
+void RobotPort::forget_stop() {
+  stop_ = Message();
+  stop_code_ = 0;
+}
+
+/// Motion does not need this port: if it is lost or cannot be read, it is closed. RTDE decides
+/// whether to stop, and only arming finds that the port is gone.
 void RobotPort::receive() {
   if (!socket_.connected()) return;
   std::array<std::uint8_t, kMostBytes> bytes;
@@ -37,7 +49,8 @@ void RobotPort::receive() {
   for (std::size_t i = 0; i < kMostPackets; ++i) {
     Packet packet;
     const NextPacket next = frames_.next(packet);
-    if (next == NextPacket::kBroken) return socket_.close();
+    broken_ = next == NextPacket::kBroken;
+    if (broken_) return socket_.close();
     if (next == NextPacket::kNone) return;
     take(packet);
   }
@@ -47,7 +60,8 @@ void RobotPort::take(const Packet& packet) {
   ByteReader in(packet.data, packet.size);
   in.i32();
   if (in.i8() != static_cast<std::int8_t>(StateType::kRobotMessage)) return;
-  in.u64(), in.i8();  // time stamp, source
+  in.u64();  // time stamp
+  in.i8();   // source
   const auto type = static_cast<MessageType>(in.u8());
   if (type == MessageType::kErrorCode) take_stop(in);
   if (type == MessageType::kRuntimeException) take_exception(in);
@@ -57,6 +71,7 @@ void RobotPort::take_stop(ByteReader& body) {
   const std::int32_t code = body.i32(), argument = body.i32(), level = body.i32();
   const bool a_stop = body.ok() && code > 0 && level >= static_cast<int>(ReportLevel::kWarning);
   if (!a_stop) return;
+  stop_code_ = static_cast<std::uint32_t>(code);
   stop_ = Message("C");
   stop_ << code << "A" << argument;
   const StopCode* row = find_stop_code(code);
@@ -72,7 +87,7 @@ void RobotPort::take_exception(ByteReader& body) {
   const std::string_view text = body.rest();
   if (!body.ok()) return;
   exception_ = Message("line ");
-  exception_ << line << ", column " << column << ": " << text.substr(0, 200);
+  exception_ << line << ", column " << column << ": " << printable(text.substr(0, 200));
 }
 
 }  // namespace tactus::ur

@@ -1,32 +1,42 @@
-// RobotPort: the primary port, 30001. It takes the program, and tells why the robot has stopped or
-// why it does not run the program.
+// RobotPort: the primary port, 30001. It uploads the program and receives the reason why the robot
+// has stopped or does not run the program.
 #pragma once
 
+#include "hal/net/socket.hpp"
 #include "hal/ur/protocol.hpp"
-#include "hal/ur/socket.hpp"
 
 namespace tactus::ur {
 
 class RobotPort {
  public:
-  /// What the robot has said is forgotten. [init]
-  Status connect(const char* address, int port, int timeout_ms, Message& why);
-  /// Uploads a program: that it runs is seen in the state alone. kConnectionLost. [init]
-  Status upload(std::string_view program, int timeout_ms, Message& why);
+  /// Connects and forgets earlier messages of the robot. [init]
+  Status connect(const char* address, int port, const Deadline& deadline, Message& why);
+  /// Begins the upload of a program, which must stay where it is until the upload is over, and
+  /// forgets the last runtime exception. [cyclic]
+  void upload(std::string_view program);
+  /// Continues the upload; only the state shows whether the program runs. [cyclic]
+  void send();
+  bool uploading() const { return !unsent_.empty(); }
 
-  /// Takes at most `kMostBytes` of what has come. [cyclic]
+  /// Reads at most `kMostBytes` of the bytes that have come. [cyclic]
   void receive();
-  /// Waits until something has come. [any]
+  /// Forgets the last stop. [cyclic]
+  void forget_stop();
+  /// Waits until bytes have come. [any]
   bool wait(std::int64_t timeout_ns) const { return socket_.wait(timeout_ns); }
 
-  /// The code of the newest stop with its argument and the text for it, "C153A2: position deviates
-  /// from the path, joint 3 (elbow)"; empty: none has come. [any]
+  /// Code, argument and text of the newest stop, "C153A2: position deviates from the path, joint 3
+  /// (elbow)"; empty if none has come. [any]
   const Message& stop() const { return stop_; }
-  /// Line, column and text of the newest runtime exception; empty: none has come. [any]
+  /// The code alone; 0 if none has come. [any]
+  std::uint32_t stop_code() const { return stop_code_; }
+  /// Line, column and text of the newest runtime exception; empty if none has come. [any]
   const Message& exception() const { return exception_; }
 
   void close() { socket_.close(); }
   bool connected() const { return socket_.connected(); }
+  /// True if it was closed for a message whose length is impossible. [any]
+  bool broken() const { return broken_; }
 
  private:
   static constexpr std::size_t kMostBytes = 4096;
@@ -37,7 +47,10 @@ class RobotPort {
 
   Socket socket_;
   StateFrames frames_;
+  std::string_view unsent_;
   Message stop_, exception_;
+  std::uint32_t stop_code_ = 0;
+  bool broken_ = false;
 };
 
 }  // namespace tactus::ur

@@ -3,8 +3,6 @@
 namespace tactus::ur {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-
 template <std::size_t N>
 void write_names(const std::array<RecipeField, N>& fields, ByteWriter& packet) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -20,134 +18,131 @@ Status refuse(Message& why, Status status, std::string_view text) {
 
 }  // namespace
 
-Status RtdeClient::start(const char* address, int port, double rate_hz, int timeout_ms,
+Status RtdeClient::start(const char* address, int port, double rate_hz, const Deadline& deadline,
                          Message& why) {
   rate_hz_ = rate_hz;
-  timeout_ms_ = timeout_ms;
   protocol_ = 2;
   phase_ = RtdePhase::kConnect;
-  TRY(stream_.connect(address, port, timeout_ms, why));
+  TRY(stream_.connect(address, port, deadline, why));
   while (phase_ != RtdePhase::kRunning) {
     phase_ = static_cast<RtdePhase>(static_cast<int>(phase_) + 1);
     Message reason;
-    const Status status = run_phase(phase_, reason);
+    const Status status = run_phase(phase_, deadline, reason);
     if (status == Status::kOk) continue;
     stream_.socket.close();
     why = Message("RTDE, phase ");
-    why << kRtdePhaseNames[static_cast<std::size_t>(phase_)] << ": " << reason;
+    why << name(phase_) << ": " << reason;
     return status;
   }
   return Status::kOk;
 }
 
-Status RtdeClient::run_phase(RtdePhase phase, Message& why) {
+Status RtdeClient::run_phase(RtdePhase phase, const Deadline& deadline, Message& why) {
   switch (phase) {
-    case RtdePhase::kProtocol:
-      return ask_protocol(why);
-    case RtdePhase::kVersion:
-      return ask_version(why);
-    case RtdePhase::kOutputs:
-      return ask_outputs(why);
-    case RtdePhase::kInputs:
-      return ask_inputs(why);
-    case RtdePhase::kStart:
-      return ask_start(why);
-    default:
-      return Status::kOk;
+    case RtdePhase::kProtocol: return ask_protocol(deadline, why);
+    case RtdePhase::kVersion: return ask_version(deadline, why);
+    case RtdePhase::kOutputs: return ask_outputs(deadline, why);
+    case RtdePhase::kInputs: return ask_inputs(deadline, why);
+    case RtdePhase::kStart: return ask_start(deadline, why);
+    default: return Status::kOk;
   }
 }
 
-Status RtdeClient::ask(ByteWriter& request, RtdeType type, RtdePacket& reply, Message& why) {
-  constexpr int kMostBetween = 512;  // data packages on the way, text messages
+Status RtdeClient::ask(ByteWriter& request, RtdeType type, const Deadline& deadline,
+                       RtdePacket& reply, Message& why) {
   if (stream_.send(request) != Socket::Sent::kAll)
     return refuse(why, Status::kConnectionLost, "the connection was closed");
-  for (int i = 0; i < kMostBetween; ++i) {
+  for (std::int64_t left_ns = deadline.left_ns(); left_ns > 0; left_ns = deadline.left_ns()) {
     bool any = false;
     TRY(stream_.next(reply, any, why));
     if (any && reply.type == type) return Status::kOk;
-    if (!any && !stream_.socket.wait(timeout_ms_ * kMillisecond_ns)) break;
+    if (!any && !stream_.socket.wait(left_ns)) break;
   }
   why = Message("no reply within ");
-  why << timeout_ms_ << " ms";
+  why << deadline.whole_ms() << " ms; check the network or raise connect_ms";
   return Status::kBusTimeout;
 }
 
-/// A controller that does not know protocol 2 says no, and speaks protocol 1.
-Status RtdeClient::ask_protocol(Message& why) {
+/// Requests protocol 2, then 1: a controller refuses a protocol that it does not know.
+Status RtdeClient::ask_protocol(const Deadline& deadline, Message& why) {
   for (; protocol_ > 0; --protocol_) {
     Request bytes;
     ByteWriter request(bytes.data(), bytes.size());
     RtdeStream::begin(request, RtdeType::kRequestProtocolVersion);
     request.u16(static_cast<std::uint16_t>(protocol_));
     RtdePacket reply;
-    TRY(ask(request, RtdeType::kRequestProtocolVersion, reply, why));
+    TRY(ask(request, RtdeType::kRequestProtocolVersion, deadline, reply, why));
     ByteReader in(reply.payload, reply.size);
     const bool accepted = in.u8() == 1;
-    if (!in.done()) return refuse(why, Status::kWireFormat, "a reply of another size");
+    if (!in.done()) return refuse(why, Status::kWireFormat, "the reply has an unexpected size");
     if (accepted) return Status::kOk;
   }
-  return refuse(why, Status::kRefusedByRobot, "neither protocol 2 nor 1");
+  return refuse(why, Status::kRefusedByRobot, "the controller offers neither protocol 2 nor 1");
 }
 
-Status RtdeClient::ask_version(Message& why) {
+Status RtdeClient::ask_version(const Deadline& deadline, Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kGetUrcontrolVersion);
   RtdePacket reply;
-  TRY(ask(request, RtdeType::kGetUrcontrolVersion, reply, why));
+  TRY(ask(request, RtdeType::kGetUrcontrolVersion, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
-  version_.major = in.u32(), version_.minor = in.u32();
-  version_.bugfix = in.u32(), version_.build = in.u32();
-  if (!in.done()) return refuse(why, Status::kWireFormat, "a reply of another size");
+  version_.major = in.u32();
+  version_.minor = in.u32();
+  version_.bugfix = in.u32();
+  version_.build = in.u32();
+  if (!in.done()) return refuse(why, Status::kWireFormat, "the reply has an unexpected size");
   const double fastest_hz = 1.0 / version_.cycle_s();
   const bool at_own_rate = protocol_ == 2 || rate_hz_ == fastest_hz;
   if (version_.at_least(3, 9) && rate_hz_ <= fastest_hz && at_own_rate) return Status::kOk;
   why << "software " << static_cast<int>(version_.major) << "." << static_cast<int>(version_.minor);
   if (!version_.at_least(3, 9))
-    why << ", at least 3.9 is required (registers from 24 up)";
+    why << " has no registers from 24 up; update to 3.9 or later";
   else
-    why << " sends at " << fastest_hz << " Hz" << (protocol_ == 2 ? " at most" : "")
-        << "; the pipeline's period asks for " << rate_hz_ << " Hz";
+    why << (protocol_ == 2 ? ": at most " : ": ") << fastest_hz << " Hz, not " << rate_hz_
+        << " Hz; set [robot] period_us = " << 1e6 / fastest_hz;
   return Status::kRefusedByRobot;
 }
 
-Status RtdeClient::ask_outputs(Message& why) {
+Status RtdeClient::ask_outputs(const Deadline& deadline, Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupOutputs);
   if (protocol_ == 2) request.f64(rate_hz_);
   write_names(kOutputFields, request);
   RtdePacket reply;
-  TRY(ask(request, RtdeType::kSetupOutputs, reply, why));
+  TRY(ask(request, RtdeType::kSetupOutputs, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
   if (protocol_ == 2) output_recipe_ = in.u8();
   return check_types(in.rest(), kOutputFields.data(), kOutputFields.size(), why);
 }
 
-Status RtdeClient::ask_inputs(Message& why) {
+Status RtdeClient::ask_inputs(const Deadline& deadline, Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupInputs);
   write_names(kInputFields, request);
   RtdePacket reply;
-  TRY(ask(request, RtdeType::kSetupInputs, reply, why));
+  TRY(ask(request, RtdeType::kSetupInputs, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
   input_recipe_ = in.u8();
   TRY(check_types(in.rest(), kInputFields.data(), kInputFields.size(), why));
-  return input_recipe_ != 0 ? Status::kOk
-                            : refuse(why, Status::kRefusedByRobot, "no recipe for the inputs");
+  return input_recipe_ != 0
+             ? Status::kOk
+             : refuse(why, Status::kRefusedByRobot, "the controller refused the input recipe");
 }
 
-Status RtdeClient::ask_start(Message& why) {
+Status RtdeClient::ask_start(const Deadline& deadline, Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kStart);
   RtdePacket reply;
-  TRY(ask(request, RtdeType::kStart, reply, why));
+  TRY(ask(request, RtdeType::kStart, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
   const bool accepted = in.u8() == 1;
-  if (!in.done()) return refuse(why, Status::kWireFormat, "a reply of another size");
-  return accepted ? Status::kOk : refuse(why, Status::kRefusedByRobot, "not accepted");
+  if (!in.done()) return refuse(why, Status::kWireFormat, "the reply has an unexpected size");
+  return accepted ? Status::kOk
+                  : refuse(why, Status::kRefusedByRobot, "the controller refused to start sending");
 }
 
 Status RtdeClient::receive(UrState& state, int& count, Message& why) {
@@ -155,12 +150,18 @@ Status RtdeClient::receive(UrState& state, int& count, Message& why) {
   for (int i = 0; i < kMostPackets; ++i) {
     RtdePacket packet;
     bool any = false;
-    TRY(stream_.next(packet, any, why));
+    Message reason;
+    const Status status = stream_.next(packet, any, reason);
+    if (status != Status::kOk) {
+      why = Message("RTDE: ");
+      why << reason;
+      return status;
+    }
     if (!any) break;
     if (packet.type != RtdeType::kDataPackage) continue;  // text messages
     ByteReader in(packet.payload, packet.size);
     if (protocol_ == 2 && in.u8() != output_recipe_)
-      return refuse(why, Status::kWireFormat, "RTDE: a data package of another recipe");
+      return refuse(why, Status::kWireFormat, "RTDE: a data package has the wrong recipe number");
     TRY(decode_state(in, state, why));
     ++count;
   }

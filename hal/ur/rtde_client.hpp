@@ -1,6 +1,6 @@
-// RtdeClient: the conversation of port 30004. At the start protocol 2, or 1 where the controller
-// knows no other, its version, one recipe of outputs, one of inputs; then a data package in every
-// cycle of the robot, and set-points back.
+// RtdeClient: the conversation of port 30004. The start agrees on protocol 2, or 1 if the
+// controller knows no other, reads the version, and sets up one recipe of outputs and one of
+// inputs. Then the robot sends a data package in every cycle and receives set-points.
 #pragma once
 
 #include "hal/ur/rtde_stream.hpp"
@@ -17,19 +17,31 @@ enum class RtdePhase : std::uint8_t {
   kStart,
   kRunning
 };
-inline constexpr std::array<const char*, 7> kRtdePhaseNames = {
-    "connect", "protocol", "version", "outputs", "inputs", "start", "running"};
+
+constexpr const char* name(RtdePhase phase) {
+  switch (phase) {
+    case RtdePhase::kConnect: return "connect";
+    case RtdePhase::kProtocol: return "protocol";
+    case RtdePhase::kVersion: return "version";
+    case RtdePhase::kOutputs: return "outputs";
+    case RtdePhase::kInputs: return "inputs";
+    case RtdePhase::kStart: return "start";
+    case RtdePhase::kRunning: return "running";
+  }
+  return nullptr;
+}
 
 class RtdeClient {
  public:
-  /// From connecting to the first data package. `why` names phase and reason of what is not kOk:
-  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat. [init]
-  Status start(const char* address, int port, double rate_hz, int timeout_ms, Message& why);
+  /// Connects and starts the stream of data packages. kConnectionLost, kBusTimeout,
+  /// kRefusedByRobot, kRegistersInUse, kWireFormat: `why` names phase and reason. [init]
+  Status start(const char* address, int port, double rate_hz, const Deadline& deadline,
+               Message& why);
 
-  /// Takes all data packages that have come, at most `kMostPackets`; the newest is in `state`.
-  /// `count`: how many. [cyclic]
+  /// Takes all data packages that have come, at most `kMostPackets`, and returns their number in
+  /// `count`; the newest is in `state`. [cyclic]
   Status receive(UrState& state, int& count, Message& why);
-  /// Waits until something has come. [any]
+  /// Waits until bytes have come. [any]
   bool wait(std::int64_t timeout_ns) const { return stream_.socket.wait(timeout_ns); }
 
   /// Sends a set-point; nothing else is ever written to the registers. [cyclic]
@@ -42,23 +54,24 @@ class RtdeClient {
   int protocol() const { return protocol_; }
 
  private:
-  static constexpr int kMostPackets = 128;  ///< in one cycle: a second of them
+  static constexpr int kMostPackets = 128;  ///< in one cycle: those of a second
   static constexpr std::size_t kMostRequest = 1024;
   using Request = std::array<std::uint8_t, kMostRequest>;
 
-  Status run_phase(RtdePhase phase, Message& why);
-  Status ask_protocol(Message& why);
-  Status ask_version(Message& why);
-  Status ask_outputs(Message& why);
-  Status ask_inputs(Message& why);
-  Status ask_start(Message& why);
-  /// Sends a request and waits for the reply of its type; what comes between is skipped.
-  Status ask(ByteWriter& request, RtdeType type, RtdePacket& reply, Message& why);
+  Status run_phase(RtdePhase phase, const Deadline& deadline, Message& why);
+  Status ask_protocol(const Deadline& deadline, Message& why);
+  Status ask_version(const Deadline& deadline, Message& why);
+  Status ask_outputs(const Deadline& deadline, Message& why);
+  Status ask_inputs(const Deadline& deadline, Message& why);
+  Status ask_start(const Deadline& deadline, Message& why);
+  /// Sends a request and waits for the reply of its type; packets of other types are skipped.
+  Status ask(ByteWriter& request, RtdeType type, const Deadline& deadline, RtdePacket& reply,
+             Message& why);
 
   RtdeStream stream_;
   RtdePhase phase_ = RtdePhase::kConnect;
   Version version_;
-  int protocol_ = 2, timeout_ms_ = 0;
+  int protocol_ = 2;
   double rate_hz_ = 0.0;
   std::uint8_t output_recipe_ = 0, input_recipe_ = 0;
 };

@@ -8,7 +8,10 @@ Status RtdeStream::next(RtdePacket& packet, bool& any, Message& why) {
   if (next == NextPacket::kNone) {
     std::array<std::uint8_t, kLongest> bytes;
     const long got = socket.receive(bytes.data(), frames_.room());
-    if (got < 0) return why = Message("the connection was closed"), Status::kConnectionLost;
+    if (got < 0) {
+      why = Message("the connection was closed");
+      return Status::kConnectionLost;
+    }
     frames_.take(bytes.data(), static_cast<std::size_t>(got));
     next = frames_.next(found);
   }
@@ -17,8 +20,8 @@ Status RtdeStream::next(RtdePacket& packet, bool& any, Message& why) {
     packet = {static_cast<RtdeType>(found.data[2]), found.data + kRtdeHeader,
               found.size - kRtdeHeader};
   if (next != NextPacket::kBroken) return Status::kOk;
-  why = Message("RTDE: the length of a packet is outside 3 to ");
-  why << kLongest;
+  why = Message("the length of a packet is outside 3 to ");
+  why << kLongest << " bytes";
   return Status::kWireFormat;
 }
 

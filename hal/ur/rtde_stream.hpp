@@ -1,12 +1,12 @@
-// RtdeStream: whole packets of RTDE out of whatever pieces a connection delivers.
+// RtdeStream: assembles whole RTDE packets from the pieces that a connection delivers.
 #pragma once
 
+#include "hal/net/socket.hpp"
 #include "hal/ur/protocol.hpp"
-#include "hal/ur/socket.hpp"
 
 namespace tactus::ur {
 
-/// A whole packet without its header, valid until the next one is asked for.
+/// A whole packet without its header, valid until the next call of next().
 struct RtdePacket {
   RtdeType type = RtdeType::kTextMessage;
   const std::uint8_t* payload = nullptr;
@@ -18,13 +18,13 @@ class RtdeStream {
   Socket socket;
 
   /// [init]
-  Status connect(const char* address, int port, int timeout_ms, Message& why) {
+  Status connect(const char* address, int port, const Deadline& deadline, Message& why) {
     frames_.clear();
-    return socket.connect(address, port, timeout_ms, why);
+    return socket.connect(address, port, deadline, why);
   }
 
-  /// The next packet, if `any` is complete. kConnectionLost; kWireFormat: no packet has such a
-  /// length. Bounded by the size of the buffer. [cyclic]
+  /// Returns the next packet; `any` is false if none is complete. kConnectionLost; kWireFormat: the
+  /// length is impossible. Reads at most one buffer. [cyclic]
   Status next(RtdePacket& packet, bool& any, Message& why);
 
   /// Sends a packet that `begin` began. [cyclic]
@@ -38,7 +38,7 @@ class RtdeStream {
   }
 
  private:
-  static constexpr std::size_t kLongest = 4096;  ///< of a controller's packets: ours have 400 bytes
+  static constexpr std::size_t kLongest = 4096;  ///< bytes of a packet; ours have about 400
 
   Frames<2, kRtdeHeader, kLongest> frames_;
 };

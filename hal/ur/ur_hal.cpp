@@ -1,131 +1,112 @@
+// UrHal: its cycle.
 #include "hal/ur/ur_hal.hpp"
 
-#include <limits>
+#include <ctime>
 
 #include "hal/ur/flange_wrench.hpp"
 
 namespace tactus::ur {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+void pause(std::int64_t time_ns) {
+  const timespec time = {time_ns / kSecond_ns, time_ns % kSecond_ns};
+  nanosleep(&time, nullptr);
+}
+
+}  // namespace
 
 static_assert(kDof == 6, "a UR arm has six joints");
 
 Capabilities UrHal::capabilities() const {
   Capabilities offered;
   offered.position = offered.wrench = true;
-  offered.min_period_us = 2000, offered.max_period_us = 8000;
+  offered.min_period_us = 2000;
+  offered.max_period_us = 8000;
   return offered;
 }
 
-/// The packet of the cycle; where it does not come, the cycle begins without it.
-std::int64_t UrHal::wait() {
-  constexpr int kMostWakes = 4;  // a packet may come in pieces, but not for ever
-  Came came = Came::kNothing;
-  for (int i = 0; i < kMostWakes && came == Came::kNothing && fault_ == Status::kOk; ++i) {
+/// Waits for the packet of the cycle; if it does not come, the cycle begins without it. Without a
+/// wire the cycles go on at the nominal period.
+Status UrHal::wait(CycleTime& now) {
+  constexpr int kMostWakes = 4;  // a packet may come in up to so many pieces
+  if (period_us_ <= 0) return Status::kClock;
+  if (fault_ != Status::kOk) pause(std::int64_t{1000} * period_us_);
+  Received came = Received::kNothing;
+  for (int i = 0; i < kMostWakes && came == Received::kNothing && fault_ == Status::kOk; ++i) {
     if (!session_.wait(clock_.patience_ns(settings_->packet_wait))) break;
     came = receive();
   }
-  if (came != Came::kCycle) clock_.bridge();
-  return clock_.stamp_ns();
+  if (came != Received::kCycle) clock_.bridge();
+  now.stamp_ns = clock_.stamp_ns();
+  return Status::kOk;
 }
 
-UrHal::Came UrHal::receive() {
+UrHal::Received UrHal::receive() {
   int count = 0;
-  robot_.receive();
   fault_ = session_.receive(state_, count, why_);
-  if (fault_ != Status::kOk || count == 0) return Came::kNothing;
+  if (fault_ != Status::kOk || count == 0) return Received::kNothing;
   switch (clock_.packet(state_.timestamp_s)) {
-    case PacketClock::Found::kCycle:
-      return Came::kCycle;
-    case PacketClock::Found::kLate:
-      return Came::kNothing;
-    case PacketClock::Found::kRepeated:
-      return Came::kNothingNew;
-    case PacketClock::Found::kBackwards:
-      break;
+    case PacketClock::Arrival::kCycle: return Received::kCycle;
+    case PacketClock::Arrival::kLate: return Received::kNothing;
+    case PacketClock::Arrival::kRepeated: return Received::kNothingNew;
+    case PacketClock::Arrival::kBackwards: break;
   }
-  why_ = Message("the robot's clock was set back to ");
-  why_ << state_.timestamp_s << " s";
+  why_ = Message("the robot's clock jumped to ");
+  why_ << state_.timestamp_s << " s; the controller was probably restarted";
   fault_ = Status::kClock;
-  return Came::kNothing;
+  return Received::kNothing;
 }
 
-Status UrHal::read(RobotState& state) {
-  if (fault_ == Status::kOk && clock_.missed() > settings_->max_missed) {
-    why_ = Message("no new packet for ");
-    why_ << clock_.missed() << " periods, limit " << settings_->max_missed << "; the last one at "
-         << state_.timestamp_s << " s";
-    fault_ = Status::kBusTimeout;
-  }
-  if (fault_ == Status::kOk) fault_ = judge_modes(state_, why_);
-  if (fault_ == Status::kOk) fault_ = judge_program();
-  if (fault_ == Status::kOk) show(state);
-  return fault_;
+Status UrHal::read(const CycleTime&, RobotState& state) {
+  if (fault_ == Status::kOk) fault_ = judge_silence();
+  if (fault_ != Status::kOk) return fault_;
+  drives_.watch(state_);
+  show(state);
+  return Status::kOk;
 }
 
-Status UrHal::judge_program() {
-  constexpr std::array<const char*, 6> kNames = {"stopping", "stopped", "playing",
-                                                 "pausing",  "paused",  "resuming"};
-  const bool ended = state_.echo == kServoEnded;
-  if (state_.playing() && !ended) return Status::kOk;
-  why_ = Message("the program on the robot ");
-  if (ended)
-    why_ << "has ended: no set-points, or the first one not where the arm is";
-  else if (state_.runtime_state < kNames.size())
-    why_ << "is " << kNames[state_.runtime_state];
-  else
-    why_ << "is in state " << static_cast<std::size_t>(state_.runtime_state);
-  return Status::kProgramStopped;
+Status UrHal::judge_silence() {
+  if (clock_.missed() <= settings_->max_missed) return Status::kOk;
+  why_ = Message("RTDE: no new packet for ");
+  why_ << clock_.missed() << (clock_.missed() == 1 ? " period" : " periods") << ", limit "
+       << settings_->max_missed << ", since time stamp " << state_.timestamp_s
+       << " s; check the network and the load of this computer";
+  return Status::kBusTimeout;
 }
 
-void UrHal::show(RobotState& state) const {
+void UrHal::show(RobotState& state) {
   state.q = state_.q;
   state.dq = state_.dq;
   state.tau = state_.moment;
   state.ft = flange_wrench(state_, tool_);
   state.speed_scaling = time_scaling(state_.speed_scaling, state_.speed_fraction);
+  state.stamp_ns = clock_.packet_ns();
+  state.drives.fill(drives_.drive());
+  if (drives_.phase() != DrivePhase::kFault) listened_ = false;
 }
 
+/// Without a wire that works, a program that runs is still told to end.
 Status UrHal::write(const RobotCommand& command) {
-  if (fault_ != Status::kOk) return fault_;
-  count_ = count_ < std::numeric_limits<std::int32_t>::max() ? count_ + 1 : 1;
-  const Socket::Sent sent = session_.send(count_, command.value);
-  unsent_ = sent == Socket::Sent::kNothing ? unsent_ + 1 : 0;
-  if (sent == Socket::Sent::kLost) {
-    why_ = Message("RTDE: the connection does not take set-points any more");
-    fault_ = Status::kConnectionLost;
-  } else if (unsent_ > settings_->max_missed) {
-    why_ = Message("RTDE: no set-point could be sent for ");
-    why_ << unsent_ << " periods, limit " << settings_->max_missed;
-    fault_ = Status::kBusTimeout;
-  }
+  if (fault_ == Status::kOk) fault_ = drives_.step(command, state_);
+  if (fault_ != Status::kOk) drives_.end_program();
   return fault_;
-}
-
-/// A negative count is the program's end: it brakes. Where that does not arrive, the program brakes
-/// because no set-points do. The connections stay until the next start or the end, so that what was
-/// sent arrives and the robot's reason can still be read.
-void UrHal::stop() {
-  if (session_.running() && session_.send(kServoEnded, state_.q) == Socket::Sent::kLost)
-    session_.close();
-  if (fault_ == Status::kOk) fault_ = Status::kNotStarted;
 }
 
 Message UrHal::trouble() {
   constexpr int kMostWaits = 20;
   constexpr std::int64_t kWait_ns = 10'000'000;
-  const bool by_robot = fault_ >= Status::kRobotMode && fault_ <= Status::kProgramStopped;
-  for (int i = 0; by_robot && i < kMostWaits && robot_.connected() && robot_.stop().empty(); ++i) {
-    robot_.wait(kWait_ns);
-    robot_.receive();
+  RobotPort& robot = drives_.robot();
+  const bool listens = drives_.stopped_by_robot() && !listened_;
+  for (int i = 0; listens && i < kMostWaits && robot.connected() && robot.stop().empty(); ++i) {
+    robot.wait(kWait_ns);
+    robot.receive();
   }
+  listened_ = true;
   Message text = why_;
-  if (!robot_.stop().empty()) text << "; the robot says " << robot_.stop();
+  if (!robot.stop().empty()) text << "; the robot reports " << robot.stop();
   return text;
-}
-
-void UrHal::close() {
-  session_.close();
-  robot_.close();
-  dashboard_.close();
 }
 
 }  // namespace tactus::ur

@@ -1,35 +1,56 @@
 // UrSettings: the [ur] section of a pipeline file. Tool and payload are those of [robot].
 #pragma once
 
-#include "kernel/describe.hpp"
-#include "kernel/load_error.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/load_error.hpp"
 
 namespace tactus::ur {
 
-/// What a start does about a protective stop that it finds. A stop during motion always ends it.
+/// Reaction of arming to a protective stop. A stop during motion always ends the motion.
 enum class OnProtectiveStop : std::uint8_t { kRefuse, kRelease };
-inline constexpr std::array<const char*, 2> kOnProtectiveStopWords = {"refuse", "release"};
 
-/// What a start does about a robot that is not powered, or whose brakes are closed.
+constexpr const char* name(OnProtectiveStop reaction) {
+  switch (reaction) {
+    case OnProtectiveStop::kRefuse: return "refuse";
+    case OnProtectiveStop::kRelease: return "release";
+  }
+  return nullptr;
+}
+
+/// Reaction of arming to a robot without power or with closed brakes.
 enum class OnPowerOff : std::uint8_t { kRefuse, kPowerOn };
-inline constexpr std::array<const char*, 2> kOnPowerOffWords = {"refuse", "power_on"};
+
+constexpr const char* name(OnPowerOff reaction) {
+  switch (reaction) {
+    case OnPowerOff::kRefuse: return "refuse";
+    case OnPowerOff::kPowerOn: return "power_on";
+  }
+  return nullptr;
+}
 
 enum class ZeroForce : std::uint8_t { kOff, kOn };
-inline constexpr std::array<const char*, 2> kZeroForceWords = {"off", "on"};
+
+constexpr const char* name(ZeroForce zero) {
+  switch (zero) {
+    case ZeroForce::kOff: return "off";
+    case ZeroForce::kOn: return "on";
+  }
+  return nullptr;
+}
 
 struct UrSettings {
-  Value address;  ///< IPv4; none: refused
+  Value address;  ///< IPv4; must be given
   int rtde_port = 30004, primary_port = 30001, dashboard_port = 29999;
-  int connect_ms = 2000;     ///< the longest that a connection, or a reply, may take
-  int program_ms = 2000;     ///< the longest until the program is seen running, or stopped
-  int power_ms = 30000;      ///< the longest until the brakes are released, or a stop
-  int max_missed = 5;        ///< periods in a row without a packet that are bridged
-  double packet_wait = 1.5;  ///< periods that a cycle waits for its packet before it begins without
-  double lookahead_s = 0.1;  ///< of servoj
-  double gain = 300.0;       ///< of servoj
-  int patience = 12;         ///< cycles that the robot goes on without a set-point, slowing down
-  double deceleration = 4.0;               ///< of the robot's own stop, rad/s^2
-  ZeroForce zero_force = ZeroForce::kOff;  ///< of the sensor at the start (e-Series)
+  int connect_ms = 2000;      ///< longest time until the first state, in all
+  int program_ms = 2000;      ///< longest time for each step of arming the program
+  int power_ms = 30000;       ///< the same for power, brakes and a protective stop
+  int max_missed = 5;         ///< periods in a row without a packet that are bridged
+  double packet_wait = 1.5;   ///< periods after which a cycle begins without its packet
+  double lookahead_s = 0.1;   ///< of servoj
+  double gain = 300.0;        ///< of servoj
+  int patience = 12;          ///< cycles in which the robot slows down without set-points
+  double deceleration = 4.0;  ///< of the robot's own stop, rad/s^2
+  ZeroForce zero_force = ZeroForce::kOff;  ///< zero the sensor when arming (e-Series)
   OnProtectiveStop on_protective_stop = OnProtectiveStop::kRefuse;
   OnPowerOff on_power_off = OnPowerOff::kRefuse;
 
@@ -48,9 +69,9 @@ struct UrSettings {
     visit.param("gain", gain, Range{100.0, 2000.0}, "1");
     visit.param("patience", patience, Range{1.0, 125.0}, "cycles");
     visit.param("deceleration", deceleration, Range{0.1, 100.0}, "rad/s^2");
-    visit.choice("zero_force", zero_force, kZeroForceWords);
-    visit.choice("on_protective_stop", on_protective_stop, kOnProtectiveStopWords);
-    visit.choice("on_power_off", on_power_off, kOnPowerOffWords);
+    visit.choice("zero_force", zero_force);
+    visit.choice("on_protective_stop", on_protective_stop);
+    visit.choice("on_power_off", on_power_off);
   }
 };
 

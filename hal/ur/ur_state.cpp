@@ -1,9 +1,11 @@
 #include "hal/ur/ur_state.hpp"
 
+#include "hal/ur/servo_program.hpp"
+
 namespace tactus::ur {
 namespace {
 
-/// Reads field by field and remembers the first that is not finite.
+/// Reads field by field and remembers the first one that is not finite.
 class FieldReader {
  public:
   explicit FieldReader(ByteReader& data) : data_(data) {}
@@ -47,7 +49,7 @@ struct SafetyRow {
   Status status;
 };
 
-/// The worst first. The bits tell apart what a mode that is reported later does not yet.
+/// Rows from worst to least. The bits show a cause earlier than the reported mode.
 constexpr std::array<SafetyRow, 7> kSafety = {
     {{kFaultBit, SafetyMode::kFault, Status::kDriveFault},
      {kViolationBit, SafetyMode::kViolation, Status::kDriveFault},
@@ -64,14 +66,23 @@ Status decode_state(ByteReader& data, UrState& state, Message& why) {
   const std::size_t size = data.left();
   UrState found;
   FieldReader read(data);
-  read(found.timestamp_s), read(found.target_q), read(found.q), read(found.dq);
-  read(found.moment), read(found.tcp_pose), read(found.tcp_force);
-  read(found.speed_scaling), read(found.speed_fraction);
-  read(found.robot_mode), read(found.safety_mode), read(found.echo);
-  read(found.safety_bits), read(found.runtime_state);
+  read(found.timestamp_s);
+  read(found.target_q);
+  read(found.q);
+  read(found.dq);
+  read(found.moment);
+  read(found.tcp_pose);
+  read(found.tcp_force);
+  read(found.speed_scaling);
+  read(found.speed_fraction);
+  read(found.robot_mode);
+  read(found.safety_mode);
+  read(found.echo);
+  read(found.safety_bits);
+  read(found.runtime_state);
   if (!data.done()) {
     why = Message("RTDE: a data package with ");
-    why << size << " bytes of fields is not that of the recipe";
+    why << size << " bytes of fields does not match the recipe";
     return Status::kWireFormat;
   }
   if (read.not_finite() >= 0) {
@@ -90,13 +101,14 @@ Status check_types(std::string_view types, const RecipeField* fields, std::size_
     const bool any = next_name(types, type);
     const std::string_view expected = name(fields[i].type);
     if (any && type == expected) continue;
-    why = Message("RTDE: ");
-    why << fields[i].name << " is " << (any ? type.substr(0, 32) : "missing") << ", not "
-        << expected;
-    return type == name(FieldType::kInUse) ? Status::kRegistersInUse : Status::kWireFormat;
+    const bool in_use = type == name(FieldType::kInUse);
+    why = Message(fields[i].name);
+    why << " is " << (any ? type.substr(0, 32) : "missing") << ", not " << expected
+        << (in_use ? "; end the client or fieldbus that claims it" : "");
+    return in_use ? Status::kRegistersInUse : Status::kWireFormat;
   }
   return types.empty() ? Status::kOk
-                       : refuse(why, Status::kWireFormat, "RTDE: more types than fields");
+                       : refuse(why, Status::kWireFormat, "the reply has more types than fields");
 }
 
 Status judge_modes(const UrState& state, Message& why) {
@@ -116,9 +128,22 @@ Status judge_modes(const UrState& state, Message& why) {
   if (state.running()) return Status::kOk;
   const bool known = state.robot_mode >= -1 && state.robot_mode <= 8;
   why = Message("robot mode ");
-  why << state.robot_mode << (known ? ", " : "")
-      << (known ? name(static_cast<RobotMode>(state.robot_mode)) : "") << ", not RUNNING";
+  if (known) why << name(static_cast<RobotMode>(state.robot_mode)) << " (";
+  why << state.robot_mode << (known ? ")" : "") << ", not RUNNING";
   return Status::kRobotMode;
+}
+
+Status judge_program(const UrState& state, Message& why) {
+  const bool ended = state.echo == kServoEnded;
+  if (state.playing() && !ended) return Status::kOk;
+  why = Message("the program on the robot ");
+  if (ended)
+    why << "has ended: set-points stopped, or the first one was not at the arm's position";
+  else if (const char* runtime = name(static_cast<RuntimeState>(state.runtime_state)))
+    why << "is " << runtime;
+  else
+    why << "is in state " << static_cast<std::size_t>(state.runtime_state);
+  return Status::kProgramStopped;
 }
 
 }  // namespace tactus::ur

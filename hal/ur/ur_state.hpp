@@ -1,9 +1,9 @@
-// UrState: what a controller says of itself in every cycle, and the recipe that asks for it.
+// UrState: the state that a controller sends in every cycle, and the recipe that requests it.
 #pragma once
 
 #include "hal/ur/protocol.hpp"
-#include "kernel/load_error.hpp"
-#include "kernel/types.hpp"
+#include "kernel/core/load_error.hpp"
+#include "kernel/core/types.hpp"
 
 namespace tactus::ur {
 
@@ -15,8 +15,8 @@ struct UrState {
   Vector6 moment = Vector6::Zero();     ///< N m, of the controller's own model
   Vector6 tcp_pose = Vector6::Zero();   ///< base frame: m, rotation vector in rad
   Vector6 tcp_force = Vector6::Zero();  ///< at the tip, in the axes of the base: N, N m
-  double speed_scaling = 0.0;           ///< what the trajectory limiter lets pass of the slider's
-  double speed_fraction = 0.0;          ///< of the slider
+  double speed_scaling = 0.0;           ///< fraction of the slider's speed left by the limiter
+  double speed_fraction = 0.0;          ///< fraction set by the slider
   std::int32_t robot_mode = 0, safety_mode = 0, echo = 0;
   std::uint32_t safety_bits = 0, runtime_state = 0;
 
@@ -26,10 +26,10 @@ struct UrState {
   }
 };
 
-/// By how much slower than in its own time a set-point is executed. The guide calls the one field
-/// "speed scaling of the trajectory limiter", the other "target speed fraction", and the vendor's
-/// drivers multiply them: the limiter's does not contain the slider's. Were it in both, this would
-/// be too slow, and never ahead of the robot. [cyclic]
+/// Returns the fraction of its own speed at which a set-point is executed. The guide calls one
+/// field "speed scaling of the trajectory limiter", the other "target speed fraction", and the
+/// vendor's drivers multiply them: the limiter's fraction does not include the slider's. If it did,
+/// the product would be too slow, but never ahead of the robot. [cyclic]
 constexpr double time_scaling(double speed_scaling, double speed_fraction) {
   const double product = speed_scaling * speed_fraction;
   return product > 1.0 ? 1.0 : product > 0.0 ? product : 0.0;
@@ -57,7 +57,7 @@ inline constexpr std::array<RecipeField, 14> kOutputFields = {
      {"safety_status_bits", FieldType::kUint32},
      {"runtime_state", FieldType::kUint32}}};
 
-/// The set-point's registers, as hal/ur/servo_script.hpp has them.
+/// The registers of a set-point, as in hal/ur/servo_program.hpp.
 inline constexpr std::array<RecipeField, 7> kInputFields = {
     {{"input_int_register_24", FieldType::kInt32},
      {"input_double_register_24", FieldType::kDouble},
@@ -67,17 +67,21 @@ inline constexpr std::array<RecipeField, 7> kInputFields = {
      {"input_double_register_28", FieldType::kDouble},
      {"input_double_register_29", FieldType::kDouble}}};
 
-/// The fields of a data package. kWireFormat, and `why` says so, if its size is another, or the
-/// first field that is not finite. [cyclic]
+/// Decodes the fields of a data package. kWireFormat: its size is wrong, or a field is not finite;
+/// `why` names the size or the first such field. [cyclic]
 Status decode_state(ByteReader& data, UrState& state, Message& why);
 
-/// Compares the types of a reply with those of the recipe. kRegistersInUse or kWireFormat, and
-/// `why` names the first field that differs, what it is and what it should be. [init]
+/// Compares the types of a reply with those of the recipe. kRegistersInUse, kWireFormat: `why`
+/// names the first field that differs, its type and the expected type. [init]
 Status check_types(std::string_view types, const RecipeField* fields, std::size_t count,
                    Message& why);
 
-/// kOk if the robot is as it must be for motions; the Status otherwise, and `why` has the robot's
-/// word for it. [cyclic]
+/// Returns kOk if the robot may move; otherwise the reason, and `why` has the robot's name for it.
+/// [cyclic]
 Status judge_modes(const UrState& state, Message& why);
+
+/// Returns kOk if the program on the robot runs and uses set-points; otherwise kProgramStopped, and
+/// `why` has what became of it. [cyclic]
+Status judge_program(const UrState& state, Message& why);
 
 }  // namespace tactus::ur

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/math/so3.hpp"
 
 namespace tactus {
 namespace {
 
-/// Of the robot's limits of the tip: three axes together stay within them.
+/// Share of the robot's limits of the tip, so that three axes together stay within them.
 constexpr double kBrakingShare = 0.5;
 
 }  // namespace
@@ -56,7 +57,9 @@ Status Admittance::step(double dt_s) {
   Vector6 force;
   force << to_axes * wrench.head<3>(), to_axes * wrench.tail<3>();
   limited.value = false;
+  LoopBound<6> axes;
   for (int i = 0; i < 6; ++i) {
+    axes.tick();
     Axis& axis = axes_[static_cast<std::size_t>(i)];
     if (braked_)
       axis.brake(dt_s);
@@ -64,6 +67,12 @@ Status Admittance::step(double dt_s) {
       limited.value = true;
   }
   return command();
+}
+
+bool Admittance::at_rest() const {
+  bool rests = true;
+  for (const Axis& axis : axes_) rests = rests && axis.state.v == 0.0;
+  return rests;
 }
 
 bool Admittance::Axis::move(double force, double dt_s) {
@@ -107,7 +116,8 @@ Status Admittance::command() {
   Vector6 e, de;
   for (int i = 0; i < 6; ++i) {
     const MassSpringDamper::State& state = axes_[static_cast<std::size_t>(i)].state;
-    e[i] = state.x, de[i] = state.v;
+    e[i] = state.x;
+    de[i] = state.v;
   }
   const Vector3 w_d = v_d->tail<3>();
   const Matrix3 axes = frame();

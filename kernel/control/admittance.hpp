@@ -5,52 +5,78 @@
 //
 // de = [dp; phi] is the displacement of the commanded pose from the desired one: a translation and
 // a rotation vector, both in the compliant frame's axes A, which are those of the desired pose or
-// of the base. M, D and K are diagonal there; every axis is a system of its own, and its equation
-// is meant in these axes also while they turn. With d = A dp and f = A phi in base axes and Omega
-// the angular velocity of A,
+// of the base. M, D and K are diagonal there: every axis is a separate system, and its equation
+// holds in these axes even while they turn. With d = A dp and f = A phi in base axes and Omega the
+// angular velocity of A,
 //
 //   p_c = p_d + d               v_c = v_d + A dp' + Omega x d
 //   R_c = exp(f) R_d            w_c = J_l(f) (A phi' + Omega x f) + exp(f) w_d
 //
-// h is what the environment exerts on the tool, at the tip, in base axes: pushed along +x the tool
-// yields along +x. Pressing on a surface with a force F takes h_d = -F there. Moments are those
-// about the measured tip.
+// h is the wrench that the environment exerts on the tool, at the tip, in base axes: the tool
+// yields along +x if it is pushed along +x. To press on a surface with a force F, h_d is -F there.
+// Moments are about the measured tip.
 //
-// State per axis: displacement e and velocity v. The force is held for a period and the exact
-// solution taken (kernel/math/mass_spring_damper.hpp), so M > 0, D >= 0, K >= 0 are stable at
+// State per axis: displacement e and velocity v. The force is constant for a period and the
+// solution exact (kernel/math/mass_spring_damper.hpp), so all M > 0, D >= 0, K >= 0 are stable at
 // every period and the response does not depend on it. Then, in this order,
 //
-//   e+ is kept within e -+ max_velocity T, v+ within -+ max_velocity
-//   e+ is kept within -+ max_displacement; there v+ does not point outwards
+//   e+ is kept within e +- max_velocity T, v+ within +- max_velocity
+//   e+ is kept within +- max_displacement; there v+ does not point outwards
 //
-// What is kept is the state itself: nothing winds up behind a bound. The largest step of v_c on an
-// axis is max_velocity, when it meets max_displacement.
+// The bounds act on the state itself, so nothing winds up. The largest step of v_c on an axis is
+// max_velocity, when the axis reaches max_displacement.
 //
-// Braked, v is brought to zero on each axis with half the robot's acceleration limit of the tip,
+// When braked, v goes to zero on each axis with half the robot's acceleration limit of the tip,
 // within the same bounds, and e is held there: neither wrench nor spring moves it any more.
 #pragma once
 
 #include <array>
 
-#include "kernel/brake.hpp"
-#include "kernel/describe.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/status.hpp"
 #include "kernel/math/mass_spring_damper.hpp"
-#include "kernel/port.hpp"
-#include "kernel/status.hpp"
 
 namespace tactus {
 
-/// A set of axes: bit i is axis i. The words are in the order of the bits' value.
-enum class AxisSet : int { kNone = 0, kXyz = 7 };
-inline constexpr std::array<const char*, 8> kAxisSetWords = {"none", "x",  "y",  "xy",
-                                                             "z",    "xz", "yz", "xyz"};
+/// A set of axes: bit i is axis i. The words are in the order of the values.
+enum class AxisSet : int { kNone, kX, kY, kXy, kZ, kXz, kYz, kXyz };
+
+constexpr const char* name(AxisSet axes) {
+  switch (axes) {
+    case AxisSet::kNone: return "none";
+    case AxisSet::kX: return "x";
+    case AxisSet::kY: return "y";
+    case AxisSet::kXy: return "xy";
+    case AxisSet::kZ: return "z";
+    case AxisSet::kXz: return "xz";
+    case AxisSet::kYz: return "yz";
+    case AxisSet::kXyz: return "xyz";
+  }
+  return nullptr;
+}
 
 enum class CompliantFrame : int { kDesired, kBase };
-inline constexpr std::array<const char*, 2> kCompliantFrameWords = {"desired", "base"};
 
-/// How the damping parameters are meant: D itself, or zeta in D = 2 zeta sqrt(M K).
+constexpr const char* name(CompliantFrame frame) {
+  switch (frame) {
+    case CompliantFrame::kDesired: return "desired";
+    case CompliantFrame::kBase: return "base";
+  }
+  return nullptr;
+}
+
+/// Meaning of the damping parameters: D itself, or zeta in D = 2 zeta sqrt(M K).
 enum class DampingGiven : int { kAsValue, kAsRatio };
-inline constexpr std::array<const char*, 2> kDampingGivenWords = {"value", "ratio"};
+
+constexpr const char* name(DampingGiven given) {
+  switch (given) {
+    case DampingGiven::kAsValue: return "value";
+    case DampingGiven::kAsRatio: return "ratio";
+  }
+  return nullptr;
+}
 
 class Admittance {
  public:
@@ -58,7 +84,7 @@ class Admittance {
 
   struct Params {
     CompliantFrame frame = CompliantFrame::kDesired;
-    AxisSet translation = AxisSet::kXyz, rotation = AxisSet::kXyz;  ///< what is not in it is rigid
+    AxisSet translation = AxisSet::kXyz, rotation = AxisSet::kXyz;  ///< other axes are rigid
     DampingGiven damping_given = DampingGiven::kAsValue;
     Vector3 mass = Vector3::Constant(kRequired);                  ///< kg
     Vector3 inertia = Vector3::Constant(kRequired);               ///< kg m^2
@@ -75,7 +101,7 @@ class Admittance {
     double max_moment = 10.0;           ///< N m
   } params;
   In<Quantity::kPose> x_d;
-  In<Quantity::kTwist> v_d;  ///< zero if not wired; v_c is a derivative only if it is that of x_d
+  In<Quantity::kTwist> v_d;  ///< not wired: zero; v_c is that of x_c only if this is that of x_d
   In<Quantity::kWrench> h, h_d;  ///< h_d is zero if not wired
   Out<Quantity::kPose> x_c;
   Out<Quantity::kTwist> v_c;
@@ -83,10 +109,10 @@ class Admittance {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.choice("frame", params.frame, kCompliantFrameWords);
-    visit.choice("compliant_translation", params.translation, kAxisSetWords);
-    visit.choice("compliant_rotation", params.rotation, kAxisSetWords);
-    visit.choice("damping_given_as", params.damping_given, kDampingGivenWords);
+    visit.choice("frame", params.frame);
+    visit.choice("compliant_translation", params.translation);
+    visit.choice("compliant_rotation", params.rotation);
+    visit.choice("damping_given_as", params.damping_given);
     visit.param("mass", params.mass, kMasses, "kg");
     visit.param("inertia", params.inertia, kMasses, "kg m^2");
     visit.param("damping", params.damping, kGains, "N s/m, or 1 for a ratio");
@@ -100,21 +126,28 @@ class Admittance {
     visit.param("max_angular_velocity", params.max_angular_velocity, Range{0.0, 10.0}, "rad/s");
     visit.param("max_force", params.max_force, Range{0.0, 1e4}, "N");
     visit.param("max_moment", params.max_moment, Range{0.0, 1e3}, "N m");
-    visit.in("x_d", x_d), visit.optional("v_d", v_d);
-    visit.in("h", h), visit.optional("h_d", h_d);
-    visit.out("x_c", x_c), visit.out("v_c", v_c), visit.out("limited", limited);
+    visit.in("x_d", x_d);
+    visit.optional("v_d", v_d);
+    visit.in("h", h);
+    visit.optional("h_d", h_d);
+    visit.out("x_c", x_c);
+    visit.out("v_c", v_c);
+    visit.out("limited", limited);
   }
 
-  /// No displacement: the commanded pose is the desired one. kBadValue if a ratio is to damp a
-  /// compliant axis without stiffness, which it cannot; else as step(). [init]
+  /// Starts without displacement: the commanded pose is the desired one. Returns kBadValue if a
+  /// ratio is given for the damping of a compliant axis without stiffness, where it gives none;
+  /// otherwise as step(). [init]
   Status start();
 
-  /// kCommandNotFinite if an input or the command is not finite. The first step after a change of
-  /// period works the coefficients out anew. [cyclic]
+  /// Returns kCommandNotFinite if an input or the command is not finite. The first step after a
+  /// change of period computes the coefficients again. [cyclic]
   Status step(double dt_s);
 
-  /// The displacement comes to rest and stays until the next start. [cyclic]
+  /// Brings the displacement to rest and holds it until the next start(). [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) { braked_ = true; }
+  /// True if the displacement does not move. [between two cycles]
+  bool at_rest() const;
 
  private:
   static constexpr Range kMasses = {1e-4, 1e4}, kGains = {0.0, 1e6};
@@ -127,22 +160,22 @@ class Admittance {
     MassSpringDamper law;
     MassSpringDamper::State state;
 
-    /// One period under `force`; true if a bound acted.
+    /// Advances one period under `force`; true if a bound acted.
     bool move(double force, double dt_s);
-    /// One period towards rest.
+    /// Advances one period towards rest.
     void brake(double dt_s);
-    /// Keeps a state within the bounds, from the one before.
+    /// Returns the next state kept within the bounds, given the present one.
     MassSpringDamper::State bounded(const MassSpringDamper::State& wanted, double dt_s) const;
   };
 
   Axis axis_of(int i) const;
   bool inputs_finite() const;
-  /// Axes of the compliant frame, in the base.
+  /// Returns the axes of the compliant frame in the base.
   Matrix3 frame() const;
   Status command();
 
   std::array<Axis, 6> axes_;  // three translations, three rotations
-  double period_s_ = 0.0;     // for which the laws hold
+  double period_s_ = 0.0;     // of the laws
   bool braked_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/math/so3.hpp"
 
 namespace tactus {
@@ -10,34 +11,37 @@ namespace {
 
 using Inverse = DampedInverse<kDof>;
 
-/// Part of the joints' acceleration that brakes a correction; the rest is the reference's.
+/// Part of the joints' acceleration that brakes a correction; the rest is for the reference.
 constexpr double kBrakingShare = 0.5;
-/// Part of it with which the posture's velocity changes, so that the task does not wait for it.
+/// Part of it with which the posture's velocity changes, so that the task need not wait for it.
 constexpr double kPostureShare = 0.25;
 
 bool finite(const Pose& pose) {
   return pose.p.allFinite() && pose.r.coeffs().allFinite();
 }
 
-/// From x to x_d: what moves x onto x_d in one second, in the base frame.
+/// Returns the twist that moves x onto x_d in one second, in the base frame.
 Vector6 pose_error(const Pose& x_d, const Pose& x) {
   Vector6 e;
   e << x_d.p - x.p, log_so3(x_d.r * x.r.conjugate());
   return e;
 }
 
-/// The joint furthest beyond its bounds, or -1.
+/// Returns the joint furthest beyond its bounds, or -1.
 int worst_joint(const JointVector& dq, const JointVector& low, const JointVector& high) {
   int worst = -1;
-  double most = 1e-12;  // rad/s; a joint that has been left out is at its bound, but for rounding
+  double most = 1e-12;  // rad/s; a joint that was left out is at its bound within rounding
   for (int i = 0; i < kDof; ++i) {
     const double beyond = std::max(low[i] - dq[i], dq[i] - high[i]);
-    if (beyond > most) most = beyond, worst = i;
+    if (beyond > most) {
+      most = beyond;
+      worst = i;
+    }
   }
   return worst;
 }
 
-/// The largest share of `dq`, 0 to 1, that can be added to `to` within the bounds.
+/// Returns the largest share of `dq`, 0 to 1, that can be added to `to` within the bounds.
 double share_within(const JointVector& to, const JointVector& dq, const JointVector& low,
                     const JointVector& high) {
   double share = 1.0;
@@ -51,22 +55,19 @@ double share_within(const JointVector& to, const JointVector& dq, const JointVec
 
 }  // namespace
 
-/// What the tip is to do: its reference's twist, and the correction of its error with the floor of
-/// its damping.
+/// Demand on the tip: the twist of its reference, and the correction of its error with the floor of
+/// the damping.
 struct CartesianPose::Demand {
   Vector6 v_d, correction;
   double floor;
 
   Vector6 v() const { return v_d + correction; }
-  JointVector joints(const Inverse& inverse) const {
-    return inverse.times(v_d) + inverse.correcting(correction);
-  }
+  JointVector joints(const Inverse& inverse) const { return inverse.times(v_d, correction); }
 };
 
-/// Joint velocities for a demand, and the inverse without the joints that were left out.
+/// Joint velocities for a demand, and the joints that were not left out.
 struct CartesianPose::Task {
   JointVector dq;
-  Inverse inverse;
   Eigen::Array<bool, kDof, 1> free;
 };
 
@@ -74,7 +75,7 @@ double CartesianPose::largest_gain() const {
   return std::max(params.position_gain.maxCoeff(), params.rotation_gain.maxCoeff());
 }
 
-/// By how much a twist is beyond the tip's speed limits; 1 within.
+/// Returns the factor by which a twist exceeds the tip's speed limits; 1 within them.
 double CartesianPose::excess(const Vector6& v) const {
   return std::max(
       {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
@@ -95,6 +96,11 @@ Status CartesianPose::start(double dt_s) {
   tracking_ = 1.0;
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
+  return Status::kOk;
+}
+
+Status CartesianPose::resume() {
+  braked_ = at_once_ = false;
   return Status::kOk;
 }
 
@@ -127,11 +133,13 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   wanted /= excess(wanted);
   const double rate = largest_gain();
   Demand demand{*v_d, wanted, rate > 0.0 ? kBend * wanted.norm() / rate : 0.0};
-  const Inverse inverse(*J, params.damping_onset, demand.floor);
+  Inverse inverse(*J, params.damping_onset, demand.floor);
+  const double distance = inverse.sigma();
   share_out(inverse, dt_s, demand);
   demand.correction *= passed * tracking_;
   const double fastest = excess(demand.v());
-  demand.v_d /= fastest, demand.correction /= fastest;
+  demand.v_d /= fastest;
+  demand.correction /= fastest;
   const Task task = solve(demand, inverse, dt_s);
 
   const JointVector low = motion_.lowest(dt_s).cwiseMax(-params.limits.dq_max);
@@ -139,25 +147,30 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   const double share = share_within(JointVector::Zero(), task.dq, low, high);
   dq = share * task.dq;
   if constexpr (kDof > 6) {
-    const JointVector rest = posture_velocity(task, dt_s);
+    const JointVector rest = posture_velocity(task, inverse, dt_s);
     dq += share_within(dq, rest, low, high) * rest;
   }
   if (!dq.allFinite()) return Status::kCommandNotFinite;
+  const double speed = dq.norm(), before = motion_.dq().norm();
+  if (braked_ && tracking_ < 1.0 && speed > before) dq *= before / speed;
   scale.value = share / fastest;
-  sigma.value = inverse.sigma();
-  damping.value = task.inverse.lambda();
+  sigma.value = distance;
+  damping.value = inverse.lambda();
   return Status::kOk;
 }
 
-/// Braked on the path: what is left of the error when the reference stands is given up.
+/// When braked on the path with the reference at rest, fades out the correction of the remaining
+/// error; the arm then gets no faster, as it would where the error was in balance with the posture,
+/// which no longer acts. After the brake it fades in again.
 void CartesianPose::run_down(double dt_s) {
   const bool stands = x_d->p == last_x_d_.p && x_d->r.coeffs() == last_x_d_.r.coeffs();
   if (braked_ && stands) tracking_ = std::max(0.0, tracking_ - dt_s / kRunDown_s);
+  if (!braked_) tracking_ = std::min(1.0, tracking_ + dt_s / kRunDown_s);
   last_x_d_ = *x_d;
 }
 
-/// Scales the correction so that every joint can still brake when it is done: at the rate of the
-/// greatest gain it has |dq| / K to go.
+/// Scales the correction so that every joint can brake before it is complete: at the rate of the
+/// greatest gain K the joint has |dq| / K to go.
 void CartesianPose::share_out(const Inverse& inverse, double dt_s, Demand& demand) const {
   const double rate = largest_gain();
   const JointVector dq = inverse.correcting(demand.correction);
@@ -171,36 +184,38 @@ void CartesianPose::share_out(const Inverse& inverse, double dt_s, Demand& deman
   demand.correction *= share;
 }
 
-/// Joints whose share of the demand is beyond what their position limits admit move as far as they
-/// may, one after the other, the furthest beyond first; the free ones take the rest of the task.
-CartesianPose::Task CartesianPose::solve(const Demand& demand, const Inverse& inverse,
+/// Limits the joints whose part of the demand exceeds what their position limits admit, one after
+/// the other, the furthest beyond first; the free joints take the rest of the task. The joints are
+/// left out of `inverse` too.
+CartesianPose::Task CartesianPose::solve(const Demand& demand, Inverse& inverse,
                                          double dt_s) const {
   const JointVector low = motion_.lowest(dt_s), high = motion_.highest(dt_s);
-  Task task{demand.joints(inverse), inverse, Eigen::Array<bool, kDof, 1>::Constant(true)};
-  Jacobian free_J = *J;
+  Task task{demand.joints(inverse), Eigen::Array<bool, kDof, 1>::Constant(true)};
   Demand rest = demand;
   JointVector fixed = JointVector::Zero();
+  LoopBound<kDof> limited;
   for (int left_out = 0; left_out < kDof; ++left_out) {
+    limited.tick();
     const int i = worst_joint(task.dq, low, high);
     if (i < 0) break;
     fixed[i] = std::clamp(task.dq[i], low[i], high[i]);
     rest.v_d -= J->col(i) * fixed[i];
-    free_J.col(i).setZero();
     task.free[i] = false;
-    task.inverse = Inverse(free_J, params.damping_onset, demand.floor);
-    task.dq = rest.joints(task.inverse) + fixed;
+    inverse.leave_out(i);
+    task.dq = rest.joints(inverse) + fixed;
   }
   return task;
 }
 
-/// The null space takes what moves the free joints towards the posture, or, braked, to rest.
-JointVector CartesianPose::posture_velocity(const Task& task, double dt_s) {
+/// Returns the null-space velocity that moves the free joints towards the posture or, braked, to
+/// rest.
+JointVector CartesianPose::posture_velocity(const Task& task, const Inverse& inverse, double dt_s) {
   const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
   const JointVector& posture = q_posture.wired() ? *q_posture : posture_;
   const JointVector wanted = braked_ ? JointVector(JointVector::Zero())
                                      : JointVector(params.posture_gain * (posture - *q));
   posture_dq_ += (wanted - posture_dq_).cwiseMax(-most).cwiseMin(most);
-  return task.inverse.null_space(task.free.select(posture_dq_, 0.0));
+  return inverse.null_space(task.free.select(posture_dq_, 0.0));
 }
 
 }  // namespace tactus

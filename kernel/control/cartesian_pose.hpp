@@ -5,47 +5,47 @@
 //   dq_c = J# v + (I - J# J) k_n (q_posture - q)        [Risi et al. 2026, eq. 6; Chiacchio et al.
 //   q_c  = integral of dq_c                              1991; J#: kernel/math/damped_inverse.hpp]
 //
-// An error that stays. Where the target is out of reach e does not vanish, and J turns with the
-// joints: near rest the loop is
+// Remaining errors. If the target is out of reach, e does not vanish, and J turns with the joints:
+// near rest the loop is
 //   d(dq_c) = -K (J^T J + lambda^2 I)^-1 (J^T J + H) dq,    H = -sum over i of e_i Hessian(x_i)
 // With a Hessian of length h, H is of the order of h |e|, and in a direction in which J loses rank
 // the gain is K h |e| / lambda^2: for K = 10 1/s and h = 0.25 m, 0.3 m out of reach and with a
-// damping of 0.05, 300 1/s, and a servo that lags by 5 ms is driven into a limit cycle. So
-// corrections, and only they, are damped by lambda_c^2 >= kBend |e| - sigma^2 [as Sugihara, IEEE
-// Trans. Robotics 27, 2011, has the damping grow with the error]: the gain is then at most about K
-// in every direction whatever the error, and a lag that the loop stands within reach it stands out
-// of reach. Two links a and b, stretched out, are shortened by a b / (a + b) theta^2 / 2 when bent:
-// h <= reach / 4, 0.33 m for the longest arm here. kBend is half as large again. Where sigma^2 >
-// kBend |e| nothing changes. |e| is taken as far as it is worked off: K e no faster than the tip
-// may be.
+// damping of 0.05, this is 300 1/s and drives a servo that lags by 5 ms into a limit cycle.
+// Therefore corrections, and only they, are damped by lambda_c^2 >= kBend |e| - sigma^2 [Sugihara,
+// IEEE Trans. Robotics 27, 2011, also lets the damping grow with the error]. The gain is then at
+// most about K in every direction whatever the error, and the loop tolerates the same lag out of
+// reach as within reach. Two stretched links a and b are shortened by a b / (a + b) theta^2 / 2
+// when bent: h <= reach / 4, 0.33 m for the longest arm here. kBend is half as large again. Where
+// sigma^2 > kBend |e| nothing changes. |e| counts only as far as it is corrected: K e no faster
+// than the tip may move.
 //
-// Discretisation: the pose error of this period is worked off during the next, q_c(k) = q_c(k-1) +
-// dt dq_c(k), so that with a servo that is at q_c(k) when period k ends e(k+1) = (1 - K dt) e(k).
-// The response is exp(-K t) at every period, to K dt / 2 of itself. x, J and q are measured; a
-// measurement that is known to be old is compared with the reference of that time.
+// Discretisation: the pose error of this period is corrected during the next, q_c(k) = q_c(k-1) +
+// dt dq_c(k). With a servo that is at q_c(k) when period k ends, e(k+1) = (1 - K dt) e(k), and the
+// response is exp(-K t) at every period, within the fraction K dt / 2. x, J and q are measured; a
+// measurement of known age is compared with the reference at its time.
 //
-// A robot that lets motions pass at a share s of their speed lags longer by 1 / s: errors are
-// worked off with s K, so that the loop is the same in the robot's own time, and stands when the
+// A robot that executes motions at a share s of their speed lags longer by 1 / s. Errors are then
+// corrected with s K, so that the loop is the same in the robot's own time, and stops when the
 // robot does.
 //
 // Limits, in this order:
-//   - a joint that may not move further is left out, and the others take its share of the task;
-//   - the whole twist is scaled until tool and joints keep their speeds: direction kept;
-//   - posture takes what speed is left;
-//   - a large error is worked off no faster than the joints can brake (half their acceleration);
-//   - JointMotion bounds what is left: position, velocity, lead, acceleration.
+//   - a joint that may not move further is left out, and the others take over its part of the task;
+//   - the whole twist is scaled until tool and joints keep their speed limits, with its direction;
+//   - the posture takes the remaining speed;
+//   - a large error is corrected no faster than the joints can brake with half their acceleration;
+//   - JointIntegrator bounds the result: position, velocity, lead, acceleration.
 //
-// Braked on the path, the posture's velocity is run down at once, and what is left of the error is
-// worked off no longer than kRunDown_s once the reference stands. Braked at once, every joint stops
-// by itself with max_acceleration.
+// When braked on the path, the posture's velocity goes to zero, and once the reference is at rest,
+// the remaining error is corrected for no longer than kRunDown_s and never faster than before. When
+// braked at once, every joint stops separately with max_acceleration.
 #pragma once
 
-#include "kernel/brake.hpp"
-#include "kernel/describe.hpp"
-#include "kernel/joint_motion.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/status.hpp"
 #include "kernel/math/damped_inverse.hpp"
-#include "kernel/port.hpp"
-#include "kernel/status.hpp"
+#include "kernel/math/joint_integrator.hpp"
 
 namespace tactus {
 
@@ -56,26 +56,26 @@ class CartesianPose {
   struct Params {
     Vector3 position_gain = Vector3::Constant(10.0);  ///< 1/s
     Vector3 rotation_gain = Vector3::Constant(10.0);  ///< 1/s
-    double measurement_delay = 0.0;  ///< s; age of x when step() sees it, an ideal servo's is zero
-    double damping_onset = 0.05;     ///< sigma below which the inverse is damped
-    double posture_gain = 0.5;       ///< 1/s; zero: no posture
-    double max_lead = 0.1;           ///< rad; more than the servo lags at speed
-    double max_speed = Robot::kTaskLimit.v_max;          ///< m/s
+    double measurement_delay = 0.0;              ///< s; age of x in step(); zero for an ideal servo
+    double damping_onset = 0.05;                 ///< sigma below which the inverse is damped
+    double posture_gain = 0.5;                   ///< 1/s; zero: no posture
+    double max_lead = 0.1;                       ///< rad; more than the servo's lag at speed
+    double max_speed = Robot::kTaskLimit.v_max;  ///< m/s
     double max_angular_speed = Robot::kTaskLimit.w_max;  ///< rad/s
     JointLimits limits;
     JointVector position_margin = JointVector::Constant(0.01);  ///< rad, off both limits
   } params;
   In<Quantity::kPose> x_d;                 ///< desired pose of the tip
-  In<Quantity::kTwist> v_d;                ///< its twist; not wired: zero
+  In<Quantity::kTwist> v_d;                ///< twist of x_d; not wired: zero
   In<Quantity::kPose> x;                   ///< measured
   In<Quantity::kJacobian> J;               ///< at the measured joints
   In<Quantity::kJointPosition> q;          ///< measured
-  In<Quantity::kJointPosition> q_posture;  ///< not wired: where the arm stood at start
+  In<Quantity::kJointPosition> q_posture;  ///< not wired: the joints at start()
   In<Quantity::kScalar> speed_scaling;     ///< of the robot, 0 to 1; not wired: 1
   Out<Quantity::kJointPosition> q_c;
   Out<Quantity::kJointVelocity> dq_c;
   Out<Quantity::kScalar> scale;    ///< share of the twist v that speed limits leave, 0 to 1
-  Out<Quantity::kScalar> sigma;    ///< distance from a singularity
+  Out<Quantity::kScalar> sigma;    ///< distance of the whole arm from a singularity
   Out<Quantity::kScalar> damping;  ///< lambda; zero: the inverse is exact
 
   template <class Visitor>
@@ -92,34 +92,48 @@ class CartesianPose {
     visit.limit("max_velocity", params.limits.dq_max, "rad/s");
     visit.limit("max_acceleration", params.limits.ddq_max, "rad/s^2");
     visit.param("position_margin", params.position_margin, Range{0.0, 0.5}, "rad");
-    visit.in("x_d", x_d), visit.optional("v_d", v_d), visit.in("x", x), visit.in("J", J);
-    visit.in("q", q), visit.optional("q_posture", q_posture);
+    visit.in("x_d", x_d);
+    visit.optional("v_d", v_d);
+    visit.in("x", x);
+    visit.in("J", J);
+    visit.in("q", q);
+    visit.optional("q_posture", q_posture);
     visit.optional("speed_scaling", speed_scaling);
-    visit.out("q_c", q_c), visit.out("dq_c", dq_c);
-    visit.out("scale", scale), visit.out("sigma", sigma), visit.out("damping", damping);
+    visit.out("q_c", q_c);
+    visit.out("dq_c", dq_c);
+    visit.out("scale", scale);
+    visit.out("sigma", sigma);
+    visit.out("damping", damping);
   }
 
-  /// Holds the measured position. kUnstableGain unless every gain times (dt_s + measurement_delay)
-  /// is at most kMaxGainPeriods; kStateNotFinite. [init]
+  /// Holds the measured position. Returns kUnstableGain unless every gain times (dt_s +
+  /// measurement_delay) is at most kMaxGainPeriods; kStateNotFinite. [init]
   Status start(double dt_s);
 
-  /// kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a quaternion
-  /// of no length), kCommandNotFinite. The command then stays where it was, at rest. [cyclic]
+  /// Returns kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a
+  /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
+  /// [cyclic]
   Status step(double dt_s);
 
-  /// From now on until the next start the arm comes to rest, after kAtOnce without its reference,
-  /// and stays. [cyclic]
+  /// Brings the arm to rest and keeps it there until the next start(); after kAtOnce without
+  /// following the reference. [cyclic]
   void brake(Status /*why*/, BrakeWay way) {
     braked_ = true;
     at_once_ = at_once_ || way == BrakeWay::kAtOnce;
   }
+  /// True if the joint command does not move. [between two cycles]
+  bool at_rest() const { return motion_.dq().cwiseAbs().maxCoeff() <= kStill; }
+  /// Lets the joint command go on from where it is; a remaining error fades in again, and the
+  /// posture stays that of the start. [init]
+  Status resume();
 
   /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
-  /// overshoot below 1; with two periods of delay that nobody told of the limit of stability is
+  /// overshoot below 1; with two periods of unmodelled delay the stability limit is
   /// 2 sin(pi / 10) = 0.618.
   static constexpr double kMaxGainPeriods = 0.5;
 
  private:
+  static constexpr double kStill = 1e-6;     // rad/s
   static constexpr double kBend = 0.5;       // m, or rad
   static constexpr double kRunDown_s = 0.3;  // three times 1/K at the gains of the paper
   struct Demand;
@@ -130,14 +144,14 @@ class CartesianPose {
   Status command_velocity(double dt_s, JointVector& dq);
   void run_down(double dt_s);
   void share_out(const DampedInverse<kDof>& inverse, double dt_s, Demand& demand) const;
-  Task solve(const Demand& demand, const DampedInverse<kDof>& inverse, double dt_s) const;
-  JointVector posture_velocity(const Task& task, double dt_s);
+  Task solve(const Demand& demand, DampedInverse<kDof>& inverse, double dt_s) const;
+  JointVector posture_velocity(const Task& task, const DampedInverse<kDof>& inverse, double dt_s);
 
-  JointMotion motion_;
-  JointVector posture_ = JointVector::Zero();  // where the arm stood at start
+  JointIntegrator motion_;
+  JointVector posture_ = JointVector::Zero();  // joints at start()
   JointVector posture_dq_ = JointVector::Zero();
   bool braked_ = false, at_once_ = false;
-  double tracking_ = 1.0;  // share of the correction; less once a brake's reference stands
+  double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;
 };
 

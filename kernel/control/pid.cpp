@@ -14,7 +14,7 @@ JointVector clamped(const JointVector& value, const JointVector& limit) {
   return inside;
 }
 
-/// Rate of a value that was `before` a period ago; zero at start, when there is no past.
+/// Returns the rate of a value that was `before` one period ago; zero at start, without a past.
 JointVector difference(const JointVector& now, const JointVector& before, double dt_s) {
   return dt_s == 0.0 ? JointVector(JointVector::Zero()) : JointVector((now - before) / dt_s);
 }
@@ -48,7 +48,7 @@ Status Pid::step(double dt_s) {
   return put_out(e, de, integral);
 }
 
-/// The law itself.
+/// Returns all terms of the law but the integral.
 JointVector Pid::other_terms(const JointVector& e, const JointVector& de) const {
   return params.gains.kp.cwiseProduct(e) + params.gains.kd.cwiseProduct(de) +
          params.velocity_gain.cwiseProduct(*dq_d) + params.acceleration_gain.cwiseProduct(*ddq_d) +
@@ -58,7 +58,11 @@ JointVector Pid::other_terms(const JointVector& e, const JointVector& de) const 
 Status Pid::put_out(const JointVector& e, const JointVector& de, const JointVector& integral) {
   const JointVector sum = other_terms(e, de) + integral;
   if (!sum.allFinite()) return Status::kCommandNotFinite;
-  e_ = e, de_ = de, q_ = *q, q_d_ = *q_d, integral_ = integral;
+  e_ = e;
+  de_ = de;
+  q_ = *q;
+  q_d_ = *q_d;
+  integral_ = integral;
   tau.value = clamped(sum, params.output_limit);
   return Status::kOk;
 }
@@ -95,8 +99,7 @@ double Pid::integrated(int i, double e, double others, double dt_s) const {
   const double sum = others + integral;
   const double excess = sum - std::clamp(sum, -limit, limit);
   switch (params.anti_windup) {
-    case AntiWindup::kNone:
-      break;
+    case AntiWindup::kNone: break;
     case AntiWindup::kBackCalculation:
       integral -= (1.0 - exponential(-dt_s / tracking_time_constant(i))) * excess;
       break;
@@ -108,7 +111,8 @@ double Pid::integrated(int i, double e, double others, double dt_s) const {
   return std::clamp(integral, -params.integral_limit[i], params.integral_limit[i]);
 }
 
-/// Only where ki > 0. Between the time constants of integral and derivative, as in the source.
+/// For ki > 0. The default is between the time constants of integral and derivative, as in the
+/// source.
 double Pid::tracking_time_constant(int i) const {
   const double given = params.tracking_time_constant[i];
   const Gains& gains = params.gains;

@@ -1,41 +1,57 @@
-// PID control with feed-forward, each joint for itself.
+// PID control with feed-forward, separately for each joint.
 //
 //   tau = Kp e + Kd (dq_d - dq) + Ki integral(e) + feed-forward + g(q)      e = q_d - q
 //                                                                     [Risi et al. 2026, eq. 3]
 //   feed-forward = Fv dq_d + Fa ddq_d + Ft tau_d
 //
-// What is integrated is Ki e, in N m, by the trapezoidal rule: exact for an error that is straight
-// between samples, and a change of Ki steps nothing. A velocity that is not wired is the difference
-// of the position. The rate of the error is low-passed with the pole of the continuous filter,
-// exp(-dt/T); the filter is exact for a rate that is constant over the past period, so at every
-// period the response is that of the continuous one to within half a period times the slope of the
-// rate.
+// The integral is that of Ki e, in N m, by the trapezoidal rule: exact for an error that is linear
+// between samples, and a change of Ki causes no step. A velocity that is not wired is the
+// difference of the position. The rate of the error is low-passed with the pole of the continuous
+// filter, exp(-dt/T); the filter is exact for a rate that is constant over the past period, so at
+// every period the response is that of the continuous one to within half a period times the slope
+// of the rate.
 //
 // Anti-windup [Astrom and Hagglund, Advanced PID Control, 2006, section 3.5]:
-//   back_calculation   what the output limit takes off drives the integral back with a time
-//                      constant
-//   conditional        the integral does not grow where it would push the torque beyond the limit
+//   back_calculation   the excess over the output limit drives the integral back with a time
+//   constant conditional        the integral does not grow if that would push the torque beyond the
+//   limit
 //
-// Braked, the integral is frozen.
+// When braked, the integral is frozen.
 #pragma once
 
-#include "kernel/brake.hpp"
-#include "kernel/describe.hpp"
-#include "kernel/joint_limits.hpp"
-#include "kernel/port.hpp"
-#include "kernel/status.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/joint_limits.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/status.hpp"
 
 namespace tactus {
+
+enum class Derivative : std::uint8_t { kError, kMeasurement };
+
+constexpr const char* name(Derivative derivative) {
+  switch (derivative) {
+    case Derivative::kError: return "error";
+    case Derivative::kMeasurement: return "measurement";
+  }
+  return nullptr;
+}
+
+enum class AntiWindup : std::uint8_t { kNone, kBackCalculation, kConditional };
+
+constexpr const char* name(AntiWindup anti_windup) {
+  switch (anti_windup) {
+    case AntiWindup::kNone: return "none";
+    case AntiWindup::kBackCalculation: return "back_calculation";
+    case AntiWindup::kConditional: return "conditional";
+  }
+  return nullptr;
+}
 
 class Pid {
  public:
   static constexpr const char* kType = "pid";
 
-  enum class Derivative : std::uint8_t { kError, kMeasurement };
-  enum class AntiWindup : std::uint8_t { kNone, kBackCalculation, kConditional };
-  static constexpr std::array<const char*, 2> kDerivativeWords = {"error", "measurement"};
-  static constexpr std::array<const char*, 3> kAntiWindupWords = {"none", "back_calculation",
-                                                                  "conditional"};
   struct Gains {
     JointVector kp = JointVector::Constant(kRequired);  ///< N m/rad
     JointVector ki = JointVector::Constant(kRequired);  ///< N m/(rad s); 0: no integral
@@ -44,8 +60,8 @@ class Pid {
 
   struct Params {
     Gains gains;
-    JointVector dead_band = JointVector::Zero();  ///< rad; taken off the error on either side of 0
-    Derivative derivative = Derivative::kError;   ///< on measurement: dq_d is left out
+    JointVector dead_band = JointVector::Zero();  ///< rad; shortens the error on both sides of 0
+    Derivative derivative = Derivative::kError;   ///< on measurement: without dq_d
     JointVector derivative_time_constant = JointVector::Zero();  ///< s; 0: no filter
 
     AntiWindup anti_windup = AntiWindup::kConditional;
@@ -64,7 +80,7 @@ class Pid {
   In<Quantity::kJointAcceleration> ddq_d;
   In<Quantity::kJointEffort> tau_d;
   In<Quantity::kJointEffort> g;             ///< gravity torque
-  In<Quantity::kJointEffort> tau_measured;  ///< read at start only: the torque to begin with
+  In<Quantity::kJointEffort> tau_measured;  ///< read at start() only: the initial torque
   Out<Quantity::kJointEffort> tau;
 
   template <class Visitor>
@@ -73,40 +89,51 @@ class Pid {
     visit.param("ki", params.gains.ki, kNonNegative, "N m/(rad s)");
     visit.param("kd", params.gains.kd, kNonNegative, "N m s/rad");
     visit.param("dead_band", params.dead_band, kNonNegative, "rad");
-    visit.choice("derivative", params.derivative, kDerivativeWords);
+    visit.choice("derivative", params.derivative);
     visit.param("derivative_time_constant", params.derivative_time_constant, kNonNegative, "s");
-    visit.choice("anti_windup", params.anti_windup, kAntiWindupWords);
+    visit.choice("anti_windup", params.anti_windup);
     visit.param("tracking_time_constant", params.tracking_time_constant, kNonNegative, "s");
     visit.limit("integral_limit", params.integral_limit, "N m");
     visit.limit("output_limit", params.output_limit, "N m");
     visit.param("velocity_gain", params.velocity_gain, kNonNegative, "N m s/rad");
     visit.param("acceleration_gain", params.acceleration_gain, kNonNegative, "kg m^2");
     visit.param("effort_gain", params.effort_gain, kNonNegative, "1");
-    visit.in("q_d", q_d), visit.in("q", q), visit.optional("dq_d", dq_d), visit.optional("dq", dq);
-    visit.optional("ddq_d", ddq_d), visit.optional("tau_d", tau_d), visit.optional("g", g);
+    visit.in("q_d", q_d);
+    visit.in("q", q);
+    visit.optional("dq_d", dq_d);
+    visit.optional("dq", dq);
+    visit.optional("ddq_d", ddq_d);
+    visit.optional("tau_d", tau_d);
+    visit.optional("g", g);
     visit.optional("tau_measured", tau_measured);
     visit.out("tau", tau);
   }
 
-  /// The integral begins at zero: with the reference at the measured position and the robot at rest
-  /// the first torque is gravity and feed-forward. With tau_measured wired it begins so that the
-  /// first torque is the one measured, at joints with ki > 0 and as far as its limit goes.
-  /// kNotConnected: a feed-forward gain without its input. Else as step(). [init]
+  /// The integral begins at zero: if the reference is at the measured position and the robot at
+  /// rest, the first torque is gravity and feed-forward. If tau_measured is wired, the integral
+  /// begins such that the first torque is the measured one, at joints with ki > 0 and within its
+  /// limit. Returns kNotConnected if a feed-forward gain lacks its input; otherwise as step().
+  /// [init]
   Status start();
 
-  /// kCommandNotFinite if an input that is read is not finite; torque and state then stay as they
-  /// are. [cyclic]
+  /// Returns kCommandNotFinite if an input that is read is not finite; torque and state are then
+  /// unchanged. [cyclic]
   Status step(double dt_s);
 
-  /// The integral stays as it is until the next start: an arm that is held, or meets something
-  /// while it brakes, winds nothing up. [cyclic]
+  /// Freezes the integral until the next start(): an arm that is held, or meets something while it
+  /// brakes, does not wind it up. [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) { frozen_ = true; }
+  /// Lets the integral move on from its present value. [init]
+  Status resume() {
+    frozen_ = false;
+    return Status::kOk;
+  }
 
-  /// Changes the gains and moves the integral by what the other terms of the last cycle change, so
-  /// that the torque does not step. What is beyond the integral's limit steps, and at a joint whose
-  /// new ki is 0 all of it, at most |new kp - old kp| |e| + |new kd - old kd| |rate of e|; the
-  /// integral it has stays as it is. kBadValue, and nothing changes, if a gain is negative or not
-  /// finite. [cyclic], after a step
+  /// Changes the gains and moves the integral by the change of the other terms of the last cycle,
+  /// so that the torque does not step. The part that exceeds the integral limit does step. At a
+  /// joint whose new ki is 0, the integral is unchanged and the torque steps by at most
+  /// |new kp - old kp| |e| + |new kd - old kd| |rate of e|. Returns kBadValue, without effect, if a
+  /// gain is negative or not finite. [cyclic], after a step
   Status set_gains(const Gains& gains);
 
   /// The integral term, N m. [any]
@@ -121,7 +148,7 @@ class Pid {
   double tracking_time_constant(int i) const;
   Status put_out(const JointVector& e, const JointVector& de, const JointVector& integral);
 
-  // Of the last cycle.
+  // Values of the last cycle.
   JointVector e_ = JointVector::Zero(), de_ = JointVector::Zero();
   JointVector q_ = JointVector::Zero(), q_d_ = JointVector::Zero();
   JointVector integral_ = JointVector::Zero();  // N m

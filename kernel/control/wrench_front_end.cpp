@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "kernel/math/exponential.hpp"
-#include "kernel/model/robot_table.hpp"
+#include "kernel/robots/robot_table.hpp"
 
 namespace tactus {
 namespace {
 
-/// v shortened by `band`, to zero if it is not longer.
+/// Returns v shortened by `band`; zero if v is not longer.
 Vector3 shortened(const Vector3& v, double band) {
   const double length = v.norm();
   return length > band ? Vector3((1.0 - band / length) * v) : Vector3(Vector3::Zero());

@@ -1,12 +1,12 @@
-// Block: a box that stands around the robot, for the collision check. It computes nothing in the
-// cycle; what it says is where it stands.
+// Block: a fixed box near the robot, for the collision check. Its output is its pose and size; it
+// computes nothing in the cycle.
 #pragma once
 
-#include "kernel/brake.hpp"
-#include "kernel/describe.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/status.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/port.hpp"
-#include "kernel/status.hpp"
 
 namespace tactus {
 
@@ -18,7 +18,7 @@ struct BoxObstacle {
     Vector3 size = Vector3::Constant(kRequired);    ///< m, from face to face
     Vector3 rotation = Vector3::Zero();  ///< rad, rotation vector from the axes of `frame`
   } params;
-  In<Quantity::kPose> frame;  ///< optional; without it the base
+  In<Quantity::kPose> frame;  ///< optional; default: the base
   Out<Quantity::kBox> box;
 
   template <class Visitor>
@@ -30,15 +30,15 @@ struct BoxObstacle {
     visit.out("box", box);
   }
 
-  /// It stays where its frame puts it at the start. [init]
+  /// Places the box in its frame; it stays where the frame is now. [init]
   Status start() {
     box.value.pose = {frame->p + frame->r * params.centre, frame->r * exp_so3(params.rotation)};
     box.value.size = params.size;
     return Status::kOk;
   }
-  /// It stands still. [cyclic]
+  /// No effect: the box does not move. [cyclic]
   Status step(double /*dt_s*/) { return Status::kOk; }
-  /// Has no motion of its own. [cyclic]
+  /// No effect: the block has no motion of its own. [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) {}
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/loop_bound.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus {
 namespace {
@@ -12,8 +12,8 @@ Vector3 vector_of(const double (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
-/// From the origin of joint frame `joint`, counted from 1, to that of `link`, however the joints
-/// between them stand: no more than this, m.
+/// Returns a bound of the distance between the origins of joint frame `joint`, counted from 1, and
+/// of `link`, at any position of the joints between them, m.
 double longest_way(int joint, int link) {
   double sum = 0.0;
   for (int i = joint; i < link; ++i) {
@@ -23,7 +23,7 @@ double longest_way(int joint, int link) {
   return sum;
 }
 
-/// Distance from axis k is at most that from the origin of its frame.
+/// Bounds the distance from axis k by that from the origin of its frame.
 JointVector reach_of(const Capsule& shape, int link) {
   const double own = std::max(shape.a.norm(), shape.b.norm()) + shape.radius;
   JointVector reach = JointVector::Zero();
@@ -31,8 +31,9 @@ JointVector reach_of(const Capsule& shape, int link) {
   return reach;
 }
 
-/// Until a joint that accelerates brakes, with its jerk: while the acceleration turns round, and
-/// while it fades at the end, the joint is nowhere further than after that time of acceleration.
+/// Returns the time in which a joint turns from full acceleration to braking, with its jerk. While
+/// the acceleration changes, and while it fades at the end, the joint is nowhere further than after
+/// accelerating for that time.
 double jerk_ramp_s(const JointLimits& limits, const JointVector& braking) {
   return (limits.ddq_max + braking).cwiseQuotient(limits.dddq_max).maxCoeff();
 }
@@ -63,7 +64,8 @@ void Collision::add_capsules(const Vector3& tip, double tool_radius) {
   bodies_.back() = {kToolBody, kDof, tool, reach_of(tool, kDof)};
 }
 
-/// Whether two bodies of the arm can meet: not on one link or on neighbours, not said to touch.
+/// True if two bodies of the arm can meet: not on one link or on neighbours, and not always
+/// touching.
 bool Collision::meets(int first, int second) const {
   if (second - first < 2) return false;
   for (const LinkPair& pair : RobotCapsules::kTouching)

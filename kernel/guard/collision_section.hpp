@@ -1,27 +1,27 @@
-// CollisionSection: the [collision] section of a pipeline file, and what the loader made of it and
-// of the boxes in the file: who is there, and who may touch whom.
+// CollisionSection: the [collision] section of a pipeline file, and the scene that the loader makes
+// of it and of the boxes in the file: the bodies, and the pairs that may touch.
 #pragma once
 
 #include <array>
 
-#include "kernel/describe.hpp"
-#include "kernel/joint_limits.hpp"
-#include "kernel/load_error.hpp"
-#include "kernel/model/robot.hpp"
+#include "kernel/core/describe.hpp"
+#include "kernel/core/joint_limits.hpp"
+#include "kernel/core/load_error.hpp"
+#include "kernel/robots/robot.hpp"
 
 namespace tactus {
 
-/// The bodies of a scene by number: the links, base first, the tool, the boxes.
+/// The numbers of a scene's bodies: the links, base first, then the tool, then the boxes.
 inline constexpr int kToolBody = kDof + 1;
 inline constexpr int kFirstBoxBody = kToolBody + 1;
 inline constexpr int kMaxObstacles = 8;
 inline constexpr int kMaxBodies = kFirstBoxBody + kMaxObstacles;
 
 struct CollisionScene {
-  std::array<const char*, kMaxBodies> names{};  ///< of the boxes: those in the table of ports
+  std::array<const char*, kMaxBodies> names{};  ///< those of the boxes are in the port table
   std::array<const Cuboid*, kMaxObstacles> boxes{};
   int body_count = kFirstBoxBody;
-  std::array<std::array<bool, kMaxBodies>, kMaxBodies> allowed{};  ///< both ways round
+  std::array<std::array<bool, kMaxBodies>, kMaxBodies> allowed{};  ///< symmetric
 
   CollisionScene() {
     for (std::size_t i = 0; i < kToolBody; ++i) names[i] = RobotCapsules::kLinkNames[i];
@@ -33,14 +33,13 @@ struct CollisionScene {
 struct CollisionSection {
   int divisor = 8, offset = 0;  ///< cycles
   int budget_us = 250;
-  double margin = 0.01;       ///< m: nearer than that is a contact
+  double margin = 0.01;       ///< m: a smaller distance is a contact
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip
-  int support_calls = 4000;   ///< most support points that one check asks for: its worst case
-  double delay_s = 0.0;       ///< by which the measured state and the brake together are late
-  JointLimits limits;         ///< of it ddq_max: what every joint brakes with at once, rad/s^2
+  int support_calls = 4000;   ///< most support points in one check: its worst case
+  double delay_s = 0.0;       ///< total delay of the measured state and the brake, s
+  JointLimits limits;         ///< only ddq_max: each joint's deceleration, braked at once, rad/s^2
   Value allow;                ///< "tool table, link7 table"
 
-  bool given = false;  ///< whether the file has the section
   CollisionScene scene;
 
   template <class Visitor>

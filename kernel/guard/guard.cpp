@@ -13,18 +13,23 @@ JointLimits Guard::Params::effective() const {
 }
 
 Status Guard::start(const Params& params, CommandMode mode, const RobotState& state,
-                    double period_s) {
+                    double period_s, const CycleTime& now) {
   limits_ = params.effective();
-  following_error_ = params.following_error, following_time_ = params.following_time;
+  following_error_ = params.following_error;
+  following_time_ = params.following_time;
+  period_s_ = period_s;
+  max_age_ = params.max_age;
+  lag_.setZero();
   max_step_ = limits_.dtau_max * period_s;
   mode_ = mode;
+  left_behind_ = false;
   telemetry_ = {};
   for (int i = 0; i < kDof; ++i) {
     const StepLimits steps = StepLimits::of(limits_, i, period_s);
     positions_[static_cast<std::size_t>(i)].start(steps, state.q[i]);
     velocities_[static_cast<std::size_t>(i)].start(steps, period_s, state.dq[i]);
   }
-  TRY(check(state));
+  TRY(check(state, now));
   for (int i = 0; i < kDof && mode == CommandMode::kEffort; ++i) {
     if (std::abs(state.tau[i]) > limits_.tau_max[i])
       return trip(Status::kEffortLimit, i, state.tau[i], limits_.tau_max[i]);
@@ -40,34 +45,63 @@ Status Guard::trip(Status status, int joint, double value, double limit) {
   return status;
 }
 
-Status Guard::check(const RobotState& state) {
-  for (int i = 0; i < kDof; ++i) {
-    const double q = state.q[i], dq = state.dq[i];
-    if (!std::isfinite(q)) return trip(Status::kStateNotFinite, i, q, 0.0);
-    if (!std::isfinite(dq)) return trip(Status::kStateNotFinite, i, dq, 0.0);
-    if (!std::isfinite(state.tau[i])) return trip(Status::kStateNotFinite, i, state.tau[i], 0.0);
-    if (q < limits_.q_min[i]) return trip(Status::kMeasuredPositionLimit, i, q, limits_.q_min[i]);
-    if (q > limits_.q_max[i]) return trip(Status::kMeasuredPositionLimit, i, q, limits_.q_max[i]);
-    if (std::abs(dq) > limits_.dq_max[i])
-      return trip(Status::kMeasuredVelocityLimit, i, dq, limits_.dq_max[i]);
-  }
-  return mode_ == CommandMode::kPosition ? check_following(state) : Status::kOk;
+Status Guard::check(const RobotState& state, const CycleTime& now) {
+  TRY(check_age(state, now));
+  for (int i = 0; i < kDof; ++i) TRY(check_joint(i, state));
+  return mode_ == CommandMode::kEffort ? Status::kOk : check_following(state);
 }
 
+/// A state from the future is no better than an old one.
+Status Guard::check_age(const RobotState& state, const CycleTime& now) {
+  // A stamp may be nonsense: integers could overflow.
+  const double age_ns = static_cast<double>(now.stamp_ns) - static_cast<double>(state.stamp_ns);
+  const double age = age_ns * 1e-9 / period_s_;
+  const bool young = age >= -1.0 && age <= max_age_ + 0.5;
+  return young ? Status::kOk : trip(Status::kStateStale, -1, age, max_age_);
+}
+
+Status Guard::check_joint(int joint, const RobotState& state) {
+  const double q = state.q[joint], dq = state.dq[joint], tau = state.tau[joint];
+  const double lo = limits_.q_min[joint], hi = limits_.q_max[joint], most = limits_.dq_max[joint];
+  if (!state.drives[static_cast<std::size_t>(joint)].valid)
+    return trip(Status::kStateInvalid, joint, q, 0.0);
+  for (const double value : {q, dq, tau})
+    if (!std::isfinite(value)) return trip(Status::kStateNotFinite, joint, value, 0.0);
+  if (q < lo - kMeasuredPosition) return trip(Status::kMeasuredPositionLimit, joint, q, lo);
+  if (q > hi + kMeasuredPosition) return trip(Status::kMeasuredPositionLimit, joint, q, hi);
+  if (std::abs(dq) > most + kMeasuredVelocity)
+    return trip(Status::kMeasuredVelocityLimit, joint, dq, most);
+  return Status::kOk;
+}
+
+/// A robot that is sent velocities is compared with the way that they would have taken it.
 Status Guard::check_following(const RobotState& state) {
   for (int i = 0; i < kDof; ++i) {
-    const double error = std::abs(positions_[static_cast<std::size_t>(i)].sent() - state.q[i]);
+    const auto j = static_cast<std::size_t>(i);
+    double error = positions_[j].sent() - state.q[i];
+    if (mode_ == CommandMode::kVelocity) {
+      const double slower = velocities_[j].sent() - state.dq[i];
+      lag_[i] += period_s_ * (slower - lag_[i] / kFading_s);
+      error = lag_[i];
+    }
     const double limit = following_error_[i] + following_time_[i] * std::abs(state.dq[i]);
-    if (!(error <= limit)) return trip(Status::kFollowingError, i, error, limit);
+    if (!(std::abs(error) <= limit))
+      return trip(Status::kFollowingError, i, std::abs(error), limit);
   }
   return Status::kOk;
 }
 
-Status Guard::limit(const RobotState& state, RobotCommand& command) {
+Status Guard::limit(const RobotState& state, RobotCommand& command, bool braked) {
   if (command.mode != mode_) return Status::kNotStarted;
   for (int i = 0; i < kDof; ++i) {
     const double wanted = command.value[i];
     if (!std::isfinite(wanted)) return trip(Status::kCommandNotFinite, i, wanted, 0.0);
+  }
+  left_behind_ = braked && (left_behind_ || !follows(command.value, state));
+  if (left_behind_) {
+    telemetry_.limited = false;
+    command = brake(state);
+    return Status::kOk;
   }
   bool limited = false, rough = false;
   for (int i = 0; i < kDof; ++i) {
@@ -96,15 +130,23 @@ RobotCommand Guard::brake(const RobotState& state) {
   return command;
 }
 
+/// True for torques: their law uses the measured state, so there is nothing to catch up with.
+bool Guard::follows(const JointVector& wanted, const RobotState& state) const {
+  bool all = true;
+  for (int i = 0; i < kDof && mode_ != CommandMode::kEffort; ++i) {
+    const auto j = static_cast<std::size_t>(i);
+    all = all && (mode_ == CommandMode::kPosition ? positions_[j].follows(wanted[i])
+                                                  : velocities_[j].follows(wanted[i], state.q[i]));
+  }
+  return all;
+}
+
 double Guard::allowed(int joint, double wanted, const RobotState& state) {
   const auto j = static_cast<std::size_t>(joint);
   switch (mode_) {
-    case CommandMode::kPosition:
-      return positions_[j].next(wanted);
-    case CommandMode::kVelocity:
-      return velocities_[j].next(wanted, state.q[joint]);
-    case CommandMode::kEffort:
-      break;
+    case CommandMode::kPosition: return positions_[j].next(wanted);
+    case CommandMode::kVelocity: return velocities_[j].next(wanted, state.q[joint]);
+    case CommandMode::kEffort: break;
   }
   return allowed_effort(joint, wanted);
 }
@@ -116,7 +158,7 @@ double Guard::allowed_effort(int joint, double wanted) {
   return last_[joint] = std::clamp(within_rate, -limit, limit);
 }
 
-/// Nothing was sent by the limiters of the modes that were not started.
+/// The limiters of the modes that were not started have sent nothing, so they are not jerky.
 bool Guard::jerky(int joint) const {
   const auto j = static_cast<std::size_t>(joint);
   return positions_[j].jerky() || velocities_[j].jerky();

@@ -1,17 +1,17 @@
-// Guard: the last word before the wire. What was measured must be possible, what is sent must be
-// finite and is kept within limits: a torque within torque and torque rate, a position or velocity
-// within position, velocity and acceleration, braking distance included; and a robot that is sent
-// positions must follow. A violation is a Status and stops the robot; limiting is a flag in
-// telemetry.
+// Guard: the last check before the wire. The measured state must be young and possible. A command
+// must be finite and is kept within limits: a torque within torque and torque rate, a position or
+// velocity within position, velocity and acceleration, braking distance included. A robot that is
+// sent positions or velocities must follow them. A violation is a Status and stops the robot;
+// limiting is a flag in telemetry.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "kernel/core/hal.hpp"
+#include "kernel/core/joint_limits.hpp"
 #include "kernel/guard/position_limiter.hpp"
 #include "kernel/guard/velocity_limiter.hpp"
-#include "kernel/hal.hpp"
-#include "kernel/joint_limits.hpp"
 
 namespace tactus {
 
@@ -21,20 +21,23 @@ class Guard {
   struct Params {
     JointLimits limits;
     JointVector position_margin = JointVector::Zero();  ///< rad, taken off both position limits
-    /// Fraction of acceleration and jerk limits that a trajectory leaves free, so that it can be
-    /// stopped on its path at any time.
+    /// Fraction of the acceleration and jerk limits that a trajectory leaves unused, so that it can
+    /// be stopped on its path at any time.
     double stop_reserve = 0.02;
-    /// How much longer a trajectory may become by being slowed down where it is beyond a limit, as
-    /// a fraction.
+    /// Fraction by which a trajectory may become longer when it is slowed down where it exceeds a
+    /// limit.
     double max_stretch = 0.1;
-    /// How far a robot may be from the position it was sent: following_error rad, and
+    /// Largest distance of a robot from the position it was sent: following_error rad plus
     /// following_time s times its measured speed. 0.1 rad is what the demonstrations of Risi et al.
     /// 2026 allow the real UR10; a servo loop of 0.1 s lags by that time.
     JointVector following_error = JointVector::Constant(0.1);
     JointVector following_time = JointVector::Constant(0.1);
+    /// Periods after which a measured state is too old, half a period of jitter not counted. A wire
+    /// that repeats the last state when a packet is lost is bridged for so long.
+    int max_age = 5;
     /// Limiting in more than limiting_share of the cycles of limiting_window s stops the robot: a
-    /// law whose every other command is limited is not the law that was meant. 1: never, for a
-    /// limit that is to act for long.
+    /// law of which every other command is limited is not the intended law. 1: never stops it, for
+    /// a limit that may act for long.
     double limiting_share = 0.5;
     double limiting_window = 1.0;
 
@@ -51,52 +54,67 @@ class Guard {
       visit.param("position_margin", position_margin, Range{0.0, 0.5}, "rad");
       visit.param("following_error", following_error, kPositive, "rad");
       visit.param("following_time", following_time, kNonNegative, "s");
+      visit.param("max_age", max_age, Range{0.0, 1000.0}, "cycles");
       visit.param("limiting_share", limiting_share, Range{0.0, 1.0}, "1");
       visit.param("limiting_window", limiting_window, Range{0.01, 60.0}, "s");
     }
-    /// The limits with the margin taken off. [init]
+    /// Returns the limits reduced by the margin. [init]
     JointLimits effective() const;
   };
 
   /// Counters since start.
   struct Telemetry {
-    bool limited = false;              ///< the last command was
+    bool limited = false;              ///< the last command was limited
     std::uint32_t limited_cycles = 0;  ///< cycles in which a command was limited
     std::uint32_t limited_joints = 0;  ///< bit i: joint i was limited at least once
-    std::uint32_t jerky_cycles = 0;    ///< cycles in which a position or velocity sent took more
-                                       ///< than the jerk limit; counted, not limited
+    std::uint32_t jerky_cycles = 0;    ///< cycles in which a position or velocity sent exceeded the
+                                       ///< jerk limit; counted, not limited
     int tripped_joint = -1;            ///< joint of the violation that stopped the robot
     double tripped_value = 0.0, tripped_limit = 0.0;
   };
 
-  /// Takes the limits and begins bumpless for commands of `mode`: at the measured position at rest,
-  /// at the measured velocity, or at the torque the actuators hold now; if that is beyond its
-  /// limit, no command could keep torque and rate: kEffortLimit. Else as check(). [init]
-  Status start(const Params& params, CommandMode mode, const RobotState& state, double period_s);
+  /// Takes the limits and starts bumpless for commands of `mode`: at rest at the measured position,
+  /// at the measured velocity, or at the torque the actuators exert. Returns kEffortLimit if that
+  /// torque is beyond its limit, where no command could keep both torque and rate; otherwise as
+  /// check(). [init]
+  Status start(const Params& params, CommandMode mode, const RobotState& state, double period_s,
+               const CycleTime& now);
 
-  /// Measured state: finite, within position and velocity limits, and where positions are
-  /// commanded near the last that was sent.
-  /// kStateNotFinite, kMeasuredPositionLimit, kMeasuredVelocityLimit, kFollowingError. [cyclic]
-  Status check(const RobotState& state);
+  /// Checks that the measured state is young, measured at every joint, finite, within position and
+  /// velocity limits and, if positions or velocities are commanded, near what was sent. Returns
+  /// kStateStale, kStateInvalid, kStateNotFinite, kMeasuredPositionLimit, kMeasuredVelocityLimit or
+  /// kFollowingError. [cyclic]
+  Status check(const RobotState& state, const CycleTime& now);
 
-  /// Command: finite, or kCommandNotFinite; of the mode that was started, or kNotStarted. It is
-  /// brought within limits (the file comment says which) but for the allowances of step_band.hpp.
-  /// Nothing is sent, and brake() may follow in the same cycle, if it is not kOk.
-  /// `state` is what was checked in this cycle. [cyclic]
-  Status limit(const RobotState& state, RobotCommand& command);
+  /// Brings a command within the limits named in the file comment, but for the allowances of
+  /// step_band.hpp. Returns kCommandNotFinite, or kNotStarted for a mode that was not started; then
+  /// nothing is sent, and brake() may follow in the same cycle. While the arm is `braked`, a
+  /// position or velocity that cannot be followed is not caught up with: from then on the command
+  /// is that of brake(). `state` is the one checked in this cycle. [cyclic]
+  Status limit(const RobotState& state, RobotCommand& command, bool braked = false);
 
-  /// Instead of a command that cannot be had: brings positions and velocities to rest as fast as
-  /// their limits allow, from the last that was sent, and holds them there. Efforts, which nobody
-  /// can brake without the chain, go to zero at their rate. [cyclic]
+  /// Returns the command for a cycle without one from the chain: positions and velocities come to
+  /// rest from the last ones sent, as fast as their limits allow, and stay there. Efforts cannot
+  /// brake without the chain; they go to zero at their rate limit. [cyclic]
   RobotCommand brake(const RobotState& state);
 
   const Telemetry& telemetry() const { return telemetry_; }
 
  private:
+  // Allowances of what is measured: a command may reach a limit exactly, and a robot that obeys
+  // then measures it within rounding.
+  static constexpr double kMeasuredPosition = 1e-6;  // rad
+  static constexpr double kMeasuredVelocity = 1e-6;  // rad/s
+
+  static constexpr double kFading_s = 1.0;  // so that small errors of a velocity do not add up
+
   Status trip(Status status, int joint, double value, double limit);
+  Status check_age(const RobotState& state, const CycleTime& now);
+  Status check_joint(int joint, const RobotState& state);
   Status check_following(const RobotState& state);
   double allowed(int joint, double wanted, const RobotState& state);
   double allowed_effort(int joint, double wanted);
+  bool follows(const JointVector& wanted, const RobotState& state) const;
   bool jerky(int joint) const;
 
   JointLimits limits_;
@@ -105,7 +123,11 @@ class Guard {
   JointVector last_ = JointVector::Zero();      // N m
   std::array<PositionLimiter, kDof> positions_;
   std::array<VelocityLimiter, kDof> velocities_;
+  double period_s_ = 0.0;
+  int max_age_ = 0;
+  JointVector lag_ = JointVector::Zero();  // rad, behind the velocities sent; fades with kFading_s
   JointVector following_error_ = JointVector::Zero(), following_time_ = JointVector::Zero();
+  bool left_behind_ = false;  // while braked: the command could not be followed
   Telemetry telemetry_;
 };
 

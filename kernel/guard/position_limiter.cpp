@@ -11,15 +11,18 @@ void PositionLimiter::start(const StepLimits& limits, double q) {
   sent_ = target_ = q;
 }
 
+/// False while the sequence is further than one change from the last target: next() then closes the
+/// distance at a speed that can still be braked, in addition to the motion of the target.
+bool PositionLimiter::follows(double wanted) const {
+  return std::abs(target_ - sent_) <= limits_.change &&
+         allowed_steps(limits_, sent_, step_).contains(wanted - sent_);
+}
+
 double PositionLimiter::next(double wanted) {
-  const StepBand band = allowed_steps(limits_, sent_, step_);
   const double target = std::clamp(wanted, limits_.q_min, limits_.q_max);
-  // Beside a target that moves, what it is ahead is closed at a speed that can still be braked; the
-  // last step, of one change at most, comes to rest on it.
+  if (follows(wanted)) return move(wanted, target);
+  const StepBand band = allowed_steps(limits_, sent_, step_);
   const double ahead = target_ - sent_;
-  if (std::abs(ahead) <= limits_.change && band.contains(wanted - sent_)) {
-    return move(wanted, target);
-  }
   const double closing = std::copysign(braking_step(std::abs(ahead), limits_.change), ahead);
   return move(sent_ + std::clamp(target - target_ + closing, band.lo, band.hi), target);
 }
@@ -33,7 +36,10 @@ double PositionLimiter::brake() {
 double PositionLimiter::move(double to, double target) {
   const double step = to - sent_, change = step - step_;
   jerky_ = limits_.jerky(change - change_);
-  sent_ = to, target_ = target, step_ = step, change_ = change;
+  sent_ = to;
+  target_ = target;
+  step_ = step;
+  change_ = change;
   return sent_;
 }
 

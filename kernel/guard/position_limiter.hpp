@@ -1,11 +1,11 @@
-// PositionLimiter: one joint's sequence of commanded positions, kept within position, velocity and
-// acceleration limits, braking distance included. What keeps them is sent as it came; after
-// anything else the sequence moves as fast as it may, and joins it without overshoot if it stands
-// or moves steadily.
+// PositionLimiter: keeps one joint's sequence of commanded positions within position, velocity and
+// acceleration limits, braking distance included. A command within them is sent unchanged. After
+// any other, the sequence moves as fast as it may, and joins the commands without overshoot if they
+// are at rest or move steadily.
 //
-// The jerk is counted and not shaped. A reference through cubics steps its acceleration at every
-// waypoint by nature and must pass; and a brake that has to build up its deceleration first needs
-// more room, in which the guard would overrule references that keep every limit.
+// The jerk is counted but not limited. The acceleration of a cubic reference steps at every
+// waypoint, and such a reference must pass; and a brake that first has to build up its deceleration
+// needs more distance, within which the guard would overrule references that keep every limit.
 #pragma once
 
 #include "kernel/guard/step_band.hpp"
@@ -14,15 +14,17 @@ namespace tactus {
 
 class PositionLimiter {
  public:
-  /// Begins at rest at q. [init]
+  /// Starts at rest at q. [init]
   void start(const StepLimits& limits, double q);
-  /// What is sent when `wanted` (finite, rad) is commanded. [cyclic]
+  /// True if `wanted` would be sent unchanged. [cyclic]
+  bool follows(double wanted) const;
+  /// Returns the position to send if `wanted` (finite, rad) is commanded. [cyclic]
   double next(double wanted);
-  /// What is sent to come to rest as fast as may be. [cyclic]
+  /// Returns the next position to send to come to rest as fast as possible. [cyclic]
   double brake();
-  /// The last that was sent, rad. [any]
+  /// The last position sent, rad. [any]
   double sent() const { return sent_; }
-  /// Whether the last that was sent took more than the jerk limit. [any]
+  /// True if the last position sent exceeded the jerk limit. [any]
   bool jerky() const { return jerky_; }
 
  private:
@@ -30,7 +32,7 @@ class PositionLimiter {
 
   StepLimits limits_;
   double sent_ = 0.0, step_ = 0.0, change_ = 0.0;  // rad, rad per cycle, rad per cycle^2
-  double target_ = 0.0;                            // what was wanted last, within position limits
+  double target_ = 0.0;                            // last commanded, within position limits
   bool jerky_ = false;
 };
 

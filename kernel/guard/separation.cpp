@@ -19,7 +19,7 @@ void to_ccd(const Vector3& v, ccd_vec3_t* to) {
   for (int i = 0; i < 3; ++i) to->v[i] = v[i];
 }
 
-/// The points farthest along d.
+/// Return the point farthest along d.
 Vector3 support(const Capsule& c, const Vector3& d) {
   return (d.dot(c.b - c.a) > 0.0 ? c.b : c.a) + c.radius / std::sqrt(d.dot(d)) * d;
 }
@@ -31,12 +31,12 @@ Vector3 support(const BoxShape& box, const Vector3& d) {
   return box.centre + box.r * corner;
 }
 
-/// A pair, and what libccd has asked about it.
+/// A pair, and the result of libccd's questions about it.
 template <class Other>
 struct Query {
-  Capsule capsule;  // with the thickness of both
+  Capsule capsule;  // with the radii of both
   Other other;
-  double ahead = 0.0;  // how far the capsule reaches along the direction asked for
+  double ahead = 0.0;  // reach of the capsule along the direction asked for
   Separation result;
 
   /// libccd asks the first shape for its farthest point along d, then the second along -d.
@@ -50,7 +50,7 @@ struct Query {
   static void ask_other(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     auto& query = *static_cast<Query*>(const_cast<void*>(object));
     const Vector3 d = from_ccd(direction), p = support(query.other, d);
-    // The capsule ends at `ahead` along -d, where the other begins at -d.p.
+    // Along -d the capsule ends at `ahead`, and the other begins at -d.p.
     if (query.ahead + d.dot(p) < 0.0) query.result.proved = true;
     ++query.result.support_calls;
     to_ccd(p, point);
@@ -78,7 +78,7 @@ Separation run(Query<Other> query) {
 
 Separation separate(const Capsule& capsule, const Capsule& other, double inflation) {
   const double thickness = capsule.radius + other.radius + inflation;
-  // A radius for the one is as good as for both; the other is its segment.
+  // The first takes the radii of both; the other is only its segment.
   return run(Query<Capsule>{{capsule.a, capsule.b, thickness}, {other.a, other.b, 0.0}, 0.0, {}});
 }
 

@@ -15,8 +15,8 @@ bool StepLimits::jerky(double change_of_change) const {
   return !(std::abs(change_of_change) <= jerk + 2.0 * kChangeAllowance);
 }
 
-/// distance = (n + 1) s - c n (n + 1) / 2, solved for s. The right-hand side is continuous where n
-/// changes, so an n that is one off by rounding does no harm.
+/// Solves distance = (n + 1) s - c n (n + 1) / 2 for s. The result is continuous where n changes,
+/// so an n that is one off by rounding does no harm.
 double braking_step(double distance, double change) {
   if (!(distance > 0.0)) return 0.0;
   constexpr double kMost = 1e9;  // more cycles than any braking takes, and n stays an integer
@@ -31,8 +31,8 @@ StepBand allowed_steps(const StepLimits& limits, double q, double last) {
   const double below = q - limits.q_min + kPositionAllowance;
   const double up = std::min(step, braking_step(above, change));
   const double down = std::min(step, braking_step(below, change));
-  // Where the two bands do not meet, which a sequence that began inside knows of rounding only, the
-  // acceleration limit is kept and the braking is as hard as it allows.
+  // If the two bands do not meet, which in a sequence that started inside is due to rounding only,
+  // the acceleration limit is kept and the braking is as hard as it allows.
   const double slowest = last - change, fastest = last + change;
   return {std::clamp(-down, slowest, fastest), std::clamp(up, slowest, fastest)};
 }

@@ -15,12 +15,12 @@ double stopping_time(const Braking& braking, const JointVector& dq) {
   return t_s;
 }
 
-/// U(t) - q of one joint, which moves at dq and accelerates and brakes with a and b.
+/// U(t) - q of one joint that moves at dq, accelerates with a and brakes with b.
 struct Highest {
   double dq, a, b, t_r, t_s;
 
   double at_reaction() const { return dq * t_r + 0.5 * a * t_r * t_r; }
-  /// s after t_r, 0 <= s <= t_s.
+  /// The value s after t_r, 0 <= s <= t_s.
   double at(double s) const {
     const double v = dq + a * t_r;
     if (v < 0.0) {
@@ -43,13 +43,14 @@ StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const
     for (int k = 0; k <= kSections; ++k) {
       const double s = t_s * (1.0 - std::sqrt(1.0 - static_cast<double>(k) / kSections));
       const double next_high = up.at(s), next_low = -down.at(s);
-      // So that what is not a number is not lost.
+      // Written so that NaN is kept.
       const double top = high > next_high ? high : next_high;
       const double bottom = low < next_low ? low : next_low;
       JointBox& box = boxes[static_cast<std::size_t>(k)];
       box.middle[j] = q[j] + 0.5 * (top + bottom);
       box.half[j] = 0.5 * (top - bottom);
-      high = next_high, low = next_low;
+      high = next_high;
+      low = next_low;
     }
   }
   return boxes;

@@ -1,29 +1,30 @@
-// Where the joints can be while the arm is brought to rest.
+// The positions that the joints can take while the arm is brought to rest.
 //
-// Until braking begins, the reaction time t_r from now, joint j moves with |ddq_j| <= a_j. Let v be
-// its speed when that is over, and s the time from then on. Its speed is then between two ramps,
-//   |v| - b_j s       to zero: each joint stops by itself, as fast as it may, and
+// Until braking begins, after the reaction time t_r, joint j moves with |ddq_j| <= a_j. Let v be
+// its velocity at that time and s the time from then on. Its speed is then between two ramps,
+//   |v| - b_j s       to zero: each joint stops separately, as fast as it can, and
 //   |v| (1 - s/t_s)   all stop together, on a straight line in joint space if a_j = 0,
-// where t_s = max over j of (|dq_j| + a_j t_r) / b_j is the time the slowest needs. With the ways
+// where t_s = max over j of (|dq_j| + a_j t_r) / b_j is the time of the slowest joint. With the
+// ways
 //   own(v, s)    = v s - sign(v) b_j s^2 / 2, that is at most v |v| / (2 b_j)
 //   common(v, s) = v (s - s^2 / (2 t_s))
 // which rise with v, joint j is not above
 //   U(t) = q + dq t + a t^2 / 2                                until t_r
 //   U(t) = U(t_r) + (own if v < 0, else common)(v, t - t_r),   v = dq + a t_r
-// and, mirrored, not below L(t). The time until t_r is one section; the rest is cut into kSections
-// of equal way on the common ramp. U is convex in the first and rises or falls in the others: its
-// largest value in a section is at one end.
+// and, mirrored, not below L(t). The time until t_r is one section; the rest is divided into
+// kSections of equal way on the common ramp. U is convex in the first section and monotone in the
+// others, so its largest value in a section is at one end.
 #pragma once
 
 #include <array>
 
-#include "kernel/types.hpp"
+#include "kernel/core/types.hpp"
 
 namespace tactus {
 
 struct Braking {
   double reaction_s = 0.0;  ///< t_r: from the measurement until braking begins
-  JointVector acceleration = JointVector::Zero();  ///< a, rad/s^2: most before braking begins
+  JointVector acceleration = JointVector::Zero();  ///< a, rad/s^2: largest until braking begins
   JointVector deceleration = JointVector::Zero();  ///< b, rad/s^2, > 0
 };
 
@@ -35,7 +36,7 @@ struct JointBox {
 inline constexpr int kSections = 8;
 using StoppingBoxes = std::array<JointBox, 1 + kSections>;
 
-/// The boxes of all sections, for q in rad and dq in rad/s. [cyclic]
+/// Returns the boxes of all sections, for q in rad and dq in rad/s. [cyclic]
 StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const JointVector& dq);
 
 }  // namespace tactus

@@ -1,9 +1,9 @@
-// VelocityLimiter: one joint's sequence of commanded velocities, kept within velocity and
-// acceleration limits and to what can still be braked before the position limits, counted from the
-// measured position. A robot that does what it is told within a cycle then never meets them; one
-// that lags by a time T passes its braking point by up to T times its speed.
+// VelocityLimiter: keeps one joint's sequence of commanded velocities within the velocity and
+// acceleration limits and low enough to brake before the position limits, counted from the measured
+// position. A robot that executes a command within a cycle then never reaches them; one that lags
+// by a time T passes its braking point by up to T times its speed.
 //
-// The jerk is counted and not shaped, as in PositionLimiter.
+// The jerk is counted but not limited, as in PositionLimiter.
 #pragma once
 
 #include "kernel/guard/step_band.hpp"
@@ -12,11 +12,16 @@ namespace tactus {
 
 class VelocityLimiter {
  public:
-  /// Begins at the measured velocity. [init]
+  /// Starts at the measured velocity. [init]
   void start(const StepLimits& limits, double period_s, double dq);
-  /// What is sent when `wanted` (finite, rad/s) is commanded and the joint is at q. [cyclic]
+  /// True if `wanted` would be sent unchanged. [cyclic]
+  bool follows(double wanted, double q) const;
+  /// Returns the velocity to send if `wanted` (finite, rad/s) is commanded with the joint at q.
+  /// [cyclic]
   double next(double wanted, double q);
-  /// Whether the last that was sent took more than the jerk limit. [any]
+  /// The last velocity sent, rad/s. [any]
+  double sent() const { return step_ / period_s_; }
+  /// True if the last velocity sent exceeded the jerk limit. [any]
   bool jerky() const { return jerky_; }
 
  private:

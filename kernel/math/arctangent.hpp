@@ -1,10 +1,10 @@
 // Angle of a point of the plane, with the same bits on every machine: no library function, no
 // table, no loop. Needs IEEE double arithmetic in round-to-nearest and -ffp-contract=off.
 //
-// The point is folded into the octant 0 <= y <= x, and if it lies above the ray at pi/8, turned by
-// -pi/4 (its tangent is then (y - x) / (y + x)). What remains is the arctangent of t, |t| <=
-// tan(pi/8), an odd polynomial; the multiple of pi/4 and the sign undo the folding. Quotient and
-// multiple of pi/4 are kept as sums of two doubles, so that only the last addition rounds. The
+// The point is folded into the octant 0 <= y <= x and, if it is above the ray at pi/8, turned by
+// -pi/4 (its tangent is then (y - x) / (y + x)). The arctangent of the remaining t, |t| <=
+// tan(pi/8), is an odd polynomial; the multiple of pi/4 and the sign undo the folding. The quotient
+// and the multiple of pi/4 are sums of two doubles, so that only the last addition rounds. The
 // exact sums and products are Knuth's and Dekker's (Muller et al., Handbook of Floating-Point
 // Arithmetic, 2nd edition, sections 4.3 and 4.4).
 #pragma once
@@ -21,13 +21,13 @@ struct DoublePair {
   double value, low;
 };
 
-/// a + b, exactly, for |a| >= |b|. [any]
+/// Returns a + b, exactly, for |a| >= |b|. [any]
 inline DoublePair exact_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a b, exactly, if nothing over- or underflows. [any]
+/// Returns a b, exactly, if nothing over- or underflows. [any]
 inline DoublePair exact_product(double a, double b) {
   constexpr double kSplitter = 0x1p27 + 1.0;
   const double a_shifted = kSplitter * a, b_shifted = kSplitter * b;
@@ -37,7 +37,7 @@ inline DoublePair exact_product(double a, double b) {
   return {product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2};
 }
 
-/// (a.value + a.low) / (b.value + b.low), to about 2^-104. [any]
+/// Returns (a.value + a.low) / (b.value + b.low), to about 2^-104. [any]
 inline DoublePair quotient(const DoublePair& a, const DoublePair& b) {
   const double t = a.value / b.value;
   const DoublePair product = exact_product(t, b.value);
@@ -45,10 +45,10 @@ inline DoublePair quotient(const DoublePair& a, const DoublePair& b) {
   return {t, rest / b.value};
 }
 
-/// t - arctangent of t for |t| <= tan(pi/8), t.low to first order. Minimax coefficients (Remez
-/// exchange for the relative error of t - t^3 P(t^2)), error 2^-58.3 before rounding; they lie next
-/// to 1/3, -1/5, 1/7, ... Even and odd powers of t^2 are summed apart: two short chains instead of
-/// a long one.
+/// Returns t - arctangent of t for |t| <= tan(pi/8), with t.low to first order. Minimax
+/// coefficients (Remez exchange for the relative error of t - t^3 P(t^2)), error 2^-58.3 before
+/// rounding; they are close to 1/3, -1/5, 1/7, ... Even and odd powers of t^2 are summed
+/// separately: two short chains instead of a long one.
 inline double t_minus_arctangent(const DoublePair& t) {
   const double z = t.value * t.value, zz = z * z;
   const double even = 0x1.5555555555554p-2 +
@@ -64,10 +64,10 @@ inline double t_minus_arctangent(const DoublePair& t) {
   return z * (t.value * (even + z * odd) + t.low);
 }
 
-/// Angle of the point (x, y) from the positive x axis, in [-pi, pi] [rad], with the signs that the
-/// C library's atan2 gives for zeros, zero over zero included; within 0.75 units in the last place
-/// (largest of 1e7 measured: 0.69, and 0.745 for results next to the smallest normal number). Fails
-/// closed: NaN when y or x is not finite. [any]
+/// Returns the angle of the point (x, y) from the positive x axis, in [-pi, pi] [rad], with the
+/// signs that the C library's atan2 gives for zeros, including zero over zero. The error is within
+/// 0.75 units in the last place (largest of 1e7 measured: 0.69, and 0.745 for results close to the
+/// smallest normal number). Fails closed: NaN if y or x is not finite. [any]
 inline double arctangent(double y, double x) {
   constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
   constexpr double kTangentOfEighth = 0x1.a827999fcef32p-2;
@@ -77,12 +77,12 @@ inline double arctangent(double y, double x) {
   const std::uint64_t y_bits = bits_of(y), x_bits = bits_of(x);
   const std::uint64_t y_size = y_bits & ~kSign, x_size = x_bits & ~kSign;
   const bool steep = y_size > x_size, behind = (x_bits & kSign) != 0;
-  // By its bits, NaN is larger than infinity, and either than any number: one of them as `larger`
-  // makes the quotient's rest NaN, and with it the result.
+  // As bits, NaN is larger than infinity, and both are larger than any number: either of them as
+  // `larger` makes the quotient's rest NaN, and so the result.
   const double larger = double_of(steep ? y_size : x_size);
   const double smaller = double_of(steep ? x_size : y_size);
 
-  // Away from the ends of the exponent range, so that no part of the quotient's product is lost.
+  // Scaled away from the ends of the exponent range, so that the quotient's product loses no part.
   const double scale = larger < 0x1p600 ? 0x1p200 : 0x1p-200;
   const double a = larger == 0.0 ? 1.0 : larger * scale;
   const double b = smaller * scale;

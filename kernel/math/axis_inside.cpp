@@ -1,22 +1,23 @@
-// To rest within position limits. If the direct stop from the state stays inside, so does the
-// shortest motion to a target inside, at every instant: on the way up it brakes first as hard as
-// the stop or harder, and from then on the velocity is not negative up to the target. So only a
-// state whose direct stop leaves needs more: it brakes with all there is,
+// Motion to rest within position limits. If the direct stop from the state stays inside, so does
+// the shortest motion to a target inside, at every instant: on the way up it first brakes at least
+// as hard as the stop, and from then on the velocity is not negative until the target. So only a
+// state whose direct stop leaves the range needs more: it brakes as hard as it can,
 //
 //   jerk -j to the deceleration b, held until v = 0,
 //
-// just long enough that the direct stop fits; but not as long as would leave the other limit, if
-// the range is shorter than that. b is the limit, less where it could not be run out above v_lo.
+// just long enough that the direct stop fits, but not so long that the stop passes the other limit,
+// in a short range. b is the acceleration limit, or less where that could not be run out above
+// v_lo.
 #include "kernel/math/axis_direct.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr int kHalvings = 24;            // of the time of braking
+constexpr int kHalvings = 24;            // of the braking time
 constexpr double kAlmostTwo = 1.999999;  // as in axis_return.cpp
 constexpr double kRounding = 1e-14;      // of the range
 
-/// Braking with all there is, against an ascent.
+/// The hardest braking of an ascent.
 class Brake {
  public:
   Brake(const AxisState& from, const AxisLimits& limits) : from_(from), j_(limits.j) {
@@ -49,8 +50,8 @@ class Brake {
   double j_, ramp_, longest_;
 };
 
-/// The shortest braking after which the direct stop stays below `hi`, or the longest if none does,
-/// or less if that would leave `lo`.
+/// Returns the shortest time of braking after which the direct stop stays below `hi`, or the
+/// longest time if there is none; less if the stop would pass `lo`.
 double braking_time(const Brake& brake, const AxisLimits& limits, double lo, double hi) {
   double enough = brake.longest();
   if (brake.after(enough).p < hi) {
@@ -78,7 +79,7 @@ AxisPlan plan_inside(const AxisState& from, double p, const AxisLimits& limits, 
   const double end = std::max(p_lo, std::min(p_hi, p));
   plan.start(from, end, 0.0);
   const AxisRange stop = stop_range(from, limits);
-  // A stop planned to end on a limit is off it by rounding.
+  // A stop that was planned to end on a limit misses it by rounding.
   const double rounding = kRounding * (p_hi - p_lo) + rounding_of_way(p_lo, p_hi);
   const bool over = stop.highest > p_hi + rounding, under = stop.lowest < p_lo - rounding;
   AxisState state = from;

@@ -7,7 +7,7 @@
 namespace tactus {
 namespace {
 
-/// Of the distances summed: two units of rounding for each of the about fifty operations.
+/// Relative to the distances added: two units of rounding for each of about fifty operations.
 constexpr double kTolerance = 2e-14;
 
 }  // namespace
@@ -44,8 +44,11 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
   Ascent ascent = ascent_of(inside, p, v, limits, missing);
   ascent.tolerance = tolerance;
   const bool brakes = ascent.a < 0.0 && !ascent.rises_to_end();
-  if (brakes && append_while_braking(plan, ascent)) return;
-  append_over_velocity(plan, ascent);
+  const double late = brakes ? late_turn(ascent) : -1.0;
+  if (late >= 0.0)
+    append_while_braking(plan, ascent, late);
+  else
+    append_over_velocity(plan, ascent);
 }
 
 AxisPlan plan_to(const AxisState& from, double p, double v, const AxisLimits& limits) {

@@ -17,7 +17,7 @@ AxisState AxisPlan::at(double t) const {
     state = moved(state, now.duration, now.jerk);
     t -= now.duration;
   }
-  return {p_, v_, 0.0};  // what the sum of the durations was rounded by
+  return {p_, v_, 0.0};  // t is within the rounding of duration_
 }
 
 AxisState AxisPlan::after_lead() const {

@@ -3,12 +3,12 @@
 namespace tactus {
 namespace {
 
-/// Of the span of velocities: what rounding may have left outside.
+/// Share of the span of velocities that rounding may leave outside.
 constexpr double kRounding = 1e-14;
-/// A little less than 2, so that what is run out ends inside the other limit after rounding, too.
+/// A little less than 2, so that the velocity runs out inside the other limit even after rounding.
 constexpr double kAlmostTwo = 1.999999;
 
-/// In the frame in which the velocity is above v_hi; `side` is -1 if that is the mirror's.
+/// In the frame in which the velocity is above v_hi; `side` is -1 if that frame is mirrored.
 class Return {
  public:
   Return(AxisPlan& plan, const AxisState& state, double side) : plan_(plan), side_(side) {
@@ -44,7 +44,7 @@ class Return {
 
   void ease_off(double b, double hi, double j) {
     const double spare = state_.v - hi - 0.5 * (state_.a * state_.a - b * b) / j;
-    if (!(spare >= 0.0)) return;  // it falls through to the other side, whatever is done
+    if (!(spare >= 0.0)) return;  // it passes to the other side in any case
     go(spare / -state_.a, 0.0);
     go((-state_.a - b) / j, j);
     state_.v = hi;
@@ -62,7 +62,7 @@ class Return {
   double side_;
 };
 
-/// Back inside v_hi, or in the mirror inside v_lo.
+/// Appends the return inside v_hi or, mirrored, inside v_lo.
 AxisState append_velocity_return(AxisPlan& plan, const AxisState& state, double side,
                                  const AxisLimits& limits) {
   Return back(plan, state, side);

@@ -9,8 +9,8 @@ void include(AxisRange& range, double p) {
   range.highest = std::max(range.highest, p);
 }
 
-/// The point at rest on the way, v + a t + jerk t^2 / 2 = 0, if it comes within `duration`. The
-/// jerk opposes the acceleration or leaves the sign of the velocity.
+/// Includes the turning point, v + a t + jerk t^2 / 2 = 0, if it is within `duration`. Only a phase
+/// whose jerk opposes its acceleration has one; otherwise the velocity keeps its sign.
 void include_turn(AxisRange& range, const AxisState& s, double jerk, double duration) {
   const double square = s.a * s.a - 2.0 * jerk * s.v;
   if (!(s.v * s.a < 0.0 && jerk * s.a < 0.0 && square >= 0.0)) return;

@@ -1,15 +1,16 @@
-// A motion to (vf, 0) at the distance D in the time T, longer than the shortest: over a velocity w,
-// both changes direct, the rest of T a cruise at w. Its distance
+// A motion to (vf, 0) at the distance D in a time T longer than the shortest: a direct change to a
+// velocity w, a cruise at w that takes the rest of T, and a direct change to vf. Its distance
 //
 //   L(w) = d_1(w) + d_2(w) + w (T - T_1(w) - T_2(w)),  dL/dw = t_cruise + (alpha + beta) / 2j,
 //
-// alpha and beta the peaks of the two changes (velocity_change.hpp: the terms w dT_i/dw cancel),
-// grows with w wherever the cruise is not negative. Seen so that D >= L(vf), w is between vf and
-// v_hi; below v1, the rest velocity of the start, the first change is a fall.
+// with alpha and beta the peaks of the two changes (velocity_change.hpp: the terms w dT_i/dw
+// cancel), grows with w wherever the cruise is not negative. In the frame in which D >= L(vf), w is
+// between vf and v_hi; below v1, the rest velocity of the start, the first change is a fall.
 //
-// d2L/dw2 is -(1/alpha + 1/beta), the second of T_1 + T_2's, plus where a change has no hold a
-// quarter of its part (x' = j / 2x), and the signs of a first fall reversed. With holds it is
-// constant, L is a parabola, and one step solves it.
+// d2L/dw2 is -(1/alpha + 1/beta), the derivative of t_cruise, plus a quarter of its part for each
+// change without a hold (x' = j / 2x); the part of a first fall has the opposite sign. With holds
+// it is constant, L is a parabola, and one step solves it.
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/math/axis_ascent.hpp"
 #include "kernel/math/axis_direct.hpp"
 
@@ -17,7 +18,7 @@ namespace tactus {
 namespace {
 
 constexpr int kSteps = 20;
-/// Of the way, and of a thousandth of what the velocities reach in the time.
+/// Relative to the distance plus a thousandth of (v_hi - v_lo) T.
 constexpr double kTolerance = 1e-12;
 
 class Stretched {
@@ -28,7 +29,7 @@ class Stretched {
                                                   1e-3 * (limits.v_hi - limits.v_lo) * duration);
   }
 
-  /// `slope` is that of L at vf. False if there is no such motion.
+  /// Finds w; `slope` is dL/dw at vf. False if there is no such motion.
   bool find(double slope) {
     const double vf = ascent_.vf, v1 = ascent_.v1, v_hi = ascent_.limits.v_hi;
     if (vf >= v1 || ascent_.missing <= tolerance_)
@@ -48,13 +49,13 @@ class Stretched {
   }
 
  private:
-  /// Between vf and v1 the two changes may take more than the time. They take most of it about the
-  /// middle of what a first fall without a hold reaches, and there L grows least.
+  /// Finds w between vf and v1, where the two changes may take longer than T. They take longest
+  /// around the middle of the range of a first fall without a hold, and there L grows least.
   bool find_below(double vf, double top) {
     const double reach = 0.5 * ascent_.a * ascent_.a / ascent_.limits.j;
     const double middle = std::min(top, 0.5 * (ascent_.v1 + vf + reach));
     evaluate(middle);
-    if (slope_ > 0.0)  // then everywhere
+    if (slope_ > 0.0)  // then it is everywhere
       return beyond_ > 0.0 ? meet(vf, middle, false, middle) : meet(middle, top, true, middle);
     return meet(vf, middle, false, 0.5 * (vf + middle)) ||
            meet(middle, top, true, 0.5 * (middle + top));
@@ -74,11 +75,12 @@ class Stretched {
     curvature_ = (rises ? -bend(first_) : bend(first_)) - bend(second_);
   }
 
-  /// From the lower end of the bracket, on the parabola of changes that hold.
+  /// Returns the first w, from the lower end of the bracket on the parabola of changes with holds.
   double begin_at(double low, double high, double beyond, double slope) {
     if (beyond >= -tolerance_) return low;
     const AxisLimits& limits = ascent_.limits;
-    beyond_ = beyond, slope_ = slope;
+    beyond_ = beyond;
+    slope_ = slope;
     curvature_ = -1.0 / limits.a_up - 1.0 / limits.a_dn;
     return next(low, low, high, false);
   }
@@ -87,23 +89,25 @@ class Stretched {
     return (change.hold > 0.0 ? 1.0 : 0.75) / change.peak;
   }
 
-  /// The root within [low, high] if there is one where there is time for it. Where there is not, it
-  /// is sought further up or further down.
+  /// Finds the root within [low, high] if there is one that leaves time for a cruise. Where there
+  /// is no time, the search continues above if `time_above`, else below.
   bool meet(double low, double high, bool time_above, double first) {
     double w = first;
+    LoopBound<kSteps> steps;
     for (int i = 0; i < kSteps; ++i) {
+      steps.tick();
       evaluate(w);
       if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;
       const bool down = cruise_ < 0.0 ? !time_above : beyond_ > 0.0;
       (down ? high : low) = w;
       w = i % 4 == 3 ? 0.5 * (low + high) : next(w, low, high, down);
     }
-    constexpr double kRounding = 1e3;  // of tolerances: a bracket that rounding keeps open
+    constexpr double kRounding = 1e3;  // tolerances: rounding may keep the bracket open
     return cruise_ >= 0.0 && std::abs(beyond_) <= kRounding * tolerance_;
   }
 
-  /// The root of the parabola through L on its rising branch, or where it has none, of the tangent;
-  /// close to the end of the bracket that it leaves.
+  /// Returns the root of the parabola through L on its rising branch, or of the tangent if it has
+  /// none; if that is outside the bracket, a point close to the end it would pass.
   double next(double w, double low, double high, bool down) const {
     constexpr double kClose = 1.0 / 32.0;
     const double square = slope_ * slope_ - 2.0 * beyond_ * curvature_;
@@ -119,7 +123,7 @@ class Stretched {
 
   Ascent ascent_;
   double duration_, tolerance_;
-  // Of the w evaluated last.
+  // At the w evaluated last.
   double w_ = 0.0, cruise_ = 0.0, beyond_ = 0.0, slope_ = 0.0, curvature_ = 0.0;
   VelocityChange first_{}, second_{};
 };

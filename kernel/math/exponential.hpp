@@ -12,12 +12,12 @@
 
 namespace tactus {
 
-/// Below this e^x is taken to be zero, above the other infinity: in between it is a normal number.
+/// Below the first e^x counts as zero, above the second as infinity; between them it is normal.
 inline constexpr double kExponentialMin = -708.0, kExponentialMax = 709.0;
 
-/// e^(r + r_low) - 1 for |r| <= ln(2)/2. Near-minimax coefficients (relative error of r + r^2/2 +
-/// r^3 P(r), levelled at Chebyshev points), error 2^-58.9 before rounding; they lie next to 1/3!,
-/// 1/4!, 1/5!, ...
+/// Returns e^(r + r_low) - 1 for |r| <= ln(2)/2. Near-minimax coefficients (relative error of r +
+/// r^2/2 + r^3 P(r), levelled at Chebyshev points), error 2^-58.9 before rounding; they are close
+/// to 1/3!, 1/4!, 1/5!, ...
 inline double exponential_minus_one(double r, double r_low) {
   double p = 0x1.20fcad730df14p-29;
   p = 0x1.af4c5b13e680fp-26 + r * p;
@@ -32,8 +32,8 @@ inline double exponential_minus_one(double r, double r_low) {
   return r + (r_low + r * r * (0.5 + r * p));
 }
 
-/// e^x within 0.9 units in the last place (largest of 1e7 measured: 0.86) for kExponentialMin <= x
-/// <= kExponentialMax; zero below, infinity above, NaN for NaN. [any]
+/// Returns e^x within 0.9 units in the last place (largest of 1e7 measured: 0.86) for
+/// kExponentialMin <= x <= kExponentialMax; zero below, infinity above, NaN for NaN. [any]
 inline double exponential(double x) {
   constexpr double kOneOverLn2 = 0x1.71547652b82fep+0;
   constexpr double kLn2 = 0x1.62e42fefa3800p-1;  // 42 bits: n times it is exact, |n| < 2^11
@@ -53,7 +53,7 @@ inline double exponential(double x) {
   return scale * (1.0 + exponential_minus_one(r, r_low));
 }
 
-/// (1 - e^-x) / x for x >= 0, the mean of a decay e^-t over 0 <= t <= x; one at zero. Within 3
+/// Returns (1 - e^-x) / x for x >= 0, the mean of e^-t over 0 <= t <= x; one at zero. Within 3
 /// units in the last place (largest of 1e7 measured: 2.49). [any]
 inline double mean_decay(double x) {
   constexpr double kHalfLn2 = 0x1.62e42fefa39efp-2;

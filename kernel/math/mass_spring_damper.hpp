@@ -2,15 +2,15 @@
 //
 //   m x'' + d x' + k x = f,
 //
-// moved by a whole period T at once: exact for a force that is constant during the period, at every
-// m > 0, d >= 0, k >= 0 and T, and so stable wherever the physics is. With the acceleration
-// a = (f - k x) / m that the damper does not see,
+// advanced by a whole period T at once. The step is exact for a force that is constant during the
+// period, at every m > 0, d >= 0, k >= 0 and T, and so it is stable wherever the physics is. With
+// the acceleration without damper, a = (f - k x) / m,
 //
 //   x+ = x + g1 v + g2 a
 //   v+ = r v + g1 a
 //
-// g1 is the response of x, one period later, to a unit impulse per mass, g2 that to a unit
-// acceleration, r what is left of a unit velocity. At rest in balance (v = 0, a = 0) nothing
+// g1 is the response of x after one period to a unit impulse per mass, g2 that to a unit
+// acceleration, and r the remainder of a unit velocity. In equilibrium (v = 0, a = 0) nothing
 // rounds. With s = d T / m, p = k T^2 / m, the roots -x1, -x2 of z^2 + s z + p, and divided
 // differences of the exponential (Newton interpolation in Moler and Van Loan, Nineteen dubious ways
 // to compute the exponential of a matrix, 1978):
@@ -27,11 +27,11 @@ class MassSpringDamper {
   };
 
   MassSpringDamper() = default;
-  /// mass > 0, damping >= 0, stiffness >= 0, SI units. Where an undamped axis turns through more
-  /// than kSinCosMax_rad per period, sqrt(k/m) T, step() gives NaN. [any]
+  /// mass > 0, damping >= 0, stiffness >= 0, SI units. step() returns NaN if an undamped axis turns
+  /// through more than kSinCosMax_rad per period, sqrt(k/m) T. [any]
   MassSpringDamper(double mass, double damping, double stiffness, double period_s);
 
-  /// The state one period later, `force` being constant until then. [cyclic]
+  /// Returns the state one period later under a constant `force`. [cyclic]
   State step(const State& now, double force) const {
     const double a = (force - stiffness_ * now.x) / mass_;
     return {now.x + (g1_ * now.v + g2_ * a), r_ * now.v + g1_ * a};

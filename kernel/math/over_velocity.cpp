@@ -3,14 +3,15 @@
 //
 //   D(w) = d_rise + d_fall,  dD/dw = (1/alpha + 1/beta) (w + alpha beta / 2j).
 //
-// The bracket grows with w: D falls first (if w may be negative), then grows, and as it begins
-// below the target it meets it once. If D(v_hi) is still short of it, the rest is a cruise at v_hi.
+// The last factor grows with w: D first falls (if w may be negative), then grows, and as it begins
+// below the target it meets it once. If D(v_hi) is still short of the target, the rest is a cruise
+// at v_hi.
 //
-// Just above its least value w, D is like the root of what is above it, so the unknown is x,
+// Just above w_least, D grows like the square root of w - w_least, so the unknown is x,
 //
 //   w = w_least + x^2,
 //
-// and the radicands are j x^2 + constants that are not worked out from differences of w.
+// and the radicands are j x^2 plus constants, which are not computed from differences of w.
 #include "kernel/math/axis_ascent.hpp"
 #include "kernel/math/sincos.hpp"  // bits_of, double_of
 #include "kernel/math/velocity_change.hpp"
@@ -19,11 +20,11 @@ namespace tactus {
 namespace {
 
 constexpr int kSteps = 16;
-constexpr double kRounding = 1e-15;  // of the way there and back
+constexpr double kRounding = 1e-15;  // of w times the duration
 
-/// The cube root within 6 percent, for a trial: a third of the exponent, the rest on a line. The
-/// constant is two thirds of the bits of one, less 0.03 of a unit of the exponent, which levels the
-/// error.
+/// Returns the cube root within 6 percent, for a trial: a third of the exponent, the rest on a
+/// line. The constant is two thirds of the bits of one, less 0.03 of a unit of the exponent, which
+/// levels the error.
 double about_cube_root(double x) {
   return double_of(bits_of(x) / 3 + 0x2A9F84FE36D22425u);
 }
@@ -68,9 +69,10 @@ class OverVelocity {
     close_ = ascent_.tolerance + kRounding * std::abs(w_) * (rise_.duration() + fall_.duration());
   }
 
-  /// Newton's method for x within a bracket whose upper end is beyond the target.
+  /// Finds x by Newton's method within a bracket whose upper end is beyond the target.
   void find() {
-    low_ = 0.0, high_ = x_most_;
+    low_ = 0.0;
+    high_ = x_most_;
     double x = x_most_;
     const double trial = trial_x();
     if (trial < x_most_) evaluate(x = trial);
@@ -82,11 +84,11 @@ class OverVelocity {
     }
   }
 
-  /// Exact from rest to rest. Without holds D = 2 w sqrt(w / j) there; with alpha and beta at the
-  /// limits A and B all along
+  /// Returns a trial x, exact from rest to rest. Without holds D = 2 w sqrt(w / j) there; with
+  /// alpha and beta always at the limits A and B
   ///   dD/dw = (1/A + 1/B) (w + c), c = A B / 2j
   ///   (w + c)^2 = (w_least + c)^2 + 2 D A B / (A + B)
-  /// Never a negative velocity, where D may still fall.
+  /// The trial velocity is never negative, where D may still fall.
   double trial_x() const {
     const double a = ascent_.limits.a_up, b = ascent_.limits.a_dn, missing = ascent_.missing;
     const double to_zero = std::max(0.0, -least_);
@@ -112,7 +114,7 @@ class OverVelocity {
   double j_;
   double least_, x_most_;
   double rise_constant_, fall_constant_;
-  // Of the x evaluated last. beyond_: the distance less the one wanted; close_: what may be left.
+  // At the x evaluated last. beyond_: distance beyond the target; close_: its tolerance.
   double w_ = 0.0, beyond_ = 0.0, close_ = 0.0;
   VelocityChange rise_{}, fall_{};
   double low_ = 0.0, high_ = 0.0;

@@ -15,7 +15,8 @@ struct SinCos {
   double sin, cos;
 };
 
-/// Beyond this the three pieces of pi/2 no longer suffice, and a joint angle is nonsense. rad
+/// Largest angle, rad. Beyond it the three pieces of pi/2 do not suffice; no joint angle is so
+/// large.
 inline constexpr double kSinCosMax_rad = 1e5;
 
 inline std::uint64_t bits_of(double x) {
@@ -30,8 +31,8 @@ inline double double_of(std::uint64_t bits) {
   return x;
 }
 
-/// sin(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative error of
-/// x - x^3 P(x^2)), error 2^-57.9 before rounding; they lie next to 1/3!, 1/5!, ...
+/// Returns sin(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative
+/// error of x - x^3 P(x^2)), error 2^-57.9 before rounding; they are close to 1/3!, 1/5!, ...
 inline double sin_on_octant(double r, double r_low) {
   const double z = r * r, r3 = z * r;
   const double p =
@@ -41,8 +42,9 @@ inline double sin_on_octant(double r, double r_low) {
   return r - ((z * (0.5 * r_low - r3 * p) - r_low) + r3 * 0x1.5555555555548p-3);
 }
 
-/// cos(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative error of
-/// 1 - x^2/2 + x^4 P(x^2)), error 2^-63.9 before rounding; they lie next to 1/4!, 1/6!, ...
+/// Returns cos(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative
+/// error of 1 - x^2/2 + x^4 P(x^2)), error 2^-63.9 before rounding; they are close to 1/4!, 1/6!,
+/// ...
 inline double cos_on_octant(double r, double r_low) {
   const double z = r * r, half_z = 0.5 * z;
   const double p = 0x1.555555555554bp-5 +
@@ -51,12 +53,13 @@ inline double cos_on_octant(double r, double r_low) {
                              z * (-0x1.27e4f7eac49cep-22 +
                                   z * (0x1.1ee9d7b4cfb96p-29 + z * -0x1.8fa499fe6e7bcp-37))));
   const double one_minus = 1.0 - half_z;
-  const double lost = (1.0 - one_minus) - half_z;  // what the rounding of the line above took away
+  const double lost = (1.0 - one_minus) - half_z;  // rounding error of the line above
   return one_minus + (lost + (z * z * p - r * r_low));
 }
 
-/// Sine and cosine of x [rad], within 0.85 units in the last place (largest of 1e7 measured: 0.80)
-/// for |x| <= kSinCosMax_rad. Fails closed: NaN for both when x is not finite or larger. [any]
+/// Returns sine and cosine of x [rad], within 0.85 units in the last place (largest of 1e7
+/// measured: 0.80) for |x| <= kSinCosMax_rad. Fails closed: both are NaN if x is not finite or
+/// larger. [any]
 inline SinCos sincos(double x) {
   constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
   constexpr double kHalfPi1 = 0x1.921fb54440000p+0;   // 36 bits each: n times them is exact,
@@ -71,7 +74,7 @@ inline SinCos sincos(double x) {
   const double a = x - n * kHalfPi1;  // exact
   const double w = n * kHalfPi2;      // exact
   const double b = a - w;
-  const double lost = (a - b) - w;  // what the rounding of b took away, exact
+  const double lost = (a - b) - w;  // rounding error of b, exact
   const double rest = n * kHalfPi3 - lost;
   const double r = b - rest;
   const double r_low = (b - r) - rest;

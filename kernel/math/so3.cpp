@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t kTerms = 8;  // for s < 1: what is left out, 1 / 22!, is 2^-60 of c_6
+constexpr std::size_t kTerms = 8;  // for s < 1: the first term left out, 1 / 22!, is 2^-60 of c_6
 
 constexpr std::array<double, 2 * kTerms + 6> inverse_factorials() {
   std::array<double, 2 * kTerms + 6> inverse{};
@@ -26,14 +26,14 @@ constexpr std::array<double, 2 * kTerms + 6> inverse_factorials() {
 }
 constexpr auto kInverseFactorial = inverse_factorials();
 
-/// The power series of c_n, for 0 <= s < 1 and n <= 7.
+/// Returns the power series of c_n for 0 <= s < 1 and n <= 7.
 double series(std::size_t n, double s) {
   double sum = 0.0;
   for (std::size_t k = kTerms; k-- > 0;) sum = kInverseFactorial[2 * k + n] - s * sum;
   return sum;
 }
 
-/// The sign that makes the first number that is not zero positive.
+/// Returns the sign that makes the first nonzero number positive.
 double sign_of_first(const Eigen::Quaterniond& r) {
   for (const double number : {r.w(), r.x(), r.y(), r.z()}) {
     if (number != 0.0) return number < 0.0 ? -1.0 : 1.0;
@@ -45,7 +45,7 @@ double sign_of_first(const Eigen::Quaterniond& r) {
 
 Stumpff stumpff(double s) {
   Stumpff c;
-  if (s < 1.0) {  // c_n = 1/n! - s c_(n+2): downwards nothing cancels
+  if (s < 1.0) {  // c_n = 1/n! - s c_(n+2): nothing cancels downwards
     c.c7 = series(7, s);
     c.c6 = series(6, s);
     c.c5 = kInverseFactorial[5] - s * c.c7;
@@ -114,9 +114,9 @@ Vector3 RightJacobian::rate_times(const Vector3& dphi, const Vector3& v) const {
   return -dc2 * x - c_.c2 * dx + dc3 * phi_.cross(x) + c_.c3 * (dphi.cross(x) + phi_.cross(dx));
 }
 
-Vector3 RightJacobian::second_rate(const Vector3& dphi, const Vector3& ddphi,
-                                   const Vector3& dddphi) const {
-  // J_r dphi = dphi - c_2 x + c_3 m with x = phi x dphi and m = phi x x; each product derived twice
+RightJacobian::Rates RightJacobian::rates(const Vector3& dphi, const Vector3& ddphi,
+                                          const Vector3& dddphi) const {
+  // J_r dphi = dphi - c_2 x + c_3 m with x = phi x dphi and m = phi x x, differentiated twice
   const Vector3 x = phi_.cross(dphi), dx = phi_.cross(ddphi);
   const Vector3 ddx = dphi.cross(ddphi) + phi_.cross(dddphi);
   const Vector3 m = phi_.cross(x), dm = dphi.cross(x) + phi_.cross(dx);
@@ -124,10 +124,12 @@ Vector3 RightJacobian::second_rate(const Vector3& dphi, const Vector3& ddphi,
   // dc_n/dt = h (n c_(n+2) - c_(n+1)) with h = (ds/dt) / 2
   const double h = phi_.dot(dphi), dh = dphi.squaredNorm() + phi_.dot(ddphi);
   const double k2 = 2.0 * c_.c4 - c_.c3, k3 = 3.0 * c_.c5 - c_.c4;
+  const double dc2 = h * k2, dc3 = h * k3;
   const double ddc2 = dh * k2 + h * h * (8.0 * c_.c6 - 5.0 * c_.c5 + c_.c4);
   const double ddc3 = dh * k3 + h * h * (15.0 * c_.c7 - 7.0 * c_.c6 + c_.c5);
-  return dddphi - (ddc2 * x + 2.0 * h * k2 * dx + c_.c2 * ddx) +
-         (ddc3 * m + 2.0 * h * k3 * dm + c_.c3 * ddm);
+  return {dphi - c_.c2 * x + c_.c3 * m, ddphi - (dc2 * x + c_.c2 * dx) + (dc3 * m + c_.c3 * dm),
+          dddphi - (ddc2 * x + 2.0 * dc2 * dx + c_.c2 * ddx) +
+              (ddc3 * m + 2.0 * dc3 * dm + c_.c3 * ddm)};
 }
 
 }  // namespace tactus

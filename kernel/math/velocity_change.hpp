@@ -1,7 +1,8 @@
 // The fastest change of velocity, from (v, a) to (w, 0) with the accelerations of one sign limited
-// to A: jerk, hold, jerk back. What all motions of axis_motion.hpp are put together from.
+// to A: jerk, hold, jerk back. All motions of axis_motion.hpp are composed of such changes.
 //
-// A rise takes jerk +j up to the peak x, holds it, and takes -j back to zero. The velocity gained,
+// A rise applies jerk +j up to the peak x, holds x, and applies -j back to zero. The velocity
+// gained,
 //
 //   w - v = (x^2 - a^2) / 2j + x t_hold + x^2 / 2j,
 //
@@ -10,9 +11,9 @@
 //   q < A^2:  x = sqrt(q), t_hold = 0      otherwise:  x = A, t_hold = (q - A^2) / (j A)
 //   t_on = (x - a) / j, t_off = x / j
 //
-// which needs w >= rest_velocity(v, a): then q >= a^2 where a > 0, and t_on >= 0. The distance,
-// with v_on = v + t_on (a + x) / 2 the velocity at the end of the first ramp, the last ramp
-// backwards from w:
+// which requires w >= rest_velocity(v, a): then q >= a^2 where a > 0, and t_on >= 0. With
+// v_on = v + t_on (a + x) / 2, the velocity at the end of the first ramp, and the last ramp seen
+// backwards from w, the distance is
 //
 //   d = t_on (v + t_on (2a + x) / 6) + t_hold (v_on + x t_hold / 2) + t_off (w - x t_off / 6)
 //
@@ -20,7 +21,7 @@
 //
 //   dT/dw = 1 / x,  dd/dw = w / x + x / 2j
 //
-// (without: x' = j / 2x, T = (2x - a) / j). A fall is a rise seen in the mirror.
+// (without a hold: x' = j / 2x, T = (2x - a) / j). A fall is a mirrored rise.
 #pragma once
 
 #include <algorithm>
@@ -37,12 +38,12 @@ struct VelocityChange {
   double duration() const { return on + hold + off; }
 };
 
-/// The velocity at which the acceleration, run out at once, leaves the axis.
+/// Returns the velocity that remains if the acceleration is run out at once.
 inline double rest_velocity(double v, double a, double j) {
   return v + 0.5 * a * std::abs(a) / j;
 }
 
-/// The rise of radicand q, for who knows it better than from w - v.
+/// Returns the rise of radicand q, for a caller that knows q better than from w - v.
 inline VelocityChange rise_of_radicand(double q, double v, double a, double w, double a_max,
                                        double j) {
   const bool holds = q >= a_max * a_max;
@@ -55,8 +56,8 @@ inline VelocityChange rise_of_radicand(double q, double v, double a, double w, d
   return {on, hold, off, x, distance};
 }
 
-/// The change between velocities v and w without acceleration, of radicand q = j |w - v|: its mean
-/// velocity is that of its ends.
+/// Returns the change between velocities v and w without acceleration, of radicand q = j |w - v|.
+/// Its mean velocity is that of its ends.
 inline VelocityChange change_from_rest(double q, double v, double w, double a_max, double j) {
   const bool holds = q >= a_max * a_max;
   const double x = holds ? a_max : std::sqrt(q);
@@ -64,25 +65,25 @@ inline VelocityChange change_from_rest(double q, double v, double w, double a_ma
   return {x / j, hold, x / j, x, 0.5 * (v + w) * (2.0 * x / j + hold)};
 }
 
-/// The radicand of a rise; w = rest_velocity(v, a, j) gives the least, of which the difference of
-/// the velocities leaves nothing but rounding.
+/// Returns the radicand of a rise, at least that of w = rest_velocity(v, a, j), where the
+/// difference of the velocities may leave nothing but rounding.
 inline double rise_radicand(double v, double a, double w, double j) {
   return std::max(a > 0.0 ? a * a : 0.0, j * (w - v) + 0.5 * a * a);
 }
 
-/// w >= rest_velocity(v, a, j), a <= a_max.
+/// Returns the rise for w >= rest_velocity(v, a, j), a <= a_max.
 inline VelocityChange rise(double v, double a, double w, double a_max, double j) {
   return rise_of_radicand(rise_radicand(v, a, w, j), v, a, w, a_max, j);
 }
 
-/// w <= rest_velocity(v, a, j), a >= -a_max; a_max is a magnitude.
+/// Returns the fall for w <= rest_velocity(v, a, j), a >= -a_max; a_max is a magnitude.
 inline VelocityChange fall(double v, double a, double w, double a_max, double j) {
   VelocityChange change = rise(-v, -a, -w, a_max, j);
   change.distance = -change.distance;
   return change;
 }
 
-/// `jerk` is that of the first ramp.
+/// Appends the phases of a change; `jerk` is that of the first ramp.
 inline void append(AxisPlan& plan, const VelocityChange& change, double jerk) {
   plan.append(change.on, jerk);
   plan.append(change.hold, 0.0);

@@ -1,19 +1,19 @@
-// Forward kinematics and geometric Jacobian of the tool tip, in the base frame: one sweep out for
-// the joint axes, one sweep back for the lever arms (Siciliano et al., Robotics, 2.8 and 3.1):
+// Forward kinematics and geometric Jacobian of the tool tip, in the base frame. One sweep outwards
+// gives the joint axes, one sweep back the lever arms (Siciliano et al., Robotics, 2.8 and 3.1):
 //   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)
 //   d_i = d_(i+1) + R_i offset_(i+1)       from the origin of frame i to the tip
 //   J_i = [z_i x d_i; z_i]                 column of revolute joint i
 #pragma once
 
+#include "kernel/core/types.hpp"
 #include "kernel/model/joint_trig.hpp"
-#include "kernel/types.hpp"
 
 namespace tactus {
 
 template <class R>
 using JacobianOf = Eigen::Matrix<double, 6, R::kDof>;
 
-/// The columns of a rotation matrix: axes of a frame, in the axes of the base.
+/// The columns of a rotation matrix: the axes of a frame, in the axes of the base.
 template <class X, class Y, class Z>
 struct FrameAxes {
   X x;
@@ -23,7 +23,7 @@ struct FrameAxes {
 template <class X, class Y, class Z>
 FrameAxes(X, Y, Z) -> FrameAxes<X, Y, Z>;
 
-/// R RotX(k pi/2)
+/// Returns R RotX(k pi/2).
 template <int k, class X, class Y, class Z>
 auto rolled(const FrameAxes<X, Y, Z>& r) {
   if constexpr (k == 0) {
@@ -37,13 +37,13 @@ auto rolled(const FrameAxes<X, Y, Z>& r) {
   }
 }
 
-/// R RotZ(q)
+/// Returns R RotZ(q).
 template <class X, class Y, class Z>
 auto turned(const FrameAxes<X, Y, Z>& r, const SinCos& q) {
   return FrameAxes{q.cos * r.x + q.sin * r.y, q.cos * r.y - q.sin * r.x, r.z};
 }
 
-/// R v
+/// Returns R v.
 template <class X, class Y, class Z, class V>
 auto rotated(const FrameAxes<X, Y, Z>& r, const V& v) {
   return v.x * r.x + v.y * r.y + v.z * r.z;
@@ -54,7 +54,7 @@ Vector3 dense(const TypedVector<X, Y, Z>& v) {
   return {v.x, v.y, v.z};
 }
 
-/// The flange carries the tool: fills the orientation and returns the lever from frame kDof-1.
+/// Fills the orientation of the tip; returns the lever from the origin of frame kDof-1 to it, m.
 template <class R, class A>
 auto tip_from_last_link(const A& link, const Pose& tip, Pose& x) {
   const auto flange = rolled<R::kFlange.roll_quarter_turns>(link);
@@ -78,8 +78,8 @@ auto tip_from(const A& parent, const JointTrig<R>& trig, const Pose& tip, Pose& 
   }
 }
 
-/// Pose of the tool tip in the base frame, and J with [v; w] = J dq at the tip, in the axes of the
-/// base, linear part first. `tip` is the tip frame in the flange frame. [cyclic]
+/// Returns the pose of the tool tip in the base frame, and fills J: [v; w] = J dq at the tip, in
+/// the axes of the base, linear part first. `tip` is the tip frame in the flange frame. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] Pose forward_kinematics(const JointTrig<R>& trig, const Pose& tip,

@@ -1,14 +1,14 @@
-// Joint efforts that hold the arm against gravity, by composite first moments:
+// Joint efforts that hold the arm against gravity, from composite first moments:
 //   a_i = R^T a_(i-1)                                   a_(-1) = 9.81 m/s^2 upwards
 //   h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)
 //   g_i = e_z . (h_i x a_i)
-// h_i is the first moment of link i and all it carries about the origin of frame i, M_i their mass;
-// the tool is a point mass on the last link. Vectors are in the axes of their link.
+// h_i is the first moment of link i and all it carries about the origin of frame i, and M_i their
+// mass; the tool is a point mass on the last link. Vectors are in the axes of their link.
 #pragma once
 
+#include "kernel/core/types.hpp"
 #include "kernel/model/joint_trig.hpp"
-#include "kernel/model/link.hpp"
-#include "kernel/types.hpp"
+#include "kernel/robots/link.hpp"
 
 namespace tactus {
 
@@ -28,7 +28,7 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
   }
 }
 
-/// g(q) in N m, the base upright: the gradient of the potential energy. [cyclic]
+/// Returns g(q), N m, for an upright base: the gradient of the potential energy. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> gravity(const JointTrig<R>& trig, const Tool& tool) {

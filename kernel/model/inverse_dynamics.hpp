@@ -1,12 +1,12 @@
 // Inverse dynamics tau = M(q) ddq + C(q, dq) dq + g(q) by the recursive Newton-Euler algorithm in
 // link frames (Luh, Walker, Paul 1980; Siciliano et al., Robotics, section 7.5; Featherstone's RNEA
-// with the origin of each joint frame as reference point). Out along the arm go velocities and
-// accelerations, back come forces and moments.
+// with the origin of each joint frame as reference point). Velocities and accelerations are
+// computed outwards along the arm, forces and moments on the way back.
 #pragma once
 
+#include "kernel/core/types.hpp"
 #include "kernel/model/joint_trig.hpp"
-#include "kernel/model/link.hpp"
-#include "kernel/types.hpp"
+#include "kernel/robots/link.hpp"
 
 namespace tactus {
 
@@ -29,14 +29,14 @@ struct LinkLoad {
 template <class F, class N>
 LinkLoad(F, N) -> LinkLoad<F, N>;
 
-/// Acceleration that a point at p has on top of that of the origin: dw x p + w x (w x p). With a
-/// first moment for p, the force that this takes.
+/// Returns the acceleration of a point at p relative to that of the origin: dw x p + w x (w x p).
+/// With a first moment in place of p, the force that this takes.
 template <class M, class P>
 auto swing(const M& link, const P& p) {
   return cross(link.dw, p) + cross(link.w, cross(link.w, p));
 }
 
-/// Motion of link i from that of link i-1, the joint adding its own.
+/// Returns the motion of link i from that of link i-1 and the rates of joint i.
 template <class R, int i, class M>
 auto motion_of_link(const M& parent, const SinCos& q, double dq, double ddq) {
   const TypedVector z_dq{Zero{}, Zero{}, dq}, z_ddq{Zero{}, Zero{}, ddq};
@@ -47,8 +47,9 @@ auto motion_of_link(const M& parent, const SinCos& q, double dq, double ddq) {
   return LinkMotion{w, dw, a};
 }
 
-/// Newton, f = m a_com, and Euler, n = I dw + w x I w, about the origin of the link's frame instead
-/// of its centre of mass: with the first moment h = m c, and I about that origin.
+/// Returns the load by Newton, f = m a_com, and Euler, n = I dw + w x I w, about the origin of the
+/// link's frame instead of its centre of mass, with the first moment h = m c and I about that
+/// origin.
 template <class R, int i, class M>
 auto load_of_link(const M& link) {
   const auto h = first_moment<R, i>();
@@ -58,7 +59,7 @@ auto load_of_link(const M& link) {
   return LinkLoad{f, n};
 }
 
-/// The same for the tool, a point mass on the last link.
+/// Returns the load of the tool, a point mass on the last link.
 template <class R, class M>
 auto load_of_tool(const M& last_link, const Tool& tool) {
   const auto c = from_flange<R>(tool.com);
@@ -66,9 +67,9 @@ auto load_of_tool(const M& last_link, const Tool& tool) {
   return LinkLoad{f, cross(c, f)};
 }
 
-/// State of the joints, as one argument of the recursion.
+/// State of the joints as one argument of the recursion.
 template <class R>
-struct JointMotion {
+struct JointRates {
   const JointTrig<R>& trig;
   const JointsOf<R>& dq;   ///< rad/s
   const JointsOf<R>& ddq;  ///< rad/s^2
@@ -77,7 +78,7 @@ struct JointMotion {
 /// Fills tau from joint i up. Returns the load that moves link i and all it carries, about the
 /// origin and in the axes of frame i-1.
 template <class R, int i, class M>
-auto newton_euler(const M& parent, const JointMotion<R>& joints, const Tool& tool,
+auto newton_euler(const M& parent, const JointRates<R>& joints, const Tool& tool,
                   JointsOf<R>& tau) {
   if constexpr (i == R::kDof) {
     return load_of_tool<R>(parent, tool);
@@ -93,8 +94,8 @@ auto newton_euler(const M& parent, const JointMotion<R>& joints, const Tool& too
   }
 }
 
-/// Joint efforts in N m that give ddq [rad/s^2] at q and dq [rad/s], the base upright and at rest.
-/// [cyclic]
+/// Returns the joint efforts, N m, that give ddq [rad/s^2] at q and dq [rad/s], for an upright base
+/// at rest. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> inverse_dynamics(const JointTrig<R>& trig, const JointsOf<R>& dq,
@@ -102,7 +103,7 @@ template <class R>
   constexpr TypedVector kAtRest{Zero{}, Zero{}, Zero{}};
   constexpr LinkMotion kBase{kAtRest, kAtRest, TypedVector{Zero{}, Zero{}, kGravity_m_s2}};
   JointsOf<R> tau;
-  newton_euler<R, 0>(kBase, JointMotion<R>{trig, dq, ddq}, tool, tau);
+  newton_euler<R, 0>(kBase, JointRates<R>{trig, dq, ddq}, tool, tau);
   return tau;
 }
 

@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "kernel/math/sincos.hpp"
-#include "kernel/math/typed_vector.hpp"
-#include "kernel/model/robot_table.hpp"
+#include "kernel/robots/robot_table.hpp"
+#include "kernel/robots/typed_vector.hpp"
 
 namespace tactus {
 
@@ -17,7 +17,7 @@ namespace tactus {
 template <class R>
 using JointsOf = Eigen::Matrix<double, R::kDof, 1>;
 
-/// Frame i of the table in frame i-1; the flange when i = kDof.
+/// Returns frame i of the table in frame i-1; the flange if i = kDof.
 template <class R, int i>
 constexpr JointFrame joint_frame() {
   if constexpr (i == R::kDof) {
@@ -27,7 +27,7 @@ constexpr JointFrame joint_frame() {
   }
 }
 
-/// Origin of frame i in the axes of frame i-1, m. [any]
+/// Returns the origin of frame i in the axes of frame i-1, m. [any]
 template <class R, int i>
 constexpr auto offset() {
   return TypedVector{typed([] { return joint_frame<R, i>().x; }),
@@ -35,7 +35,7 @@ constexpr auto offset() {
                      typed([] { return joint_frame<R, i>().z; })};
 }
 
-/// RotX(k pi/2) v. [any]
+/// Returns RotX(k pi/2) v. [any]
 template <int k, class V>
 constexpr auto quarter_turns(const V& v) {
   static_assert(k >= -2 && k <= 2, "a joint frame is rolled by -1, 0, 1 or 2 quarter turns");
@@ -50,22 +50,23 @@ constexpr auto quarter_turns(const V& v) {
   }
 }
 
-/// Components in frame i of a vector given in the axes of frame i-1: RotZ(-q) RotX(-k pi/2) v.
-/// [any]
+/// Returns the components in frame i of a vector given in the axes of frame i-1: RotZ(-q)
+/// RotX(-k pi/2) v. [any]
 template <class R, int i, class V>
 constexpr auto to_child(const SinCos& q, const V& v) {
   const auto u = quarter_turns<-joint_frame<R, i>().roll_quarter_turns>(v);
   return TypedVector{q.cos * u.x + q.sin * u.y, q.cos * u.y - q.sin * u.x, u.z};
 }
 
-/// Components in the axes of frame i-1 of a vector given in frame i: RotX(k pi/2) RotZ(q) v. [any]
+/// Returns the components in the axes of frame i-1 of a vector given in frame i: RotX(k pi/2)
+/// RotZ(q) v. [any]
 template <class R, int i, class V>
 constexpr auto to_parent(const SinCos& q, const V& v) {
   const auto u = TypedVector{q.cos * v.x - q.sin * v.y, q.sin * v.x + q.cos * v.y, v.z};
   return quarter_turns<joint_frame<R, i>().roll_quarter_turns>(u);
 }
 
-/// A point of the flange frame in the frame of the last link, m. [any]
+/// Returns a point of the flange frame in the frame of the last link, m. [any]
 template <class R>
 auto from_flange(const Eigen::Matrix<double, 3, 1>& p) {
   return quarter_turns<R::kFlange.roll_quarter_turns>(TypedVector{p.x(), p.y(), p.z()}) +

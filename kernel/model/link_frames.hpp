@@ -1,5 +1,5 @@
-// Frames of all links in the base frame: the sweep out of forward_kinematics.hpp, kept at every
-// joint.
+// Frames of all links in the base frame: the outward sweep of forward_kinematics.hpp, recorded at
+// every joint.
 //   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)      p_i = p_(i-1) + R_(i-1) offset_i
 #pragma once
 
@@ -14,11 +14,11 @@ struct LinkFrame {
   Matrix3 r = Matrix3::Identity();
   Vector3 p = Vector3::Zero();  ///< m
 
-  /// Base coordinates of a point of the link. [any]
+  /// Returns a point of the link in base coordinates. [any]
   Vector3 at(const Vector3& point) const { return p + r * point; }
 };
 
-/// Frame 0 is the base's, frame i that of joint i, counted from 1.
+/// Frame 0 is the base, frame i that of joint i, counted from 1.
 template <class R>
 using LinkFrames = std::array<LinkFrame, R::kDof + 1>;
 
@@ -33,7 +33,7 @@ void frames_from(const A& parent, const JointTrig<R>& trig, LinkFrames<R>& frame
   }
 }
 
-/// [cyclic]
+/// Returns the frames of all links. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] LinkFrames<R> link_frames(const JointTrig<R>& trig) {

@@ -14,7 +14,7 @@ Status RobotModel::step(double /*dt_s*/) {
   const JointTrig<Robot> trig = joint_trig<Robot>(*q);
   const Eigen::Quaterniond before = x.value.r;
   x.value = forward_kinematics<Robot>(trig, tool->tip, J.value);
-  // r and -r are the same orientation: the one nearer to the last cycle's is taken.
+  // r and -r are the same orientation: the output is the one closer to that of the last cycle.
   if (x.value.r.dot(before) < 0.0) x.value.r.coeffs() = -x.value.r.coeffs();
   v.value = J.value * *dq;
   g.value = gravity<Robot>(trig, *tool);

@@ -1,9 +1,9 @@
-// Block: what the other blocks know of the arm, at the tool tip and in the base frame.
+// Block: the state of the arm that the other blocks use, at the tool tip and in the base frame.
 #pragma once
 
-#include "kernel/brake.hpp"
-#include "kernel/port.hpp"
-#include "kernel/status.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/status.hpp"
 
 namespace tactus {
 
@@ -13,8 +13,8 @@ struct RobotModel {
 
   In<Quantity::kJointPosition> q;   ///< measured
   In<Quantity::kJointVelocity> dq;  ///< measured
-  In<Quantity::kTool> tool;         ///< optional; without it the tip is the flange, without mass
-  Out<Quantity::kPose> x;           ///< the quaternion's sign never jumps; at start() w >= 0
+  In<Quantity::kTool> tool;         ///< optional; default: the tip is the flange, no mass
+  Out<Quantity::kPose> x;           ///< sign of the quaternion continuous; at start() w >= 0
   Out<Quantity::kTwist> v;          ///< J dq
   Out<Quantity::kJacobian> J;
   Out<Quantity::kJointEffort> g;  ///< holds arm and tool against gravity
@@ -30,11 +30,11 @@ struct RobotModel {
     visit.out("g", g);
   }
 
-  /// Leaves the outputs valid for the present inputs; result as of step(). [init]
+  /// Computes the outputs from the present inputs; returns the same as step(). [init]
   Status start();
 
-  /// kStateNotFinite when any output is not finite, as for an input that is not finite or an angle
-  /// beyond kSinCosMax_rad; the outputs then must not be used. [cyclic]
+  /// Returns kStateNotFinite if an output is not finite, for example because an input is not finite
+  /// or an angle is beyond kSinCosMax_rad; the outputs must then not be used. [cyclic]
   Status step(double dt_s);
   /// Has no motion of its own. [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) {}

@@ -1,4 +1,4 @@
-"""report.html: the parts of the page. Everything is in the file; nothing is fetched, nothing runs."""
+"""The parts of report.html. The page is complete in itself: it fetches nothing and runs nothing."""
 
 import base64
 import html
@@ -37,7 +37,7 @@ def identifier(name):
 
 
 def table(headers, rows, text_columns, failed=()):
-    """A table; `failed` holds the numbers of the rows that are marked."""
+    """Returns a table; `failed` holds the indices of the rows to mark."""
     def line(tag, row):
         kinds = (' class="text"' if header in text_columns else "" for header in headers)
         return "".join(f"<{tag}{kind}>{cell}</{tag}>" for cell, kind in zip(row, kinds))
@@ -49,7 +49,7 @@ def table(headers, rows, text_columns, failed=()):
 
 
 def figure(svg, caption):
-    """An SVG within the page, as an image of its own, so that no name in it meets another's."""
+    """Embeds an SVG as an image of its own, so that its names do not clash with those of others."""
     data = base64.b64encode(svg.encode()).decode()
     words = escape(caption)
     return (
@@ -59,7 +59,7 @@ def figure(svg, caption):
 
 
 def numbered(parts):
-    """Gives the figures of all sections their numbers, from 1."""
+    """Numbers the figures of all sections, from 1."""
     pieces = "\n".join(parts).split("<figcaption>")
     text = pieces[0]
     for number, piece in enumerate(pieces[1:], 1):
@@ -68,7 +68,7 @@ def numbered(parts):
 
 
 def page(title, sections):
-    """The whole file; sections are (identifier, heading, body)."""
+    """Returns the whole file; sections are (identifier, heading, body)."""
     contents = "\n".join(f'<li><a href="#{i}">{escape(heading)}</a></li>' for i, heading, _ in sections)
     bodies = [f'<section id="{i}"><h2>{escape(heading)}</h2>\n{body}</section>' for i, heading, body in sections]
     return (

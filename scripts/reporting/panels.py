@@ -1,7 +1,7 @@
-"""What is drawn of a run, decided by the quantities of what it recorded, not by the names of blocks.
+"""Chooses what to draw of a run by the quantities of its signals, not by the names of blocks.
 
 A pose is drawn as a position and an orientation. The orientation is the rotation vector, in base axes,
-that turns the first reference into the orientation at hand: continuous up to a full turn.
+that turns the first reference into the present orientation; it is continuous up to a full turn.
 """
 
 import dataclasses
@@ -15,7 +15,7 @@ XYZ = ("x", "y", "z")
 
 @dataclasses.dataclass
 class Panel:
-    """A reference and what follows it, over time; values are [rows, components]."""
+    """A reference and the signal that follows it, over time; values are [rows, components]."""
 
     what: str
     unit: str
@@ -29,7 +29,7 @@ class Panel:
 
 
 def product(a, b):
-    """Quaternions (w, x, y, z) [rows, 4], multiplied."""
+    """Multiplies quaternions (w, x, y, z) [rows, 4]."""
     w = a[:, :1] * b[:, :1] - np.sum(a[:, 1:] * b[:, 1:], axis=1, keepdims=True)
     v = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
     return np.hstack([w, v])
@@ -40,7 +40,7 @@ def inverse(a):
 
 
 def rotation_vector(quaternion):
-    """rad [rows, 3]; the angle is 2 atan2(|v|, w), so the sign of the quaternion chooses the way."""
+    """Returns rotation vectors, rad [rows, 3]; the angle is 2 atan2(|v|, w): the quaternion's sign sets the direction."""
     w, v = quaternion[:, 0], quaternion[:, 1:]
     length = np.linalg.norm(v, axis=1)
     angle = 2 * np.arctan2(length, w)
@@ -48,25 +48,25 @@ def rotation_vector(quaternion):
 
 
 def shortest(quaternion):
-    """With the sign that makes the angle half a turn at most."""
+    """Chooses the signs that make each angle half a turn at most."""
     return np.where(quaternion[:, :1] < 0, -quaternion, quaternion)
 
 
 def continuous(quaternion):
-    """With signs that let no row jump from the one before; the first is the shortest way."""
+    """Chooses signs without jumps from row to row; the first row has the smaller angle."""
     flips = np.sum(quaternion[1:] * quaternion[:-1], axis=1) < 0
     signs = np.concatenate([[1], np.cumprod(np.where(flips, -1, 1))])
     return quaternion * (signs * np.where(quaternion[0, 0] < 0, -1, 1))[:, None]
 
 
 def beside(points, curve, nearest):
-    """Each point with the sign that puts it on the side of the curve's row that is nearest."""
+    """Gives each point the sign for which it is nearest to the curve's row `nearest`."""
     dots = np.sum(points * curve[nearest], axis=1, keepdims=True)
     return np.where(dots < 0, -points, points)
 
 
 def points_of(run, entry, first):
-    """Times and values of the waypoints, if they belong to this entry."""
+    """Returns times and values of the waypoints if they belong to this entry, else None."""
     if run.points is None or entry is not first:
         return None
     times, *values = run.points.values()
@@ -96,7 +96,7 @@ def pose_panels(run, entry, points):
 
 
 def pair(run, entry):
-    """Reference and measurement of a tracking entry, [rows, components] both."""
+    """Returns reference and measurement of a tracking entry, both [rows, components]."""
     reference, measured = run.values(entry["reference"]), run.values(entry["measured"])
     if reference.shape != measured.shape or (entry["quantity"] == "pose" and reference.shape[1] != 7):
         raise InputError(f"{run.folder}/summary.json: {entry['signal']}: numbers of columns differ")
@@ -108,7 +108,7 @@ def from_generator(run, name):
 
 
 def tracking_panels(run):
-    """Of every tracking entry. The waypoints belong to what a reference generator puts out."""
+    """Returns the panels of every tracking entry. The waypoints belong to the output of a reference generator."""
     entries, panels = run.summary["tracking"], []
     first = next((e for e in entries if from_generator(run, e["reference"])), (entries or [None])[0])
     for entry in entries:
@@ -126,12 +126,12 @@ def tracking_panels(run):
 
 
 def signals_of(run, quantity):
-    """The names of what was recorded of a quantity."""
+    """Returns the names of the recorded signals of a quantity."""
     return [s["name"] for s in run.summary["signals"] if s["quantity"] == quantity]
 
 
 def displacement(run):
-    """Position of the generator's reference minus that of the tip [rows, 3], and its name; or None."""
+    """Returns a name and the generator's position minus that of the tip [rows, 3], or None."""
     desired = [name for name in signals_of(run, "pose") if from_generator(run, name)]
     measured = [e["measured"] for e in run.summary["tracking"] if e["quantity"] == "pose"]
     if not desired or not measured:

@@ -1,4 +1,4 @@
-"""The figures of a run: what panels.py chose, drawn."""
+"""Draws the figures of a run from the panels that panels.py chose."""
 
 import io
 import re
@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from reporting import panels
-from reporting.runs import InputError
+from reporting.runs import InputError, result_words
 
 SMALL_UNITS = {"rad": ("mrad", 1e3), "m": ("mm", 1e3)}  # for errors
-# After Paul Tol's "bright" scheme, which the colour-blind can tell apart.
+# After Paul Tol's "bright" scheme, which colour-blind readers can tell apart.
 COLOURS = ("#4477aa", "#ee6677", "#339944", "#ccaa22", "#55bbdd", "#bb4488", "#888888")
-BUCKETS = 600  # of a curve; the smallest and the largest value of each are drawn
+BUCKETS = 600  # per curve; the smallest and the largest value of each are drawn
 STYLE = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -26,7 +26,7 @@ STYLE = {
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.6,
     "legend.frameon": False,
-    "svg.hashsalt": "tactus",  # the same bytes from the same run
+    "svg.hashsalt": "tactus",  # the same run gives the same bytes
 }
 MEASURED = {"linewidth": 1.9}
 REFERENCE = {"linewidth": 0.9, "linestyle": (0, (5, 3))}
@@ -38,7 +38,7 @@ OVER_ERROR = {"height_ratios": (3, 1), "hspace": 0.1, "top": 0.93, **MARGINS}
 
 
 def thin_out(t, values):
-    """A curve for the eye: of every bucket of rows the smallest and the largest, in their order."""
+    """Thins out a curve for drawing: keeps the smallest and the largest value of every bucket of rows, in order."""
     size = -(-len(t) // BUCKETS)
     if size <= 2 or not np.all(np.isfinite(values)):
         return t, values
@@ -62,7 +62,7 @@ def legend(axes, handles):
 
 
 def draw_panel(part, panel):
-    """Reference and measurement above, reference - measured below."""
+    """Draws reference and measurement, and below them reference - measured."""
     axes, below = part.subplots(2, 1, sharex=True, gridspec_kw=OVER_ERROR)
     small_unit, factor = SMALL_UNITS.get(panel.unit, (panel.unit, 1))
     for i, label in enumerate(panel.labels):
@@ -85,7 +85,7 @@ def draw_panel(part, panel):
 
 
 def draw_contact(part, run, displacement, wrenches):
-    """What the force did to the path: displacement above, forces below; desired ones are dashed."""
+    """Draws the displacement that a contact causes, and the forces below it; desired forces are dashed."""
     above, below = part.subplots(2, 1, sharex=True, gridspec_kw={"hspace": 0.1, "top": 0.97, **MARGINS})
     t = run.log["time_s"]
     for i, axis in enumerate(panels.XYZ):
@@ -103,7 +103,7 @@ def draw_contact(part, run, displacement, wrenches):
 
 
 def draw_limits(part, run, flags, scalars):
-    """Scalars as lines; times at which a flag is set as bands under them."""
+    """Draws scalars as lines, and the times at which a flag is set as bands."""
     axes = part.subplots(gridspec_kw={"top": 0.95, "bottom": 0.2, **MARGINS})
     t = run.log["time_s"]
     for i, name in enumerate(scalars):
@@ -122,26 +122,26 @@ def draw_limits(part, run, flags, scalars):
 
 
 def svg(height, draw, *arguments):
-    """What `draw` draws, as the text of an SVG of the width of the page."""
+    """Returns the SVG text of what `draw` draws, as wide as the page."""
     with rc_context(STYLE):
         figure = Figure(figsize=(8, height))
         draw(figure, *arguments)
         text = io.StringIO()
         FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None})
-    return re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue())  # a hundredth of a point will do
+    return re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue())  # a hundredth of a point is enough
 
 
 def title(run):
     summary = run.summary
-    name, robot, result = summary["pipeline"], summary["robot"], summary["result"]["name"]
-    return f"{name}: {robot}, {summary['rate_hz']:g} Hz, {result}"
+    name, robot = summary["pipeline"], summary["robot"]
+    return f"{name}: {robot}, {summary['rate_hz']:g} Hz, {result_words(summary)}"
 
 
 def write_png(run):
-    """All tracking panels, one below the other, into figure.png of the run's folder."""
+    """Draws all tracking panels, one below the other, into figure.png of the run's folder."""
     chosen = panels.tracking_panels(run)
     if not chosen:
-        raise InputError(f"{run.folder}/summary.json: tracking is empty, nothing to draw")
+        raise InputError(f"{run.folder}/summary.json: nothing to draw, because tracking is empty")
     with rc_context(STYLE):
         figure = Figure(figsize=(8, 4.8 * len(chosen)), dpi=200)
         canvas = FigureCanvasAgg(figure)

@@ -1,19 +1,20 @@
-"""What a run left behind, read and checked: summary.json, log.csv, waypoints.csv."""
+"""Reads and checks the files of a run: summary.json, log.csv, waypoints.csv."""
 
 import dataclasses
 import json
 import math
+import re
 
 import numpy as np
 
 
 class InputError(Exception):
-    """A file that cannot be used, and why."""
+    """A file cannot be used; the message says why."""
 
 
 @dataclasses.dataclass
 class Run:
-    """One folder: the summary as it is, and columns by name; `points` are None without waypoints."""
+    """The files of one folder: the summary and, by name, the columns of log and waypoints; `points` may be None."""
 
     name: str
     folder: object
@@ -22,14 +23,14 @@ class Run:
     points: dict
 
     def signal(self, name):
-        """The entry of a recorded signal."""
+        """Returns the entry of a recorded signal."""
         for signal in self.summary["signals"]:
             if signal["name"] == name:
                 return signal
         raise InputError(f"{self.folder}/summary.json: signals has no {name}")
 
     def values(self, name):
-        """A recorded signal [rows, components]."""
+        """Returns a recorded signal [rows, components]."""
         try:
             return np.column_stack([self.log[column] for column in self.signal(name)["columns"]])
         except KeyError as error:
@@ -46,7 +47,7 @@ def read_text(path):
 
 
 def check_row(place, line, names):
-    """Refuse a row that is not one number per column."""
+    """Refuses a row that does not have one number per column."""
     cells = line.split(",")
     if len(cells) != len(names):
         raise InputError(f"{place}: {len(cells)} cells, the header has {len(names)}")
@@ -58,7 +59,7 @@ def check_row(place, line, names):
 
 
 def read_csv(path):
-    """Columns by name, in the order of the file."""
+    """Returns the columns by name, in the order of the file."""
     header, *lines = read_text(path).splitlines() or [""]
     names = header.split(",")
     if names[0] != "time_s":
@@ -77,7 +78,7 @@ def read_csv(path):
     return dict(zip(names, values.T))
 
 
-# Every key that is read anywhere, and the type of its value; "*" is every entry.
+# Every key that a script reads, and the type of its value; "*" stands for every entry.
 NUMBERS = ("rate_hz", "cycles", "seed", "slips", "overruns", "recorder_dropped", "static_bytes")
 FORM = {
     **{key: (int, float) for key in NUMBERS + ("heap_allocations_in_cycle", "realtime_factor")},
@@ -96,7 +97,7 @@ FORM = {
 
 
 def check_form(value, form, place):
-    """Refuse a value that is not of the form; `place` says where it stands."""
+    """Refuses a value that does not have the form; `place` names it."""
     if isinstance(form, list) and isinstance(value, list):
         for index, entry in enumerate(value):
             check_form(entry, form[0], f"{place}[{index}]")
@@ -106,7 +107,7 @@ def check_form(value, form, place):
                 raise InputError(f"{place}: no key '{key}'")
             check_form(value[key], form.get("*") or form[key], f"{place}: {key}")
     elif isinstance(form, (list, dict)) or not isinstance(value, form):
-        raise InputError(f"{place}: {json.dumps(value)[:40]} is not what stands there after a run")
+        raise InputError(f"{place}: {json.dumps(value)[:40]} is not of the type that a run writes")
 
 
 def read_summary(path):
@@ -118,8 +119,16 @@ def read_summary(path):
     return summary
 
 
+def result_words(summary):
+    """Returns the result of a run for a reader: "succeeded", or a Status in words and its code."""
+    name, code = summary["result"]["name"], summary["result"]["code"]
+    if not re.match("k[A-Z]", name):
+        return name
+    return re.sub("(?=[A-Z])", " ", name[1:]).strip().lower() + f" ({code})"
+
+
 def read_run(folder, name):
-    """All files of a run."""
+    """Reads all files of a run."""
     summary = read_summary(folder / "summary.json")
     points = folder / "waypoints.csv"
     return Run(
@@ -132,5 +141,5 @@ def read_run(folder, name):
 
 
 def largest(numbers):
-    """The largest of a list in which null stands for a number that is not finite; nan if none."""
+    """Returns the largest number of a list in which null stands for one that is not finite; nan if it is empty."""
     return max((math.inf if n is None else n for n in numbers), default=math.nan)

@@ -1,4 +1,4 @@
-"""The section of one run in the report: what it came to, its figures, its errors, its times."""
+"""The section of one run in the report: result, figures, errors and times."""
 
 import dataclasses
 import math
@@ -13,7 +13,7 @@ MANNER_WITH_POINTS = "Waypoints (circles), reference (dashed) and measured (soli
 
 @dataclasses.dataclass
 class Section:
-    """What the report needs of one run; `problem` is None if everything could be read and drawn."""
+    """The part of the report on one run; `problem` is None if everything could be read and drawn."""
 
     name: str
     summary: dict
@@ -28,7 +28,7 @@ def facts(summary):
         f" {summary['cycles']} cycles, seed {summary['seed']}, configuration {page.escape(summary['config_hash'])}."
         f" {summary['slips']} slips, {summary['overruns']} overruns, {guard['limited']} cycles limited by the guard,"
         f" {summary['recorder_dropped']} rows lost by the recorder, {summary['heap_allocations_in_cycle']} heap"
-        f" allocations in the cycle, {summary['realtime_factor']:.0f} times real time.</p>"
+        f" allocations in cycles, {summary['realtime_factor']:.0f} times real time.</p>"
     )
 
 
@@ -46,14 +46,14 @@ def contact_figures(run):
         return
     name, displacement = found
     caption = (
-        f"{run.name}: position error {name} in base axes, and what the environment exerts on the tip:"
-        f" {', '.join(wrenches)} (a reference is dashed)."
+        f"{run.name}: position error {name} in base axes, and the forces of the environment on the tip:"
+        f" {', '.join(wrenches)} (references are dashed)."
     )
     yield page.figure(plots.svg(4.4, plots.draw_contact, run, displacement, wrenches), caption)
 
 
 def flag_words(run, name):
-    """How often a flag was set."""
+    """Says how often a flag was set."""
     is_set = run.values(name)[:, 0] != 0
     if not is_set.any():
         return f"{name} was never set"
@@ -65,11 +65,11 @@ def scalar_words(run, name):
     values = run.values(name)[:, 0]
     if not np.ptp(values):
         return f"{name} was {values[0]:.4g} throughout"
-    return f"{name} lay between {np.nanmin(values):.4g} and {np.nanmax(values):.4g}"
+    return f"{name} was between {np.nanmin(values):.4g} and {np.nanmax(values):.4g}"
 
 
 def limit_parts(run):
-    """Whether limits were touched: what was recorded of it, in words and, if there is something to see, drawn."""
+    """Says whether limits were reached, and draws the recorded scalars and flags if they changed."""
     flags, scalars = panels.signals_of(run, "flag"), panels.signals_of(run, "scalar")
     words = [scalar_words(run, name) for name in scalars] + [flag_words(run, name) for name in flags]
     words.append(f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
@@ -81,7 +81,7 @@ def limit_parts(run):
 
 
 def component_names(run, entry):
-    """What the components of the error are; that of a pose is a position and an angle."""
+    """Names the components of the error; that of a pose is a position and an angle."""
     if entry["quantity"] == "pose":
         return ["x [m]", "y [m]", "z [m]", "angle [rad]"]
     port = len(entry["reference"]) + 1
@@ -109,19 +109,19 @@ def timing_table(summary):
 
 
 def screen(folder):
-    """What the run said, where it did not succeed."""
+    """Returns the output of the run."""
     path = folder / "output.txt"
     words = runs.read_text(path).strip() if path.exists() else ""
     return f"<pre>{page.escape(words)}</pre>" if words else ""
 
 
 def section_of(out, name):
-    """Everything of one run; whatever cannot be read is said in its place."""
+    """Returns the section of one run; a file that cannot be read or drawn is named in its place."""
     folder, parts, summary, problem = out / name.replace(":", "_"), [], None, None
     try:
         summary = runs.read_summary(folder / "summary.json")
         if summary["result"]["code"] != 0:
-            result = page.escape(summary["result"]["name"])
+            result = page.escape(runs.result_words(summary))
             parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>']
             parts += [screen(folder), "</div>"]
         parts += [facts(summary)]
@@ -131,7 +131,7 @@ def section_of(out, name):
         parts += [timing_table(summary)]
     except (runs.InputError, OSError) as error:
         problem = str(error)
-        what = "This run left no result." if summary is None else "Not everything could be drawn."
+        what = "This run wrote no result." if summary is None else "Not everything could be drawn."
         parts += [f'<div class="failure"><p>{what}</p><p>{page.escape(problem)}</p>']
         parts += [screen(folder) if summary is None else "", "</div>"]
     return Section(name, summary, "\n".join(parts), problem)
@@ -142,7 +142,7 @@ def is_failed(section):
 
 
 def overview(sections):
-    """The table over all runs, each name a link to its section."""
+    """Returns the table of all runs; each name is a link to its section."""
     rows = []
     for section in sections:
         name, *cells = map(page.escape, table.cells(section.name, section.summary))

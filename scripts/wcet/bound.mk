@@ -1,18 +1,19 @@
-# The static bound and the memory certificate: docs/timing.md, docs/memory.md. Included by the Makefile.
-DOF_FER   := 7
-DOF_UR10  := 6
+# The static bound and the memory certificate: docs/timing.md, docs/memory.md. The Makefile includes this file.
 # An exception stacks 26 words of the FPU and the core, and one more to align them. [Arm, DDI 0403, B1.5.6 and B1.5.7]
 EXCEPTION := 108
 
-.PHONY: wcet-bound certificate certificate-host certificate-m7
-wcet-bound:                                   ## the static bound of the cycle of BOARD, of its longest pipeline
+.PHONY: wcet-bound wcet-refute certificate certificate-host certificate-m7
+wcet-bound:                                   ## bound the cycle of the longest pipeline of BOARD, without running it
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/wcet/%/bounds.json)
 build/wcet/%/bounds.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
 	@mkdir -p $(@D)
-	$(Q)scripts/wcet_bound $< pipelines/$*.ini --dof $(DOF_$(ROBOT)) --out $@ > $(@:.json=.txt)
+	$(Q)scripts/wcet_bound $< pipelines/$*.ini --out $@ --claims $(@D)/claims.json > $(@:.json=.txt)
 	@cat $(@:.json=.txt)
 
-certificate:                                  ## memory of BOARD: static bytes, worst-case stack, no heap, all within budget
+wcet-refute: wcet-bound build/wcet/count_plugin.so   ## try to refute the bounds of BOARD with the tapes made by hand
+	$(Q)$(if $(WCET_PIPELINES),scripts/wcet/refute $(WCET_PIPELINES))
+
+certificate:                                  ## check static bytes, worst-case stack and heap calls of BOARD
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
 certificate-m7: $(O)/libkernel.a $(B)/link.elf
@@ -26,5 +27,5 @@ certificate-host: $(O)/libkernel.a $(B)/stack_painter
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lccd
-$(O)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"build/wcet/$(firstword $(WCET_PIPELINES)).ini"'
-$(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=build/wcet/%.ini)
+$(O)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
+$(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=pipelines/%.ini)

@@ -1,7 +1,7 @@
-"""The call graph that GCC writes beside every object (-fstack-usage -fcallgraph-info=su), and the stack below a function.
+"""The call graph that GCC writes next to every object (-fstack-usage -fcallgraph-info=su), and the stack of a function.
 
-What has no bound is an error that names the place: recursion, frames of varying size, calls through a pointer without
-targets, functions that nobody compiled, and calls of the heap.
+A stack without a bound is an error that names the place: recursion, frames of varying size, calls through a pointer
+without known targets, functions without a known frame. Heap calls are listed.
 """
 
 import re
@@ -19,7 +19,7 @@ class Unbounded(Exception):
 
 
 class Function:
-    """Its names, where it is defined, its frame in bytes, what it calls: (symbol, place)."""
+    """A function: its names, its place, its frame in bytes, and its calls: (symbol, place)."""
 
     def __init__(self, symbol, written, place, frame, kind):
         self.symbol, self.written, self.place, self.frame, self.kind = symbol, written, place, frame, kind
@@ -30,7 +30,7 @@ class Function:
 
 
 class CallGraph:
-    """`files` are those that GCC wrote; `rules` the lines of a file of targets and of functions compiled elsewhere."""
+    """`files` are the files of GCC; `rules` the lines of a file of call targets and of frames of library functions."""
 
     def __init__(self, files, rules):
         self.functions, self.copies, self.targets, self.elsewhere, self._below, self._active = {}, {}, [], [], {}, []
@@ -64,7 +64,7 @@ class CallGraph:
         return [f for f in self.functions.values() if re.search(pattern, f.written)]
 
     def heap_calls(self):
-        """Every call of the heap from anywhere, as text."""
+        """Returns every heap call as text."""
         return sorted({
             f"{place}: {function.written} calls {readable(callee)}"
             for function in self.functions.values()
@@ -73,7 +73,7 @@ class CallGraph:
         })
 
     def below(self, function):
-        """(bytes, functions on the deepest way) of a function and all it calls."""
+        """Returns (bytes, functions on the deepest path) of a function and everything it calls."""
         if function.symbol in self._below:
             return self._below[function.symbol]
         if function in self._active:
@@ -100,17 +100,17 @@ class CallGraph:
         for pattern, frame in self.elsewhere:
             if re.search(pattern, callee):
                 return frame, [Function(callee, callee, "library", frame, "static")]
-        raise Unbounded(f"{place}: {function.written} calls {readable(callee)}, whose stack nobody knows")
+        raise Unbounded(f"{place}: {function.written} calls {readable(callee)}, whose stack is not known")
 
     def _known(self, callee):
-        """By its title, or the copies of all files by its symbol; a complete constructor is its base's alias."""
+        """Finds a function by its title, or its copies in all files by symbol; C1 constructors are aliases of C2."""
         if callee in self.functions:
             return [self.functions[callee]]
         plain = callee.rsplit(":", 1)[-1]
         return self.copies.get(plain) or self.copies.get(re.sub(r"C1(?=E)", "C2", plain))
 
     def _pointed_to(self, function, place):
-        """What a call through a pointer may reach, by the text of its source line."""
+        """Returns the possible targets of a call through a pointer, by the text of its source line."""
         text = source_line(place)
         for caller, line, callee in self.targets:
             if re.search(caller, function.written) and re.search(line, text):
@@ -118,7 +118,7 @@ class CallGraph:
                     return []
                 if found := self.matching(callee):
                     return found
-        raise Unbounded(f"{place}: {function.written}: a call through a pointer, without targets: {text.strip()}")
+        raise Unbounded(f"{place}: {function.written}: a call through a pointer without known targets: {text.strip()}")
 
 
 def source_line(place):

@@ -1,18 +1,18 @@
-"""What an instruction costs.
+"""The cost of an instruction in two measures.
 
-instructions: one each, a conditional one too that does nothing.
+instructions: one each, even if a condition makes it do nothing.
 
-cycles: of a Cortex-M7 whose code and data lie in tightly coupled memory, so without caches and wait states. Nothing
-overlaps: instructions are issued one after the other, each when the result of the one before is there, so the table
-holds latencies. They are those of LLVM's scheduling model of the core (llvm/lib/Target/ARM/ARMScheduleM7.td), rounded
-up; a branch also refills the pipeline, and a transfer of several registers takes one cycle for each. Arm publishes no
-timing of this core: the figure is an estimate from above, not a proof, unlike that of the instructions.
+cycles: of a Cortex-M7 with code and data in tightly coupled memory, that is, without caches and wait states. Nothing
+overlaps: each instruction is issued when the result of the one before is available, so the table holds latencies. They
+are those of LLVM's scheduling model of the core (llvm/lib/Target/ARM/ARMScheduleM7.td), rounded up; a branch also
+refills the pipeline, and a transfer of several registers takes one cycle for each. Arm publishes no timing of this
+core, so unlike the instructions, the cycles are an estimate from above, not a proof.
 """
 
 import re
 
-ASSUMED = 10  # of an instruction that is not looked at, in code of integers
-REFILL = 8  # of a pipeline of six stages, with what was fetched ahead
+ASSUMED = 10  # of an unknown instruction in integer code
+REFILL = 8  # of a pipeline of six stages, prefetch included
 CLASSES = (
     (r"v(div|sqrt)\.f64", 31),
     (r"v(div|sqrt)\.f32", 16),

@@ -20,7 +20,7 @@ class CountError(Exception):
 
 
 def stages(text):
-    """The functions of a pipeline file's cycle, the whole first: {stage: what the demangled name begins with}."""
+    """Returns the functions of a pipeline's cycle, the whole first: {stage: prefix of the demangled name}."""
     found = {ROWS: "tactus::Executive::cycle(", "read": "tactus::Guard::check("}
     section, classes = None, kinds()
     for line in text.splitlines():
@@ -37,20 +37,20 @@ def stages(text):
 
 
 def shares(stages, row):
-    """A row of counts or times of these stages by stage, and the cycle's: the whole without its rows."""
+    """Returns a row of counts or times by stage, and that of the cycle: the whole without its rows."""
     each = dict(zip(stages, row))
     return {CYCLE: each[ROWS] - each.get(COLLISION, 0)} | each
 
 
 def symbols(image, nm="arm-none-eabi-nm"):
-    """{demangled name: address} of the functions of an image."""
+    """Returns {demangled name: address} of the functions of an image."""
     listing = subprocess.run([nm, "-C", image], check=True, capture_output=True, text=True).stdout
     rows = (line.split(maxsplit=2) for line in listing.splitlines())
     return {row[2]: int(row[0], 16) for row in rows if len(row) == 3 and row[1] in "tTwW"}
 
 
 def addresses(image, prefixes, nm="arm-none-eabi-nm"):
-    """The address of the one function that every prefix stands for."""
+    """Returns the address of the one function that begins with each prefix."""
     known = symbols(image, nm)
     found = []
     for prefix in prefixes:
@@ -62,7 +62,7 @@ def addresses(image, prefixes, nm="arm-none-eabi-nm"):
 
 
 def emulate(image, plugin, options, reel):
-    """Plays a reel. What the image printed, a line for every tape."""
+    """Plays a reel; returns the output of the image, a line for every tape."""
     semihosting = f"enable=on,target=native,chardev=sh,arg=wcet,arg={reel}"
     command = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none"]
     command += ["-chardev", "stdio,id=sh", "-semihosting-config", semihosting]
@@ -73,12 +73,13 @@ def emulate(image, plugin, options, reel):
     return run.stdout.splitlines()
 
 
-def count(image, plugin, prefixes, tapes):
-    """Plays tapes and returns for each (how it ended, rows), a row for each cycle with a count for each prefix."""
+def count(image, plugin, prefixes, tapes, more=()):
+    """Plays tapes; returns (final status, rows) of each, with one row per cycle and one count per prefix. `more` are further
+    options of the plugin."""
     with tempfile.TemporaryDirectory() as folder:
         reel, calls = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "calls"
         tape.write_reel(reel, tapes)
-        options = [f"watch={address:x}" for address in addresses(image, prefixes)] + [f"calls={calls}"]
+        options = [f"watch={address:x}" for address in addresses(image, prefixes)] + [f"calls={calls}", *more]
         lines = emulate(image, plugin, options, reel)
         rows = [tuple(map(int, line.split())) for line in calls.read_text().splitlines()]
     if len(lines) != len(tapes):
@@ -89,5 +90,5 @@ def count(image, plugin, prefixes, tapes):
         played.append((status, rows[: int(cycles)]))
         rows = rows[int(cycles) :]
     if rows or sum(len(mine) for _, mine in played) != sum(int(line.split()[0]) for line in lines):
-        raise CountError(f"{image}: its cycles are not those that were counted")
+        raise CountError(f"{image}: it reports other cycles than were counted")
     return played

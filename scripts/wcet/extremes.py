@@ -1,9 +1,9 @@
-"""An extreme-value fit that says when it must not be believed.
+"""An extreme-value fit that reports when its result must not be used.
 
-The largest values of equal blocks, if the values are independent and come from one distribution, follow a generalised
-extreme-value law; its quantiles extrapolate beyond what was seen.  [Coles, An Introduction to Statistical Modeling of
-Extreme Values, 2001, ch. 3] Fitted by maximum likelihood, intervals by parametric bootstrap. What must hold is tested
-first, at the level of 5 %:
+If values are independent and come from one distribution, the largest values of equal blocks follow a generalised
+extreme-value law, whose quantiles extrapolate beyond the values seen.  [Coles, An Introduction to Statistical Modeling
+of Extreme Values, 2001, ch. 3] The fit is by maximum likelihood, the intervals by parametric bootstrap. Its assumptions
+are tested first, at the level of 5 %:
 
   independence  Ljung-Box on the maxima           [Ljung and Box, Biometrika 65, 1978]
   one law       Mann-Whitney, first against second half of the maxima
@@ -27,7 +27,7 @@ NAN = float("nan")
 
 @dataclasses.dataclass
 class Extremes:
-    """`level` with its interval: exceeded with the probability asked for. `why` it is not to be quoted, or ''."""
+    """`level`, with its interval, is exceeded with the given probability; `why` it must not be quoted, or ''."""
 
     level: float
     low: float
@@ -46,7 +46,7 @@ class Extremes:
 
 
 def ljung_box(values, lags=LAGS):
-    """p of independence, from the first autocorrelations."""
+    """Returns p of independence, from the first autocorrelations."""
     centred = values - values.mean()
     scale = (centred**2).sum()
     n = len(values)
@@ -55,7 +55,7 @@ def ljung_box(values, lags=LAGS):
 
 
 def fit(maxima):
-    """(shape, location, scale) of the greatest likelihood; a positive shape is a heavy tail."""
+    """Returns (shape, location, scale) of the greatest likelihood; a positive shape means a heavy tail."""
     spread = maxima.std()
     start = (0.1, maxima.mean() - 0.45 * spread, numpy.log(0.78 * spread))  # of a Gumbel law, by moments
 
@@ -79,7 +79,7 @@ def law(parameters):
 
 
 def anderson_darling(maxima, parameters):
-    """A^2: the distance from a law, the tails weighted."""
+    """Returns A^2, the distance from a law with weighted tails."""
     u = numpy.clip(law(parameters).cdf(numpy.sort(maxima)), 1e-12, 1 - 1e-12)
     odd = 2 * numpy.arange(1, len(u) + 1) - 1
     return -len(u) - (odd * (numpy.log(u) + numpy.log1p(-u[::-1]))).mean()
@@ -90,7 +90,7 @@ def not_quoted(why, blocks, independence_p=NAN, one_law_p=NAN):
 
 
 def bootstrap(parameters, blocks, in_block, seed):
-    """Distances, levels and shapes of fits to values drawn from the law itself."""
+    """Returns distances, levels and shapes of fits to values drawn from the law itself."""
     rng = numpy.random.default_rng(seed)
     fits = []
     for _ in range(BOOTSTRAPS):
@@ -101,7 +101,7 @@ def bootstrap(parameters, blocks, in_block, seed):
 
 
 def why_not(tail_p, shape, heaviest):
-    """The first assumption about the fit that fails, in words."""
+    """Returns the first assumption about the fit that fails, in words."""
     if tail_p < LEVEL:
         return f"tail does not fit (p = {tail_p:.2g})"
     if heaviest >= HEAVIEST:
@@ -110,7 +110,7 @@ def why_not(tail_p, shape, heaviest):
 
 
 def extremes(values, block, exceedance, seed=1):
-    """Judges and extrapolates: the value that one of the values exceeds with probability `exceedance`."""
+    """Tests the values and extrapolates the level that one of them exceeds with probability `exceedance`."""
     values = numpy.asarray(values, dtype=float)
     blocks = len(values) // block
     if blocks < FEWEST_BLOCKS:
@@ -126,7 +126,7 @@ def extremes(values, block, exceedance, seed=1):
         return not_quoted(f"not of one law (p = {one_law_p:.2g})", blocks, independence_p, one_law_p)
     centre, unit = maxima.mean(), maxima.std()
     maxima = (maxima - centre) / unit
-    in_block = -numpy.expm1(block * numpy.log1p(-exceedance))  # that a maximum exceeds it
+    in_block = -numpy.expm1(block * numpy.log1p(-exceedance))  # probability that a maximum exceeds it
     parameters = fit(maxima)
     distances, levels, shapes = bootstrap(parameters, blocks, in_block, seed)
     tail_p = (1 + (distances >= anderson_darling(maxima, parameters)).sum()) / (1 + BOOTSTRAPS)

@@ -1,48 +1,57 @@
-"""What the analysis is told because neither the image nor the source of ours says it.
+"""Facts that the analysis needs and that neither the image nor our sources contain.
 
-One fact a line; two spaces or more stand between words, # begins a comment. FUNCTION and CALLEE are regular
-expressions on the written name, PLACE is the end of a file's path and a line, TEXT a regular expression on the source
-line.
+A file has one fact per line; words are separated by two spaces or more, # begins a comment. FUNCTION and CALLEE are
+regular expressions on the written name, PLACE is the end of a file's path and a line, TEXT a regular expression on the
+source line.
 
     loop     FUNCTION  PLACE   N        a loop of a library, by its place, or of ours, by its TEXT: its body runs at
                                         most N times each time it is entered
-    size     FUNCTION  REGISTER  N      its loops run as often as the register says at the call, at most N times
-    words    FUNCTION  REGISTER  N      the same, a word at a time where the register holds a multiple of four
-    calls    FUNCTION  CALLEE  N        calls at most N times, each time it is called itself
-    reaches  FUNCTION  CALLEE  INNER  N   of its calls of CALLEE, at most N get to INNER, each time it is called itself
-    total    FUNCTION  CALLEE  N        the one loop of CALLEE, which only FUNCTION gets to, runs at most N times in all
-                                        each time FUNCTION is called
-    targets  FUNCTION  TEXT    CALLEE   what a call through a pointer may reach; "none": it is never made
-    assume   FUNCTION  N       WHY      takes N instructions, not looked into
+    words    FUNCTION  REGISTER         copies as many bytes as the register says at the call, which must be a constant; its
+                                        loops run once for each byte, or for each word if that is a multiple of four
+    calls    FUNCTION  CALLEE  N        each call of FUNCTION calls CALLEE at most N times
+    reaches  FUNCTION  CALLEE  INNER  N   in each call of FUNCTION, at most N of its calls of CALLEE reach INNER
+    total    FUNCTION  CALLEE  N        in each call of FUNCTION, which alone reaches CALLEE, the one loop of CALLEE
+                                        runs at most N times in total
+    targets  FUNCTION  TEXT    CALLEE   a target of a call through a pointer; "none": the call is never made
+    assume   FUNCTION  N       WHY      takes N instructions; not analysed
 """
 
 import re
 
 from wcet.image import Unbounded
 
-KINDS = {"loop": 3, "size": 3, "words": 3, "calls": 3, "reaches": 4, "total": 3, "targets": 3, "assume": 3}
+KINDS = {"loop": 3, "words": 2, "calls": 3, "reaches": 4, "total": 3, "targets": 3, "assume": 3}
 
 
 class Facts:
     """`values` are the numbers that facts may name, such as kDof."""
 
     def __init__(self, path, values):
-        self.values, self.facts, self.used = values, [], set()
+        self.values, self.facts, self._places, self._used = values, [], {}, set()
         for number, line in enumerate(open(path, encoding="utf-8"), 1):
             words = re.split(r"\s{2,}", line.split("#")[0].strip())
             if words != [""]:
                 if KINDS.get(words[0]) != len(words) - 1:
                     raise Unbounded(f"{path}:{number}: not a fact: {line.strip()}")
                 self.facts.append(tuple(words))
+                self._places[tuple(words)] = f"{path}:{number}"
 
     def add(self, *words):
         self.facts.append(words)
 
-    def _of(self, kind, function):
-        for words in self.facts:
-            if words[0] == kind and re.search(words[1], function.written):
-                self.used.add(words)
-                yield words[2:]
+    def use(self, words):
+        """Notes that a fact has changed the analysis."""
+        self._used.add(words)
+
+    def refuse_unused(self):
+        """Refuses facts of the file that nothing in the image needs: its function, line or loop is not there any more."""
+        unused = [f"{place}: {' '.join(words)}" for words, place in self._places.items() if words not in self._used]
+        if unused:
+            raise Unbounded("facts that the image does not need; delete them:\n  " + "\n  ".join(unused))
+
+    def of(self, kind, function):
+        """Returns the facts of a kind about a function, whole."""
+        return [words for words in self.facts if words[0] == kind and re.search(words[1], function.written)]
 
     def number(self, text):
         if text in self.values:
@@ -52,35 +61,36 @@ class Facts:
         return int(text)
 
     def loop(self, function, file, line, text):
-        """The bound of the loop whose header stands here; None if nothing is said."""
-        for where, bound in self._of("loop", function):
-            if f"/{file}:{line}".endswith("/" + where) or re.search(where, text):
-                return self.number(bound)
-        return None
+        """Returns the fact about the loop with this header, or None."""
+        about = lambda where: f"/{file}:{line}".endswith("/" + where) or re.search(where, text)
+        return next((words for words in self.of("loop", function) if about(words[2])), None)
 
     def size(self, function):
-        """(register, largest value, bytes at a time) of a function whose loops an argument bounds, or None."""
-        known = [(r, self.number(n), step) for kind, step in (("words", 4), ("size", 1)) for r, n in self._of(kind, function)]
-        return known[0] if known else None
+        """Returns the register that says how many bytes a function copies, or None if it does not copy."""
+        for words in self.of("words", function):
+            self.use(words)
+            return words[2]
+        return None
 
-    def calls(self, function):
-        return [(callee, self.number(most)) for callee, most in self._of("calls", function)]
-
-    def reaches(self, function):
-        return [(callee, inner, self.number(most)) for callee, inner, most in self._of("reaches", function)]
-
-    def totals(self, function):
-        """(callee, N) of loops that are counted over a whole call of this function."""
-        return [(callee, self.number(most)) for callee, most in self._of("total", function)]
+    def total(self, function):
+        """Returns the functions that a fact says this one is: (callee, N) of loops whose runs are counted over a whole call."""
+        for words in self.of("total", function):
+            self.use(words)
+        return [(words[2], self.number(words[3])) for words in self.of("total", function)]
 
     def counted_above(self, function):
-        """True if the runs of this function's loop are counted over a call of another."""
+        """Returns True if the runs of this function's loop are counted over a call of another function."""
         return any(words[0] == "total" and re.search(words[2], function.written) for words in self.facts)
 
     def targets(self, function, text):
-        """Patterns of what a call through a pointer may reach; None if nothing is said."""
-        found = [callee for pattern, callee in self._of("targets", function) if re.search(pattern, text)]
-        return found or None
+        """Returns patterns of the targets of a call through a pointer, or None without a fact."""
+        found = [words for words in self.of("targets", function) if re.search(words[2], text)]
+        for words in found:
+            self.use(words)
+        return [words[3] for words in found] or None
 
     def assumed(self, function):
-        return next((self.number(cost) for cost, _ in self._of("assume", function)), None)
+        for words in self.of("assume", function):
+            self.use(words)
+            return self.number(words[2])
+        return None

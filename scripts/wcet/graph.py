@@ -8,12 +8,12 @@ from wcet.image import Unbounded
 
 CONDITION = "eq ne cs hs cc lo mi pl vs vc hi ls ge lt gt le".split()
 BRANCHES = {"b"} | {"b" + condition for condition in CONDITION}
-# What a cycle never comes back from; paths that end there are no paths of a cycle.
+# Functions that never return; a path that ends in one is not a path of a cycle.
 NO_RETURN = {"abort", "__assert_fail", "__aeabi_idiv0", "__aeabi_ldiv0"}
 
 
 class Block:
-    """Instructions without a branch among them; where they go on; whether they may leave the function."""
+    """Instructions without a branch between them, their successors, and whether they may leave the function."""
 
     def __init__(self, instructions, successors, leaves):
         self.instructions, self.successors, self.leaves = instructions, successors, leaves
@@ -21,7 +21,7 @@ class Block:
 
 
 class Graph:
-    """Blocks by first address, calls by address of the instruction. A call through a pointer has the target None."""
+    """Blocks by first address; targets of calls by address of the instruction, None for a call through a pointer."""
 
     def __init__(self, image, function):
         self.image, self.function = image, function
@@ -38,7 +38,7 @@ class Graph:
         raise Unbounded(f"{self.function}: {why} at {self.image.place(address)}")
 
     def _follow(self):
-        """Reads every instruction that can be reached, from the first one on."""
+        """Reads every instruction that can be reached from the first one."""
         work = [self.function.begin]
         while work:
             address = work.pop()
@@ -59,7 +59,7 @@ class Graph:
                 address = after
 
     def _end_of(self, i, after):
-        """(successors, leaves) of an instruction that ends a block, None of one that does not."""
+        """Returns (successors, leaves) of an instruction that ends a block, None for any other."""
         name, conditional = i.mnemonic.split(".")[0], i.cc not in (ARM_CC_AL, ARM_CC_INVALID)
         inside = lambda a: self.function.begin <= a < self.function.end
         if name in ("cbz", "cbnz"):
@@ -94,28 +94,35 @@ class Graph:
         return onward, True
 
     def _returns(self, i, name):
-        """True for an instruction that loads the program counter from the stack; any other such load is refused."""
+        """Returns True if the instruction loads the program counter from the stack; refuses loads from elsewhere."""
         into_pc = lambda operands: any(o.type == ARM_OP_REG and o.reg == ARM_REG_PC for o in operands)
         if name.startswith("pop"):
             return into_pc(i.operands)
-        if name.startswith("ldm"):
-            return into_pc(i.operands[1:])
-        if name.startswith(("ldr", "mov", "add")) and into_pc(i.operands[:1]):
-            if not (name.startswith("ldr") and "sp" in i.op_str):
-                self._fail(i.address, "a computed jump")
-            return True
-        return False
+        loads, jumps = name.startswith("ldm"), name.startswith(("ldr", "mov", "add", "sub"))
+        if not into_pc(i.operands[1:] if loads else i.operands[:1] if jumps else []):
+            return False
+        if not re.match(r"sp!, \{" if loads else r"pc, \[sp\], #", i.op_str) or name.startswith(("mov", "add", "sub")):
+            self._fail(i.address, "a computed jump")
+        return True
 
     def _table(self, i):
-        """Targets of a jump table, whose size is that of the comparison before it."""
+        """Returns the targets of a jump table; _checked() gives its size."""
         size, address = 2 if i.mnemonic.startswith("tbh") else 1, i.address + i.size
-        before = [self._code[a] for a in sorted(self._code) if a < i.address][-6:]
-        sizes = [p.operands[1].imm + 1 for p in before if p.mnemonic.startswith("cmp") and p.operands[1].type == ARM_OP_IMM]
-        if not sizes:
-            self._fail(i.address, "a jump table of unknown size")
-        raw = self.image.read(address, size * sizes[-1])
+        raw = self.image.read(address, size * self._checked(i))
         steps = [int.from_bytes(raw[k : k + size], "little") for k in range(0, len(raw), size)]
         return sorted({address + 2 * step for step in steps})
+
+    def _checked(self, i):
+        """Returns the number of entries of a jump table: the instructions before it compare its index and branch if higher."""
+        index, later = i.operands[0].mem.index, i
+        for p in reversed([self._code[a] for a in sorted(self._code) if a < i.address]):
+            if p.address + p.size != later.address or index in p.regs_access()[1]:
+                break
+            compares = p.mnemonic.startswith("cmp") and p.operands[0].reg == index and p.operands[1].type == ARM_OP_IMM
+            if compares and later.mnemonic.startswith("bhi"):
+                return p.operands[1].imm + 1
+            later = p
+        self._fail(i.address, "a jump table of unknown size")
 
     def _cut(self):
         for head in self._heads:

@@ -1,4 +1,4 @@
-"""Times the cycles of tapes on this host, by the executive's own stopwatch, and counts the instructions of some of them by callgrind.
+"""Times the cycles of tapes on this host with the executive's stopwatch, and counts instructions of some with callgrind.
 
 Needs wcet-replay of a board.
 """
@@ -10,7 +10,7 @@ import tempfile
 
 import emulator
 import tape
-from inputs import BUILD, board_of
+from inputs import PIPELINES, board_of
 
 
 def replay(pipeline):
@@ -18,17 +18,17 @@ def replay(pipeline):
 
 
 def times(pipeline, tapes):
-    """(names of what the executive times, a row for every cycle of all tapes, in ns; 0 where something did not run)."""
+    """Returns (names of the timed stages, rows): a row of times in ns for every cycle of all tapes; 0: did not run."""
     with tempfile.TemporaryDirectory() as folder:
         reel, out = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "times"
         tape.write_reel(reel, tapes)
-        subprocess.run([replay(pipeline), BUILD / f"{pipeline}.ini", reel, "times", out], check=True)
+        subprocess.run([replay(pipeline), PIPELINES / f"{pipeline}.ini", reel, "times", out], check=True)
         names, *lines = out.read_text().splitlines()
         return names.split(), [tuple(map(int, line.split())) for line in lines]
 
 
 def inclusive(dump, prefix):
-    """Instructions in the functions that begin so, callees included, of one callgrind dump."""
+    """Returns the instructions, callees included, of the functions with this prefix in one callgrind dump."""
     command = ["callgrind_annotate", "--inclusive=yes", "--threshold=100", dump]
     listing = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     pattern = re.compile(r"^\s*([\d,]+) \([^)]*\)\s+\S*?:" + re.escape(prefix), re.MULTILINE)
@@ -36,13 +36,13 @@ def inclusive(dump, prefix):
 
 
 def counts(pipeline, wanted, stages, tapes):
-    """wanted: {stage: (tape by number, cycle)}; stages: {stage: function's prefix}. {stage: instructions}."""
+    """wanted: {stage: (index of tape, cycle)}; stages: {stage: function's prefix}. Returns {stage: instructions}."""
     cycles = sorted({f"{number}:{cycle}" for number, cycle in wanted.values()})
     with tempfile.TemporaryDirectory() as folder:
         reel, out = pathlib.Path(folder) / "reel", pathlib.Path(folder) / "dump"
         tape.write_reel(reel, tapes)
         command = ["valgrind", "-q", "--tool=callgrind", "--instr-atstart=no", f"--callgrind-out-file={out}"]
-        command += [replay(pipeline), BUILD / f"{pipeline}.ini", reel, "count", *cycles]
+        command += [replay(pipeline), PIPELINES / f"{pipeline}.ini", reel, "count", *cycles]
         subprocess.run(command, check=True, capture_output=True)
         dumps = {}
         for path in pathlib.Path(folder).glob("dump.*"):

@@ -1,4 +1,4 @@
-"""Tapes that seek the longest cycle: made by hand for what is known to take long, and at random from seeds."""
+"""Tapes that seek the longest cycle: made by hand from requests known to take long, and at random from seeds."""
 
 import math
 import random
@@ -6,15 +6,15 @@ import random
 from tape import Tape
 
 READY = {6: (30, -60, 70, -40, -60, 20), 7: (0, -40, 0, -40, 0, 60, 30)}  # away from limits and singularities
-QUINTIC = 3
+CUBIC, QUINTIC = 2, 3
 REST = (0, 0, 0, 0, 0, 0)
-# Pose ports by number: the low half of a byte names the motion frame, the high half the wrench's.
+# Pose ports by number: the low half of a byte names the motion frame, the high half the wrench frame.
 BASE, ALL_FRAMES = 0, 0x22
 POINT, MOVING, EVERYTHING = 0, 3, 7  # fields: position, velocity and acceleration, the wrench too
 
 
 def late(cycles, step, turn=12, fields=EVERYTHING, frames=ALL_FRAMES, count=3):
-    """Arguments of a trajectory that began `cycles` ago and turns a little."""
+    """Returns the arguments of a trajectory that began `cycles` ago and turns a little."""
     waypoints = []
     for i in range(count):
         beside = (step * (i + 1), -step, step, turn, -turn, turn * (i + 1))
@@ -26,7 +26,7 @@ def late(cycles, step, turn=12, fields=EVERYTHING, frames=ALL_FRAMES, count=3):
 
 
 def joined(dof, stream, joins, step):
-    """In one cycle: points that move, then as many trajectories as there are stores, begun some cycles ago."""
+    """Sends in one cycle moving points, then `joins` trajectories that began some cycles ago."""
     tape = Tape().numbers("joints", READY[dof]).cycles(60)
     tape.point(BASE, EVERYTHING, (1, 1, 1, 1, 1, 1) + (4, 3, 2, 4, 3, 2) + (2, 2, 2, 2, 2, 2) + (1, 1, 1, 1, 1, 1))
     tape.cycles(12)
@@ -38,12 +38,12 @@ def joined(dof, stream, joins, step):
 
 
 def at_limits(dof, signs, velocity):
-    """Every joint at a limit and a reference that moves on."""
+    """Puts every joint at a limit and sends a reference that goes on moving."""
     tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(1)
     return tape.point(BASE, 1, (0, 0, 0, 0, 0, 0) + tuple(velocity)).cycles(3)
 
 
-# Corners of the joints' ranges and twists, +-127ths of 1 m/s and 1 rad/s, in which joint after joint is left out.
+# Corners of the joints' ranges, and twists in 127ths of 1 m/s and 1 rad/s that drop one joint after another.
 CORNERED = (
     ((1, -1, 1, -1, 1, 1, 1), (8, 0, 1, 0, -8, 0)),
     ((1, -1, 1, 1, 1, -1, -1), (0, -1, -1, 8, 8, -3)),
@@ -54,7 +54,7 @@ CORNERED = (
 
 
 def all_at_once(dof, signs, velocity, step):
-    """A full mailbox while the joints are at their limits: 13 points, then a trajectory in every store, begun late."""
+    """Fills the mailbox while the joints are at their limits: 13 points, then a trajectory in every store, begun late."""
     tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(60)
     tape.point(BASE, 1, REST + velocity).cycles(12)
     for _ in range(13):
@@ -65,7 +65,7 @@ def all_at_once(dof, signs, velocity, step):
 
 
 def half_wave(count, spacing_s, way, turn, beside):
-    """Waypoints on half a cosine along x and about z, in a frame and beside it, up to rest."""
+    """Returns waypoints on half a cosine along x and about z, offset by `beside` in a frame, that end at rest."""
     k, waypoints = math.pi / (count * spacing_s), []
     for i in range(1, count + 1):
         c, s = math.cos(k * i * spacing_s), math.sin(k * i * spacing_s)
@@ -77,50 +77,63 @@ def half_wave(count, spacing_s, way, turn, beside):
     return waypoints
 
 
-# Spacing of the waypoints, way and turn: within the limits of acceleration of each robot.
+# Spacing of the waypoints, distance and turn, within the acceleration limits of each robot.
 WAVE = {6: (0.002, 0.0013, 0.0022), 7: (0.001, 0.001, 0.0045)}
 
 
-def stopped_while_joining(dof, request):
+def stopped_while_joining(dof, request, wave=None, joints=None, beside=(0.002, 0.001, 0), cycles=12, order=QUINTIC):
     """A path of segments of a cycle or two, joined late from beside it: nearly every place that is looked at ahead lies on
     a segment of its own. It is stopped on before it is joined."""
-    tape = Tape().numbers("joints", READY[dof]).cycles(5)
-    tape.waypoints(ALL_FRAMES, EVERYTHING, QUINTIC, 0.001, half_wave(30, *WAVE[dof], (0.002, 0.001, 0)))
-    return tape.cycles(12).add(request)
+    tape = Tape().numbers("joints", joints or READY[dof]).cycles(5)
+    tape.waypoints(ALL_FRAMES, EVERYTHING, order, 0.001, half_wave(30, *(wave or WAVE[dof]), beside))
+    return tape.cycles(cycles).add(request)
 
 
-# Points and trajectories whose lead-in changes the signs of its derivatives often. It is refused out of the motion, and
-# judged again from where the arm can be stopped. Frames; twist and acceleration of the points; time of the first waypoint,
-# where it is, twist and acceleration there; time of the second; joints left out meanwhile.
-LEAD_INS = (
-    (BASE, (-17, -4, 0, -20, 8, 7), (-38, -49, 41, 17, -14, 44), 47, (27, 13, -2, -5, 7, 2),
-     (0, -12, 25, -21, -29, 25), (21, 29, -52, 50, 55, -38), 152, CORNERED[3][0]),
-)  # fmt: skip
+# By the robot, for judged_twice(): joints, of which one after the other is left out; the path that is stopped on; twist and
+# acceleration of the points; of the lead-in, which takes seconds, where it ends, twist and acceleration there.
+LEAD_INS = {
+    6: dict(
+        path=dict(joints=(127, -127, 70, 127, -127, 127), wave=(0.00133, 0.00156, 0.0022), order=CUBIC),
+        twist=(-17, -4, 0, -20, 8, 7), acceleration=(-38, -49, 41, 17, -14, 44), seconds=11.3,
+        place=(0.05, 0.03, 0.18), turn=(0, 0.024, -0.263), end=(0, -0.56, 0.4, -0.2, 0.06, 0.7),
+        end_acceleration=(0.9, -1.2, -0.7, 0.6, 0.6, -0.2), to_rest=0.6, rest=(-0.2, 0.03, 0)),
+    7: dict(
+        path=dict(joints=(127, 127, -127, 127, 127, 127, 127), wave=(0.001, 0.0012, 0.0045), beside=(0.002, 0.001, 0.002), cycles=16),
+        twist=(-17, -4, 0, -17, 8, 7), acceleration=(-33, -21, 5, -12, -14, 20), seconds=72.49,
+        place=(-0.414, -0.025, -0.072), turn=(-0.5, -0.863, -0.186), end=(0, -0.1, -0.034, -0.2, -0.2, 0.2),
+        end_acceleration=(0.08, -0.82, 0.24, -0.1, -0.7, -2.2), to_rest=2.25, rest=(0.4, 0.023, -0.1)),
+}  # fmt: skip
 
 
-def judged_twice(dof, frames, twist, acceleration, time, beside, end, end_acceleration, second, signs, cycles):
-    """While a dense path is stopped on and joined, joints at their limits, a full mailbox, whose last request is a
-    trajectory with a lead-in that is judged twice."""
-    tape = stopped_while_joining(dof, "pause").cycles(cycles)
-    tape.numbers("joints", [127 * sign for sign in signs[:dof]])
+def judged_twice(path, twist, acceleration, seconds, place, turn, end, end_acceleration, to_rest, rest, cycles):
+    """While a dense path is stopped on and joined and joints are at their limits: as many cancels and points as there is
+    room for, and a trajectory whose lead-in, bounded, would leave the workspace on every axis. It is refused out of the
+    motion, and judged again, to its extrema, from where the arm can be stopped."""
+    tape = stopped_while_joining(len(path["joints"]), "pause", **path).cycles(cycles)
+    for _ in range(16):
+        tape.add("cancel")
     for _ in range(14):
         tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + twist + (2, 2, 2, 2, 2, 2) + REST)
     tape.point(BASE, EVERYTHING, REST + twist + acceleration + (1, 1, 1, 1, 1, 1))
-    waypoints = [(time, beside + end + end_acceleration + (5, 4, 3, 2, 1, 1)), (second, beside + REST + REST + REST)]
-    return tape.trajectory(frames, EVERYTHING, QUINTIC, 0, waypoints).cycles(2)
+    angle = math.hypot(*turn)
+    turned = (math.cos(angle / 2), *(math.sin(angle / 2) / angle * x for x in turn))
+    wrench = (5, 4, 3, 2, 1, 1, *REST)
+    waypoints = [(seconds, *place, *turned, *end, *end_acceleration, *wrench)]
+    waypoints += [(seconds + to_rest, *rest, 1, 0, 0, 0, *REST, *REST, *wrench)]
+    return tape.waypoints(ALL_FRAMES, EVERYTHING, QUINTIC, -math.inf, waypoints).cycles(2)
 
 
 def by_hand(dof):
     tapes = [joined(dof, stream, joins, step) for stream in (0, 1, 13) for joins in (1, 3) for step in (1, 4, 12)]
     signs = (1, -1, 1, -1, 1, -1, 1)
     tapes += [at_limits(dof, turned, v) for turned in (signs, [-s for s in signs]) for v in ((90, 60, -60) * 2, REST)]
-    tapes += [judged_twice(dof, *lead_in, cycles) for lead_in in LEAD_INS for cycles in (1, 2, 3)]
+    tapes += [judged_twice(**LEAD_INS[dof], cycles=cycles) for cycles in (1, 2, 3)]
     tapes += [stopped_while_joining(dof, request).cycles(40) for request in ("pause", "cancel")]
     return tapes + [all_at_once(dof, corner, twist, step) for corner, twist in CORNERED for step in (1, 12)]
 
 
 def random_state(rng, tape, dof):
-    """Joints anywhere, many of them at a limit, and what else is measured."""
+    """Sets random joints, many of them at a limit, and at times velocities and wrench."""
     wide = rng.choice((0.0, 0.3, 0.9))
     joints = [rng.choice((-127, 127)) if rng.random() < wide else rng.randint(-127, 127) for _ in range(dof)]
     tape.numbers("joints", joints)
@@ -152,7 +165,7 @@ def random_request(rng, tape):
 
 
 def at_random(dof, seed):
-    """Deterministic for a seed."""
+    """Returns a random tape, the same for the same seed."""
     rng = random.Random(seed)
     tape = Tape()
     if rng.random() < 0.5:

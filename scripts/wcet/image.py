@@ -14,11 +14,11 @@ NOWHERE = 0xFFFFFFFF
 
 
 class Unbounded(Exception):
-    """What has no bound, with the place."""
+    """Something has no bound; the message names the place."""
 
 
 class Function:
-    """One function of the image: name as linked, name as written, first address, end."""
+    """A function of the image: linked name, written name, first address, end."""
 
     def __init__(self, symbol, written, begin, end):
         self.symbol, self.written, self.begin, self.end = symbol, written, begin, end
@@ -38,13 +38,14 @@ class Image:
                 (s["p_vaddr"], s.data()) for s in elf.iter_segments() if s["p_type"] == "PT_LOAD" and s["p_filesz"]
             ]
             symbols = list(elf.get_section_by_name(".symtab").iter_symbols())
+            refuse_merged(elf, self.path)
             self._ends = sorted(s["sh_addr"] + s["sh_size"] for s in elf.iter_sections() if s["sh_flags"] & 4)
         self.functions = self._read_functions(symbols)
         self.decoder = capstone.Cs(capstone.CS_ARCH_ARM, capstone.CS_MODE_THUMB | capstone.CS_MODE_MCLASS)
         self.decoder.detail = True
 
     def _read_functions(self, symbols):
-        """By first address. A function of assembly that states no size ends where the next one begins."""
+        """Returns the functions by first address. One without a size (assembly) ends where the next one begins."""
         found = [s for s in symbols if s["st_info"]["type"] == "STT_FUNC"]
         begins = sorted({s["st_value"] & ~1 for s in found})
         written = demangled([s.name for s in found])
@@ -60,7 +61,7 @@ class Image:
         return self.functions.get(address)
 
     def matching(self, pattern):
-        """The functions whose written name matches the whole pattern, by address."""
+        """Returns the functions whose written name contains a match of the pattern, by address."""
         return [f for _, f in sorted(self.functions.items()) if re.search(pattern, f.written)]
 
     def read(self, address, size):
@@ -70,7 +71,7 @@ class Image:
         raise Unbounded(f"the image has no bytes at 0x{address:x}")
 
     def decode(self, address, end):
-        """The instruction at an address; None if there is none. What stands in an IT block has its condition."""
+        """Returns the instruction at an address, or None; one in an IT block has its condition."""
         if address in self._conditional:
             return self._conditional[address]
         found = next(self.decoder.disasm(self.read(address, min(4, end - address)), address, 1), None)
@@ -81,7 +82,7 @@ class Image:
         return found
 
     def learn_places(self, addresses):
-        """Asks one process for all of them; what it answers to a number that is no address ends its answer."""
+        """Asks one addr2line process for all places; its answer to an address outside the image ends each answer."""
         for address in sorted(set(addresses) - set(self._places)):
             self._addr2line.stdin.write(f"{address:x}\n{NOWHERE:x}\n")
             self._addr2line.stdin.flush()
@@ -94,12 +95,12 @@ class Image:
             self._addr2line.stdout.readline()
 
     def places(self, address):
-        """Source file and line of an address, then those of the calls that were inlined around it."""
+        """Returns source file and line of an address, then those of the calls it was inlined into."""
         self.learn_places([address])
         return self._places.get(address, [])
 
     def place(self, address):
-        """The same as text: the innermost place, and the first within the project if it is another."""
+        """Returns the innermost place as text, and the first place within the project if it is another."""
         chain = self.places(address)
         if not chain:
             return f"0x{address:x}"
@@ -110,7 +111,7 @@ class Image:
 
 @functools.lru_cache(maxsize=None)
 def relative(file):
-    """A path of the project from its root, wherever it was compiled; another one as it is."""
+    """Returns a path of the project relative to its root, wherever it was compiled; other paths unchanged."""
     parts = pathlib.Path(file).parts
     for first in range(1 if parts[0] == "/" else 0, len(parts)):
         if parts[1:2] != ("usr",) and ROOT.joinpath(*parts[first:]).is_file():
@@ -118,7 +119,25 @@ def relative(file):
     return os.path.normpath(file)
 
 
+def refuse_merged(elf, path):
+    """Refuses code of ours whose equal functions the compiler may have merged: their LoopBounds may differ."""
+    for unit in elf.get_dwarf_info().iter_CUs() if elf.has_dwarf_info() else []:
+        about = unit.get_top_DIE().attributes
+        name, producer = (about[key].value.decode() if key in about else "" for key in ("DW_AT_name", "DW_AT_producer"))
+        if name.endswith(".cpp") and not name.startswith("/") and "-fno-ipa-icf" not in producer:
+            raise Unbounded(f"{path}: equal functions may be merged, whose bounds differ: compile {name} with -fno-ipa-icf")
+
+
 def demangled(symbols):
     return subprocess.run(
         ["c++filt"], input="\n".join(symbols), capture_output=True, text=True, check=True
     ).stdout.splitlines()
+
+
+@functools.lru_cache(maxsize=None)
+def source_line(file, line):
+    """Returns a line of one of our sources; "" for other files."""
+    if file.startswith("/"):
+        return ""
+    lines = (ROOT / file).read_text(encoding="utf-8").splitlines()
+    return lines[line - 1] if 0 < line <= len(lines) else ""

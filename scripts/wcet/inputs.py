@@ -1,36 +1,45 @@
-"""What the worst case of a pipeline is sought among: a recorded run, hostile tapes, and those a search has found."""
+"""The tapes among which the worst case of a pipeline is sought: a recorded run, hostile tapes, and results of searches."""
 
 import pathlib
 import re
 
 import hostile
+import joints
 
 SEEDS = 150
-RUN = "run"  # the tape of the run: what is typical
+RUN = "run"  # the tape of the recorded run, which defines the typical cycle
 CORPUS = pathlib.Path(__file__).resolve().parents[2] / "tests/wcet/corpus"
 BUILD = pathlib.Path("build/wcet")
-DOF = {"fer": 7, "ur10": 6}
+PIPELINES = pathlib.Path("pipelines")
 
 
 def pipeline_text(pipeline):
-    return (BUILD / f"{pipeline}.ini").read_text(encoding="utf-8")
+    return (PIPELINES / f"{pipeline}.ini").read_text(encoding="utf-8")
+
+
+def robot_of(pipeline):
+    return re.search(r"^name\s*=\s*(\w+)", pipeline_text(pipeline), re.MULTILINE)[1]
 
 
 def board_of(pipeline):
-    """The board that a pipeline's images are built for."""
-    return re.search(r"^name\s*=\s*(\w+)", pipeline_text(pipeline), re.MULTILINE)[1] + "_sim"
+    """Returns the board for which a pipeline's images are built."""
+    return robot_of(pipeline) + "_sim"
+
+
+def hand_tapes(pipeline):
+    """Returns {name: bytes} of the tapes made by hand."""
+    dof = joints.count(robot_of(pipeline))
+    return {f"hand-{i}": tape.data for i, tape in enumerate(hostile.by_hand(dof))}
 
 
 def hostile_tapes(pipeline):
-    """{name: bytes} of those made by hand and by seed."""
-    dof = DOF[board_of(pipeline).removesuffix("_sim")]
-    tapes = {f"hand-{i}": tape.data for i, tape in enumerate(hostile.by_hand(dof))}
-    tapes |= {f"seed-{seed}": hostile.at_random(dof, seed).data for seed in range(SEEDS)}
-    return tapes
+    """Returns {name: bytes} of the tapes made by hand and from seeds."""
+    dof = joints.count(robot_of(pipeline))
+    return hand_tapes(pipeline) | {f"seed-{seed}": hostile.at_random(dof, seed).data for seed in range(SEEDS)}
 
 
 def found_tapes(pipeline):
-    """{name: bytes} of those that a search has found and somebody kept."""
+    """Returns {name: bytes} of the tapes that a search found and that were kept."""
     return {path.stem: path.read_bytes() for path in sorted((CORPUS / pipeline).glob("*.tape"))}
 
 

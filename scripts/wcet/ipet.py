@@ -1,24 +1,27 @@
-"""The longest path through a function, by implicit path enumeration [Li and Malik 1995]: how often each block runs is an
-integer, what flows into a block flows out of it, loops run as often as they may; the sum of all costs is maximised.
+"""The longest path through a function, by implicit path enumeration [Li and Malik 1995]: the number of runs of each block
+is an integer variable, the flow into a block equals the flow out of it, loop bounds limit the runs, and the sum of all
+costs is maximised.
 
-Callees come first. What has no bound is an error that names the place.
+Callees are bounded first. Code without a bound is an error that names the place.
 """
 
-import functools
 import re
 
-from wcet import constants, walk
+from wcet import counters, walk
 from wcet.graph import Graph
-from wcet.image import ROOT, Unbounded
+from wcet.image import Unbounded, source_line
 from wcet.loops import loops
 from wcet.program import Program
+from wcet.stated import Stated
+from wcet.values import Values
 
 
+WORD = 4  # bytes
 MANY = 10  # runs of a loop after which each further one costs the same
 
 
 def either(*patterns):
-    """A pattern of what one of these matches."""
+    """Returns a pattern that matches what one of these matches."""
     return "|".join(f"(?:{p})" for p in patterns if p)
 
 
@@ -26,15 +29,17 @@ class Analysis:
     """`cost` gives the cost of one instruction; `shared` are the graphs of another analysis of the same image."""
 
     def __init__(self, image, sources, facts, cost, shared=None):
-        self.image, self.sources, self.facts, self.cost = image, sources, facts, cost
-        self.graphs, self._loops = shared or ({}, {})
+        self.image, self.facts, self.cost = image, facts, cost
+        self._stated = Stated(image, sources, facts)
+        self.graphs, self._loops, self._values = shared or ({}, {}, {})
         self.bounds, self._active = {}, []
+        self.loop_claims, self.sizes = {}, {}  # what claims.py lists
 
     def shared(self):
-        return self.graphs, self._loops
+        return self.graphs, self._loops, self._values
 
     def largest(self):
-        """The bound of every function that was looked into, by its linked name."""
+        """Returns the bound of every analysed function, by its linked name."""
         found = {}
         for begin, bound in ((key[0], bound) for key, bound in self.bounds.items() if bound is not None):
             name = self.image.function_at(begin).symbol
@@ -48,8 +53,14 @@ class Analysis:
             self._loops[function.begin] = loops(graph)
         return self.graphs[function.begin]
 
+    def values(self, graph):
+        begin = graph.function.begin
+        if begin not in self._values:
+            self._values[begin] = Values(graph, self._loops[begin])
+        return self._values[begin]
+
     def bound(self, function, size=None, without=None):
-        """The largest cost of one call, that of its callees included; `without` is what it does not get to."""
+        """Returns the largest cost of one call, callees included; `without`: functions that it does not reach."""
         if without and not self._reaches(function, without):
             without = None
         if size is None and self.facts.counted_above(function):
@@ -71,7 +82,7 @@ class Analysis:
         return self.bounds[key]
 
     def _walk(self, graph):
-        """The longest way by what the code does with its counters; None if they do not say it."""
+        """Returns the longest path according to the counters of the code; None if they do not determine it."""
         def called(block, i):
             callees = self.callees(graph, i.address)
             return self._dearest(graph, callees, block, i, None) or 0
@@ -84,7 +95,7 @@ class Analysis:
         return walk.longest(graph, costs.get, called, feasible)
 
     def _reaches(self, function, pattern):
-        """True if a function that matches can be called from here on."""
+        """Returns True if the function can reach one that matches."""
         work, seen = [function], set()
         while work:
             here = work.pop()
@@ -99,17 +110,17 @@ class Analysis:
 
     def _solve(self, function, size, without):
         graph = self.graph(function)
-        program, rare, sites = Program(graph), self.facts.reaches(function), []
+        program, rare, sites = Program(graph), self.facts.of("reaches", function), []
         for head, block in graph.blocks.items():
             cost, feasible = sum(map(self.cost, block.instructions)), True
             for i in block.instructions:
                 if i.address not in graph.calls:
                     continue
                 callees = self._left(graph, i.address, without)
-                limit = next((r for r in rare if any(re.search(r[0], f.written) for f in callees)), None)
+                limit = next((r for r in rare if any(re.search(r[2], f.written) for f in callees)), None)
                 full = usual = self._dearest(graph, callees, block, i, without)
                 if limit:
-                    rest = either(without, limit[1])
+                    rest = either(without, limit[3])
                     usual = self._dearest(graph, self._left(graph, i.address, rest), block, i, rest)
                 feasible = feasible and full is not None
                 if len(callees) > 1 and not limit:
@@ -119,15 +130,26 @@ class Analysis:
                     continue
                 sites += [(f"x_{head:x}", f) for f in callees]
                 if full != usual:
-                    program.rarely(head, (full or 0) - (usual or 0), limit, always=usual is None)
+                    self.facts.use(limit)
+                    program.rarely(head, (full or 0) - (usual or 0), (*limit, self.facts.number(limit[4])), always=usual is None)
                 cost += usual or 0
             program.block(head, block, cost, feasible)
-        for group, most, scope in self._groups(graph, size):
-            program.loop(group, most)
-            if scope:
-                program.sum_of_runs(group[0], most, scope)
-        for pattern, most in self.facts.calls(function):
-            program.at_most([runs for runs, callee in sites if re.search(pattern, callee.written)], most)
+        loops_here = self._loops[function.begin]
+        if size is not None:
+            for loop in loops_here:
+                program.loop([loop], size)
+        elif loops_here:
+            counted = counters.of(graph, self.values(graph), loops_here)
+            for loop, most in counted.items():
+                program.goes_back([loop], most)
+            for group, most in self._stated.groups(graph, loops_here, counted):
+                program.loop(group, most)
+            self.loop_claims[function.begin] = program.claims
+        for fact in self.facts.of("calls", function):
+            called = [runs for runs, callee in sites if re.search(fact[2], callee.written)]
+            program.at_most(called, self.facts.number(fact[3]))
+            if called:
+                self.facts.use(fact)
         longest = program.solve(function)
         if longest is not None and self._loops[function.begin] and size is None and not without and not rare:
             walked = self._walk(graph)
@@ -135,44 +157,44 @@ class Analysis:
         if longest is None and not without:
             raise Unbounded(f"{function}: no path leads through it")
         if longest is not None:
-            longest += sum(most * self._of_one_run(callee) for callee, most in self.facts.totals(function))
+            longest += sum(most * self._of_one_run(callee) for callee, most in self.facts.total(function))
         return longest
 
     def _of_one_run(self, pattern):
-        """What each further run of the one loop of a function costs at most."""
+        """Returns the largest cost of each further run of a function's only loop."""
         costs = []
         for callee in self.image.matching(pattern):
             self.graph(callee)
             if len(self._loops[callee.begin]) != 1:
-                raise Unbounded(f"{callee}: not one loop, whose runs could be counted over several calls")
+                raise Unbounded(f"{callee}: it needs exactly one loop, so that runs can be counted over several calls")
             costs.append(self.bound(callee, MANY + 1) - self.bound(callee, MANY))
         if not costs:
             raise Unbounded(f"{self.image.path}: no function matches {pattern}")
         return max(costs)
 
     def _dearest(self, graph, callees, block, call, without):
-        """The largest bound of what is called here; None if all of it gets to `without`."""
+        """Returns the largest bound of the functions called here; None if all of them reach `without`."""
         bounds = [self.bound(f, self._size_at(graph, f, block, call), without) for f in callees]
         return max((b for b in bounds if b is not None), default=None)
 
     def _left(self, graph, address, without):
-        """What a call may reach but for what matches `without`."""
+        """Returns the possible callees that do not match `without`."""
         return [f for f in self.callees(graph, address) if not (without and re.search(without, f.written))]
 
     def callees(self, graph, address):
-        """What a call may reach; nothing if it is never made."""
+        """Returns the possible callees; none if the call is never made."""
         target = graph.calls[address]
         if target is None:
             return self._pointed_to(graph, address)
         callee = self.image.function_at(target)
         if callee is None:
-            raise Unbounded(f"{graph.function}: a call of what is no function at {self.image.place(address)}")
+            raise Unbounded(f"{graph.function}: a call whose target is not a function at {self.image.place(address)}")
         return [callee]
 
     def _pointed_to(self, graph, address):
         patterns = self.facts.targets(graph.function, self._source_line(address))
         if patterns is None:
-            raise Unbounded(f"{graph.function}: a call through a pointer, without targets, at {self.image.place(address)}")
+            raise Unbounded(f"{graph.function}: a call through a pointer without known targets at {self.image.place(address)}")
         if patterns == ["none"]:
             return []
         callees = [f for pattern in patterns for f in self.image.matching(pattern)]
@@ -184,62 +206,13 @@ class Analysis:
         return next((source_line(*place) for place in self.image.places(address) if source_line(*place)), "")
 
     def _size_at(self, graph, callee, block, call):
-        """The constant that a copying function is given in a register at this call, or the largest there is."""
-        sized = self.facts.size(callee)
-        if sized is None:
+        """Returns how often the loops of a copying function run in this call, by the size that a register holds."""
+        register = self.facts.size(callee)
+        if register is None:
             return None
-        register, most, step = sized
-        constant = constants.at(graph, block, call.address, register)
-        size = most if constant is None else min(most, constant)
-        return size if constant is None or constant % step else size // step
-
-    def _groups(self, graph, size):
-        """Loops with their bounds; those nested loops in one that GCC made of one loop of the source."""
-        groups = []
-        for loop in self._loops[graph.function.begin]:
-            instance, most = self._bound_of(graph, loop, size)
-            outer = next((g for g in groups if g[0] == instance and loop.blocks < g[1][0].blocks), None)
-            if outer:
-                outer[1].append(loop)
-            else:
-                groups.append((instance, [loop], most, self._scope(instance, loop, groups)))
-        return [(group, most, scope) for _, group, most, scope in groups]
-
-    def _runs(self, graph, source, address):
-        try:
-            return self.sources.bound(source)
-        except Unbounded as error:
-            raise Unbounded(f"{graph.function}: {error}, at {self.image.place(address)}") from None
-
-    def _scope(self, instance, loop, outer):
-        """The outermost loop around, in the function that owns the LoopBound this loop was given by reference."""
-        name = self.sources.shared(instance[0]) if len(instance) > 1 and hasattr(instance[0], "body") else None
-        for around, parts, *_ in outer if name else []:
-            owned = hasattr(around[0], "before") and re.search(rf"LoopBound<[^;>]+>\s+{name};", around[0].before)
-            if owned and loop.blocks < parts[0].blocks and around[1:] == instance[2:]:
-                return parts[0]
-        return None
-
-    def _bound_of(self, graph, loop, size):
-        """The loop of the source that this one is, with what it was inlined into, and how often it runs."""
-        if size is not None:
-            return (loop.head,), size
-        ways = [graph.blocks[b].last for b in loop.back] + [graph.blocks[b].last for b in sorted(loop.leaving)]
-        for address in ways:
-            chain = self.image.places(address)
-            for depth, (file, line) in enumerate(chain):
-                if (known := self.facts.loop(graph.function, file, line, source_line(file, line))) is not None:
-                    return (file, line, *chain[depth + 1 :]), known
-                if source := self.sources.at(file, line):
-                    return (source, *chain[depth + 1 :]), self._runs(graph, source, address)
-        where = " or ".join(dict.fromkeys(self.image.place(a) for a in ways[:2]))
-        raise Unbounded(f"{graph.function}: a loop without a bound at {where}")
-
-
-@functools.lru_cache(maxsize=None)
-def source_line(file, line):
-    """A line of a source of ours; nothing of others."""
-    if file.startswith("/"):
-        return ""
-    lines = (ROOT / file).read_text(encoding="utf-8").splitlines()
-    return lines[line - 1] if 0 < line <= len(lines) else ""
+        base, size = self.values(graph).before(block, call).get(register)
+        if base is not None:
+            place = self.image.place(call.address)
+            raise Unbounded(f"{graph.function}: {callee} of an unknown size at {place}; copy objects whose size is constant")
+        self.sizes[call.address] = size if size % WORD else size // WORD
+        return self.sizes[call.address]

@@ -1,4 +1,4 @@
-"""The kinds of blocks: the class of each by its word in a pipeline file."""
+"""The classes of all kinds of blocks, by their type in a pipeline file."""
 
 import pathlib
 import re

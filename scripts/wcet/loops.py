@@ -1,10 +1,10 @@
-"""The loops of a graph: strongly connected parts, and those that remain within them without their heads."""
+"""The loops of a graph: its strongly connected parts, and those that remain inside each without its head."""
 
 from wcet.image import Unbounded
 
 
 class Loop:
-    """A loop of the binary: its head, its blocks, the edges that enter it and those that go back to its head."""
+    """A loop of the binary: its head, its blocks, and the edges that enter it, leave it and go back to its head."""
 
     def __init__(self, graph, head, blocks):
         self.head, self.blocks = head, blocks
@@ -12,14 +12,16 @@ class Loop:
         self.entering = [(p, head) for p in graph.before[head] if p not in blocks]
         self.leaving = {b for b in blocks if any(s not in blocks for s in graph.blocks[b].successors)}
         self.leaving |= {b for b in blocks if graph.blocks[b].leaves}
+        self.tests = set()  # the leaving blocks that are known to end with the test of the loop's header
 
     def tested_at_end(self):
-        """Every way back may also leave, and nothing else does: it is tested after each run, not before."""
-        return set(self.back) >= self.leaving and all(b in self.leaving for b in self.back)
+        """Returns True if the loop is tested after each run, not before: every way back may leave, and nothing else may by
+        the test of the header, though the body may return."""
+        return (set(self.back) >= self.leaving or set(self.back) == self.tests) and self.leaving >= set(self.back)
 
 
 def loops(graph):
-    """All loops, outer ones first. One that is entered at several places has no head and is refused."""
+    """Returns all loops, outer ones first. A loop that is entered at several places has no head and is refused."""
     found = []
 
     def walk(nodes):
@@ -37,7 +39,7 @@ def loops(graph):
 
 
 def connected(graph, nodes):
-    """Strongly connected parts of more than one block, or of one that follows itself. [Tarjan 1972, without recursion]"""
+    """Returns strongly connected parts of several blocks, or of one that follows itself. [Tarjan 1972, not recursive]"""
     index, low, stack, waiting, parts = {}, {}, [], set(), []
     successors = lambda node: iter([s for s in graph.blocks[node].successors if s in nodes])
     for root in sorted(nodes):

@@ -1,4 +1,4 @@
-"""What a pipeline file says of a cycle: how often each kind of block steps in it, and under which names."""
+"""Facts from a pipeline file about its cycle: the blocks that step in it, and their names."""
 
 import pathlib
 import re
@@ -8,7 +8,7 @@ from wcet.kinds import kinds
 
 
 def sections(path):
-    """[(name, {key: value})] of the file, in order."""
+    """Returns [(name, {key: value})] of the file, in order."""
     found = []
     for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
         line = line.split("#")[0].strip()
@@ -20,21 +20,21 @@ def sections(path):
 
 
 def blocks(path):
-    """(section, class) of every block of the file, in order."""
+    """Returns (section, class) of every block of the file, in order."""
     table = kinds()
     typed = [(name, keys["type"]) for name, keys in sections(path) if "type" in keys]
     for name, word in typed:
         if word not in table:
-            raise Unbounded(f"{path}: [{name}]: {word} is no kind of block")
+            raise Unbounded(f"{path}: [{name}]: unknown type '{word}'")
     return [(name, table[word]) for name, word in typed]
 
 
 def tell(facts, path):
-    """Adds what the file says: as many steps as it has blocks, of each kind as many as it has; and what its settings,
-    which no cycle changes, rule out."""
+    """Adds the facts of the file: the number of blocks, in total and of each kind, and the paths that its settings, which
+    no cycle changes, rule out."""
     steps, keys = blocks(path), dict(sections(path))
     facts.add("loop", r"Pipeline::(step|brake)\(", r"i < count_", str(len(steps)))
-    facts.add("loop", r"Executive::", r"i < pipeline_\.schedule\.count\(\)", str(2 + ("collision" in keys)))
+    facts.add("loop", r"Executive::", r"i < pipeline_\.schedule\.count\(\)", str(1 + ("collision" in keys)))
     tell_collision(facts, path)
     for kind in kinds().values():
         count = sum(kind == step for _, step in steps)
@@ -43,25 +43,32 @@ def tell(facts, path):
         if kind.endswith("ReferenceGenerator"):
             facts.add("calls", r"Pipeline::brake\(", rf"ReferenceGenerator<tactus::{space}>::brake\(", str(count))
     for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
-        if command not in keys.get("robot", {}):  # the guard limits what the robot takes
-            facts.add("calls", r"tactus::Guard::", rf"{limiter}::next\(", "0")
-    if not any(section.get("online") == "limit" for section in keys.values()):  # points are put out as they come
+        if command not in keys.get("robot", {}):  # the guard limits only this kind of command
+            facts.add("calls", r"tactus::Guard::", rf"{limiter}::(next|brake|follows)\(", "0")
+    if not any(section.get("online") == "limit" for section in keys.values()):  # points are not shaped
         facts.add("calls", r"ReferenceGenerator<.*>::(take_requests|take_point)\(", r"Motion<.*>::reach\(", "0")
-    if "JointReferenceGenerator" not in [kind for _, kind in steps]:  # an offset of the tip has room without bounds
+        facts.add("calls", r"Motion<.*>::", r"PointStream<.*>::target\(", "0")  # to which only reach() adds
+        facts.add("calls", r"Motion<.*>::move_on\(", r"Motion<.*>::can_leave\(", "0")  # what only reach() makes it ask
+    if "JointReferenceGenerator" not in [kind for _, kind in steps]:  # an offset of the tip has no position limits
         facts.add("loop", r"tactus::plan_inside\(", r"i < kHalvings", "0")
 
 
+def robot(path):
+    """The name of the robot that the file is for."""
+    return dict(sections(path))["robot"]["name"]
+
+
 def robot_capsules(robot):
-    """The link of every capsule of a robot's table, and the tool, the link after the last."""
-    table = (ROOT / "kernel/model" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
+    """Returns the link of every capsule of a robot's table, and the tool's, which comes after the last."""
+    table = (ROOT / "kernel/robots" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
     links = [int(link) for link in re.findall(r"^\s*\{(\d+),\s*\{", table, re.MULTILINE)]
     return [*links, max(links) + 1]
 
 
 def tell_collision(facts, path):
-    """How many shapes a check of collisions looks at, and how often it iterates: two support points each time."""
+    """Adds the number of shapes in a collision check, and of its iterations: each takes two support points."""
     keys, boxes = dict(sections(path)), sum(word == "BoxObstacle" for _, word in blocks(path))
-    links = robot_capsules(keys["robot"]["name"])
+    links = robot_capsules(robot(path))
     pairs = sum(second - first >= 2 for i, second in enumerate(links) for first in links[:i])
     pairs += boxes * sum(link > 0 for link in links)
     default = re.search(r"support_calls = (\d+);", (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8"))
@@ -73,8 +80,8 @@ def tell_collision(facts, path):
 
 
 def stages(analysis, steps):
-    """The bound of every stage: of each block, of the guard's check and limit, of the cycle without rows, of the row that
-    checks collisions, and of the whole."""
+    """Returns the bounds of all stages: each block, the guard's check and limit, the cycle without rows, the row that
+    checks collisions, and the whole."""
     def largest(pattern, without=None):
         found = analysis.image.matching(pattern)
         if not found:

@@ -1,4 +1,4 @@
-"""The integer program whose optimum is the longest path through a graph, solved by glpsol."""
+"""The integer program whose optimum is the longest path through a graph; glpsol solves it."""
 
 import pathlib
 import re
@@ -14,6 +14,7 @@ class Program:
     def __init__(self, graph):
         self.graph, self.objective, self.rows, self.variables = graph, [], [], {"in"}
         self._rare, self._costs, self._plain = {}, {}, True
+        self.claims = []  # (loops, how often they go back)
 
     def block(self, head, block, cost, feasible):
         edges_in = [f"e_{p:x}_{head:x}" for p in self.graph.before[head]] + (["in"] if head == self.graph.function.begin else [])
@@ -27,7 +28,7 @@ class Program:
             self.rows.append(f"{runs} = 0")
 
     def rarely(self, head, more, limit, always):
-        """Some runs of the block, or all, cost more; of all blocks under this limit as many as it says."""
+        """Lets some runs of the block, or all, cost more; the limit bounds their number over all its blocks."""
         rare, self._plain = self._rare.setdefault(limit, []), False
         runs = f"y{len(rare)}_{head:x}"
         rare.append(runs)
@@ -36,7 +37,7 @@ class Program:
         self.objective.append(f"{more} {runs}")
 
     def choice(self, head, costs):
-        """Each run of the block makes one of these calls, of whatever cost; their variables."""
+        """Lets each run of the block make one of these calls; returns their variables."""
         self._plain = False
         runs = [f"c{len(self.rows)}_{k}_{head:x}" for k in range(len(costs))]
         self.variables.update(runs)
@@ -45,20 +46,18 @@ class Program:
         return runs
 
     def loop(self, group, most):
-        """The ways back, of all loops of the group, for each entry of the outermost."""
-        self._plain = False
-        back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]
-        entering = [f"e_{p:x}_{s:x}" for p, s in group[0].entering]
-        entering += ["in"] if group[0].head == self.graph.function.begin else []
+        """Bounds the runs of all loops of the group together, for each entry of the outermost."""
         often = most - 1 if len(group) == 1 and group[0].tested_at_end() else most
-        self.rows.append(" + ".join(back) + "".join(f" - {max(often, 0)} {e}" for e in entering) + " <= 0")
+        self.goes_back(group, max(often, 0))
 
-    def sum_of_runs(self, loop, most, scope):
-        """All runs of a loop's body, for each entry of the scope, a loop around it."""
-        runs = [f"x_{loop.head:x}"] if loop.tested_at_end() else [f"e_{b:x}_{loop.head:x}" for b in loop.back]
-        entering = [f"e_{p:x}_{s:x}" for p, s in scope.entering]
-        entering += ["in"] if scope.head == self.graph.function.begin else []
-        self.rows.append(" + ".join(runs) + "".join(f" - {most} {e}" for e in entering) + " <= 0")
+    def goes_back(self, group, often):
+        """Bounds the edges back of all loops of the group, for each entry of the outermost."""
+        self._plain, outer = False, group[0]
+        self.claims.append((group, often))
+        back = [f"e_{b:x}_{part.head:x}" for part in group for b in part.back]
+        entering = [f"e_{p:x}_{s:x}" for p, s in outer.entering]
+        entering += ["in"] if outer.head == self.graph.function.begin else []
+        self.rows.append(" + ".join(back) + "".join(f" - {often} {e}" for e in entering) + " <= 0")
 
     def at_most(self, variables, most):
         if variables:
@@ -66,7 +65,7 @@ class Program:
             self.rows.append(f"{' + '.join(variables)} <= {most}")
 
     def solve(self, function):
-        """The cost of the longest path; None if there is no path."""
+        """Returns the cost of the longest path; None if there is no path."""
         if self._plain:
             return self._longest_without_loops()
         for (*_, most), rare in self._rare.items():
@@ -86,7 +85,7 @@ class Program:
         return round(float(found[1]))
 
     def _longest_without_loops(self):
-        """The same where no loop and nothing else is to be counted: block by block, those that follow first."""
+        """Solves a program without loops or other bounds block by block, successors first."""
         longest, work = {}, [self.graph.function.begin]
         while work:
             head = work[-1]

@@ -1,39 +1,47 @@
-"""How often a loop of our sources runs, read from the loop itself.
+"""Reads from a loop of our sources the LoopBound that it names; the tests check the number as they run.
 
-    for (int i = 0; i < kDof; ++i)            counts between constants: nothing more to say
-    for (const double x : {a, b, c})          counts its list
-    while (found - before > 1) {              anything else names its bound, which the tests check as they run:
-      halvings.tick();                          LoopBound<31> halvings; stands before the loop
+    LoopBound<15> halvings;
+    while (found - before > 1) {
+      halvings.tick();
 
-A LoopBound that a function is given by reference bounds the sum of all loops that tick it.
+The form is narrow, so that every run of the body ticks exactly once: one header on a line, the tick first in the body, one
+declaration in sight of it. Whatever else is refused, with a remedy.
 """
 
+import ast
 import functools
+import operator
 import re
 
 from wcet.image import ROOT, Unbounded
 
-CONSTANT = re.compile(r"constexpr\s+(?:std::size_t|int|Eigen::Index)\s+(k\w+)\s*=\s*([^;]+);")
+INTEGER = r"(?:std::size_t|std::int32_t|std::uint32_t|int|Eigen::Index)"
+CONSTANT = re.compile(rf"constexpr\s+{INTEGER}\s+(k\w+)\s*=\s*([^;]+);")
 ANOTHER = re.compile(r"\b(k\w+)\s*=\s*((?:(?!,\s*k\w+\s*=).)+)", re.DOTALL)
-ARRAY = re.compile(r"std::array<[^;{}()]*?,\s*([^<>;]+?)>\s*&?\s*(\w+)\s*[;{=(,)]")
-ALIAS = re.compile(r"using\s+(\w+)\s*=\s*std::array<[^;]*?,\s*([^<>;]+?)>;")
+DECLARED = r"\b(?!return\b|case\b)\w+\s+%s\s*(?:=(?!=)|[,;{(>]|\s\w)"
 HEADER = re.compile(r"\b(for|while)\s*\(")
+IGNORED = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])+'""", re.DOTALL)
+MACRO = r"^[ \t]*#[ \t]*define\b(?:[^\n]|\\\n)*\b(?:for|LoopBound|tick|while(?!\s*\(false\)))\b"
+UNREADABLE = re.compile(r"^[ \t]*#[ \t]*(?:line\b|\d)[^\n]*|\bgoto\b|" + MACRO, re.MULTILINE)
+OPERATIONS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.floordiv}
+LARGEST = (1 << 31) - 1
 
 
 class Loop:
-    """A loop of a source file: first and last line of its header, and what its header and its body say."""
+    """A loop of a source file: first and last line of its header, and the texts of header, body and code before."""
 
     def __init__(self, file, first, last, header, body, before):
         self.file, self.first, self.last = file, first, last
         self.header, self.body, self.before = header, body, before
 
 
-def without_comments(text):
-    return re.sub(r"//[^\n]*", "", text)
+def code(text):
+    """Returns a text without comments and the contents of literals; line numbers stay."""
+    return IGNORED.sub(lambda m: ("\n" * m[0].count("\n") or " ") if m[0][0] == "/" else m[0][0] * 2, text)
 
 
 def closing(text, opening):
-    """Where the bracket at `opening` is closed."""
+    """Returns the index at which the bracket at `opening` is closed."""
     depth, pairs = 0, {"(": ")", "{": "}"}
     left, right = text[opening], pairs[text[opening]]
     for at in range(opening, len(text)):
@@ -44,8 +52,13 @@ def closing(text, opening):
 
 
 @functools.lru_cache(maxsize=None)
+def source(file):
+    return code((ROOT / file).read_text(encoding="utf-8"))
+
+
+@functools.lru_cache(maxsize=None)
 def loops_of(file):
-    text, found = without_comments((ROOT / file).read_text(encoding="utf-8")), []
+    text, found = source(file), []
     line = lambda at: text.count("\n", 0, at) + 1
     for match in HEADER.finditer(text):
         end = closing(text, match.end() - 1)
@@ -56,10 +69,20 @@ def loops_of(file):
 
 
 @functools.lru_cache(maxsize=None)
+def refuse_unreadable(file):
+    """Refuses a file in which lines do not tell which loop they belong to."""
+    if bad := UNREADABLE.search(source(file)):
+        what = "a loop made by the preprocessor" if "define" in bad[0] else bad[0].strip()
+        line = file + f":{source(file).count(chr(10), 0, bad.start()) + 1}"
+        raise Unbounded(f"{line}: {what}: lines do not tell which loop they belong to; write the loop out")
+
+
+@functools.lru_cache(maxsize=None)
 def constants_of(files):
+    """Returns the texts of the values of each constant."""
     table = {}
     for file in files:
-        for first, values in CONSTANT.findall(without_comments((ROOT / file).read_text(encoding="utf-8"))):
+        for first, values in CONSTANT.findall(source(file)):
             for name, value in ANOTHER.findall(f"{first} = {values}"):  # one declaration may hold several
                 table.setdefault(name, set()).add(" ".join(value.split()))
     return table
@@ -77,76 +100,76 @@ class SourceLoops:
         self.known = known
 
     def at(self, file, line):
-        """The loop whose header stands at this line, or None."""
-        if file.startswith("/") or not (ROOT / file).is_file():
+        """Returns the loop whose header includes this line, or None. Two headers on one line cannot be told apart."""
+        if file.startswith(("/", "build/")) or not (ROOT / file).is_file():
             return None
-        return next((loop for loop in loops_of(file) if loop.first <= line <= loop.last), None)
-
-    def shared(self, loop):
-        """The name of the LoopBound that the loop's function was given by reference, or None."""
-        tick = re.search(r"(\w+)\.tick\(\)", loop.body)
-        declared = tick and re.findall(r"LoopBound<[^;>]+>(&?)\s+" + tick[1] + r"\b", loop.before)
-        return tick[1] if declared and declared[-1] else None
+        found = [loop for loop in loops_of(file) if loop.first <= line <= loop.last]
+        if len(found) > 1:
+            raise Unbounded(f"{file}:{line}: {len(found)} loops begin on this line; give each its own")
+        return found[0] if found else None
 
     def bound(self, loop):
-        """How often the body runs at most, each time the loop is entered."""
+        """Returns how often the body runs at most, each time the loop is entered."""
         place = f"{loop.file}:{loop.first}"
-        if tick := re.search(r"(\w+)\.tick\(\)", loop.body):
-            declared = re.findall(r"LoopBound<([^;>]+)>&?\s+" + tick[1] + r"\b", loop.before)
-            if not declared:
-                raise Unbounded(f"{place}: {tick[1]} is no LoopBound")
-            return self.value(declared[-1], loop.file, place)
-        if ";" in loop.header:
-            return self._counted(loop, place)
-        if listed := re.search(r":\s*\{(.*)\}\s*$", loop.header, re.DOTALL):
-            return listed[1].count(",") + 1
-        if ranged := re.search(r":\s*([\w.]+)\s*$", loop.header):
-            return self.value(ranged[1].split(".")[-1] + ".size()", loop.file, place)
-        raise Unbounded(f"{place}: a loop without a bound: while ({' '.join(loop.header.split())})")
-
-    def _counted(self, loop, place):
-        begin, condition, step = (part.strip() for part in loop.header.split(";"))
-        start = re.fullmatch(r"[\w:]+\s+(\w+)\s*=\s*(.+)", begin)
-        if start:
-            name, first = start[1], self.value(start[2], loop.file, place)
-            for part in condition.split("&&"):
-                if up := re.fullmatch(rf"{name}\s*(<=|<)\s*(.+)", part.strip()):
-                    if step in (f"++{name}", f"{name}++"):
-                        return self.value(up[2], loop.file, place) - first + (up[1] == "<=")
-                if down := re.fullmatch(rf"{name}\s*(>=|>)\s*(.+)", part.strip()):
-                    if step in (f"--{name}", f"{name}--"):
-                        return first - self.value(down[2], loop.file, place) + (down[1] == ">=")
-                if re.fullmatch(rf"{name}--\s*>\s*0", part.strip()) and not step:
-                    return first
-        raise Unbounded(f"{place}: a loop without a bound: for ({' '.join(loop.header.split())})")
+        for file in (loop.file, *kernel_files()):
+            refuse_unreadable(file)
+        tick = re.match(r"\{[ \t]*\n\s*(\w+)\.tick\(\);", loop.body)
+        if not tick:
+            late = "its tick() is not first in its body" if ".tick()" in loop.body else "it has no counter and no LoopBound"
+            raise Unbounded(f"{place}: a loop without a bound: ({' '.join(loop.header.split())}): {late}")
+        declared = [
+            match[1]
+            for match in re.finditer(rf"LoopBound<([^;]+)>\s+{tick[1]};", loop.before)
+            if in_sight(loop.before[match.end() :])
+        ]
+        if len(declared) != 1:
+            raise Unbounded(f"{place}: a loop without a bound: {len(declared)} declarations of {tick[1]} in sight")
+        return self.value(declared[0], loop.file, place)
 
     def value(self, expression, file, place):
-        """A constant expression of numbers, names of constants and sizes of arrays."""
-        expression = re.sub(r"\b\w+::(?=k[A-Z]|k$)|\b\w+::(?=k\w)", "", expression)
-        expression = re.sub(r"([\w.>-]+)\.size\(\)", lambda m: f"({self._size(m[1], file, place)})", expression)
-        expression = re.sub(r"\bk[A-Z]\w*", lambda m: f"({self._constant(m[0], file, place)})", expression)
-        if not re.fullmatch(r"[\d\s()+*/-]+", expression):
-            raise Unbounded(f"{place}: a loop without a bound: '{expression.strip()}' is no constant")
-        return int(eval(expression.replace("/", "//"), {"__builtins__": {}}))
+        """Evaluates a constant expression of numbers and names of constants. No part of it may be negative, because the
+        type of a constant may have no sign."""
+        refuse = lambda why: Unbounded(f"{place}: a loop without a bound: '{expression.strip()}': {why}")
+
+        def of(node):
+            if isinstance(node, ast.Constant) and type(node.value) is int:
+                found = node.value
+            elif isinstance(node, ast.Name):
+                found = self._constant(node.id, file, place)
+            elif isinstance(node, ast.BinOp) and type(node.op) in OPERATIONS:
+                left, right = of(node.left), of(node.right)
+                if isinstance(node.op, ast.Div) and right == 0:
+                    raise refuse("divided by zero")
+                found = OPERATIONS[type(node.op)](left, right)
+            else:
+                raise refuse("not a sum or product of constants")
+            if not 0 <= found <= LARGEST:
+                raise refuse(f"a part of it is {found}")
+            return found
+
+        try:
+            plain = re.sub(r"\bR::(?=kDof\b)", "", expression)  # R: the one robot of the image
+            return of(ast.parse(" ".join(plain.split()), mode="eval").body)
+        except SyntaxError:
+            raise refuse("not a sum or product of constants") from None
 
     def _constant(self, name, file, place):
         if name in self.known:
             return self.known[name]
-        own = constants_of((file,)).get(name)
+        own = constants_of((file,)).get(name, set())
+        declared = len(re.findall(DECLARED % name, source(file)))
         values = own or constants_of(kernel_files()).get(name, set())
-        if len(values) != 1:
-            raise Unbounded(f"{place}: a loop without a bound: {name} has {len(values) or 'no'} values")
+        if len(values) != 1 or declared > len(own):
+            times = max(len(values), declared)
+            raise Unbounded(f"{place}: a loop without a bound: {name} is declared {times} times; write the number")
         return self.value(next(iter(values)), file, place)
 
-    def _size(self, name, file, place):
-        """The size of the arrays of this name in the file, which must agree."""
-        header = re.sub(r"\.cpp$", ".hpp", file)
-        files = [f for f in dict.fromkeys([file, header]) if (ROOT / f).is_file()]
-        text = "\n".join(without_comments((ROOT / f).read_text(encoding="utf-8")) for f in files)
-        sizes = {size for size, array in ARRAY.findall(text) if array == name}
-        for alias, size in ALIAS.findall(text):
-            if re.search(rf"\b{alias}\s*&?\s*{name}\b", text):
-                sizes.add(size)
-        if len(sizes) != 1:
-            raise Unbounded(f"{place}: a loop without a bound: the size of {name} is not stated in {file}")
-        return self.value(next(iter(sizes)), file, place)
+
+def in_sight(between):
+    """Returns True if a name that is declared before this text can be seen behind it."""
+    depth = 0
+    for each in between:
+        depth += (each == "{") - (each == "}")
+        if depth < 0:
+            return False
+    return True

@@ -1,9 +1,9 @@
-"""The longest way through a function by carrying out what it does with integers.
+"""The longest path through a function, found by executing its integer instructions.
 
 Registers and spilled words hold constants, addresses relative to an argument or to the stack, or are unknown. A branch
-on what is known goes one way, any other goes both. Equal states at the same place are one: of the ways that lead
-there the longest counts. So loops with counters run exactly as often as they do, nests that are triangles are triangles,
-and what depends on data is taken at its worst. A state that leads back to itself has no counter: then this says nothing.
+on known values goes one way, any other goes both. Equal states at the same place are merged, and the longest path to
+them counts. So loops with counters run exactly as often as in reality, triangular nests included, and branches on data
+take the worst case. A state that leads back to itself has no counter, and there is no result.
 """
 
 import re
@@ -22,7 +22,7 @@ CONDITIONS = [None, "eq", "ne", "hs", "lo", "mi", "pl", "vs", "vc", "hi", "ls", 
 
 
 class Machine:
-    """A state: `values` by register or by ("sp", offset) of a spilled word; `flags` the two numbers last compared."""
+    """A state: `values` by register, or by ("sp", offset) of a spilled word; `flags`: the two numbers last compared."""
 
     def __init__(self, values, flags=None):
         self.values, self.flags = dict(values), flags
@@ -31,7 +31,7 @@ class Machine:
         return frozenset(self.values.items()), self.flags
 
     def get(self, name):
-        """(base, offset) of a register or #constant; a constant has no base. None: unknown."""
+        """Returns (base, offset) of a register or #constant, None if unknown; a constant has no base."""
         if name.startswith("#"):
             return None, int(name[1:], 0)
         return self.values.get(name)
@@ -47,7 +47,7 @@ class Machine:
             del self.values[name]
 
     def holds(self, condition):
-        """True or False, or None if it depends on data."""
+        """Returns True or False, or None if the condition depends on data."""
         if self.flags is None or condition not in TESTS:
             return None
         signed = [v - (1 << 32) if v >> 31 else v for v in self.flags]
@@ -59,7 +59,7 @@ def condition_of(i):
 
 
 def add(a, b, sign=1):
-    """Sum or difference of two values; of two addresses only the difference of the same base."""
+    """Adds or subtracts two values; two addresses only if they are subtracted and have the same base."""
     if a is None or b is None:
         return None
     if b[0] is None:
@@ -70,7 +70,7 @@ def add(a, b, sign=1):
 
 
 def execute(machine, i):
-    """One instruction that neither branches nor calls."""
+    """Executes one instruction that neither branches nor calls."""
     condition = condition_of(i)
     name = re.sub(r"\.\w+$", "", i.mnemonic)
     if condition:
@@ -78,7 +78,7 @@ def execute(machine, i):
         holds = machine.holds(condition)
         if holds is False:
             return
-        if holds is None:  # it may or may not: nothing is known of what it writes
+        if holds is None:  # it may or may not execute, so the registers it writes are unknown
             return _forget(machine, i)
     operands = [o.strip() for o in re.split(r",\s*(?![^\[{]*[\]}])", i.op_str)]
     if name in ("ldr", "str", "ldrd", "strd", "vstr", "vldr", "push", "pop", "vpush", "vpop") or name.startswith(("stm", "ldm", "vstm", "vldm", "str", "ldr")):
@@ -117,7 +117,7 @@ def _compute(machine, i, name, operands):
 
 
 def _memory(machine, i, name, operands):
-    """Words that are spilled to the stack are known; a store to where nobody knows may hit any of them."""
+    """Executes a load or store. Words spilled to the stack are known; a store to an unknown address may hit any."""
     word = re.fullmatch(r"\[(\w+)(?:, #(-?\w+))?\]", operands[-1])
     base = machine.get(word[1]) if word else None
     where = ("sp", (base[1] + int(word[2] or "0", 0)) & MASK) if base and base[0] == "sp" else None
@@ -131,18 +131,27 @@ def _memory(machine, i, name, operands):
     if name == "ldrd" and where:
         machine.put(operands[0], machine.values.get(where))
         return machine.put(operands[1], machine.values.get((where[0], (where[1] + 4) & MASK)))
-    stores = name.startswith(("str", "stm", "vst", "push", "vpush"))
-    if stores and name not in ("push", "vpush"):
+    if name.startswith(("str", "stm", "vst", "push", "vpush")):
         if where:  # of any width: eight words are enough for each
             for offset in range(-4, 8):
                 machine.put((where[0], (where[1] + offset) & MASK), None)
         elif not (base and str(base[0]).startswith("argument")):
             machine.forget_words()
-    sp = machine.get("sp")
+    moved = _moved(machine, i, name)
     _forget(machine, i)
-    if name in ("push", "vpush", "pop", "vpop"):
-        count = sum(1 for _ in i.operands) * (8 if name[0] == "v" and "d" in i.op_str else 4)
-        machine.put("sp", add(sp, (None, count), -1 if "push" in name else 1))
+    machine.put(*moved)
+
+
+def _moved(machine, i, name):
+    """The base register of an access that moves it, and where to; no register for any other access."""
+    size = 8 if name[0] == "v" and "d" in i.op_str else 4
+    if name.endswith(("push", "pop")):
+        return "sp", add(machine.get("sp"), (None, size * len(i.operands)), -1 if "push" in name else 1)
+    if behind := re.search(r"\[(\w+)(?:\], #(-?\w+)$|, #(-?\w+)\]!$)", i.op_str):
+        return behind[1], add(machine.get(behind[1]), (None, int(behind[2] or behind[3], 0)))
+    if block := re.match(r"(\w+)!, \{", i.op_str):
+        return block[1], add(machine.get(block[1]), (None, size * (len(i.operands) - 1)), -1 if name.endswith("db") else 1)
+    return "", None
 
 
 def _forget(machine, i):
@@ -155,12 +164,11 @@ def _forget(machine, i):
 
 
 def start():
-    values = {f"r{n}": (f"argument{n}", 0) for n in range(4)}
-    return Machine({**values, "sp": ("sp", 0)})
+    return Machine({"sp": ("sp", 0), **{f"r{n}": (f"argument{n}", 0) for n in range(4)}})
 
 
 def follow(graph, head, machine, cost_of_call):
-    """Carries out one block: ([(next head or None at the end, state)], cost of what it calls)."""
+    """Executes one block; returns ([(next head or None at the end, state)], cost of its calls)."""
     block, cost = graph.blocks[head], 0
     for i in block.instructions[:-1] if _branches(block, graph) else block.instructions:
         if i.address in graph.calls:
@@ -206,7 +214,7 @@ def _ways(block, last, machine):
 
 
 def longest(graph, block_cost, cost_of_call, feasible):
-    """The cost of the longest way; None if states repeat or there are too many."""
+    """Returns the cost of the longest path; None if states repeat or there are too many."""
     first = (graph.function.begin, start())
     best, done, stack, on_way, states = {}, {}, [], set(), {}
 

@@ -1,19 +1,21 @@
-// The whole kernel linked for a bare Cortex-M7 with no C library on the link line, so that any call
-// to the heap, to exceptions or to an operating system is a link error. Not a program to run: a
-// board adds start-up code and a Hal.
-#include "kernel/executive.hpp"
-#include "kernel/loader.hpp"
+// Links the whole kernel for a bare Cortex-M7 with no C library on the link line: a call to the
+// heap, to exceptions or to an operating system is a link error. The result is not a program to
+// run; a board adds start-up code and a Hal.
+#include "kernel/cycle/executive.hpp"
+#include "kernel/load/loader.hpp"
 
 namespace {
 
 using namespace tactus;
 
-/// A robot that stands where it was put.
+/// A robot that stays where it was put.
 class StandingHal final : public Hal {
  public:
   Capabilities capabilities() const override { return {false, false, true, 100, 100000}; }
-  Status start(CommandMode, RobotState& state) override { return read(state); }
-  Status read(RobotState& state) override {
+  Status connect(CommandMode) override { return Status::kOk; }
+  Status read(const CycleTime& now, RobotState& state) override {
+    state.stamp_ns = now.stamp_ns;
+    state.drives.fill({DriveState::kEnabled, true});
     for (int i = 0; i < kDof; ++i) {
       const JointLimit& joint = Robot::kLimits[static_cast<std::size_t>(i)];
       state.q[i] = 0.5 * (joint.q_min + joint.q_max);
@@ -21,10 +23,10 @@ class StandingHal final : public Hal {
     return Status::kOk;
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
-  void stop() override {}
+  void disconnect() override {}
 };
 
-// A FER's: what counts for another robot is that it links.
+// A pipeline of the FER; for another robot only linking matters.
 constexpr const char* kText =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
@@ -49,8 +51,10 @@ int main() {
   LoadError error;
   Status status = loader.load(kText, pipeline, error);
   if (status == Status::kOk) status = executive.start();
-  for (int k = 0; k < 1000 && status == Status::kOk; ++k) {
+  if (status == Status::kOk) status = executive.arm();
+  for (int k = 0; k < 1000 && (status == Status::kOk || status == Status::kArming); ++k) {
     status = executive.cycle({std::int64_t{1000000} * k});
+    if (status == Status::kArming) status = executive.arm();
   }
   return static_cast<int>(status);
 }

@@ -1,5 +1,5 @@
-// What the compiler itself may call where there is no C library. The loops must not be turned back
-// into calls of themselves.
+// The functions that the compiler itself may call where there is no C library. The attributes keep
+// it from turning the loops back into calls of these functions.
 #include <cstddef>
 
 extern "C" {

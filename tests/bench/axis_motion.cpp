@@ -1,8 +1,8 @@
-// Speed of the motion law over 64 seeded states of the FER: one plan, one stretched, and what a
-// cycle of seven synchronised axes takes.
+// Measures the motion law over 64 seeded states of the FER: one plan, one stretched plan, and the
+// work of a cycle for seven synchronised axes.
 #include <benchmark/benchmark.h>
 
-#include "tests/axis_cases.hpp"
+#include "tests/math/axis_cases.hpp"
 
 namespace tactus {
 namespace {

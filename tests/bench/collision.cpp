@@ -1,10 +1,10 @@
-// Time of one collision check: the arm, a tool and two boxes, over seeded states at up to 0.3 of
-// the speed limits that are free of contact, so that every position is looked at. Counters: support
-// points per check, and most of them.
+// Measures one collision check of the arm, a tool and two boxes, over seeded states at up to 0.3 of
+// the speed limits. The states are free of contact, so the check looks at every pair. Counters:
+// support points per check, and the largest number of them.
 #include <benchmark/benchmark.h>
 
 #include "kernel/guard/collision.hpp"
-#include "tests/model_cases.hpp"
+#include "tests/support/model_cases.hpp"
 
 namespace tactus {
 namespace {
@@ -13,7 +13,8 @@ constexpr std::size_t kStates = 256;
 
 void collision_check(benchmark::State& bench) {
   std::array<Cuboid, 2> boxes;
-  boxes[0].pose.p = {0.55, 0.0, -0.02}, boxes[0].size = {0.5, 0.8, 0.1};
+  boxes[0].pose.p = {0.55, 0.0, -0.02};
+  boxes[0].size = {0.5, 0.8, 0.1};
   boxes[1].pose = {{-0.2, 0.5, 0.6}, Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized()};
   boxes[1].size = {0.1, 0.2, 1.2};
   static CollisionSection section;
@@ -29,7 +30,8 @@ void collision_check(benchmark::State& bench) {
   for (RobotState& state : states) {
     do {
       random.next();
-      state.q = random.q, state.dq = 0.3 * random.dq;
+      state.q = random.q;
+      state.dq = 0.3 * random.dq;
     } while (collision.check(state) != Status::kOk);
   }
   std::size_t i = 0;

@@ -7,7 +7,7 @@
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "kernel/model/fer.hpp"
+#include "kernel/robots/fer.hpp"
 
 namespace tactus {
 namespace {
@@ -20,7 +20,7 @@ KDL::Frame frame_of(const JointFrame& frame) {
                     KDL::Vector(frame.x, frame.y, frame.z));
 }
 
-/// The shortest chain KDL can make of the table: one segment per joint, from it to the next.
+/// The shortest chain KDL can build from the table: one segment per joint, from it to the next.
 KDL::Chain arm() {
   KDL::Chain chain;
   chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), frame_of(Fer::kJoints[0])));

@@ -1,5 +1,5 @@
-// The same computations by Orocos KDL. Plain arrays, because kdl_peer.cpp is compiled with
-// exceptions. The chain and the solvers are made at the first call and kept.
+// The benchmarked computations by Orocos KDL. The interface uses plain arrays because kdl_peer.cpp
+// is compiled with exceptions. The chain and the solvers are built at the first call and kept.
 #pragma once
 
 namespace tactus {

@@ -1,16 +1,15 @@
-# Every parser under libFuzzer: docs/ur10_emulator.md. Included by the Makefile; B, O and obj are its.
-FUZZ_BUILD := BOARD=ur10_emulator SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS= \
-              OPTIMISED=-O2
+# Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
+FUZZ_BUILD := BOARD=ur10_emulator $(SANITIZED)
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
-# The whole kernel, and both sides of the UR's wire. A tape stands in the place of the sockets, and a light arm in that of MuJoCo's.
-FUZZED     := $(filter-out hal/ur/socket.cpp hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
-              $(wildcard sim_plant/ur/*.cpp gateway/*.cpp) $(KERNEL) \
-              tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp
+# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm replaces MuJoCo's.
+FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
+              $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp) $(KERNEL) \
+              tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 
 .PHONY: fuzz fuzz-short fuzz-built
-fuzz: fuzz-built                              ## every parser fuzzed for SECONDS each (default 600)
+fuzz: fuzz-built                              ## fuzz every parser for SECONDS each (default 600)
 	$(Q)nice scripts/fuzz --seconds $(or $(SECONDS),600) $(FUZZ)
-fuzz-short: fuzz-built                        ## the same, briefly and repeatably
+fuzz-short: fuzz-built                        ## fuzz every parser briefly and reproducibly
 	$(Q)scripts/fuzz $(FUZZ)
 fuzz-built: wcet-setup
 	$(Q)$(MAKE) --no-print-directory -j2 $(FUZZ_BUILD) fuzz-targets

@@ -1,15 +1,14 @@
-// Pipeline files. A refusal names a line and a reason; what is accepted lies within its ranges, and
-// runs: whatever its gains, nothing but finite commands within limits is written.
-#include "gateway/gateway_section.hpp"
+// Fuzzes pipeline files. A refusal must name a line and a reason; an accepted file must keep its
+// ranges and run: whatever its gains, only finite commands within limits are written.
 #include "gateway/reference_client.hpp"
-#include "hal/os/realtime_settings.hpp"
 #include "hal/ur/ur_settings.hpp"
-#include "kernel/executive.hpp"
-#include "kernel/loader.hpp"
-#include "sim_plant/plant_params.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "kernel/load/loader.hpp"
+#include "program/sim/sim_sections.hpp"
 #include "tests/fuzz/guarded_hal.hpp"
 #include "tests/fuzz/number_mutator.hpp"
 #include "tests/fuzz/setting_checker.hpp"
+#include "tests/support/armed.hpp"
 
 namespace {
 
@@ -17,38 +16,32 @@ using namespace tactus;
 
 constexpr Capabilities kOffered = {true, true, true, 1000, 10000, true};
 
-/// What a board has whose robot is simulated and real at once.
+/// The sections of a board whose robot is both simulated and real.
+struct Sections : SimSections {
+  ur::UrSettings ur;
+
+  template <class Visitor>
+  void describe(Visitor& visit) {
+    SimSections::describe(visit);
+    visit.section("ur", ur);
+  }
+};
+
 struct Board {
   ReferenceChannel<JointSpace> joints;
   ReferenceChannel<TaskSpace> poses;
   Pipeline pipeline;
-  GatewaySection gateway;
-  RealtimeSettings realtime;
-  PlantParams plant;
-  ur::UrSettings ur;
+  Sections sections;
   LoadError error;
 
   Status load(std::string_view text) {
-    Loader loader({&joints, &poses}, kOffered);
-    loader.add(board_section("gateway", gateway));
-    loader.add(board_section("realtime", realtime));
-    loader.add(board_section("plant", plant));
-    loader.add(board_section("ur", ur));
+    Loader loader({&joints, &poses}, kOffered, sections);
     return loader.load(text, pipeline, error);
   }
   void check_settings() {
     fuzz::SettingChecker checker;
-    pipeline.robot.describe(checker);
-    pipeline.robot.describe_command(checker);
-    pipeline.guard.describe(checker);
-    pipeline.collision.describe(checker);
-    pipeline.task_limits.describe(checker);
-    pipeline.executive.describe(checker);
-    pipeline.recorder.describe(checker);
-    gateway.describe(checker);
-    realtime.describe(checker);
-    plant.describe(checker);
-    ur.describe(checker);
+    pipeline.describe(checker);
+    sections.describe(checker);
   }
 };
 
@@ -60,7 +53,7 @@ void check_refusal(const LoadError& error, std::string_view text) {
        reason == "the section is missing");
 }
 
-/// What a generator puts out under this name; null: there is none.
+/// The output of a generator by name, or null.
 template <class Value>
 const Value* reference(const PortTable& ports, std::string_view name) {
   for (int i = 0; i < ports.count(); ++i)
@@ -68,7 +61,7 @@ const Value* reference(const PortTable& ports, std::string_view name) {
   return nullptr;
 }
 
-/// A reference beside the present one, of whichever space.
+/// Sends a reference close to the present one, in every space that has a generator.
 void send_reference(Board& board) {
   std::uint32_t id = 0;
   const PortTable& ports = board.pipeline.ports;
@@ -91,11 +84,13 @@ void run(Board& board) {
   const RobotSection& robot = board.pipeline.robot;
   fuzz::GuardedHal hal(q, board.pipeline.guard.effective(), robot.period_s());
   Executive executive(hal, board.pipeline, [] { return std::uint64_t{0}; });
-  if (executive.start() != Status::kOk) return;
+  const std::int64_t period_ns = std::int64_t{1000} * robot.period_us;
+  std::int64_t now_ns = 0;
+  if (start_armed(executive, period_ns, now_ns) != Status::kOk) return;
   for (int i = 1; i <= 24; ++i) {
     if (i < 8) send_reference(board);
     if (i == 16) executive.halt();
-    static_cast<void>(executive.cycle({std::int64_t{1000} * robot.period_us * i}));
+    static_cast<void>(executive.cycle({now_ns + period_ns * i}));
   }
 }
 

@@ -1,4 +1,4 @@
-// Trajectory files of the joints.
+// Fuzzes trajectory files of the joints.
 #include "tests/fuzz/number_mutator.hpp"
 #include "tests/fuzz/trajectory_file.hpp"
 

@@ -1,4 +1,4 @@
-// Trajectory files of the tool tip.
+// Fuzzes trajectory files of the tool tip.
 #include "tests/fuzz/number_mutator.hpp"
 #include "tests/fuzz/trajectory_file.hpp"
 

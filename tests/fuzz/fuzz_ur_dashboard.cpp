@@ -1,5 +1,5 @@
-// The emulated dashboard: every line has one reply, which is one line.
-#include "sim_plant/ur/dashboard.hpp"
+// Fuzzes the emulated dashboard: every line must get one reply of one line.
+#include "sim_plant/ur/controller/dashboard.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 #include <new>
@@ -22,7 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     quits = dashboard.run(line, reply);
     const std::string_view said = reply.text();
     MUST(said.size() >= 2 && said.find('\n') == said.size() - 1);
-    for (int i = 0; i < 100; ++i) machine.power.tick(kCycle_s), machine.safety.tick(kCycle_s);
+    for (int i = 0; i < 100; ++i) {
+      machine.power.tick(kCycle_s);
+      machine.safety.tick(kCycle_s);
+    }
     machine.messages.clear();
   }
   runner.~Runner();

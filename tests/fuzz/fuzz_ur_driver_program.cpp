@@ -1,5 +1,5 @@
-// The 2015 driver's stream of set-points: seven integers each, cut anywhere. A record is one byte,
-// how many bytes come at once and how many cycles after them, and these bytes.
+// Fuzzes the 2015 driver's stream of set-points: seven integers each, cut anywhere. A record is one
+// byte, which gives the number of bytes sent at once and of cycles after them, and these bytes.
 #include "tests/fuzz/ur_controller.hpp"
 
 namespace {
@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     data += 1 + piece;
     size -= 1 + piece;
   }
-  // The program outlives a control computer that is gone; the arm comes to rest.
+  // The program outlives a control computer that has left; the arm comes to rest.
   link.lost();
   controller.comes_to_rest();
   return 0;

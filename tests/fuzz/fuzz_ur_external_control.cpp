@@ -1,5 +1,6 @@
-// External control's three sockets, each with whatever the control computer may write to it. A
-// record is one byte, which socket and how many cycles after it, and the bytes of one message.
+// Fuzzes external control's three sockets with arbitrary bytes from the control computer. A record
+// is one byte, which selects the socket and the number of cycles after it, and the bytes of one
+// message.
 #include "tests/fuzz/ur_controller.hpp"
 
 namespace {

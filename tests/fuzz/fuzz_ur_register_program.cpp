@@ -1,5 +1,6 @@
-// Commands in RTDE's registers, as a client's data packages bring them. A record is one byte, how
-// many cycles after it and how many numbers in it, and a package: command, asynchronous, numbers.
+// Fuzzes the commands in RTDE's registers, as a client's data packages carry them. A record is one
+// byte, which gives the number of cycles after it and of numbers in it, and a package: command,
+// asynchronous, numbers.
 #include "tests/fuzz/ur_controller.hpp"
 
 namespace {
@@ -19,7 +20,7 @@ constexpr std::string_view kText =
     "  end\n"
     "end\n";
 
-/// The next package, and when it was heard.
+/// The next package, and the cycle in which it arrived.
 void take(ByteReader& reader, int numbers, Machine& machine) {
   InputPackage package;
   for (std::uint8_t i = 0; i < 2; ++i)
@@ -29,7 +30,7 @@ void take(ByteReader& reader, int numbers, Machine& machine) {
   if (reader.ok()) package.apply(machine.io, machine.cycle);
 }
 
-/// Ready or done, and numbers: no command is answered with what is none.
+/// The register program answers ready or done with finite numbers, whatever the command.
 void check_answers(const Registers& output) {
   MUST(output.ints[0] == kReady || output.ints[0] == kDone);
   for (const double value : output.doubles) MUST(std::isfinite(value));

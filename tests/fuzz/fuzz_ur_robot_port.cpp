@@ -1,4 +1,4 @@
-// The primary port as the HAL reads it: stops and runtime exceptions out of a stream of packets.
+// Fuzzes the primary port as the HAL reads it: stops and runtime exceptions in a stream of packets.
 #include "hal/ur/robot_port.hpp"
 #include "tests/fuzz/wire.hpp"
 
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::wire.play(tape);
   RobotPort port;
   Message why;
-  MUST(port.connect("127.0.0.1", 30001, 100, why) == Status::kOk);
+  MUST(port.connect("127.0.0.1", 30001, Deadline(100), why) == Status::kOk);
   // A cycle takes bytes, or whole packets out of what it holds.
   for (std::size_t cycles = 0; port.connected(); ++cycles) {
     const std::size_t before = fuzz::wire.at;

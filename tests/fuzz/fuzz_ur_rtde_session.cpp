@@ -1,6 +1,6 @@
-// RTDE as the emulated controller reads it. Pieces make no difference: what comes at once and what
-// comes cut leave the same answers and the same inputs.
-#include "sim_plant/ur/rtde_session.hpp"
+// Fuzzes RTDE as the emulated controller reads it. The same bytes must leave the same answers and
+// the same inputs whether they arrive at once or in pieces.
+#include "sim_plant/ur/wire/rtde_session.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace {
@@ -27,7 +27,7 @@ struct Side {
   }
 };
 
-/// What a client is sent are packets, the last one whole.
+/// A client must be sent complete packets, the last one included.
 void check_packets(const Outbox& out) {
   std::size_t at = 0;
   while (at < out.size()) {
@@ -54,8 +54,10 @@ bool same(const Io& a, const Io& b) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static Side whole, cut;
-  whole.~Side(), cut.~Side();
-  new (&whole) Side, new (&cut) Side;
+  whole.~Side();
+  cut.~Side();
+  new (&whole) Side;
+  new (&cut) Side;
   fuzz::Tape tape(data, size);
   cut.play(tape);
   tape.piece = std::max<std::size_t>(tape.size, 1);

@@ -1,5 +1,6 @@
-// Scripts as a state port takes them, run for some cycles: recognisers, interpreter, sockets.
-#include "sim_plant/ur/script_intake.hpp"
+// Fuzzes scripts as a state port takes them, run for some cycles: recognisers, interpreter,
+// sockets.
+#include "sim_plant/ur/programs/script_intake.hpp"
 #include "tests/fuzz/ur_controller.hpp"
 
 using namespace tactus;

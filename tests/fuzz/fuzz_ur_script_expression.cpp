@@ -1,7 +1,7 @@
-// Expressions, calls, names and servo laws in a script's text, without running it: what is read is
-// taken from the front, and what is told lies within the text.
-#include "sim_plant/ur/script_expression.hpp"
-#include "sim_plant/ur/script_names.hpp"
+// Fuzzes expressions, calls, names and servo laws in a script's text, without running it: a reader
+// must consume text from the front, and every name it returns must lie within the text.
+#include "sim_plant/ur/script/script_expression.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
 #include "tests/fuzz/ur_controller.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
-// The cutting of a script port's text into programs and lines. Pieces of the stream make no
-// difference, and nothing is handed on that did not come.
-#include "sim_plant/ur/script_intake.hpp"
+// Fuzzes the division of a script port's text into programs and lines. The result must not depend
+// on how the stream is cut, and must hold no byte that was not sent.
+#include "sim_plant/ur/programs/script_intake.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace {
@@ -8,7 +8,7 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-/// What was handed on, in order.
+/// The lines and programs handed on, in order.
 struct Taken {
   ScriptIntake intake;
   std::array<char, 1 << 16> text;

@@ -1,5 +1,5 @@
-// The fields of a data package, the types of a recipe, and the robot's modes. What is accepted says
-// the same bytes when it is written again.
+// Fuzzes the fields of a data package, the types of a recipe, and the robot's modes. An accepted
+// field must give the same bytes when it is written again.
 #include "hal/ur/ur_state.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
@@ -18,9 +18,13 @@ void write(const UrState& state, ByteWriter& out) {
   for (const Vector6* six :
        {&state.target_q, &state.q, &state.dq, &state.moment, &state.tcp_pose, &state.tcp_force})
     for (const double value : *six) out.f64(value);
-  out.f64(state.speed_scaling), out.f64(state.speed_fraction);
-  out.i32(state.robot_mode), out.i32(state.safety_mode), out.i32(state.echo);
-  out.u32(state.safety_bits), out.u32(state.runtime_state);
+  out.f64(state.speed_scaling);
+  out.f64(state.speed_fraction);
+  out.i32(state.robot_mode);
+  out.i32(state.safety_mode);
+  out.i32(state.echo);
+  out.u32(state.safety_bits);
+  out.u32(state.runtime_state);
 }
 
 bool all_finite(const std::uint8_t* data) {

@@ -1,5 +1,5 @@
-// What the targets of libFuzzer share. A target takes the bytes that one side of a wire may send,
-// and traps where the parser does what it must not.
+// Shared by the targets of libFuzzer. A target takes the bytes that one side of a wire may send,
+// and traps where the parser violates its contract.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
-/// A condition that holds whatever the bytes are.
+/// A condition that must hold for all bytes.
 #define MUST(condition)                                                               \
   do {                                                                                \
     if (!(condition)) {                                                               \
@@ -21,12 +21,12 @@
 
 namespace tactus::fuzz {
 
-/// The input: its first byte says how the rest is cut.
+/// The input; its first byte determines how the rest is cut.
 struct Tape {
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
   std::size_t piece = 0;  ///< bytes that come at once
-  bool hangs = false;     ///< the end is silence, not a closed connection
+  bool hangs = false;     ///< ends in silence, not in a closed connection
 
   Tape(const std::uint8_t* bytes, std::size_t count) {
     if (count == 0) return;

@@ -1,5 +1,5 @@
-// GuardedHal: a robot that does exactly as it is told, of unit inertia where that is a torque, and
-// is told nothing beyond its limits.
+// GuardedHal: a robot that follows its commands exactly, of unit inertia under torques, and traps
+// on a command beyond its limits.
 #pragma once
 
 #include "kernel/guard/guard.hpp"
@@ -9,22 +9,23 @@ namespace tactus::fuzz {
 
 class GuardedHal final : public Hal {
  public:
-  /// At rest at `q`; commands are judged by `limits`.
+  /// At rest at `q`; commands must keep `limits`.
   GuardedHal(const JointVector& q, const JointLimits& limits, double period_s)
       : limits_(limits), period_s_(period_s) {
     state_.q = q;
   }
 
   Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
-  Status start(CommandMode, RobotState& state) override {
+  Status connect(CommandMode) override { return Status::kOk; }
+  Status read(const CycleTime& now, RobotState& state) override {
     state = state_;
-    return Status::kOk;
-  }
-  Status read(RobotState& state) override {
-    state = state_;
+    state.stamp_ns = now.stamp_ns;
+    state.drives.fill({enabled_ ? DriveState::kEnabled : DriveState::kDisabled, true});
     return Status::kOk;
   }
   Status write(const RobotCommand& command) override {
+    enabled_ = command.request != DriveRequest::kDisable;
+    if (command.request != DriveRequest::kFollow) return Status::kOk;
     MUST(command.value.allFinite());
     const JointVector& value = command.value;
     if (command.mode == CommandMode::kEffort) {
@@ -45,7 +46,7 @@ class GuardedHal final : public Hal {
     MUST((limits_.q_min - state_.q).maxCoeff() <= kBeyond);
     return Status::kOk;
   }
-  void stop() override {}
+  void disconnect() override { enabled_ = false; }
 
  private:
   static constexpr double kBeyond = 1e-6;  // the guard's allowances and rounding, in every unit
@@ -57,6 +58,7 @@ class GuardedHal final : public Hal {
   JointLimits limits_;
   double period_s_;
   RobotState state_;
+  bool enabled_ = false;
 };
 
 }  // namespace tactus::fuzz

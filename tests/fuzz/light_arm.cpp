@@ -1,6 +1,6 @@
-// In the place of sim_plant/arm.cpp: joints of unit inertia without gravity. The parsers do not
-// know the difference, and a cycle takes a hundredth of the time. There is one arm.
-#include "sim_plant/arm.hpp"
+// Replaces sim_plant/arm/arm.cpp by joints of unit inertia without gravity. The parsers see no
+// difference, and a cycle takes a hundredth of the time. There is one arm.
+#include "sim_plant/arm/arm.hpp"
 
 namespace tactus {
 namespace {

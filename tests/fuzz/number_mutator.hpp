@@ -1,6 +1,6 @@
-// In every second change a number of the text becomes another: the values at which arithmetic and
-// limits turn are words, which bytes hardly ever come to. For targets that read text; included
-// once by each.
+// A mutator for targets that read text. Every second mutation replaces a number of the text by a
+// value at which arithmetic or a limit changes its behaviour; byte mutations hardly ever produce
+// such a word. Each target includes it once.
 #pragma once
 
 #include <cstring>
@@ -16,7 +16,8 @@ inline bool is_number_character(std::uint8_t c) {
   return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
 }
 
-/// Of the text from `at` on, wrapping, the first number: its place and length; length 0: none.
+/// Finds the first number of the text from `at` on, wrapping: sets `at` to its place and returns
+/// its length; 0 if there is none.
 inline std::size_t find_number(const std::uint8_t* data, std::size_t size, std::size_t& at) {
   for (std::size_t tried = 0; tried < size && !is_number_character(data[at]); ++tried)
     at = (at + 1) % size;

@@ -1,15 +1,20 @@
-// SettingChecker: the visitor that holds what was read from a pipeline file against the ranges it
-// was read by.
+// SettingChecker: a visitor that checks the settings read from a pipeline file against their
+// ranges.
 #pragma once
 
-#include "kernel/port.hpp"
-#include "kernel/text.hpp"
+#include "kernel/core/names.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/core/text.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace tactus::fuzz {
 
 class SettingChecker {
  public:
+  template <class Settings>
+  void section(const char*, Settings& settings) {
+    settings.describe(*this);
+  }
   template <class Number>
   void param(const char*, const Number& value, const Range& range, const char*) {
     if constexpr (std::is_arithmetic_v<Number>)
@@ -22,9 +27,9 @@ class SettingChecker {
   }
   template <std::size_t N>
   void text(const char*, const Text<N>&, const char*) {}
-  template <class Enum, std::size_t N>
-  void choice(const char*, Enum value, const std::array<const char*, N>&) {
-    MUST(static_cast<std::size_t>(value) < N);
+  template <class Enum>
+  void choice(const char*, Enum value) {
+    MUST(static_cast<std::size_t>(value) < kNames<Enum>.size());
   }
   template <Quantity Q>
   void optional(const char*, const In<Q>& port) {

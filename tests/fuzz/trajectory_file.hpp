@@ -1,17 +1,17 @@
-// Trajectory files of one space: a refusal names a line and a reason, what is read is finite, and
-// what is admitted besides keeps its limits wherever one looks.
+// Fuzzes trajectory files of one space: a refusal must name a line and a reason, a file that is
+// read must be finite, and a trajectory that is also admitted must keep its limits at every sample.
 #pragma once
 
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "gateway/trajectory_csv.hpp"
-#include "kernel/reference/admission.hpp"
+#include "kernel/reference/motion/admission.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace tactus::fuzz {
 
-inline constexpr double kRounding = 1e-6;  // relative, of what is judged at extrema
+inline constexpr double kRounding = 1e-6;  // relative; limits are judged at extrema
 
 inline bool within(const JointSpace::Point& point, const JointLimits& limits) {
   const double span = 1.0 + kRounding;
@@ -33,7 +33,7 @@ inline bool within(const TaskSpace::Point& point, const TaskLimits& limits) {
          point.h.head<3>().norm() <= span * limits.force_max;
 }
 
-/// The file of the parsers, in memory.
+/// The file that the parsers read, in memory.
 class MemoryFile {
  public:
   MemoryFile() : file_(memfd_create("trajectory", 0)) {
@@ -57,7 +57,7 @@ class TrajectoryFile {
   static constexpr int kCapacity = 6;
   using Store = std::array<Waypoint<Space>, kCapacity>;
 
-  /// `store` is an object of its own, beyond whose end the address sanitizer looks.
+  /// `store` is a separate object, so that the address sanitizer detects an access past its end.
   explicit TrajectoryFile(Store& store) : waypoints_(store.data()) {}
   void play(const std::uint8_t* data, std::size_t size) {
     const char* path = file_.holding(data, size);
@@ -96,9 +96,10 @@ class TrajectoryFile {
     trajectory_.exact = true;
     const AdmissionSettings<Space> settings{{}, 1e-3, 0.1};
     if (!admit(trajectory_, settings).ok()) return;
-    const typename Space::Latched terms = Space::anywhere(trajectory_.terms, settings.limits);
+    const typename Space::Placement placement =
+        Space::anywhere(trajectory_.header, settings.limits);
     for (int i = 1; i < trajectory_.count; ++i) {
-      const typename Space::Segment segment = trajectory_.segment(i, terms);
+      const typename Space::Segment segment = trajectory_.segment(i, placement);
       for (int k = 0; k <= kSamples; ++k) {
         const auto point = segment.at(segment.duration() * (static_cast<double>(k) / kSamples));
         MUST(point.finite() && within(point, settings.limits));

@@ -1,9 +1,9 @@
-// A controller for targets that run programs: whatever it is sent, what it shows is finite.
+// A controller for targets that run programs: whatever it receives, its outputs must be finite.
 #pragma once
 
 #include <new>
 
-#include "sim_plant/ur/controller.hpp"
+#include "sim_plant/ur/controller/controller.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace tactus::fuzz {
@@ -20,7 +20,7 @@ class RunningController {
   ur::Controller* operator->() { return controller_; }
   ur::Machine& machine() { return controller_->machine(); }
 
-  /// One cycle; every connection that a program wants is made.
+  /// Runs one cycle; every connection that a program asks for is made.
   void tick() {
     controller_->tick();
     machine().messages.clear();
@@ -33,8 +33,8 @@ class RunningController {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// What a program leaves behind is an arm that brakes, within seconds; or that creeps, for its
-  /// tool is so long that the speed limit of the tip stretches the time of braking too.
+  /// A program must leave behind an arm that brakes within seconds, or one that creeps because its
+  /// tool is so long that the speed limit of the tip stretches the braking too.
   void comes_to_rest() {
     constexpr int kMost = 1000;  // cycles
     for (int i = 0; i < kMost && !resting(); ++i) tick();

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "hal/ur/socket.hpp"
+#include "hal/net/socket.hpp"
 
 namespace tactus::fuzz {
 Wire wire;
@@ -12,11 +12,12 @@ namespace tactus::ur {
 
 using fuzz::wire;
 
-Status Socket::connect(const char*, int, int, Message&) {
+Status Socket::connect(const char*, int, const Deadline&, Message&) {
   socket_ = 1;
   return Status::kOk;
 }
-bool Socket::send_all(std::string_view, int) {
+bool Socket::send_some(std::string_view& text) {
+  text = {};
   return connected();
 }
 bool Socket::wait(std::int64_t) const {

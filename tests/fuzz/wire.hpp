@@ -1,4 +1,5 @@
-// The other end of hal/ur/socket.hpp is a tape: in its place wire.cpp is linked.
+// Replaces the other end of hal/net/socket.hpp by a tape; wire.cpp is linked in place of the
+// socket.
 #pragma once
 
 #include "tests/fuzz/fuzzing.hpp"

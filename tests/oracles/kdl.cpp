@@ -8,13 +8,6 @@
 #include "tests/oracles/kdl_arm.hpp"
 
 namespace tactus {
-
-// The robots stand in files of their own.
-template <>
-KDL::Chain kdl_arm<Robot>(const KDL::RigidBodyInertia& tool);
-template <>
-double kdl_along_axis<Robot>(int joint);
-
 namespace {
 
 constexpr unsigned kJoints = Robot::kDof;
@@ -22,7 +15,7 @@ const KDL::Vector kGravity(0.0, 0.0, -9.81);
 
 KDL::Chain arm(const KdlTool& tool) {
   const KDL::Vector com(tool.com[0], tool.com[1], tool.com[2]);
-  return kdl_arm<Robot>(KDL::RigidBodyInertia(tool.mass_kg, com));
+  return kdl_arm(KDL::RigidBodyInertia(tool.mass_kg, com));
 }
 
 KDL::JntArray to_kdl(const double values[Robot::kDof]) {
@@ -52,7 +45,7 @@ void kdl_link(const double q[Robot::kDof], int link, double p[3], double r[3][3]
     const bool fixed = segment.getJoint().getType() == KDL::Joint::Fixed;
     if (!fixed && static_cast<int>(joint) == link - 1) {
       frame = frame * segment.getJoint().pose(q[joint]) *
-              KDL::Frame(KDL::Vector(0.0, 0.0, kdl_along_axis<Robot>(link - 1)));
+              KDL::Frame(KDL::Vector(0.0, 0.0, kdl_along_axis(link - 1)));
       break;
     }
     frame = frame * segment.pose(fixed ? 0.0 : q[joint]);

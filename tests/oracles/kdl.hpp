@@ -1,9 +1,9 @@
-// Orocos KDL as a second opinion on the robot: kinematics and dynamics by code and tables that are
-// not ours. Plain arrays only, because kdl.cpp is compiled with exceptions. Base frame, SI units,
-// matrices row by row, gravity 9.81 m/s^2 along -z.
+// Orocos KDL as the oracle for kinematics and dynamics, with its own code and tables. The interface
+// uses plain arrays because kdl.cpp is compiled with exceptions. Base frame, SI units, matrices row
+// by row, gravity 9.81 m/s^2 along -z.
 #pragma once
 
-#include "kernel/model/robot.hpp"
+#include "kernel/robots/robot.hpp"
 
 namespace tactus {
 

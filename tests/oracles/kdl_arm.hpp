@@ -1,17 +1,15 @@
-// The robots as chains of KDL, one per file kdl_<robot>.cpp.
+// The robot as a KDL chain; kdl_<robot>.cpp implements it.
 #pragma once
 
 #include <kdl/chain.hpp>
 
 namespace tactus {
 
-/// From the base to the flange of robot R, which carries `tool`, given in the flange frame.
-template <class R>
+/// From the base to the flange of the robot, which carries `tool`, given in the flange frame.
 KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool);
 
-/// How far along the axis of joint `joint`, counted from 0, the kernel's frame of it stands from
-/// where the joint is in the chain, m.
-template <class R>
+/// The distance, m, along the axis of joint `joint` (counted from 0) from the joint's frame in the
+/// chain to the kernel's.
 double kdl_along_axis(int joint);
 
 }  // namespace tactus

@@ -1,7 +1,5 @@
-// The FER for KDL, typed again from another form of the sources than the kernel uses: the
-// kinematics from Franka's Craig DH table, the inertias in the order of the columns of Gaz et al.
-#include "kernel/model/fer.hpp"
-
+// The FER for KDL, typed from another form of the sources than the kernel's: the kinematics from
+// Franka's Craig DH table, the inertias in the column order of Gaz et al.
 #include "tests/oracles/kdl_arm.hpp"
 
 namespace tactus {
@@ -61,10 +59,9 @@ KDL::Frame dh_frame(int i) {
 
 }  // namespace
 
-/// A KDL segment is a joint and then the way to the next joint, with the inertia given at that far
-/// end: hence the fixed first segment, and the inertia moved along.
-template <>
-KDL::Chain kdl_arm<Fer>(const KDL::RigidBodyInertia& tool) {
+/// A KDL segment is a joint followed by the transform to the next joint, with the inertia given at
+/// that far end. Hence the fixed first segment and the shifted inertia.
+KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool) {
   KDL::Chain chain;
   chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::Fixed), dh_frame(0)));
   for (int i = 0; i < kJoints; ++i) {
@@ -78,8 +75,7 @@ KDL::Chain kdl_arm<Fer>(const KDL::RigidBodyInertia& tool) {
   return chain;
 }
 
-template <>
-double kdl_along_axis<Fer>(int /*joint*/) {
+double kdl_along_axis(int /*joint*/) {
   return 0.0;
 }
 

@@ -1,18 +1,16 @@
-// The UR10 for KDL, typed again from another form of the sources than the kernel uses: the
-// kinematics from the manufacturer's standard DH table, the inertias in DH axes as
-// Universal_Robots_ROS2_Description 2.4.5 states them before it turns them.
-#include "kernel/model/ur10.hpp"
+// The UR10 for KDL, typed from another form of the sources than the kernel's: the kinematics from
+// the manufacturer's standard DH table, the inertias in DH axes as
+// Universal_Robots_ROS2_Description 2.4.5 gives them before it rotates them.
+#include "tests/oracles/kdl_arm.hpp"
 
 #include <iterator>
-
-#include "tests/oracles/kdl_arm.hpp"
 
 namespace tactus {
 namespace {
 
 constexpr double kQuarter = 1.57079632679489661923;  // pi/2
 
-/// Standard DH frame i in frame i-1 at theta = 0, and the link whose far end it is; mass, centre of
+/// Standard DH frame i in frame i-1 at theta = 0, and the link that ends at it; mass, centre of
 /// mass and tensor in the axes of frame i, the tensor about the centre of mass.
 struct Link {
   double a, d, alpha;  // m, m, rad
@@ -39,9 +37,8 @@ constexpr Link kLinks[] = {
 
 }  // namespace
 
-/// A KDL segment is a joint and the link to its far end, where its inertia is given: a DH link.
-template <>
-KDL::Chain kdl_arm<Ur10>(const KDL::RigidBodyInertia& tool) {
+/// A KDL segment is a joint and the link up to its far end, where its inertia is given: a DH link.
+KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool) {
   KDL::Chain chain;
   for (const Link& l : kLinks) {
     KDL::RigidBodyInertia inertia(l.mass, KDL::Vector(l.c[0], l.c[1], l.c[2]),
@@ -53,9 +50,8 @@ KDL::Chain kdl_arm<Ur10>(const KDL::RigidBodyInertia& tool) {
   return chain;
 }
 
-/// Standard DH goes along the axis after it has turned, the kernel before.
-template <>
-double kdl_along_axis<Ur10>(int joint) {
+/// Standard DH translates along the axis after the rotation, the kernel before it.
+double kdl_along_axis(int joint) {
   return kLinks[joint].d;
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim_plant/compile_arm.hpp"
+#include "sim_plant/arm/compile_arm.hpp"
 
 namespace tactus {
 namespace {

@@ -1,8 +1,9 @@
-// MuJoCo as an opinion on the robot, from the plant's own MJCF: without friction, rotor inertia and
-// payload. Plain arrays; base frame, SI units, matrices row by row, gravity 9.81 m/s^2 along -z.
+// MuJoCo as an oracle for the robot, loaded with the plant's own MJCF without friction, rotor
+// inertia and payload. Plain arrays; base frame, SI units, matrices row by row, gravity 9.81 m/s^2
+// along -z.
 #pragma once
 
-#include "kernel/model/robot.hpp"
+#include "kernel/robots/robot.hpp"
 
 namespace tactus {
 

@@ -1,13 +1,17 @@
 // Counts the instructions that an emulated core executes: a plugin of QEMU's translator.
 //
 // Arguments, all optional:
-//   watch=ADDRESS    hex, repeated: a function whose every call is written; the first one is the cycle
-//   calls=FILE       a line for every call of the first: instructions in it and in each of the others
-//                    meanwhile, callees included; 0 where one was not called, the sum where often
-//   functions=FILE   a line for every function called: calls min max mean address symbol
-//   cover=FILE       a line for every address executed: address size times
-// Calls are seen by their instructions, BL and BLX, and returns by the address they come back to, so
-// a function that another one ends in by a jump counts as part of it. A conditional instruction
+//   watch=ADDRESS   hex, repeated: a function whose every call is written; the first is the cycle
+//   calls=FILE      a line for every call of the first: instructions in it and in each of the
+//                   others meanwhile, callees included; 0 where one was not called, the sum where
+//                   often
+//   functions=FILE  a line for every function called: calls min max mean address symbol
+//   cover=FILE      a line for every address executed: address size times
+//   marks=FILE      a line for every address, hexadecimal, whose execution is an event
+//   events=FILE     words of 32 bits in the order of execution: the address of a mark; kCall + the
+//                   address behind the call, then the callee's; kReturn + number of calls that end
+// Calls are seen by their instructions, BL and BLX, and returns by the address they come back to,
+// so a function that another one ends in by a jump counts as part of it. A conditional instruction
 // counts whether or not its condition holds. No recursion, one core, no interrupts.
 //
 // QEMU's package has no header for plugins; what is used of version 1 of the interface is declared
@@ -55,6 +59,8 @@ typedef struct {
   const char* symbol;
 } Function;
 
+enum { kCall = 1 << 30, kReturn = 1 << 29 };
+enum { kMarks = 1 << 14 };
 enum { kInstructions = 1 << 18, kFunctions = 1 << 14, kDepth = 256, kColumns = 32, kTailCalls = 4 };
 static Instruction instructions[kInstructions];  // open addressing, by address
 static Function functions[kFunctions];
@@ -67,7 +73,9 @@ static int depth;
 static bool called;  // the next block is a callee's first
 static uint64_t watched[kColumns], row[kColumns];
 static int columns;
-static FILE *calls_file, *functions_file, *cover_file;
+static FILE *calls_file, *functions_file, *cover_file, *events_file;
+static uint64_t marks[kMarks];
+static size_t mark_count;
 
 static void fail(const char* why) {
   fprintf(stderr, "count_plugin: %s\n", why);
@@ -98,6 +106,14 @@ static Function* function_at(const Instruction* first) {
   return NULL;
 }
 
+static void write_event(uint64_t word) {
+  const uint32_t event = (uint32_t)word;
+  if (events_file != NULL && fwrite(&event, sizeof event, 1, events_file) != 1) fail("events");
+}
+static void on_mark(unsigned int core, void* context) {
+  (void)core;
+  write_event(((const Instruction*)context)->address);
+}
 static void write_row(void) {
   for (int k = 0; k < columns; ++k)
     fprintf(calls_file, k + 1 < columns ? "%" PRIu64 " " : "%" PRIu64 "\n", row[k]);
@@ -120,12 +136,15 @@ static void on_block(unsigned int core, void* context) {
     Function* function = function_at(first);
     stack[depth].function = function;
     stack[depth].start = total;
+    write_event(kCall + stack[depth].return_address);
+    write_event(first->address);
     ++depth;
     if (function->watched == 0) memset(row, 0, sizeof row);
     return;
   }
   for (int d = depth - 1; d >= 0 && d >= depth - kTailCalls; --d) {
     if (stack[d].return_address != first->address) continue;
+    write_event(kReturn + (uint64_t)(depth - d));
     depth = d;
     end_call(stack[d].function, total - stack[d].start);
     return;
@@ -144,6 +163,10 @@ static bool is_call(const unsigned char* bytes, size_t size) {
   const unsigned second = bytes[2] | (unsigned)bytes[3] << 8;
   return (first & 0xf800) == 0xf000 && (second & 0xd000) == 0xd000;  // BL
 }
+static int by_address(const void* a, const void* b) {
+  const uint64_t x = *(const uint64_t*)a, y = *(const uint64_t*)b;  // address is the first member
+  return x < y ? -1 : x > y;
+}
 static void on_translation(qemu_plugin_id_t id, struct qemu_plugin_tb* block) {
   (void)id;
   const size_t count = qemu_plugin_tb_n_insns(block);
@@ -158,24 +181,22 @@ static void on_translation(qemu_plugin_id_t id, struct qemu_plugin_tb* block) {
     if (k == 0) qemu_plugin_register_vcpu_tb_exec_cb(block, on_block, QEMU_PLUGIN_CB_NO_REGS, at);
     qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, &total, 1);
     qemu_plugin_register_vcpu_insn_exec_inline(insn, QEMU_PLUGIN_INLINE_ADD_U64, &at->times, 1);
+    if (bsearch(at, marks, mark_count, sizeof *marks, by_address) != NULL)
+      qemu_plugin_register_vcpu_insn_exec_cb(insn, on_mark, QEMU_PLUGIN_CB_NO_REGS, at);
     if (is_call(qemu_plugin_insn_data(insn), qemu_plugin_insn_size(insn)))
       qemu_plugin_register_vcpu_insn_exec_cb(insn, on_call, QEMU_PLUGIN_CB_NO_REGS, at);
   }
 }
 
-static int by_address(const void* a, const void* b) {
-  const uint64_t x = *(const uint64_t*)a, y = *(const uint64_t*)b;  // address is the first member
-  return x < y ? -1 : x > y;
-}
 static void on_end(qemu_plugin_id_t id, void* context) {
-  (void)id, (void)context;
+  (void)id;
+  (void)context;
   if (functions_file != NULL) {
     qsort(functions, kFunctions, sizeof *functions, by_address);
     for (const Function* f = functions; f < functions + kFunctions; ++f)
       if (f->calls > 0)
-        fprintf(functions_file,
-                "%" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIx64 " %s\n", f->calls,
-                f->min, f->max, f->sum / f->calls, f->address, f->symbol);
+        fprintf(functions_file, "%" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIx64 " %s\n",
+                f->calls, f->min, f->max, f->sum / f->calls, f->address, f->symbol);
     fclose(functions_file);
   }
   if (cover_file != NULL) {
@@ -186,6 +207,17 @@ static void on_end(qemu_plugin_id_t id, void* context) {
     fclose(cover_file);
   }
   if (calls_file != NULL) fclose(calls_file);
+  if (events_file != NULL) fclose(events_file);
+}
+static bool read_marks(const char* argument) {
+  if (strncmp(argument, "marks=", 6) != 0) return false;
+  FILE* file = fopen(argument + 6, "r");
+  if (file == NULL) fail(argument);
+  while (fscanf(file, "%" SCNx64, &marks[mark_count]) == 1)
+    if (++mark_count == kMarks) fail("too many marks");
+  fclose(file);
+  qsort(marks, mark_count, sizeof *marks, by_address);
+  return true;
 }
 static bool open_output(const char* argument, const char* key, FILE** file) {
   const size_t length = strlen(key);
@@ -204,6 +236,7 @@ EXPORT int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int
       watched[columns++] = strtoull(argument + 6, NULL, 16) & ~(uint64_t)1;
     } else if (!open_output(argument, "calls=", &calls_file) &&
                !open_output(argument, "functions=", &functions_file) &&
+               !open_output(argument, "events=", &events_file) && !read_marks(argument) &&
                !open_output(argument, "cover=", &cover_file)) {
       fail(argument);
     }

@@ -1,4 +1,4 @@
-// The pipeline file PIPELINE_FILE, without the sections of a board, as it was when this was built.
+// The pipeline file PIPELINE_FILE, as it was at build time.
 #pragma once
 
 #include <cstddef>

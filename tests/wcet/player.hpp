@@ -1,13 +1,14 @@
-// Player: plays a tape through the executive, without a plant. The same source on the host, under
-// the search and on the bare Cortex-M7. Requests pass through the client's own admission, so that a
-// cycle sees what a client can send, however hostile, and nothing else.
+// Player: plays a tape through the executive, without a plant. The same source runs on the host,
+// under the search and on the bare Cortex-M7. Requests pass through the client's own admission, so
+// a cycle sees whatever a client can send, however hostile, and nothing else.
 #pragma once
 
 #include <string_view>
 
 #include "gateway/reference_client.hpp"
-#include "kernel/executive.hpp"
-#include "kernel/loader.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "kernel/load/loader.hpp"
+#include "program/sim/sim_sections.hpp"
 #include "tests/wcet/tape.hpp"
 
 namespace tactus {
@@ -18,16 +19,18 @@ class TapeHal final : public Hal {
   RobotState state;
 
   Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
-  Status start(CommandMode, RobotState& measured) override { return read(measured); }
-  Status read(RobotState& measured) override {
+  TapeHal() { state.drives.fill({DriveState::kEnabled, true}); }
+  Status connect(CommandMode) override { return Status::kOk; }
+  Status read(const CycleTime& now, RobotState& measured) override {
     measured = state;
+    measured.stamp_ns = now.stamp_ns;
     return Status::kOk;
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
-  void stop() override {}
+  void disconnect() override {}
 };
 
-/// The way of a client into a generator of one space.
+/// A client's path into a generator of one space.
 template <class Space>
 struct TapeClient {
   static constexpr int kCapacity = 64;  // waypoints of a store
@@ -48,25 +51,28 @@ class Player {
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
-  /// Loads a pipeline; once. `text` without the sections of a board.
+  /// Loads a pipeline as a simulated board does, without the board's own sections; once.
   Status load(std::string_view text, LoadError& error);
-  /// Begins with a tape, once for every Player.
+  /// Begins a tape; once for every Player.
   void insert(const Bytes& tape) { tape_ = tape; }
 
-  /// Does what the tape says before its next cycle. False: there is none.
+  /// Executes the tape's operations up to its next cycle; false at its end.
   bool prepare();
-  /// That cycle, and nothing else.
+  /// Runs that cycle, and nothing else.
   Status cycle() { return executive_.cycle({stamp_ns_}); }
 
   const Executive& executive() const { return executive_; }
+  /// Number of cycles in which the arm was taken over; they are none of the tape's.
+  std::uint32_t arming_cycles() const { return arming_cycles_; }
   const Pipeline& pipeline() const { return pipeline_; }
   int accepted() const { return accepted_; }  ///< requests that passed admission
 
  private:
   void apply(TapeOp op);
+  void start();
   void take_fractions(JointVector& value, const JointVector& low, const JointVector& high);
-  TaskSpace::Point near_reference(const TaskSpace::Terms& terms, Fields fields);
-  TaskSpace::Terms take_terms(std::uint8_t frames) const;
+  TaskSpace::Point near_reference(const TaskSpace::Header& header, Fields fields);
+  TaskSpace::Header take_terms(std::uint8_t frames) const;
   void take_point();
   void take_trajectory();
   void take_waypoints();
@@ -80,8 +86,10 @@ class Player {
   TapeClient<JointSpace> joints_;
   TapeClient<TaskSpace> poses_;
   Pipeline pipeline_;
+  SimSections board_;
   Executive executive_;
   const Pose* reference_ = nullptr;  ///< x_d of the task-space generator, if there is one
+  std::uint32_t arming_cycles_ = 0;
   bool started_ = false;
   int repeats_ = 0, deaf_ = 0, accepted_ = 0;
   std::int64_t stamp_ns_ = 0, late_ns_ = 0;

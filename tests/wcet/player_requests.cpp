@@ -1,11 +1,11 @@
-// What the tape says a client asks for.
+// The requests of a tape's client.
 #include "kernel/math/so3.hpp"
 #include "tests/wcet/player.hpp"
 
 namespace tactus {
 namespace {
 
-/// The pose that a tape calls by number, or null.
+/// The pose that a tape refers to by number, or null.
 const Pose* pose_of(const PortTable& ports, int number) {
   for (int i = 0; i < ports.count(); ++i)
     if (ports[i].quantity == Quantity::kPose && number-- == 0)
@@ -38,15 +38,15 @@ void take_values(Bytes& tape, TaskSpace::Point& point) {
 
 }  // namespace
 
-/// Two numbers of poses, 0 for none: the motion frame's in the low half, the wrench's in the high.
-TaskSpace::Terms Player::take_terms(std::uint8_t frames) const {
+/// Two pose numbers, 0 for none: the motion frame's in the low half, the wrench's in the high half.
+TaskSpace::Header Player::take_terms(std::uint8_t frames) const {
   return {pose_of(pipeline_.ports, (frames & 15) - 1), pose_of(pipeline_.ports, (frames >> 4) - 1)};
 }
 
-/// i8 x 6: 2 mm and 8 mrad each beside the reference; then, if `fields` has them, i8 x 6 each:
-/// velocity in 127ths of 1 m/s and 1 rad/s, acceleration of 1 m/s^2 and 1 rad/s^2, wrench in N and
-/// 0.1 N m.
-TaskSpace::Point Player::near_reference(const TaskSpace::Terms& terms, Fields fields) {
+/// i8 x 6: offset from the reference, 2 mm and 8 mrad at most per axis. Then, if `fields` has them,
+/// i8 x 6 each: velocity in 127ths of 1 m/s and 1 rad/s, acceleration of 1 m/s^2 and 1 rad/s^2,
+/// wrench in N and 0.1 N m.
+TaskSpace::Point Player::near_reference(const TaskSpace::Header& header, Fields fields) {
   Vector6 beside, scale;
   const auto take = [this](Vector6& to, double linear, double angular) {
     for (int i = 0; i < 6; ++i) to[i] = (i < 3 ? linear : angular) * tape_.take<std::int8_t>();
@@ -55,7 +55,7 @@ TaskSpace::Point Player::near_reference(const TaskSpace::Terms& terms, Fields fi
   TaskSpace::Point point;
   const Pose base = reference_ != nullptr ? *reference_ : Pose();
   point.x = {base.p + beside.head<3>(), exp_so3(beside.tail<3>()) * base.r};
-  if (terms.motion != nullptr) point.x = seen_from(*terms.motion, point.x);
+  if (header.motion != nullptr) point.x = seen_from(*header.motion, point.x);
   if (fields & kVelocityField) take(point.v, 1.0 / 127.0, 1.0 / 127.0);
   if (fields & kAccelerationField) take(point.a, 1.0 / 127.0, 1.0 / 127.0);
   if (fields & kEffortField) take(point.h, 1.0, 0.1);
@@ -64,15 +64,15 @@ TaskSpace::Point Player::near_reference(const TaskSpace::Terms& terms, Fields fi
 
 /// u8 frames, u8 fields, then the point.
 void Player::take_point() {
-  const TaskSpace::Terms terms = take_terms(tape_.take<std::uint8_t>());
+  const TaskSpace::Header header = take_terms(tape_.take<std::uint8_t>());
   const Fields fields = tape_.take<std::uint8_t>() & 7;
   std::uint32_t id = 0;
-  note(poses_.client.send(near_reference(terms, fields), id, terms));
+  note(poses_.client.send(near_reference(header, fields), id, header));
 }
 
 /// u8 frames, u8 fields (bit 3: open), u8 interpolation, i8 start: 0 at once, else cycles from now;
-/// u8 waypoints - 1, modulo 8; for each u8 time, 4 ms from the one before and a little more, then
-/// the point.
+/// u8 waypoints - 1, modulo 8; for each u8 time, at least 4 ms after the previous one, then the
+/// point.
 void Player::take_trajectory() {
   const auto frames = tape_.take<std::uint8_t>(), fields = tape_.take<std::uint8_t>(),
              how = tape_.take<std::uint8_t>();
@@ -82,7 +82,7 @@ void Player::take_trajectory() {
   const double period_s = pipeline_.robot.period_s();
   Trajectory<TaskSpace> unused;
   Trajectory<TaskSpace>& to = trajectory != nullptr ? *trajectory : unused;
-  to.terms = take_terms(frames);
+  to.header = take_terms(frames);
   to.fields = fields & 7;
   to.open = (fields & 8) != 0;
   to.interpolation = static_cast<Interpolation>(how % 5);
@@ -93,7 +93,7 @@ void Player::take_trajectory() {
   for (int i = 0; i < count; ++i) {
     const int step = tape_.take<std::uint8_t>();
     time_s += i == 0 && step == 0 ? 0.0 : 0.004 * step + period_s / 16.0;
-    const Waypoint<TaskSpace> waypoint = {time_s, near_reference(to.terms, to.fields)};
+    const Waypoint<TaskSpace> waypoint = {time_s, near_reference(to.header, to.fields)};
     if (trajectory != nullptr) to.waypoints[i] = waypoint;
   }
   std::uint32_t id = 0;
@@ -112,9 +112,9 @@ void Player::send_waypoints(TapeClient<Space>& to) {
              how = tape_.take<std::uint8_t>(), count = tape_.take<std::uint8_t>();
   const auto start_s = tape_.take<double>();
   if constexpr (std::is_same_v<Space, TaskSpace>) {
-    if (trajectory != nullptr) trajectory->terms = take_terms(frames);
+    if (trajectory != nullptr) trajectory->header = take_terms(frames);
   } else {
-    if (trajectory != nullptr) trajectory->terms.held = 0;
+    if (trajectory != nullptr) trajectory->header.held = 0;
   }
   for (int i = 0; i < count; ++i) {
     Waypoint<Space> waypoint;
@@ -141,7 +141,8 @@ void Player::take_waypoints() {
     send_waypoints(joints_);
 }
 
-/// The last waypoint of the trajectory sent last again, a little later; an odd byte ends it there.
+/// Repeats the last waypoint of the last trajectory, a little later; an odd byte ends the
+/// trajectory there.
 void Player::take_append() {
   const auto byte = tape_.take<std::uint8_t>();
   if (poses_.sent == nullptr || poses_.sent->count < 1) return;

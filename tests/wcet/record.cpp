@@ -1,15 +1,15 @@
-// wcet-record PIPELINE TAPE: runs a pipeline on the simulated plant and writes what the robot
-// measured and what the client sent. Exit code 1 with a message on the error stream.
+// wcet-record PIPELINE TAPE: runs a pipeline on the simulated plant and writes the robot's
+// measurements and the client's requests to a tape. Exit code 1 with a message on the error stream.
 #include <cstdio>
 #include <cstdlib>
 
-#include "boards/program/files.hpp"
-#include "gateway/gateway_section.hpp"
 #include "gateway/reference_client.hpp"
 #include "gateway/trajectory_csv.hpp"
-#include "hal/os/realtime_settings.hpp"
-#include "kernel/executive.hpp"
-#include "sim_plant/sim_hal.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "program/session/files.hpp"
+#include "program/sim/sim_sections.hpp"
+#include "sim_plant/arm/sim_hal.hpp"
+#include "tests/support/armed.hpp"
 #include "tests/wcet/tape.hpp"
 
 namespace tactus {
@@ -25,34 +25,38 @@ void put_vector(const double* values, Eigen::Index count) {
   for (Eigen::Index i = 0; i < count; ++i) put(values[i]);
 }
 
-/// The simulated robot, with a tape running.
+/// The simulated robot, while a tape is recorded.
 class RecordingHal final : public Hal {
  public:
   explicit RecordingHal(SimHal& robot) : robot_(robot) {}
   Capabilities capabilities() const override { return robot_.capabilities(); }
-  Status start(CommandMode mode, RobotState& state) override {
-    TRY(robot_.start(mode, state));
-    put_state(state);
-    put(TapeOp::kStart);
-    return Status::kOk;
-  }
-  Status read(RobotState& state) override {
-    TRY(robot_.read(state));
-    put_state(state);
-    put(TapeOp::kCycle);
+  Status connect(CommandMode mode) override { return robot_.connect(mode); }
+  Status read(const CycleTime& now, RobotState& state) override {
+    TRY(robot_.read(now, state));
+    if (records_) put_state(state, TapeOp::kCycle);
+    state_ = state;
     return Status::kOk;
   }
   Status write(const RobotCommand& command) override { return robot_.write(command); }
-  void stop() override { robot_.stop(); }
+  void disconnect() override { robot_.disconnect(); }
+  /// Begins the tape with the state in which the arm was taken over.
+  void begin() {
+    put_state(state_, TapeOp::kStart);
+    records_ = true;
+  }
 
  private:
-  static void put_state(const RobotState& state) {
+  static void put_state(const RobotState& state, TapeOp op) {
     put(TapeOp::kState);
     for (const JointVector* value : {&state.q, &state.dq, &state.tau})
       for (int i = 0; i < kDof; ++i) put(static_cast<float>((*value)[i]));
     for (int i = 0; i < 6; ++i) put(static_cast<float>(state.ft[i]));
+    put(op);
   }
+
   SimHal& robot_;
+  RobotState state_;
+  bool records_ = false;
 };
 
 void put_point(const JointSpace::Point& point) {
@@ -67,14 +71,11 @@ void put_point(const TaskSpace::Point& point) {
     put_vector(value->data(), 6);
 }
 
-struct Board {
+struct Board : SimSections {
   Pipeline pipeline;
-  PlantParams plant;
-  GatewaySection gateway;
-  RealtimeSettings realtime;
 };
 
-/// The pose of that name, and its number among the poses of the pipeline from 1; 0: none.
+/// The pose of that name, and its number among the pipeline's poses from 1; 0 if there is none.
 int find_pose(const PortTable& ports, const Value& name, const Pose*& pose) {
   const PortEntry* const port = name.empty() ? nullptr : ports.find(name);
   int number = port != nullptr ? 1 : 0;
@@ -84,29 +85,29 @@ int find_pose(const PortTable& ports, const Value& name, const Pose*& pose) {
   return number;
 }
 
-int put_terms(const Board& board, TaskSpace::Terms& terms) {
+int put_terms(const Board& board, TaskSpace::Header& header) {
   const PortTable& ports = board.pipeline.ports;
-  const int motion = find_pose(ports, board.gateway.motion_frame, terms.motion);
-  return motion + 16 * find_pose(ports, board.gateway.wrench_frame, terms.wrench);
+  const int motion = find_pose(ports, board.gateway.motion_frame, header.motion);
+  return motion + 16 * find_pose(ports, board.gateway.wrench_frame, header.wrench);
 }
-int put_terms(const Board&, JointSpace::Terms&) {
+int put_terms(const Board&, JointSpace::Header&) {
   return 0;
 }
 
 /// Stores, client and trajectory of one space.
 template <class Space>
 struct Way {
-  static constexpr int kCapacity = 64;  // as the player's
+  static constexpr int kCapacity = 64;  // as in the player
   Way() {
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i];
       channel.stores[i].capacity = kCapacity;
     }
   }
-  /// Sends the trajectory of that file. Its end, s; < 0: refused.
+  /// Sends the trajectory of that file. Returns its end, s, or a negative number if it is refused.
   double send(const char* path, const Board& board) {
     Trajectory<Space>& trajectory = *client.acquire();
-    const int frames = put_terms(board, trajectory.terms);
+    const int frames = put_terms(board, trajectory.header);
     CsvError error;
     std::uint32_t id = 0;
     if (!read_trajectory(path, false, trajectory, error)) return -1.0;
@@ -117,8 +118,10 @@ struct Way {
                            static_cast<int>(trajectory.interpolation), trajectory.count})
       put(static_cast<std::uint8_t>(byte));
     put(trajectory.start_s);
-    for (int i = 0; i < trajectory.count; ++i)
-      put(trajectory.at(i).time_s), put_point(trajectory.at(i).point);
+    for (int i = 0; i < trajectory.count; ++i) {
+      put(trajectory.at(i).time_s);
+      put_point(trajectory.at(i).point);
+    }
     return client.send(trajectory, id).ok() ? trajectory.end_s() : -1.0;
   }
   void poll() {
@@ -139,10 +142,7 @@ int record(const char* path) {
   static SimHal robot;
   static Way<JointSpace> joints;
   static Way<TaskSpace> poses;
-  Loader loader({&joints.channel, &poses.channel}, robot.capabilities());
-  loader.add(board_section("plant", board.plant));
-  loader.add(board_section("gateway", board.gateway));
-  loader.add(board_section("realtime", board.realtime));
+  Loader loader({&joints.channel, &poses.channel}, robot.capabilities(), board);
   std::string_view text;
   if (!load_pipeline(path, loader, board.pipeline, text)) return 1;
   const double period_s = board.pipeline.robot.period_s();
@@ -150,16 +150,25 @@ int record(const char* path) {
   if (robot.load(board.plant, 1) != Status::kOk) return 1;
   static RecordingHal hal(robot);
   static Executive executive(hal, board.pipeline, nullptr);
-  if (executive.start() != Status::kOk) return 1;
+  const std::int64_t period_ns = std::int64_t{1000} * board.pipeline.robot.period_us;
+  std::int64_t now_ns = 0;
+  if (start_armed(executive, period_ns, now_ns) != Status::kOk) return 1;
+  hal.begin();
   const FilePath file = relative_to(path, board.gateway.trajectory);
   const double end_s = board.pipeline.takes_poses ? poses.send(file.c_str(), board)
                                                   : joints.send(file.c_str(), board);
-  if (end_s < 0.0) return std::fprintf(stderr, "%s: refused\n", file.c_str()), 1;
+  if (end_s < 0.0) {
+    std::fprintf(stderr, "%s: refused\n", file.c_str());
+    return 1;
+  }
   const double duration_s = board.gateway.start_s + end_s + board.gateway.settle_s;
   for (std::int64_t k = 1; static_cast<double>(k) * period_s <= duration_s; ++k) {
-    if (executive.cycle({static_cast<std::int64_t>(1e9 * period_s) * k}) != Status::kOk)
-      return std::fprintf(stderr, "%s: %s\n", path, name(executive.latched())), 1;
-    joints.poll(), poses.poll();
+    if (executive.cycle({now_ns + period_ns * k}) != Status::kOk) {
+      std::fprintf(stderr, "%s: %s\n", path, name(executive.latched()));
+      return 1;
+    }
+    joints.poll();
+    poses.poll();
   }
   return 0;
 }
@@ -168,9 +177,15 @@ int record(const char* path) {
 }  // namespace tactus
 
 int main(int argc, char** argv) {
-  if (argc != 3) return std::fprintf(stderr, "usage: wcet-record PIPELINE TAPE\n"), 1;
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: wcet-record PIPELINE TAPE\n");
+    return 1;
+  }
   tactus::tape = std::fopen(argv[2], "wb");
-  if (tactus::tape == nullptr) return std::perror(argv[2]), 1;
+  if (tactus::tape == nullptr) {
+    std::perror(argv[2]);
+    return 1;
+  }
   const int code = tactus::record(argv[1]);
   return std::fclose(tactus::tape) == 0 ? code : 1;
 }

@@ -25,7 +25,7 @@ std::uint64_t stopwatch() {
   return static_cast<std::uint64_t>(std::chrono::nanoseconds(now).count());
 }
 
-/// What is timed, and how often it had been by the cycle before.
+/// The stages that are timed, and their counts at the previous cycle.
 struct Timed {
   std::string name;
   const Histogram* times;
@@ -37,7 +37,7 @@ std::vector<Timed> timed_of(const Player& player) {
   const Pipeline& pipeline = player.pipeline();
   std::vector<Timed> timed;
   for (const Stage stage : {Stage::kCycle, Stage::kRead, Stage::kGuard, Stage::kWrite})
-    timed.push_back({kStageNames[static_cast<std::size_t>(stage)], &timing.stage(stage)});
+    timed.push_back({name(stage), &timing.stage(stage)});
   for (int i = 0; i < pipeline.count(); ++i)
     timed.push_back({pipeline.name(i).c_str(), &timing.block(i)});
   for (int i = 0; i < pipeline.schedule.count(); ++i)
@@ -45,13 +45,15 @@ std::vector<Timed> timed_of(const Player& player) {
   return timed;
 }
 
-/// One play of a tape; `each` is called for every cycle, to run it.
+/// Plays a tape once; calls `each` to run each cycle.
 template <class Each>
 void play(const std::string& text, const Bytes& tape, Executive::Stopwatch watch, Each each) {
   const auto player = std::make_unique<Player>(watch);
   LoadError error;
-  if (player->load(text, error) != Status::kOk)
-    std::fprintf(stderr, "wcet-replay: the pipeline is refused\n"), std::exit(1);
+  if (player->load(text, error) != Status::kOk) {
+    std::fprintf(stderr, "wcet-replay: the pipeline is refused\n");
+    std::exit(1);
+  }
   player->insert(tape);
   for (int k = 0; player->prepare(); ++k) each(*player, k);
 }
@@ -93,7 +95,10 @@ void count(const std::string& text, Bytes reel, const std::vector<std::string>& 
 
 std::string read(const char* path) {
   std::FILE* const file = std::fopen(path, "rb");
-  if (file == nullptr) std::perror(path), std::exit(1);
+  if (file == nullptr) {
+    std::perror(path);
+    std::exit(1);
+  }
   std::string text;
   char part[65536];
   for (std::size_t size; (size = std::fread(part, 1, sizeof part, file)) > 0;)
@@ -107,16 +112,25 @@ std::string read(const char* path) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() < 3) return std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n"), 1;
+  if (words.size() < 3) {
+    std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n");
+    return 1;
+  }
   const std::string text = tactus::read(argv[1]), bytes = tactus::read(argv[2]);
   const tactus::Bytes reel(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   if (words[2] == "count") {
     tactus::count(text, reel, {words.begin() + 3, words.end()});
     return 0;
   }
-  if (words.size() < 4) return std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n"), 1;
+  if (words.size() < 4) {
+    std::fprintf(stderr, "usage: see tests/wcet/replay.cpp\n");
+    return 1;
+  }
   std::FILE* const out = std::fopen(words[3].c_str(), "w");
-  if (out == nullptr) return std::perror(words[3].c_str()), 1;
+  if (out == nullptr) {
+    std::perror(words[3].c_str());
+    return 1;
+  }
   tactus::time(text, reel, out);
   return std::fclose(out) == 0 ? 0 : 1;
 }

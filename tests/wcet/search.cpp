@@ -1,6 +1,7 @@
-// Searches for the tape with the longest cycle: a target of libFuzzer, whose goal beside new paths
-// is the code that one cycle executes. It goes by bytes of code per basic block, which is near to
-// instructions and needs no emulator; the M7 counts what is found.
+// Searches for the tape with the longest cycle: a target of libFuzzer that rewards new paths and
+// the amount of code that one cycle executes. It counts bytes of code per basic block, which
+// approximates instructions and needs no emulator; the M7 then counts the instructions of the tapes
+// found.
 #include <algorithm>
 #include <array>
 #include <new>
@@ -8,7 +9,7 @@
 #include "tests/wcet/pipeline_text.hpp"
 #include "tests/wcet/player.hpp"
 
-// What the compiler's coverage leaves in the program. [Clang, SanitizerCoverage: inline 8-bit
+// Symbols that the compiler's coverage adds to the program. [Clang, SanitizerCoverage: inline 8-bit
 // counters, PC table]
 struct Block {
   std::uintptr_t address, flags;
@@ -24,10 +25,9 @@ namespace {
 using namespace tactus;
 
 constexpr std::size_t kMostBlocks = 1 << 17, kSlices = 32, kLevels = 512;
-constexpr int kMaxCycles = 400;  // of a tape: more only makes the search slow
+constexpr int kMaxCycles = 400;  // of a tape: longer tapes only slow the search down
 
-// Levels that were reached, of the whole and of parts: libFuzzer keeps a tape that reaches a new
-// one.
+// Levels reached, of the whole and of parts: libFuzzer keeps a tape that reaches a new one.
 [[gnu::section(
     "__libfuzzer_extra_counters")]] std::array<std::array<std::uint8_t, kLevels>, kSlices + 1>
     reached;
@@ -36,7 +36,7 @@ std::array<std::uint32_t, kMostBlocks> bytes_of;  // of code, in every block
 std::array<std::uint8_t, kMostBlocks> ever;       // the counters of all cycles, libFuzzer's own
 std::size_t block_count = 0;
 
-/// A block's code goes to where the next one begins.
+/// A block's code extends to the beginning of the next one.
 void measure_blocks() {
   static std::array<std::uintptr_t, kMostBlocks> sorted;
   block_count =
@@ -53,7 +53,7 @@ void measure_blocks() {
   }
 }
 
-/// Grows with the logarithm of the count, by `per_doubling`.
+/// The level grows with the logarithm of the count, by `per_doubling`.
 void note_level(std::size_t slice, std::uint64_t count, std::size_t per_doubling) {
   if (count == 0) return;
   std::size_t doubling = 0;
@@ -63,7 +63,7 @@ void note_level(std::size_t slice, std::uint64_t count, std::size_t per_doubling
   reached[slice][std::min(level, kLevels - 1)] = 1;
 }
 
-/// What the cycle just run has executed; the counters begin anew.
+/// Notes the levels of the cycle just run; the counters restart.
 void weigh() {
   std::array<std::uint64_t, kSlices> parts{};
   for (std::size_t i = 0; i < block_count; ++i) {

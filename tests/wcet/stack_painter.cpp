@@ -1,5 +1,6 @@
-// Paints a thread's stack, plays tapes and prints how deep the cycles went: "Executive::cycle
-// bytes". The bound of the same compilation must be above: scripts/certificate.
+// Paints a thread's stack, plays tapes and prints the depth of the cycles: "Executive::cycle
+// bytes". scripts/certificate compares it with the bound of the same compilation, which must be
+// larger.
 #include <pthread.h>
 
 #include <cstdio>
@@ -14,7 +15,7 @@ namespace {
 using namespace tactus;
 
 constexpr std::size_t kStackBytes = std::size_t{1} << 20, kPaintedBytes = std::size_t{1} << 18;
-constexpr std::size_t kRedZone = 256;  // below the frame that paints, which is not touched
+constexpr std::size_t kRedZone = 256;  // below the painting frame, which is not touched
 constexpr unsigned char kPaint = 0xa5;
 constexpr int kTapes = 200;
 
@@ -24,7 +25,7 @@ std::size_t deepest = 0;
 
 using Call = void (*)(Player&);
 
-/// How many bytes below this frame a call touches, itself included.
+/// Number of bytes below this frame that a call touches, its own frame included.
 [[gnu::noinline]] std::size_t painted(Call call, Player& player) {
   auto* const top = static_cast<unsigned char*>(__builtin_frame_address(0));
   volatile unsigned char* const bottom = top - kPaintedBytes;
@@ -35,7 +36,7 @@ using Call = void (*)(Player&);
   return kPaintedBytes - clean;
 }
 
-/// Touches as little as it can at a known depth, so that what painted() itself adds is known.
+/// Touches as little as possible at a known depth, to measure what painted() itself adds.
 [[gnu::noinline]] void known(Player&) {
   volatile unsigned char frame[4 * kRedZone];
   for (volatile unsigned char& byte : frame) byte = 0;
@@ -45,7 +46,7 @@ void one_cycle(Player& player) {
   static_cast<void>(player.cycle());
 }
 
-/// The bytes of a tape that nobody made: seeded, so the same in every run.
+/// The bytes of a random tape, with a fixed seed.
 Bytes made_up(std::uint32_t seed) {
   static std::uint8_t bytes[2048];
   for (std::uint8_t& byte : bytes) {

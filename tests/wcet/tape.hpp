@@ -1,6 +1,6 @@
-// Tape: a run's inputs as bytes, what the robot measured and what a client asked, cycle by cycle.
-// Recorded from a run, written by a script or made up by a search: any bytes are a tape. Operands
-// that are missing are zero. scripts/wcet/tape.py writes the same operations.
+// Tape: the inputs of a run as bytes, cycle by cycle: the robot's measurements and the client's
+// requests. A tape is recorded from a run, written by a script or invented by a search: any bytes
+// are a tape. Missing operands are zero. scripts/wcet/tape.py writes the same operations.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ enum class TapeOp : std::uint8_t {
   kState,       ///< f32: q, dq, tau, ft, as measured from now on
   kJoints,      ///< i8 per joint: q as a fraction of its range, -127 and 127 being the limits
   kVelocities,  ///< i8 per joint: dq as a fraction of its limit
-  kEfforts,     ///< i8 per joint: tau likewise
+  kEfforts,     ///< i8 per joint: tau as a fraction of its limit
   kWrench,      ///< i8 x 6: ft, 1.3 N and 0.13 N m each
   kPoint,       ///< a point near the reference, see Player
   kTrajectory,  ///< a trajectory near the reference, see Player
@@ -47,13 +47,15 @@ class Bytes {
     T value{};
     const std::size_t size = sizeof value < left_ ? sizeof value : left_;
     if (size == sizeof value) std::memcpy(&value, data_, size);
-    data_ += size, left_ -= size;
+    data_ += size;
+    left_ -= size;
     return value;
   }
   /// The next `size` bytes, or what there is.
   Bytes split(std::size_t size) {
     const Bytes front(data_, size < left_ ? size : left_);
-    data_ += front.left_, left_ -= front.left_;
+    data_ += front.left_;
+    left_ -= front.left_;
     return front;
   }
 
@@ -62,7 +64,7 @@ class Bytes {
   std::size_t left_ = 0;
 };
 
-/// The next tape of a reel, in which every tape stands behind its length as u32.
+/// The next tape of a reel; each is preceded by its length as u32.
 inline Bytes next_tape(Bytes& reel) {
   return reel.split(reel.take<std::uint32_t>());
 }

@@ -1,22 +1,24 @@
-# The worst case, measured and counted: docs/timing.md. Included by the Makefile; B, O, robot, ARCH are its.
-WCET_ALL       := ur10_trg_ac_cpc_pid fer_trg_ac_cpc_pid
-# A board with a budget of memory is one that the kernel runs on.
+# The worst case, measured and counted: docs/timing.md. The Makefile includes this file and defines B, O, robot, ARCH.
+# The longest pipeline of every robot that has it.
+WCET_ALL       := $(patsubst pipelines/%.ini,%,$(wildcard pipelines/*_trg_ac_cpc_pid.ini))
+# The kernel runs on the boards that have a memory budget.
 WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(robot)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
-PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp
+PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp \
+                  sim_plant/arm/$(robot)_mjcf.cpp
 BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
 
 .PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
-wcet: wcet-built                              ## worst case of every stage: measured, counted, bounded; build/wcet
+wcet: wcet-built                              ## measure, count and bound the worst case of every stage; build/wcet
 	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
 	$(Q)$(call each,-j2 wcet-bound) > /dev/null
 	$(Q)scripts/wcet/measure $(WCET_ALL)
 	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
 	$(Q)nice scripts/wcet/search $(WCET_ALL)
 	$(Q)scripts/wcet/table $(WCET_ALL)
-wcet-count: wcet-built                        ## the same, instructions only
+wcet-count: wcet-built                        ## count the instructions of every stage
 	$(Q)scripts/wcet/count $(WCET_ALL)
-wcet-search: wcet-built                       ## tries for SECONDS each to beat the worst cycle known, and keeps what does
+wcet-search: wcet-built                       ## search SECONDS for cycles longer than the known worst, and keep them
 	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
 	$(Q)nice scripts/wcet/search --keep --seconds $(or $(SECONDS),600) $(WCET_ALL)
 wcet-built: wcet-setup
@@ -25,12 +27,6 @@ wcet-built: wcet-setup
 wcet-setup:
 	$(Q)scripts/setup wcet
 
-# A pipeline file without the sections that are a board's: what the player loads.
-build/wcet/%.ini: pipelines/%.ini
-	@mkdir -p $(@D)
-	$(Q)awk '/^\[/ { skip = /^\[(plant|gateway|realtime)\]/ } !skip' $< > $@
-
-.PRECIOUS: build/wcet/%.ini
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
@@ -38,14 +34,13 @@ $(O)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fn
 $(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a $(O)/libccd.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
-$(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp build/wcet/%.ini Makefile
+$(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini Makefile
 	$(call say,CXX   $<)
-	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
+	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
-wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) \
-           $(WCET_PIPELINES:%=build/wcet/%.ini) ;
+wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) ;
 $(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
@@ -61,14 +56,15 @@ build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	$(call say,LD    $@)
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
 endif
-# make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches; the target itself is not what it counts.
+# Built by make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches. The search target itself is compiled without
+# coverage, so that libFuzzer does not count it.
 ifeq ($(SANITIZE),fuzzer-no-link)
 .PHONY: wcet-searches
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
-$(O)/tests/wcet/search-%.o: tests/wcet/search.cpp build/wcet/%.ini Makefile
+$(O)/tests/wcet/search-%.o: tests/wcet/search.cpp pipelines/%.ini Makefile
 	$(call say,CXX   $<)
-	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"build/wcet/$*.ini"' -c $< -o $@
+	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@
 endif

@@ -1,11 +1,12 @@
-// The Flexible Collision Library as a second opinion on distances. Plain arrays only: Debian's FCL
-// is compiled with vectorised Eigen, which lays its types out otherwise than ours. So what calls it
-// is compiled that way too, and into a shared library that hides everything but these functions.
+// The Flexible Collision Library as the oracle for distances. The interface uses plain arrays
+// because Debian's FCL is compiled with vectorised Eigen, whose types have another layout than
+// ours. The code that calls FCL is compiled in the same way, into a shared library that exports
+// only these functions.
 #pragma once
 
 namespace tactus {
 
-/// Where a frame stands in the base frame: origin, m, and rotation matrix row by row.
+/// A frame in the base frame: origin, m, and rotation matrix row by row.
 struct FclPlace {
   double p[3];
   double r[3][3];
@@ -22,7 +23,7 @@ struct FclBox {
   double size[3];
 };
 
-/// Distance, m; not positive if they meet. By FCL's own algorithms, not those of libccd.
+/// Distance, m; zero or negative if they touch. Uses FCL's own algorithms, not those of libccd.
 [[gnu::visibility("default")]] double fcl_distance(const FclCapsule& one, const FclPlace& at,
                                                    const FclCapsule& other,
                                                    const FclPlace& other_at);

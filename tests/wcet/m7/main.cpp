@@ -1,6 +1,5 @@
-// Plays the tapes of a reel, whose path is the emulator's last argument, on a bare Cortex-M7 and
-// says of each how many cycles it had and how it ended. What the cycles take is counted from
-// outside.
+// Plays the tapes of a reel on a bare Cortex-M7 and prints each tape's cycles and end. The reel's
+// path is the emulator's last argument. The emulator counts the instructions of the cycles.
 #include <new>
 
 #include "tests/wcet/m7/semihosting.hpp"
@@ -15,7 +14,7 @@ constexpr std::size_t kReelBytes = std::size_t{15} << 20;
 [[gnu::section(".tapes,\"aw\",%nobits@")]] std::uint8_t reel_bytes[kReelBytes];
 alignas(Player) unsigned char player_bytes[sizeof(Player)];
 
-/// Every tape finds a player that has never run.
+/// Every tape gets a player that has never run.
 Status play(const Bytes& tape, std::uint32_t& cycles) {
   static LoadError error;
   Player& player = *new (player_bytes) Player;
@@ -25,6 +24,7 @@ Status play(const Bytes& tape, std::uint32_t& cycles) {
     ++cycles;
     static_cast<void>(player.cycle());  // on every rung, until the drives are disabled
   }
+  cycles += player.arming_cycles();
   return player.executive().latched();
 }
 
@@ -34,7 +34,10 @@ extern "C" int play_reel() {
   static char line[512];
   const char* const path = semihosting::last_argument(line, sizeof line);
   Bytes reel(reel_bytes, semihosting::read_file(path, reel_bytes, sizeof reel_bytes));
-  if (reel.empty()) return semihosting::print("no reel\n"), 1;
+  if (reel.empty()) {
+    semihosting::print("no reel\n");
+    return 1;
+  }
   while (!reel.empty()) {
     std::uint32_t cycles = 0;
     const Status status = play(next_tape(reel), cycles);

@@ -1,4 +1,4 @@
-// Semihosting: what a program on an emulated core asks of the machine that emulates it, by a
+// Semihosting: requests of a program on an emulated core to the machine that emulates it, by a
 // breakpoint with a number. [Arm, Semihosting for AArch32 and AArch64, 2.0]
 #pragma once
 
@@ -16,11 +16,11 @@ inline int call(int operation, const void* argument) {
 
 void print(const char* text);
 void print(std::uint32_t number);
-/// The whole file into `buffer`, if it fits; its size, 0 if there is none.
+/// Reads the whole file into `buffer` if it fits; returns its size, 0 if there is no such file.
 std::size_t read_file(const char* path, std::uint8_t* buffer, std::size_t capacity);
-/// The last word of the emulator's command line; `line` keeps it.
+/// The last word of the emulator's command line; `line` holds it.
 const char* last_argument(char* line, std::size_t capacity);
-/// Ends the emulator with that exit code.
+/// Ends the emulator with this exit code.
 [[noreturn]] void exit(int code);
 
 }  // namespace semihosting

@@ -1,5 +1,5 @@
-// From reset to play_reel() on a bare Cortex-M7: stack, FPU, .data, .bss, constructors, and faults
-// that end the emulator with a message.
+// The start of a bare Cortex-M7 from reset to play_reel(): stack, FPU, .data, .bss, constructors,
+// and faults that end the emulator with a message.
 #include "tests/wcet/m7/semihosting.hpp"
 
 extern "C" {
@@ -23,7 +23,7 @@ constexpr std::uintptr_t kCcr = 0xE000ED14, kShcsr = 0xE000ED24, kCfsr = 0xE000E
 constexpr std::uintptr_t kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98, kMpuRbar = 0xE000ED9C,
                          kMpuRasr = 0xE000EDA0;
 
-/// The 32 bytes under the stack may not be touched: an overflow is a fault.
+/// The 32 bytes below the stack are protected: an overflow is a fault.
 void guard_stack() {
   at(kMpuRnr) = 0;
   at(kMpuRbar) = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&stack_limit));
@@ -35,7 +35,7 @@ void guard_stack() {
 
 }  // namespace
 
-/// The FPU is switched on before anything that was compiled may touch it.
+/// Switches the FPU on before any compiled code may use it.
 extern "C" [[gnu::naked, gnu::used]] void on_reset() {
   asm volatile(
       "ldr r0, =0xE000ED88\n ldr r1, [r0]\n orr r1, r1, #(0xF << 20)\n str r1, [r0]\n dsb\n isb\n"
@@ -52,7 +52,7 @@ extern "C" [[gnu::used]] void run_main() {
 }
 
 extern "C" void on_fault() {
-  asm volatile("mov sp, %0" ::"r"(&stack_top));  // the old stack is of no further use
+  asm volatile("mov sp, %0" ::"r"(&stack_top));  // the old stack is no longer needed
   semihosting::print("fault, CFSR ");
   semihosting::print(at(kCfsr));
   semihosting::print("\n");

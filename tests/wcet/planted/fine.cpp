@@ -1,5 +1,5 @@
-// Nothing to complain about: a loop with a bound of its own.
-#include "kernel/loop_bound.hpp"
+// A loop with its own bound: no fault.
+#include "kernel/core/loop_bound.hpp"
 
 extern "C" double planted(const double* values, int count);
 double planted(const double* values, int count) {

@@ -1,4 +1,4 @@
-// A loop that is entered at two places.
+// Fault: a loop with two entries.
 extern "C" int planted(int x, int y);
 int planted(int x, int y) {
   int sum = 0;

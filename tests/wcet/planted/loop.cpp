@@ -1,4 +1,4 @@
-// A loop whose end depends on data: scripts/wcet_bound must name it.
+// Fault: a loop whose end depends on data; scripts/wcet_bound must name it.
 extern "C" double planted(const double* values, int count);
 double planted(const double* values, int count) {
   double sum = 0.0;

@@ -1,4 +1,4 @@
-// A function that calls itself, by way of another.
+// Fault: a function that calls itself through another.
 extern "C" double planted(double x, int depth);
 [[gnu::noinline]] static double other(double x, int depth) {
   return 1.0 + planted(0.5 * x, depth - 1);

@@ -1,4 +1,4 @@
-// A frame of four kilobytes.
+// Fault: a frame of four kilobytes.
 extern "C" void use(double* values);
 void use(double* values) {
   values[0] = 1.0;

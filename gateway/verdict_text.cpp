@@ -1,0 +1,155 @@
+#include "gateway/verdict_text.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "kernel/core/types.hpp"
+
+namespace tactus {
+namespace {
+
+enum class Relation : std::uint8_t {
+  kExceeds,    // a magnitude is above its limit
+  kOutside,    // the limit is the end of a range that was left
+  kNotFinite,  // the limit says nothing
+  kNotZero,    // must be zero
+  kTooEarly,   // the limit is the earliest time
+  kNotUpTo,    // the limit is the end of a range from 0 or, for a number of waypoints, 1
+};
+
+/// Value and limit of a verdict. The axis of `vector` statuses is the translation or the rotation
+/// of the tip as a whole, of the others one direction.
+struct Measured {
+  Status status;
+  Relation relation;
+  bool vector;
+  const char *quantity, *joint_unit, *translation_unit, *rotation_unit;
+};
+
+constexpr Relation kExceeds = Relation::kExceeds, kOutside = Relation::kOutside;
+
+// clang-format off
+constexpr Measured kMeasured[] = {
+    {Status::kReferenceSize, Relation::kNotUpTo, true, "number of waypoints", "", "", ""},
+    {Status::kReferenceNotFinite, Relation::kNotFinite, false, "value", "", "", ""},
+    {Status::kPositionLimit, kOutside, false, "position", " rad", " m", " rad"},
+    {Status::kReferenceTime, Relation::kTooEarly, true, "time", " s", " s", " s"},
+    {Status::kVelocityLimit, kExceeds, true, "velocity", " rad/s", " m/s", " rad/s"},
+    {Status::kAccelerationLimit, kExceeds, true, "acceleration", " rad/s^2", " m/s^2", " rad/s^2"},
+    {Status::kEffortLimit, kExceeds, true, "effort", " N m", " N", " N m"},
+    {Status::kNotAtRest, Relation::kNotZero, false, "velocity", " rad/s", " m/s", " rad/s"},
+    {Status::kStartTolerance, kExceeds, true, "distance from the reference", " rad", " m", " rad"},
+    {Status::kJerkLimit, kExceeds, true, "jerk", " rad/s^3", " m/s^3", " rad/s^3"},
+    {Status::kVelocityStep, kExceeds, true, "velocity step", " rad/s", " m/s", " rad/s"},
+    {Status::kQuaternion, kOutside, true, "length of the quaternion", "", "", ""},
+    {Status::kWorkspace, kOutside, false, "position", " rad", " m", " rad"},
+    {Status::kPathTolerance, kExceeds, true, "path error", " rad", " m", " rad"},
+    {Status::kGoalTolerance, kExceeds, true, "position error or velocity", "", "", ""},
+    {Status::kBadOverride, Relation::kNotUpTo, true, "override", "", "", ""},
+    {Status::kStateNotFinite, Relation::kNotFinite, false, "measured value", "", "", ""},
+    {Status::kCommandNotFinite, Relation::kNotFinite, false, "command", "", "", ""},
+    {Status::kMeasuredPositionLimit, kOutside, false, "measured position", " rad", "", ""},
+    {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", "", ""},
+    {Status::kFollowingError, kExceeds, false, "following error", " rad", "", ""},
+};
+// clang-format on
+
+constexpr std::array<const char*, 6> kDirections = {"x",          "y",          "z",
+                                                    "rotation x", "rotation y", "rotation z"};
+
+/// Null if the verdict has no value, or none that its status explains.
+const Measured* find(const Verdict& verdict) {
+  const bool valued = verdict.axis >= 0 || verdict.value != 0.0 || verdict.limit != 0.0;
+  for (const Measured& entry : kMeasured) {
+    if (valued && entry.status == verdict.status) return &entry;
+  }
+  return nullptr;
+}
+
+/// Value and limit, with more digits where seven do not tell them apart.
+struct Numbers {
+  std::array<char, 32> value, limit;
+
+  explicit Numbers(const Verdict& verdict) {
+    write(verdict, 7);
+    if (std::string_view(value.data()) == limit.data()) write(verdict, 12);
+  }
+  void write(const Verdict& verdict, int digits) {
+    std::snprintf(value.data(), value.size(), "%.*g", digits, verdict.value);
+    std::snprintf(limit.data(), limit.size(), "%.*g", digits, verdict.limit);
+    if (std::isnan(verdict.value)) std::snprintf(value.data(), value.size(), "nan");  // or "-nan"
+  }
+};
+
+void add_waypoint(Message& text, int waypoint, double time_s) {
+  std::array<char, 48> time{};
+  if (std::isfinite(time_s)) std::snprintf(time.data(), time.size(), " (t = %.6g s)", time_s);
+  text << "waypoint " << waypoint + 1 << time.data();
+}
+
+/// A quaternion that is not finite has axis 3, as all of a rotation.
+void add_axis(Message& text, const Verdict& verdict, const Measured& measured, VerdictAxes axes) {
+  const auto index = static_cast<std::size_t>(verdict.axis);
+  const bool quaternion = verdict.status == Status::kReferenceNotFinite && index == 3;
+  if (axes == VerdictAxes::kJoints)
+    text << "joint " << verdict.axis + 1 << " (" << Robot::kJointNames[index] << ")";
+  else if (measured.vector || quaternion)
+    text << (index < 3 ? "translation" : "rotation");
+  else
+    text << kDirections[index];
+}
+
+void add_numbers(Message& text, const Verdict& verdict, const Measured& measured,
+                 const char* unit) {
+  const Numbers numbers(verdict);
+  const char* const limit = numbers.limit.data();
+  text << measured.quantity << " " << numbers.value.data() << unit;
+  switch (measured.relation) {
+    case Relation::kExceeds: text << " exceeds " << limit << unit; break;
+    case Relation::kOutside:
+      text << (verdict.value < verdict.limit ? " is below " : " exceeds ") << limit << unit;
+      break;
+    case Relation::kNotFinite: text << " is not finite"; break;
+    case Relation::kNotZero: text << " is not zero"; break;
+    case Relation::kTooEarly: text << " is earlier than " << limit << unit; break;
+    case Relation::kNotUpTo:
+      text << " is not from " << (verdict.status == Status::kReferenceSize ? "1" : "0") << " to "
+           << limit;
+      break;
+  }
+}
+
+Message& add_code(Message& text, Status status) {
+  return text << " (" << static_cast<int>(status) << ")";
+}
+
+}  // namespace
+
+Message describe(Status status) {
+  Message text(meaning(status));
+  return add_code(text, status);
+}
+
+Message describe(const Verdict& verdict, VerdictAxes axes, double time_s) {
+  const Measured* const measured = find(verdict);
+  Message text;
+  if (verdict.waypoint >= 0) add_waypoint(text, verdict.waypoint, time_s);
+  if (measured != nullptr && verdict.axis >= 0) {
+    if (!text.empty()) text << ", ";
+    add_axis(text, verdict, *measured, axes);
+  }
+  if (!text.empty()) text << ": ";
+  if (measured == nullptr) {
+    text << describe(verdict.status);
+    return text;
+  }
+  const char* const tip_unit =
+      verdict.axis < 3 ? measured->translation_unit : measured->rotation_unit;
+  add_numbers(text, verdict, *measured,
+              axes == VerdictAxes::kJoints ? measured->joint_unit : tip_unit);
+  return add_code(text, verdict.status);
+}
+
+}  // namespace tactus

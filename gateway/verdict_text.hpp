@@ -1,0 +1,20 @@
+// The words in which operators read a Status or a Verdict, with units and the code at the end.
+#pragma once
+
+#include "kernel/core/load_error.hpp"
+#include "kernel/reference/space/verdict.hpp"
+
+namespace tactus {
+
+/// The axes of a verdict are joints, or directions of the tool tip.
+enum class VerdictAxes { kJoints, kTip };
+
+/// "following error beyond its limit (76)". [any]
+Message describe(Status status);
+
+/// "waypoint 2 (t = 1.5 s), joint 4 (fer_joint4): velocity -2.18 rad/s exceeds 2.175 rad/s (36)",
+/// without the parts that the verdict does not have; the time of the waypoint if it is finite.
+/// [any]
+Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfinity);
+
+}  // namespace tactus

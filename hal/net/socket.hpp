@@ -1,0 +1,46 @@
+// Socket: a TCP connection that blocks only where it connects and waits, for no longer than it is
+// told. The cycle only takes bytes that have come and sends without waiting.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hal/net/deadline.hpp"
+#include "kernel/core/load_error.hpp"
+
+namespace tactus::ur {
+
+class Socket {
+ public:
+  Socket() = default;
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  ~Socket() { close(); }
+
+  /// Connects to an IPv4 address, without Nagle's delay. kConnectionLost: `why` names address, port
+  /// and reason. [init]
+  Status connect(const char* address, int port, const Deadline& deadline, Message& why);
+
+  /// Waits until bytes or the end of the connection can be received. [any]
+  bool wait(std::int64_t timeout_ns) const;
+  /// Receives at most `size` bytes; returns their number, 0 if none has come, -1 if the connection
+  /// has ended. [cyclic]
+  long receive(std::uint8_t* data, std::size_t size);
+
+  enum class Sent : std::uint8_t { kAll, kNothing, kLost };
+  /// Sends all bytes or none; if only a part could be sent, the connection is lost. [cyclic]
+  Sent send(const std::uint8_t* data, std::size_t size);
+  /// Sends as much of a text as can be sent at once, and takes it off the front. False: the
+  /// connection is lost. [cyclic]
+  bool send_some(std::string_view& text);
+
+  /// Closes the connection; bytes that were sent still arrive. [any]
+  void close();
+  bool connected() const { return socket_ >= 0; }
+
+ private:
+  int socket_ = -1;
+};
+
+}  // namespace tactus::ur

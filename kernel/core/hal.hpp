@@ -1,0 +1,80 @@
+// Hal: the only interface to the robot, in SI units: a statement of what the robot offers, a wire
+// that is opened and closed, and one exchange per cycle. The exchange goes on in every rung: drives
+// are armed, stopped and watched by it, and many need it while they are disabled.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernel/core/clock.hpp"
+#include "kernel/core/drive.hpp"
+#include "kernel/core/text.hpp"
+#include "kernel/core/types.hpp"
+
+namespace tactus {
+
+/// Quantity in which the drives are commanded. A pipeline commands exactly one of these.
+enum class CommandMode : std::uint8_t { kPosition, kVelocity, kEffort };
+
+using Drives = std::array<Drive, kDof>;
+
+/// Newest state of the robot at the start of a cycle.
+struct RobotState {
+  JointVector q = JointVector::Zero();    ///< rad
+  JointVector dq = JointVector::Zero();   ///< rad/s
+  JointVector tau = JointVector::Zero();  ///< N m, exerted by the actuators
+  Vector6 ft = Vector6::Zero();  ///< N, N m: exerted by environment and tool on a sensor at the
+                                 ///< flange, at its origin and in its axes; zero without a sensor
+  double speed_scaling = 1.0;    ///< share of the commanded speed that the robot executes: 0
+                                 ///< stopped, 1 unchanged
+  std::int64_t stamp_ns = 0;     ///< when it was sampled, by the clock of the cycles
+  Drives drives;
+
+  /// True if q, dq and tau are; blocks judge what their sensors measure. [any]
+  bool finite() const { return q.allFinite() && dq.allFinite() && tau.allFinite(); }
+};
+
+/// Command sent at the end of a cycle. The value, in rad, rad/s or N m as the mode says, is for
+/// drives that are enabled and requested to follow.
+struct RobotCommand {
+  CommandMode mode = CommandMode::kEffort;
+  JointVector value = JointVector::Zero();
+  DriveRequest request = DriveRequest::kDisable;
+};
+
+/// Abilities of a robot and its wire; compared with the pipeline file before anything starts.
+struct Capabilities {
+  bool position = false, velocity = false, effort = false;  ///< supported command modes
+  std::int64_t min_period_us = 0, max_period_us = 0;        ///< supported cycle periods
+  bool wrench = false;  ///< it has a force/torque sensor at the flange
+};
+
+class Hal {
+ public:
+  /// Returns what this robot and wire can do. [any]
+  virtual Capabilities capabilities() const = 0;
+  /// Opens the wire for commands of `mode`. Enables no drive and moves nothing. May block, in all
+  /// no longer than the board's settings say. [init]
+  virtual Status connect(CommandMode mode) = 0;
+  /// Reads the newest state. If none came since the last cycle, repeats the last with its stamp and
+  /// kOk; the guard judges its age. Any other Status means that the wire does not work any more.
+  /// Bounded; never blocks. [cyclic]
+  virtual Status read(const CycleTime& now, RobotState& state) = 0;
+  /// Sends a command, and takes every drive one step towards what is requested. From the next
+  /// read() on, a drive that is requested to arm is kFault only if arming has failed; while an old
+  /// fault is being cleared it is kArming. Bounded; never blocks. [cyclic]
+  virtual Status write(const RobotCommand& command) = 0;
+  /// Disables the drives without waiting for them, and closes the wire; may be called in any state,
+  /// more than once. [any]
+  virtual void disconnect() = 0;
+
+  /// Returns the wire's clock if it begins the cycles; null: the host's does. [init]
+  virtual Clock* clock() { return nullptr; }
+  /// Explains the last Status that was not kOk in the robot's own words. [between two cycles]
+  virtual Message trouble() { return {}; }
+
+ protected:
+  ~Hal() = default;  // owned by the board as a static object, never deleted through the interface
+};
+
+}  // namespace tactus

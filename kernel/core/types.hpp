@@ -1,0 +1,40 @@
+// The vector types of the arm. Linear part or force first; SI units; each value's declaration names
+// its frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "kernel/robots/robot.hpp"
+
+namespace tactus {
+
+inline constexpr int kDof = Robot::kDof;  ///< joints of the board's robot
+
+using Vector3 = Eigen::Matrix<double, 3, 1>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix3 = Eigen::Matrix<double, 3, 3>;
+using JointVector = Eigen::Matrix<double, kDof, 1>;
+using Jacobian = Eigen::Matrix<double, 6, kDof>;  ///< geometric: [v; w] = J dq
+
+/// Position and orientation of one frame in another.
+struct Pose {
+  Vector3 p = Vector3::Zero();                                    ///< m
+  Eigen::Quaterniond r = Eigen::Quaterniond(1.0, 0.0, 0.0, 0.0);  ///< unit quaternion (w, x, y, z)
+};
+
+/// A box, given by its centre and the lengths of its edges.
+struct Cuboid {
+  Pose pose;                       ///< of its centre; axes along the edges
+  Vector3 size = Vector3::Zero();  ///< m
+};
+
+/// The tool mounted on the flange, in the flange frame. Its point mass adds to the gravity and
+/// inertia of the last link.
+struct Tool {
+  double mass_kg = 0.0;
+  Vector3 com = Vector3::Zero();  ///< centre of mass, m
+  Pose tip;                       ///< tip frame, in the flange frame
+};
+
+}  // namespace tactus

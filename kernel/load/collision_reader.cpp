@@ -1,0 +1,106 @@
+#include "kernel/load/collision_reader.hpp"
+
+namespace tactus {
+namespace {
+
+struct Place {
+  const Ini& ini;
+  const IniSection& section;
+  LoadError& error;
+
+  Status refuse(Status status, const char* key, std::string_view reason) const {
+    const IniEntry* entry = ini.find(section, key);
+    return error.refuse(status, entry ? entry->line : section.line, section.name, key, reason);
+  }
+};
+
+Status add_boxes(const PortTable& ports, CollisionScene& scene, const Place& place) {
+  for (int i = 0; i < ports.count(); ++i) {
+    if (ports[i].quantity != Quantity::kBox) continue;
+    if (scene.body_count == kMaxBodies)
+      return place.refuse(Status::kTooLarge, "boxes",
+                          Message("more than ") << kMaxObstacles << " boxes in the file");
+    scene.boxes[static_cast<std::size_t>(scene.box_count())] =
+        static_cast<const Cuboid*>(ports[i].value);
+    scene.names[static_cast<std::size_t>(scene.body_count++)] = ports[i].block.c_str();
+  }
+  return Status::kOk;
+}
+
+Message bodies(const CollisionScene& scene) {
+  Message words;
+  for (int i = 0; i < scene.body_count; ++i)
+    words << (i > 0 ? ", " : "") << scene.names[static_cast<std::size_t>(i)];
+  return words;
+}
+
+Status find_body(std::string_view name, const CollisionScene& scene, const Place& place,
+                 std::size_t& body) {
+  for (body = 0; body < static_cast<std::size_t>(scene.body_count); ++body)
+    if (name == scene.names[body]) return Status::kOk;
+  return place.refuse(Status::kBadValue, "allow",
+                      Message("unknown body '") << name << "'; expected one of " << bodies(scene));
+}
+
+/// Takes the text before the next comma off the list; `more` is true if there was a comma.
+std::string_view take_pair(std::string_view& list, bool& more) {
+  std::size_t size = 0;
+  while (size < list.size() && list[size] != ',') ++size;
+  const std::string_view pair(list.data(), size);
+  more = size < list.size();
+  list.remove_prefix(more ? size + 1 : size);
+  return pair;
+}
+
+/// Reads "tool table": two names and nothing else.
+Status allow_pair(std::string_view pair, CollisionScene& scene, const Place& place) {
+  std::string_view rest = pair;
+  const std::string_view first = take_word(rest), second = take_word(rest);
+  if (second.empty() || !trim(rest).empty())
+    return place.refuse(Status::kBadValue, "allow",
+                        Message("'")
+                            << trim(pair) << "' is not a pair of names; separate pairs by commas");
+  std::size_t a = 0, b = 0;
+  TRY(find_body(first, scene, place, a));
+  TRY(find_body(second, scene, place, b));
+  if (a == b)
+    return place.refuse(Status::kBadValue, "allow",
+                        Message("") << first << " is paired with itself");
+  scene.allowed[a][b] = scene.allowed[b][a] = true;
+  return Status::kOk;
+}
+
+/// Takes the braking the file gives, or the most there is; refuses more than that.
+Status check_braking(const JointVector& most, const Place& place, JointVector& braking) {
+  if (place.ini.find(place.section, "braking") == nullptr) braking = most;
+  for (int i = 0; i < kDof; ++i) {
+    if (braking[i] <= most[i]) continue;
+    return place.refuse(Status::kBadValue, "braking",
+                        Message("joint ")
+                            << i + 1 << ": " << braking[i]
+                            << " rad/s^2 is out of range; it brakes with at most " << most[i]);
+  }
+  return Status::kOk;
+}
+
+}  // namespace
+
+Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
+  const IniSection* section = ini.find("collision");
+  if (section == nullptr) return Status::kOk;
+  const Place place{ini, *section, error};
+  CollisionSection& collision = pipeline.collision;
+  if (collision.offset >= collision.divisor)
+    return place.refuse(Status::kBadValue, "offset",
+                        Message("") << collision.offset
+                                    << " cycles is out of range; it must be less than the divisor, "
+                                    << collision.divisor);
+  TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
+  TRY(add_boxes(pipeline.ports, collision.scene, place));
+  std::string_view list = collision.allow;
+  for (bool more = !list.empty(); more;)
+    TRY(allow_pair(take_pair(list, more), collision.scene, place));
+  return Status::kOk;
+}
+
+}  // namespace tactus

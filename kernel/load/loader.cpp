@@ -1,0 +1,140 @@
+#include "kernel/load/loader.hpp"
+
+#include "kernel/load/collision_reader.hpp"
+#include "kernel/load/pipeline_sections.hpp"
+#include "kernel/load/recording_reader.hpp"
+#include "kernel/load/schedule_reader.hpp"
+
+namespace tactus {
+namespace {
+
+/// Puts a default block of the kind called `type` into the slot; false if there is no such kind.
+template <std::size_t I = 1>
+bool emplace(Block& block, std::string_view type) {
+  if constexpr (I < std::variant_size_v<Block>) {
+    if (type != kBlockTypes[I]) return emplace<I + 1>(block, type);
+    block.emplace<I>();
+    return true;
+  } else {
+    return false;
+  }
+}
+
+template <class Visitor>
+void describe_block(Block& block, Visitor& visitor) {
+  std::visit(
+      [&](auto& kind) {
+        if constexpr (!std::is_same_v<decltype(kind), std::monostate&>) kind.describe(visitor);
+      },
+      block);
+}
+
+int line_of(const Ini& ini, const IniSection& section, const char* key) {
+  const IniEntry* entry = ini.find(section, key);
+  return entry ? entry->line : section.line;
+}
+
+Message block_types() {
+  Message words;
+  for (std::size_t i = 1; i < kBlockTypes.size(); ++i)
+    words << (i > 1 ? ", " : "") << kBlockTypes[i];
+  return words;
+}
+
+}  // namespace
+
+Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error) {
+  error = {};
+  left_ = channels_;
+  Ini ini;
+  TRY(ini.parse(text, error));
+  const IniSection* robot = ini.find("robot");
+  if (robot == nullptr)
+    return error.refuse(Status::kMissingKey, 0, "robot", {}, "the section is missing");
+  TRY(load_sections(ini, pipeline, error));
+  TRY(load_command(ini, *robot, pipeline, error));
+  TRY(check_command(ini, *robot, pipeline, error));
+  TRY(read_recording(ini, pipeline, error));
+  TRY(read_collision(ini, pipeline, error));
+  TRY(read_schedule(ini, pipeline, error));
+  const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
+  const double stretch = pipeline.guard.max_stretch;
+  pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
+  pipeline.takes_poses = channels_.task != nullptr && left_.task == nullptr;
+  if (pipeline.takes_joints)
+    channels_.joint->settings = {pipeline.guard.effective(), period_s, reserve, stretch};
+  if (pipeline.takes_poses)
+    channels_.task->settings = {pipeline.task_limits, period_s, reserve, stretch};
+  return Status::kOk;
+}
+
+Status Loader::load_sections(const Ini& ini, Pipeline& pipeline, LoadError& error) {
+  for (int i = 0; i < ini.section_count(); ++i) {
+    TRY(load_section(ini, ini.section(i), pipeline, error));
+  }
+  return Status::kOk;
+}
+
+Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline& pipeline,
+                            LoadError& error) {
+  PipelineSections sections(ini, section, pipeline.ports, error, offered_);
+  pipeline.describe(sections);
+  describe_(sections_, sections);
+  if (sections.found()) return error.status;
+  if (ini.find(section, "type") != nullptr) return load_block(ini, section, pipeline, error);
+  return error.refuse(Status::kNotOffered, section.line, section.name, {},
+                      Message("this board has no such section; it has ")
+                          << sections.names() << "; a block has a type, one of " << block_types());
+}
+
+Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& pipeline,
+                          LoadError& error) {
+  const IniEntry& type = *ini.find(section, "type");
+  Block* block = pipeline.append(section.name);
+  if (block == nullptr)
+    return error.refuse(Status::kTooLarge, section.line, section.name, {},
+                        Message("more than ") << kMaxBlocks << " blocks");
+  if (!emplace(*block, type.value))
+    return error.refuse(Status::kUnknownType, type.line, section.name, "type",
+                        Message("unknown type '")
+                            << type.value << "'; expected one of " << block_types());
+  TRY(refuse_unknown_keys(ini, section, error, [&](KeyFinder& finder) {
+    finder.param("type");
+    describe_block(*block, finder);
+  }));
+  SectionReader reader(ini, section, pipeline.ports, error);
+  reader.offer(left_);
+  describe_block(*block, reader);
+  return error.status;
+}
+
+Status Loader::load_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,
+                            LoadError& error) {
+  SectionReader reader(ini, section, pipeline.ports, error);
+  pipeline.robot.describe_command(reader);
+  if (reader.failed()) return error.status;
+  const RobotSection& robot = pipeline.robot;
+  const int commands = robot.q_c.wired() + robot.dq_c.wired() + robot.tau_c.wired();
+  if (commands != 1)
+    return error.refuse(Status::kNotConnected, section.line, section.name, {},
+                        Message("")
+                            << commands << " commands; expected exactly one of q_c, dq_c, tau_c");
+  return Status::kOk;
+}
+
+Status Loader::check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+                             LoadError& error) const {
+  const CommandMode mode = pipeline.robot.mode();
+  const bool offered = mode == CommandMode::kEffort     ? offered_.effort
+                       : mode == CommandMode::kVelocity ? offered_.velocity
+                                                        : offered_.position;
+  const char* key = mode == CommandMode::kEffort     ? "tau_c"
+                    : mode == CommandMode::kVelocity ? "dq_c"
+                                                     : "q_c";
+  if (!offered)
+    return error.refuse(Status::kNotOffered, line_of(ini, section, key), section.name, key,
+                        "the robot does not take this kind of command");
+  return Status::kOk;
+}
+
+}  // namespace tactus

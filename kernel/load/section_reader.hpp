@@ -1,0 +1,135 @@
+// SectionReader: the visitor that fills one block, or one section of settings, from the text of its
+// section and binds its inputs to the outputs above it. It keeps the first mistake as the error and
+// then stops reading.
+#pragma once
+
+#include <string_view>
+
+#include "kernel/core/names.hpp"
+#include "kernel/core/port.hpp"
+#include "kernel/load/ini.hpp"
+#include "kernel/pipeline/channels.hpp"
+#include "kernel/pipeline/port_table.hpp"
+
+namespace tactus {
+
+class SectionReader {
+ public:
+  SectionReader(const Ini& ini, const IniSection& section, PortTable& ports, LoadError& error)
+      : ini_(ini), section_(section), ports_(ports), error_(error) {}
+
+  void param(const char* key, double& value, const Range& range, const char* unit);
+  void param(const char* key, int& value, const Range& range, const char* unit);
+  void param(const char* key, JointVector& value, const Range& range, const char* unit);
+  void param(const char* key, Vector3& value, const Range& range, const char* unit);
+  /// Reads a limit per joint, which may be tightened from its present value, not widened.
+  void limit(const char* key, JointVector& value, const char* unit);
+  template <std::size_t N>
+  void text(const char* key, Text<N>& value, const char* /*meaning*/) {
+    const IniEntry* entry = find(key);
+    if (entry == nullptr) return;
+    if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);
+    value = Text<N>(entry->value);
+  }
+  template <class Enum>
+  void choice(const char* key, Enum& value) {
+    const int chosen = choose(key, kNames<Enum>.data(), kNames<Enum>.size());
+    if (chosen >= 0) value = static_cast<Enum>(chosen);
+  }
+
+  template <Quantity Q>
+  void in(const char* key, In<Q>& port) {
+    bind(key, port, true);
+  }
+  template <Quantity Q>
+  void optional(const char* key, In<Q>& port) {
+    bind(key, port, false);
+  }
+  template <Quantity Q>
+  void out(const char* port, Out<Q>& out) {
+    add_output({Name(section_.name), port, Q, &out.value});
+  }
+  /// Gives the board's channel of a space to the first generator that asks for it.
+  void channel(ReferenceChannel<JointSpace>*& channel) { take(channel, &Channels::joint); }
+  void channel(ReferenceChannel<TaskSpace>*& channel) { take(channel, &Channels::task); }
+  /// Sets the channels that are left to take; they must outlive the reader.
+  void offer(Channels& channels) { offered_ = &channels; }
+
+  /// Returns the value of the output above that `key` names, of the given quantity; null on refusal
+  /// or absence.
+  const void* source(const char* key, Quantity quantity, bool required);
+  bool failed() const { return error_.status != Status::kOk; }
+
+ private:
+  template <Quantity Q>
+  void bind(const char* key, In<Q>& port, bool required) {
+    if (const void* value = source(key, Q, required))
+      port.source = static_cast<const ValueOf<Q>*>(value);
+  }
+  template <class Space>
+  void take(ReferenceChannel<Space>*& channel, ReferenceChannel<Space>* Channels::*which) {
+    channel = offered_ != nullptr ? offered_->*which : nullptr;
+    if (channel == nullptr)
+      return refuse(Status::kTooLarge, "type", "the board has no channel left for this generator");
+    offered_->*which = nullptr;
+  }
+  void add_output(const PortEntry& entry);
+  const IniEntry* find(const char* key) const;
+  int choose(const char* key, const char* const* words, std::size_t count);
+  /// Reads as many numbers as there are values, or for joints also one number for all. Without the
+  /// key the defaults remain, if there are any.
+  bool numbers(const char* key, double* values, int count, bool joints, const char* unit);
+  /// Returns the word in the file that gave value `index`.
+  std::string_view written(const char* key, int index) const;
+  void refuse(Status status, const char* key, std::string_view reason);
+  void refuse_length(const char* key, std::size_t length, std::size_t limit);
+  void refuse_missing(const char* key, const char* unit);
+
+  const Ini& ini_;
+  const IniSection& section_;
+  PortTable& ports_;
+  LoadError& error_;
+  Channels* offered_ = nullptr;
+};
+
+/// The visitor that finds out whether a key is one of the names of a section.
+class KeyFinder {
+ public:
+  explicit KeyFinder(std::string_view key) : key_(key) {}
+  template <class... Ignored>
+  void param(const char* key, Ignored&&...) {
+    found_ = found_ || key_ == key;
+  }
+  template <class... Ignored>
+  void limit(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void text(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void choice(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void in(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void optional(const char* key, Ignored&&...) {
+    param(key);
+  }
+  template <class... Ignored>
+  void out(Ignored&&...) {}
+  template <class... Ignored>
+  void channel(Ignored&&...) {}
+
+  bool found() const { return found_; }
+
+ private:
+  std::string_view key_;
+  bool found_ = false;
+};
+
+}  // namespace tactus

@@ -1,0 +1,126 @@
+#include "kernel/pipeline/pipeline.hpp"
+
+#include "kernel/core/loop_bound.hpp"
+
+namespace tactus {
+
+/// Steps one block. Each kind has its own function with its own name, which profiles and bounds
+/// use.
+template <class Kind>
+[[gnu::noinline]] Status step_block(Kind& block, double period_s) {
+  return block.step(period_s);
+}
+
+namespace {
+
+/// Starts one block; start() takes the period if the block checks its settings against it.
+template <class Kind>
+Status start_block(Kind& block, double period_s) {
+  if constexpr (std::is_invocable_v<decltype(&Kind::start), Kind&, double>)
+    return block.start(period_s);
+  else
+    return block.start();
+}
+
+template <class Kind, class = void>
+constexpr bool kResumes = false;
+template <class Kind>
+constexpr bool kResumes<Kind, std::void_t<decltype(&Kind::resume)>> = true;
+
+template <class Kind, class = void>
+constexpr bool kMoves = false;
+template <class Kind>
+constexpr bool kMoves<Kind, std::void_t<decltype(&Kind::at_rest)>> = true;
+
+/// A block whose command must not step has a resume(); the others start anew.
+template <class Kind>
+Status resume_block(Kind& block, double period_s) {
+  if constexpr (kResumes<Kind>)
+    return block.resume();
+  else
+    return start_block(block, period_s);
+}
+
+}  // namespace
+
+/// Calls act(block) for every block in order. Returns the first Status that is not kOk.
+template <class Act>
+Status Pipeline::for_each_block(Act act) {
+  for (int i = 0; i < count_; ++i) {
+    TRY(std::visit(
+        [&act](auto& block) {
+          if constexpr (std::is_same_v<decltype(block), std::monostate&>)
+            return Status::kOk;
+          else
+            return act(block);
+        },
+        blocks_[static_cast<std::size_t>(i)]));
+  }
+  return Status::kOk;
+}
+
+Status Pipeline::start(const RobotState& measured) {
+  robot.set_measured(measured);
+  robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
+  TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
+  collision_check.start(collision, guard.effective(), robot.tool_tip, robot.period_s());
+  return Status::kOk;
+}
+
+bool Pipeline::at_rest() const {
+  bool rests = true;
+  for (int i = 0; i < count_; ++i) {
+    std::visit(
+        [&rests](const auto& block) {
+          if constexpr (kMoves<std::decay_t<decltype(block)>>) rests = rests && block.at_rest();
+        },
+        blocks_[static_cast<std::size_t>(i)]);
+  }
+  return rests;
+}
+
+Status Pipeline::resume(const RobotState& measured) {
+  robot.set_measured(measured);
+  return for_each_block([this](auto& block) { return resume_block(block, robot.period_s()); });
+}
+
+Status Pipeline::step(const RobotState& measured, Timing* timing) {
+  robot.set_measured(measured);
+  const double period_s = robot.period_s();
+  LoopBound<kMaxBlocks> steps;
+  for (int i = 0; i < count_; ++i) {
+    steps.tick();
+    TRY(std::visit(
+        [period_s](auto& block) {
+          if constexpr (std::is_same_v<decltype(block), std::monostate&>)
+            return Status::kOk;
+          else
+            return step_block(block, period_s);
+        },
+        blocks_[static_cast<std::size_t>(i)]));
+    if (timing != nullptr) timing->lap_block(i);
+  }
+  return Status::kOk;
+}
+
+void Pipeline::brake(Status why, BrakeWay way) {
+  LoopBound<kMaxBlocks> brakes;
+  for (int i = 0; i < count_; ++i) {
+    brakes.tick();
+    std::visit(
+        [why, way](auto& block) {
+          if constexpr (!std::is_same_v<decltype(block), std::monostate&>) block.brake(why, way);
+        },
+        blocks_[static_cast<std::size_t>(i)]);
+  }
+}
+
+JointVector Pipeline::deceleration() const {
+  JointVector least = guard.limits.ddq_max;
+  for (const Block& block : blocks_)
+    if (const auto* law = std::get_if<CartesianPose>(&block))
+      least = least.cwiseMin(law->params.limits.ddq_max);
+  return least;
+}
+
+}  // namespace tactus

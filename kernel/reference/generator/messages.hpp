@@ -1,0 +1,116 @@
+// The messages between a client and a reference generator. Every request and every control gets
+// exactly one final report.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "kernel/core/mailbox.hpp"
+#include "kernel/reference/generator/feedback.hpp"
+#include "kernel/reference/motion/admission_settings.hpp"
+#include "kernel/reference/motion/trajectory.hpp"
+#include "kernel/reference/space/verdict.hpp"
+
+namespace tactus {
+
+enum class RequestKind : std::uint8_t {
+  kPoint,       ///< make this point the reference
+  kTrajectory,  ///< follow the trajectory in a store
+  kAppend,      ///< take up waypoints appended to the open trajectory in a store
+};
+
+template <class Space>
+struct Request {
+  std::uint32_t id = 0;  ///< the client's number, returned in every report
+  RequestKind kind = RequestKind::kPoint;
+  int store = -1;                 ///< kTrajectory, kAppend: the store of the trajectory
+  typename Space::Point point;    ///< kPoint
+  typename Space::Header header;  ///< kPoint: joints left out, or frames it is given in
+  int count = 0;                  ///< kAppend: all waypoints including the new ones
+  bool last = false;              ///< kAppend: none will follow
+  typename Space::Extent extent;  ///< kAppend: extent of the new part
+};
+
+enum class ControlKind : std::uint8_t {
+  kCancel,    ///< stop and hold; void everything that was sent before
+  kOverride,  ///< pass trajectories at a fraction of their speed
+  kPause,     ///< stop on the path and keep the trajectory
+  kResume,    ///< go on after a pause
+};
+
+/// A command that must never wait for a point, a trajectory or a report that nobody fetches.
+/// Controls and requests share one sequence of numbers.
+struct Control {
+  std::uint32_t id = 0;
+  ControlKind kind = ControlKind::kCancel;
+  double rate = 1.0;  ///< kOverride: 0..1
+};
+
+enum class Outcome : std::uint8_t {
+  kScheduled,   ///< a trajectory waits for its start time; a final report follows
+  kStarted,     ///< a trajectory began; a final report follows
+  kSucceeded,   ///< final: a trajectory reached its end
+  kPreempted,   ///< final: a newer trajectory replaced it
+  kAborted,     ///< final: an online point replaced it, a tolerance was violated, or the
+                ///< executive brakes; the verdict says why
+  kCanceled,    ///< final: a client cancelled the trajectory
+  kExecuted,    ///< final: a point became the reference; a cancel, override, pause or resume took
+                ///< effect
+  kSuperseded,  ///< final: a newer point replaced it before it took effect, or a newer trajectory
+                ///< before its start time; or a cancel voided a point
+  kRefused,     ///< final: not accepted; the verdict says why
+  kStarved,   ///< an open trajectory ran out of waypoints: the arm stops on the path and waits for
+              ///< more
+  kReleased,  ///< a store is the client's again, after a final report that did not return it
+};
+
+constexpr const char* name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kScheduled: return "scheduled";
+    case Outcome::kStarted: return "started";
+    case Outcome::kSucceeded: return "succeeded";
+    case Outcome::kPreempted: return "preempted";
+    case Outcome::kAborted: return "aborted";
+    case Outcome::kCanceled: return "canceled";
+    case Outcome::kExecuted: return "executed";
+    case Outcome::kSuperseded: return "superseded";
+    case Outcome::kRefused: return "refused";
+    case Outcome::kStarved: return "starved";
+    case Outcome::kReleased: return "released";
+  }
+  return nullptr;
+}
+
+struct Report {
+  std::uint32_t id = 0;
+  Outcome outcome = Outcome::kRefused;
+  int store =
+      -1;  ///< the store returned to the client; -1: none, or the arm still brakes on its path
+  Verdict verdict;
+  double time_s = 0.0;  ///< by the generator's clock, periods since its start
+};
+
+/// One for the running trajectory, one for a trajectory that waits for its start time or in the
+/// mailbox, one to fill.
+inline constexpr int kStores = 3;
+
+/// Largest number of unanswered controls: sent, and their final reports not yet fetched.
+inline constexpr std::size_t kControls = 16;
+
+/// The messages and stores between one client and one reference generator. Owned by the board.
+template <class Space>
+struct ReferenceChannel {
+  AdmissionSettings<Space> settings;
+  Mailbox<Request<Space>, 16> requests;
+  Mailbox<Control, kControls> controls;  ///< all are taken in every cycle
+  Mailbox<Report, 64> reports;
+  FeedbackMailbox<Space> feedback;
+  std::array<Trajectory<Space>, kStores> stores;
+  /// First waypoint of each store that the motion still needs; earlier ones may be overwritten.
+  std::array<std::atomic<int>, kStores> needed{};
+  /// Number of waypoints of each store that the generator knows of; negative if none will follow.
+  std::array<std::atomic<int>, kStores> known{};
+};
+
+}  // namespace tactus

@@ -1,0 +1,217 @@
+// ReferenceGenerator: its treatment of each kind of control and request.
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/judge_channels.hpp"
+#include "kernel/reference/space/task_space.hpp"
+
+namespace tactus {
+namespace {
+
+// One request causes at most four reports in its cycle: what it supersedes, a trajectory that ends,
+// a store released, its own. What then runs and waits causes six more later: a point, a trajectory
+// that ends and its store, one that starts and ends and its store. A request waits in its mailbox
+// until there is space for all of them and for one report of every control that can be unanswered,
+// so no report is ever lost.
+constexpr std::size_t kReportsPerRequest = 10;
+
+}  // namespace
+
+template <class Space>
+bool ReferenceGenerator<Space>::has_room() const {
+  return channel_->reports.space() >= kReportsPerRequest + kControls;
+}
+
+/// Answers all controls, in every cycle before any request, so that nothing delays them.
+template <class Space>
+void ReferenceGenerator<Space>::take_controls() {
+  Control control;
+  LoopBound<kControls> controls;
+  LoopBound<2> cancels;  // of a path that has ended, and of the way to its end; then nothing goes
+  for (std::size_t i = 0; i < kControls; ++i) {
+    controls.tick();
+    if (!channel_->controls.take(control)) break;
+    const Verdict verdict = answer(control, cancels);
+    report(control.id, verdict.ok() ? Outcome::kExecuted : Outcome::kRefused, -1, verdict);
+  }
+}
+
+template <class Space>
+Verdict ReferenceGenerator<Space>::answer(const Control& control, LoopBound<2>& cancels) {
+  if (void_controls_ > 0) {
+    --void_controls_;
+    return Verdict{Status::kNotStarted};
+  }
+  if (refusing_ != Status::kOk) return {refusing_};
+  switch (control.kind) {
+    case ControlKind::kCancel: return cancel(control.id, cancels);
+    case ControlKind::kOverride: return set_override(control.rate);
+    case ControlKind::kPause:
+    case ControlKind::kResume: break;
+  }
+  motion_.pause(control.kind == ControlKind::kPause);
+  return {};
+}
+
+/// Cancels what runs, what waits, and what was sent before but not yet taken.
+template <class Space>
+Verdict ReferenceGenerator<Space>::cancel(std::uint32_t id, LoopBound<2>& cancels) {
+  assert(refusing_ == Status::kOk);
+  const bool goes = running_.any() || waiting_.any() || phase() == Phase::kReaching ||
+                    phase() == Phase::kLeaving || motion_.holds_effort();
+  if (!goes && channel_->requests.size() == 0) return {Status::kNothingToCancel};
+  canceled_before_ = id;
+  end_waiting(Outcome::kCanceled);
+  if (!goes) return {};
+  cancels.tick();
+  motion_.cancel();
+  end_running(Outcome::kCanceled, !motion_.on_path());
+  return {};
+}
+
+template <class Space>
+Verdict ReferenceGenerator<Space>::set_override(double rate) {
+  if (!(rate >= 0.0 && rate <= 1.0)) return {Status::kBadOverride, -1, -1, rate, 1.0};
+  override_ = rate;
+  motion_.set_rate(override_ * speed_scaling_);
+  return {};
+}
+
+/// Answers requests. If several points follow each other, only the newest is judged and becomes the
+/// reference, as in the paper; the others are reported as superseded. A point ends the requests of
+/// this cycle, together with the request after it.
+template <class Space>
+void ReferenceGenerator<Space>::take_requests() {
+  std::array<Request<Space>, 2> taken;
+  const Request<Space>* point = nullptr;
+  LoopBound<16> requests;  // what a mailbox holds
+  for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
+    requests.tick();
+    if (begun_ && refusing_ == Status::kOk) break;
+    Request<Space>& request = taken[point == taken.data() ? 1 : 0];
+    if (!has_room() || !channel_->requests.take(request)) break;
+    if (answered(request)) continue;
+    if (request.kind != RequestKind::kPoint) {
+      if (point != nullptr) take_point(*point);
+      request.kind == RequestKind::kTrajectory ? take_trajectory(request) : take_append(request);
+      if (point != nullptr) return;
+    } else {
+      if (point != nullptr) report(point->id, Outcome::kSuperseded);
+      point = &request;
+    }
+  }
+  if (point != nullptr) take_point(*point);
+}
+
+/// True if the request is answered whatever its kind: it was sent before the start or before the
+/// last cancel, or the executive brakes.
+template <class Space>
+bool ReferenceGenerator<Space>::answered(const Request<Space>& request) {
+  if (void_requests_ > 0) {
+    --void_requests_;
+    refuse(request, Status::kNotStarted);
+    return true;
+  }
+  if (refusing_ != Status::kOk) {
+    refuse(request, refusing_);
+    return true;
+  }
+  return canceled(request);
+}
+
+/// Ends a point or a trajectory that was sent before the last cancel; true if it was. Numbers wrap
+/// around.
+template <class Space>
+bool ReferenceGenerator<Space>::canceled(const Request<Space>& request) {
+  const bool older = static_cast<std::int32_t>(canceled_before_ - request.id) > 0;
+  if (!older || request.kind == RequestKind::kAppend) return false;
+  const bool point = request.kind == RequestKind::kPoint;
+  report(request.id, point ? Outcome::kSuperseded : Outcome::kCanceled, point ? -1 : request.store);
+  return true;
+}
+
+/// Refuses a request of any kind and returns the store that came with it.
+template <class Space>
+void ReferenceGenerator<Space>::refuse(const Request<Space>& request, Status why) {
+  const bool carries_store = request.kind == RequestKind::kTrajectory;
+  report(request.id, Outcome::kRefused, carries_store ? request.store : -1, {why});
+}
+
+template <class Space>
+Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
+  const typename Space::Limits& limits = channel_->settings.limits;
+  const Verdict verdict = judge_online<Space>(point, limits);
+  if (!verdict.ok() || params_.online != OnlineMode::kRefuse) return verdict;
+  return judge_reach<Space>(reference(), point, limits, period_s_);
+}
+
+/// Takes a point, which ends whatever ran before it: the paper's rule.
+template <class Space>
+void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
+  assert(refusing_ == Status::kOk);
+  const typename Space::Limits& limits = channel_->settings.limits;
+  const Point point =
+      Space::placed(request.point, Space::latch(request.header, reference(), limits));
+  const Verdict verdict = judge_point(point);
+  if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
+  params_.online == OnlineMode::kLimit ? motion_.reach(point) : motion_.forward(point);
+  end_running(Outcome::kAborted, !motion_.on_path());
+  point_age_s_ = 0.0;
+  report(request.id, Outcome::kExecuted);
+}
+
+/// Begins a trajectory at once, lets it wait for its start time, or joins it late. A newer one
+/// replaces one that waits.
+template <class Space>
+void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
+  assert(refusing_ == Status::kOk);
+  const Goal goal = {request.id, request.store};
+  const bool known = request.store >= 0 && request.store < kStores &&
+                     request.store != running_.store && request.store != waiting_.store &&
+                     request.store != braked_on_;
+  if (!known || trajectory(goal).count < 1)
+    return report(request.id, Outcome::kRefused, -1, {Status::kReferenceSize});
+  const double start_s = trajectory(goal).start_s, elapsed_s = time_s() - start_s;
+  const bool now = start_s == kStartAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
+  if (!now && !(std::isfinite(elapsed_s) && elapsed_s < trajectory(goal).end_s()))
+    return report(request.id, Outcome::kRefused, request.store,
+                  {Status::kReferenceTime, -1, -1, start_s, time_s()});
+  const bool later = !now && elapsed_s < 0.0;
+  if (!later && !begin(goal, now ? 0.0 : elapsed_s)) return;
+  end_waiting(Outcome::kSuperseded);
+  if (!later) return;
+  waiting_ = goal;
+  report(request.id, Outcome::kScheduled);
+}
+
+/// Takes up waypoints that the client has appended to a trajectory that runs or waits.
+template <class Space>
+void ReferenceGenerator<Space>::take_append(const Request<Space>& request) {
+  assert(refusing_ == Status::kOk);
+  const bool runs = running_.any() && request.store == running_.store && motion_.on_path();
+  const bool waits = waiting_.any() && request.store == waiting_.store;
+  const Goal goal = {request.id, request.store};
+  if (!(runs || waits) || !trajectory(goal).open || request.count < trajectory(goal).count)
+    return report(request.id, Outcome::kRefused, -1, {Status::kNothingToExtend});
+  const Verdict verdict = runs ? motion_.extend(request.extent) : Verdict();
+  if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
+  trajectory(goal).count = request.count;
+  channel_->known[static_cast<std::size_t>(request.store)].store(
+      request.last ? -request.count : request.count, std::memory_order_release);
+  trajectory(goal).open = !request.last;
+  trajectory(goal).extent = Space::Extent::largest(trajectory(goal).extent, request.extent);
+  report(request.id, Outcome::kExecuted);
+}
+
+template bool ReferenceGenerator<JointSpace>::has_room() const;
+template bool ReferenceGenerator<TaskSpace>::has_room() const;
+template void ReferenceGenerator<JointSpace>::take_controls();
+template void ReferenceGenerator<TaskSpace>::take_controls();
+template void ReferenceGenerator<JointSpace>::take_requests();
+template void ReferenceGenerator<TaskSpace>::take_requests();
+
+}  // namespace tactus

@@ -1,0 +1,55 @@
+// ToleranceMonitor: judges whether the robot follows its reference and has arrived at the goal. It
+// compares the reference of some cycles ago, the known latency of the robot, with the point
+// measured now. A comparison with NaN counts as a violation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "kernel/reference/generator/messages.hpp"
+
+namespace tactus {
+
+inline constexpr int kMaxLatencyCycles = 16;
+
+template <class Space>
+class ToleranceMonitor {
+ public:
+  using Point = typename Space::Point;
+
+  /// Starts with `reference` as the reference of all cycles before. If no velocity is measured, the
+  /// robot counts as stopped once its position has moved for kWindow_s by no more than the velocity
+  /// limit allows in that time. [init]
+  void start(const Point& reference, int latency_cycles, bool measures_velocity);
+  /// Begins a goal with its tolerances. [cyclic]
+  void begin(const Tolerances<Space>& tolerances);
+  /// Takes the reference of this cycle. [cyclic]
+  void put_out(const Point& reference);
+
+  /// Judges the path tolerance: kPathTolerance with axis, value and limit, or kOk. [cyclic]
+  Verdict follows(const Point& measured) const;
+
+  enum class Arrival { kWaiting, kArrived, kLate };
+  /// Judges one cycle after the end of the path: kArrived once the robot has been in the goal band
+  /// and stopped for the dwell time, kLate once the goal time has passed. `why` is the violation of
+  /// this cycle. [cyclic]
+  Arrival arrived(const Point& measured, double dt_s, Verdict& why);
+
+ private:
+  static constexpr double kWindow_s = 0.04;
+
+  const Point& expected() const;
+  Verdict stopped(const Point& measured, double dt_s);
+
+  Tolerances<Space> tolerances_;
+  std::array<Point, kMaxLatencyCycles + 1> line_;
+  std::size_t newest_ = 0, latency_ = 0;
+  double waiting_s_ = 0.0, inside_s_ = 0.0;
+
+  bool measures_velocity_ = true;
+  Point window_from_;                      // measured at the beginning of the window
+  double window_s_ = 0.0;                  // time since then
+  Verdict found_{Status::kGoalTolerance};  // result of the last window
+};
+
+}  // namespace tactus

@@ -1,0 +1,100 @@
+// Path: a trajectory that is being followed, and its present segment.
+#pragma once
+
+#include "kernel/reference/motion/admission.hpp"
+#include "kernel/reference/space/peaks.hpp"
+
+namespace tactus {
+
+/// The room at a place of a path (admission_room.hpp), and its derivative with respect to path
+/// time, 1/s.
+struct Room {
+  double most = 1.0, slope = 0.0;
+};
+
+template <class Space>
+class Path {
+ public:
+  using Point = typename Space::Point;
+  using Segment = typename Space::Segment;
+  using Settings = AdmissionSettings<Space>;
+
+  /// One segment, its beginning in path time, and the waypoint at which it ends.
+  struct Piece {
+    int target = -1;
+    double start_s = 0.0;
+    Segment segment;
+  };
+
+  Path() = default;
+  /// Resolves the trajectory's header now, while the reference is `reference`; does not enter the
+  /// path yet. [cyclic]
+  Path(const Trajectory<Space>& trajectory, const Point& reference,
+       const typename Space::Limits& limits);
+
+  /// Judges the placement, which admission could not know. [cyclic]
+  Verdict judge_placement(const Settings& settings) const {
+    return Space::judge_placed(extent_, placement_, settings.limits);
+  }
+  /// Enters the path at path time s, which is not before its first waypoint. [cyclic]
+  void enter(double s);
+  /// Enters by one segment from the reference `put_out` at path time s to the first waypoint, which
+  /// is ahead; refuses if the segment, measured with `care`, breaks a limit. [cyclic]
+  Verdict lead_in(const Point& put_out, double s, const Settings& settings, Care care);
+  /// Ends following the path. [cyclic]
+  void leave() { trajectory_ = nullptr; }
+  bool running() const { return trajectory_ != nullptr; }
+
+  /// Returns the point at path time s and makes its segment the present one. [cyclic]
+  Point at(double s);
+  /// Returns the waypoint at which the segment of path time s ends; s is not before the present
+  /// segment. [cyclic]
+  int target_at(double s) const;
+  /// Returns the derivatives at path time s, which is on the segment to `target`: the present one,
+  /// the `known` one, or `ahead`, which becomes that one if it is none of them. [cyclic]
+  typename Space::Local local(double s, int target, const Piece& known, Piece& ahead) const;
+  typename Space::Local local(double s, const Piece& known, Piece& ahead) const {
+    return local(s, target_at(s), known, ahead);
+  }
+  /// True if the segment to `target` is one of these. [cyclic]
+  bool built(int target, const Piece& known, const Piece& ahead) const {
+    return target == present_.target || target == known.target || target == ahead.target;
+  }
+  /// Returns the room at path time s, on the segment to `target`, from which the path can be slowed
+  /// down in time for all that follows. [cyclic]
+  Room room(double s, int target) const;
+  Room room(double s) const { return free() ? Room() : room(s, target_at(s)); }
+  /// True if the path may be passed at the full rate everywhere. [cyclic]
+  bool free() const { return !open() && !extent_.slowed; }
+  /// True if the path has ended at path time s and will not be extended. [cyclic]
+  bool ended(double s) const;
+  Point end() const { return trajectory_->point(trajectory_->count - 1, placement_); }
+  /// Returns the beginning of the present segment, Segment::corner(). [cyclic]
+  Point begin() const { return present_.segment.corner(); }
+
+  /// True if its segments are quintics, so that no acceleration steps.
+  bool smooth() const {
+    return order_of(trajectory_->interpolation, trajectory_->fields) == Interpolation::kQuintic;
+  }
+  double first_s() const { return trajectory_->at(0).time_s; }
+  double end_s() const { return trajectory_->end_s(); }
+  bool open() const { return trajectory_->open; }
+  /// Index of the first waypoint that is still needed.
+  int needed() const { return present_.target > 0 ? present_.target - 1 : 0; }
+
+  /// Adds the extent of a new part of an open trajectory; refuses if that part, once placed, breaks
+  /// a limit. [cyclic]
+  Verdict extend(const typename Space::Extent& more, const Settings& settings);
+
+ private:
+  Verdict judge_corners(const Point& reference, const Settings& settings) const;
+  int waypoint_from(double s, int before) const;
+  [[gnu::noinline]] Piece piece(int target) const;  // kilobytes of code, once
+
+  const Trajectory<Space>* trajectory_ = nullptr;
+  typename Space::Placement placement_;
+  typename Space::Extent extent_;
+  Piece present_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,69 @@
+// Judgements of velocities that are the same in every space: channel by channel, by the length of
+// each. The axis of channel c in a Verdict is c times the numbers of a channel.
+#pragma once
+
+#include "kernel/core/types.hpp"
+#include "kernel/reference/space/limit_check.hpp"
+
+namespace tactus {
+
+/// Returns the length of a channel of n numbers. [any]
+template <int n>
+double length(const double* channel) {
+  if constexpr (n == 1)
+    return std::abs(*channel);
+  else
+    return Eigen::Map<const Vector3>(channel).norm();
+}
+
+/// Judges a velocity: kVelocityLimit. [cyclic]
+template <class Space>
+Verdict judge_velocity(const typename Space::Rates& v, const typename Space::Limits& limits) {
+  const typename Space::Levels most = Space::peaks(limits).v;
+  Verdict verdict;
+  for (std::size_t c = 0; verdict.ok() && c < most.size(); ++c) {
+    const int axis = Space::kChannelSize * static_cast<int>(c);
+    verdict = at_most(length<Space::kChannelSize>(&v[axis]), most[c], Status::kVelocityLimit, axis);
+  }
+  return verdict;
+}
+
+/// Judges an online point: as a waypoint, and its velocity. [cyclic]
+template <class Space>
+Verdict judge_online(const typename Space::Point& point, const typename Space::Limits& limits) {
+  const Verdict verdict = Space::judge_waypoint(point, limits);
+  return verdict.ok() ? judge_velocity<Space>(Space::rates(point), limits) : verdict;
+}
+
+/// Judges whether the reference can be `to` one period after it was `from`: kVelocityLimit.
+/// [cyclic]
+template <class Space>
+Verdict judge_reach(const typename Space::Point& from, const typename Space::Point& to,
+                    const typename Space::Limits& limits, double dt_s) {
+  return judge_velocity<Space>(Space::secant(from, to, dt_s), limits);
+}
+
+/// Judges the last waypoint, which must be at rest as nothing follows it: kNotAtRest. [any]
+template <class Space>
+Verdict judge_end(const typename Space::Point& end) {
+  const typename Space::Rates& v = Space::rates(end);
+  for (int i = 0; i < v.size(); ++i) {
+    if (exceeds(std::abs(v[i]), kRest)) return {Status::kNotAtRest, -1, i, v[i], 0.0};
+  }
+  return {};
+}
+
+/// Judges a measured velocity against one limit for all channels, in rad/s or m/s: kGoalTolerance.
+/// A limit of 0 is not checked. [cyclic]
+template <class Space>
+Verdict judge_stopped(const typename Space::Point& measured, double limit) {
+  if (!(limit > 0.0)) return {};
+  const typename Space::Rates& v = Space::rates(measured);
+  for (int axis = 0; axis < v.size(); axis += Space::kChannelSize) {
+    const double speed = length<Space::kChannelSize>(&v[axis]);
+    if (!(speed <= limit)) return {Status::kGoalTolerance, -1, axis, speed, limit};
+  }
+  return {};
+}
+
+}  // namespace tactus

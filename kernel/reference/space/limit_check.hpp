@@ -1,0 +1,40 @@
+// Comparison of values with limits, the same in every space.
+#pragma once
+
+#include "kernel/reference/space/peaks.hpp"
+#include "kernel/reference/space/polynomial.hpp"
+#include "kernel/reference/space/verdict.hpp"
+
+namespace tactus {
+
+/// Numbers in a file are rounded to about ten digits; a value that reaches its limit exactly must
+/// not be refused for that.
+inline constexpr double kLimitRounding = 1e-9;
+/// Largest velocity that still counts as rest, rad/s or m/s.
+inline constexpr double kRest = 1e-6;
+
+/// True if the value is above the limit by more than rounding, or NaN. [any]
+inline bool exceeds(double value, double limit) {
+  return !(value <= limit + kLimitRounding);
+}
+
+/// Judges a magnitude against its limit. [any]
+inline Verdict at_most(double value, double limit, Status status, int axis) {
+  return exceeds(value, limit) ? Verdict{status, -1, axis, value, limit} : Verdict{};
+}
+
+/// Judges `peaks` against `limits` and returns the violation of the first channel that has one. The
+/// axis of channel c is size * c. [any]
+template <int n>
+Verdict judge(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int size) {
+  Verdict verdict;
+  for (std::size_t c = 0; verdict.ok() && c < peaks.v.size(); ++c) {
+    const int axis = size * static_cast<int>(c);
+    verdict = at_most(peaks.v[c], limits.v[c], Status::kVelocityLimit, axis);
+    if (verdict.ok()) verdict = at_most(peaks.a[c], limits.a[c], Status::kAccelerationLimit, axis);
+    if (verdict.ok()) verdict = at_most(peaks.j[c], limits.j[c], Status::kJerkLimit, axis);
+  }
+  return verdict;
+}
+
+}  // namespace tactus

@@ -1,0 +1,48 @@
+// The types of a robot's table of constants, which fer.hpp and ur10.hpp fill in. They say nothing
+// about how the table is used.
+#pragma once
+
+namespace tactus {
+
+/// Placement of joint frame i in joint frame i-1 at q = 0; the joint turns about its own z.
+/// T(i-1, i) = Trans(x, y, z) * RotX(roll) * RotZ(q_i), which describes every arm whose axes are
+/// parallel or perpendicular.
+struct JointFrame {
+  double x, y, z;          ///< m, in frame i-1
+  int roll_quarter_turns;  ///< roll about x in units of pi/2: -1, 0, 1 or 2
+};
+
+/// Mass distribution of a link in the axes of its joint frame, with the tensor about the centre of
+/// mass.
+struct LinkInertia {
+  double mass;                    ///< kg
+  double cx, cy, cz;              ///< centre of mass, m
+  double xx, xy, xz, yy, yz, zz;  ///< kg m^2
+};
+
+/// Bounds of one joint. The torque rate is that of the commanded torque.
+struct JointLimit {
+  double q_min, q_max;  ///< rad
+  double dq_max;        ///< rad/s
+  double ddq_max;       ///< rad/s^2
+  double dddq_max;      ///< rad/s^3
+  double tau_max;       ///< N m
+  double dtau_max;      ///< N m/s
+};
+
+/// Bounds of the tool tip's reference in the base frame. Each bounds the length of a vector.
+struct TaskLimit {
+  double v_max;       ///< m/s
+  double a_max;       ///< m/s^2
+  double j_max;       ///< m/s^3
+  double w_max;       ///< rad/s
+  double alpha_max;   ///< rad/s^2
+  double dalpha_max;  ///< rad/s^3
+  double force_max;   ///< N
+  double moment_max;  ///< N m
+};
+
+/// Gravity that every model and the plant use, m/s^2 along -z of the base frame.
+inline constexpr double kGravity_m_s2 = 9.81;
+
+}  // namespace tactus

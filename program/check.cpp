@@ -1,0 +1,60 @@
+// `tactus check`: runs the loader, the admission and the first step of the pipeline from the state
+// of the robot, whose drives stay disabled.
+#include <cstdio>
+
+#include "program/session/session.hpp"
+#include "program/session/trajectory_input.hpp"
+
+namespace tactus {
+namespace {
+
+Status look(Hal& hal, CommandMode mode, RobotState& state) {
+  Status status = hal.connect(mode);
+  if (status == Status::kOk) status = hal.read({}, state);
+  hal.disconnect();
+  return status;
+}
+
+}  // namespace
+
+int check(Session& session, const Options& options) {
+  TrajectoryInput input;
+  if (!read_input(session, options, input)) return kRefused;
+  Pipeline& pipeline = session.pipeline;
+  RobotState initial;
+  Status status = look(session.hal, pipeline.robot.mode(), initial);
+  if (status != Status::kOk) {
+    print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
+    return kRefused;
+  }
+  status = pipeline.start(initial);
+  if (status == Status::kOk && !send_input(session, input)) return kRefused;
+  if (status == Status::kOk) status = pipeline.step(initial);
+  // A robot at rest on its reference holds itself with the first command.
+  RobotState held = initial;
+  if (pipeline.robot.mode() == CommandMode::kEffort) held.tau = pipeline.robot.command().value;
+  Guard guard;
+  if (status == Status::kOk)
+    status = guard.start(pipeline.guard, pipeline.robot.mode(), held, pipeline.robot.period_s(),
+                         {held.stamp_ns});
+  if (status != Status::kOk) {
+    print_stop(options.pipeline, "refused", status, guard.telemetry());
+    return kRefused;
+  }
+  Report report;
+  while (poll_report(session, input, report)) {
+    if (report.outcome != Outcome::kRefused) continue;
+    print_verdict(input, report.verdict);
+    return kRefused;
+  }
+  std::printf("%s: accepted", options.pipeline);
+  if (input.given())
+    std::printf("; %s: accepted, %d %s, %.6g s", input.path.c_str(), input.count(),
+                input.count() == 1 ? "waypoint" : "waypoints", input.end_s());
+  if (input.stretch() > 0.0)
+    std::printf(", %.1f %% longer to stay within limits", 100.0 * input.stretch());
+  std::printf("\n");
+  return kSucceeded;
+}
+
+}  // namespace tactus

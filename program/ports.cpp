@@ -1,0 +1,32 @@
+#include "program/ports.hpp"
+
+namespace tactus {
+namespace {
+
+template <std::size_t I>
+void print_blocks_from() {
+  if constexpr (I < std::variant_size_v<Block>) {
+    std::variant_alternative_t<I, Block> block;
+    SectionPrinter().table((Message("type = ") << kBlockTypes[I]).c_str(), block);
+    print_blocks_from<I + 1>();
+  }
+}
+
+}  // namespace
+
+void print_board(const char* board, const Capabilities& offered) {
+  std::printf("# Sections, blocks and ports\n\nBoard `%s`, robot `%s`, %d joints. ", board,
+              Robot::kName, kDof);
+  std::printf("Commands:%s%s%s. Period %d to %d us.\n", offered.position ? " q_c" : "",
+              offered.velocity ? " dq_c" : "", offered.effort ? " tau_c" : "",
+              static_cast<int>(offered.min_period_us), static_cast<int>(offered.max_period_us));
+  std::printf(
+      "A number per joint may be given once for all joints. Limits and defaults are this\n"
+      "robot's, sections this board's: `build/<board>/tactus ports` prints another's.\n");
+}
+
+void print_blocks() {
+  print_blocks_from<1>();
+}
+
+}  // namespace tactus

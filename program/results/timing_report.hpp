@@ -1,0 +1,22 @@
+// The times of a run, per stage, block and row, and the events of the degrade ladder, for
+// summary.json and the screen.
+#pragma once
+
+#include <cstdio>
+
+#include "kernel/cycle/executive.hpp"
+
+namespace tactus {
+
+/// Writes `  "timing": {...},` of summary.json: stages by name, blocks as "step.<section>", rows as
+/// "row.<name>".
+void write_timing(std::FILE* file, const Pipeline& pipeline, const Executive& executive);
+/// Writes `  "rung": ..., "events_lost": ..., "events": [...],`: the rung on which the run ended
+/// and the changes of rung before.
+void write_events(std::FILE* file, Rung rung, const EventLog& events);
+
+void print_timing(const Pipeline& pipeline, const Executive& executive);
+/// Prints a line for every event but rearms and the switching off.
+void print_events(const EventLog& events);
+
+}  // namespace tactus

@@ -1,0 +1,144 @@
+// `tactus run`: a run from the reading of its trajectory to the figure, but for its cycles.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "gateway/verdict_text.hpp"
+#include "program/heap_count.hpp"
+#include "program/results/figure.hpp"
+#include "program/results/waypoint_log.hpp"
+#include "program/run_loop.hpp"
+#include "program/session/session.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kDefaultDuration_s = 10.0;  // without a trajectory
+
+double planned_duration(const Session& session, const Options& options,
+                        const TrajectoryInput& input) {
+  if (options.duration_s > 0.0) return options.duration_s;
+  if (!input.given()) return kDefaultDuration_s;
+  return input.start_s + input.end_s() + session.gateway.settle_s;
+}
+
+FilePath in_folder(const FilePath& folder, const char* file) {
+  FilePath path = folder;
+  path << "/" << file;
+  return path;
+}
+
+Status record(void* recorder, const RobotState&, double time_s) {
+  static_cast<Recorder*>(recorder)->record(time_s);
+  return Status::kOk;  // a full ring drops the row and counts it
+}
+
+void print_collision(const Collision::Telemetry& told) {
+  std::fprintf(
+      stderr, "  %s with %s, %s\n", told.first, told.second,
+      told.predicted ? "before the arm could have come to rest" : "at the present position");
+}
+
+/// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
+/// from the first cycle on, because connecting may take longer than its timeout.
+void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
+             LogWriter& writer, WatchdogThread& watchdog, RunResult& result) {
+  const double duration_s = planned_duration(session, options, input);
+  Progress progress(stem(options.pipeline), duration_s);
+  const double begin_s = wall_s();
+  const auto cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
+  RunLoop loop(session, input, watchdog, result, cycles);
+  if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
+  const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
+  if (started && !guarded) end_with(result, kRefused, "refused");
+  if (guarded) {
+    if (session.hal.clock() != nullptr)
+      loop.at_robots_pace(*session.hal.clock(), writer, progress);
+    else if (options.realtime)
+      loop.in_real_time(writer, progress);
+    else
+      loop.in_lock_step(log, progress);
+  }
+  const Status latched = session.executive.latched();
+  const Message trouble = latched != Status::kOk ? session.hal.trouble() : Message();
+  result.rung = session.executive.rung();
+  session.executive.stop();
+  watchdog.disarm();
+  result.wall_s = wall_s() - begin_s;
+  result.simulated_s = loop.time_s();
+  result.cycles = loop.commanded();
+  result.heap_allocations = heap_allocations();
+  progress.end();
+  if (latched == Status::kOk || loop.ended_as_planned() || (started && !guarded)) return;
+  if (loop.cut_short())
+    std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
+  else
+    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
+               session.executive.guard().telemetry(), trouble);
+  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
+}
+
+}  // namespace
+
+void print_stop(const char* subject, const char* event, Status status,
+                const Guard::Telemetry& guard, std::string_view trouble) {
+  const Verdict verdict = {status, -1, guard.tripped_joint, guard.tripped_value,
+                           guard.tripped_limit};
+  std::fprintf(stderr, "%s: %s: %s", subject, event,
+               describe(verdict, VerdictAxes::kJoints).c_str());
+  if (!trouble.empty())
+    std::fprintf(stderr, ": %.*s", static_cast<int>(trouble.size()), trouble.data());
+  std::fprintf(stderr, "\n");
+}
+
+int run(Session& session, const Options& options) {
+  const std::string_view pipeline = stem(options.pipeline);
+  FilePath folder(options.out);
+  if (folder.empty()) folder << "out/" << pipeline;
+  TrajectoryInput input;
+  if (!read_input(session, options, input)) return kRefused;
+  RunLog log;
+  LogWriter writer(log);
+  WatchdogThread watchdog;
+  Realtime realtime;
+  if (options.realtime &&
+      !(writer.start() && watchdog.start(session.realtime) && prepare(realtime, session.realtime)))
+    return kRefused;
+  if (!make_folder(folder)) return kRefused;
+  const Recording& recording = session.pipeline.recording;
+  if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
+
+  static RunResult result;
+  result.seed = options.seed;
+  result.stretch = input.stretch();
+  result.realtime.asked = options.realtime;
+  result.realtime.report = realtime.report();
+  result.config_hash = fnv1a_of_file(input.path.c_str(), fnv1a(session.text));
+  for (; result.tracking_count < recording.tracking_count; ++result.tracking_count) {
+    const auto i = static_cast<std::size_t>(result.tracking_count);
+    result.tracking[i].start(recording.tracking[i]);
+  }
+  session.recorder.start(recording);
+  session.pipeline.schedule.bind("recorder", record, &session.recorder);
+  if (!options.realtime) session.executive.in_virtual_time();
+  catch_interrupts();
+  execute(session, options, input, log, writer, watchdog, result);
+  realtime.release();  // or the program that draws the figure would inherit it
+
+  bool written = log.close();
+  written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
+  if (input.given() && recording.tracking_count > 0)
+    written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
+                               *recording.tracking[0].reference);
+  print_table(pipeline, session, result);
+  if (input.stretch() > 0.0)
+    std::printf("  trajectory made %.1f %% longer to stay within limits\n",
+                100.0 * input.stretch());
+  if (!written) std::fprintf(stderr, "%s: not all files could be written\n", folder.c_str());
+  if (options.figure && written) draw_figure(folder.c_str());
+  std::printf("  written to %s\n", folder.c_str());
+  if (result.cycles == 0) return kRefused;
+  return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
+}
+
+}  // namespace tactus

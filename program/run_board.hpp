@@ -1,0 +1,63 @@
+// run_board: the program of every board on Linux. A board is a robot behind its Hal, and the
+// sections that it adds to a pipeline file.
+#pragma once
+
+#include <cstdio>
+
+#include "gateway/verdict_text.hpp"
+#include "program/board_memory.hpp"
+#include "program/doctor.hpp"
+#include "program/ports.hpp"
+#include "program/session/files.hpp"
+
+namespace tactus {
+
+template <class Sections>
+struct Board {
+  const char* name;
+  Hal& hal;
+  std::size_t hal_bytes;  ///< of its memory figure; a simulated robot is not part of it
+  bool real;              ///< it has no virtual time
+  /// Hands the settings of a loaded file to the Hal.
+  Status (*configure)(const Sections& sections, const Pipeline& pipeline, const Options& options);
+};
+
+/// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
+/// Returns the exit code of the program.
+template <class Sections>
+int run_board(int argc, char** argv, const Board<Sections>& board) {
+  Options options;
+  int exit_code = kSucceeded;
+  if (!parse_options(argc, argv, board.name, options, exit_code)) return exit_code;
+  options.realtime = options.realtime || board.real;
+  if (options.verb == Verb::kDoctor) return doctor(options);
+  if (options.verb == Verb::kJitter) return jitter(options);
+
+  static BoardMemory memory;
+  static Sections sections;
+  Pipeline& pipeline = memory.pipeline;
+  const Capabilities offered = board.hal.capabilities();
+  if (options.verb == Verb::kPorts) return print_ports(board.name, offered, pipeline, sections);
+  Loader loader(memory.channels(), offered, sections);
+  std::string_view text;
+  if (!load_pipeline(options.pipeline, loader, pipeline, text)) return kRefused;
+  const Status status = board.configure(sections, pipeline, options);
+  if (status != Status::kOk) {
+    std::fprintf(stderr, "%s: robot: %s\n", options.pipeline, describe(status).c_str());
+    return kRefused;
+  }
+
+  static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
+  static Executive executive(board.hal, pipeline, stopwatch_ns);
+  static ReferenceClient<JointSpace> client(memory.channel);
+  static ReferenceClient<TaskSpace> task_client(memory.task_channel);
+  const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +
+                                   sizeof recorder + sizeof executive + sizeof client +
+                                   sizeof task_client;
+  Session session{board.name,       static_bytes, text,   board.hal,   pipeline,
+                  executive,        recorder,     client, task_client, sections.gateway,
+                  sections.realtime};
+  return options.verb == Verb::kCheck ? check(session, options) : run(session, options);
+}
+
+}  // namespace tactus

@@ -1,0 +1,169 @@
+#include "program/run_loop.hpp"
+
+#include <csignal>
+
+#include "hal/os/cycle_clock.hpp"
+#include "hal/os/realtime.hpp"
+#include "program/heap_count.hpp"
+
+namespace tactus {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void on_signal(int) {
+  interrupted = 1;
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGHUP, on_signal);
+}
+
+void end_with(RunResult& result, int code, const char* name) {
+  result.code = code;
+  result.name = name;
+}
+
+void end_with(RunResult& result, Status fault) {
+  end_with(result, static_cast<int>(fault), name(fault));
+  result.fault = fault;
+}
+
+/// Takes the result of the run from the reports on its trajectory. A run without a trajectory
+/// succeeds. False: the trajectory was refused, and the run ends.
+bool RunLoop::follow() {
+  Report report;
+  while (poll_report(session_, input_, report)) {
+    const bool of_input = report.id == input_.id && report.outcome != Outcome::kStarted;
+    if (!of_input || planned_end_) continue;
+    const bool refused = report.outcome == Outcome::kRefused;
+    end_with(result_,
+             refused                                 ? static_cast<int>(report.verdict.status)
+             : report.outcome == Outcome::kSucceeded ? 0
+                                                     : kEndedOtherwise,
+             name(report.outcome));
+    if (!refused) continue;
+    print_verdict(input_, report.verdict);
+    return false;
+  }
+  return true;
+}
+
+bool RunLoop::start() {
+  Status status = session_.executive.start();
+  if (status == Status::kOk) status = session_.executive.arm();
+  if (status == Status::kArming) return true;
+  cut_short_ = interrupted != 0;  // the signal ended a wait for the robot
+  if (cut_short_)
+    end_with(result_, kEndedOtherwise, "interrupted");
+  else
+    end_with(result_, status);
+  return false;
+}
+
+/// Takes over the drives once they are enabled, and then sends the trajectory.
+bool RunLoop::arm() {
+  const Status status = session_.executive.arm();
+  if (status == Status::kArming) return true;
+  if (status != Status::kOk) {
+    end_with(result_, status);
+    return session_.executive.busy();
+  }
+  armed_ = true;
+  return send_input(session_, input_);
+}
+
+bool RunLoop::cycle(const CycleTime& now) {
+  const bool commanded = commands(session_.executive.rung());
+  Status status = Status::kOk;
+  {
+    const HeapWatch watch;
+    status = session_.executive.cycle(now);
+  }
+  watchdog_.cycle_completed();
+  if (interrupted != 0 && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
+  if (status == Status::kArming && interrupted == 0) return arm();
+  commanded_ += commanded ? 1 : 0;
+  for (int i = 0; i < result_.tracking_count && commanded; ++i)
+    result_.tracking[static_cast<std::size_t>(i)].add();
+  if (!follow()) refused_ = true;
+  take_result(status);
+  return session_.executive.busy() || !over(status);
+}
+
+void RunLoop::take_result(Status status) {
+  if (status == Status::kOk || planned_end_) return;
+  if (interrupted != 0 && (status == Status::kHalted || status == Status::kArming))
+    end_with(result_, kEndedOtherwise, "interrupted");
+  else
+    end_with(result_, status);
+}
+
+/// True if no cycle is to follow. An arm that moves when its time has passed is halted first.
+bool RunLoop::over(Status status) {
+  if (status != Status::kOk || refused_ || interrupted != 0) return true;
+  if (commanded_ < cycles_) return false;
+  planned_end_ = true;
+  if (session_.executive.at_rest()) return true;
+  session_.executive.halt();
+  return false;
+}
+
+double RunLoop::time_s() const {
+  return static_cast<double>(commanded_) * session_.pipeline.robot.period_s();
+}
+
+void RunLoop::in_lock_step(RunLog& log, Progress& progress) {
+  const std::int64_t period_ns = std::int64_t{1000} * session_.pipeline.robot.period_us;
+  bool goes_on = true;
+  for (std::int64_t k = 0; goes_on; ++k) {
+    goes_on = cycle({k * period_ns});
+    log.drain(session_.recorder);
+    progress.update(time_s());
+  }
+}
+
+void RunLoop::in_real_time(LogWriter& writer, Progress& progress) {
+  RealtimeResult& realtime = result_.realtime;
+  CycleClock clock;
+  Status status = clock.start(std::int64_t{1000} * session_.pipeline.robot.period_us);
+  writer.begin(session_.recorder, progress);
+  const std::int64_t faults = page_faults();
+  {
+    const HeapWatch watch;  // covers everything in this thread, not only the cycle
+    bool goes_on = true;
+    while (goes_on && status == Status::kOk) {
+      Wake wake;
+      status = clock.wait(wake);
+      realtime.latency.add(static_cast<std::uint64_t>(wake.latency_ns()));
+      if (status == Status::kOk) goes_on = cycle({wake.stamp_ns});
+    }
+  }
+  realtime.page_faults = page_faults() - faults;
+  writer.end();
+  if (status != Status::kOk) end_with(result_, status);
+}
+
+void RunLoop::at_robots_pace(Clock& clock, LogWriter& writer, Progress& progress) {
+  writer.begin(session_.recorder, progress);
+  const std::int64_t faults = page_faults();
+  Status status = Status::kOk;
+  {
+    const HeapWatch watch;
+    bool goes_on = true;
+    while (goes_on && status == Status::kOk) {
+      CycleTime now;
+      status = clock.wait(now);
+      if (status == Status::kOk) goes_on = cycle(now);
+    }
+  }
+  result_.realtime.page_faults = page_faults() - faults;
+  writer.end();
+  if (status != Status::kOk) end_with(result_, status);
+}
+
+}  // namespace tactus

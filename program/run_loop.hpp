@@ -1,0 +1,68 @@
+// RunLoop: the cycles of a run, in lock-step with the plant's virtual time, by the wall clock or by
+// the robot's clock, with tracking errors and heap calls of each.
+#pragma once
+
+#include "program/results/log_writer.hpp"
+#include "program/results/progress.hpp"
+#include "program/results/run_log.hpp"
+#include "program/results/summary.hpp"
+#include "program/session/trajectory_input.hpp"
+#include "program/watchdog_thread.hpp"
+
+namespace tactus {
+
+/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program.
+void catch_interrupts();
+
+void end_with(RunResult& result, int code, const char* name);
+/// The same for a run that a Status ended.
+void end_with(RunResult& result, Status fault);
+
+class RunLoop {
+ public:
+  /// `cycles`: those in which the arm is to be commanded.
+  RunLoop(Session& session, TrajectoryInput& input, WatchdogThread& watchdog, RunResult& result,
+          std::int64_t cycles)
+      : session_(session), input_(input), watchdog_(watchdog), result_(result), cycles_(cycles) {}
+
+  /// Connects to the robot and asks for its drives. False: refused.
+  bool start();
+  /// True once the arm has been commanded.
+  bool armed() const { return armed_; }
+  /// True if a signal came while the robot was being connected to.
+  bool cut_short() const { return cut_short_; }
+  /// True if the time of the run has passed, and nothing else ended it.
+  bool ended_as_planned() const { return planned_end_; }
+  /// Cycles in which it has been, and their time.
+  std::int64_t commanded() const { return commanded_; }
+  double time_s() const;
+  /// Runs cycles as fast as the host can and logs the rows after each.
+  void in_lock_step(RunLog& log, Progress& progress);
+  /// Runs each cycle at its time by the monotonic clock; the writer logs rows and shows progress.
+  /// Missed periods are left out, and the plant does not move in them.
+  void in_real_time(LogWriter& writer, Progress& progress);
+  /// Runs each cycle when the robot begins it, otherwise as in real time. There are no latencies:
+  /// the stamps are the robot's.
+  void at_robots_pace(Clock& clock, LogWriter& writer, Progress& progress);
+
+ private:
+  /// Runs one cycle, tells the watchdog, counts its heap calls and adds its tracking errors. False:
+  /// the run is over, the arm is at rest, and drives that were disabled are.
+  bool cycle(const CycleTime& now);
+  bool arm();
+  bool follow();
+  void take_result(Status status);
+  bool over(Status status);
+
+  Session& session_;
+  TrajectoryInput& input_;
+  WatchdogThread& watchdog_;
+  RunResult& result_;
+  const std::int64_t cycles_;
+  std::int64_t commanded_ = 0;
+  bool armed_ = false;
+  bool planned_end_ = false, cut_short_ = false;
+  bool refused_ = false;  // the trajectory was refused
+};
+
+}  // namespace tactus

@@ -1,0 +1,88 @@
+#include "program/session/files.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace tactus {
+namespace {
+
+std::array<char, kMaxPipelineBytes + 1> pipeline_text;
+
+bool read_text(const char* path, std::string_view& text) {
+  std::FILE* file = std::fopen(path, "rb");
+  if (file == nullptr) {
+    std::fprintf(stderr, "%s: %s\n", path, std::strerror(errno));
+    return false;
+  }
+  const std::size_t size = std::fread(pipeline_text.data(), 1, pipeline_text.size(), file);
+  const int failure = std::ferror(file) != 0 ? errno : 0;
+  std::fclose(file);
+  if (failure != 0) {
+    std::fprintf(stderr, "%s: %s\n", path, std::strerror(failure));
+    return false;
+  }
+  if (size > kMaxPipelineBytes) {
+    std::fprintf(stderr, "%s: the file is larger than %zu bytes\n", path, kMaxPipelineBytes);
+    return false;
+  }
+  text = std::string_view(pipeline_text.data(), size);
+  return true;
+}
+
+}  // namespace
+
+bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::string_view& text) {
+  if (!read_text(path, text)) return false;
+  LoadError error;
+  if (loader.load(text, pipeline, error) == Status::kOk) return true;
+  std::fprintf(stderr, "%s:%s%s\n", path, error.line > 0 ? "" : " ", error.message().c_str());
+  return false;
+}
+
+FilePath relative_to(std::string_view from, std::string_view path) {
+  const std::size_t slash = from.rfind('/');
+  if (path.substr(0, 1) == "/" || slash == std::string_view::npos) return path;
+  FilePath joined(from.substr(0, slash + 1));
+  joined << path;
+  return joined;
+}
+
+std::string_view stem(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
+  return path.substr(0, path.rfind('.'));
+}
+
+bool make_folder(std::string_view path) {
+  for (std::size_t end = 1; end <= path.size(); ++end) {
+    if (end < path.size() && path[end] != '/') continue;
+    const FilePath part(path.substr(0, end));
+    if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
+      std::fprintf(stderr, "%s: %s\n", part.c_str(), std::strerror(errno));
+      return false;
+    }
+  }
+  return true;
+}
+
+std::uint64_t fnv1a(std::string_view text, std::uint64_t hash) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+std::uint64_t fnv1a_of_file(const char* path, std::uint64_t hash) {
+  std::FILE* file = std::fopen(path, "rb");
+  if (file == nullptr) return hash;
+  std::array<char, 65536> buffer;
+  for (std::size_t size = 1; size > 0;) {
+    size = std::fread(buffer.data(), 1, buffer.size(), file);
+    hash = fnv1a({buffer.data(), size}, hash);
+  }
+  std::fclose(file);
+  return hash;
+}
+
+}  // namespace tactus

@@ -1,0 +1,32 @@
+// Files of a run: reads the pipeline text, resolves paths, makes the output folder.
+#pragma once
+
+#include <string_view>
+
+#include "kernel/load/loader.hpp"
+
+namespace tactus {
+
+using FilePath = Text<1023>;  ///< fits two joined paths: each one given is shorter than 512
+
+inline constexpr std::size_t kMaxPipelineBytes = 65536;
+
+/// Reads and loads the pipeline file at `path` and keeps its text in `text`. False: refused; prints
+/// "path:line: [section] key: reason" to stderr.
+bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::string_view& text);
+
+/// Returns `path` as seen from the folder of the file `from`; an absolute path is unchanged.
+FilePath relative_to(std::string_view from, std::string_view path);
+
+/// Returns the last part of a path without its extension.
+std::string_view stem(std::string_view path);
+
+/// Makes the folder and its parents. False: prints the reason to stderr.
+bool make_folder(std::string_view path);
+
+/// Returns the FNV-1a hash of a text, continued from `hash`.
+std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U);
+/// The same for a whole file; returns `hash` if it cannot be read.
+std::uint64_t fnv1a_of_file(const char* path, std::uint64_t hash);
+
+}  // namespace tactus

@@ -1,0 +1,146 @@
+#include "program/session/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace tactus {
+namespace {
+
+template <std::size_t N>
+void copy(const std::string& from, char (&to)[N]) {
+  std::strncpy(to, from.c_str(), N - 1);
+}
+
+CLI::Validator path() {
+  return CLI::Validator(
+      [](std::string& text) {
+        return text.empty() ? "the path is empty" : text.size() < 512 ? "" : "the path is too long";
+      },
+      "");
+}
+
+/// Accepts what the kernel may call a network interface.
+CLI::Validator interface_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool good = !text.empty() && text.size() < sizeof Options::interface &&
+                          text.find_first_of("/ ") == std::string::npos;
+        return good ? std::string() : "'" + text + "' is not the name of a network interface";
+      },
+      "");
+}
+
+/// Accepts only plain decimal numbers in range. The library's own conversions also accept "nan", a
+/// sign or 0x10.
+template <class Number>
+CLI::Validator decimal(Number lowest, Number highest, const char* expected) {
+  return CLI::Validator(
+      [lowest, highest, expected](std::string& text) {
+        Number value{};
+        const char* end = text.data() + text.size();
+        const auto [stop, code] = std::from_chars(text.data(), end, value);
+        const bool good = code == std::errc() && stop == end && value >= lowest && value <= highest;
+        return good ? std::string() : "'" + text + "' is not " + expected;
+      },
+      "");
+}
+
+void add_run_options(CLI::App& run, std::string& out, Options& options) {
+  constexpr std::uint64_t kLargestSeed = ~std::uint64_t{0};
+  run.add_option("--out", out, "folder to write into (default out/<pipeline>)")->check(path());
+  run.add_option("--duration", options.duration_s,
+                 "length of the run, s (default: until the trajectory has settled)")
+      ->check(decimal(1e-3, 1e6, "a number from 0.001 to 1000000"));
+  run.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
+      ->check(decimal(std::uint64_t{0}, kLargestSeed, "a whole number of up to 64 bits"));
+  run.add_flag("!--no-figure", options.figure, "do not draw figure.png");
+  run.add_flag("--realtime", options.realtime,
+               "run one cycle per period of the wall clock instead of as fast as possible");
+}
+
+/// Adds the options of `doctor` and `jitter` that say on which CPU and priority a cycle would run.
+void add_host_options(CLI::App& verb, Options& options) {
+  verb.add_option("--cpu", options.cpu, "number of the CPU for the cycle (default: any)")
+      ->check(decimal(0, 1023, "a whole number from 0 to 1023"));
+  verb.add_option("--priority", options.priority, "SCHED_FIFO priority of the cycle (default 80)")
+      ->check(decimal(1, 98, "a whole number from 1 to 98"));
+}
+
+void add_jitter_options(CLI::App& jitter, std::vector<std::string>& load, Options& options) {
+  jitter
+      .add_option("--load", load,
+                  "measure under load by stress-ng too: cpu, memory, disk, with commas between")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"cpu", "memory", "disk"}));
+  jitter.add_option("--duration", options.duration_s, "length of each measurement, s (default 5)")
+      ->check(decimal(1e-3, 1e5, "a number from 0.001 to 100000"));
+  jitter.add_option("--period-us", options.period_us, "period of the cycle, us (default 1000)")
+      ->check(decimal(100, 100000, "a whole number from 100 to 100000"));
+}
+
+}  // namespace
+
+bool parse_options(int argc, char** argv, const char* board, Options& options, int& exit_code) {
+  std::string pipeline, trajectory, out, root, interface;
+  std::vector<std::string> load;
+  CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
+  app.require_subcommand(0, 1);  // a missing verb is refused below, with a better message
+  app.footer("Exit codes: 0 succeeded; 1 ended otherwise; 2 refused before the first cycle.");
+
+  CLI::App* run = app.add_subcommand("run", "run a pipeline and write log, summary and figure");
+  CLI::App* check =
+      app.add_subcommand("check", "check a pipeline and a trajectory without moving the robot");
+  CLI::App* ports = app.add_subcommand("ports", "print every block, port, unit, setting and range");
+  for (CLI::App* verb : {run, check}) {
+    verb->add_option("pipeline", pipeline, "pipeline file (.ini)")->required()->check(path());
+    verb->add_option("--trajectory", trajectory,
+                     "trajectory file (.csv); replaces the one named in the pipeline")
+        ->check(path());
+  }
+  add_run_options(*run, out, options);
+  CLI::App* doctor = app.add_subcommand("doctor", "list settings of this host that hurt real time");
+  doctor->add_option("--root", root, "folder that contains proc and sys (default /)")
+      ->check(path());
+  doctor
+      ->add_option("--interface", interface,
+                   "network interface of the robot, eth1 for example (default: none)")
+      ->check(interface_name());
+  CLI::App* jitter = app.add_subcommand("jitter", "measure how late this host wakes a cycle");
+  for (CLI::App* verb : {doctor, jitter}) add_host_options(*verb, options);
+  add_jitter_options(*jitter, load, options);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? kSucceeded : kRefused;
+    return false;
+  }
+  if (app.get_subcommands().empty()) {
+    std::fprintf(stderr, "a verb is required: run, check, ports, doctor or jitter\n%s\n",
+                 "Run with --help for more information.");
+    exit_code = kRefused;
+    return false;
+  }
+  copy(pipeline, options.pipeline);
+  copy(trajectory, options.trajectory);
+  copy(out, options.out);
+  copy(root, options.root);
+  copy(interface, options.interface);
+  for (const std::string& kind : load) {
+    options.load.cpu |= kind == "cpu";
+    options.load.memory |= kind == "memory";
+    options.load.disk |= kind == "disk";
+  }
+  options.verb = *ports    ? Verb::kPorts
+                 : *check  ? Verb::kCheck
+                 : *doctor ? Verb::kDoctor
+                 : *jitter ? Verb::kJitter
+                           : Verb::kRun;
+  return true;
+}
+
+}  // namespace tactus

@@ -1,0 +1,42 @@
+// The command line of every board's program, as a plain struct. Only options.cpp includes CLI11,
+// which needs exceptions.
+#pragma once
+
+#include <cstdint>
+
+namespace tactus {
+
+enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter };
+
+/// Exit codes of every program.
+enum ExitCode : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2 };
+
+/// What stress-ng loads while `jitter` measures.
+struct Load {
+  bool cpu = false, memory = false, disk = false;
+
+  bool any() const { return cpu || memory || disk; }
+};
+
+struct Options {
+  Verb verb = Verb::kRun;
+  char pipeline[512] = "";
+  char trajectory[512] = "";  ///< empty: the one named in the pipeline file
+  char out[512] = "";         ///< empty: out/<pipeline>
+  double duration_s = 0.0;    ///< 0: the default of the verb
+  std::uint64_t seed = 1;
+  bool figure = true;
+  bool realtime = false;    ///< cycles by the wall clock
+  char root[512] = "";      ///< of `doctor`: the folder that contains proc and sys
+  int cpu = -1;             ///< of `doctor` and `jitter`; -1: any
+  int priority = 80;        ///< of `doctor` and `jitter`
+  int period_us = 1000;     ///< of `jitter`
+  Load load;                ///< of `jitter`
+  char interface[16] = "";  ///< of `doctor`: the network interface of the robot; empty: none
+};
+
+/// Reads the command line. False: the program must end with `exit_code`, because help was requested
+/// or an option is wrong.
+bool parse_options(int argc, char** argv, const char* board, Options& options, int& exit_code);
+
+}  // namespace tactus

@@ -1,0 +1,41 @@
+// Session: the objects of a board as the program's verbs see them. The board owns them all.
+#pragma once
+
+#include <string_view>
+
+#include "gateway/gateway_section.hpp"
+#include "gateway/reference_client.hpp"
+#include "hal/os/realtime_settings.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "program/session/options.hpp"
+
+namespace tactus {
+
+struct Session {
+  const char* board;
+  std::size_t static_bytes;  ///< of all objects of the kernel and the gateway on this board
+  std::string_view text;     ///< of the pipeline file
+  Hal& hal;
+  Pipeline& pipeline;
+  Executive& executive;
+  Recorder& recorder;
+  ReferenceClient<JointSpace>& client;
+  ReferenceClient<TaskSpace>& task_client;
+  const GatewaySection& gateway;
+  const RealtimeSettings& realtime;
+};
+
+/// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and
+/// writes log, summary and figure. Returns the exit code.
+int run(Session& session, const Options& options);
+
+/// `tactus check`: judges pipeline and trajectory as `run` would, from where the robot is; no drive
+/// is enabled. Returns the exit code.
+int check(Session& session, const Options& options);
+
+/// Prints "subject: event: " and the status in words, with joint, value and limit if the guard
+/// found it, then the robot's own reason.
+void print_stop(const char* subject, const char* event, Status status,
+                const Guard::Telemetry& guard, std::string_view trouble = {});
+
+}  // namespace tactus

@@ -1,0 +1,77 @@
+// Arm: the rigid-body plant alone, torque in, motion out. MuJoCo integrates the robot of
+// robot_mjcf.hpp
+//
+//   (M(q) + diag(rotor_inertia)) ddq + C(q, dq) dq + g(q) + friction(dq) = tau + J^T f_e
+//
+// by the classical Runge-Kutta method of fourth order. The friction is that of Gaz et al., RA-L
+// 2019, a sigmoid without a dead zone, evaluated in every stage:
+//
+//   friction_i(dq) = a_i / (1 + exp(-b_i (dq + c_i))) - a_i / (1 + exp(-b_i c_i))
+//
+// f_e is the force of the scene on the tip, also evaluated in every stage (tip_contact.hpp).
+#pragma once
+
+#include "kernel/core/status.hpp"
+#include "kernel/core/types.hpp"
+#include "sim_plant/arm/plant_params.hpp"
+#include "sim_plant/arm/tip_contact.hpp"
+
+struct mjModel_;
+struct mjData_;
+
+namespace tactus {
+
+class Arm {
+ public:
+  Arm() = default;
+  Arm(const Arm&) = delete;
+  Arm& operator=(const Arm&) = delete;
+  ~Arm();
+
+  /// Builds the arm at `initial_q` and drops an arm loaded before. kBadValue if a setting is
+  /// outside its range. Allocates all memory. [init]
+  Status load(const PlantParams& params);
+
+  /// Closes the brakes: dq = 0. Returns the torque that takes over from them without motion, N m:
+  /// g(q) of arm and payload, less the torque of the scene. The arm must be loaded. [any]
+  JointVector stand();
+
+  /// Applies the joint torque `tau` (N m) for `dt_s` > 0, in equal inner steps of at most 1 ms,
+  /// with a scene 0.25 ms. The arm must be loaded. [cyclic]
+  void step(const JointVector& tau, double dt_s);
+
+  /// Returns the torque that would cause `ddq` (rad/s^2) now, N m, by the equation above, payload
+  /// and scene included. The arm must be loaded. [cyclic]
+  JointVector inverse_dynamics(const JointVector& ddq);
+
+  bool loaded() const { return data_ != nullptr; }  ///< [any]
+
+  /// True after a torque or motion that cannot be simulated; q and dq are then invalid until the
+  /// next load. [any]
+  bool diverged() const;
+
+  JointVector q() const;   ///< true joint positions, rad [any]
+  JointVector dq() const;  ///< true joint velocities, rad/s [any]
+
+  /// The wrench of environment and payload on a sensor at the flange, about its origin and in its
+  /// axes, force first, N and N m: at the end of the last step, or since the brakes closed. [any]
+  const Vector6& ft() const { return ft_; }
+  /// The force of the scene on the tip at the same instant, in the base frame, N. [any]
+  Vector3 contact_force() const { return contact_wrench_.head<3>(); }
+
+  /// Kinetic energy, rotors included, plus potential energy of arm and payload, plus energy stored
+  /// in contacts, J. [any]
+  double energy() const;
+
+ private:
+  void sense();
+
+  mjModel_* model_ = nullptr;  // owned
+  mjData_* data_ = nullptr;    // owned
+  TipContact contact_;
+  bool carries_ = false;                      // carries a payload
+  Vector6 contact_wrench_ = Vector6::Zero();  // at the flange's origin, base frame
+  Vector6 ft_ = Vector6::Zero();
+};
+
+}  // namespace tactus

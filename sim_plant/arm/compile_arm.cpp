@@ -1,0 +1,51 @@
+#include "sim_plant/arm/compile_arm.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <cstring>
+
+#include "sim_plant/arm/robot_mjcf.hpp"
+
+namespace tactus {
+namespace {
+
+/// Replaces the unit inertia of each link by its published tensor. MuJoCo's attribute fullinertia
+/// is not used: version 2.2.2 ends its search for the principal axes so early that the tensor of
+/// the FER's link 1 is wrong by 5e-7 kg m^2.
+void set_inertia(mjModel* model, mjData* scratch) {
+  for (int body = 1; body <= model->njnt; ++body) {  // the moving bodies, one per joint
+    const double* t = model->body_user + body * model->nuser_body;
+    Eigen::Matrix3d tensor;
+    tensor << t[0], t[3], t[4],  //
+        t[3], t[1], t[5],        //
+        t[4], t[5], t[2];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(tensor);
+    Eigen::Matrix3d axes = principal.eigenvectors();
+    if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
+    const Eigen::Quaterniond turn(axes);
+    Eigen::Map<Eigen::Vector3d>(model->body_inertia + 3 * body) = principal.eigenvalues();
+    Eigen::Map<Eigen::Vector4d>(model->body_iquat + 4 * body) << turn.w(), turn.vec();
+  }
+  mj_setConst(model, scratch);
+}
+
+}  // namespace
+
+mjModel* compile_arm() {
+  const char* text = robot_mjcf().text;
+  const int size = static_cast<int>(std::strlen(text));
+  static mjVFS files;  // 2 MB, too large for a stack
+  mj_defaultVFS(&files);
+  if (mj_makeEmptyFileVFS(&files, "arm.xml", size) != 0) return nullptr;
+  std::memcpy(files.filedata[0], text, static_cast<std::size_t>(size));
+  char error[256] = "";
+  mjModel* model = mj_loadXML("arm.xml", &files, error, sizeof(error));
+  mj_deleteVFS(&files);
+  if (model == nullptr) return nullptr;
+  mjData* scratch = mj_makeData(model);
+  set_inertia(model, scratch);
+  mj_deleteData(scratch);
+  return model;
+}
+
+}  // namespace tactus

@@ -1,0 +1,195 @@
+#include "sim_plant/ur/controller/dashboard.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace tactus::ur {
+namespace {
+
+/// The programs on the disk of the emulated controller.
+constexpr std::string_view kWaitProgram = "wait_program.urp";
+constexpr std::string_view kExternalControl = "external_control.urp";
+constexpr std::string_view kWaitScript =
+    "def wait_program():\n  while True:\n    sleep(1.0)\n  end\nend\n";
+constexpr std::string_view kInstallation = "default.installation";
+
+std::string_view base_name(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
+/// Returns the text after a command in `rest`. False: the line is another command.
+bool argument(std::string_view line, std::string_view command, std::string_view& rest) {
+  if (!starts_with(line, command)) return false;
+  if (line.size() > command.size() && line[command.size()] != ' ') return false;
+  rest = trimmed(line.substr(command.size()));
+  return true;
+}
+
+template <std::size_t N>
+std::size_t keep(std::string_view text, std::array<char, N>& to) {
+  const std::size_t size = std::min(text.size(), N);
+  if (size > 0) std::memcpy(to.data(), text.data(), size);
+  return size;
+}
+
+}  // namespace
+
+Reply& Reply::operator<<(std::string_view text) {
+  const std::size_t size = std::min(text.size(), text_.size() - 1 - size_);
+  if (size > 0) std::memcpy(text_.data() + size_, text.data(), size);
+  size_ += size;
+  return *this;
+}
+
+bool Dashboard::run(std::string_view line, Reply& reply) {
+  line = trimmed(line);
+  const bool quits = line == "quit" || line == "shutdown";
+  if (quits) {
+    reply << (line == "quit" ? "Disconnected" : "Shutting down");
+  } else if (!run_program_command(line, reply) && !run_robot_command(line, reply) &&
+             !run_other_command(line, reply)) {
+    reply << "could not understand: '" << line.substr(0, 200) << "'";
+  }
+  reply.end_line();
+  return quits;
+}
+
+std::string_view Dashboard::loaded_name() const {
+  return loaded_size_ == 0 ? "<unnamed>" : base_name(loaded());
+}
+
+void Dashboard::load(std::string_view path, Reply& reply) {
+  const std::string_view name = base_name(path);
+  const bool has_control = !machine_.settings.external_control_host.empty();
+  if (name != kWaitProgram && !(name == kExternalControl && has_control)) {
+    reply << "File not found: " << path;
+    return;
+  }
+  runner_.stop(machine_);
+  loaded_size_ = keep(path, loaded_);
+  reply << "Loading program: " << path;
+}
+
+void Dashboard::play(Reply& reply) {
+  const bool can = machine_.power.running() && machine_.safety.normal();
+  if (can && runner_.paused()) {
+    runner_.resume();
+  } else if (can && !runner_.running() && loaded_size_ > 0) {
+    if (loaded_name() == kWaitProgram)
+      runner_.upload(kWaitScript, machine_);
+    else
+      runner_.fetch(machine_);
+  }
+  reply << (runner_.playing() ? "Starting program" : "Failed to execute: play");
+}
+
+bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
+  std::string_view rest;
+  if (argument(line, "load installation", rest)) {
+    reply << (base_name(rest) == kInstallation ? "Loading installation: " : "File not found: ")
+          << rest;
+  } else if (argument(line, "load", rest)) {
+    load(rest, reply);
+  } else if (line == "play") {
+    play(reply);
+  } else if (line == "stop") {
+    const bool can = runner_.running() || loaded_size_ > 0 || !runner_.name().empty();
+    runner_.stop(machine_);
+    reply << (can ? "Stopped" : "Failed to execute: stop");
+  } else if (line == "pause") {
+    reply << (runner_.running() ? "Pausing program" : "Failed to execute: pause");
+    runner_.pause();
+  } else if (line == "running") {
+    reply << "Program running: " << (runner_.playing() ? "true" : "false");
+  } else if (line == "get loaded program") {
+    if (loaded_size_ == 0)
+      reply << "No program loaded";
+    else
+      reply << "Loaded program: " << loaded();
+  } else if (line == "isProgramSaved") {
+    reply << "true " << loaded_name();
+  } else if (line == "programState") {
+    reply << (runner_.paused()    ? "PAUSED "
+              : runner_.running() ? "PLAYING "
+                                  : "STOPPED ")
+          << loaded_name();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool Dashboard::run_robot_command(std::string_view line, Reply& reply) {
+  const Version& version = machine_.settings.version;
+  if (line == "robotmode") {
+    reply << "Robotmode: " << name(machine_.power.mode());
+  } else if (line == "power on") {
+    machine_.power.switch_on();
+    reply << "Powering on";
+  } else if (line == "power off") {
+    runner_.stop(machine_);
+    machine_.power.switch_off();
+    reply << "Powering off";
+  } else if (line == "brake release") {
+    machine_.power.release_brakes();
+    reply << "Brake releasing";
+  } else if (line == "safetymode") {
+    reply << "Safetymode: " << name(machine_.safety.mode());
+  } else if (line == "safetystatus" && version.at_least(3, 11)) {
+    reply << "Safetystatus: " << name(machine_.safety.mode());
+  } else if (line == "unlock protective stop") {
+    reply << (machine_.safety.unlock()
+                  ? "Protective stop releasing"
+                  : "Cannot unlock protective stop until 5s after occurrence. Always inspect cause "
+                    "of protective stop before unlocking");
+  } else if (line == "restart safety" && version.at_least(3, 7)) {
+    runner_.stop(machine_);
+    machine_.power.switch_off();
+    machine_.safety.restart();
+    reply << "Restarting safety";
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
+  const Version& version = machine_.settings.version;
+  std::string_view rest;
+  if (argument(line, "popup", rest)) {
+    reply << "showing popup";
+  } else if (line == "close popup") {
+    reply << "closing popup";
+  } else if (line == "close safety popup") {
+    reply << "closing safety popup";
+  } else if (argument(line, "addToLog", rest)) {
+    reply << (rest.empty() ? "No log message to add" : "Added log message");
+  } else if (line == "PolyscopeVersion") {
+    std::array<char, 96> words;
+    std::snprintf(words.data(), words.size(), "URSoftware %u.%u.%u.%u (Jan 01 2022)", version.major,
+                  version.minor, version.bugfix, version.build);
+    reply << words.data();
+  } else if (argument(line, "setUserRole", rest)) {
+    role_size_ = keep(rest, role_);
+    reply << "Setting user role: " << rest;
+  } else if (line == "getUserRole") {
+    reply << (role_size_ == 0 ? "PROGRAMMER" : std::string_view(role_.data(), role_size_));
+  } else if (line == "get serial number" && version.at_least(3, 12)) {
+    reply << machine_.settings.serial_number;
+  } else if (line == "get robot model" && version.at_least(3, 12)) {
+    reply << "UR10";
+  } else if (argument(line, "generate flight report", rest) && version.at_least(3, 13)) {
+    reply << "Flight Report generated with id: 00000000-0000-0000-0000-000000000001";
+  } else if (argument(line, "generate support file", rest) && version.at_least(3, 13)) {
+    reply << "Completed successfully: ur_support_file.zip";
+  } else if (line == "saveLog") {
+    reply << "Log saved to disk";
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,76 @@
+// Emulator: the controller with its clients. The owner of the network opens a session for every
+// connection, passes bytes in and out, and calls tick() once per cycle. A client that does not read
+// loses packets and, after some seconds, its session.
+#pragma once
+
+#include "sim_plant/ur/controller/controller.hpp"
+#include "sim_plant/ur/programs/script_intake.hpp"
+#include "sim_plant/ur/wire/rtde_session.hpp"
+
+namespace tactus::ur {
+
+enum class Service : std::uint8_t { kDashboard, kPrimary, kSecondary, kRealtime, kRtde };
+
+/// When the next cycle may begin if real time need not be kept.
+enum class Pace : std::uint8_t {
+  kByTime,  ///< no client closes a loop, or one has just begun to
+  kAtOnce,  ///< all clients that close a loop have answered the last packet
+  kWaits,   ///< a client that always answered has not answered yet
+};
+
+class Emulator {
+ public:
+  static constexpr int kSessions = 24;
+
+  explicit Emulator(const Settings& settings) : controller_(settings) {}
+
+  Status start() { return controller_.start(); }  ///< [init]
+  void tick();                                    ///< [cyclic]
+
+  /// Opens a session for a new client; -1: no session is free. [any]
+  int open(Service service);
+  void close(int session);
+  /// Takes bytes from the client, in pieces of any size.
+  void receive(int session, const std::uint8_t* data, std::size_t size);
+  /// The bytes to send to the client.
+  Outbox& outbox(int session) { return at(session).out; }
+  /// True if the session has ended: send the remaining bytes and close it.
+  bool ended(int session) { return at(session).ended; }
+
+  Pace pace() const;
+
+  Controller& controller() { return controller_; }
+  Links& links() { return controller_.machine().links; }
+
+ private:
+  struct Session {
+    bool open = false, ended = false;
+    Service service = Service::kDashboard;
+    Outbox out;
+    RtdeSession rtde;
+    ScriptIntake script;
+    std::array<char, 1024> line;  // of the dashboard
+    std::size_t line_size = 0;
+    int stalled = 0;  // cycles in which the client has taken nothing
+    std::size_t unsent = 0;
+    bool told = false;  // has been sent a whole state
+  };
+
+  Session& at(int session) { return sessions_[static_cast<std::size_t>(session)]; }
+  void greet(Session& session);
+  void take_lines(Session& session, const std::uint8_t* data, std::size_t size);
+  void take_script(Session& session, const std::uint8_t* data, std::size_t size);
+  void send_cycle(Session& session);
+  void send_state(Session& session);
+  void send_messages();
+  void watch_reader(Session& session);
+  bool state_is_due();
+
+  Controller controller_;
+  std::array<Session, kSessions> sessions_;
+  Claims claims_;
+  double state_due_ = 0.0;
+  bool protective_before_ = false;
+};
+
+}  // namespace tactus::ur

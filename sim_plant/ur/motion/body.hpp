@@ -1,0 +1,46 @@
+// Body: the arm with its joint controllers. The targets are interpolated within a cycle; in every
+// inner step computed torque commands the acceleration
+//
+//   ddq = 2/T (dq_t - dq) + 1/T^2 (q_t - q)
+//
+// up to the limits of the drives. A test can push the arm with additional torques.
+#pragma once
+
+#include "sim_plant/arm/arm.hpp"
+#include "sim_plant/ur/motion/kinematics.hpp"
+
+namespace tactus::ur {
+
+class Body {
+ public:
+  /// Builds the arm at `q` with its brakes closed. [init]
+  Status load(const Joints& q, double payload_kg, const Vector3& payload_com);
+
+  /// Runs one cycle of `h_s` from the targets of the last cycle to `q_t`, brakes open. [cyclic]
+  void move(const Joints& q_t, double h_s);
+  /// Runs one cycle without targets: the drives carry the weight and slow the arm down with the
+  /// time constant `slowing_s`. [cyclic]
+  void drift(double slowing_s, double h_s);
+  /// Runs one cycle with the brakes closed. [cyclic]
+  void stand();
+
+  /// Sets the joint torques that push the arm, N m; zero: none. [any]
+  void push(const Joints& tau) { push_ = tau; }
+
+  Joints q() const { return arm_.q(); }       ///< rad
+  Joints dq() const { return arm_.dq(); }     ///< rad/s
+  const Joints& tau() const { return tau_; }  ///< torque of the drives, mean of the cycle, N m
+  /// Torque that the targets need if nothing pushes the arm, N m.
+  const Joints& model() const { return model_; }
+  /// Difference of the two, low-pass filtered, N m; shows a collision.
+  const Joints& residual() const { return residual_; }
+  bool diverged() const { return arm_.diverged(); }
+
+ private:
+  Arm arm_;
+  Joints target_ = Joints::Zero(), slope_ = Joints::Zero();
+  Joints tau_ = Joints::Zero(), model_ = Joints::Zero(), push_ = Joints::Zero();
+  Joints residual_ = Joints::Zero();
+};
+
+}  // namespace tactus::ur

@@ -1,0 +1,86 @@
+// Machine: the parts of the controller on which a program acts.
+#pragma once
+
+#include <cmath>
+
+#include "sim_plant/ur/motion/body.hpp"
+#include "sim_plant/ur/motion/force_mode.hpp"
+#include "sim_plant/ur/parts/power.hpp"
+#include "sim_plant/ur/parts/safety.hpp"
+#include "sim_plant/ur/parts/watchdog.hpp"
+#include "sim_plant/ur/wire/io.hpp"
+#include "sim_plant/ur/wire/links.hpp"
+#include "sim_plant/ur/wire/robot_messages.hpp"
+
+namespace tactus::ur {
+
+struct Machine {
+  explicit Machine(const Settings& chosen)
+      : settings(chosen),
+        power(settings),
+        safety(settings),
+        messages(settings.version),
+        motion(settings.motion, settings.force) {}
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+
+  /// Begins a protective stop; the cycle reports it to the clients and ends the program. [any]
+  void protective_stop(const Stop& stop) {
+    if (!power.powered() || !safety.protective_stop()) return;
+    last_stop = stop;
+    stop_unsaid = true;
+  }
+
+  const Settings settings;
+  Power power;
+  Safety safety;
+  RobotMessages messages;
+  Motion motion;
+  Body body;
+  Io io;
+  Links links;
+  std::int64_t cycle = 0;
+  double speed_scaling = 1.0;  ///< speed of the time base
+  Vector6 tcp_offset = Vector6::Zero();
+  double payload = 0.0;
+  Vector3 payload_cog = Vector3::Zero();
+  bool freedrive = false;
+  ForceMode force_mode;
+  double force_damping = kForceDamping;  ///< 0 to 1
+  Watchdogs watchdogs;
+  Stop last_stop;
+  bool stop_unsaid = false;  ///< the stop is to be reported to the clients in the next cycle
+
+  double cycle_s() const { return settings.version.cycle_s(); }
+  /// Time of the controller's clock, s.
+  double time_s() const { return settings.start_time_s + static_cast<double>(cycle) * cycle_s(); }
+  /// Sets the tip; NaN, or a value that no tool has, stops the arm.
+  void set_tcp(const Vector6& pose) {
+    if (!(pose.array().abs() <= kMost).all()) return refuse();
+    tcp_offset = pose;
+    motion.set_tool(Frame::of(pose));
+  }
+  void set_payload(double mass, const Vector3& cog) {
+    if (!(std::abs(mass) <= kMost) || !(cog.array().abs() <= kMost).all()) return refuse();
+    payload = mass;
+    payload_cog = cog;
+  }
+  void start_force_mode(const ForceMode& mode) {
+    if (!mode.valid()) return refuse();
+    force_mode = mode;
+    force_mode.active = true;
+  }
+  /// Ends the modes that end with the program. [any]
+  void end_modes() {
+    freedrive = false;
+    force_mode = {};
+    force_damping = kForceDamping;
+    watchdogs.clear();
+  }
+
+ private:
+  static constexpr double kMost = 1e4;  // m, rad or kg; beyond the range of 32 bits of millionths
+  void refuse() { protective_stop({Code::kPathSanity, kInvalidSetPoint}); }
+};
+
+}  // namespace tactus::ur

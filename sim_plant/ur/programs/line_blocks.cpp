@@ -1,0 +1,127 @@
+// Blocks of plain programs: loops, branches, and the program's own functions.
+#include "sim_plant/ur/programs/line_program.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
+
+namespace tactus::ur {
+
+/// True if the line opens a block that an `end` closes.
+bool LineProgram::opens_block(std::string_view line) {
+  for (const std::string_view word : {"while", "if", "def", "thread", "sec", "switch"})
+    if (leading_name(line) == word) return true;
+  return false;
+}
+
+LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view line,
+                                         Machine& machine) {
+  if (word == "while") {
+    if (!holds(line, machine))
+      skip_blocks(1);
+    else if (!enter(Block::kLoop, here_))
+      return Line::kEnded;
+  } else if (word == "if") {
+    if (!holds(line, machine))
+      find_branch(machine);
+    else if (!enter(Block::kBranch, here_))
+      return Line::kEnded;
+  } else if (word == "elif" || word == "else") {
+    if (depth_ > 0) --depth_;  // the branch before was taken
+    skip_blocks(1);
+  } else {
+    skip_blocks(1);
+  }
+  return Line::kNext;
+}
+
+LineProgram::Line LineProgram::run_end() {
+  if (depth_ == 0) return Line::kEnded;
+  const Block& block = blocks_[--depth_];
+  if (block.kind != Block::kBranch) now_ = block.next;
+  return Line::kNext;
+}
+
+/// Runs a break (`out`) or a continue.
+LineProgram::Line LineProgram::run_jump(bool out) {
+  std::size_t left = 0;
+  while (depth_ > 0) {
+    ++left;
+    const Block& block = blocks_[--depth_];
+    if (block.kind == Block::kCall) return Line::kEnded;  // the function has no loop around it
+    if (block.kind != Block::kLoop) continue;
+    if (out)
+      skip_blocks(left);
+    else
+      now_ = block.next;
+    return Line::kNext;
+  }
+  return Line::kEnded;  // outside any loop
+}
+
+bool LineProgram::enter(Block::Kind kind, const Place& next) {
+  if (depth_ == kDeepest) return false;
+  blocks_[depth_++] = {kind, next};
+  return true;
+}
+
+/// Returns from the running function, or ends the program outside of functions.
+LineProgram::Line LineProgram::run_return() {
+  while (depth_ > 0) {
+    const Block& block = blocks_[--depth_];
+    if (block.kind != Block::kCall) continue;
+    now_ = block.next;
+    return Line::kNext;
+  }
+  return Line::kEnded;
+}
+
+/// Finds the lines after "def name():". False: the program has no such function.
+bool LineProgram::find_function(std::string_view name, Place& body) const {
+  std::string_view rest = text_, line;
+  for (int number = first_line_; next_line(rest, line); ++number) {
+    line = trimmed(without_comment(line));
+    if (leading_name(line) != "def") continue;
+    line = trimmed(line.substr(3));
+    if (leading_name(line) != name || !starts_with(line.substr(name.size()), "():")) continue;
+    body = {text_.size() - rest.size(), number + 1};
+    return true;
+  }
+  return false;
+}
+
+/// Calls a function of the program by "name()". False: the line is not such a call.
+bool LineProgram::call_own(std::string_view line, Line& result) {
+  const std::string_view name = leading_name(line);
+  Place body;
+  if (name.empty() || line.substr(name.size()) != "()" || is_urscript_function(name) ||
+      !find_function(name, body))
+    return false;
+  result = enter(Block::kCall, now_) ? Line::kNext : Line::kEnded;
+  now_ = body;
+  return true;
+}
+
+/// After an `if` that is false, goes on in the branch that is true, or after the end.
+void LineProgram::find_branch(Machine& machine) {
+  std::string_view line;
+  while (next(line)) {
+    const std::string_view word = leading_name(line);
+    if (opens_block(line)) {
+      skip_blocks(1);
+    } else if (word == "end") {
+      return;
+    } else if (word == "else" || (word == "elif" && holds(line, machine))) {
+      ended_ = !enter(Block::kBranch, here_);
+      return;
+    }
+  }
+}
+
+/// Goes on after the end of the innermost `count` blocks.
+void LineProgram::skip_blocks(std::size_t count) {
+  std::string_view line;
+  while (count > 0 && next(line)) {
+    if (opens_block(line)) ++count;
+    if (leading_name(line) == "end") --count;
+  }
+}
+
+}  // namespace tactus::ur

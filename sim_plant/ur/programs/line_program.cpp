@@ -1,0 +1,157 @@
+#include "sim_plant/ur/programs/line_program.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "sim_plant/ur/script/script_expression.hpp"
+
+namespace tactus::ur {
+void LineProgram::start(std::string_view text, int first_line, bool moves) {
+  *this = {};
+  text_ = text;
+  now_ = here_ = {0, first_line};
+  first_line_ = first_line;
+  moves_ = moves;
+}
+
+ProgramStep LineProgram::poll(Machine& machine) {
+  if (moves_ && machine.motion.busy()) return ProgramStep::kRunning;
+  if (ended_) return end(machine);
+  if (machine.time_s() < wait_until_s_) return ProgramStep::kRunning;
+  std::string_view line;
+  for (int lines = 0; lines < kLinesAtOnce; ++lines) {
+    const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
+    ended_ = result == Line::kEnded;
+    if (ended_) return end(machine);
+    if (result == Line::kWait) break;
+  }
+  return ProgramStep::kRunning;
+}
+
+/// Ends the program; a move that returned because of its blend radius reaches its waypoint first.
+ProgramStep LineProgram::end(const Machine& machine) const {
+  return moves_ && machine.motion.arriving() ? ProgramStep::kRunning : ProgramStep::kEnded;
+}
+
+ProgramStep LineProgram::command(Machine& machine) {
+  // The cycle may have time left when a motion returns within it.
+  if (poll(machine) == ProgramStep::kEnded) return ProgramStep::kEnded;
+  return machine.motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
+}
+
+/// Returns the next line without blanks and comment. False: the text has ended.
+bool LineProgram::next(std::string_view& line) {
+  std::string_view rest = text_.substr(now_.at);
+  if (!next_line(rest, line)) return false;
+  here_ = now_;
+  now_ = {text_.size() - rest.size(), now_.line + 1};
+  line = trimmed(without_comment(line));
+  return true;
+}
+
+LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine) {
+  if (line.empty()) return Line::kNext;
+  const std::string_view word = leading_name(line);
+  if (word == "end") return run_end();
+  if (word == "break" || word == "continue") return run_jump(word == "break");
+  if (word == "halt") return Line::kEnded;
+  if (word == "return") return run_return();
+  if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
+  return run_statement(line, machine);
+}
+
+/// Evaluates the condition of "while ...:", "if ...:" or "elif ...:".
+bool LineProgram::holds(std::string_view line, Machine& machine) {
+  std::string_view condition = line.substr(leading_name(line).size());
+  const std::size_t colon = condition.rfind(':');
+  if (colon != std::string_view::npos) condition = condition.substr(0, colon);
+  ScriptValue value;
+  if (evaluate(condition, {&variables_, &machine}, value) && trimmed(condition).empty() &&
+      value.numeric())
+    return value.number != 0.0;
+  not_emulated(line, machine);
+  return false;
+}
+
+LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
+  for (const std::string_view word : {"global ", "local "})
+    if (starts_with(line, word)) line = trimmed(line.substr(word.size()));
+  Line result = Line::kNext;
+  return assign(line, machine, result) ? result : run_call_line(line, machine);
+}
+
+/// Runs "name = value" or "name[index] = value"; "digital_out[n] = b" is the call of versions
+/// before
+/// 3. False: the line is not an assignment.
+bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
+  const ScriptScope scope = {&variables_, &machine};
+  const std::string_view name = leading_name(line);
+  std::string_view rest = trimmed(line.substr(name.size()));
+  ScriptValue index, value;
+  const bool element = starts_with(rest, "[");
+  if (element) {
+    rest.remove_prefix(1);
+    if (!evaluate(rest, scope, index) || !starts_with(trimmed(rest), "]")) return false;
+    rest = trimmed(trimmed(rest).substr(1));
+  }
+  if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
+  rest = trimmed(rest.substr(1));
+  std::string_view expression = rest;
+  if (!evaluate(expression, scope, value)) {
+    result = run_call_line(rest, machine);  // a call whose value is not emulated
+    value.kind = ScriptValue::Kind::kBool;
+    value.number = 1.0;
+  }
+  ScriptValue* whole = variables_.find(name);
+  if (element && whole == nullptr && name == "digital_out") {
+    run_call({"set_digital_out", {{{"n", index}, {"b", value}}}, 2}, moves_, machine);
+  } else if (element) {
+    const bool fits = whole != nullptr && index.numeric() && index.number >= 0.0 &&
+                      index.number < static_cast<double>(whole->count);
+    if (fits)
+      whole->elements[static_cast<std::size_t>(index.number)] = value.number;
+    else
+      not_emulated(line, machine);
+  } else if (!variables_.set(name, value)) {
+    not_emulated(line, machine);
+  }
+  return true;
+}
+
+LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
+  Line result = Line::kNext;
+  if (call_own(line, result)) return result;
+  ScriptCall call;
+  std::string_view rest = line;
+  if (!read_call(rest, {&variables_, &machine}, call)) {
+    not_emulated(line, machine);
+    return Line::kNext;
+  }
+  const CallOutcome outcome = run_call(call, moves_, machine);
+  switch (outcome.result) {
+    case CallResult::kDone: return Line::kNext;
+    case CallResult::kMotion: return machine.motion.busy() ? Line::kWait : Line::kNext;
+    case CallResult::kWait:
+      wait_until_s_ = machine.time_s() + outcome.wait_s - 0.5 * machine.cycle_s();
+      return outcome.wait_s > 0.0 ? Line::kWait : Line::kNext;
+    case CallResult::kHalt: return Line::kEnded;
+    case CallResult::kNoReach:
+      machine.messages.runtime_exception(here_.line, 3, "runtime_error:no inverse kinematics");
+      return Line::kEnded;
+  }
+  return Line::kNext;
+}
+
+/// Reports once per program that a line is not emulated.
+void LineProgram::not_emulated(std::string_view line, Machine& machine) {
+  if (told_) return;
+  told_ = true;
+  std::array<char, 160> text;
+  constexpr std::string_view kWhat = "not emulated: ";
+  std::memcpy(text.data(), kWhat.data(), kWhat.size());
+  const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
+  std::memcpy(text.data() + kWhat.size(), line.data(), size);
+  machine.messages.text({text.data(), kWhat.size() + size});
+}
+
+}  // namespace tactus::ur

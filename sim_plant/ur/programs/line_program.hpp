@@ -1,0 +1,70 @@
+// LineProgram: interprets a program of plain lines: calls, assignments, `while` and `if` with
+// conditions, and functions of the program without arguments and results. If a condition or value
+// is not understood, its block is skipped and a text message reports it; threads, and functions
+// with arguments, are not understood.
+#pragma once
+
+#include "sim_plant/ur/programs/program_step.hpp"
+#include "sim_plant/ur/script/script_calls.hpp"
+
+namespace tactus::ur {
+
+class LineProgram {
+ public:
+  /// Starts the lines of a program without its first, "def name():"; the text must outlive the
+  /// program. `first_line` is the number of the first line. `moves`: it may move the arm.
+  void start(std::string_view text, int first_line, bool moves);
+
+  /// Runs the lines up to one that takes time. [cyclic]
+  ProgramStep poll(Machine& machine);
+  ProgramStep command(Machine& machine);
+
+ private:
+  enum class Line : std::uint8_t { kNext, kWait, kEnded };
+  /// A line of the text: its beginning and its number.
+  struct Place {
+    std::size_t at = 0;
+    int line = 0;
+  };
+  /// A block that is running.
+  struct Block {
+    enum Kind : std::uint8_t { kBranch, kLoop, kCall };
+    Kind kind = kBranch;
+    Place next;  ///< after its end: a loop's beginning, or the line after a call
+  };
+
+  ProgramStep end(const Machine& machine) const;
+  bool next(std::string_view& line);
+  Line run_line(std::string_view line, Machine& machine);
+  Line run_block(std::string_view word, std::string_view line, Machine& machine);
+  Line run_end();
+  Line run_jump(bool out);
+  Line run_return();
+  bool find_function(std::string_view name, Place& body) const;
+  bool call_own(std::string_view line, Line& result);
+  Line run_statement(std::string_view line, Machine& machine);
+  Line run_call_line(std::string_view line, Machine& machine);
+  bool assign(std::string_view line, Machine& machine, Line& result);
+  bool holds(std::string_view line, Machine& machine);
+  static bool opens_block(std::string_view line);
+  bool enter(Block::Kind kind, const Place& next);
+  void find_branch(Machine& machine);
+  void skip_blocks(std::size_t count);
+  void not_emulated(std::string_view line, Machine& machine);
+
+  static constexpr std::size_t kDeepest = 12;
+  static constexpr int kLinesAtOnce = 256;  // per cycle, for a loop that never waits
+
+  std::string_view text_;
+  Place now_, here_;  // the next line, and the running one
+  int first_line_ = 1;
+  bool moves_ = true;
+  bool ended_ = false;
+  bool told_ = false;  // has reported that something is not emulated
+  double wait_until_s_ = -1.0;
+  std::array<Block, kDeepest> blocks_{};
+  std::size_t depth_ = 0;
+  ScriptVariables variables_;
+};
+
+}  // namespace tactus::ur

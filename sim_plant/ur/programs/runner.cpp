@@ -1,0 +1,178 @@
+#include "sim_plant/ur/programs/runner.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "sim_plant/ur/script/script_motion.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
+
+namespace tactus::ur {
+namespace {
+
+/// Returns the name after "def " or "sec "; a line without one gets a name of our own.
+std::string_view program_name(std::string_view text) {
+  for (const std::string_view word : {"def ", "sec "})
+    if (starts_with(text, word)) return leading_name(trimmed(text.substr(word.size())));
+  return "unnamed";
+}
+
+std::string_view copy(std::string_view from, char* to, std::size_t capacity) {
+  const std::size_t size = std::min(from.size(), capacity);
+  if (size > 0) std::memcpy(to, from.data(), size);
+  return {to, size};
+}
+
+/// Returns the lines of a block after the first, or a single line as it is.
+std::string_view body_of(std::string_view text, int& first_line) {
+  first_line = 1;
+  if (!starts_with(text, "def ") && !starts_with(text, "sec ")) return text;
+  std::string_view line;
+  next_line(text, line);
+  first_line = 2;
+  return text;
+}
+
+/// True for a single line that commands a motion, as clients stream them: the arm goes on from its
+/// speed.
+bool takes_over(std::string_view text) {
+  return is_motion(leading_name(trimmed(text)));
+}
+
+/// Returns false, after a message, for a program that calls a function that does not exist.
+bool compiles(std::string_view text, Machine& machine) {
+  UnknownName unknown;
+  if (!find_unknown_name(text, unknown)) return true;
+  std::array<char, 160> words{};
+  std::size_t size = copy("compile_error_name_not_found:", words.data(), words.size()).size();
+  size += copy(unknown.name, words.data() + size, 96).size();
+  words[size++] = ':';
+  machine.messages.runtime_exception(unknown.line, unknown.column, {words.data(), size});
+  return false;
+}
+
+}  // namespace
+
+void Runner::set_name(std::string_view name) {
+  name_size_ = copy(name, name_.data(), name_.size()).size();
+}
+
+void Runner::upload(std::string_view text, Machine& machine) {
+  if (!machine.power.running() || !machine.safety.normal()) return;  // without a message
+  if (starts_with(text, "sec ")) return start_secondary(text, machine);
+  if (text.size() > kLongestScript) return machine.messages.text("the program is too long");
+  stop(machine);
+  text = copy(text, text_.data(), text_.size());
+  start(text, machine);
+}
+
+void Runner::start(std::string_view text, Machine& machine) {
+  if (ExternalControl::recognises(text)) {
+    program_.emplace<ExternalControl>().start(text);
+  } else if (RegisterProgram::recognises(text)) {
+    program_.emplace<RegisterProgram>().start(text);
+  } else if (DriverProgram::recognises(text)) {
+    program_.emplace<DriverProgram>().start(text);
+  } else if (WaypointProgram::recognises(text)) {
+    program_.emplace<WaypointProgram>().start(text);
+  } else {
+    if (!compiles(text, machine)) return;
+    int first_line = 1;
+    const std::string_view body = body_of(text, first_line);
+    program_.emplace<LineProgram>().start(body, first_line, true);
+  }
+  paused_ = false;
+  braking_ = !machine.motion.resting() && !takes_over(text);
+  if (braking_) machine.motion.stop_j(0.0);
+  set_name(program_name(text));
+  machine.messages.program_started(name());
+}
+
+void Runner::start_secondary(std::string_view text, Machine& machine) {
+  if (text.size() > kLongestSecondary) return machine.messages.text("the program is too long");
+  if (!compiles(text, machine)) return;
+  poll_secondary(machine);  // a secondary program of the same cycle runs first
+  text = copy(text, secondary_text_.data(), secondary_text_.size());
+  int first_line = 1;
+  secondary_.start(body_of(text, first_line), first_line, false);
+  const std::string_view name = program_name(text);
+  secondary_name_size_ = copy(name, secondary_name_.data(), secondary_name_.size()).size();
+  secondary_running_ = true;
+  machine.messages.program_started({secondary_name_.data(), secondary_name_size_});
+}
+
+void Runner::stop(Machine& machine) {
+  if (!running()) return;
+  program_.emplace<std::monostate>();
+  paused_ = false;
+  machine.motion.abandon();
+  machine.links.close_all();
+  machine.end_modes();
+  machine.messages.program_stopped(name());
+}
+
+void Runner::fetch(Machine& machine) {
+  stop(machine);
+  program_.emplace<FetchProgram>();
+  set_name("external_control");
+  machine.messages.program_started(name());
+}
+
+/// Starts the fetched lines as the body of a program.
+void Runner::start_fetched(std::string_view text, Machine& machine) {
+  std::size_t size = 0;
+  for (const std::string_view part :
+       {std::string_view("def external_control():\n"), text, std::string_view("\nend\n")})
+    size += copy(part, text_.data() + size, text_.size() - size).size();
+  stop(machine);
+  start({text_.data(), size}, machine);
+}
+
+void Runner::poll_secondary(Machine& machine) {
+  if (!secondary_running_ || secondary_.poll(machine) != ProgramStep::kEnded) return;
+  secondary_running_ = false;
+  machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
+}
+
+/// Reports C207 if an input with a watchdog is late.
+void Runner::watch_inputs(Machine& machine) {
+  if (!playing()) return;
+  const LateAction action = machine.watchdogs.check(machine.io, machine.cycle, machine.cycle_s());
+  if (action == LateAction::kStop) machine.protective_stop({Code::kFieldbusDisconnected, 0});
+  if (action != LateAction::kPause) return;
+  machine.messages.error({Code::kFieldbusDisconnected, 0}, ReportLevel::kWarning);
+  pause();
+}
+
+void Runner::poll(Machine& machine) {
+  poll_secondary(machine);
+  watch_inputs(machine);
+  braking_ = braking_ && machine.motion.busy();
+  if (!playing() || braking_) return;
+  const ProgramStep step = std::visit(
+      [&](auto& program) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)
+          return ProgramStep::kWaiting;
+        else
+          return program.poll(machine);
+      },
+      program_);
+  if (step == ProgramStep::kEnded) stop(machine);
+  const FetchProgram* fetching = std::get_if<FetchProgram>(&program_);
+  const std::string_view fetched = fetching != nullptr ? fetching->text(machine) : "";
+  if (!fetched.empty()) start_fetched(fetched, machine);
+}
+
+void Runner::command(Machine& machine) {
+  if (!playing()) return;
+  const ProgramStep step = std::visit(
+      [&](auto& program) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)
+          return ProgramStep::kWaiting;
+        else
+          return program.command(machine);
+      },
+      program_);
+  if (step == ProgramStep::kEnded) stop(machine);
+}
+
+}  // namespace tactus::ur

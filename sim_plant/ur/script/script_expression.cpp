@@ -1,0 +1,213 @@
+#include "sim_plant/ur/script/script_expression.hpp"
+
+#include "sim_plant/ur/script/script_functions.hpp"
+#include "sim_plant/ur/script/script_operators.hpp"
+
+namespace tactus::ur {
+namespace {
+
+using Kind = ScriptValue::Kind;
+
+constexpr int kDeepest = 16;  // nesting of brackets and nots
+
+/// The operators of one level; if two begin alike, the longer one comes first.
+struct Level {
+  std::array<std::string_view, 5> operators;
+};
+constexpr std::array<Level, 5> kLevels = {{{{"or"}},
+                                           {{"and"}},
+                                           {{"==", "!=", "<=", ">=", "<"}},  // see below for >
+                                           {{"+", "-"}},
+                                           {{"*", "/", "%"}}}};
+
+class Expression {
+ public:
+  Expression(std::string_view text, const ScriptScope& scope) : text_(text), scope_(scope) {}
+
+  bool read(ScriptValue& value) { return level(0, value); }
+  bool read(ScriptCall& call);
+  std::string_view rest() const { return text_; }
+
+ private:
+  bool level(std::size_t at, ScriptValue& value);
+  bool signed_value(ScriptValue& value);
+  bool with_element(ScriptValue& value);
+  bool primary(ScriptValue& value);
+  bool name(ScriptValue& value);
+  bool quoted(ScriptValue& value);
+  bool elements(Kind kind, ScriptValue& value);
+  bool argument(ScriptCall::Argument& argument);
+  std::string_view operator_of(std::size_t level);
+  bool eat(std::string_view word);
+
+  std::string_view text_;
+  const ScriptScope& scope_;
+  int depth_ = 0;
+};
+
+/// Takes a word off the text, unless it is the beginning of a longer one.
+bool Expression::eat(std::string_view word) {
+  skip_blanks(text_);
+  if (!starts_with(text_, word)) return false;
+  const std::string_view begun = leading_name(text_);
+  if (!begun.empty() && begun != word) return false;
+  text_.remove_prefix(word.size());
+  return true;
+}
+
+std::string_view Expression::operator_of(std::size_t level) {
+  for (const std::string_view word : kLevels[level].operators)
+    if (!word.empty() && eat(word)) return word;
+  if (level == 2 && eat(">")) return ">";
+  return {};
+}
+
+bool Expression::level(std::size_t at, ScriptValue& value) {
+  if (at == kLevels.size()) return signed_value(value);
+  if (!level(at + 1, value)) return false;
+  for (std::string_view word = operator_of(at); !word.empty(); word = operator_of(at)) {
+    ScriptValue right;
+    if (!level(at + 1, right) || !apply_operator(word, right, value)) return false;
+  }
+  return true;
+}
+
+bool Expression::signed_value(ScriptValue& value) {
+  if (eat("not")) {
+    if (++depth_ > kDeepest || !level(2, value) || !value.numeric()) return false;
+    --depth_;
+    value = truth_value(value.number == 0.0);
+    return true;
+  }
+  bool negative = false;
+  for (;;) {
+    if (eat("-"))
+      negative = !negative;
+    else if (!eat("+"))
+      break;
+  }
+  if (!with_element(value)) return false;
+  if (!negative) return true;
+  value.number = -value.number;
+  return value.kind == Kind::kNumber;
+}
+
+bool Expression::with_element(ScriptValue& value) {
+  if (!primary(value)) return false;
+  while (eat("[")) {
+    ScriptValue index;
+    if (!level(0, index) || !eat("]") || !index.numeric()) return false;
+    if (!(index.number >= 0.0 && index.number < static_cast<double>(value.count))) return false;
+    const double element = value.elements[static_cast<std::size_t>(index.number)];
+    value = number_value(element);
+  }
+  return true;
+}
+
+bool Expression::primary(ScriptValue& value) {
+  value = {};
+  skip_blanks(text_);
+  if (text_.empty() || ++depth_ > kDeepest) return false;
+  bool good = false;
+  if (text_[0] == '"') {
+    good = quoted(value);
+  } else if (eat("(")) {
+    good = level(0, value) && eat(")");
+  } else if (eat("[")) {
+    good = elements(Kind::kList, value);
+  } else if (starts_with(text_, "p[")) {
+    text_.remove_prefix(2);
+    good = elements(Kind::kPose, value);
+  } else if (!leading_name(text_).empty()) {
+    good = name(value);
+  } else {
+    value.kind = Kind::kNumber;
+    good = read_number(text_, value.number);
+  }
+  --depth_;
+  return good;
+}
+
+bool Expression::quoted(ScriptValue& value) {
+  const std::size_t end = text_.find('"', 1);
+  if (end == std::string_view::npos) return false;
+  value.kind = Kind::kText;
+  value.text = text_.substr(1, end - 1);
+  text_.remove_prefix(end + 1);
+  return true;
+}
+
+bool Expression::elements(Kind kind, ScriptValue& value) {
+  value.kind = kind;
+  while (!eat("]")) {
+    ScriptValue element;
+    if (value.count > 0 && !eat(",")) return false;
+    if (value.count == value.elements.size() || !level(0, element) || !element.numeric())
+      return false;
+    value.elements[value.count++] = element.number;
+  }
+  return true;
+}
+
+bool Expression::name(ScriptValue& value) {
+  const std::string_view word = leading_name(text_);
+  if (word == "True" || word == "False") {
+    value = truth_value(word == "True");
+    text_.remove_prefix(word.size());
+    return true;
+  }
+  std::string_view behind = text_.substr(word.size());
+  skip_blanks(behind);
+  if (starts_with(behind, "(")) {
+    ScriptCall call;
+    return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value);
+  }
+  const ScriptValue* variable = scope_.variables ? scope_.variables->find(word) : nullptr;
+  if (variable == nullptr) return false;
+  value = *variable;
+  text_.remove_prefix(word.size());
+  return true;
+}
+
+bool Expression::argument(ScriptCall::Argument& argument) {
+  skip_blanks(text_);
+  const std::string_view name = leading_name(text_);
+  std::string_view rest = text_.substr(name.size());
+  skip_blanks(rest);
+  if (!name.empty() && starts_with(rest, "=") && !starts_with(rest, "==")) {
+    argument.name = name;
+    text_ = rest.substr(1);
+  }
+  return level(0, argument.value);
+}
+
+bool Expression::read(ScriptCall& call) {
+  call = {};
+  skip_blanks(text_);
+  call.name = leading_name(text_);
+  text_.remove_prefix(call.name.size());
+  if (call.name.empty() || !eat("(")) return false;
+  while (!eat(")")) {
+    if (call.count > 0 && !eat(",")) return false;
+    if (call.count == ScriptCall::kMost || !argument(call.arguments[call.count++])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool evaluate(std::string_view& text, const ScriptScope& scope, ScriptValue& value) {
+  Expression expression(text, scope);
+  if (!expression.read(value)) return false;
+  text = expression.rest();
+  return true;
+}
+
+bool read_call(std::string_view& text, const ScriptScope& scope, ScriptCall& call) {
+  Expression expression(text, scope);
+  if (!expression.read(call)) return false;
+  text = expression.rest();
+  return true;
+}
+
+}  // namespace tactus::ur

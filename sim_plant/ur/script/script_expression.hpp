@@ -1,0 +1,27 @@
+// Expressions of URScript: numbers, truth values, texts, lists and poses, names, calls, elements,
+// and the operators + - * / % == != < > <= >= not and or, in the precedence of the script manual.
+// As on a CB3, lists are not added element by element.
+#pragma once
+
+#include "sim_plant/ur/script/script_text.hpp"
+
+namespace tactus::ur {
+
+struct Machine;
+
+/// The values of names and functions. Without a machine functions have no value, and only literals
+/// are read.
+struct ScriptScope {
+  const ScriptVariables* variables = nullptr;
+  const Machine* machine = nullptr;
+};
+
+/// Takes an expression off the text. False: there is none, or it has no value here; the text is
+/// unchanged.
+bool evaluate(std::string_view& text, const ScriptScope& scope, ScriptValue& value);
+
+/// Takes "name(arguments)" off the beginning of a text. False: the text is not such a call, or an
+/// argument has no value.
+bool read_call(std::string_view& text, const ScriptScope& scope, ScriptCall& call);
+
+}  // namespace tactus::ur

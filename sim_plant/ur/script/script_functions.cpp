@@ -1,0 +1,169 @@
+#include "sim_plant/ur/script/script_functions.hpp"
+
+#include <cmath>
+
+#include "sim_plant/ur/script/script_operators.hpp"
+
+namespace tactus::ur {
+namespace {
+
+using Kind = ScriptValue::Kind;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+ScriptValue six_value(Kind kind, const Vector6& six) {
+  ScriptValue value;
+  value.kind = kind;
+  for (const double element : six) value.elements[value.count++] = element;
+  return value;
+}
+
+bool of_registers(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+  const bool input = starts_with(call.name, "read_input_");
+  if (!input && !starts_with(call.name, "read_output_")) return false;
+  const Registers& registers = input ? machine.io.input : machine.io.output;
+  const std::string_view kind = call.name.substr(input ? 11 : 12);
+  const double index = call.number("address", 0, -1.0);
+  if (!(index >= 0.0 && index < (kind == "boolean_register" ? kBitRegisters : kRegisters)))
+    return false;
+  const auto i = static_cast<std::size_t>(index);
+  if (kind == "boolean_register")
+    value = truth_value(registers.bit(static_cast<int>(i)));
+  else if (kind == "integer_register")
+    value = number_value(registers.ints[i]);
+  else if (kind == "float_register")
+    value = number_value(registers.doubles[i]);
+  else
+    return false;
+  return true;
+}
+
+bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+  const Motion& motion = machine.motion;
+  const std::string_view name = call.name;
+  if (name == "get_actual_joint_positions")
+    value = six_value(Kind::kList, machine.body.q());
+  else if (name == "get_actual_joint_speeds")
+    value = six_value(Kind::kList, machine.body.dq());
+  else if (name == "get_target_joint_positions")
+    value = six_value(Kind::kList, motion.q());
+  else if (name == "get_target_joint_speeds")
+    value = six_value(Kind::kList, motion.dq());
+  else if (name == "get_actual_tcp_pose")
+    value = six_value(Kind::kPose, (forward(machine.body.q()) * motion.tool()).pose());
+  else if (name == "get_target_tcp_pose")
+    value = six_value(Kind::kPose, (forward(motion.q()) * motion.tool()).pose());
+  else if (name == "get_tcp_offset")
+    value = six_value(Kind::kPose, machine.tcp_offset);
+  else if (name == "get_target_payload")
+    value = number_value(machine.payload);
+  else if (name == "get_steptime")
+    value = number_value(machine.cycle_s());
+  else if (name == "is_steady")
+    value = truth_value(motion.resting());
+  else
+    return false;
+  return true;
+}
+
+bool of_poses(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+  const ScriptValue* first = call.find("", 0);
+  const ScriptValue* second = call.find("", 1);
+  if (first == nullptr || !first->six()) return false;
+  const Frame& tool = machine.motion.tool();
+  if (call.name == "get_inverse_kin" || call.name == "get_inverse_kin_has_solution") {
+    const bool near = second != nullptr && second->six();
+    Joints q = Joints::Zero();
+    const bool found =
+        inverse(Frame::of(first->vector()), tool, near ? second->vector() : machine.motion.q(), q);
+    const bool asked = call.name != "get_inverse_kin";
+    value = asked ? truth_value(found) : six_value(Kind::kList, q);
+    return found || asked;
+  }
+  Frame frame;
+  if (call.name == "get_forward_kin") {
+    frame = forward(first->vector()) * tool;
+  } else if (call.name == "pose_inv") {
+    frame = Frame::of(first->vector()).inverse();
+  } else if (call.name == "pose_trans" && second != nullptr && second->six()) {
+    frame = Frame::of(first->vector()) * Frame::of(second->vector());
+  } else {
+    return false;
+  }
+  value = six_value(Kind::kPose, frame.pose());
+  return true;
+}
+
+/// Returns the length of a list or the magnitude of a number.
+double norm(const ScriptValue& value) {
+  if (value.numeric()) return std::abs(value.number);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < value.count; ++i) sum += value.elements[i] * value.elements[i];
+  return std::sqrt(sum);
+}
+
+bool of_numbers(const ScriptCall& call, ScriptValue& value) {
+  const ScriptValue* first = call.find("", 0);
+  if (first == nullptr) return false;
+  if (call.name == "norm") {
+    value = number_value(norm(*first));
+    return true;
+  }
+  struct Row {
+    std::string_view name;
+    double (*function)(double, double);
+  };
+  constexpr Row kRows[] = {{"d2r", [](double x, double) { return x * kDegree; }},
+                           {"r2d", [](double x, double) { return x / kDegree; }},
+                           {"sqrt", [](double x, double) { return std::sqrt(x); }},
+                           {"sin", [](double x, double) { return std::sin(x); }},
+                           {"cos", [](double x, double) { return std::cos(x); }},
+                           {"tan", [](double x, double) { return std::tan(x); }},
+                           {"floor", [](double x, double) { return std::floor(x); }},
+                           {"ceil", [](double x, double) { return std::ceil(x); }},
+                           {"atan2", [](double x, double y) { return std::atan2(x, y); }},
+                           {"pow", [](double x, double y) { return std::pow(x, y); }}};
+  for (const Row& row : kRows) {
+    if (row.name != call.name || !first->numeric()) continue;
+    value = number_value(row.function(first->number, call.number("", 1, 0.0)));
+    return true;
+  }
+  return false;
+}
+
+bool of_digital(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+  struct Row {
+    std::string_view name;
+    bool input;
+    int from, first, count;  // first number in the script, first bit, number of bits
+  };
+  constexpr Row kRows[] = {
+      {"get_standard_digital_in", true, 0, 0, 8},
+      {"get_configurable_digital_in", true, 0, 8, 8},
+      {"get_tool_digital_in", true, 0, 16, 2},
+      {"get_digital_in", true, 0, 0, 8},  // before version 3 the tool's follow the standard ones
+      {"get_digital_in", true, 8, 16, 2},
+      {"get_standard_digital_out", false, 0, 0, 8},
+      {"get_configurable_digital_out", false, 0, 8, 8},
+      {"get_tool_digital_out", false, 0, 16, 2},
+      {"get_digital_out", false, 0, 0, 8},
+      {"get_digital_out", false, 8, 16, 2}};
+  const double n = call.number("n", 0, -1.0);
+  for (const Row& row : kRows) {
+    if (row.name != call.name || !(n >= row.from && n < row.from + row.count)) continue;
+    const std::uint64_t bits = row.input ? machine.io.digital_inputs : machine.io.digital_outputs;
+    value = truth_value(bits >> (row.first + static_cast<int>(n) - row.from) & 1u);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool call_function(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+  return of_registers(call, machine, value) || of_arm(call, machine, value) ||
+         of_digital(call, machine, value) || of_poses(call, machine, value) ||
+         of_numbers(call, value);
+}
+
+}  // namespace tactus::ur

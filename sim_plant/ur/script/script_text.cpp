@@ -1,0 +1,114 @@
+#include "sim_plant/ur/script/script_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace tactus::ur {
+namespace {
+
+bool is_name(char c, bool first) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+         (!first && c >= '0' && c <= '9');
+}
+
+}  // namespace
+
+void skip_blanks(std::string_view& text) {
+  while (!text.empty() && (text[0] == ' ' || text[0] == '\t' || text[0] == '\r'))
+    text.remove_prefix(1);
+}
+
+bool read_number(std::string_view& text, double& value) {
+  skip_blanks(text);
+  double number = 0.0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code != std::errc() || !std::isfinite(number)) return false;  // "nan" and "inf" are names
+  value = number;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+std::int32_t integer(double value) {
+  constexpr double kLeast = -2147483648.0, kMost = 2147483647.0;
+  return std::isnan(value) ? 0 : static_cast<std::int32_t>(std::clamp(value, kLeast, kMost));
+}
+
+bool next_line(std::string_view& text, std::string_view& line) {
+  if (text.empty()) return false;
+  const std::size_t end = text.find('\n');
+  line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  skip_blanks(text);
+  while (!text.empty() &&
+         (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '\n'))
+    text.remove_suffix(1);
+  return text;
+}
+
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == '#' && !quoted) return line.substr(0, i);
+  }
+  return line;
+}
+
+std::string_view leading_name(std::string_view text) {
+  std::size_t size = 0;
+  while (size < text.size() && is_name(text[size], size == 0)) ++size;
+  return text.substr(0, size);
+}
+
+bool starts_with(std::string_view text, std::string_view word) {
+  return text.substr(0, word.size()) == word;
+}
+
+bool number_after(std::string_view text, std::string_view key, double& value) {
+  const std::size_t at = text.find(key);
+  if (at == std::string_view::npos) return false;
+  text.remove_prefix(at + key.size());
+  return read_number(text, value);
+}
+
+const ScriptValue* ScriptCall::find(std::string_view argument, std::size_t position) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!argument.empty() && arguments[i].name == argument) return &arguments[i].value;
+    if (i == position && arguments[i].name.empty()) return &arguments[i].value;
+  }
+  return nullptr;
+}
+
+double ScriptCall::number(std::string_view argument, std::size_t position, double otherwise) const {
+  const ScriptValue* value = find(argument, position);
+  return value != nullptr && value->numeric() ? value->number : otherwise;
+}
+
+const ScriptValue* ScriptVariables::find(std::string_view name) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (rows[i].name == name) return &rows[i].value;
+  return nullptr;
+}
+
+ScriptValue* ScriptVariables::find(std::string_view name) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (rows[i].name == name) return &rows[i].value;
+  return nullptr;
+}
+
+bool ScriptVariables::set(std::string_view name, const ScriptValue& value) {
+  if (ScriptValue* known = find(name)) {
+    *known = value;
+    return true;
+  }
+  if (count == rows.size()) return false;
+  rows[count++] = {name, value};
+  return true;
+}
+
+}  // namespace tactus::ur

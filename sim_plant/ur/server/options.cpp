@@ -1,0 +1,95 @@
+#include "sim_plant/ur/server/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace tactus::ur {
+namespace {
+
+constexpr int kRefused = 2;
+
+/// Accepts finite numbers in range; the library also accepts "nan" and "inf".
+CLI::Validator finite(double lowest, double highest) {
+  return CLI::Validator(
+      [lowest, highest](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool good = *end == '\0' && !text.empty() && value >= lowest && value <= highest;
+        return good ? std::string()
+                    : "'" + text + "' is not a number from " + std::to_string(lowest) + " to " +
+                          std::to_string(highest);
+      },
+      "");
+}
+
+CLI::Validator short_text() {
+  return CLI::Validator(
+      [](std::string& text) { return text.size() < 64 ? "" : "the address is too long"; }, "");
+}
+
+bool parse_version(const std::string& text, unsigned (&version)[4]) {
+  int used = 0;
+  const int read = std::sscanf(text.c_str(), "%3u.%3u.%9u.%9u%n", &version[0], &version[1],
+                               &version[2], &version[3], &used);
+  return read == 4 && static_cast<std::size_t>(used) == text.size() &&
+         (version[0] == 3 || version[0] == 5);
+}
+
+}  // namespace
+
+bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int& exit_code) {
+  std::string address = options.address, host, version = "3.15.8.106339";
+  std::vector<double> q(std::begin(options.initial_q), std::end(options.initial_q));
+  CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "tactus"};
+  app.add_option("--bind", address, "IPv4 address to listen at (default 127.0.0.1)")
+      ->check(short_text());
+  app.add_option("--port-offset", options.port_offset, "added to every port (default 0)")
+      ->check(finite(-28000, 30000));
+  app.add_option("--speed", options.speed, "speed as a multiple of real time (default 1)")
+      ->check(finite(0.01, 1000.0));
+  app.add_flag("--lock-step", options.lock_step,
+               "begin the next cycle once every client that writes inputs has answered");
+  app.add_option("--start-time", options.start_time_s,
+                 "initial time of the controller's clock, s (default 100)")
+      ->check(finite(0.0, 1e7));
+  app.add_option("--duration", options.duration_s,
+                 "time after which the program ends, s of the controller's clock (default: never)")
+      ->check(finite(0.0, 1e7));
+  app.add_flag("--off", options.switched_off, "begin in POWER_OFF instead of RUNNING");
+  app.add_option("--joints", q, "initial positions of the six joints, rad")
+      ->expected(6)
+      ->check(finite(-6.3, 6.3));
+  app.add_option("--software", version,
+                 "software version (default 3.15.8.106339); 5 has the cycle of an e-Series");
+  app.add_option("--external-control", host,
+                 "address from which external_control.urp fetches its script (default: no program)")
+      ->check(short_text());
+  app.add_option("--external-control-port", options.external_control_port,
+                 "port from which it fetches the script (default 50002)")
+      ->check(finite(1, 65535));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? 0 : kRefused;
+    return false;
+  }
+  if (!parse_version(version, options.version)) {
+    std::fprintf(stderr,
+                 "--software: '%s' is not a version like 3.15.8.106339; the first number must be 3 "
+                 "or 5\n",
+                 version.c_str());
+    exit_code = kRefused;
+    return false;
+  }
+  std::strncpy(options.address, address.c_str(), sizeof options.address - 1);
+  std::strncpy(options.external_control_host, host.c_str(),
+               sizeof options.external_control_host - 1);
+  for (std::size_t i = 0; i < 6; ++i) options.initial_q[i] = q[i];
+  return true;
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,25 @@
+// The command line of the emulated controller, as a plain struct. Only options.cpp includes CLI11,
+// which needs exceptions.
+#pragma once
+
+namespace tactus::ur {
+
+struct EmulatorOptions {
+  char address[64] = "127.0.0.1";
+  int port_offset = 0;     ///< added to every port
+  double speed = 1.0;      ///< multiple of real time
+  bool lock_step = false;  ///< a cycle begins when the clients have answered
+  double start_time_s = 100.0;
+  double duration_s = 0.0;    ///< by the controller's clock; 0: without end
+  bool switched_off = false;  ///< POWER_OFF at the beginning
+  double initial_q[6] = {0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0};  ///< rad
+  unsigned version[4] = {3, 15, 8, 106339};
+  char external_control_host[64] = "";
+  int external_control_port = 50002;
+};
+
+/// Reads the command line. False: the program must end with `exit_code`, because help was requested
+/// or an option is wrong.
+bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int& exit_code);
+
+}  // namespace tactus::ur

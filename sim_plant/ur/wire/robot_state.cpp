@@ -1,0 +1,122 @@
+#include "sim_plant/ur/wire/state_messages.hpp"
+
+namespace tactus::ur {
+namespace {
+
+enum Control : std::uint8_t { kPosition = 0, kTeach = 1, kForce = 2 };
+
+float single(double value) {
+  return static_cast<float>(value);
+}
+
+void write_mode(const Image& image, const Version& version, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kRobotMode, writer);
+  writer.u64(static_cast<std::uint64_t>(image.timestamp * 1e6 + 0.5));
+  const bool powered = (image.robot_status_bits & kPowerOnBit) != 0;
+  for (const bool flag : {true, true, powered, image.emergency_stopped, image.protective_stopped,
+                          image.program_running, image.program_paused})
+    writer.u8(flag ? 1 : 0);
+  writer.u8(static_cast<std::uint8_t>(image.robot_mode));
+  writer.u8(image.freedrive ? kTeach : image.force_mode ? kForce : kPosition);
+  writer.f64(image.target_speed_fraction);
+  writer.f64(image.speed_scaling);
+  if (version.at_least(3, 2)) writer.f64(1.0);  // limit of the fraction
+  if (version.at_least(3, 5)) writer.u8(0);
+  end_part(at, writer);
+}
+
+void write_joints(const Image& image, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kJoints, writer);
+  for (int i = 0; i < 6; ++i) {
+    writer.f64(image.actual_q[i]);
+    writer.f64(image.target_q[i]);
+    writer.f64(image.actual_qd[i]);
+    writer.f32(single(image.actual_current[i]));
+    writer.f32(single(image.actual_joint_voltage[i]));
+    writer.f32(single(image.joint_temperatures[i]));
+    writer.f32(0.0f);
+    writer.u8(static_cast<std::uint8_t>(image.joint_mode[static_cast<std::size_t>(i)]));
+  }
+  end_part(at, writer);
+}
+
+void write_tool(const Image& image, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kTool, writer);
+  writer.u8(static_cast<std::uint8_t>(image.tool_analog_input_types & 1u));
+  writer.u8(static_cast<std::uint8_t>(image.tool_analog_input_types >> 1 & 1u));
+  writer.f64(image.tool_analog_input0);
+  writer.f64(image.tool_analog_input1);
+  writer.f32(48.0f);
+  writer.u8(static_cast<std::uint8_t>(image.tool_output_voltage));
+  writer.f32(single(image.tool_output_current));
+  writer.f32(single(image.tool_temperature));
+  writer.u8(static_cast<std::uint8_t>(image.tool_mode));
+  end_part(at, writer);
+}
+
+void write_masterboard(const Image& image, const Version& version, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kMasterboard, writer);
+  writer.u32(static_cast<std::uint32_t>(image.actual_digital_input_bits));
+  writer.u32(static_cast<std::uint32_t>(image.actual_digital_output_bits));
+  for (int i = 0; i < 2; ++i) writer.u8(static_cast<std::uint8_t>(image.analog_io_types >> i & 1));
+  writer.f64(image.standard_analog_input0);
+  writer.f64(image.standard_analog_input1);
+  for (int i = 2; i < 4; ++i) writer.u8(static_cast<std::uint8_t>(image.analog_io_types >> i & 1));
+  writer.f64(image.standard_analog_output0);
+  writer.f64(image.standard_analog_output1);
+  writer.f32(35.0f);
+  writer.f32(single(image.actual_robot_voltage));
+  writer.f32(single(image.actual_robot_current));
+  writer.f32(single(image.io_current));
+  writer.u8(static_cast<std::uint8_t>(image.safety_mode));
+  writer.u8(image.safety_mode == static_cast<int>(SafetyMode::kReduced) ? 1 : 0);
+  writer.u8(0);  // no Euromap 67
+  writer.u32(0);
+  if (version.at_least(3, 2)) writer.zeros(2);  // operational mode, three-position switch
+  if (version.at_least(3, 5)) writer.u8(0);
+  end_part(at, writer);
+}
+
+void write_cartesian(const Image& image, const Version& version, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kCartesian, writer);
+  for (int i = 0; i < 6; ++i) writer.f64(image.actual_tcp_pose[i]);
+  if (version.at_least(3, 2))
+    for (int i = 0; i < 6; ++i) writer.f64(image.tcp_offset[i]);
+  end_part(at, writer);
+}
+
+void write_force_mode(const Image& image, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kForceMode, writer);
+  for (int i = 0; i < 6; ++i) writer.f64(image.actual_tcp_force[i]);
+  writer.f64(0.0);  // dexterity
+  end_part(at, writer);
+}
+
+void write_additional(const Image& image, ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kAdditional, writer);
+  writer.u8(0);                        // teach button pressed
+  writer.u8(1);                        // teach button enabled
+  writer.u8(image.freedrive ? 1 : 0);  // input and output of freedrive
+  writer.u8(0);
+  end_part(at, writer);
+}
+
+}  // namespace
+
+void write_robot_state(const Image& image, const Version& version, bool whole, ByteWriter& writer) {
+  const std::size_t at = writer.size();
+  writer.u32(0);
+  writer.i8(static_cast<std::int8_t>(StateType::kRobotState));
+  write_mode(image, version, writer);
+  write_joints(image, writer);
+  write_cartesian(image, version, writer);
+  if (whole && version.at_least(3, 6)) write_kinematics(writer);
+  if (whole) write_configuration(writer);
+  write_masterboard(image, version, writer);
+  write_tool(image, writer);
+  write_force_mode(image, writer);
+  write_additional(image, writer);
+  writer.set_u32(at, writer.size() - at);
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,192 @@
+// Time response of the PID law: closed forms at several periods, start, and change of gains.
+#include <algorithm>
+
+#include "tests/control/pid_bench.hpp"
+
+namespace tactus {
+namespace {
+
+/// Returns the largest deviation from the closed form of place_poles() within 4 s, rad.
+double deviation(double dt_s) {
+  PidAndInertia b;
+  place_poles(b);
+  b.q_d = kOnes;
+  ASSERT_OK(b.pid.start());
+  double largest = 0.0;
+  for (int k = 1; k * dt_s < 4.0; ++k) {
+    b.cycle(dt_s);
+    const double pt = kPole * k * dt_s;
+    largest = std::max(largest, std::abs(b.q[0] - 1.0 + std::exp(-pt) * (1.0 + pt - pt * pt)));
+  }
+  return largest;
+}
+
+// Proves PI-2.
+
+void a_loop_of_three_poles_answers_a_step_as_its_closed_form(void**) {
+  for (const double dt_s : kPeriods_s) assert_true(deviation(dt_s) < kPole * dt_s);
+  ASSERT_NEAR(deviation(2e-3) / deviation(1e-3), 2.0, 0.05);  // first order, by the hold's delay
+}
+
+void the_integral_of_a_smooth_error_is_that_of_calculus_at_every_period(void**) {
+  for (const double dt_s : kPeriods_s) {
+    PidBench b;
+    b.gains(0.0, 50.0, 0.0);
+    ASSERT_OK(b.pid.start());
+    for (int k = 1; k * dt_s < 3.0; ++k) {
+      const double t = k * dt_s;
+      b.q_d = std::sin(4.0 * t) * kOnes;
+      b.step(dt_s);
+      // Error of the trapezoidal rule: dt^2 / 12 times the change of slope, at most 8, and a
+      // margin.
+      ASSERT_NEAR(b.pid.integral()[0], 50.0 * (1.0 - std::cos(4.0 * t)) / 4.0,
+                  50.0 * 8.1 * dt_s * dt_s / 12.0);
+    }
+  }
+}
+
+void a_step_of_the_velocity_passes_the_filter_with_its_time_constant(void**) {
+  for (const double dt_s : kPeriods_s) {
+    PidBench b;
+    b.gains(0.0, 0.0, 1.0);
+    b.pid.params.derivative_time_constant.setConstant(0.02);
+    ASSERT_OK(b.pid.start());
+    b.dq_d = kOnes;
+    for (int k = 1; k < 20; ++k) {
+      b.step(dt_s);
+      ASSERT_NEAR(b.pid.tau.value[0], 1.0 - std::exp(-k * dt_s / 0.02), 1e-12);
+    }
+  }
+}
+
+void the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period(void**) {
+  constexpr double kT = 0.02, w = 10.0;
+  for (const bool wired : {true, false}) {
+    for (const double dt_s : kPeriods_s) {
+      PidBench b;
+      b.gains(0.0, 0.0, 1.0);
+      b.pid.params.derivative_time_constant.setConstant(kT);
+      if (!wired) b.pid.dq = {};
+      ASSERT_OK(b.pid.start());
+      for (int k = 1; k * dt_s < 2.0; ++k) {
+        const double t = k * dt_s;
+        b.q = std::sin(w * t) * kOnes;
+        b.dq = w * std::cos(w * t) * kOnes;
+        b.step(dt_s);
+        if (t < 0.5) continue;  // 25 time constants: the start has no effect any more
+        const double filtered =
+            w * (std::cos(w * t) + w * kT * std::sin(w * t)) / (1 + w * w * kT * kT);
+        ASSERT_NEAR(b.pid.tau.value[0], -filtered, 0.5 * dt_s * w * w);
+      }
+    }
+  }
+}
+
+// Proves PI-4.
+
+void the_first_torque_on_the_reference_is_gravity(void**) {
+  PidBench b;
+  b.gains(100.0, 50.0, 10.0);
+  b.q_d = b.q = kOnes;
+  b.g = 3.0 * kOnes;
+  ASSERT_OK(b.pid.start());
+  b.torque_is(3.0 * kOnes);
+  b.step_gives(1e-3, 3.0 * kOnes);
+}
+
+void the_first_torque_is_the_measured_one_where_there_is_an_integral(void**) {
+  PidBench b;
+  b.pid.tau_measured.source = &b.tau_measured;
+  b.gains(100.0, 50.0, 10.0);
+  b.pid.params.gains.ki[0] = 0.0;
+  b.pid.params.integral_limit[1] = 2.0;
+  b.q_d = 1.05 * kOnes;
+  b.q = kOnes;
+  b.g = 3.0 * kOnes;
+  b.tau_measured = 4.0 * kOnes;
+  ASSERT_OK(b.pid.start());
+  JointVector expected = 4.0 * kOnes;
+  expected[0] = 8.0;  // no integral: 100 0.05 + 3
+  expected[1] = 6.0;  // 4 N m less were needed, 2 are allowed
+  b.torque_is(expected);
+}
+
+void a_new_start_forgets_the_past(void**) {
+  PidBench b;
+  b.gains(100.0, 50.0, 10.0);
+  ASSERT_OK(b.pid.start());
+  b.q_d = kOnes;
+  for (int k = 0; k < 100; ++k) b.step(1e-3);
+  b.q = b.q_d;
+  ASSERT_OK(b.pid.start());
+  b.torque_is(kZero);
+}
+
+/// Brings the law into a motion in which every term contributes.
+void set_in_motion(PidBench& b) {
+  b.gains(100.0, 50.0, 10.0);
+  b.pid.params.derivative_time_constant.setConstant(0.01);
+  ASSERT_OK(b.pid.start());
+  for (int k = 0; k < 100; ++k) {
+    b.q_d = JointVector::LinSpaced(-1.0, 1.0) * std::sin(0.03 * k);
+    b.dq = 2.0 * b.q_d;
+    b.step(1e-3);
+  }
+}
+
+void new_gains_do_not_step_the_torque(void**) {
+  PidBench b;
+  set_in_motion(b);
+  const JointVector before = b.pid.tau.value;
+  ASSERT_OK(b.pid.set_gains({300.0 * kOnes, 5.0 * kOnes, 2.0 * kOnes}));
+  b.step(0.0);
+  ASSERT_NEAR((b.pid.tau.value - before).cwiseAbs().maxCoeff(), 0.0, 1e-10);
+  ASSERT_OK(b.pid.set_gains({300.0 * kOnes, 5000.0 * kOnes, 2.0 * kOnes}));
+  b.step(0.0);
+  ASSERT_NEAR((b.pid.tau.value - before).cwiseAbs().maxCoeff(), 0.0, 1e-10);
+}
+
+void what_an_integral_cannot_take_over_steps_by_what_is_stated(void**) {
+  PidBench b;
+  set_in_motion(b);
+  const JointVector before = b.pid.tau.value, integral = b.pid.integral();
+  ASSERT_OK(b.pid.set_gains({300.0 * kOnes, kZero, 10.0 * kOnes}));
+  b.step(0.0);
+  ASSERT_NEAR((b.pid.tau.value - before - 200.0 * b.q_d).cwiseAbs().maxCoeff(), 0.0, 1e-10);
+  assert_true(b.pid.integral() == integral);
+}
+
+void gains_that_are_negative_or_not_finite_change_nothing(void**) {
+  for (JointVector Pid::Gains::*gain : {&Pid::Gains::kp, &Pid::Gains::ki, &Pid::Gains::kd}) {
+    for (const double bad : {-1.0, std::nan(""), kInfinity}) {
+      PidBench b;
+      set_in_motion(b);
+      const JointVector before = b.pid.tau.value;
+      Pid::Gains gains = {300.0 * kOnes, 5.0 * kOnes, 2.0 * kOnes};
+      (gains.*gain)[kDof - 1] = bad;
+      ASSERT_STATUS(b.pid.set_gains(gains), Status::kBadValue);
+      b.step(0.0);
+      assert_true(b.pid.tau.value == before);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_loop_of_three_poles_answers_a_step_as_its_closed_form),
+      cmocka_unit_test(a_step_of_the_velocity_passes_the_filter_with_its_time_constant),
+      cmocka_unit_test(the_integral_of_a_smooth_error_is_that_of_calculus_at_every_period),
+      cmocka_unit_test(the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period),
+      cmocka_unit_test(the_first_torque_on_the_reference_is_gravity),
+      cmocka_unit_test(the_first_torque_is_the_measured_one_where_there_is_an_integral),
+      cmocka_unit_test(a_new_start_forgets_the_past),
+      cmocka_unit_test(new_gains_do_not_step_the_torque),
+      cmocka_unit_test(what_an_integral_cannot_take_over_steps_by_what_is_stated),
+      cmocka_unit_test(gains_that_are_negative_or_not_finite_change_nothing),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,114 @@
+// Tests a run that goes wrong: the arm comes to rest first, then the program ends and gives the
+// reason.
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+// Positions, for drives that follow them slowly.
+constexpr const char* kPositions =
+    "[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n"
+    "[plant]\nservo_time_constant_s = 0.02\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+    "[recorder]\nsignals = robot.dq jrg.q_d\n";
+/// Half a radian of joint 1 in the given number of seconds.
+constexpr const char* kFast = "1.5,0.5,-0.785398,0,-2.356194,0,1.570796,0.785398\n";
+constexpr const char* kSlow = "40,0.5,-0.785398,0,-2.356194,0,1.570796,0.785398\n";
+
+/// The largest joint velocity in the last row of a log, rad/s.
+double last_velocity(const char* name) {
+  std::string_view log = file_of(name);
+  log.remove_suffix(1);
+  const char* at = log.data() + log.rfind('\n') + 1;
+  double largest = 0.0;
+  for (int i = 0; i < 7; ++i) {
+    at = std::strchr(at, ',') + 1;
+    largest = std::max(largest, std::abs(std::strtod(at, nullptr)));
+  }
+  return largest;
+}
+
+// Proves LAD-11.
+
+void a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest(void**) {
+  const Line pipeline =
+      write("lag.ini", {kPositions, "[guard]\nfollowing_error = 0.005\nfollowing_time = 0\n"});
+  const Line trajectory = write("fast.csv", {kHeader, kFast});
+  assert_int_equal(run_into("lag", pipeline.c_str(), "1", trajectory.c_str(), "1"), 1);
+  assert_true(has(errors(), "lag.ini: stopped: joint 1 (fer_joint1): following error 0.00"));
+  assert_true(has(errors(), " rad exceeds 0.005 rad (76)\n"));
+  const std::string_view summary = file_of("lag/summary.json");
+  assert_true(has(summary, "\"name\": \"kFollowingError\"}"));
+  assert_true(has(summary, "\"rung\": \"disabled\""));
+  assert_true(has(summary,
+                  "\"cause\": \"state\", \"status\": \"kFollowingError\", "
+                  "\"from\": \"nominal\", \"to\": \"stop\", \"value\": 0.005"));
+  assert_true(has(summary,
+                  "\"cause\": \"at_rest\", \"status\": \"kFollowingError\", "
+                  "\"from\": \"stop\", \"to\": \"disabled\""));
+  assert_true(
+      has(output(), "nominal -> stop: state: following error beyond its limit (76), joint "));
+  assert_true(last_velocity("lag/log.csv") <= 0.01);
+}
+
+/// In the middle of its motion.
+void a_run_whose_time_has_passed_brakes_the_arm_before_it_ends(void**) {
+  const Line pipeline = write("cut.ini", {kPositions});
+  const Line trajectory = write("fast.csv", {kHeader, kFast});
+  assert_int_equal(run_into("cut", pipeline.c_str(), "1", trajectory.c_str(), "0.75"), 1);
+  assert_true(errors().empty());
+  const std::string_view summary = file_of("cut/summary.json");
+  assert_true(has(summary, "\"name\": \"unfinished\"}") && has(summary, "\"cause\": \"at_rest\""));
+  assert_true(last_velocity("cut/log.csv") <= 0.01);
+}
+
+void an_interrupt_brakes_the_arm_before_the_run_ends(void**) {
+  const Line pipeline = write("slow.ini",
+                              {kPositions, "[executive]\nmax_slip = 1000\noverrun_window = 1\n"}),
+             out = in_folder("i");
+  const Line trajectory = write("slow.csv", {kHeader, kSlow});
+  const pid_t child = spawn({"run", pipeline.c_str(), "--trajectory", trajectory.c_str(),
+                             "--realtime", "--no-figure", "--out", out.c_str()});
+  for (int i = 0; i < 60'000 && file_of("i/log.csv").size() < 100'000; ++i) {
+    const timespec millisecond = {0, 1'000'000};
+    nanosleep(&millisecond, nullptr);
+  }
+  assert_int_equal(kill(child, SIGINT), 0);
+  assert_int_equal(exit_code(child), 1);
+  const std::string_view summary = file_of("i/summary.json");
+  assert_true(has(summary, "\"rung\": \"disabled\""));
+  assert_true(has(summary, "\"to\": \"stop\"") && has(summary, "\"cause\": \"at_rest\""));
+  assert_true(last_velocity("i/log.csv") <= 0.01);
+}
+
+// Proves LAD-9, RUN-1.
+
+void the_summary_tells_the_times_of_every_block_and_row(void**) {
+  const Line pipeline = write("p.ini", {kPipeline});
+  assert_int_equal(run_into("t", pipeline.c_str()), 0);
+  for (const char* part :
+       {"\"step.model\": {\"p50_ns\": ", "\"step.jrg\": {", "\"step.pd\": {", "\"row.control\": {",
+        "\"row.recorder\": {", "\"p999_ns\": ", "\"p9999_ns\": ", "\"min_ns\": ", "\"mean_ns\": ",
+        "\"count\": 50", "\"saturated\": ", "\"rung\": \"nominal\"", "\"events_lost\": 0"})
+    assert_true(has(file_of("t/summary.json"), part));
+  for (const char* part : {"p99.99", "step.model", "row.recorder", "rung nominal"})
+    assert_true(has(output(), part));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest),
+      cmocka_unit_test(a_run_whose_time_has_passed_brakes_the_arm_before_it_ends),
+      cmocka_unit_test(an_interrupt_brakes_the_arm_before_the_run_ends),
+      cmocka_unit_test(the_summary_tells_the_times_of_every_block_and_row),
+  };
+  return run_program_tests(argv[0], tests);
+}

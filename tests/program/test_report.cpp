@@ -1,0 +1,222 @@
+// Tests the results of `make run`: the table, the report and the code metric. The scripts are
+// started as a user starts them, from the root of the project.
+#include <csignal>
+#include <ctime>
+
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+// The arm sags until the guard stops it.
+constexpr const char* kWeak =
+    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n[pd]\ntype = pd_gravity\nq_d = "
+    "robot.q\n"
+    "q = robot.q\ndq = robot.dq\nkp = 1\nkd = 1\n[guard]\nmax_velocity = 1e-3\n";
+
+int count(std::string_view text, std::string_view part) {
+  int found = 0;
+  for (auto at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// A tree in the scratch folder with a pipeline that succeeds and one that does not.
+int plant_pipelines(void**) {
+  shell("mkdir -p $S/t/pipelines/trajectories");
+  write("t/pipelines/good.ini", {kPipeline, "[gateway]\ntrajectory = trajectories/t.csv\n"});
+  write("t/pipelines/trajectories/t.csv", {kHeader, kReady});
+  write("t/pipelines/weak.ini", {kWeak});
+  return 0;
+}
+
+// Proves RUN-4, RUN-5.
+
+void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P weak nowhere good"), 1);
+  assert_true(has(output(), "  RUN   weak: measured velocity limit (68)\n"));
+  assert_true(has(output(), "  RUN   nowhere: refused\n"));
+  assert_true(has(output(), "  RUN   good: succeeded\n"));
+  assert_true(has(output(), "\nweak     fer    1000  measured velocity limit (68) "));
+  assert_true(has(output(), "\nnowhere               refused\n"));
+  assert_true(has(output(), "\ngood     fer    1000  succeeded "));
+  assert_true(has(errors(), "weak.ini: stopped: joint "));
+  assert_true(has(errors(), " rad/s exceeds 0.001 rad/s (68)\n"));
+  assert_true(has(errors(), "nowhere.ini: "));
+}
+
+/// Checks the folder that the three runs above have left.
+void the_report_shows_every_run_and_what_failed(void**) {
+  const std::string_view page = file_of("t/out/report.html");
+  for (const char* part : {
+           "<li><a href=\"#run-weak\">weak</a></li>",
+           "<tr class=\"failed\"><td class=\"text\"><a href=\"#run-weak\">weak</a></td>",
+           "<tr class=\"failed\"><td class=\"text\"><a href=\"#run-nowhere\">nowhere</a></td>",
+           "<tr><td class=\"text\"><a href=\"#run-good\">good</a></td>",
+           "did not succeed: <b>measured velocity limit (68)</b>",
+           "weak.ini: stopped: joint ",
+           "out/nowhere/summary.json: No such file or directory",
+           "<section id=\"run-good\">",
+           "good: Waypoints (circles), reference (dashed) and measured (solid) joint position",
+           "Tracking error, jrg.q_d - robot.q",
+           "the guard limited 0 of ",
+           "Time per stage of the cycle",
+           "kernel/control/pd_gravity",
+           "905 of its 1745 source lines (52 %)",
+       })
+    assert_true(has(page, part));
+  // only the good one has a tracking entry
+  assert_int_equal(count(page, "src=\"data:image/svg+xml;base64,"), 1);
+  assert_int_equal(count(page, "src="), 1);
+  for (const char* part : {"<script", "<link", "http:", "https:", "url("})
+    assert_int_equal(count(page, part), 0);
+}
+
+void the_images_of_the_report_are_well_formed(void**) {
+  assert_int_equal(
+      shell("/usr/bin/python3 -c \"import base64, os, re, xml.etree.ElementTree as tree\n"
+            "page = open(os.environ['S'] + '/t/out/report.html').read()\n"
+            "for data in re.findall('base64,([^\\\"]*)', page):\n"
+            "    assert tree.fromstring(base64.b64decode(data)).tag.endswith('svg')\""),
+      0);
+}
+
+// Proves RUN-6.
+
+void a_damaged_file_is_named_and_the_rest_is_drawn(void**) {
+  assert_int_equal(
+      shell("cd $S/t/out && for c in json log key form cell flat; do cp -r good $c; done\n"
+            "echo '{' >json/summary.json; rm log/log.csv\n"
+            "sed -i 's/\"signals\"/\"other\"/' key/summary.json\n"
+            "sed -i 's/\"rate_hz\": 1000/\"rate_hz\": \"fast\"/' form/summary.json\n"
+            "sed -i '3s/,[^,]*/,x/' cell/log.csv; sed -i 3s/,.*// flat/log.csv\n"
+            "cd .. && $R/scripts/report out json log key form cell flat nothing good"),
+      1);
+  for (const char* part : {
+           "report: out/json/summary.json: not JSON: ",
+           "report: out/log/log.csv: No such file or directory\n",
+           "report: out/key/summary.json: no key 'signals'\n",
+           "report: out/form/summary.json: rate_hz: \"fast\" is not ",
+           "report: out/cell/log.csv:3: robot.q_1 is 'x', not a number\n",
+           "report: out/flat/log.csv:3: 1 cells, the header has ",
+           "report: out/nothing/summary.json: No such file or directory\n",
+       })
+    assert_true(has(errors(), part));
+  assert_int_equal(count(errors(), "\n"), 7);
+  const std::string_view page = file_of("t/out/report.html");
+  assert_true(has(page, "out/cell/log.csv:3: robot.q_1 is &#x27;x&#x27;, not a number"));
+  assert_int_equal(count(page, "src=\"data:image/svg+xml;base64,"), 1);
+}
+
+void figure_and_report_say_what_they_lack(void**) {
+  assert_int_equal(shell("mkdir -p $S/bare && $R/scripts/report $S/bare"), 1);
+  assert_true(has(errors(), "/bare: no folder in it has a summary.json\n"));
+  assert_int_equal(shell("$R/scripts/figure $S/bare"), 1);
+  assert_true(has(errors(), "/bare/summary.json: No such file or directory\n"));
+}
+
+// Proves RUN-5.
+
+void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good"), 0);
+  assert_true(has(output(), "\nout/report.html\n"));
+  write("t/pipelines/good.ini", {"[robot]\n"});
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good -- ./none weak"), 1);
+  assert_true(has(errors(), "./none: No such file or directory\n"));
+  for (const char* name : {"good/summary.json", "good/log.csv", "good/waypoints.csv",
+                           "good/figure.png", "weak/summary.json"})
+    assert_false(exists((Line("t/out/") << name).c_str()));
+}
+
+void an_interrupt_ends_what_is_under_way_and_begins_nothing_more(void**) {
+  write("t/slow", {"#!/bin/sh\necho $$ >>$S/began\nsleep 10 >/dev/null 2>&1\necho >>$S/late\n"});
+  assert_int_equal(shell("chmod +x $S/t/slow"), 0);
+  char words[3][96] = {"sh", "-c",
+                       "cd $S/t && exec $R/scripts/run_all -- ./slow a b c >$S/out 2>$S/err"};
+  char* const arguments[] = {words[0], words[1], words[2], nullptr};
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::remove(in_folder("began").c_str());
+    pid_t child = 0;
+    assert_int_equal(posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments, environ), 0);
+    for (int i = 0; i < 60'000 && count(file_of("began"), "\n") < 2; ++i) {
+      const timespec millisecond = {0, 1'000'000};
+      nanosleep(&millisecond, nullptr);
+    }
+    assert_int_equal(kill(child, signal), 0);
+    assert_int_equal(exit_code(child), 130);
+    assert_true(has(errors(), "run_all: interrupted\n"));
+    int first = 0, second = 0, third = 0;
+    assert_int_equal(
+        std::sscanf(Line(file_of("began")).c_str(), "%d %d %d", &first, &second, &third), 2);
+    assert_int_equal(kill(first, 0), -1);
+    assert_int_equal(kill(second, 0), -1);
+    assert_false(exists("late"));
+    assert_false(exists("t/out/c"));
+  }
+}
+
+// Proves RUN-7.
+
+/// A turn about z at a constant rate, past half a turn, with quaternions of arbitrary sign; and a
+/// spike of one row in a million.
+void a_figure_keeps_peaks_and_lets_no_orientation_jump(void**) {
+  assert_int_equal(
+      shell("cd scripts && /usr/bin/python3 -B -c \"import numpy as np\n"
+            "from reporting import panels, plots\n"
+            "t = np.linspace(0, 6, 5000); zero = np.zeros_like(t)\n"
+            "q = np.stack([np.cos(t / 2), zero, zero, np.sin(t / 2)], axis=1)\n"
+            "q *= np.where(np.arange(5000) % 7 < 3, 1, -1)[:, None]\n"
+            "turn = panels.rotation_vector(panels.continuous(q))\n"
+            "assert np.allclose(turn, np.stack([zero, zero, t], axis=1), atol=1e-9)\n"
+            "back = panels.rotation_vector(panels.shortest(q))\n"
+            "assert np.allclose(back[:, 2], np.where(t > np.pi, t - 2 * np.pi, t), atol=1e-9)\n"
+            "assert np.allclose(panels.product(q, panels.inverse(q)), [1, 0, 0, 0])\n"
+            "i, j, k = np.eye(4)[1:, None]\n"
+            "assert np.array_equal(panels.product(i, j), k)\n"
+            "x = np.arange(10**6) * 1e-3; y = np.sin(x); y[654321] = 7; y[3] = -8\n"
+            "drawn_x, drawn_y = plots.thin_out(x, y)\n"
+            "assert len(drawn_x) <= 1202 and np.all(np.diff(drawn_x) > 0)\n"
+            "assert drawn_y.max() == 7 and drawn_y.min() == -8\n"
+            "assert drawn_x[drawn_y.argmax()] == x[654321] and drawn_x[-1] == x[-1]\""),
+      0);
+}
+
+// Proves RUN-8.
+
+void the_code_metric_counts_code_and_nothing_else(void**) {
+  assert_int_equal(shell("cd $S && mkdir -p tree/kernel/control tree/kernel/core "
+                         "tree/kernel/reference/motion tree/gateway"),
+                   0);
+  write("tree/kernel/control/law.hpp",
+        {"// a comment\n#pragma once\n\n/* two\n lines */\nint f(); /* and */ // more\n"});
+  write("tree/kernel/control/law.cpp",
+        {"const char* a = \"/*\";\nint b;\nconst char* c = \"*/ //\";\n",
+         "const char d = '\"'; // \"\n  \t\nint x; /*\n*/ int y;\n"});
+  write("tree/kernel/reference/motion/r.cpp", {"int a;\nint b;\nint c; // c\n// d\n"});
+  write("tree/kernel/core/mailbox.hpp", {"int m;\n"});
+  assert_int_equal(shell("$R/scripts/code_metric $S/tree | tr -s ' '"), 0);
+  assert_true(has(output(), "kernel/control/law 3 8 27 %\n"));
+  assert_true(has(output(), "in addition: kernel/core/mailbox.hpp 1 "));
+  assert_true(has(output(), "in addition: gateway 0 "));
+  assert_int_equal(shell("$R/scripts/code_metric $S/nowhere"), 1);
+  assert_true(has(errors(), "/nowhere/kernel/core/mailbox.hpp: No such file or directory\n"));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test_setup(a_run_that_fails_stops_no_other_and_the_table_says_so,
+                             plant_pipelines),
+      cmocka_unit_test(the_report_shows_every_run_and_what_failed),
+      cmocka_unit_test(the_images_of_the_report_are_well_formed),
+      cmocka_unit_test(a_damaged_file_is_named_and_the_rest_is_drawn),
+      cmocka_unit_test(figure_and_report_say_what_they_lack),
+      cmocka_unit_test_setup(success_is_0_and_nothing_of_an_earlier_run_is_left, plant_pipelines),
+      cmocka_unit_test(an_interrupt_ends_what_is_under_way_and_begins_nothing_more),
+      cmocka_unit_test(a_figure_keeps_peaks_and_lets_no_orientation_jump),
+      cmocka_unit_test(the_code_metric_counts_code_and_nothing_else),
+  };
+  return run_program_tests(argv[0], tests);
+}

@@ -1,0 +1,244 @@
+// Feedback of both generators: all values of a message belong to one cycle, lost messages are
+// counted, and values that are not measured are NaN.
+#include "kernel/reference/generator/feedback.hpp"
+
+#include "gateway/reference_client.hpp"
+#include "kernel/math/so3.hpp"
+#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kPeriod_s = 1e-3;
+
+/// A generator's block with its client and the measured values.
+template <class Space, class Generator>
+struct Bench {
+  ReferenceChannel<Space> channel;
+  ReferenceClient<Space> client{channel};
+  std::array<std::array<Waypoint<Space>, 4>, kStores> waypoints;
+  Generator block;
+  typename Space::Point measured;
+  std::uint32_t id = 0;
+
+  explicit Bench(int divisor) {
+    channel.settings.period_s = kPeriod_s;
+    for (std::size_t i = 0; i < waypoints.size(); ++i) {
+      channel.stores[i].waypoints = waypoints[i].data();
+      channel.stores[i].capacity = 4;
+    }
+    block.channel = &channel;
+    block.params.generator.feedback_divisor = divisor;
+    block.params.generator.stopped_velocity = 0.0;
+  }
+  void run(int cycles) {
+    for (int k = 0; k < cycles; ++k) assert_true(block.step(kPeriod_s) == Status::kOk);
+  }
+  /// Returns the only message that waits.
+  Feedback<Space> only() {
+    Feedback<Space> message, second;
+    assert_true(client.poll_feedback(message) && !client.poll_feedback(second));
+    return message;
+  }
+  bool send(const typename Space::Point& goal, double time_s) {
+    Trajectory<Space>& motion = *client.acquire();
+    motion.count = 1;
+    motion.fields = kVelocityField | kAccelerationField;
+    motion.waypoints[0] = {time_s, goal};
+    return client.send(motion, id).ok();
+  }
+};
+
+struct JointBench : Bench<JointSpace, JointReferenceGenerator> {
+  explicit JointBench(int divisor) : Bench(divisor) {
+    const JointLimits limits;
+    measured.q = 0.5 * (limits.q_min + limits.q_max);
+    block.q.source = &measured.q;
+  }
+  JointSpace::Point out() const {
+    return {block.q_d.value, block.dq_d.value, block.ddq_d.value, block.tau_d.value};
+  }
+};
+
+struct TaskBench : Bench<TaskSpace, TaskReferenceGenerator> {
+  explicit TaskBench(int divisor) : Bench(divisor) {
+    measured.x = {{0.4, 0.1, 0.5}, exp_so3({2.0, -0.7, 1.0})};
+    block.x.source = &measured.x;
+  }
+};
+
+template <class Vector>
+bool none(const Vector& v) {
+  return v.array().isNaN().all();
+}
+
+// Proves RG-15.
+
+void a_message_comes_every_divisor_cycles_at_the_generators_time(void**) {
+  for (const int divisor : {1, 4, 10}) {
+    JointBench bench(divisor);
+    ASSERT_OK(bench.block.start());
+    for (int k = 1; k <= 200; ++k) {
+      bench.run(1);
+      Feedback<JointSpace> message;
+      assert_int_equal(bench.client.poll_feedback(message), k % divisor == 0);
+      if (k % divisor == 0) assert_true(message.time_s == k * kPeriod_s && message.lost == 0);
+    }
+  }
+  JointBench silent(0);
+  ASSERT_OK(silent.block.start());
+  silent.run(100);
+  Feedback<JointSpace> message;
+  assert_false(silent.client.poll_feedback(message));
+}
+
+void desired_actual_and_error_are_of_the_cycle_of_the_message(void**) {
+  JointBench bench(3);
+  bench.block.dq.source = &bench.measured.dq;
+  bench.block.tau.source = &bench.measured.tau;
+  ASSERT_OK(bench.block.start());
+  JointSpace::Point goal = bench.measured;
+  goal.q.array() += 0.2;
+  assert_true(bench.send(goal, 0.5));
+  for (int k = 1; k <= 450; ++k) {
+    bench.measured.q[2] += 1e-4;
+    bench.measured.dq.setConstant(0.01 * k);
+    bench.measured.tau.setConstant(-0.02 * k);
+    bench.run(1);
+    if (k % 3 != 0) continue;
+    const Feedback<JointSpace> message = bench.only();
+    const JointSpace::Point out = bench.out();
+    assert_true(message.desired.q == out.q && message.desired.dq == out.dq);
+    assert_true(message.desired.ddq == out.ddq && message.desired.tau == out.tau);
+    assert_true(message.actual.q == bench.measured.q && message.actual.dq == bench.measured.dq);
+    assert_true(message.actual.tau == bench.measured.tau);
+    assert_true(message.error.q == out.q - bench.measured.q);
+    assert_true(message.error.dq == out.dq - bench.measured.dq);
+    assert_true(message.error.tau == out.tau - bench.measured.tau);
+    assert_int_equal(message.id, bench.id);
+  }
+}
+
+void the_trajectory_is_named_while_it_is_executed_and_points_are_none(void**) {
+  JointBench bench(1);
+  ASSERT_OK(bench.block.start());
+  bench.run(1);
+  assert_int_equal(bench.only().id, 0);
+  JointSpace::Point goal = bench.measured;
+  goal.q[0] += 0.1;
+  assert_true(bench.send(goal, 0.5));
+  bench.run(1);
+  assert_true(bench.id != 0 && bench.only().id == bench.id);
+  std::uint32_t id = 0;
+  goal.q[0] += 0.1;
+  assert_true(bench.client.send(goal, id).ok());
+  bench.run(1);
+  const Feedback<JointSpace> message = bench.only();
+  assert_int_equal(message.id, 0);
+  ASSERT_NEAR(message.error.q[0], 0.2, 1e-15);  // positive: the robot is behind
+}
+
+void what_finds_no_room_is_lost_and_told_by_the_next(void**) {
+  JointBench bench(2);
+  ASSERT_OK(bench.block.start());
+  bench.run(2 * (16 + 5));
+  Feedback<JointSpace> message;
+  for (int k = 1; k <= 16; ++k) {  // the oldest are kept
+    assert_true(bench.client.poll_feedback(message));
+    assert_true(message.lost == 0 && message.time_s == 2 * k * kPeriod_s);
+  }
+  assert_false(bench.client.poll_feedback(message));
+  bench.run(2);
+  assert_int_equal(bench.only().lost, 5);
+  bench.run(2);
+  assert_int_equal(bench.only().lost, 0);
+}
+
+void a_restart_begins_at_time_zero_and_forgets_no_loss(void**) {
+  JointBench bench(2);
+  ASSERT_OK(bench.block.start());
+  bench.run(2 * (16 + 3) + 1);
+  ASSERT_OK(bench.block.start());
+  Feedback<JointSpace> message;
+  while (bench.client.poll_feedback(message)) assert_int_equal(message.lost, 0);
+  bench.run(2);
+  message = bench.only();
+  assert_true(message.time_s == 2 * kPeriod_s && message.lost == 3);
+}
+
+void the_error_of_a_pose_is_from_actual_to_desired_in_the_base_frame(void**) {
+  TaskBench bench(1);
+  ASSERT_OK(bench.block.start());
+  const Eigen::Quaterniond held = bench.measured.x.r;
+  const Vector3 p = bench.measured.x.p;
+  for (const double sign : {1.0, -1.0}) {
+    for (const Vector3& phi : {Vector3(0.1, 0.0, 0.0), Vector3(-0.3, 0.2, 1.0)}) {
+      bench.measured.x.p = p - Vector3(0.01, -0.02, 0.03);
+      bench.measured.x.r.coeffs() = sign * (exp_so3(-phi) * held).coeffs();
+      bench.run(1);
+      const Feedback<TaskSpace> message = bench.only();
+      assert_true(message.actual.x.r.coeffs() == bench.measured.x.r.coeffs());
+      assert_true(message.desired.x.p == p);
+      ASSERT_NEAR((message.error.phi - phi).norm(), 0.0, 1e-14);
+      ASSERT_NEAR((message.error.p - Vector3(0.01, -0.02, 0.03)).norm(), 0.0, 1e-15);
+    }
+  }
+}
+
+void what_is_not_measured_is_nan_in_joints(void**) {
+  for (const bool wired : {false, true}) {
+    JointBench bench(1);
+    if (wired) bench.block.dq.source = &bench.measured.dq;
+    if (wired) bench.block.tau.source = &bench.measured.tau;
+    ASSERT_OK(bench.block.start());
+    bench.run(1);
+    const Feedback<JointSpace> message = bench.only();
+    assert_true(message.desired.finite() && message.actual.q.allFinite());
+    for (const JointSpace::Point& point : {message.actual, message.error}) {
+      assert_true(point.q.allFinite() && none(point.ddq));
+      assert_true(wired ? point.dq.allFinite() : none(point.dq));
+      assert_true(wired ? point.tau.allFinite() : none(point.tau));
+    }
+  }
+}
+
+void what_is_not_measured_is_nan_at_the_tip(void**) {
+  for (const bool wired : {false, true}) {
+    TaskBench bench(1);
+    if (wired) bench.block.v.source = &bench.measured.v;
+    if (wired) bench.block.h.source = &bench.measured.h;
+    bench.measured.v.setConstant(0.5);
+    bench.measured.h.setConstant(3.0);
+    ASSERT_OK(bench.block.start());
+    bench.run(1);
+    const Feedback<TaskSpace> message = bench.only();
+    const TaskSpace::Point& actual = message.actual;
+    const TaskSpace::Error& error = message.error;
+    assert_true(message.desired.finite() && error.p.isZero(0.0) && error.phi.isZero(0.0));
+    assert_true(none(actual.a) && none(actual.dh) && none(error.a) && none(error.dh));
+    assert_true(wired ? actual.v == bench.measured.v : none(actual.v));
+    assert_true(wired ? actual.h == bench.measured.h : none(actual.h));
+    assert_true(wired ? error.v == -bench.measured.v : none(error.v));
+    assert_true(wired ? error.h == -bench.measured.h : none(error.h));
+  }
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_message_comes_every_divisor_cycles_at_the_generators_time),
+      cmocka_unit_test(desired_actual_and_error_are_of_the_cycle_of_the_message),
+      cmocka_unit_test(the_trajectory_is_named_while_it_is_executed_and_points_are_none),
+      cmocka_unit_test(what_finds_no_room_is_lost_and_told_by_the_next),
+      cmocka_unit_test(a_restart_begins_at_time_zero_and_forgets_no_loss),
+      cmocka_unit_test(the_error_of_a_pose_is_from_actual_to_desired_in_the_base_frame),
+      cmocka_unit_test(what_is_not_measured_is_nan_in_joints),
+      cmocka_unit_test(what_is_not_measured_is_nan_at_the_tip),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

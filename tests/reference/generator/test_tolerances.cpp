@@ -1,0 +1,199 @@
+// Path and goal tolerances: a goal ends as it should when the robot is not where it should be.
+#include "tests/reference/generator/reference_bench.hpp"
+#include "tests/support/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+#define ASSERT_OUTCOME(report, expected) \
+  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
+
+/// Sends a goal of 0.2 rad in one second on a bench with these tolerances.
+std::uint32_t begin(ReferenceBench& bench, const Tolerances<JointSpace>& tolerances) {
+  bench.params.tolerances = tolerances;
+  assert_int_equal(static_cast<int>(bench.start(bench.home)), 0);
+  return bench.go(0.2, 1.0, kVelocityField);
+}
+
+Tolerances<JointSpace> path_of(double rad) {
+  Tolerances<JointSpace> tolerances;
+  tolerances.path.q.setConstant(rad);
+  return tolerances;
+}
+
+Tolerances<JointSpace> goal_of(double rad, double goal_time_s) {
+  Tolerances<JointSpace> tolerances;
+  tolerances.goal.q.setConstant(rad);
+  tolerances.stopped_velocity = 0.05;
+  tolerances.goal_time_s = goal_time_s;
+  return tolerances;
+}
+
+/// Steps a robot that is off by `error` rad on axis 2 until the goal has ended; returns the final
+/// report.
+Report follow(ReferenceBench& bench, std::uint32_t id, double error, int cycles = 5000) {
+  for (int k = 0; k < cycles; ++k) {
+    JointSpace::Point measured = bench.out();
+    measured.q[2] += error;
+    if (bench.step_measured(measured) != Status::kOk) break;
+    const Report report = bench.final_of(id);
+    if (report.outcome != Outcome::kStarted) return report;
+  }
+  Report none;
+  none.outcome = Outcome::kStarted;
+  return none;
+}
+
+// Proves RG-13.
+
+void a_robot_beyond_the_path_tolerance_aborts_its_goal_with_joint_value_and_limit(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, path_of(0.05));
+  const Report report = follow(bench, id, -0.06);
+  ASSERT_OUTCOME(report, Outcome::kAborted);
+  ASSERT_STATUS(report.verdict.status, Status::kPathTolerance);
+  assert_int_equal(report.verdict.axis, 2);
+  ASSERT_NEAR(report.verdict.value, 0.06, 1e-3);
+  ASSERT_NEAR(report.verdict.limit, 0.05, 0.0);
+}
+
+void after_a_violation_the_reference_comes_to_rest_and_stays(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, path_of(0.05));
+  JointSpace::Point measured;
+  measured.q = bench.home;
+  for (int k = 0; k < 3000; ++k) {
+    const JointSpace::Point before = bench.out();
+    ASSERT_OK(bench.step_measured(measured));
+    for (int j = 0; j < kDof; ++j) {
+      ASSERT_NEAR(bench.out().q[j], before.q[j], 1e-3 * bench.channel.settings.limits.dq_max[j]);
+      assert_true(bench.out().q[j] >= before.q[j]);
+    }
+  }
+  ASSERT_OUTCOME(bench.final_of(id), Outcome::kAborted);
+  assert_true(bench.out().standing());
+}
+
+void an_error_that_is_nan_violates(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, path_of(10.0));
+  const Report report = follow(bench, id, NAN);
+  ASSERT_OUTCOME(report, Outcome::kAborted);
+  ASSERT_STATUS(report.verdict.status, Status::kPathTolerance);
+}
+
+void a_goal_succeeds_only_inside_its_band(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, goal_of(0.01, 0.5));
+  assert_int_equal(static_cast<int>(follow(bench, id, 0.02, 1200).outcome),
+                   static_cast<int>(Outcome::kStarted));  // still outside, not yet late
+  ASSERT_OUTCOME(follow(bench, id, 0.005, 10), Outcome::kSucceeded);
+}
+
+void a_goal_that_is_not_reached_in_time_is_aborted_with_joint_value_and_limit(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, goal_of(0.01, 0.5));
+  const Report report = follow(bench, id, 0.02);
+  ASSERT_OUTCOME(report, Outcome::kAborted);
+  ASSERT_STATUS(report.verdict.status, Status::kGoalTolerance);
+  assert_int_equal(report.verdict.axis, 2);
+  ASSERT_NEAR(report.verdict.value, 0.02, 1e-9);
+}
+
+void a_goal_is_reached_only_when_the_robot_has_stopped(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, goal_of(0.01, 2.0));
+  JointSpace::Point measured;
+  for (int k = 0; k < 1500; ++k) {
+    measured = bench.out();
+    measured.dq[5] = 0.1;
+    ASSERT_OK(bench.step_measured(measured));
+  }
+  ASSERT_OUTCOME(bench.final_of(id), Outcome::kStarted);
+  ASSERT_OUTCOME(follow(bench, id, 0.0, 2), Outcome::kSucceeded);
+}
+
+void the_dwell_time_begins_anew_whenever_the_band_is_left(void**) {
+  static ReferenceBench bench;
+  Tolerances<JointSpace> tolerances = goal_of(0.01, 2.0);
+  tolerances.dwell_s = 0.05;
+  const std::uint32_t id = begin(bench, tolerances);
+  assert_int_equal(static_cast<int>(follow(bench, id, 0.0, 1040).outcome),
+                   static_cast<int>(Outcome::kStarted));
+  assert_int_equal(static_cast<int>(follow(bench, id, 0.02, 1).outcome),
+                   static_cast<int>(Outcome::kStarted));
+  assert_int_equal(static_cast<int>(follow(bench, id, 0.0, 45).outcome),
+                   static_cast<int>(Outcome::kStarted));
+  ASSERT_OUTCOME(follow(bench, id, 0.0, 10), Outcome::kSucceeded);
+}
+
+void the_known_latency_of_a_robot_is_no_error(void**) {
+  static ReferenceBench bench;
+  bench.params.latency_cycles = 4;  // in addition to the one cycle that every robot takes
+  const std::uint32_t id = begin(bench, path_of(1e-9));
+  std::array<JointSpace::Point, 5> line;
+  line.fill(bench.out());
+  for (std::size_t k = 0; k < 1100; ++k) {  // the robot is at the reference of 5 cycles ago
+    const JointSpace::Point late = line[k % line.size()];
+    ASSERT_OK(bench.step_measured(late));
+    line[k % line.size()] = bench.out();
+  }
+  ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
+}
+
+void a_goal_may_bring_its_own_tolerances_or_switch_them_off(void**) {
+  for (const double own : {-1.0, 0.1}) {
+    static ReferenceBench benches[2];
+    ReferenceBench& bench = benches[own > 0.0];
+    bench.params.tolerances = path_of(0.01);
+    ASSERT_OK(bench.start(bench.home));
+    Trajectory<JointSpace>* motion = bench.trajectory(kVelocityField);
+    bench.add(*motion, 1.0, 0.2);
+    motion->tolerances.path.q.setConstant(own);
+    std::uint32_t id = 0;
+    assert_true(bench.client.send(*motion, id).ok());
+    ASSERT_OUTCOME(follow(bench, id, 0.05), Outcome::kSucceeded);
+  }
+}
+
+// Proves RG-5.
+
+void of_cancels_where_a_path_has_ended_two_are_executed_and_no_more(void**) {
+  static ReferenceBench bench;
+  const std::uint32_t id = begin(bench, goal_of(0.01, 10.0));
+  ASSERT_OUTCOME(follow(bench, id, 0.05, 1500), Outcome::kStarted);
+  assert_true(bench.generator.phase() == Phase::kSettling);
+  std::uint32_t cancels[3];
+  for (std::uint32_t& cancel : cancels) assert_true(bench.client.cancel(cancel).ok());
+  JointSpace::Point measured = bench.out();
+  measured.q[2] += 0.05;
+  ASSERT_OK(bench.step_measured(measured));
+  const Outcome expected[] = {Outcome::kExecuted, Outcome::kExecuted, Outcome::kRefused};
+  Report report;
+  for (int told = 0; bench.client.poll(report);) {
+    if (report.id == id) continue;
+    assert_int_equal(report.id, cancels[told]);
+    ASSERT_OUTCOME(report, expected[told++]);
+  }
+  ASSERT_STATUS(report.verdict.status, Status::kNothingToCancel);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(
+          a_robot_beyond_the_path_tolerance_aborts_its_goal_with_joint_value_and_limit),
+      cmocka_unit_test(after_a_violation_the_reference_comes_to_rest_and_stays),
+      cmocka_unit_test(an_error_that_is_nan_violates),
+      cmocka_unit_test(a_goal_succeeds_only_inside_its_band),
+      cmocka_unit_test(a_goal_that_is_not_reached_in_time_is_aborted_with_joint_value_and_limit),
+      cmocka_unit_test(a_goal_is_reached_only_when_the_robot_has_stopped),
+      cmocka_unit_test(the_dwell_time_begins_anew_whenever_the_band_is_left),
+      cmocka_unit_test(the_known_latency_of_a_robot_is_no_error),
+      cmocka_unit_test(a_goal_may_bring_its_own_tolerances_or_switch_them_off),
+      cmocka_unit_test(of_cancels_where_a_path_has_ended_two_are_executed_and_no_more),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

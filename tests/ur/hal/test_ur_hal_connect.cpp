@@ -1,0 +1,190 @@
+// How a UR's HAL opens its wire, against a controller that fails in every phase of it.
+#include "tests/ur/hal/ur_hal_bench.hpp"
+
+namespace tactus::ur {
+namespace {
+
+std::optional<UrHalBench> g_bench;
+
+UrHalBench& fresh() {
+  return g_bench.emplace();
+}
+
+// Proves URH-1, URH-28.
+void a_connection_leaves_the_drives_alone(void**) {
+  UrHalBench& bench = fresh();
+  ASSERT_OK(bench.connect());
+  assert_int_equal(bench.hal.session().protocol(), 2);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_STATUS(bench.cycle(), Status::kNotStarted);
+    assert_true(bench.drives_are(DriveState::kDisabled));
+    bench.robot.settle();
+  }
+  RobotState state;
+  ASSERT_OK(bench.hal.read({}, state));
+  for (const Drive& drive : state.drives) assert_true(drive.valid);
+  assert_int_equal(bench.robot.uploads(), 0);
+  assert_int_equal(bench.robot.count(), 0);
+}
+
+void a_controller_without_protocol_2_is_spoken_to_in_1(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.faults.only_protocol_1 = true;
+  ASSERT_OK(bench.start());
+  assert_int_equal(bench.hal.session().protocol(), 1);
+  ASSERT_OK(bench.cycles(3));
+}
+
+/// Connects against one fault; its Status and reason. Nothing is left of it.
+void refuses(const FakeFaults& faults, Status expected, const char* reason) {
+  UrHalBench& bench = fresh();
+  bench.robot.faults = faults;
+  ASSERT_STATUS(bench.connect(), expected);
+  assert_true(bench.says(reason));
+  ASSERT_STATUS(bench.run_cycle(), expected);
+  assert_true(bench.robot.count() <= 0);
+  {
+    const std::lock_guard<std::mutex> lock(bench.robot.mutex);
+    bench.robot.faults = {};
+  }
+  ASSERT_OK(bench.start());
+  ASSERT_OK(bench.cycles(5));
+}
+
+// Proves URH-3.
+void a_reset_in_any_phase_is_named(void**) {
+  struct Row {
+    int type;
+    const char* reason;
+  };
+  for (const Row& row : {Row{'V', "phase protocol: the connection was closed"},
+                         Row{'v', "phase version: the connection was closed"},
+                         Row{'O', "phase outputs: the connection was closed"},
+                         Row{'I', "phase inputs: the connection was closed"},
+                         Row{'S', "phase start: the connection was closed"}}) {
+    FakeFaults faults;
+    faults.reset_at = row.type;
+    refuses(faults, Status::kConnectionLost, row.reason);
+  }
+}
+
+void silence_in_any_phase_is_named(void**) {
+  struct Row {
+    int type;
+    const char* reason;
+  };
+  for (const Row& row : {Row{'V', "phase protocol: no reply within 300 ms"},
+                         Row{'v', "phase version: no reply within 300 ms"},
+                         Row{'O', "phase outputs: no reply within 300 ms"},
+                         Row{'I', "phase inputs: no reply within 300 ms"},
+                         Row{'S', "phase start: no reply within 300 ms"}}) {
+    FakeFaults faults;
+    faults.silent_at = row.type;
+    refuses(faults, Status::kBusTimeout, row.reason);
+  }
+}
+
+void nobody_there_is_named(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.start();
+  bench.settings.rtde_port = bench.robot.rtde_port();
+  bench.robot.stop();
+  bench.hal.configure(bench.settings, Tool{}, 8000);
+  ASSERT_STATUS(bench.executive.start(), Status::kConnectionLost);
+  assert_true(bench.says("127.0.0.1 port "));
+  assert_true(bench.says("refused"));
+}
+
+// Proves URH-27.
+
+/// One byte in 2 ms: the longest reply, of 110 bytes, comes in time; all of them, of 188, do not.
+void a_controller_that_dribbles_is_given_one_time_for_the_whole(void**) {
+  UrHalBench& bench = fresh();
+  bench.settings.connect_ms = 350;
+  bench.robot.faults.dribbling_port = 0;
+  ASSERT_STATUS(bench.connect(), Status::kBusTimeout);
+  assert_true(bench.says("no reply within 350 ms"));
+}
+
+void a_dashboard_that_dribbles_is_given_what_is_left_of_it(void**) {
+  UrHalBench& bench = fresh();
+  bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  bench.settings.connect_ms = 80;
+  bench.robot.faults.dribbling_port = 2;
+  ASSERT_STATUS(bench.connect(), Status::kBusTimeout);
+  assert_true(bench.says("within 80 ms"));
+}
+
+void a_dashboard_that_cannot_be_needed_is_not_asked(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.faults.silent_dashboard = true;
+  ASSERT_OK(bench.connect());
+  bench.settings.on_protective_stop = OnProtectiveStop::kRelease;
+  ASSERT_STATUS(bench.connect(), Status::kBusTimeout);
+}
+
+// Proves URH-4.
+void fields_that_are_not_ours_are_named(void**) {
+  FakeFaults faults;
+  faults.inputs = "INT32,IN_USE,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE";
+  refuses(faults, Status::kRegistersInUse, "input_double_register_24 is IN_USE, not DOUBLE; end");
+  faults = {};
+  faults.outputs = "DOUBLE,VECTOR6D,NOT_FOUND";
+  refuses(faults, Status::kWireFormat, "actual_q is NOT_FOUND, not VECTOR6D");
+  faults.outputs = "DOUBLE,VECTOR6D";
+  refuses(faults, Status::kWireFormat, "actual_q is missing, not VECTOR6D");
+  faults.outputs = "DOUBLE,VECTOR6D,VECTOR6INT32";
+  refuses(faults, Status::kWireFormat, "actual_q is VECTOR6INT32, not VECTOR6D");
+}
+
+void an_old_controller_is_named(void**) {
+  FakeFaults faults;
+  faults.minor = 8;
+  refuses(faults, Status::kRefusedByRobot,
+          "software 3.8 has no registers from 24 up; update to 3.9");
+}
+
+void a_start_that_is_not_accepted_is_named(void**) {
+  FakeFaults faults;
+  faults.refuses_start = true;
+  refuses(faults, Status::kRefusedByRobot, "phase start: the controller refused to start sending");
+}
+
+void what_the_robot_does_not_offer_is_named(void**) {
+  UrHalBench& bench = fresh();
+  ASSERT_OK(bench.connect());
+  for (const CommandMode mode : {CommandMode::kVelocity, CommandMode::kEffort}) {
+    ASSERT_STATUS(bench.hal.connect(mode), Status::kNotOffered);
+    assert_true(bench.says("positions only"));
+  }
+  bench.hal.configure(bench.settings, Tool{}, 4000);
+  ASSERT_STATUS(bench.hal.connect(CommandMode::kPosition), Status::kNotOffered);
+  assert_true(bench.says("period_us = 4000: a UR takes 8000, or 2000"));
+  bench.settings.zero_force = ZeroForce::kOn;
+  ASSERT_STATUS(bench.connect(), Status::kNotOffered);
+  assert_true(bench.says("a CB3 has no force sensor"));
+}
+
+}  // namespace
+}  // namespace tactus::ur
+
+int main() {
+  using namespace tactus::ur;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_connection_leaves_the_drives_alone),
+      cmocka_unit_test(a_controller_without_protocol_2_is_spoken_to_in_1),
+      cmocka_unit_test(a_reset_in_any_phase_is_named),
+      cmocka_unit_test(silence_in_any_phase_is_named),
+      cmocka_unit_test(nobody_there_is_named),
+      cmocka_unit_test(a_controller_that_dribbles_is_given_one_time_for_the_whole),
+      cmocka_unit_test(a_dashboard_that_dribbles_is_given_what_is_left_of_it),
+      cmocka_unit_test(a_dashboard_that_cannot_be_needed_is_not_asked),
+      cmocka_unit_test(fields_that_are_not_ours_are_named),
+      cmocka_unit_test(an_old_controller_is_named),
+      cmocka_unit_test(a_start_that_is_not_accepted_is_named),
+      cmocka_unit_test(what_the_robot_does_not_offer_is_named),
+  };
+  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
+  g_bench.reset();
+  return failed;
+}

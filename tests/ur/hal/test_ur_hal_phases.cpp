@@ -1,0 +1,155 @@
+// The phases of arming a UR: one that does not end, and a wire that is lost in one.
+#include "tests/ur/hal/ur_arming_bench.hpp"
+#include "tests/ur/hal/ur_exchange_bench.hpp"
+
+namespace tactus::ur {
+namespace {
+
+// Proves URH-29.
+
+struct LateRow {
+  DrivePhase phase;
+  const char* problem;
+  void (*delay)(UrHalBench& bench);
+};
+constexpr std::array<LateRow, 7> kLate = {
+    {{DrivePhase::kReleaseStop, "the protective stop was not released",
+      [](UrHalBench& bench) {
+        bench.robot.image.safety_mode = 3;
+        bench.robot.faults.does_nothing = true;
+      }},
+     {DrivePhase::kPowerOn, "the robot was not powered on",
+      [](UrHalBench& bench) {
+        bench.robot.image.robot_mode = 3;
+        bench.robot.faults.does_nothing = true;
+      }},
+     {DrivePhase::kReleaseBrakes, "the brakes were not released",
+      [](UrHalBench& bench) {
+        bench.robot.image.robot_mode = 5;
+        bench.robot.faults.does_nothing = true;
+      }},
+     {DrivePhase::kOtherProgram, "the program on the robot did not end",
+      [](UrHalBench& bench) { bench.robot.image.runtime_state = 4; }},
+     {DrivePhase::kStandstill, "the arm did not come to rest",
+      [](UrHalBench& bench) { bench.robot.image.dq[2] = -0.5; }},
+     {DrivePhase::kProgram, "the program on the robot did not start",
+      [](UrHalBench& bench) { bench.robot.faults.begins_late = 10000; }},
+     {DrivePhase::kFirstSetPoint, "the program on the robot used no set-point",
+      [](UrHalBench& bench) { bench.robot.faults.uses_no_set_points = true; }}}};
+
+/// 300 ms are 38 cycles.
+void a_phase_that_does_not_end_is_named(void**) {
+  for (const LateRow& row : kLate) {
+    UrHalBench& bench = fresh();
+    bench.settings.on_protective_stop = OnProtectiveStop::kRelease;
+    bench.settings.on_power_off = OnPowerOff::kPowerOn;
+    row.delay(bench);
+    ASSERT_OK(bench.connect());
+    ASSERT_STATUS(bench.executive.arm(), Status::kArming);
+    int cycles = 0;
+    Status status = Status::kArming;
+    for (; status == Status::kArming; bench.robot.settle()) {
+      status = bench.cycle();
+      cycles += bench.hal.phase() == row.phase ? 1 : 0;
+    }
+    ASSERT_STATUS(status, Status::kRefusedByRobot);
+    assert_in_range(cycles, 38, 39);
+    Message expected(row.problem);
+    expected << " within 300 ms";
+    assert_true(bench.says(expected));
+    bench.robot.settle();
+    assert_true(bench.robot.count() <= 0 || row.phase == DrivePhase::kFirstSetPoint);
+  }
+}
+
+// Proves URH-7.
+
+/// It is shown one cycle after that of its packet.
+void a_stop_in_any_phase_of_the_program_ends_arming(void**) {
+  for (const DrivePhase phase :
+       {DrivePhase::kOtherProgram, DrivePhase::kStandstill, DrivePhase::kRegister,
+        DrivePhase::kUpload, DrivePhase::kProgram, DrivePhase::kFirstSetPoint}) {
+    UrExchange& bench = g_exchange.emplace();
+    bench.robot.faults.begins_late = 3;
+    bench.open();
+    bench.exchange_until(DriveRequest::kArm, phase);
+    bench.robot.change([](FakeImage& image) { image.safety_mode = 3; });
+    bench.exchange(DriveRequest::kArm);
+    bench.exchange(DriveRequest::kArm);
+    for (const Drive& drive : bench.state.drives) {
+      assert_true(drive.state == DriveState::kFault);
+      ASSERT_STATUS(drive.reason, Status::kProtectiveStop);
+    }
+    for (int i = 0; i < 10; ++i) bench.exchange(DriveRequest::kArm);
+    assert_int_equal(bench.robot.ends(), bench.robot.uploads());
+    assert_true(bench.robot.count() <= 0);
+  }
+}
+
+// Proves URH-3.
+
+/// Ports that only arming needs: their loss is a wire that must be opened anew.
+void a_port_that_is_closed_is_named_when_it_is_needed(void**) {
+  UrHalBench& bench = fresh();
+  bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  ASSERT_OK(bench.connect());
+  bench.robot.drop_dashboard();
+  ASSERT_OK(bench.arm());
+  bench.executive.stop();
+  bench.robot.change([](FakeImage& image) { image = FakeImage(); });
+  ASSERT_OK(bench.connect());
+  bench.robot.change([](FakeImage& image) { image.robot_mode = 3; });
+  bench.robot.drop_dashboard();
+  ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
+  assert_true(bench.says("dashboard: the connection was closed"));
+  ASSERT_STATUS(bench.executive.arm(), Status::kConnectionLost);
+  assert_arms_now(bench, true);
+  bench.robot.drop_primary();
+  ASSERT_OK(bench.cycles(5));  // motion does not need it
+  bench.executive.stop();
+  bench.robot.change([](FakeImage& image) {
+    image.runtime_state = 1;
+    image.robot_mode = 3;
+  });
+  ASSERT_OK(bench.connect());
+  bench.robot.drop_primary();
+  ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
+  assert_true(bench.says("primary port: the connection was closed"));
+  bench.robot.change([](FakeImage& image) { assert_int_equal(image.robot_mode, 3); });
+  assert_arms_now(bench, true);
+}
+
+void a_program_that_goes_nowhere_is_named(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.faults.drops_program = true;
+  assert_refused(bench, Status::kRefusedByRobot,
+                 "the program on the robot did not start within 300 ms");
+  assert_arms_now(bench, true);
+}
+
+void a_connection_that_is_closed_at_the_first_registers_is_named(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.faults.reset_at = 'U';
+  ASSERT_OK(bench.connect());
+  ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
+  assert_true(bench.says("the connection was closed"));
+  assert_arms_now(bench, true);
+}
+
+}  // namespace
+}  // namespace tactus::ur
+
+int main() {
+  using namespace tactus::ur;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_phase_that_does_not_end_is_named),
+      cmocka_unit_test(a_stop_in_any_phase_of_the_program_ends_arming),
+      cmocka_unit_test(a_port_that_is_closed_is_named_when_it_is_needed),
+      cmocka_unit_test(a_program_that_goes_nowhere_is_named),
+      cmocka_unit_test(a_connection_that_is_closed_at_the_first_registers_is_named),
+  };
+  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
+  g_bench.reset();
+  g_exchange.reset();
+  return failed;
+}

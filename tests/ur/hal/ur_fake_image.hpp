@@ -1,0 +1,108 @@
+// The contents of the fake controller's data package, and its faults.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "hal/ur/protocol.hpp"
+
+namespace tactus::ur {
+
+/// Contents of a data package, in the order of the HAL's recipe.
+struct FakeImage {
+  double timestamp_s = 100.0;
+  std::array<double, 6> q = {0.0, -1.2, 1.2, -0.1, 1.57, 0.0};
+  std::array<double, 6> dq{}, moment{}, tcp_pose{}, tcp_force{};
+  double speed_scaling = 1.0, speed_fraction = 1.0;
+  std::int32_t robot_mode = 7, safety_mode = 1, echo = 0;
+  std::uint32_t safety_bits = 1, runtime_state = 1;
+};
+
+inline constexpr std::string_view kFakeOutputs =
+    "DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,DOUBLE,DOUBLE,INT32,INT32,INT32,"
+    "UINT32,UINT32";
+inline constexpr std::string_view kFakeInputs = "INT32,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE";
+
+/// The faults of a controller.
+struct FakeFaults {
+  int reset_at = 0;   ///< type of the request at which it closes the connection
+  int silent_at = 0;  ///< type of the request after which it is silent
+  bool only_protocol_1 = false, refuses_start = false, refuses_program = false;
+  bool drops_program = false, stops_on_program = false;
+  std::uint32_t major = 3, minor = 15;
+  std::string_view outputs = kFakeOutputs, inputs = kFakeInputs;
+  int unlock_refusals = 0;
+  bool silent_dashboard = false, refuses_power = false;
+  bool does_nothing = false;  ///< the dashboard says yes
+  bool uses_no_set_points = false;
+  std::size_t dribbling_port = 3;  ///< 0 RTDE, 1 primary, 2 dashboard: one byte in 2 ms
+  int begins_late = 0;             ///< packages until a program runs
+};
+
+/// The program on the robot, as far as the state shows it.
+struct FakeProgram {
+  std::int32_t count = 0;  ///< in the register
+  int begins_in = -1;      ///< packages; below 0: no program waits
+  bool ours = false;       ///< it is the one that was uploaded
+
+  /// Begins in as many packages, or at once.
+  void begin(int late) { begins_in = late; }
+  /// With each package: it begins, and ends where the count is negative.
+  void step(FakeImage& image) {
+    if (ours && image.runtime_state == 2 && count < 0) {
+      image.runtime_state = 1;
+      image.echo = -1;
+      ours = false;
+    }
+    if (begins_in == 0) {
+      image.runtime_state = 2;
+      image.echo = count;
+      ours = true;
+    }
+    if (begins_in >= 0) --begins_in;
+  }
+};
+
+/// What the dashboard says, and what it does.
+inline std::string_view dashboard_reply(std::string_view line, FakeImage& image,
+                                        FakeFaults& faults) {
+  if (line == "power on\n" && faults.refuses_power) return "Failed to execute: power on\n";
+  const bool acts = !faults.does_nothing;
+  if (line == "power on\n") {
+    if (acts) image.robot_mode = 5;
+    return "Powering on\n";
+  }
+  if (line == "brake release\n") {
+    if (acts) image.robot_mode = 7;
+    return "Brake releasing\n";
+  }
+  if (line != "unlock protective stop\n") return {};
+  if (faults.unlock_refusals-- > 0)
+    return "Cannot unlock protective stop until 5s after occurrence.\n";
+  if (acts) {
+    image.safety_mode = 1;
+    image.safety_bits = 1;
+  }
+  return "Protective stop releasing\n";
+}
+
+/// A data package, in version 1 or 2 of the protocol.
+inline void write_image(const FakeImage& image, int protocol, ByteWriter& out) {
+  out.u16(0);
+  out.u8('U');
+  if (protocol == 2) out.u8(1);
+  out.f64(image.timestamp_s);
+  for (const auto* six :
+       {&image.q, &image.q, &image.dq, &image.moment, &image.tcp_pose, &image.tcp_force})
+    for (const double value : *six) out.f64(value);
+  out.f64(image.speed_scaling);
+  out.f64(image.speed_fraction);
+  out.i32(image.robot_mode);
+  out.i32(image.safety_mode);
+  out.i32(image.echo);
+  out.u32(image.safety_bits);
+  out.u32(image.runtime_state);
+  out.set_u16(0, out.size());
+}
+
+}  // namespace tactus::ur

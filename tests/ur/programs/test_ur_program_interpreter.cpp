@@ -1,0 +1,209 @@
+// Tests the interpreter of a program's lines: values, branches, loops, moves.
+#include "tests/ur/programs/ur_program_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+std::int32_t int_output(ProgramBench& bench, int i) {
+  return bench.machine().io.output.ints[static_cast<std::size_t>(i)];
+}
+double float_output(ProgramBench& bench, int i) {
+  return bench.machine().io.output.doubles[static_cast<std::size_t>(i)];
+}
+
+// Proves URP-4.
+
+void values_are_computed_in_the_order_of_the_manual(void**) {
+  static ProgramBench bench;
+  bench.machine().io.input.ints[4] = 7;
+  bench.machine().io.input.doubles[5] = -0.25;
+  bench.upload(
+      "def values():\n"
+      "  list = [1.5, 2*3, -(4+1)]\n"
+      "  list[1] = list[1] / 4\n"
+      "  write_output_float_register(0, 2 + 3 * 4 - 6 / 4)\n"
+      "  write_output_float_register(1, list[0] + list[1] * list[2])\n"
+      "  write_output_float_register(2, norm(read_input_float_register(5)) + d2r(180))\n"
+      "  write_output_integer_register(0, read_input_integer_register(4) % 4)\n"
+      "  write_output_boolean_register(64, not 1 > 2 and (2 == 2.0 or False))\n"
+      "end\n");
+  bench.run(2);
+  ASSERT_NEAR(float_output(bench, 0), 12.5, 0.0);
+  ASSERT_NEAR(float_output(bench, 1), -6.0, 0.0);
+  ASSERT_NEAR(float_output(bench, 2), 0.25 + std::acos(-1.0), 1e-15);
+  assert_int_equal(int_output(bench, 0), 3);
+  assert_true(bench.machine().io.output.bit(64));
+}
+
+void branches_and_loops_are_followed(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def branches():\n"
+      "  i = 0\n"
+      "  odd = 0\n"
+      "  while i < 10:\n"
+      "    i = i + 1\n"
+      "    if i == 8:\n"
+      "      break\n"
+      "    elif i % 2 == 0:\n"
+      "      continue\n"
+      "    else:\n"
+      "      if i > 100:\n"
+      "        odd = 1000\n"
+      "      else:\n"
+      "        odd = odd + i\n"
+      "      end\n"
+      "    end\n"
+      "  end\n"
+      "  write_output_integer_register(0, odd)\n"
+      "  write_output_integer_register(1, i)\n"
+      "end\n");
+  bench.run(2);
+  assert_int_equal(int_output(bench, 0), 1 + 3 + 5 + 7);
+  assert_int_equal(int_output(bench, 1), 8);
+}
+
+void what_is_not_understood_is_said_once_and_left_out(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def unknown():\n"
+      "  while True:\n"
+      "    if get_flag(3):\n"
+      "      set_digital_out(0, True)\n"
+      "    end\n"
+      "    set_digital_out(1, True)\n"
+      "    sync()\n"
+      "  end\n"
+      "end\n");
+  bench.run(20);
+  assert_int_equal(bench.machine().io.digital_outputs, 2);
+  assert_int_equal(bench.said.count("not emulated: if get_flag(3):"), 1);
+}
+
+void a_loop_that_never_waits_costs_a_bounded_time(void**) {
+  static ProgramBench bench;
+  bench.upload("def busy():\n  i = 0\n  while True:\n    i = i + 1\n  end\nend\n");
+  bench.run(10);
+  assert_true(bench.running());
+  bench.upload("stop program\n");
+  bench.run(2);
+  assert_false(bench.running());
+}
+
+void brackets_without_end_are_no_value(void**) {
+  static ProgramBench bench;
+  for (const std::string_view text :
+       {"x = ((((((((((((((((((((((((((((((((1))))))))))))))))))))))))))))))))\n", "x = [1, 2\n",
+        "x = p[\n", "x = \"open\n", "set_tcp(\n", "x = -\n", "x = 1 +\n", "x[ = 3\n"}) {
+    bench.upload(text);
+    bench.run(2);
+  }
+  assert_int_equal(bench.said.count("PROGRAM_XXX_STOPPED"), 8);
+}
+
+// Proves URP-8.
+
+void movej_takes_a_plausible_time(void**) {
+  static ProgramBench bench;
+  ASSERT_OK(bench.machine().body.load(joints({-1.57, -1.57, 0, 0, 0, 0}), 0.0, Vector3::Zero()));
+  bench.machine().motion.rest(joints({-1.57, -1.57, 0, 0, 0, 0}));
+  for (const std::string_view text : {"movej([-1.57, -1.6, 1.6, -0.7, 0.7, 0.2], a=3.4, v=3.1)\n",
+                                      "movej([-1.57, -1.57, 0, 0, 0, 0], a=3.4, v=3.1)\n"}) {
+    bench.upload(text);
+    bench.run(1);
+    const double seconds = bench.run_to_end() * kCycle_s;
+    assert_true(seconds > 1.4 && seconds < 2.5);
+  }
+  bench.upload("movej([-1.57, -1.6, 0, 0, 0, 0], t=3)\n");
+  bench.run(1);
+  assert_true(bench.run_to_end() * kCycle_s >= 3.0 - 2 * kCycle_s);
+  assert_joints(bench.image().actual_q, joints({-1.57, -1.6, 0, 0, 0, 0}), 1e-3);
+}
+
+void a_target_out_of_reach_moves_nothing(void**) {
+  static ProgramBench bench;
+  const Joints q = bench.target();
+  bench.upload("movej([-123.0, -1.6, 0, 0, 0, 0])\n");
+  bench.run(50);
+  assert_false(bench.running());
+  assert_joints(bench.target(), q, 0.0);
+  assert_int_equal(bench.image().safety_mode, 1);
+  bench.upload("movel(p[5.0, 0, 0, 0, 0, 0])\n");
+  bench.run(5);
+  assert_joints(bench.target(), q, 0.0);
+  assert_int_equal(bench.image().safety_mode, 3);
+}
+
+void a_move_begins_at_rest(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def moves():\n"
+      "  speedj([0.5,0,0,0,0,0], 2.0, 0.5)\n"
+      "  movej([0.0, -1.2, 1.2, -0.1, 1.57, 0.0])\n"
+      "end\n");
+  double before = 0.0;
+  bench.run(1);
+  while (bench.running()) {
+    bench.tick();
+    assert_true(std::abs(bench.image().target_qd[0] - before) <= 4.0 * kCycle_s + 1e-9);
+    before = bench.image().target_qd[0];
+  }
+  assert_joints(bench.target(), joints({0.0, -1.2, 1.2, -0.1, 1.57, 0.0}), 1e-9);
+}
+
+void functions_of_the_programs_own_are_run(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def functions():\n"
+      "  def add():\n"
+      "    while True:\n"
+      "      n = n + 1\n"
+      "      if n % 2 == 0:\n"
+      "        return\n"
+      "      end\n"
+      "    end\n"
+      "  end\n"
+      "  def twice():\n"
+      "    add()\n"
+      "    add() # and again\n"
+      "  end\n"
+      "  n = 1\n"
+      "  twice()\n"
+      "  write_output_integer_register(0, n)\n"
+      "  sync()\n"
+      "  add()\n"
+      "  write_output_integer_register(0, n)\n"
+      "end\n");
+  bench.run(1);
+  assert_int_equal(int_output(bench, 0), 4);
+  bench.run(3);
+  assert_int_equal(int_output(bench, 0), 6);
+  assert_false(bench.running());
+}
+
+void a_function_that_calls_itself_ends_the_program(void**) {
+  static ProgramBench bench;
+  bench.upload("def deep():\n  def again():\n    again()\n  end\n  again()\nend\n");
+  bench.run(3);
+  assert_false(bench.running());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(values_are_computed_in_the_order_of_the_manual),
+      cmocka_unit_test(branches_and_loops_are_followed),
+      cmocka_unit_test(what_is_not_understood_is_said_once_and_left_out),
+      cmocka_unit_test(a_loop_that_never_waits_costs_a_bounded_time),
+      cmocka_unit_test(brackets_without_end_are_no_value),
+      cmocka_unit_test(movej_takes_a_plausible_time),
+      cmocka_unit_test(a_target_out_of_reach_moves_nothing),
+      cmocka_unit_test(a_move_begins_at_rest),
+      cmocka_unit_test(functions_of_the_programs_own_are_run),
+      cmocka_unit_test(a_function_that_calls_itself_ends_the_program),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,220 @@
+// Tests two simpler protocols: the register program, and the driver program of 2015.
+#include "tests/ur/programs/ur_register_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+const Joints kStart = ProgramBench::settings().initial_q;
+
+// Proves URP-10.
+
+void a_blocking_command_is_done_when_the_arm_stands(void**) {
+  for (const bool with_offset : {false, true}) {
+    static RegisterBench bench;
+    bench.start(with_offset);
+    bench.command(1, {0.3, -1.2, 1.2, -0.1, 1.57, 0.0, 1.05, 1.4});
+    const Joints q = joints({0.3, -1.2, 1.2, -0.1, 1.57, 0.0});
+    assert_joints(bench.image().actual_q, q, 1e-3);
+    bench.command(1, {0.0, -1.2, 1.2, -0.1, 1.57, 0.0, 1.05, 1.4});
+  }
+}
+
+void a_move_takes_the_time_of_its_trapezoid(void**) {
+  static RegisterBench bench;
+  bench.start();
+  // 0.5 rad with 0.5 rad/s and 1 rad/s^2: 1.5 s, and the arm settles.
+  const int cycles = bench.command(1, {0.5, -1.2, 1.2, -0.1, 1.57, 0.0, 0.5, 1.0});
+  assert_in_range(cycles, 187, 205);
+}
+
+void poses_are_moved_to_by_joints_and_on_a_line(void**) {
+  static RegisterBench bench;
+  bench.start();
+  Vector6 pose = forward(kStart).pose();
+  pose[2] -= 0.05;
+  bench.command(2, {pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], 1.05, 1.4});
+  ASSERT_NEAR(bench.image().actual_tcp_pose[2], pose[2], 1e-3);
+  pose[2] += 0.08;
+  bench.command(3, {pose[0], pose[1], pose[2], pose[3], pose[4], pose[5], 0.25, 1.2});
+  ASSERT_NEAR(bench.image().actual_tcp_pose[2], pose[2], 1e-3);
+  bench.command(4, {0.0, -1.2, 1.2, -0.1, 1.57, 0.0, 0.25, 1.2});
+  assert_joints(bench.image().actual_q, kStart, 1e-3);
+}
+
+void servoj_stays_ready_and_stops_softly_at_the_last_target(void**) {
+  static RegisterBench bench;
+  bench.start();
+  double at = 0.0;
+  for (int k = 0; k < 125; ++k) {
+    at += 0.3 * kCycle_s;
+    bench.write(11, {at, -1.2, 1.2, -0.1, 1.57, 0.0, 0.5, 0.5, 0.008, 0.1, 300.0});
+    bench.tick();
+    assert_int_equal(bench.answer(), 1);
+  }
+  bench.run(250);  // the client has left
+  assert_true(bench.running());
+  ASSERT_NEAR(bench.target()[0], at, 1e-3);
+  ASSERT_NEAR(bench.image().target_qd[0], 0.0, 1e-3);
+  bench.command(16, {10.0});
+}
+
+void speedj_is_held_until_it_is_stopped(void**) {
+  static RegisterBench bench;
+  bench.start();
+  bench.write(9, {0.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.5, 0.008});
+  bench.run(125);
+  assert_int_equal(bench.answer(), 1);
+  ASSERT_NEAR(bench.image().target_qd[1], 0.2, 1e-9);
+  bench.command(15, {10.0});
+  ASSERT_NEAR(bench.image().target_qd[1], 0.0, 1e-12);
+}
+
+void a_move_out_of_a_speed_is_no_jump(void**) {
+  static RegisterBench bench;
+  bench.start();
+  bench.write(9, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.008});
+  bench.run(125);
+  bench.write(1, {0.0, -1.2, 1.2, -0.1, 1.57, 0.0, 1.05, 1.4});
+  double before = bench.image().target_qd[0];
+  for (int k = 0; k < 300; ++k) {
+    bench.tick();
+    assert_true(std::abs(bench.image().target_qd[0] - before) <= 4.0 * kCycle_s + 1e-9);
+    before = bench.image().target_qd[0];
+  }
+  assert_joints(bench.target(), kStart, 1e-9);
+}
+
+void force_mode_is_ready_at_once_and_its_end_done(void**) {
+  static RegisterBench bench;
+  bench.start();
+  bench.machine().io.input.ints[1] = 2;  // type
+  bench.machine().io.input.ints[4] = 1;  // z
+  bench.write(6, {0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0, 0, 0.1, 0.1, 0.1, 1, 1, 1}, 2);
+  bench.run(100);
+  assert_int_equal(bench.answer(), 1);
+  assert_true(bench.image().target_tcp_pose[2] - forward(kStart).p.z() > 0.01);
+  bench.command(7);
+}
+
+void a_watchdog_that_is_not_fed_ends_the_program(void**) {
+  static RegisterBench bench;
+  bench.start();
+  bench.command(35, {10.0});
+  bench.run_s(0.5);
+  assert_false(bench.running());
+}
+
+/// The text names a register for each offset; the offset decides which one is watched.
+void the_watchdog_is_fed_by_the_register_of_the_offset(void**) {
+  constexpr std::string_view kWatches =
+      "  if reg_offset_int == 0:\n    rtde_set_watchdog(\"input_int_register_0\", hz, \"stop\")\n"
+      "  else:\n    rtde_set_watchdog(\"input_int_register_24\", hz, \"stop\")\n  end\n";
+  for (const bool with_offset : {false, true}) {
+    RegisterBench& bench = *new RegisterBench;
+    bench.start(with_offset, kWatches);
+    bench.command(35, {10.0});
+    const InputField fed =
+        find_input(with_offset ? "input_int_register_24" : "input_int_register_0", {});
+    for (int k = 0; k < 10; ++k) {
+      bench.machine().io.written[fed.variable()] = bench.machine().cycle;
+      bench.run(6);
+      assert_true(bench.running());
+    }
+    bench.run(13);
+    assert_false(bench.running());
+    delete &bench;
+  }
+}
+
+void command_255_ends_it(void**) {
+  static RegisterBench bench;
+  bench.start();
+  bench.write(255);
+  bench.run(3);
+  assert_false(bench.running());
+}
+
+constexpr std::string_view kDriver =
+    "def driverProg():\n"
+    "\tthread servoThread():\n"
+    "\t\tservoj(q, 0, 0, 0.008, 0.06, 1000)\n"
+    "\tend\n"
+    "\tsocket_open(\"10.0.0.7\", 50001)\n"
+    "\twhile keepalive > 0:\n"
+    "\t\tparams_mult = socket_read_binary_integer(6+1)\n"
+    "\tend\n"
+    "end\n";
+
+struct DriverBench : ProgramBench {
+  void start() {
+    upload(kDriver);
+    run(3);
+    assert_true(connected("socket_0"));
+  }
+  void set(double q0, std::int32_t keep_alive = 1) {
+    std::int32_t ints[7];
+    for (int i = 0; i < 6; ++i) ints[i] = fixed(kStart[i]);
+    ints[0] = fixed(q0);
+    ints[6] = keep_alive;
+    send("socket_0", ints, 7);
+  }
+};
+
+// Proves URP-9.
+
+void the_driver_program_follows_and_brakes_with_1_rad_s2(void**) {
+  static DriverBench bench;
+  bench.start();
+  assert_int_equal(bench.link("socket_0").port(), 50001);
+  double at = 0.0;
+  for (int k = 0; k < 125; ++k) {
+    bench.set(at += 0.3 * kCycle_s);
+    bench.tick();
+  }
+  ASSERT_NEAR(bench.image().target_qd[0], 0.3, 0.01);
+  ASSERT_NEAR(bench.target()[0], at - 0.3 * 0.06, 0.003);
+  double before = bench.image().target_qd[0];
+  for (int k = 0; k < 60; ++k) {
+    bench.tick();
+    assert_true(before - bench.image().target_qd[0] <= 1.0 * kCycle_s + 1e-9);
+    before = bench.image().target_qd[0];
+  }
+  ASSERT_NEAR(before, 0.0, 0.0);
+  assert_true(bench.running());
+  const double here = bench.target()[0];
+  for (int k = 0; k < 125; ++k) {
+    bench.set(here + 0.05);
+    bench.tick();
+  }
+  ASSERT_NEAR(bench.target()[0], here + 0.05, 1e-3);
+}
+
+void a_keep_alive_of_nought_ends_it(void**) {
+  static DriverBench bench;
+  bench.start();
+  bench.set(0.0, 0);
+  bench.run(15);
+  assert_false(bench.running());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_blocking_command_is_done_when_the_arm_stands),
+      cmocka_unit_test(a_move_takes_the_time_of_its_trapezoid),
+      cmocka_unit_test(poses_are_moved_to_by_joints_and_on_a_line),
+      cmocka_unit_test(servoj_stays_ready_and_stops_softly_at_the_last_target),
+      cmocka_unit_test(speedj_is_held_until_it_is_stopped),
+      cmocka_unit_test(a_move_out_of_a_speed_is_no_jump),
+      cmocka_unit_test(force_mode_is_ready_at_once_and_its_end_done),
+      cmocka_unit_test(a_watchdog_that_is_not_fed_ends_the_program),
+      cmocka_unit_test(the_watchdog_is_fed_by_the_register_of_the_offset),
+      cmocka_unit_test(command_255_ends_it),
+      cmocka_unit_test(the_driver_program_follows_and_brakes_with_1_rad_s2),
+      cmocka_unit_test(a_keep_alive_of_nought_ends_it),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

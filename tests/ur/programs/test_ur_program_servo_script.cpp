@@ -1,0 +1,199 @@
+// Tests the text that the HAL uploads, interpreted by the controller: set-points through registers.
+#include "tests/ur/programs/ur_servo_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+/// Largest change of the target speed from one cycle to the next while `step` runs, rad/s^2.
+template <class Step>
+double hardest(ServoBench& bench, int cycles, Step&& step) {
+  double worst = 0.0, before = bench.image().target_qd[0];
+  for (int k = 0; k < cycles; ++k) {
+    step(k);
+    bench.tick();
+    worst = std::max(worst, std::abs(bench.image().target_qd[0] - before) / kCycle_s);
+    before = bench.image().target_qd[0];
+  }
+  return worst;
+}
+
+// Proves URP-11.
+
+void the_arm_follows_the_set_points_late_by_the_lookahead(void**) {
+  static ServoBench bench;
+  bench.start();
+  for (int k = 0; k < 500; ++k) {
+    bench.set_next();
+    bench.tick();
+    assert_int_equal(bench.echo(), bench.count);
+    // A second-order law lags a slow sine by its lookahead, 0.03 s.
+    if (k > 50) ASSERT_NEAR(bench.target()[0], ServoBench::path(bench.time_s - 0.03)[0], 0.005);
+  }
+  assert_true(bench.running());
+}
+
+void it_waits_for_the_first_set_point(void**) {
+  static ServoBench bench;
+  bench.start();
+  const Joints q = bench.target();
+  bench.run(120);
+  assert_true(bench.running());
+  assert_joints(bench.target(), q, 0.0);
+}
+
+/// The program that uploaded it may be gone.
+void without_a_first_set_point_it_ends_after_a_second(void**) {
+  static ServoBench bench;
+  bench.start();
+  const Joints q = bench.target();
+  bench.run(130);
+  assert_false(bench.running());
+  assert_int_equal(bench.echo(), kServoEnded);
+  assert_joints(bench.target(), q, 0.0);
+}
+
+void a_first_set_point_elsewhere_ends_it_where_the_arm_is(void**) {
+  static ServoBench bench;
+  bench.start();
+  const Joints q = bench.target();
+  bench.set(q + Joints::Constant(0.02));
+  bench.run(10);
+  assert_true(bench.stopped_safely());
+  assert_joints(bench.target(), q, 0.0);
+  assert_int_equal(bench.echo(), kServoEnded);
+}
+
+void one_late_set_point_is_bridged(void**) {
+  static ServoBench bench;
+  bench.start();
+  const auto steady = [&](int) { bench.set_next(); };
+  hardest(bench, 200, steady);
+  const double usual = hardest(bench, 100, steady);
+  bench.time_s += kCycle_s;  // this one does not arrive
+  const double late = hardest(bench, 1, [](int) {});
+  const double after = hardest(bench, 20, steady);
+  // At 0.6 rad/s at most (1 + 4) / 169 of a cycle's way is missing: gain times 0.6 * 0.008 * that.
+  const double fade = 2000.0 * 0.6 * kCycle_s * 5.0 / 169.0;
+  assert_true(late <= usual + fade && after <= usual + fade);
+  assert_true(bench.running());
+}
+
+void silence_fades_out_and_ends_in_a_stop(void**) {
+  static ServoBench bench;
+  bench.start();
+  hardest(bench, 98, [&](int) { bench.set_next(); });  // at its fastest
+  const double speed = bench.image().target_qd[0];
+  assert_true(speed > 0.55);
+  const std::int32_t last = bench.count;
+  for (int k = 0; k < 12; ++k) {
+    bench.tick();
+    assert_true(bench.running());
+    assert_int_equal(bench.echo(), last);
+  }
+  assert_in_range(bench.run_to_end(100), 1, 40);
+  bench.run(1);
+  assert_true(bench.stopped_safely());
+  assert_int_equal(bench.echo(), kServoEnded);
+  ASSERT_NEAR(bench.image().target_qd[0], 0.0, 0.0);
+  // The fading over 13 cycles, the lookahead and the stop limit the remaining way.
+  const double way = bench.target()[0] - ServoBench::path(bench.time_s)[0];
+  assert_true(way > 0.0 && way < speed * (2.0 / 3.0 * 13 * kCycle_s + 0.03));
+}
+
+void patience_is_counted_in_cycles(void**) {
+  static ServoBench bench;
+  ServoProgram script;
+  script.patience = 3;
+  bench.start(script);
+  hardest(bench, 98, [&](int) { bench.set_next(); });
+  bench.run(3);
+  assert_true(bench.echo() > 0);
+  assert_in_range(bench.run_to_end(100), 1, 40);
+}
+
+void a_negative_count_ends_it_with_a_stop(void**) {
+  static ServoBench bench;
+  bench.start();
+  hardest(bench, 98, [&](int) { bench.set_next(); });
+  bench.machine().io.input.ints[kFirst] = -1;
+  const double braking = hardest(bench, 60, [](int) {});
+  assert_true(bench.stopped_safely());
+  assert_true(braking <= 4.0 + 1e-6);
+}
+
+void none_in_one_cycle_and_two_in_the_next_are_smooth(void**) {
+  static ServoBench bench;
+  bench.start();
+  const double usual = hardest(bench, 400, [&](int) { bench.set_next(); });
+  const double worst = hardest(bench, 400, [&](int k) {
+    if (k % 2 == 0) return;
+    bench.time_s += kCycle_s;
+    ++bench.count;
+    bench.set_next();
+  });
+  assert_true(bench.running());
+  // The fading shortens one cycle's way as above, and the next set-point restores it.
+  assert_true(worst <= usual + 2.0 * 2000.0 * 0.6 * kCycle_s / 13.0);
+}
+
+void tool_payload_and_zeroing_are_in_the_text(void**) {
+  static ServoBench bench;
+  ServoProgram script;
+  script.tcp << 0.01, -0.02, 0.3, 0.0, 1.5, 1e-7;
+  script.payload_kg = 2.5;
+  script.payload_com = {0.001, 0.002, 0.06};
+  script.zero_force = true;
+  bench.start(script);
+  assert_joints(bench.machine().tcp_offset, script.tcp, 1e-9);
+  ASSERT_NEAR(bench.machine().payload, 2.5, 0.0);
+  ASSERT_NEAR(bench.machine().payload_cog[2], 0.06, 1e-12);
+  const std::string_view text(bench.text.data(), bench.text.size());
+  assert_true(text.find("zero_ftsensor()") != std::string_view::npos);
+  assert_false(bench.said.has("not emulated"));
+}
+
+void a_value_out_of_range_writes_no_text(void**) {
+  static ServoProgramText text;
+  ServoProgram script;
+  script.gain = 2001.0;
+  assert_int_equal(write_servo_program(script, text).size(), 0);
+  script = {};
+  script.tcp[3] = std::nan("");
+  assert_int_equal(write_servo_program(script, text).size(), 0);
+  script = {};
+  script.patience = 0;
+  assert_int_equal(write_servo_program(script, text).size(), 0);
+  script = {};
+  script.period_s = std::nan("");
+  assert_int_equal(write_servo_program(script, text).size(), 0);
+}
+
+void no_placeholder_is_left_and_every_line_ends(void**) {
+  static ServoProgramText text;
+  const std::string_view program = write_servo_program({}, text);
+  assert_true(program.find('@') == std::string_view::npos);
+  assert_true(program.substr(program.size() - 5) == "\nend\n");
+  assert_true(program.substr(0, 18) == "def tactus_servo()");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_arm_follows_the_set_points_late_by_the_lookahead),
+      cmocka_unit_test(it_waits_for_the_first_set_point),
+      cmocka_unit_test(without_a_first_set_point_it_ends_after_a_second),
+      cmocka_unit_test(a_first_set_point_elsewhere_ends_it_where_the_arm_is),
+      cmocka_unit_test(one_late_set_point_is_bridged),
+      cmocka_unit_test(silence_fades_out_and_ends_in_a_stop),
+      cmocka_unit_test(patience_is_counted_in_cycles),
+      cmocka_unit_test(a_negative_count_ends_it_with_a_stop),
+      cmocka_unit_test(none_in_one_cycle_and_two_in_the_next_are_smooth),
+      cmocka_unit_test(tool_payload_and_zeroing_are_in_the_text),
+      cmocka_unit_test(a_value_out_of_range_writes_no_text),
+      cmocka_unit_test(no_placeholder_is_left_and_every_line_ends),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
