@@ -11,13 +11,12 @@ using Answer = DashboardClient::Answer;
 
 constexpr std::size_t kLongestLine = 255;
 
-/// Whether the next line begins with `words`, carriage returns ignored.
+/// Whether the next line begins with `words`.
 bool begins(std::string_view& text, std::string_view words) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos || end > kLongestLine) return false;
   std::size_t matched = 0;
   for (const char c : text.substr(0, end)) {
-    if (c == '\r') continue;
     if (matched == words.size()) break;
     if (c != words[matched++]) return false;
   }
