@@ -17,9 +17,13 @@ void print_blocks_from() {
 void print_board(const char* board, const Capabilities& offered) {
   std::printf("# Sections, blocks and ports\n\nBoard `%s`, robot `%s`, %d joints. ", board,
               Robot::kName, kDof);
-  std::printf("Commands:%s%s%s. Period %d to %d us.\n", offered.position ? " q_c" : "",
-              offered.velocity ? " dq_c" : "", offered.effort ? " tau_c" : "",
-              static_cast<int>(offered.min_period_us), static_cast<int>(offered.max_period_us));
+  std::printf("Commands:%s%s%s.", offered.position ? " q_c" : "", offered.velocity ? " dq_c" : "",
+              offered.effort ? " tau_c" : "");
+  if (offered.velocity_feed_forward || offered.effort_feed_forward)
+    std::printf(" Feed-forward:%s%s.", offered.velocity_feed_forward ? " dq_ff" : "",
+                offered.effort_feed_forward ? " tau_ff" : "");
+  std::printf(" Period %d to %d us.\n", static_cast<int>(offered.min_period_us),
+              static_cast<int>(offered.max_period_us));
   std::printf(
       "A number per joint may be given once for all joints. Limits and defaults are this\n"
       "robot's, sections this board's: `build/<board>/tactus ports` prints another's.\n");

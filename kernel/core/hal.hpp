@@ -40,6 +40,10 @@ struct RobotCommand {
   CommandMode mode = CommandMode::kEffort;
   JointVector value = JointVector::Zero();
   DriveRequest request = DriveRequest::kDisable;
+  /// Feed-forward beside the value, zero where the pipeline gives none: the velocity of a position,
+  /// rad/s, and the torque that the motion is expected to take, N m. In CiA 402 the velocity offset
+  /// (60B1h) and the torque offset (60B2h) of the cyclic synchronous modes.
+  JointVector dq_ff = JointVector::Zero(), tau_ff = JointVector::Zero();
 };
 
 /// Abilities of a robot and its wire; compared with the pipeline file before anything starts.
@@ -47,6 +51,8 @@ struct Capabilities {
   bool position = false, velocity = false, effort = false;  ///< supported command modes
   std::int64_t min_period_us = 0, max_period_us = 0;        ///< supported cycle periods
   bool wrench = false;  ///< it has a force/torque sensor at the flange
+  /// It takes a velocity beside positions; a torque beside positions and velocities.
+  bool velocity_feed_forward = false, effort_feed_forward = false;
 };
 
 class Hal {

@@ -111,7 +111,10 @@ RobotCommand Executive::guarded() {
 /// Writes the command for drives that follow, and what is requested of the others.
 void Executive::write(const RobotCommand& command) {
   RobotCommand sent = {pipeline_.robot.mode()};
-  if (commands(rung())) sent = {command.mode, command.value, DriveRequest::kFollow};
+  if (commands(rung())) {
+    sent = command;
+    sent.request = DriveRequest::kFollow;
+  }
   if (rung() == Rung::kArming) sent.request = DriveRequest::kArm;
   requested_ = sent.request;
   const Status status = hal_.write(sent);

@@ -20,7 +20,6 @@ Status Guard::start(const Params& params, CommandMode mode, const RobotState& st
   period_s_ = period_s;
   max_age_ = params.max_age;
   lag_.setZero();
-  max_step_ = limits_.dtau_max * period_s;
   mode_ = mode;
   left_behind_ = false;
   telemetry_ = {};
@@ -28,13 +27,16 @@ Status Guard::start(const Params& params, CommandMode mode, const RobotState& st
     const StepLimits steps = StepLimits::of(limits_, i, period_s);
     positions_[static_cast<std::size_t>(i)].start(steps, state.q[i]);
     velocities_[static_cast<std::size_t>(i)].start(steps, period_s, state.dq[i]);
+    torques_[static_cast<std::size_t>(i)].start(limits_.tau_max[i], limits_.dtau_max[i] * period_s,
+                                                mode == CommandMode::kEffort ? state.tau[i] : 0.0);
+    fed_velocities_[static_cast<std::size_t>(i)].start(limits_.dq_max[i],
+                                                       limits_.ddq_max[i] * period_s, 0.0);
   }
   TRY(check(state, now));
   for (int i = 0; i < kDof && mode == CommandMode::kEffort; ++i) {
     if (std::abs(state.tau[i]) > limits_.tau_max[i])
       return trip(Status::kEffortLimit, i, state.tau[i], limits_.tau_max[i]);
   }
-  last_ = state.tau;
   return Status::kOk;
 }
 
@@ -94,8 +96,8 @@ Status Guard::check_following(const RobotState& state) {
 Status Guard::limit(const RobotState& state, RobotCommand& command, bool braked) {
   if (command.mode != mode_) return Status::kNotStarted;
   for (int i = 0; i < kDof; ++i) {
-    const double wanted = command.value[i];
-    if (!std::isfinite(wanted)) return trip(Status::kCommandNotFinite, i, wanted, 0.0);
+    for (const double wanted : {command.value[i], command.dq_ff[i], command.tau_ff[i]})
+      if (!std::isfinite(wanted)) return trip(Status::kCommandNotFinite, i, wanted, 0.0);
   }
   left_behind_ = braked && (left_behind_ || !follows(command.value, state));
   if (left_behind_) {
@@ -103,19 +105,20 @@ Status Guard::limit(const RobotState& state, RobotCommand& command, bool braked)
     command = brake(state);
     return Status::kOk;
   }
-  bool limited = false, rough = false;
+  bool limited = false, rough = false, fed = false;
   for (int i = 0; i < kDof; ++i) {
     const double wanted = command.value[i];
     command.value[i] = allowed(i, wanted, state);
     rough = rough || jerky(i);
-    if (command.value[i] != wanted) {
-      limited = true;
-      telemetry_.limited_joints |= 1U << i;
-    }
+    const bool changed = command.value[i] != wanted;
+    limited = limited || changed;
+    if (changed) telemetry_.limited_joints |= 1U << i;
+    if (mode_ != CommandMode::kEffort) fed = limit_feed_forward(i, changed, command) || fed;
   }
   telemetry_.limited = limited;
   telemetry_.limited_cycles += limited ? 1 : 0;
   telemetry_.jerky_cycles += rough ? 1 : 0;
+  telemetry_.feed_forward_cycles += fed ? 1 : 0;
   return Status::kOk;
 }
 
@@ -126,6 +129,9 @@ RobotCommand Guard::brake(const RobotState& state) {
       command.value[i] = positions_[static_cast<std::size_t>(i)].brake();
     else
       command.value[i] = allowed(i, 0.0, state);
+    if (mode_ == CommandMode::kEffort) continue;
+    command.dq_ff[i] = fed_velocities_[static_cast<std::size_t>(i)].next(0.0);
+    command.tau_ff[i] = torques_[static_cast<std::size_t>(i)].sent();
   }
   return command;
 }
@@ -148,14 +154,20 @@ double Guard::allowed(int joint, double wanted, const RobotState& state) {
     case CommandMode::kVelocity: return velocities_[j].next(wanted, state.q[joint]);
     case CommandMode::kEffort: break;
   }
-  return allowed_effort(joint, wanted);
+  return torques_[j].next(wanted);
 }
 
-double Guard::allowed_effort(int joint, double wanted) {
-  const double last = last_[joint], limit = limits_.tau_max[joint];
-  const double step = std::clamp(wanted - last, -max_step_[joint], max_step_[joint]);
-  const double within_rate = step == wanted - last ? wanted : last + step;
-  return last_[joint] = std::clamp(within_rate, -limit, limit);
+/// Brings the feed-forward of a joint within its limits; returns whether that changed it. The
+/// velocity beside a position that was `limited` lies between zero and that of the position sent.
+bool Guard::limit_feed_forward(int joint, bool limited, RobotCommand& command) {
+  const auto j = static_cast<std::size_t>(joint);
+  double &dq = command.dq_ff[joint], &tau = command.tau_ff[joint];
+  const double wanted = dq, wanted_tau = tau;
+  const double slope = positions_[j].step() / period_s_;  // zero in other modes
+  if (limited) dq = std::clamp(dq, std::min(slope, 0.0), std::max(slope, 0.0));
+  dq = fed_velocities_[j].next(dq);
+  tau = torques_[j].next(tau);
+  return dq != wanted || tau != wanted_tau;
 }
 
 /// The limiters of the modes that were not started have sent nothing, so they are not jerky.

@@ -1,8 +1,10 @@
 // Guard: the last check before the wire. The measured state must be young and possible. A command
 // must be finite and is kept within limits: a torque within torque and torque rate, a position or
-// velocity within position, velocity and acceleration, braking distance included. A robot that is
-// sent positions or velocities must follow them. A violation is a Status and stops the robot;
-// limiting is a flag in telemetry.
+// velocity within position, velocity and acceleration, braking distance included. A feed-forward
+// beside it is kept within velocity and acceleration, or torque and torque rate; where a position
+// is limited, its feed-forward is no faster than what is sent. A robot that is sent positions or
+// velocities must follow them. A violation is a Status and stops the robot; limiting is a flag in
+// telemetry.
 #pragma once
 
 #include <array>
@@ -11,6 +13,7 @@
 #include "kernel/core/hal.hpp"
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/guard/position_limiter.hpp"
+#include "kernel/guard/slew_limiter.hpp"
 #include "kernel/guard/velocity_limiter.hpp"
 
 namespace tactus {
@@ -69,14 +72,15 @@ class Guard {
     std::uint32_t limited_joints = 0;  ///< bit i: joint i was limited at least once
     std::uint32_t jerky_cycles = 0;    ///< cycles in which a position or velocity sent exceeded the
                                        ///< jerk limit; counted, not limited
-    int tripped_joint = -1;            ///< joint of the violation that stopped the robot
+    std::uint32_t feed_forward_cycles = 0;  ///< cycles in which a feed-forward was limited
+    int tripped_joint = -1;                 ///< joint of the violation that stopped the robot
     double tripped_value = 0.0, tripped_limit = 0.0;
   };
 
   /// Takes the limits and starts bumpless for commands of `mode`: at rest at the measured position,
-  /// at the measured velocity, or at the torque the actuators exert. Returns kEffortLimit if that
-  /// torque is beyond its limit, where no command could keep both torque and rate; otherwise as
-  /// check(). [init]
+  /// at the measured velocity, or at the torque the actuators exert; feed-forward starts at zero.
+  /// Returns kEffortLimit if that torque is beyond its limit, where no command could keep both
+  /// torque and rate; otherwise as check(). [init]
   Status start(const Params& params, CommandMode mode, const RobotState& state, double period_s,
                const CycleTime& now);
 
@@ -94,8 +98,10 @@ class Guard {
   Status limit(const RobotState& state, RobotCommand& command, bool braked = false);
 
   /// Returns the command for a cycle without one from the chain: positions and velocities come to
-  /// rest from the last ones sent, as fast as their limits allow, and stay there. Efforts cannot
-  /// brake without the chain; they go to zero at their rate limit. [cyclic]
+  /// rest from the last ones sent, as fast as their limits allow, and stay there. A velocity that
+  /// was fed forward goes to zero with the acceleration limit; a torque that was stays, because it
+  /// may carry a load. Efforts cannot brake without the chain; they go to zero at their rate limit.
+  /// [cyclic]
   RobotCommand brake(const RobotState& state);
 
   const Telemetry& telemetry() const { return telemetry_; }
@@ -113,16 +119,16 @@ class Guard {
   Status check_joint(int joint, const RobotState& state);
   Status check_following(const RobotState& state);
   double allowed(int joint, double wanted, const RobotState& state);
-  double allowed_effort(int joint, double wanted);
+  bool limit_feed_forward(int joint, bool limited, RobotCommand& command);
   bool follows(const JointVector& wanted, const RobotState& state) const;
   bool jerky(int joint) const;
 
   JointLimits limits_;
   CommandMode mode_ = CommandMode::kEffort;
-  JointVector max_step_ = JointVector::Zero();  // N m per cycle
-  JointVector last_ = JointVector::Zero();      // N m
   std::array<PositionLimiter, kDof> positions_;
   std::array<VelocityLimiter, kDof> velocities_;
+  std::array<SlewLimiter, kDof> torques_;         // commanded or fed forward
+  std::array<SlewLimiter, kDof> fed_velocities_;  // beside positions
   double period_s_ = 0.0;
   int max_age_ = 0;
   JointVector lag_ = JointVector::Zero();  // rad, behind the velocities sent; fades with kFading_s

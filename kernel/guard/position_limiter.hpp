@@ -24,6 +24,8 @@ class PositionLimiter {
   double brake();
   /// The last position sent, rad. [any]
   double sent() const { return sent_; }
+  /// The last change of the position sent, rad per cycle. [any]
+  double step() const { return step_; }
   /// True if the last position sent exceeded the jerk limit. [any]
   bool jerky() const { return jerky_; }
 

@@ -119,6 +119,12 @@ Status Loader::load_command(const Ini& ini, const IniSection& section, Pipeline&
     return error.refuse(Status::kNotConnected, section.line, section.name, {},
                         Message("")
                             << commands << " commands; expected exactly one of q_c, dq_c, tau_c");
+  if (robot.dq_ff.wired() && !robot.q_c.wired())
+    return error.refuse(Status::kNotConnected, line_of(ini, section, "dq_ff"), section.name,
+                        "dq_ff", "a velocity is fed forward beside q_c only");
+  if (robot.tau_ff.wired() && robot.tau_c.wired())
+    return error.refuse(Status::kNotConnected, line_of(ini, section, "tau_ff"), section.name,
+                        "tau_ff", "a torque is fed forward beside q_c or dq_c only");
   return Status::kOk;
 }
 
@@ -134,6 +140,12 @@ Status Loader::check_command(const Ini& ini, const IniSection& section, const Pi
   if (!offered)
     return error.refuse(Status::kNotOffered, line_of(ini, section, key), section.name, key,
                         "the robot does not take this kind of command");
+  const char* fed = pipeline.robot.dq_ff.wired() && !offered_.velocity_feed_forward  ? "dq_ff"
+                    : pipeline.robot.tau_ff.wired() && !offered_.effort_feed_forward ? "tau_ff"
+                                                                                     : nullptr;
+  if (fed != nullptr)
+    return error.refuse(Status::kNotOffered, line_of(ini, section, fed), section.name, fed,
+                        "the robot does not take this feed-forward");
   return Status::kOk;
 }
 

@@ -29,6 +29,8 @@ struct RobotSection {
   In<Quantity::kJointPosition> q_c;
   In<Quantity::kJointVelocity> dq_c;
   In<Quantity::kJointEffort> tau_c;
+  In<Quantity::kJointVelocity> dq_ff;  ///< beside q_c
+  In<Quantity::kJointEffort> tau_ff;   ///< beside q_c or dq_c
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -50,12 +52,15 @@ struct RobotSection {
     visit.out("ft", ft);
     visit.out("speed_scaling", speed_scaling);
   }
-  /// Describes the commands, bound after the last block; exactly one of them is given.
+  /// Describes the commands, bound after the last block; exactly one of them is given, and the
+  /// feed-forward beside it.
   template <class Visitor>
   void describe_command(Visitor& visit) {
     visit.optional("q_c", q_c);
     visit.optional("dq_c", dq_c);
     visit.optional("tau_c", tau_c);
+    visit.optional("dq_ff", dq_ff);
+    visit.optional("tau_ff", tau_ff);
   }
 
   /// [cyclic]
@@ -71,9 +76,10 @@ struct RobotSection {
            : dq_c.wired() ? CommandMode::kVelocity
                           : CommandMode::kPosition;
   }
-  /// Returns the value of the wired command. [cyclic]
+  /// Returns the value of the wired command with its feed-forward. [cyclic]
   RobotCommand command() const {
-    return {mode(), tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c};
+    const JointVector& value = tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c;
+    return {mode(), value, DriveRequest::kDisable, *dq_ff, *tau_ff};
   }
   double period_s() const { return period_us * 1e-6; }
 };

@@ -47,7 +47,7 @@ JointVector Servo::acceleration(const Arm& arm, const RobotCommand& target,
   const double T = time_constant_s_, D = step_s_;
   const JointVector q = arm.q(), dq = arm.dq();
   if (target.mode == CommandMode::kVelocity) return (target.value - dq) / (T > 0.0 ? T : n * D);
-  if (T > 0.0) return (target.value - q - 2.0 * T * dq) / (T * T);
+  if (T > 0.0) return (target.value - q - 2.0 * T * (dq - target.dq_ff)) / (T * T);
   const JointVector X = (target.value - q - n * D * dq) / (D * D), V = (slope - dq) / D;
   return (6.0 * X - (2 * n - 1) * V) / (n * (n + 1));
 }

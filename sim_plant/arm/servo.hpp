@@ -13,7 +13,8 @@
 //
 // With a time constant T, a critically damped lag of second order, and a lag of first order:
 //
-//   T^2 ddq + 2 T dq + q = q_c               late by 2 T if the speed of the targets is constant
+//   T^2 ddq + 2 T (dq - dq_ff) + q = q_c     late by 2 T if the speed of the targets is constant
+//                                            and not fed forward
 //   T ddq + dq = dq_c
 #pragma once
 

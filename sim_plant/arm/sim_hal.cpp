@@ -23,7 +23,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
 Capabilities SimHal::capabilities() const {
   Capabilities offered;
   offered.position = offered.velocity = offered.effort = true;
-  offered.wrench = true;
+  offered.wrench = offered.velocity_feed_forward = true;
   offered.min_period_us = 100;
   offered.max_period_us = 10000;
   return offered;
@@ -78,7 +78,8 @@ void SimHal::follow(const RobotCommand& command) {
 
 /// Moves the arm for one period. kDriveFault, and nothing moves, if the command cannot be executed.
 Status SimHal::drive(const RobotCommand& command) {
-  if (command.mode != mode_ || !command.value.allFinite()) return Status::kDriveFault;
+  if (command.mode != mode_ || !command.value.allFinite() || !command.dq_ff.allFinite())
+    return Status::kDriveFault;
   if (mode_ != CommandMode::kEffort) return servo_.move(arm_, command, period_s_, tau_);
   tau_ = command.value;
   arm_.step(tau_, period_s_);

@@ -142,6 +142,22 @@ void a_slow_servo_is_late_by_two_time_constants_behind_a_ramp(void**) {
   }
 }
 
+void a_slow_servo_is_not_late_if_the_velocity_of_the_ramp_is_fed_forward(void**) {
+  constexpr double kSpeed = 0.2, kT = 0.04;  // rad/s, s
+  for (const int period_us : {1000, 8000}) {
+    g_bench.start(kPosition, period_us, slow(kT));
+    const JointVector dq_ff = JointVector::Constant(kSpeed);
+    JointVector q_c = g_bench.home;
+    for (int k = 1; k * g_bench.period_s <= 1.0; ++k) {
+      q_c = g_bench.home + JointVector::Constant(kSpeed * k * g_bench.period_s);
+      ASSERT_OK(follow(g_bench.hal, kPosition, q_c, dq_ff));
+    }
+    // The target, held for a period, is half a period ahead of the ramp.
+    const JointVector ahead = JointVector::Constant(0.5 * kSpeed * g_bench.period_s);
+    ASSERT_NEAR(g_bench.farthest_from(q_c + ahead), 0.0, 1e-2 * kSpeed * 2.0 * kT);
+  }
+}
+
 void a_slow_servo_follows_a_step_in_velocity_as_a_lag_of_first_order(void**) {
   constexpr double kStep = 0.05, kT = 0.04;  // rad/s, s
   g_bench.start(kVelocity, 1000, slow(kT));
@@ -193,6 +209,9 @@ void a_target_that_is_not_finite_or_of_another_mode_closes_the_brakes(void**) {
       JointVector target = g_bench.home;
       target[kDof - 1] = bad;
       ASSERT_STATUS(g_bench.write(mode, target), Status::kDriveFault);
+      g_bench.start(mode, 1000);
+      const JointVector still = mode == kPosition ? g_bench.home : JointVector(JointVector::Zero());
+      ASSERT_STATUS(follow(g_bench.hal, mode, still, target), Status::kDriveFault);
     }
   }
   g_bench.start(kPosition, 1000);
@@ -212,6 +231,7 @@ int main() {
       cmocka_unit_test(an_ideal_servo_has_the_velocity_sent_when_the_period_ends),
       cmocka_unit_test(a_slow_servo_follows_a_step_in_position_as_a_critically_damped_lag),
       cmocka_unit_test(a_slow_servo_is_late_by_two_time_constants_behind_a_ramp),
+      cmocka_unit_test(a_slow_servo_is_not_late_if_the_velocity_of_the_ramp_is_fed_forward),
       cmocka_unit_test(a_slow_servo_follows_a_step_in_velocity_as_a_lag_of_first_order),
       cmocka_unit_test(no_drive_exerts_more_than_it_can),
       cmocka_unit_test(a_target_out_of_reach_closes_the_brakes),

@@ -35,7 +35,9 @@ class FakeHal final : public Hal {
 
   FakeHal() { all(DriveState::kDisabled); }
 
-  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
+  Capabilities capabilities() const override {
+    return {true, true, true, 100, 100000, true, true, true};
+  }
   Status connect(CommandMode) override {
     note('s');
     return connect_status;

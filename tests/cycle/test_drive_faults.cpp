@@ -17,7 +17,9 @@ int runs() {
   return trials != nullptr ? std::atoi(trials) : 1000;
 }
 
-constexpr const char* kEnds[] = {"q_c = jrg.q_d\n", "dq_c = jrg.dq_d\n", "tau_c = pd.tau\n"};
+constexpr const char* kEnds[] = {"q_c = jrg.q_d\ndq_ff = jrg.dq_d\ntau_ff = pd.tau\n",
+                                 "dq_c = jrg.dq_d\ntau_ff = pd.tau\n", "tau_c = pd.tau\n"};
+constexpr Capabilities kTakesAll = {true, true, true, 100, 100000, true, true, true};
 constexpr CommandMode kModes[] = {CommandMode::kPosition, CommandMode::kVelocity,
                                   CommandMode::kEffort};
 
@@ -28,7 +30,7 @@ class FaultyHal final : public Hal {
     state_.q = q;
     set(DriveState::kDisabled);
   }
-  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
+  Capabilities capabilities() const override { return kTakesAll; }
   Status connect(CommandMode) override { return Status::kOk; }
   Status read(const CycleTime& now, RobotState& state) override {
     assert_false(read_);
@@ -52,7 +54,7 @@ class FaultyHal final : public Hal {
     if (command.request == DriveRequest::kFollow)
       follow(command);
     else
-      followed_ = false;
+      assert_not_fed(command);
     if (!enabled || command.request != DriveRequest::kFollow) state_.dq.setZero();
     take_step(command.request);
     return random_.below(2000) == 0 ? Status::kConnectionLost : Status::kOk;
@@ -75,6 +77,7 @@ class FaultyHal final : public Hal {
       else
         assert_true(std::abs(step[i]) <= limits_.dtau_max[i] * kPeriod_s + 1e-9);
     }
+    judge_feed_forward(command);
     followed_ = true;
     sent_ = command.value;
     if (mode_ == CommandMode::kEffort) {
@@ -86,6 +89,22 @@ class FaultyHal final : public Hal {
     state_.dq =
         mode_ == CommandMode::kVelocity ? sent_ : JointVector((sent_ - state_.q) / kPeriod_s);
     state_.q += kPeriod_s * state_.dq;
+  }
+  /// Feed-forward begins at zero and changes within limits.
+  void judge_feed_forward(const RobotCommand& command) {
+    const JointVector dq = command.dq_ff - fed_.dq_ff, tau = command.tau_ff - fed_.tau_ff;
+    for (int i = 0; i < kDof; ++i) {
+      assert_true(std::abs(dq[i]) <= limits_.ddq_max[i] * kPeriod_s + 1e-9);
+      assert_true(std::abs(tau[i]) <= limits_.dtau_max[i] * kPeriod_s + 1e-9);
+      assert_true(std::abs(command.dq_ff[i]) <= limits_.dq_max[i]);
+      assert_true(std::abs(command.tau_ff[i]) <= limits_.tau_max[i]);
+    }
+    fed_ = command;
+  }
+  void assert_not_fed(const RobotCommand& command) {
+    assert_true(command.dq_ff.isZero(0.0) && command.tau_ff.isZero(0.0));
+    followed_ = false;
+    fed_ = {};
   }
   JointVector held() const {
     return mode_ == CommandMode::kPosition   ? state_.q
@@ -127,6 +146,7 @@ class FaultyHal final : public Hal {
   const JointLimits limits_;
   RobotState state_, seen_;
   JointVector sent_ = JointVector::Zero();
+  RobotCommand fed_;
   bool read_ = false, followed_ = false;
   int frozen_ = 0, stuck_ = 0, left_ = 0;
 };
@@ -143,7 +163,7 @@ struct FaultRun {
          << "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
          << "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\nkp = 400\nkd = "
             "40\n";
-    Loader loader({&channel}, {true, true, true, 100, 100000, true});
+    Loader loader({&channel}, kTakesAll);
     LoadError error;
     ASSERT_OK(loader.load(text, pipeline, error));
   }

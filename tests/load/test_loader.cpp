@@ -1,5 +1,7 @@
 // Tests the loader: a good file becomes the pipeline it describes, a bad file is refused at its
 // mistake.
+#include <cstring>
+
 #include "tests/load/loader_bench.hpp"
 #include "tests/load/refused_files.hpp"
 #include "tests/support/testing.hpp"
@@ -98,6 +100,20 @@ void a_robot_is_commanded_in_what_it_takes(void**) {
                       "5: [robot] tau_c: the robot does not take this kind of command");
   for (const char* command : {"q_c = jrg.q_d", "dq_c = jrg.dq_d"})
     ASSERT_STATUS(bench.load(with("tau_c = stiff.tau", command)), Status::kNotOffered);
+}
+
+void a_robot_is_fed_what_it_takes(void**) {
+  const Capabilities kBoth = {true, true, false, 1, 10000, false, true, true};
+  ASSERT_OK(bench.load(with("tau_c = stiff.tau", "q_c = jrg.q_d\ndq_ff = jrg.dq_d"), kBoth));
+  assert_true(bench.pipeline.robot.dq_ff.wired() && !bench.pipeline.robot.tau_ff.wired());
+  ASSERT_OK(bench.load(with("tau_c = stiff.tau", "dq_c = jrg.dq_d\ntau_ff = stiff.tau"), kBoth));
+  assert_true(bench.pipeline.robot.tau_ff.wired());
+  for (const char* fed : {"q_c = jrg.q_d\ndq_ff = jrg.dq_d", "q_c = jrg.q_d\ntau_ff = stiff.tau"}) {
+    ASSERT_STATUS(bench.load(with("tau_c = stiff.tau", fed), {true, true, true, 1, 10000}),
+                  Status::kNotOffered);
+    assert_non_null(std::strstr(bench.error.message().c_str(),
+                                "_ff: the robot does not take this feed-forward"));
+  }
 }
 
 void a_sensor_the_robot_does_not_have_is_not_read(void**) {
@@ -218,6 +234,7 @@ int main() {
       cmocka_unit_test(an_optional_input_left_out_reads_zero),
       cmocka_unit_test(the_generator_gets_the_channel_of_the_board),
       cmocka_unit_test(a_robot_is_commanded_in_what_it_takes),
+      cmocka_unit_test(a_robot_is_fed_what_it_takes),
       cmocka_unit_test(a_sensor_the_robot_does_not_have_is_not_read),
       cmocka_unit_test(line_ends_blanks_marks_and_comments_make_no_difference),
       cmocka_unit_test(tightened_limits_are_those_references_are_judged_by),
