@@ -72,7 +72,8 @@ class Columns {
   /// `partial`: positions of some of the joints are enough, if the space allows it.
   explicit Columns(bool partial) : partial_(partial) {}
 
-  /// Adds the next header cell; false with the reason if it is unknown or repeated.
+  /// Adds the next header cell; false with the reason if it is unknown or repeated. Degrees,
+  /// millimetres and milliseconds are units too: q1_deg, vx_mm_s, time_ms.
   bool add(std::string_view header, Message& reason);
   /// Checks the header after its last cell: time and positions are given, every other group is
   /// whole or absent; else false with the reason. With partial positions, a whole group has the
@@ -83,8 +84,10 @@ class Columns {
   std::string_view name(int column) const {
     return columns_[static_cast<std::size_t>(column)].name;
   }
-  /// Returns the number of a waypoint that a column gives.
+  /// Returns the number of a waypoint that a column gives, in SI units.
   double& value(int column, Waypoint<Space>& waypoint) const;
+  /// Returns the SI units in one unit of a column.
+  double scale(int column) const { return columns_[static_cast<std::size_t>(column)].scale; }
   /// Returns the fields that are given.
   Fields fields() const;
   /// Writes the joints that the positions leave out into the header; call after complete().
@@ -97,6 +100,7 @@ class Columns {
   struct Column {
     Name name;
     ColumnPlace place;
+    double scale = 1.0;
   };
 
   static constexpr std::size_t max_columns() {

@@ -15,14 +15,32 @@ namespace {
 constexpr std::size_t kMaxRowLength = 4096;
 using Row = std::array<char, kMaxRowLength>;
 
-/// Cuts the first cell off `row`; false if none is left. `more` is true if another one follows.
-bool take_cell(std::string_view& row, bool& more, std::string_view& cell) {
-  if (!more) return false;
-  const std::size_t comma = row.find(',');
-  more = comma != std::string_view::npos;
-  cell = trim(row.substr(0, comma));
-  row.remove_prefix(more ? comma + 1 : row.size());
-  return true;
+/// Cuts a row into cells.
+class Cells {
+ public:
+  Cells(std::string_view row, char separator) : row_(row), separator_(separator) {}
+
+  /// Takes the next cell; false if none is left.
+  bool take(std::string_view& cell) {
+    if (!more_) return false;
+    const std::size_t end = row_.find(separator_);
+    more_ = end != std::string_view::npos;
+    cell = trim(row_.substr(0, end));
+    row_.remove_prefix(more_ ? end + 1 : row_.size());
+    return true;
+  }
+
+ private:
+  std::string_view row_;
+  char separator_;
+  bool more_ = true;
+};
+
+/// Returns what separates the cells of a file: a semicolon or a tab if its header has one.
+char separator_of(std::string_view header) {
+  for (const char separator : {';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
 }
 
 bool refuse(CsvError& error, int line, int column, std::string_view header,
@@ -42,10 +60,9 @@ bool read_number(std::string_view cell, double& value) {
 }
 
 template <class Space>
-bool read_header(std::string_view row, int line, Columns<Space>& columns, CsvError& error) {
-  bool more = true;
+bool read_header(Cells cells, int line, Columns<Space>& columns, CsvError& error) {
   std::string_view cell;
-  for (int column = 1; take_cell(row, more, cell); ++column) {
+  for (int column = 1; cells.take(cell); ++column) {
     Message reason;
     if (!columns.add(cell, reason)) return refuse(error, line, column, cell, reason);
   }
@@ -53,23 +70,34 @@ bool read_header(std::string_view row, int line, Columns<Space>& columns, CsvErr
   return columns.complete(reason) || refuse(error, line, 0, {}, reason);
 }
 
+/// Explains a cell that is not a number.
+Message not_a_number(std::string_view cell) {
+  Message reason("'");
+  reason << cell << "' is not a finite number";
+  const std::size_t comma = cell.find(',');
+  if (comma != std::string_view::npos && cell.find(',', comma + 1) == std::string_view::npos)
+    reason << "; write " << cell.substr(0, comma) << "." << cell.substr(comma + 1);
+  return reason;
+}
+
 template <class Space>
-bool read_row(std::string_view row, int line, const Columns<Space>& columns,
-              Waypoint<Space>& waypoint, CsvError& error) {
+bool read_row(Cells cells, int line, const Columns<Space>& columns, Waypoint<Space>& waypoint,
+              CsvError& error) {
   waypoint = {};
-  bool more = true;
   std::string_view cell;
   int column = 0;
-  while (take_cell(row, more, cell)) {
+  while (cells.take(cell)) {
     if (++column > columns.count()) {
       return refuse(error, line, column, {},
-                    Message("more cells than the ") << columns.count() << " columns of the header");
+                    Message("more cells than the ") << columns.count()
+                                                    << " columns of the header; "
+                                                       "decimals are written with a point");
     }
     const std::string_view header = columns.name(column - 1);
     if (cell.empty()) return refuse(error, line, column, header, "the cell is empty");
-    if (!read_number(cell, columns.value(column - 1, waypoint)))
-      return refuse(error, line, column, header,
-                    Message("'") << cell << "' is not a finite number");
+    double& value = columns.value(column - 1, waypoint);
+    if (!read_number(cell, value)) return refuse(error, line, column, header, not_a_number(cell));
+    value *= columns.scale(column - 1);
   }
   if (column == columns.count()) return true;
   return refuse(
@@ -96,8 +124,8 @@ bool read_line(std::FILE* file, Row& buffer, std::string_view& line, bool& fits)
 
 /// Reads the header if there is none yet, else the next waypoint.
 template <class Space>
-bool take_row(std::string_view row, int line, Columns<Space>& columns,
-              Trajectory<Space>& trajectory, CsvError& error) {
+bool take_row(const Cells& row, int line, Columns<Space>& columns, Trajectory<Space>& trajectory,
+              CsvError& error) {
   if (columns.count() == 0) return read_header(row, line, columns, error);
   if (trajectory.count == trajectory.capacity)
     return refuse(error, line, 0, {},
@@ -113,6 +141,7 @@ bool read_file(std::FILE* file, bool partial, Trajectory<Space>& trajectory, Csv
   std::string_view row;
   bool fits = true;
   Columns<Space> columns(partial);
+  char separator = ',';
   for (int line = 1; read_line(file, buffer, row, fits); ++line) {
     if (!fits)
       return refuse(error, line, 0, {},
@@ -120,9 +149,9 @@ bool read_file(std::FILE* file, bool partial, Trajectory<Space>& trajectory, Csv
     if (!is_text(row))
       return refuse(error, line, 0, {}, "the line contains bytes that are not text");
     if (line == 1) row = without_byte_order_mark(row);
-    row = trim(row);
-    if (row.empty() || row.front() == '#') continue;
-    if (!take_row(row, line, columns, trajectory, error)) return false;
+    if (trim(row).empty() || trim(row).front() == '#') continue;
+    if (columns.count() == 0) separator = separator_of(row);
+    if (!take_row(Cells(row, separator), line, columns, trajectory, error)) return false;
   }
   if (columns.count() == 0) return refuse(error, 0, 0, {}, "the file has no header");
   if (trajectory.count == 0) return refuse(error, 0, 0, {}, "the file has no waypoints");

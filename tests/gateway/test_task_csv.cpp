@@ -192,14 +192,15 @@ void a_column_twice_is_refused_with_the_place_of_the_first(void**) {
 }
 
 void an_unknown_column_is_refused_with_those_there_are(void**) {
-  constexpr const char* kForms[] = {"q1_rad", "x_mm",    "X_m",    "qw_1",
+  constexpr const char* kForms[] = {"q1_rad", "x_cm",    "X_m",    "qw_1",
                                     "fx_n",   "dfx_N_s", "wx_rad", ""};
   for (const char* form : kForms) {
     char columns[64], expected[384];
     std::snprintf(columns, sizeof columns, "time_s,%s,y_m", form);
     std::snprintf(expected, sizeof expected,
                   "1:2: %s%sunknown column; expected one of time_s, x_m y_m z_m, qw qx qy qz, "
-                  "vx_m_s .. wz_rad_s, ax_m_s2 .. alphaz_rad_s2, fx_N .. mz_Nm",
+                  "vx_m_s .. wz_rad_s, ax_m_s2 .. alphaz_rad_s2, fx_N .. mz_Nm; or with "
+                  "deg, mm, ms",
                   form, *form == '\0' ? "" : ": ");
     assert_string_equal(refusal(columns), expected);
   }

@@ -1,51 +1,18 @@
 // Trajectory files of the joints: written numbers come back, mistakes are refused with their place.
-#include "gateway/trajectory_csv.hpp"
-
-#include <unistd.h>
-
 #include <cstdlib>
 #include <random>
 
 #include "gateway/trajectory_columns.hpp"
+#include "tests/gateway/csv_bench.hpp"
 #include "tests/load/refused_files.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr int kCapacity = 20'001;
 constexpr Fields kAllFields = kVelocityField | kAccelerationField | kEffortField;
 
-std::array<Waypoint<JointSpace>, kCapacity> storage, written;
-Trajectory<JointSpace> trajectory;
-CsvError error;
-
-bool read(const char* path, int capacity = kCapacity) {
-  trajectory = {};
-  trajectory.waypoints = storage.data();
-  trajectory.capacity = capacity;
-  return read_trajectory(path, false, trajectory, error);
-}
-
-/// A file of this process; each test that uses it writes it again.
-const char* scratch() {
-  static char path[64];
-  std::snprintf(path, sizeof path, "/tmp/tactus-csv-%d.csv", static_cast<int>(getpid()));
-  return path;
-}
-
-bool read_text(std::string_view text, int capacity = kCapacity) {
-  std::FILE* file = std::fopen(scratch(), "wb");
-  assert_non_null(file);
-  std::fwrite(text.data(), 1, text.size(), file);
-  std::fclose(file);
-  return read(scratch(), capacity);
-}
-
-int remove_scratch(void**) {
-  std::remove(scratch());
-  return 0;
-}
+std::array<Waypoint<JointSpace>, kCapacity> written;
 
 /// Numbers of every magnitude, so that every bit of them counts.
 void randomize(std::mt19937_64& random, int count) {

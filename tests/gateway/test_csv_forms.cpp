@@ -1,0 +1,52 @@
+// Tests the forms of a trajectory file: units other than SI's, and separators other than commas.
+#include <algorithm>
+#include <cstring>
+
+#include "tests/gateway/csv_bench.hpp"
+
+namespace tactus {
+namespace {
+
+// Proves CSV-4.
+
+void degrees_and_milliseconds_are_converted(void**) {
+  assert_true(
+      read_text("time_ms,q1_deg,q2_deg,q3_deg,q4_rad,q5_rad,q6_rad,q7_rad,dq1_deg_s,"
+                "dq2_rad_s,dq3_rad_s,dq4_rad_s,dq5_rad_s,dq6_rad_s,dq7_rad_s\n"
+                "250,180,-90,1e-3,-2,0,1,0.5,36,0,0,0,0,0,0\n"));
+  const Waypoint<JointSpace>& read = storage[0];
+  ASSERT_NEAR(read.time_s, 0.25, 1e-16);
+  const double expected[] = {3.14159265358979312, -1.57079632679489656, 1.74532925199432958e-5};
+  for (int i = 0; i < 3; ++i) ASSERT_NEAR(read.point.q[i], expected[i], 1e-15);
+  ASSERT_NEAR(read.point.dq[0], 0.628318530717958648, 1e-15);
+  assert_true(read.point.q[3] == -2.0 && read.point.q[6] == 0.5);
+  assert_false(read_text("time_s,q1_rad,q1_deg\n"));  // one column, twice
+}
+
+void semicolons_and_tabs_separate_too(void**) {
+  for (const char separator : {';', '\t'}) {
+    char text[160] =
+        "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,q7_rad\n"
+        "1,0, -0.5,0,-2 ,0,1.5,0.75\n";
+    std::replace(text, text + std::strlen(text), ',', separator);
+    assert_true(read_text(text));
+    const double expected[] = {0.0, -0.5, 0.0, -2.0, 0.0, 1.5, 0.75};
+    for (int i = 0; i < kDof; ++i) assert_true(storage[0].point.q[i] == expected[i]);
+  }
+  assert_false(
+      read_text("time_s\tq1_rad\tq2_rad\tq3_rad\tq4_rad\tq5_rad\tq6_rad\tq7_rad\n"
+                "\t0\t0\t0\t-2\t0\t1\t0\n"));
+  assert_string_equal(error.message().c_str(), "2:1: time_s: the cell is empty");
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(degrees_and_milliseconds_are_converted),
+      cmocka_unit_test(semicolons_and_tabs_separate_too),
+  };
+  return cmocka_run_group_tests(tests, nullptr, remove_scratch);
+}
