@@ -173,6 +173,7 @@ $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
 $(call obj,$(KERNEL) tests/bare_metal/link.cpp): | $(CCD_SRCS)
 
+include program/install.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include scripts/wcet/bound.mk

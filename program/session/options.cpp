@@ -57,7 +57,8 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
       ->check(decimal(1e-3, 1e6, "a number from 0.001 to 1000000"));
   run.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
       ->check(decimal(std::uint64_t{0}, kLargestSeed, "a whole number of up to 64 bits"));
-  run.add_flag("!--no-figure", options.figure, "do not draw figure.png");
+  run.add_flag_callback(
+      "--no-figure", [&options] { options.figure = false; }, "do not draw figure.png");
   run.add_flag("--realtime", options.realtime,
                "run one cycle per period of the wall clock instead of as fast as possible");
 }
@@ -88,6 +89,8 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
   std::string pipeline, trajectory, out, root, interface;
   std::vector<std::string> load;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
+  app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
+  app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
   app.require_subcommand(0, 1);  // a missing verb is refused below, with a better message
   app.footer("Exit codes: 0 succeeded; 1 ended otherwise; 2 refused before the first cycle.");
 

@@ -44,7 +44,7 @@ bool parse_version(const std::string& text, unsigned (&version)[4]) {
 bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int& exit_code) {
   std::string address = options.address, host, version = "3.15.8.106339";
   std::vector<double> q(std::begin(options.initial_q), std::end(options.initial_q));
-  CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "tactus"};
+  CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "ur10_emulator"};
   app.add_option("--bind", address, "IPv4 address to listen at (default 127.0.0.1)")
       ->check(short_text());
   app.add_option("--port-offset", options.port_offset, "added to every port (default 0)")

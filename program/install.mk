@@ -1,0 +1,26 @@
+# The version, and `make install`. The Makefile includes this file and defines B, O, NAME and obj.
+VERSION := 0.1$(shell git describe --always --dirty 2>/dev/null | sed 's/^/-/')
+PREFIX  ?= /usr/local
+LIB     := $(DESTDIR)$(PREFIX)/lib/tactus
+SHARE   := $(DESTDIR)$(PREFIX)/share
+COMMAND := $(NAME)-$(BOARD)
+
+# The program finds scripts/figure three folders above itself, as in this tree.
+.PHONY: install
+install: setup $(B)/$(NAME)                       ## install the program of BOARD below PREFIX (default /usr/local)
+	$(Q)install -D $(B)/$(NAME) $(LIB)/boards/$(BOARD)/$(NAME)
+	$(Q)install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/bash-completion/completions $(SHARE)/tactus
+	$(Q)ln -sf ../lib/tactus/boards/$(BOARD)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(COMMAND)
+	$(Q)install -D -t $(LIB)/scripts scripts/figure scripts/report
+	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting scripts/reporting/*
+	$(Q)cp -r pipelines $(SHARE)/tactus/
+	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) > $(SHARE)/man/man1/$(COMMAND).1
+	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) > $(SHARE)/bash-completion/completions/$(COMMAND)
+
+OPTIONS := $(call obj,program/session/options.cpp)
+$(OPTIONS): private CXXFLAGS += -DTACTUS_VERSION='"$(VERSION)"'
+$(OPTIONS): build/version
+build/version: always
+	@mkdir -p $(@D) && echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
+.PHONY: always
+always:
