@@ -15,6 +15,9 @@ JointLimits Guard::Params::effective() const {
 Status Guard::start(const Params& params, CommandMode mode, const RobotState& state,
                     double period_s, const CycleTime& now) {
   limits_ = params.effective();
+  q_min_ = limits_.q_min - params.position_allowance;
+  q_max_ = limits_.q_max + params.position_allowance;
+  dq_max_ = limits_.dq_max + limits_.dq_max.cwiseProduct(params.velocity_allowance);
   following_error_ = params.following_error;
   following_time_ = params.following_time;
   period_s_ = period_s;
@@ -64,15 +67,14 @@ Status Guard::check_age(const RobotState& state, const CycleTime& now) {
 
 Status Guard::check_joint(int joint, const RobotState& state) {
   const double q = state.q[joint], dq = state.dq[joint], tau = state.tau[joint];
-  const double lo = limits_.q_min[joint], hi = limits_.q_max[joint], most = limits_.dq_max[joint];
+  const double lo = q_min_[joint], hi = q_max_[joint], most = dq_max_[joint];
   if (!state.drives[static_cast<std::size_t>(joint)].valid)
     return trip(Status::kStateInvalid, joint, q, 0.0);
   for (const double value : {q, dq, tau})
     if (!std::isfinite(value)) return trip(Status::kStateNotFinite, joint, value, 0.0);
-  if (q < lo - kMeasuredPosition) return trip(Status::kMeasuredPositionLimit, joint, q, lo);
-  if (q > hi + kMeasuredPosition) return trip(Status::kMeasuredPositionLimit, joint, q, hi);
-  if (std::abs(dq) > most + kMeasuredVelocity)
-    return trip(Status::kMeasuredVelocityLimit, joint, dq, most);
+  if (q < lo) return trip(Status::kMeasuredPositionLimit, joint, q, lo);
+  if (q > hi) return trip(Status::kMeasuredPositionLimit, joint, q, hi);
+  if (std::abs(dq) > most) return trip(Status::kMeasuredVelocityLimit, joint, dq, most);
   return Status::kOk;
 }
 

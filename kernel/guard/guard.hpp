@@ -24,6 +24,10 @@ class Guard {
   struct Params {
     JointLimits limits;
     JointVector position_margin = JointVector::Zero();  ///< rad, taken off both position limits
+    /// How far a measured position, rad, and velocity, as a fraction, may be beyond a limit that a
+    /// command may reach exactly: for the overshoot of a servo or a law, and for noise.
+    JointVector position_allowance = JointVector::Constant(0.01);
+    JointVector velocity_allowance = JointVector::Constant(0.1);
     /// Fraction of the acceleration and jerk limits that a trajectory leaves unused, so that it can
     /// be stopped on its path at any time.
     double stop_reserve = 0.02;
@@ -55,6 +59,8 @@ class Guard {
       visit.param("stop_reserve", stop_reserve, Range{0.0, 0.9}, "1");
       visit.param("max_stretch", max_stretch, Range{0.0, 10.0}, "1");
       visit.param("position_margin", position_margin, Range{0.0, 0.5}, "rad");
+      visit.param("position_allowance", position_allowance, Range{1e-6, 0.5}, "rad");
+      visit.param("velocity_allowance", velocity_allowance, Range{1e-6, 1.0}, "1");
       visit.param("following_error", following_error, kPositive, "rad");
       visit.param("following_time", following_time, kNonNegative, "s");
       visit.param("max_age", max_age, Range{0.0, 1000.0}, "cycles");
@@ -85,9 +91,9 @@ class Guard {
                const CycleTime& now);
 
   /// Checks that the measured state is young, measured at every joint, finite, within position and
-  /// velocity limits and, if positions or velocities are commanded, near what was sent. Returns
-  /// kStateStale, kStateInvalid, kStateNotFinite, kMeasuredPositionLimit, kMeasuredVelocityLimit or
-  /// kFollowingError. [cyclic]
+  /// velocity limits and their allowances and, if positions or velocities are commanded, near what
+  /// was sent. Returns kStateStale, kStateInvalid, kStateNotFinite, kMeasuredPositionLimit,
+  /// kMeasuredVelocityLimit or kFollowingError. [cyclic]
   Status check(const RobotState& state, const CycleTime& now);
 
   /// Brings a command within the limits named in the file comment, but for the allowances of
@@ -107,11 +113,6 @@ class Guard {
   const Telemetry& telemetry() const { return telemetry_; }
 
  private:
-  // Allowances of what is measured: a command may reach a limit exactly, and a robot that obeys
-  // then measures it within rounding.
-  static constexpr double kMeasuredPosition = 1e-6;  // rad
-  static constexpr double kMeasuredVelocity = 1e-6;  // rad/s
-
   static constexpr double kFading_s = 1.0;  // so that small errors of a velocity do not add up
 
   Status trip(Status status, int joint, double value, double limit);
@@ -124,6 +125,7 @@ class Guard {
   bool jerky(int joint) const;
 
   JointLimits limits_;
+  JointVector q_min_, q_max_, dq_max_;  // rad, rad/s: of what is measured
   CommandMode mode_ = CommandMode::kEffort;
   std::array<PositionLimiter, kDof> positions_;
   std::array<VelocityLimiter, kDof> velocities_;

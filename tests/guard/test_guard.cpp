@@ -37,26 +37,49 @@ void a_measured_number_that_is_not_finite_trips_and_names_the_joint(void**) {
   }
 }
 
-void a_position_or_velocity_beyond_its_limit_trips_and_names_joint_value_and_limit(void**) {
+void a_position_or_velocity_beyond_limit_and_allowance_trips_and_names_both(void**) {
   for (int i = 0; i < kDof; ++i) {
     for (const bool upper : {true, false}) {
       GuardBench bench;
+      bench.params.position_allowance.setConstant(1e-6);
+      bench.params.velocity_allowance.setConstant(0.05);
       bench.start();
       const JointLimits& limits = bench.params.limits;
       const double middle = bench.state.q[i];
       const double q = upper ? limits.q_max[i] : limits.q_min[i];
-      bench.state.q[i] = q + (upper ? 0.999e-6 : -0.999e-6);  // a command may reach it exactly
+      bench.state.q[i] = q + (upper ? 0.999e-6 : -0.999e-6);
       ASSERT_OK(bench.check());
       bench.state.q[i] = q + (upper ? 1.001e-6 : -1.001e-6);
       bench.trips_on(Status::kMeasuredPositionLimit, i);
       assert_true(bench.telemetry().tripped_value == bench.state.q[i]);
-      assert_true(bench.telemetry().tripped_limit == q);
+      ASSERT_NEAR(bench.telemetry().tripped_limit, q + (upper ? 1e-6 : -1e-6), kRounding);
 
       bench.state.q[i] = middle;
-      bench.state.dq[i] = (upper ? 1.0 : -1.0) * (limits.dq_max[i] + 1.001e-6);
+      bench.state.dq[i] = (upper ? 1.0 : -1.0) * 1.0499 * limits.dq_max[i];
+      ASSERT_OK(bench.check());
+      bench.state.dq[i] = (upper ? 1.0 : -1.0) * 1.0501 * limits.dq_max[i];
       bench.trips_on(Status::kMeasuredVelocityLimit, i);
       assert_true(bench.telemetry().tripped_value == bench.state.dq[i]);
-      assert_true(bench.telemetry().tripped_limit == limits.dq_max[i]);
+      ASSERT_NEAR(bench.telemetry().tripped_limit, 1.05 * limits.dq_max[i], kRounding);
+    }
+  }
+}
+
+void an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_back(void**) {
+  for (const CommandMode mode : {CommandMode::kPosition, CommandMode::kVelocity}) {
+    GuardBench bench;
+    bench.mode = mode;
+    JointVector& q = bench.state.q;
+    q = bench.params.limits.q_max + JointVector::Constant(0.009);
+    bench.start();
+    const bool positions = mode == CommandMode::kPosition;
+    const JointVector stay = positions ? q : JointVector(JointVector::Zero());
+    assert_true(bench.sent(stay) == stay);
+    const JointVector away = positions ? JointVector(q + JointVector::Ones()) : JointVector::Ones();
+    for (int k = 0; k < 100; ++k) {
+      const JointVector sent = bench.sent(k < 50 ? away : JointVector(-away));
+      if (positions) assert_true((sent.array() <= stay.array()).all());
+      if (!positions) assert_true((sent.array() <= 0.0).all());
     }
   }
 }
@@ -180,11 +203,11 @@ void tightened_limits_hold(void**) {
   assert_true(bench.sent(1.0)[0] == 0.25);
 
   const double q_max = bench.params.limits.q_max[0];
-  bench.state.q[0] = q_max - 0.11;
+  bench.state.q[0] = q_max - 0.091;  // 0.009 beyond the margin, of 0.01 that are allowed
   ASSERT_OK(bench.check());
-  bench.state.q[0] = q_max - 0.09;
+  bench.state.q[0] = q_max - 0.089;
   bench.trips_on(Status::kMeasuredPositionLimit, 0);
-  bench.state.q[0] = bench.params.limits.q_min[0] + 0.09;
+  bench.state.q[0] = bench.params.limits.q_min[0] + 0.089;
   bench.trips_on(Status::kMeasuredPositionLimit, 0);
   bench.state.q[0] = 0.0;
   bench.state.dq[3] = -0.6;
@@ -199,8 +222,9 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_state_on_its_limits_passes),
       cmocka_unit_test(a_measured_number_that_is_not_finite_trips_and_names_the_joint),
+      cmocka_unit_test(a_position_or_velocity_beyond_limit_and_allowance_trips_and_names_both),
       cmocka_unit_test(
-          a_position_or_velocity_beyond_its_limit_trips_and_names_joint_value_and_limit),
+          an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_back),
       cmocka_unit_test(a_command_that_is_not_finite_trips_in_every_mode_and_names_the_joint),
       cmocka_unit_test(a_torque_within_its_limits_is_sent_as_it_came),
       cmocka_unit_test(a_torque_step_is_sent_at_the_rate_limit),

@@ -48,7 +48,7 @@ void check_says_accepted_moves_nothing_and_writes_nothing(void**) {
 void run_and_check_refuse_the_same_start_in_the_same_words(void**) {
   const Line path = write("start.ini", {kWithoutGenerator, "[plant]\ninitial_q = 0\n"});
   const Line expected = Line(path) << ": refused: joint 4 (fer_joint4): measured position 0 rad "
-                                      "exceeds -0.0698 rad (67)\n";
+                                      "exceeds -0.0598 rad (67)\n";
   assert_int_equal(tactus_run({"check", path.c_str()}), 2);
   assert_true(errors() == std::string_view(expected));
   assert_int_equal(run_into("start", path.c_str()), 2);
@@ -143,7 +143,7 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
                          "kp = 1\nkd = 1\n[guard]\nmax_velocity = 1e-3\n"});
   assert_int_equal(run_into("weak", pipeline.c_str()), 1);
   assert_true(has(errors(), "weak.ini: stopped: joint "));
-  assert_true(has(errors(), " rad/s exceeds 0.001 rad/s (68)\n"));
+  assert_true(has(errors(), " rad/s exceeds 0.0011 rad/s (68)\n"));
   assert_true(has(output(), ", 1000 Hz: measured velocity beyond its limit (68)\n"));
   assert_true(has(file_of("weak/summary.json"), "\"name\": \"kMeasuredVelocityLimit\""));
   assert_true(has(file_of("weak/log.csv"), "time_s,"));
