@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 
-from reporting import expected, page, panels
+from reporting import expected, page, panels, view
 from reporting.inputs import InputError, read_text
 
 FRAMES_HZ = 50
@@ -37,6 +37,7 @@ def data(run):
     result = {
         "name": run.name,
         "caption": f"<b>{page.escape(run.name)}</b>, {CAPTIONS[kind]}",
+        "eye": [round(float(x), 4) for x in view.eye(run)],
         "start_s": float(t[0]),
         "step_s": 1 / FRAMES_HZ,
         "q": packed(run.values("robot.q"), rows),

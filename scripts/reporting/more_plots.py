@@ -19,12 +19,11 @@ def draw_force(part, run, found):
                 if np.any(values):
                     axes.plot(*thin_out(t, values), color=darker(colour(i)), **REFERENCE)
             else:
-                label = axis if found is None else f"{axis}, measured"
-                handles += axes.plot(*thin_out(t, values), color=colour(i), label=label, **THIN)
+                handles += axes.plot(*thin_out(t, values), color=colour(i), label=axis, **THIN)
     if found is not None:
         axes.plot(*thin_out(t, found.force), color="#222222", linewidth=0.6, alpha=0.6)
-        handles += [Line2D([], [], label="normal, measured", color="#222222", linewidth=0.8)]
-        handles += axes.plot(*thin_out(t, found.expected), color="black", label="normal, expected", **PREDICTED)
+        handles += [Line2D([], [], label="normal", color="#222222", linewidth=0.8, alpha=0.6)]
+        handles += axes.plot(*thin_out(t, found.expected), color="black", label="expected", **PREDICTED)
         largest = 1.6 * found.expected.max()
         if np.abs(found.force).max() > largest > 0:
             axes.set_ylim(top=max(largest, np.percentile(found.force, 99.5)))
@@ -42,7 +41,7 @@ def draw_path(part, run):
     reference, measured = (values[:, :3] for values in panels.pair(run, entry))
     across, up = sorted(np.argsort(np.ptp(reference, axis=0))[1:])
     axes = part.subplots(gridspec_kw={"top": 0.96, "bottom": 0.14, "left": 0.105, "right": 0.84})
-    axes.plot(measured[:, across], measured[:, up], color=colour(0), label="measured", rasterized=False, **MEASURED)
+    axes.plot(measured[:, across], measured[:, up], color=colour(0), label="measured", **MEASURED)
     axes.plot(reference[:, across], reference[:, up], color=darker(colour(0)), label="reference", **REFERENCE)
     points = panels.points_of(run, entry, entry)
     if points is not None:
@@ -98,18 +97,27 @@ def draw_shares(part, run):
 
 
 def draw_torque(part, run, name):
-    """Draws the commanded torques, and the limits that are within the plot."""
+    """Draws the commanded torques, and the limits that fit into the plot."""
     axes = part.subplots(gridspec_kw={"top": 0.95, "bottom": 0.17, **MARGINS})
     t, values = run.log["time_s"], run.values(name)
     for i in range(values.shape[1]):
         axes.plot(*thin_out(t, values[:, i]), color=colour(i), label=f"joint {i + 1}", linewidth=1.1)
-    largest = 1.1 * np.abs(values).max()
-    for limit in {value for value in run.scene["limits"]["tau_max"] if value <= largest}:
-        for side in (-limit, limit):
-            axes.axhline(side, **LIMIT)
     axes.set_ylabel("commanded torque [N m]")
     axes.set_xlabel("time [s]")
-    legend(axes, axes.get_legend_handles_labels()[0] + [Line2D([], [], label="limit", **LIMIT)])
+    legend(axes, axes.get_legend_handles_labels()[0] + draw_torque_limits(axes, run, 1.1 * np.abs(values).max()))
+
+
+def draw_torque_limits(axes, run, largest):
+    """Draws the limits up to `largest`; returns an entry of the legend for each, which names its joints."""
+    limits, handles = np.array(run.scene["limits"]["tau_max"]), []
+    for limit, dashes in zip(sorted(set(limits[limits <= largest])), ((6, 2), (2, 2), (1, 3))):
+        style = {**LIMIT, "linestyle": (0, dashes)}
+        for side in (-limit, limit):
+            axes.axhline(side, **style)
+        joints = np.flatnonzero(limits == limit) + 1
+        name = f"joints {joints[0]}–{joints[-1]}" if len(joints) > 1 else f"joint {joints[0]}"
+        handles.append(Line2D([], [], label=f"limit, {name}", **style))
+    return handles
 
 
 def draw_flags(part, run, flags, scalars):

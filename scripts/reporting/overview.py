@@ -59,6 +59,15 @@ def first_screen(sections):
     )
 
 
+def sheet(sections):
+    """Returns the pictures of the runs, each with what was seen and expected."""
+    for section in sections:
+        if section.still is not None:
+            found = section.judgement
+            told = f"{found.seen}, expected {found.expected}" if found else section.verdict
+            yield section.still, f"{section.name}\n{section.kind}: {told}"
+
+
 def counters(sections):
     """Returns the table of the counters, which belongs to the machine and not to the control."""
     rows = [[page.escape(cell) for cell in table.counters(section)] for section in sections]

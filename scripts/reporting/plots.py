@@ -88,7 +88,7 @@ def draw_panel(part, panel, predicted=None):
     handles += [Line2D([], [], label="reference", **GREY, **REFERENCE)]
     handles += [Line2D([], [], label="measured", **GREY, **MEASURED)]
     handles += [Line2D([], [], label="waypoint", **GREY, **WAYPOINT)] if panel.points else []
-    handles += [Line2D([], [], label="expected error", **GREY, **PREDICTED)] if predicted is not None else []
+    handles += [Line2D([], [], label="expected", **GREY, **PREDICTED)] if predicted is not None else []
     legend(axes, handles)
     part.align_ylabels()
 

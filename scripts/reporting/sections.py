@@ -18,7 +18,7 @@ ORIENTATION = "rotation vector in base axes, from the first reference to the pre
 
 
 TIMES = (
-    "<h3>Execution times</h3><p>Time per stage of the cycle, on the machine that ran it, while it was also doing other"
+    "<details><summary>Execution times</summary><p>Time per stage of the cycle, on the machine that ran it, while it was also doing other"
     " work: the largest values are mostly its interruptions. In virtual time no cycle can be late.</p>"
 )
 
@@ -35,7 +35,8 @@ class Section:
     judgement: expected.Judgement = None
     verdict: str = ""
     met: bool = False
-    picture: str = ""
+    picture: str = ""  # SVG
+    still: object = None  # the same as pixels
     animation: dict = None
     body: str = ""
     problem: str = None
@@ -130,8 +131,9 @@ def limit_parts(run):
     """Says whether limits were reached, and draws the recorded scalars and flags if they changed."""
     flags, scalars = panels.signals_of(run, "flag"), panels.signals_of(run, "scalar")
     words = [scalar_words(run, name) for name in scalars] + [flag_words(run, name) for name in flags]
-    words.append(f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
-    yield f"<h3>Limits</h3><p>{page.escape('; '.join(words))}.</p>"
+    words.insert(0, f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
+    said = page.escape("; ".join(words))
+    yield f"<h3>Limits</h3><p>{said[0].upper()}{said[1:]}.</p>"
     scalars = [name for name in scalars if np.ptp(run.values(name))]
     if scalars or any(run.values(name).any() for name in flags):
         caption = f"Recorded scalars (lines) and flags (bands where set): {', '.join(scalars + flags)}."
@@ -151,10 +153,12 @@ def number(value):
 
 
 def error_tables(run):
-    headers = ("component", "rms", "max", "final")
+    headers, tables = ("component", "rms", "max", "final"), ""
     for entry in run.summary["tracking"]:
         rows = zip(component_names(run, entry), *([number(v) for v in entry[key]] for key in headers[1:]))
-        yield f"<h3>Tracking error, {page.escape(entry['signal'])}</h3>" + page.table(headers, list(rows), headers[:1])
+        heading = f"<h3>Tracking error, {page.escape(entry['signal'])}</h3>"
+        tables += f"<div>{heading}{page.table(headers, list(rows), headers[:1])}</div>"
+    yield f'<div class="side">{tables}</div>'
 
 
 def timing_table(summary):
@@ -163,7 +167,7 @@ def timing_table(summary):
         [page.escape(stage)] + [f"{times[key] / 1e3:.2f}" for key in ("p50_ns", "p99_ns", "max_ns")]
         for stage, times in summary["timing"].items()
     ]
-    return TIMES + page.table(headers, rows, headers[:1])
+    return TIMES + page.table(headers, rows, headers[:1]) + "</details>"
 
 
 def screen(folder):
@@ -208,6 +212,7 @@ def section_of(out, name):
         section.kind, section.chain, section.touched = expected.kind(run), run.settings.chain(), expected.touched(run)
         section.judgement = expected.judge(run)
         section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
+        section.still = thumbnails.still(run)
         section.animation = animation.data(run)
         parts += [purpose(section), facts(section.summary), *figures_of(run), timing_table(section.summary)]
     except (InputError, OSError) as error:

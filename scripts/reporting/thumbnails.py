@@ -5,23 +5,11 @@ from matplotlib import rc_context
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from reporting import arm, expected, panels
+from reporting import arm, expected, panels, view
 
 ARM, TOOL, BOX, MEASURED, DESIRED = "#aab2bd", "#5f6b7a", "#b9a27c", "#1f5fa8", "#333333"
 OUTLINE = "#6d7682"
-TURN, RISE = 1.0, 0.42  # of the view, from the direction in which the arm reaches
-POINTS = 250  # of a path
 ROUND = {"solid_capstyle": "round", "solid_joinstyle": "round"}
-
-
-def view(target):
-    """Returns the matrix [3, 3] to right, up and towards the eye, for an arm that reaches to `target`."""
-    angle = np.arctan2(target[1], target[0]) - TURN
-    eye = np.array([np.cos(angle), np.sin(angle), RISE])
-    eye /= np.linalg.norm(eye)
-    right = np.cross([0, 0, 1], eye)
-    right /= np.linalg.norm(right)
-    return np.array([right, np.cross(eye, right), eye])
 
 
 def desired_path(run):
@@ -40,13 +28,13 @@ def draw(axes, run):
     if "robot.q" not in run.names():
         return
     q = run.values("robot.q")
-    rows = np.linspace(0, len(q) - 1, POINTS).astype(int)
-    ways = [(arm.tip(run.scene, q[rows]), MEASURED, 1.3)]
+    measured, rows = view.tip_path(run)
+    ways = [(measured, MEASURED, 1.3)]
     wanted = desired_path(run)
     if wanted is not None:
         ways.insert(0, (wanted[rows], DESIRED, 0.7))
     frames = [frame[0] for frame in arm.link_frames(run.scene, q[[len(q) // 2]])]
-    to_view = view(ways[-1][0].mean(axis=0))
+    to_view = view.to_view(view.eye(run))
     shapes = []  # (depth, radius, ends, colour)
     for link, a, b, radius in arm.capsules(run.scene):
         ends = (frames[link] @ np.array([[*a, 1], [*b, 1]]).T)[:3].T @ to_view.T
@@ -88,19 +76,28 @@ def draw_boxes(axes, run, to_view):
     return all_corners
 
 
-def write_sheet(path, runs, captions):
-    """Writes one picture of all runs, five in a row."""
-    count, across = len(runs), min(5, len(runs))
-    down = -(-count // across)
+def still(run):
+    """Returns a picture of a run as an array of pixels."""
+    figure = Figure(figsize=(2.5, 2.0), dpi=110)
+    canvas = FigureCanvasAgg(figure)
+    draw_alone(figure, run)
+    canvas.draw()
+    return np.array(canvas.buffer_rgba())
+
+
+def write_sheet(path, heading, pictures):
+    """Writes one picture of all runs, five in a row; `pictures` are pixels and lines of text."""
+    across = min(5, len(pictures))
+    down = -(-len(pictures) // across)
     with rc_context({"font.size": 8}):
-        figure = Figure(figsize=(2.5 * across, 2.6 * down), dpi=110)
+        figure = Figure(figsize=(2.55 * across, 2.5 * down + 0.5), dpi=110)
         canvas = FigureCanvasAgg(figure)
         parts = figure.subplots(down, across, squeeze=False).ravel()
         for axes in parts:
             axes.set_axis_off()
-        for axes, run, caption in zip(parts, runs, captions):
-            axes.set_title(caption, fontsize=7)
-        figure.subplots_adjust(0.01, 0.01, 0.99, 0.92, 0.05, 0.25)
-        for axes, run in zip(parts, runs):
-            draw(axes, run)
+        for axes, (pixels, text) in zip(parts, pictures):
+            axes.imshow(pixels)
+            axes.set_title(text, fontsize=7.5, pad=3)
+        figure.suptitle(heading, fontweight="bold", fontsize=11)
+        figure.subplots_adjust(0.01, 0.01, 0.99, 1 - 0.85 / (2.5 * down + 0.5), 0.03, 0.25)
         canvas.print_png(path)

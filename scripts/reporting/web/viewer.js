@@ -1,5 +1,6 @@
 "use strict";
-// Plays the runs of the page. An address that ends with #run=NAME&t=SECONDS shows that moment and waits.
+// Plays the runs of the page. An address that ends with #run=NAME&t=SECONDS shows that moment and waits, one with
+// &alone shows nothing but the viewer.
 
 const APART_M = 0.004;  // nearer than this, the ghost of the reference would only cover the arm
 
@@ -108,12 +109,11 @@ class Viewer {
     this.draw();
   }
 
-  /** Looks from the side at arm and way: across the direction in which the arm reaches. */
+  /** Looks at arm and way from where the run is seen best. */
   look() {
     const all = this.run.bounds.clone().expandByPoint(new THREE.Vector3(0, 0, 0)).expandByScalar(0.12);
-    const target = all.getCenter(new THREE.Vector3()), reach = Math.atan2(target.y, target.x);
+    const target = all.getCenter(new THREE.Vector3()), from = new THREE.Vector3(...this.run.eye);
     const far = 1.15 * all.getSize(new THREE.Vector3()).length() / 2 / Math.sin(this.camera.fov * Math.PI / 360);
-    const from = new THREE.Vector3(Math.cos(reach - 1.0), Math.sin(reach - 1.0), 0.42).normalize();
     this.camera.position.copy(target).addScaledVector(from, far);
     this.lamp.position.copy(from).add(new THREE.Vector3(0, 0, 1.5));
     this.controls.target.copy(target);
@@ -164,6 +164,7 @@ function start() {
   }
   given.forEach((run, i) => part("choose").add(new Option(run.name, i)));
   const asked = new URLSearchParams(location.hash.slice(1)), time = asked.get("t");
+  document.body.classList.toggle("alone", asked.has("alone"));
   viewer.open(Math.max(0, given.findIndex((run) => run.name === asked.get("run"))), Number(time));
   part("choose").onchange = (event) => viewer.open(Number(event.target.value), 0);
   part("play").onclick = () => viewer.play(!viewer.playing);
