@@ -126,7 +126,8 @@ int run(Session& session, const Options& options) {
   if (input.given() && recording.tracking_count > 0)
     written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
                                *recording.tracking[0].reference);
-  written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
+  written = written &&
+            write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
   print_table(pipeline, session, result);
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",

@@ -1,5 +1,6 @@
 // The folder of a run. Its files are those of one run: what an earlier one left is removed before
-// the first cycle, and summary.json is written last, so that a folder without it is incomplete.
+// the first cycle, and summary.json is written last and only if all others could be, so that a
+// folder without it is incomplete.
 #pragma once
 
 #include <string_view>

@@ -25,10 +25,10 @@ def packed(values, rows):
 
 
 def data(run):
-    """Returns the data of one run, or None if it did not record the joint positions."""
-    if "robot.q" not in run.names():
-        return None
+    """Returns the data of one run, or None if it recorded no joint positions, or only one."""
     t, kind = run.log["time_s"], expected.kind(run)
+    if "robot.q" not in run.names() or len(t) < 2:
+        return None
     rows = np.searchsorted(t, np.arange(t[0], t[-1], 1 / FRAMES_HZ) - 1e-9)
     entry, found = panels.task_entry(run), expected.contact(run)
     there = [box["name"] for box in expected.surroundings(run)]

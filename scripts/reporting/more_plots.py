@@ -57,12 +57,12 @@ def shares(run):
     """Returns (what, share of its limit [rows, joints]) for what is known of the joints."""
     limits, t = {key: np.array(values) for key, values in run.scene["limits"].items()}, run.log["time_s"]
     q = run.values("robot.q")
-    dq = run.values("robot.dq") if "robot.dq" in run.names() else np.gradient(q, t, axis=0)
+    dq = run.values("robot.dq") if "robot.dq" in run.names() else panels.slope(q, t)
     middle, half = (limits["q_max"] + limits["q_min"]) / 2, (limits["q_max"] - limits["q_min"]) / 2
     found = [
         ("position", (q - middle) / half),
         ("velocity", dq / limits["dq_max"]),
-        ("acceleration", np.gradient(dq, t, axis=0) / limits["ddq_max"]),
+        ("acceleration", panels.slope(dq, t) / limits["ddq_max"]),
     ]
     torque = commanded_torque(run)
     return found + ([("torque", run.values(torque) / limits["tau_max"])] if torque else [])

@@ -123,12 +123,17 @@ def task_pair(run):
     return pair(run, entry) if entry and entry["quantity"] == "pose" else None
 
 
+def slope(values, t):
+    """Returns the time derivative of values [rows, components]; zero if there is one row only."""
+    return np.gradient(values, t, axis=0) if len(t) > 1 else np.zeros_like(values)
+
+
 def velocity_of(run, reference):
     """Returns the velocity of a joint reference: the recorded one, else its difference."""
     recorded = reference.replace(".q_d", ".dq_d")
     if recorded != reference and recorded in run.names():
         return run.values(recorded)
-    return np.gradient(run.values(reference), run.log["time_s"], axis=0)
+    return slope(run.values(reference), run.log["time_s"])
 
 
 def tracking_panels(run):

@@ -113,7 +113,7 @@ class Viewer {
   look() {
     const all = this.run.bounds.clone().expandByPoint(new THREE.Vector3(0, 0, 0)).expandByScalar(0.12);
     const target = all.getCenter(new THREE.Vector3()), from = new THREE.Vector3(...this.run.eye);
-    const far = 1.15 * all.getSize(new THREE.Vector3()).length() / 2 / Math.sin(this.camera.fov * Math.PI / 360);
+    const far = 0.95 * all.getSize(new THREE.Vector3()).length() / 2 / Math.sin(this.camera.fov * Math.PI / 360);
     this.camera.position.copy(target).addScaledVector(from, far);
     this.lamp.position.copy(from).add(new THREE.Vector3(0, 0, 1.5));
     this.controls.target.copy(target);
