@@ -75,7 +75,10 @@ VIEWER = """<figure id="viewer"><canvas id="canvas"></canvas>
 <option value="2" selected>2 ×</option><option value="5">5 ×</option></select></label></div>
 <p class="readings">Reference − tip <output id="error"></output><span hidden> Force on the tool
 <output id="force"></output></span></p>
-<p class="key"><i style="background:#aab2bd"></i>arm, measured <i style="background:#ecc480"></i>reference, if apart
-<i class="line" style="background:#1f5fa8"></i>path of the tip <i class="line" style="background:#333"></i>desired path
-<i class="line" style="background:#c0392b"></i>force on the tool. Drag to turn, scroll to zoom.</p>
+<p class="key"><span><i style="background:#aab2bd"></i>arm, measured</span>
+<span><i style="background:#ecc480"></i>reference, if apart</span>
+<span><i class="line" style="background:#1f5fa8"></i>path of the tip</span>
+<span><i class="line" style="background:#333"></i>desired path</span>
+<span><i class="line" style="background:#c0392b"></i>force on the tool</span></p>
+<p class="key hint">Drag to turn, scroll to zoom. After a run comes the next.</p>
 </figure>"""

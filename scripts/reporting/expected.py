@@ -18,7 +18,7 @@ from reporting import arm, friction, panels
 from reporting.units import words
 
 SPRING = ("admittance's spring", "the balance of the admittance's spring, the requested force and the surface")
-LAG = ("lag by K_D and friction", "the law has no velocity reference and lags by (K_D × velocity + friction) / K_P")
+LAG = ("lag by K_D, friction", "the law has no velocity reference and lags by (K_D × velocity + friction) / K_P")
 FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
 FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
 TOUCH_N = 1.0  # a smaller force is noise of the sensor
@@ -160,7 +160,7 @@ def judge_contact(found):
 def judge_lag(predicted, error, tolerance):
     seen, expected = np.abs(error).max(), np.abs(predicted).max()
     met = abs(seen - expected) <= max(LAG_SHARE * expected, tolerance)
-    return Judgement("largest joint error", words(seen, "rad"), words(expected, "rad"), *LAG, met)
+    return Judgement("max joint error", words(seen, "rad"), words(expected, "rad"), *LAG, met)
 
 
 def tolerance(run, reference, is_pose):
@@ -188,5 +188,5 @@ def judge(run):
     if predicted is not None:
         return judge_lag(predicted, error, bound)
     largest = np.linalg.norm(error, axis=1).max() if is_pose else np.abs(error).max()
-    what = "largest tip error" if is_pose else "largest joint error"
+    what = "max tip error" if is_pose else "max joint error"
     return Judgement(what, words(largest, unit), f"0 ± {words(bound, unit)}", *FOLLOWED, bool(largest <= bound))

@@ -38,7 +38,7 @@ void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
   assert_true(has(output(), "  RUN   good: succeeded\n"));
   assert_true(has(output(), "\nweak     fer, simulated  nothing "));
   assert_true(has(output(), "  measured velocity limit (68)\nnowhere  "));
-  assert_true(has(output(), "  refused\ngood     fer, simulated  nothing  largest joint error  "));
+  assert_true(has(output(), "  refused\ngood     fer, simulated  nothing  max joint error  "));
   assert_true(has(output(), "  as expected\n\n1 of 3 runs as expected\n"));
   assert_true(has(errors(), "weak.ini: stopped: joint "));
   assert_true(has(errors(), " rad/s exceeds 0.001 rad/s (68)\n"));

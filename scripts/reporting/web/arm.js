@@ -112,7 +112,7 @@ function arrow() {
   shaft.renderOrder = head.renderOrder = 9;  // seen through the arm, into which it points
   group.add(shaft, head);
   group.set = (from, force, scale) => {
-    const length = force.length() * scale;
+    const length = Math.min(force.length() * scale, 0.5);
     group.visible = length > 0.01;
     if (!group.visible) return;
     group.position.copy(from);

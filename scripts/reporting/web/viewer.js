@@ -3,6 +3,7 @@
 // &alone shows nothing but the viewer.
 
 const APART_M = 0.004;  // nearer than this, the ghost of the reference would only cover the arm
+const MARGIN_M = 0.15;  // around what must be in view: the arm is thick
 
 const part = (name) => document.getElementById(name);
 
@@ -20,10 +21,8 @@ class Run {
     this.group.add(this.arm.root, this.body, ...given.scene.boxes.map(box));
     this.trace();
     if (!this.force) return;
-    let most = 1;
-    for (let i = 0; i < this.count; ++i) most = Math.max(most, this.row(this.force, i, 3, 0).reduce((s, x) => s + x * x, 0) ** 0.5);
     this.arrow = arrow();
-    this.scale = 0.3 / Math.min(most, 3 * given.steady_N || most);
+    this.scale = given.steady_N > 0 ? 0.25 / given.steady_N : 0.02;  // m/N
     this.group.add(this.arrow);
   }
 
@@ -41,7 +40,7 @@ class Run {
       if (this.joints) desired.push(this.ghost.place(this.row(this.joints, i, n, 0)));
       if (this.pose) desired.push(new THREE.Vector3(...this.row(this.pose, i, 7, 0)));
     }
-    this.bounds = new THREE.Box3().setFromPoints(measured);
+    this.corners = [...measured, new THREE.Vector3(0, 0, 0)];  // what must be in view
     const wanted = path(desired, 0.0018, COLOURS.desired);
     if (wanted) this.group.add(wanted);
     this.way = [];
@@ -109,12 +108,19 @@ class Viewer {
     this.draw();
   }
 
-  /** Looks at arm and way from where the run is seen best. */
+  /** Looks at arm and way from where the run is seen best, and from as near as shows them all. */
   look() {
-    const all = this.run.bounds.clone().expandByPoint(new THREE.Vector3(0, 0, 0)).expandByScalar(0.12);
-    const target = all.getCenter(new THREE.Vector3()), from = new THREE.Vector3(...this.run.eye);
-    const far = 0.95 * all.getSize(new THREE.Vector3()).length() / 2 / Math.sin(this.camera.fov * Math.PI / 360);
-    this.camera.position.copy(target).addScaledVector(from, far);
+    const all = new THREE.Box3().setFromPoints(this.run.corners), from = new THREE.Vector3(...this.run.eye);
+    const target = all.getCenter(new THREE.Vector3()), camera = this.camera;
+    const up = Math.tan(camera.fov * Math.PI / 360) * 0.95, across = up * this.canvas.clientWidth / this.canvas.clientHeight;
+    camera.position.copy(target).add(from);
+    camera.lookAt(target);
+    const turn = camera.quaternion.clone().inverse();
+    const far = this.run.corners.reduce((least, corner) => {
+      const { x, y, z } = corner.clone().sub(target).applyQuaternion(turn);
+      return Math.max(least, z + (Math.abs(x) + MARGIN_M) / across, z + (Math.abs(y) + MARGIN_M) / up);
+    }, 0);
+    camera.position.copy(target).addScaledVector(from, far);
     this.lamp.position.copy(from).add(new THREE.Vector3(0, 0, 1.5));
     this.controls.target.copy(target);
     this.controls.update();
