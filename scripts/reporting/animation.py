@@ -12,6 +12,7 @@ from reporting.inputs import InputError, read_text
 FRAMES_HZ = 50
 FILES = pathlib.Path(__file__).with_name("web")
 LIBRARY = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
+NOTICE = pathlib.Path(__file__).resolve().parents[2] / "NOTICE"  # the licence of the library, which goes with a copy
 LIBRARY_FILES = ("three.min.js", "examples/js/controls/OrbitControls.js")
 CAPTIONS = {
     "simulated": "simulated robot",
@@ -62,7 +63,7 @@ def scripts(runs):
     texts += [read_text(FILES / file) for file in ("arm.js", "viewer.js")]
     numbers = json.dumps(runs).replace("<", "\\u003c")
     given = f'<script type="application/json" id="runs-data">{numbers}</script>'
-    return given + "".join(f"<script>{text}</script>\n" for text in texts)
+    return f"<!--\n{read_text(NOTICE)}-->\n{given}" + "".join(f"<script>{text}</script>\n" for text in texts)
 
 
 VIEWER = """<figure id="viewer"><canvas id="canvas"></canvas>

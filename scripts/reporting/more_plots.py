@@ -115,8 +115,8 @@ def draw_torque_limits(axes, run, largest):
         for side in (-limit, limit):
             axes.axhline(side, **style)
         joints = np.flatnonzero(limits == limit) + 1
-        name = f"joints {joints[0]}–{joints[-1]}" if len(joints) > 1 else f"joint {joints[0]}"
-        handles.append(Line2D([], [], label=f"limit, {name}", **style))
+        name = f"{joints[0]}–{joints[-1]}" if len(joints) > 1 else f"{joints[0]}"
+        handles.append(Line2D([], [], label=f"limit of {name}", **style))
     return handles
 
 

@@ -85,8 +85,8 @@ def force_figures(run):
     else:
         caption = (
             f"Force of the environment on the tool, in base axes (requested: dashed), and along the normal of the"
-            f" {found.box}, measured (grey) and expected (dotted). Shaded: where the mean is taken."
-            f" Largest: {words(found.force.max(), 'N')}."
+            f" {found.box}, measured (grey) and expected once the tip rests on it (dotted). Shaded: where the"
+            f" mean is taken. Largest, while the tip approaches: {words(found.force.max(), 'N')}."
         )
     yield page.figure(plots.svg(2.7, more_plots.draw_force, run, found), caption)
 

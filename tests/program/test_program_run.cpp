@@ -149,6 +149,8 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
   assert_true(has(file_of("weak/log.csv"), "time_s,"));
 }
 
+// Proves RUN-1, RUN-9.
+
 void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(run_into("p.ini/below", pipeline.c_str()), 2);
@@ -173,6 +175,8 @@ void a_folder_holds_one_run_and_what_is_needed_to_draw_it(void**) {
         "{\"link\": 7, ", "\"boxes\": [", "\"tau_max\": [87, 87, 87, 87, 12, "})
     assert_true(has(file_of("one/scene.json"), part));
 }
+
+// Proves RUN-1.
 
 void an_interrupt_ends_the_run_with_its_files_written(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("c");

@@ -108,6 +108,8 @@ void a_damaged_file_is_named_and_the_rest_is_drawn(void**) {
   assert_int_equal(count(page, ": arm and path\""), 1);
 }
 
+// Proves RUN-9.
+
 void a_folder_without_a_summary_is_incomplete(void**) {
   assert_int_equal(shell("cd $S/t && mkdir out/half && cp out/good/log.csv out/half/ && "
                          "$R/scripts/report out half"),
