@@ -32,10 +32,11 @@ def row(section):
     """Returns a row of the table: two lines in each cell."""
     found, summary = section.judgement, section.summary
     name = f'<a href="#{page.identifier(section.name)}">{page.escape(section.name).replace("_", "_<wbr>")}</a>'
-    rate = f", {summary['rate_hz']:g} Hz" if summary else ""
+    rate = f"{summary['rate_hz']:g} Hz" if summary else ""
     kind = section.kind if section.kind == "simulated" else f"<em>{section.kind}</em>"
+    manner = ", ".join(filter(None, (section.chain, rate)))
     cells = [
-        f"{name}<small>{page.escape(section.chain)}{rate}</small>",
+        f"{name}<small>{page.escape(manner)}</small>",
         f"{page.escape(summary['robot'])}<small>{kind}</small>" if summary else "",
         page.escape(section.touched),
         f"<b>{found.seen}</b><small>{page.escape(found.what)}</small>" if found else "",

@@ -17,7 +17,7 @@ from reporting.runs import result_words
 SMALL_UNITS = {"rad": ("mrad", 1e3), "m": ("mm", 1e3)}  # for errors
 # After Paul Tol's "bright" scheme, which colour-blind readers can tell apart.
 COLOURS = ("#4477aa", "#ee6677", "#339944", "#ccaa22", "#55bbdd", "#bb4488", "#888888")
-BUCKETS = 400  # per curve; the smallest and the largest value of each are drawn
+BUCKETS = 300  # per curve; the smallest and the largest value of each are drawn
 CURVE = re.compile(r'<path d="M [^"]*" clip-path')  # not the outlines of letters, which are scaled
 DECIMALS = re.compile(r"(\d\.\d\d)\d+")  # a hundredth of a point is enough
 STYLE = {

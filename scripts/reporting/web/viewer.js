@@ -1,9 +1,9 @@
 "use strict";
 // Plays the runs of the page. An address that ends with #run=NAME&t=SECONDS shows that moment and waits, one with
-// &alone shows nothing but the viewer.
+// &alone shows nothing but the viewer, one with &bare nothing but the picture.
 
 const APART_M = 0.004;  // nearer than this, the ghost of the reference would only cover the arm
-const MARGIN_M = 0.15;  // around what must be in view: the arm is thick
+const MARGIN_M = 0.12;  // around what must be in view: the arm is thick
 
 const part = (name) => document.getElementById(name);
 
@@ -35,12 +35,14 @@ class Run {
   /** Draws the ways of the tip: desired whole, measured as far as it has come. */
   trace() {
     const n = this.scene.joints.length, measured = [], desired = [];
+    this.corners = [new THREE.Vector3(0, 0, 0)];  // what must be in view
     for (let i = 0; i < this.count; ++i) {
       measured.push(this.arm.place(this.row(this.q, i, n, 0)));
+      if (i % 25 === 0) this.corners.push(...this.arm.turns.map((turn) => new THREE.Vector3().setFromMatrixPosition(turn.matrixWorld)));
       if (this.joints) desired.push(this.ghost.place(this.row(this.joints, i, n, 0)));
       if (this.pose) desired.push(new THREE.Vector3(...this.row(this.pose, i, 7, 0)));
     }
-    this.corners = [...measured, new THREE.Vector3(0, 0, 0)];  // what must be in view
+    this.corners.push(...measured);
     const wanted = path(desired, 0.0018, COLOURS.desired);
     if (wanted) this.group.add(wanted);
     this.way = [];
@@ -170,7 +172,7 @@ function start() {
   }
   given.forEach((run, i) => part("choose").add(new Option(run.name, i)));
   const asked = new URLSearchParams(location.hash.slice(1)), time = asked.get("t");
-  document.body.classList.toggle("alone", asked.has("alone"));
+  for (const word of ["alone", "bare"]) document.body.classList.toggle(word, asked.has(word));
   viewer.open(Math.max(0, given.findIndex((run) => run.name === asked.get("run"))), Number(time));
   part("choose").onchange = (event) => viewer.open(Number(event.target.value), 0);
   part("play").onclick = () => viewer.play(!viewer.playing);
