@@ -12,8 +12,9 @@ namespace tactus {
 /// Returns "folder/file".
 FilePath in_folder(std::string_view folder, const char* file);
 
-/// Makes the folder, removes the results of an earlier run from it, and writes `pipeline`, the text
-/// of the pipeline file, to pipeline.ini. False: prints the reason to stderr.
+/// Makes the folder, locks it until the program ends, removes the results of an earlier run from
+/// it, and writes `pipeline`, the text of the pipeline file, to pipeline.ini. False: prints the
+/// reason to stderr.
 bool begin_folder(std::string_view folder, std::string_view pipeline);
 
 }  // namespace tactus

@@ -176,9 +176,7 @@ void a_folder_holds_one_run_and_what_is_needed_to_draw_it(void**) {
     assert_true(has(file_of("one/scene.json"), part));
 }
 
-// Proves RUN-1.
-
-void an_interrupt_ends_the_run_with_its_files_written(void**) {
+void a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("c");
   for (const int signal : {SIGINT, SIGTERM}) {
     std::remove(in_folder("c/log.csv").c_str());
@@ -188,6 +186,8 @@ void an_interrupt_ends_the_run_with_its_files_written(void**) {
       const timespec millisecond = {0, 1'000'000};
       nanosleep(&millisecond, nullptr);
     }
+    assert_int_equal(run_into("c", pipeline.c_str()), 2);
+    assert_true(has(errors(), "/c: another run writes into this folder\n"));
     assert_int_equal(kill(child, signal), 0);
     assert_int_equal(exit_code(child), 1);
     assert_true(has(file_of("c/summary.json"), "{\"code\": 1, \"name\": \"interrupted\"}"));
@@ -223,7 +223,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_fault_ends_the_run_with_its_code_and_the_files_are_written),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success),
       cmocka_unit_test(a_folder_holds_one_run_and_what_is_needed_to_draw_it),
-      cmocka_unit_test(an_interrupt_ends_the_run_with_its_files_written),
+      cmocka_unit_test(a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written),
       cmocka_unit_test(the_same_seed_writes_the_same_bytes_and_another_does_not),
   };
   return run_program_tests(argv[0], tests);
