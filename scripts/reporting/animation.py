@@ -14,6 +14,7 @@ FILES = pathlib.Path(__file__).with_name("web")
 LIBRARY = pathlib.Path("/usr/share/javascript/three")  # of the Debian package libjs-three
 NOTICE = pathlib.Path(__file__).resolve().parents[2] / "NOTICE"  # the licence of the library, which goes with a copy
 LIBRARY_FILES = ("three.min.js", "examples/js/controls/OrbitControls.js")
+REFERENCES = {"pose": "pose", "joint position": "joints"}  # a quantity, and its name on the page
 CAPTIONS = {
     "simulated": "simulated robot",
     "emulated": "<em>emulated</em> robot controller; no real robot",
@@ -44,9 +45,8 @@ def data(run):
         "q": packed(run.values("robot.q"), rows),
         "scene": {**shown, "boxes": boxes},
     }
-    if entry is not None:
-        key = "pose" if entry["quantity"] == "pose" else "joints"
-        result[key] = packed(run.values(entry["reference"]), rows)
+    if entry is not None and entry["quantity"] in REFERENCES:
+        result[REFERENCES[entry["quantity"]]] = packed(run.values(entry["reference"]), rows)
     for name in panels.signals_of(run, "wrench"):
         if not panels.from_generator(run, name):
             result["force"] = packed(run.values(name)[:, :3], rows)

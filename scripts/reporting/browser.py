@@ -8,7 +8,8 @@ import tempfile
 PROGRAM = "chromium"
 LONGEST_S = 120
 OPTIONS = (
-    "--headless=new", "--no-sandbox", "--hide-scrollbars", "--force-device-scale-factor=1", "--disable-background-networking",
+    "--headless=new", "--no-sandbox", "--disable-background-networking", "--hide-scrollbars",
+    "--force-device-scale-factor=1",
     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",  # WebGL without a graphics card
     "--enable-logging=stderr", "--virtual-time-budget=3000",
 )

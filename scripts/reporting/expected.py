@@ -96,8 +96,9 @@ def touched_face(run, measured):
 
 
 def contact(run):
-    """Returns the contact of an admittance with a box, or None."""
-    blocks, poses = run.settings.blocks("admittance"), panels.task_pair(run)
+    """Returns the contact of an admittance with a box, or None; its wrench must be recorded."""
+    blocks = [name for name in run.settings.blocks("admittance") if run.settings.given(name, "h") in run.names()]
+    poses = panels.task_pair(run)
     face = touched_face(run, poses[1]) if blocks and poses else None
     if face is None:
         return None
@@ -141,7 +142,7 @@ def lag(run, entry):
 
 def touched(run):
     """Returns what the tool touched, in words; without a force sensor only an empty place is certain."""
-    if not surroundings(run):
+    if kind(run) != "real" and not surroundings(run):
         return "nothing"
     found = contact(run)
     if found is None:

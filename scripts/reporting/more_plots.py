@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from reporting import panels
-from reporting.plots import (GREY, LIMIT, MARGINS, MEASURED, PREDICTED, REFERENCE, THIN, WAYPOINT, colour, darker, legend,
-                             thin_out)
+from reporting.plots import GREY, LIMIT, MARGINS, MEASURED, PREDICTED, REFERENCE, THIN, WAYPOINT
+from reporting.plots import colour, darker, legend, thin_out
 
 
 def draw_force(part, run, found):
@@ -128,7 +128,8 @@ def draw_flags(part, run, flags, scalars):
         axes.plot(*thin_out(t, run.values(name)[:, 0]), color=colour(i), label=name, **MEASURED)
     for i, name in enumerate(flags, len(scalars)):
         is_set = run.values(name)[:, 0] != 0
-        band = {"transform": axes.get_xaxis_transform(), "color": colour(i), "alpha": 0.35, "label": name, "linewidth": 0}
+        ends = axes.get_xaxis_transform()
+        band = {"transform": ends, "color": colour(i), "alpha": 0.35, "label": name, "linewidth": 0}
         axes.fill_between(t, 0, 1, where=is_set, step="post", **band)
     axes.set_xlim(t[0], t[-1])
     if not scalars:

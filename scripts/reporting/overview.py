@@ -2,7 +2,7 @@
 
 import collections
 
-from reporting import animation, page, table
+from reporting import animation, expected, page, table
 
 KINDS = {
     "simulated": "of a robot arm simulated by MuJoCo",
@@ -10,9 +10,10 @@ KINDS = {
     "real": "with a <b>real robot</b>",
 }
 LEGEND = (
-    "Seen and expected: the task's reference minus what was measured; in contact, the mean of the force. Click a picture"
-    " to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may differ from"
-    " the expected one by 5 %, a lag by 10 % or the goal tolerance."
+    "Seen and expected: the task's reference minus what was measured; in contact, the mean of the force. Click a"
+    " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may"
+    f" differ from the expected one by {100 * expected.FORCE_SHARE:.0f} %, a lag by {100 * expected.LAG_SHARE:.0f} % or"
+    " the goal tolerance."
 )
 
 
@@ -45,7 +46,8 @@ def row(section):
     ]
     mark = "met" if section.met else "failed"
     text = "".join(f"<td>{cell}</td>" for cell in cells)
-    return f'<tr class="{mark}" data-run="{page.escape(section.name)}"><td class="picture">{picture(section)}</td>{text}</tr>'
+    start = f'<tr class="{mark}" data-run="{page.escape(section.name)}">'
+    return f'{start}<td class="picture">{picture(section)}</td>{text}</tr>'
 
 
 def first_screen(sections):

@@ -54,6 +54,7 @@ def page(title, first, sections, scripts):
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">{ICON}\n'
-        f'<meta name="viewport" content="width=device-width"><style>{STYLE.read_text(encoding="utf-8")}</style></head>\n'
+        f'<meta name="viewport" content="width=device-width">\n'
+        f'<style>{STYLE.read_text(encoding="utf-8")}</style></head>\n'
         f"<body><h1>{escape(title)}</h1>\n{first}\n{numbered(chr(10).join(bodies))}\n{scripts}</body></html>\n"
     )

@@ -18,8 +18,8 @@ ORIENTATION = "rotation vector in base axes, from the first reference to the pre
 
 
 TIMES = (
-    "<details><summary>Execution times</summary><p>Time per stage of the cycle, on the machine that ran it, while it was also doing other"
-    " work: the largest values are mostly its interruptions. In virtual time no cycle can be late.</p>"
+    "<details><summary>Execution times</summary><p>Time per stage of the cycle, on the machine that ran it, while it was"
+    " also doing other work: the largest values are mostly its interruptions. In virtual time no cycle can be late.</p>"
 )
 
 
@@ -215,8 +215,8 @@ def section_of(out, name):
         section.still = thumbnails.still(run)
         section.animation = animation.data(run)
         parts += [purpose(section), facts(section.summary), *figures_of(run), timing_table(section.summary)]
-    except (InputError, OSError) as error:
-        section.problem = str(error)
+    except (InputError, OSError, ValueError) as error:
+        section.problem = f"{folder}: {error}" if isinstance(error, ValueError) else str(error)
         what = "This run wrote no result." if section.summary is None else "Not everything could be drawn."
         parts += [f'<div class="failure"><p>{what}</p><p>{page.escape(section.problem)}</p>']
         parts += [screen(folder) if section.summary is None else "", "</div>"]

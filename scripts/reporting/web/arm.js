@@ -1,8 +1,9 @@
 "use strict";
 // The things of a run as three.js objects, in metres, in the base frame with z upwards.
 
-const COLOURS = { arm: 0xaab2bd, tool: 0x5f6b7a, ghost: 0xd98a00, measured: 0x1f5fa8, desired: 0x333333, force: 0xc0392b,
-                  box: 0xb9a27c };
+const COLOURS = {
+  arm: 0xaab2bd, tool: 0x5f6b7a, ghost: 0xd98a00, measured: 0x1f5fa8, desired: 0x333333, force: 0xc0392b, box: 0xb9a27c,
+};
 
 /** Returns the numbers of a base64 text of 32-bit floats. */
 function decode(text) {
@@ -100,12 +101,14 @@ function path(points, radius, colour) {
   if (chosen.length < 2) return null;
   const curve = new THREE.CatmullRomCurve3(chosen, false, "centripetal");
   const count = Math.min(chosen.length, 800);
-  return new THREE.Mesh(new THREE.TubeBufferGeometry(curve, count, radius, 8), new THREE.MeshBasicMaterial({ color: colour }));
+  const shape = new THREE.TubeBufferGeometry(curve, count, radius, 8);
+  return new THREE.Mesh(shape, new THREE.MeshBasicMaterial({ color: colour }));
 }
 
 /** Returns an arrow that set() puts in place. */
 function arrow() {
-  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial({ color: COLOURS.force, depthTest: false, transparent: true });
+  const look = { color: COLOURS.force, depthTest: false, transparent: true };
+  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial(look);
   const shaft = new THREE.Mesh(new THREE.CylinderBufferGeometry(0.006, 0.006, 1, 24), material);
   const head = new THREE.Mesh(new THREE.ConeBufferGeometry(0.02, 0.05, 32), material);
   shaft.position.y = 0.5;

@@ -29,7 +29,8 @@ class Run {
   /** Returns `width` numbers between rows i and i + 1. */
   row(values, i, width, share) {
     const next = Math.min(i + 1, this.count - 1);
-    return Array.from({ length: width }, (_, k) => values[i * width + k] * (1 - share) + values[next * width + k] * share);
+    const mix = (_, k) => values[i * width + k] * (1 - share) + values[next * width + k] * share;
+    return Array.from({ length: width }, mix);
   }
 
   /** Draws the ways of the tip: desired whole, measured as far as it has come. */
@@ -38,9 +39,10 @@ class Run {
     this.corners = [new THREE.Vector3(0, 0, 0)];  // what must be in view
     for (let i = 0; i < this.count; ++i) {
       measured.push(this.arm.place(this.row(this.q, i, n, 0)));
-      if (i % 25 === 0) this.corners.push(...this.arm.turns.map((turn) => new THREE.Vector3().setFromMatrixPosition(turn.matrixWorld)));
       if (this.joints) desired.push(this.ghost.place(this.row(this.joints, i, n, 0)));
       if (this.pose) desired.push(new THREE.Vector3(...this.row(this.pose, i, 7, 0)));
+      if (i % 25 > 0) continue;
+      for (const turn of this.arm.turns) this.corners.push(new THREE.Vector3().setFromMatrixPosition(turn.matrixWorld));
     }
     this.corners.push(...measured);
     const wanted = path(desired, 0.0018, COLOURS.desired);
@@ -106,7 +108,8 @@ class Viewer {
     part("choose").value = index;
     part("slider").max = this.run.duration;
     part("shown").innerHTML = this.run.caption;
-    document.querySelectorAll("tr[data-run]").forEach((row) => row.classList.toggle("shown", row.dataset.run === this.run.name));
+    for (const row of document.querySelectorAll("tr[data-run]"))
+      row.classList.toggle("shown", row.dataset.run === this.run.name);
     this.draw();
   }
 
@@ -114,7 +117,8 @@ class Viewer {
   look() {
     const all = new THREE.Box3().setFromPoints(this.run.corners), from = new THREE.Vector3(...this.run.eye);
     const target = all.getCenter(new THREE.Vector3()), camera = this.camera;
-    const up = Math.tan(camera.fov * Math.PI / 360) * 0.95, across = up * this.canvas.clientWidth / this.canvas.clientHeight;
+    const up = Math.tan(camera.fov * Math.PI / 360) * 0.95;
+    const across = up * this.canvas.clientWidth / this.canvas.clientHeight;
     camera.position.copy(target).add(from);
     camera.lookAt(target);
     const turn = camera.quaternion.clone().inverse();
