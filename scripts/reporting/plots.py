@@ -10,7 +10,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from reporting import panels
+from reporting import expected, panels
 from reporting.inputs import InputError
 from reporting.runs import result_words
 
@@ -106,7 +106,7 @@ def svg(height, draw, *arguments, width=8):
 def title(run):
     summary = run.summary
     name, robot = summary["pipeline"], summary["robot"]
-    return f"{name}: {robot}, {summary['rate_hz']:g} Hz, {result_words(summary)}"
+    return f"{name}: {robot}, {expected.kind(run)}, {summary['rate_hz']:g} Hz, {result_words(summary)}"
 
 
 def write_figures(run):
@@ -114,7 +114,7 @@ def write_figures(run):
     chosen = panels.tracking_panels(run)
     if not chosen:
         raise InputError(f"{run.folder}/summary.json: nothing to draw, because tracking is empty")
-    with rc_context({**STYLE, "pdf.fonttype": 42}):
+    with rc_context({**STYLE, "pdf.fonttype": 42, "savefig.facecolor": "white"}):
         figure = Figure(figsize=(8, 4.2 * len(chosen)), dpi=200)
         FigureCanvasAgg(figure)
         parts = figure.subfigures(len(chosen), 1, squeeze=False)[:, 0]

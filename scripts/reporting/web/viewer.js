@@ -2,7 +2,7 @@
 // Plays the runs of the page. An address that ends with #run=NAME&t=SECONDS shows that moment and waits, one with
 // &alone shows nothing but the viewer, one with &bare nothing but the picture.
 
-const APART_M = 0.004;  // nearer than this, the ghost of the reference would only cover the arm
+const APART_M = 0.01;  // nearer than this, the ghost of the reference would only cover the arm
 const MARGIN_M = 0.12;  // around what must be in view: the arm is thick
 
 const part = (name) => document.getElementById(name);
