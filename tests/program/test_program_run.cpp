@@ -149,7 +149,7 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
   assert_true(has(file_of("weak/log.csv"), "time_s,"));
 }
 
-// Proves RUN-1, RUN-9.
+// Proves RUN-1, RUN-10.
 
 void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void**) {
   const Line pipeline = write("p.ini", {kPipeline});

@@ -41,7 +41,7 @@ void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
   assert_true(has(output(), "  refused\ngood     fer, simulated  nothing  max joint error  "));
   assert_true(has(output(), "  as expected\n\n1 of 3 runs as expected\n"));
   assert_true(has(errors(), "weak.ini: stopped: joint "));
-  assert_true(has(errors(), " rad/s exceeds 0.001 rad/s (68)\n"));
+  assert_true(has(errors(), " rad/s exceeds 0.0011 rad/s (68)\n"));
   assert_true(has(errors(), "nowhere.ini: "));
 }
 
@@ -108,7 +108,7 @@ void a_damaged_file_is_named_and_the_rest_is_drawn(void**) {
   assert_int_equal(count(page, ": arm and path\""), 1);
 }
 
-// Proves RUN-9.
+// Proves RUN-10.
 
 void a_folder_without_a_summary_is_incomplete(void**) {
   assert_int_equal(shell("cd $S/t && mkdir out/half && cp out/good/log.csv out/half/ && "
