@@ -75,7 +75,7 @@ obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
 say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
-.PHONY: docs all run test test-long check bench setup format clean help
+.PHONY: docs all run test test-long check bench setup format clean help report-check film
 all: $(B)/$(NAME)                             ## build the program of BOARD
 
 run: setup                                    ## run every pipeline of every board; out/report.html
@@ -89,6 +89,15 @@ test-long: setup                              ## run the long random tests at fu
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
 check: test                                   ## run all tests and checks that a change must pass
 	$(Q)scripts/check
+report-check: $(B)/$(NAME)                     ## draw a report of two runs of fer_sim and look at it in Chromium
+	$(Q)scripts/setup report
+	$(Q)set -e; for run in fer_trg_cpc fer_trg_ac_cpc_pid; do \
+	  $< run pipelines/$$run.ini --no-figure --out build/report/$$run >/dev/null; done
+	$(Q)scripts/report build/report
+	$(Q)scripts/report_check build/report
+film:                                         ## make docs/images/ from the report of make run, in Chromium
+	$(Q)scripts/setup report
+	$(Q)scripts/film out docs/images fer_jrg_pdgc:1-13 ur10_trg_ac_cpc_pid:2-30 fer_trg_ac_cpc_pid:3-20
 docs: $(B)/$(NAME)                            ## write the generated documents
 	$(Q)$(B)/$(NAME) ports > docs/ports.md
 bench: $(B)/bench                             ## measure the time per call, and that of Orocos KDL, in one run

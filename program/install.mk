@@ -12,7 +12,11 @@ install: setup $(B)/$(NAME)                       ## install the program of BOAR
 	$(Q)install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/bash-completion/completions $(SHARE)/tactus
 	$(Q)ln -sf ../lib/tactus/boards/$(BOARD)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(COMMAND)
 	$(Q)install -D -t $(LIB)/scripts scripts/figure scripts/report
-	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting scripts/reporting/*
+	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting scripts/reporting/*.py
+	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting/web scripts/reporting/web/*
+	$(Q)install -D -m 644 -t $(LIB)/docs docs/ports.md
+	$(Q)install -D -m 644 -t $(LIB)/sim_plant/arm sim_plant/arm/*_mjcf.cpp
+	$(Q)install -m 644 NOTICE $(LIB)/NOTICE
 	$(Q)cp -r pipelines $(SHARE)/tactus/
 	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) > $(SHARE)/man/man1/$(COMMAND).1
 	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) > $(SHARE)/bash-completion/completions/$(COMMAND)

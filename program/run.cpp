@@ -6,6 +6,8 @@
 #include "gateway/verdict_text.hpp"
 #include "program/heap_count.hpp"
 #include "program/results/figure.hpp"
+#include "program/results/run_folder.hpp"
+#include "program/results/scene_file.hpp"
 #include "program/results/waypoint_log.hpp"
 #include "program/run_loop.hpp"
 #include "program/session/session.hpp"
@@ -20,12 +22,6 @@ double planned_duration(const Session& session, const Options& options,
   if (options.duration_s > 0.0) return options.duration_s;
   if (!input.given()) return kDefaultDuration_s;
   return input.start_s + input.end_s() + session.gateway.settle_s;
-}
-
-FilePath in_folder(const FilePath& folder, const char* file) {
-  FilePath path = folder;
-  path << "/" << file;
-  return path;
 }
 
 Status record(void* recorder, const RobotState&, double time_s) {
@@ -104,7 +100,7 @@ int run(Session& session, const Options& options) {
   if (options.realtime &&
       !(writer.start() && watchdog.start(session.realtime) && prepare(realtime, session.realtime)))
     return kRefused;
-  if (!make_folder(folder)) return kRefused;
+  if (!begin_folder(folder, session.text)) return kRefused;
   const Recording& recording = session.pipeline.recording;
   if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
 
@@ -126,10 +122,12 @@ int run(Session& session, const Options& options) {
   realtime.release();  // or the program that draws the figure would inherit it
 
   bool written = log.close();
-  written &= write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
+  written &= write_scene(in_folder(folder, "scene.json").c_str(), session.pipeline);
   if (input.given() && recording.tracking_count > 0)
     written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
                                *recording.tracking[0].reference);
+  written = written &&
+            write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
   print_table(pipeline, session, result);
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",

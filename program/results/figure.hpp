@@ -3,8 +3,8 @@
 
 namespace tactus {
 
-/// Draws `folder`/figure.png. A figure that cannot be drawn is reported on the error stream and
-/// fails nothing else.
+/// Draws `folder`/figure.png, .pdf and .svg. A figure that cannot be drawn is reported on the error
+/// stream and fails nothing else.
 void draw_figure(const char* folder);
 
 }  // namespace tactus

@@ -58,7 +58,7 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
   run.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
       ->check(decimal(std::uint64_t{0}, kLargestSeed, "a whole number of up to 64 bits"));
   run.add_flag_callback(
-      "--no-figure", [&options] { options.figure = false; }, "do not draw figure.png");
+      "--no-figure", [&options] { options.figure = false; }, "do not draw the figure");
   run.add_flag("--realtime", options.realtime,
                "run one cycle per period of the wall clock instead of as fast as possible");
 }

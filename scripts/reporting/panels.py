@@ -8,7 +8,7 @@ import dataclasses
 
 import numpy as np
 
-from reporting.runs import InputError
+from reporting.inputs import InputError
 
 XYZ = ("x", "y", "z")
 
@@ -26,6 +26,10 @@ class Panel:
     error: np.ndarray
     entry: dict  # of the summary's tracking
     points: tuple = None  # times and values of the waypoints
+
+    def title(self):
+        """Names the quantity; an orientation is three numbers only as a rotation vector."""
+        return "rotation vector" if self.what == "orientation" else self.what
 
 
 def product(a, b):
@@ -107,11 +111,35 @@ def from_generator(run, name):
     return run.signal(name)["type"].endswith("reference_generator")
 
 
+def task_entry(run):
+    """Returns the tracking entry of what was asked for: that of a reference generator, else the first, or None."""
+    entries = run.summary["tracking"]
+    return next((e for e in entries if from_generator(run, e["reference"])), (entries or [None])[0])
+
+
+def task_pair(run):
+    """Returns the poses of that entry, reference and measured [rows, 7], or None."""
+    entry = task_entry(run)
+    return pair(run, entry) if entry and entry["quantity"] == "pose" else None
+
+
+def slope(values, t):
+    """Returns the time derivative of values [rows, components]; zero if there is one row only."""
+    return np.gradient(values, t, axis=0) if len(t) > 1 else np.zeros_like(values)
+
+
+def velocity_of(run, reference):
+    """Returns the velocity of a joint reference: the recorded one, else its difference."""
+    recorded = reference.replace(".q_d", ".dq_d")
+    if recorded != reference and recorded in run.names():
+        return run.values(recorded)
+    return slope(run.values(reference), run.log["time_s"])
+
+
 def tracking_panels(run):
-    """Returns the panels of every tracking entry. The waypoints belong to the output of a reference generator."""
-    entries, panels = run.summary["tracking"], []
-    first = next((e for e in entries if from_generator(run, e["reference"])), (entries or [None])[0])
-    for entry in entries:
+    """Returns the panels of every tracking entry, the task's first; the waypoints belong to it."""
+    first, panels = task_entry(run), []
+    for entry in sorted(run.summary["tracking"], key=lambda e: e is not first):
         points = points_of(run, entry, first)
         if entry["quantity"] == "pose":
             panels += pose_panels(run, entry, points)
@@ -128,13 +156,3 @@ def tracking_panels(run):
 def signals_of(run, quantity):
     """Returns the names of the recorded signals of a quantity."""
     return [s["name"] for s in run.summary["signals"] if s["quantity"] == quantity]
-
-
-def displacement(run):
-    """Returns a name and the generator's position minus that of the tip [rows, 3], or None."""
-    desired = [name for name in signals_of(run, "pose") if from_generator(run, name)]
-    measured = [e["measured"] for e in run.summary["tracking"] if e["quantity"] == "pose"]
-    if not desired or not measured:
-        return None
-    name = f"{desired[0]} - {measured[0]}"
-    return name, run.values(desired[0])[:, :3] - run.values(measured[0])[:, :3]

@@ -1,4 +1,4 @@
-"""Reads and checks the files of a run: summary.json, log.csv, waypoints.csv."""
+"""Reads and checks the files of a run: summary.json, scene.json, log.csv, waypoints.csv."""
 
 import dataclasses
 import json
@@ -7,20 +7,25 @@ import re
 
 import numpy as np
 
-
-class InputError(Exception):
-    """A file cannot be used; the message says why."""
+from reporting.inputs import InputError, read_text
+from reporting.settings import Settings
 
 
 @dataclasses.dataclass
 class Run:
-    """The files of one folder: the summary and, by name, the columns of log and waypoints; `points` may be None."""
+    """The files of one folder: summary, scene and, by name, the columns of log and waypoints; `points` may be None."""
 
     name: str
     folder: object
     summary: dict
+    scene: dict
+    settings: Settings
     log: dict
     points: dict
+
+    def names(self):
+        """Returns the names of the recorded signals."""
+        return [signal["name"] for signal in self.summary["signals"]]
 
     def signal(self, name):
         """Returns the entry of a recorded signal."""
@@ -35,15 +40,6 @@ class Run:
             return np.column_stack([self.log[column] for column in self.signal(name)["columns"]])
         except KeyError as error:
             raise InputError(f"{self.folder}/log.csv: no column {error}") from error
-
-
-def read_text(path):
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: not a text file") from error
 
 
 def check_row(place, line, names):
@@ -96,6 +92,16 @@ FORM = {
 }
 
 
+SCENE = {
+    "joints": [[(int, float)]],
+    "flange": [(int, float)],
+    "capsules": [{"link": int, "a": [(int, float)], "b": [(int, float)], "radius": (int, float)}],
+    "tool": {"tip": [(int, float)], "radius": (int, float)},
+    "boxes": [{"name": str, **{key: [(int, float)] for key in ("centre", "rotation", "size")}}],
+    "limits": {"*": [(int, float)]},
+}
+
+
 def check_form(value, form, place):
     """Refuses a value that does not have the form; `place` names it."""
     if isinstance(form, list) and isinstance(value, list):
@@ -110,13 +116,17 @@ def check_form(value, form, place):
         raise InputError(f"{place}: {json.dumps(value)[:40]} is not of the type that a run writes")
 
 
-def read_summary(path):
+def read_json(path, form):
     try:
-        summary = json.loads(read_text(path))
+        value = json.loads(read_text(path))
     except ValueError as error:
         raise InputError(f"{path}: not JSON: {error}") from error
-    check_form(summary, FORM, path)
-    return summary
+    check_form(value, form, path)
+    return value
+
+
+def read_summary(path):
+    return read_json(path, FORM)
 
 
 def result_words(summary):
@@ -135,6 +145,8 @@ def read_run(folder, name):
         name,
         folder,
         summary,
+        read_json(folder / "scene.json", SCENE),
+        Settings(folder / "pipeline.ini"),
         read_csv(folder / "log.csv"),
         read_csv(points) if points.exists() else None,
     )

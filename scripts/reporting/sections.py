@@ -5,10 +5,22 @@ import math
 
 import numpy as np
 
-from reporting import page, panels, plots, runs, table
+from reporting import animation, expected, more_plots, page, panels, plots, runs, table, thumbnails
+from reporting.inputs import InputError
+from reporting.units import words
 
+FILES = "log.csv, summary.json, scene.json, pipeline.ini, figure.pdf, figure.svg"
 MANNER = "Reference (dashed) and measured (solid)"
 MANNER_WITH_POINTS = "Waypoints (circles), reference (dashed) and measured (solid)"
+
+
+ORIENTATION = "rotation vector in base axes, from the first reference to the present orientation"
+
+
+TIMES = (
+    "<details><summary>Execution times</summary><p>Time per stage of the cycle, on the machine that ran it, while it was"
+    " also doing other work: the largest values are mostly its interruptions. In virtual time no cycle can be late.</p>"
+)
 
 
 @dataclasses.dataclass
@@ -16,9 +28,30 @@ class Section:
     """The part of the report on one run; `problem` is None if everything could be read and drawn."""
 
     name: str
-    summary: dict
-    body: str
-    problem: str
+    summary: dict = None
+    kind: str = ""  # simulated, emulated or real
+    chain: str = ""
+    touched: str = ""
+    judgement: expected.Judgement = None
+    verdict: str = ""
+    met: bool = False
+    picture: str = ""  # SVG
+    still: object = None  # the same as pixels
+    animation: dict = None
+    body: str = ""
+    problem: str = None
+
+
+def purpose(section):
+    """Says what the run should show and what it showed."""
+    found = section.judgement
+    if found is None:
+        return ""
+    sign = "as expected" if found.met else "<b>not as expected</b>"
+    return (
+        f'<p class="verdict">{page.escape(found.what.capitalize())}: <b>{found.seen}</b>, expected {found.expected}'
+        f" ({page.rich(found.why)}): {sign}. Touched: {page.escape(section.touched)}.</p>"
+    )
 
 
 def facts(summary):
@@ -26,30 +59,56 @@ def facts(summary):
     return (
         f"<p>Robot {page.escape(summary['robot'])} on {page.escape(summary['board'])}, {summary['rate_hz']:g} Hz,"
         f" {summary['cycles']} cycles, seed {summary['seed']}, configuration {page.escape(summary['config_hash'])}."
-        f" {summary['slips']} slips, {summary['overruns']} overruns, {guard['limited']} cycles limited by the guard,"
-        f" {summary['recorder_dropped']} rows lost by the recorder, {summary['heap_allocations_in_cycle']} heap"
-        f" allocations in cycles, {summary['realtime_factor']:.0f} times real time.</p>"
+        f" The guard limited {guard['limited']} cycles; {summary['slips']} periods were missed,"
+        f" {summary['recorder_dropped']} rows of the log lost, {summary['heap_allocations_in_cycle']} heap allocations"
+        f" made in cycles. Files: {FILES}.</p>"
     )
 
 
 def tracking_figures(run):
     for panel in panels.tracking_panels(run):
+        predicted = None if panel.entry["quantity"] == "pose" else expected.lag(run, panel.entry)
         manner = MANNER_WITH_POINTS if panel.points else MANNER
-        turn = ", as the rotation vector in base axes from the first reference" if panel.what == "orientation" else ""
-        caption = f"{run.name}: {manner} {panel.what}{turn}; below, the error {panel.entry['signal']}."
-        yield page.figure(plots.svg(4.4, plots.draw_panel, panel), caption)
+        what = ORIENTATION if panel.what == "orientation" else panel.what
+        dotted = "" if predicted is None else " (solid) and what its lag should be (dotted)"
+        caption = f"{manner} {what}; below, the error {panel.entry['signal']}{dotted}."
+        yield page.figure(plots.svg(3.5, plots.draw_panel, panel, predicted), caption)
 
 
-def contact_figures(run):
-    wrenches, found = panels.signals_of(run, "wrench"), panels.displacement(run)
-    if not wrenches or found is None:
+def force_figures(run):
+    if not panels.signals_of(run, "wrench"):
         return
-    name, displacement = found
+    found = expected.contact(run)
+    if found is None:
+        caption = "Force of the environment on the tool, in base axes. Nothing is there to be touched."
+        caption = caption if not expected.surroundings(run) else caption.partition(". ")[0] + "."
+    else:
+        caption = (
+            f"Force of the environment on the tool, in base axes (requested: dashed), and along the normal of the"
+            f" {found.box}, measured (grey) and expected once the tip rests on it (dotted). Shaded: where the"
+            f" mean is taken. Largest, while the tip approaches: {words(found.force.max(), 'N')}."
+        )
+    yield page.figure(plots.svg(2.7, more_plots.draw_force, run, found), caption)
+
+
+def path_figures(run):
+    if panels.task_pair(run) is not None:
+        caption = "Path of the tip in the plane of the two base axes along which it moves most, reference and measured."
+        yield page.figure(plots.svg(3.2, more_plots.draw_path, run), caption)
+
+
+def joint_figures(run):
+    if "robot.q" not in run.names():
+        return
+    torque = more_plots.commanded_torque(run)
+    if torque:
+        yield page.figure(plots.svg(2.7, more_plots.draw_torque, run, torque), "Torque commanded to the joints.")
     caption = (
-        f"{run.name}: position error {name} in base axes, and the forces of the environment on the tip:"
-        f" {', '.join(wrenches)} (references are dashed)."
+        "Measured joints as shares of their limits. Position: 0 is the middle of the range. Velocity: "
+        + ("measured." if "robot.dq" in run.names() else "difference of positions.")
+        + " Acceleration: difference of velocities."
     )
-    yield page.figure(plots.svg(4.4, plots.draw_contact, run, displacement, wrenches), caption)
+    yield page.figure(plots.svg(3.4, more_plots.draw_shares, run), caption)
 
 
 def flag_words(run, name):
@@ -72,12 +131,13 @@ def limit_parts(run):
     """Says whether limits were reached, and draws the recorded scalars and flags if they changed."""
     flags, scalars = panels.signals_of(run, "flag"), panels.signals_of(run, "scalar")
     words = [scalar_words(run, name) for name in scalars] + [flag_words(run, name) for name in flags]
-    words.append(f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
-    yield f"<h3>Limits</h3><p>{page.escape('; '.join(words))}.</p>"
+    words.insert(0, f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
+    said = page.escape("; ".join(words))
+    yield f"<h3>Limits</h3><p>{said[0].upper()}{said[1:]}.</p>"
     scalars = [name for name in scalars if np.ptp(run.values(name))]
     if scalars or any(run.values(name).any() for name in flags):
-        caption = f"{run.name}: recorded scalars (lines) and flags (bands where set): {', '.join(scalars + flags)}."
-        yield page.figure(plots.svg(2.2, plots.draw_limits, run, flags, scalars), caption)
+        caption = f"Recorded scalars (lines) and flags (bands where set): {', '.join(scalars + flags)}."
+        yield page.figure(plots.svg(2.0, more_plots.draw_flags, run, flags, scalars), caption)
 
 
 def component_names(run, entry):
@@ -93,19 +153,21 @@ def number(value):
 
 
 def error_tables(run):
-    headers = ("component", "rms", "max", "final")
+    headers, tables = ("component", "rms", "max", "final"), ""
     for entry in run.summary["tracking"]:
         rows = zip(component_names(run, entry), *([number(v) for v in entry[key]] for key in headers[1:]))
-        yield f"<h3>Tracking error, {page.escape(entry['signal'])}</h3>" + page.table(headers, list(rows), headers[:1])
+        heading = f"<h3>Tracking error, {page.escape(entry['signal'])}</h3>"
+        tables += f"<div>{heading}{page.table(headers, list(rows), headers[:1])}</div>"
+    yield f'<div class="side">{tables}</div>'
 
 
 def timing_table(summary):
-    headers = ("stage", "p50 [us]", "p99 [us]", "max [us]")
+    headers = ("stage", "p50 [µs]", "p99 [µs]", "max [µs]")
     rows = [
         [page.escape(stage)] + [f"{times[key] / 1e3:.2f}" for key in ("p50_ns", "p99_ns", "max_ns")]
         for stage, times in summary["timing"].items()
     ]
-    return "<h3>Time per stage of the cycle</h3>" + page.table(headers, rows, headers[:1])
+    return TIMES + page.table(headers, rows, headers[:1]) + "</details>"
 
 
 def screen(folder):
@@ -115,38 +177,51 @@ def screen(folder):
     return f"<pre>{page.escape(words)}</pre>" if words else ""
 
 
+def figures_of(run):
+    """Yields the figures and tables of a run; where something was to be touched, the force comes first."""
+    groups = [tracking_figures, path_figures, force_figures]
+    if expected.contact(run) is not None:
+        groups = [force_figures, path_figures, tracking_figures]
+    for group in (*groups, joint_figures, limit_parts, error_tables):
+        yield from group(run)
+
+
+def verdict_of(summary, judgement, folder):
+    """Returns the verdict in words and whether all was as expected."""
+    if summary is None:
+        return ("incomplete" if (folder / "log.csv").exists() else table.REFUSED), False
+    if summary["result"]["code"] != 0:
+        return runs.result_words(summary), False
+    if judgement is None:
+        return "succeeded", True
+    return ("as expected" if judgement.met else "not as expected"), judgement.met
+
+
 def section_of(out, name):
     """Returns the section of one run; a file that cannot be read or drawn is named in its place."""
-    folder, parts, summary, problem = out / name.replace(":", "_"), [], None, None
+    folder, parts, section = out / name.replace(":", "_"), [], Section(name)
     try:
-        summary = runs.read_summary(folder / "summary.json")
-        if summary["result"]["code"] != 0:
-            result = page.escape(runs.result_words(summary))
+        if not (folder / "summary.json").exists() and (folder / "log.csv").exists():
+            raise InputError(f"{folder}: incomplete: the run has ended without a summary.json, or has not ended")
+        section.summary = runs.read_summary(folder / "summary.json")
+        if section.summary["result"]["code"] != 0:
+            result = page.escape(runs.result_words(section.summary))
             parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>']
             parts += [screen(folder), "</div>"]
-        parts += [facts(summary)]
         run = runs.read_run(folder, name)
-        for group in (tracking_figures, contact_figures, limit_parts, error_tables):
-            parts += group(run)
-        parts += [timing_table(summary)]
-    except (runs.InputError, OSError) as error:
-        problem = str(error)
-        what = "This run wrote no result." if summary is None else "Not everything could be drawn."
-        parts += [f'<div class="failure"><p>{what}</p><p>{page.escape(problem)}</p>']
-        parts += [screen(folder) if summary is None else "", "</div>"]
-    return Section(name, summary, "\n".join(parts), problem)
-
-
-def is_failed(section):
-    return section.problem is not None or section.summary["result"]["code"] != 0
-
-
-def overview(sections):
-    """Returns the table of all runs; each name is a link to its section."""
-    rows = []
-    for section in sections:
-        name, *cells = map(page.escape, table.cells(section.name, section.summary))
-        rows.append([f'<a href="#{page.identifier(section.name)}">{name}</a>', *cells])
-    failed = [i for i, section in enumerate(sections) if is_failed(section)]
-    note = f'<p class="note">{page.escape(table.LEGEND)}</p>'
-    return page.table(table.HEADERS, rows, table.TEXT_COLUMNS, failed) + note
+        section.kind, section.chain, section.touched = expected.kind(run), run.settings.chain(), expected.touched(run)
+        section.judgement = expected.judge(run)
+        section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
+        section.still = thumbnails.still(run)
+        section.animation = animation.data(run)
+        parts += [purpose(section), facts(section.summary), *figures_of(run), timing_table(section.summary)]
+    except (InputError, OSError, ValueError) as error:
+        section.problem = f"{folder}: {error}" if isinstance(error, ValueError) else str(error)
+        what = "This run wrote no result." if section.summary is None else "Not everything could be drawn."
+        parts += [f'<div class="failure"><p>{what}</p><p>{page.escape(section.problem)}</p>']
+        parts += [screen(folder) if section.summary is None else "", "</div>"]
+    section.verdict, section.met = verdict_of(section.summary, section.judgement, folder)
+    if section.problem is not None and section.summary is not None:
+        section.verdict, section.met = "not readable", False
+    section.body = "\n".join(parts)
+    return section

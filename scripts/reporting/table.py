@@ -1,59 +1,54 @@
-"""The table of all runs, for the screen and for the report: one list of cells per run."""
+"""The tables of all runs: what was seen and expected, for the screen and the page, and the counters of the cycles."""
 
-import math
+from reporting.runs import result_words
 
-from reporting.runs import largest, result_words
-
-HEADERS = ("run", "robot", "Hz", "result", "worst rms", "worst max", "unit", "limited", "slips", "heap",
-           "step us", "x real")
-TEXT_COLUMNS = ("run", "robot", "result", "unit")
-REFUSED = "refused"  # without a summary the run did not begin
-LEGEND = (
-    "worst rms, worst max: root mean square and largest difference between reference and measured value, of the worst"
-    " component of the first tracking entry; for a pose, of its position in m. limited: cycles in which the guard"
-    " changed the command. slips: periods missed. heap: heap calls in cycles. step us: median time of the whole chain"
-    " per cycle. x real: simulated time divided by elapsed time."
+HEADERS = ("run", "robot", "touched", "what", "seen", "expected", "verdict")
+REFUSED = "refused"  # without a summary and a log the run did not begin
+COUNTERS = ("run", "board", "Hz", "result", "limited", "slips", "heap", "step [µs]", "× real")
+COUNTERS_TEXT = ("run", "board", "result")
+COUNTERS_LEGEND = (
+    "limited: cycles in which the guard changed the command. slips: periods missed. heap: heap calls in cycles. step:"
+    " median time of the whole chain per cycle. × real: simulated time divided by elapsed time."
 )
 
 
-def tracking_of(summary):
-    """Returns worst rms and max of the first tracking entry, and their unit."""
-    if not summary["tracking"]:
-        return math.nan, math.nan, ""
-    entry = summary["tracking"][0]
-    if entry["quantity"] == "pose":  # x, y, z and an angle, of which the position is shown
-        return largest(entry["rms"][:3]), largest(entry["max"][:3]), "m"
-    return largest(entry["rms"]), largest(entry["max"]), entry["unit"]
+def robot_of(section):
+    return f"{section.summary['robot']}, {section.kind}" if section.summary and section.kind else ""
 
 
-def cells(name, summary):
-    """Returns one line of the table."""
+def cells(section):
+    """Returns one line of the table for the screen."""
+    found = section.judgement
+    told = (found.what, found.seen, found.expected) if found else ("", "", "")
+    return [section.name, robot_of(section), section.touched, *told, section.verdict]
+
+
+def headline(sections):
+    """Counts the runs that were as expected."""
+    return f"{sum(section.met for section in sections)} of {len(sections)} runs as expected"
+
+
+def as_text(sections):
+    """Returns the table for the screen."""
+    rows = [list(HEADERS)] + [cells(section) for section in sections]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
+    return "\n".join(lines) + f"\n\n{headline(sections)}"
+
+
+def counters(section):
+    """Returns one line of the counters."""
+    summary = section.summary
     if summary is None:
-        return [name, "", "", REFUSED] + [""] * (len(HEADERS) - 4)
-    rms, most, unit = tracking_of(summary)
+        return [section.name, "", "", section.verdict] + [""] * (len(COUNTERS) - 4)
     return [
-        name,
-        summary["robot"],
+        section.name,
+        summary["board"],
         f"{summary['rate_hz']:.0f}",
         result_words(summary),
-        "" if math.isnan(rms) else f"{rms:.2e}",
-        "" if math.isnan(most) else f"{most:.2e}",
-        unit,
         str(summary["guard"]["limited"]),
         str(summary["slips"]),
         str(summary["heap_allocations_in_cycle"]),
         f"{summary['timing']['step']['p50_ns'] / 1e3:.2f}",
         f"{summary['realtime_factor']:.0f}",
     ]
-
-
-def as_text(summaries):
-    """Returns the table for the screen; `summaries` by name, None for a run that was refused."""
-    rows = [list(HEADERS)] + [cells(name, summary) for name, summary in summaries.items()]
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    left = [header in TEXT_COLUMNS for header in HEADERS]
-    lines = []
-    for row in rows:
-        padded = [c.ljust(w) if l else c.rjust(w) for c, w, l in zip(row, widths, left)]
-        lines.append("  ".join(padded).rstrip())
-    return "\n".join(lines)

@@ -57,7 +57,7 @@ inline Line write(const char* name, std::initializer_list<const char*> texts) {
 }
 
 struct Content {
-  std::array<char, 1 << 20> bytes;
+  std::array<char, 1 << 22> bytes;  // fits a report
   std::string_view text;
 };
 

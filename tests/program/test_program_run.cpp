@@ -149,17 +149,34 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
   assert_true(has(file_of("weak/log.csv"), "time_s,"));
 }
 
+// Proves RUN-1, RUN-10.
+
 void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(run_into("p.ini/below", pipeline.c_str()), 2);
   assert_true(has(errors(), "p.ini/below: Not a directory\n"));
-  assert_int_equal(mkdir(in_folder("full").c_str(), 0777), 0);
-  assert_int_equal(symlink("/dev/full", in_folder("full/log.csv").c_str()), 0);
-  assert_int_equal(run_into("full", pipeline.c_str()), 1);
+  // no file may grow beyond 64 blocks of 512 bytes
+  assert_int_equal(shell("trap '' XFSZ; ulimit -f 64; exec $P run $S/p.ini --out $S/full"), 1);
   assert_true(has(errors(), "not all files could be written\n"));
+  assert_false(exists("full/summary.json"));
 }
 
-void an_interrupt_ends_the_run_with_its_files_written(void**) {
+void a_folder_holds_one_run_and_what_is_needed_to_draw_it(void**) {
+  const Line pipeline = write("p.ini", {kPipeline});
+  const Line trajectory = write("t.csv", {kHeader, kReady});
+  assert_int_equal(run_into("one", pipeline.c_str(), "1", trajectory.c_str(), "0.2"), 0);
+  assert_true(exists("one/waypoints.csv"));
+  write("one/figure.png", {"of an earlier run"});
+  assert_int_equal(run_into("one", pipeline.c_str()), 0);
+  for (const char* name : {"one/waypoints.csv", "one/figure.png"}) assert_false(exists(name));
+  assert_true(file_of("one/pipeline.ini") == kPipeline);
+  for (const char* part :
+       {"\"robot\": \"fer\"", "[0.0825, 0, 0, 1],", "\"flange\": [0, 0, 0.107, 0]",
+        "{\"link\": 7, ", "\"boxes\": [", "\"tau_max\": [87, 87, 87, 87, 12, "})
+    assert_true(has(file_of("one/scene.json"), part));
+}
+
+void a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("c");
   for (const int signal : {SIGINT, SIGTERM}) {
     std::remove(in_folder("c/log.csv").c_str());
@@ -169,6 +186,8 @@ void an_interrupt_ends_the_run_with_its_files_written(void**) {
       const timespec millisecond = {0, 1'000'000};
       nanosleep(&millisecond, nullptr);
     }
+    assert_int_equal(run_into("c", pipeline.c_str()), 2);
+    assert_true(has(errors(), "/c: another run writes into this folder\n"));
     assert_int_equal(kill(child, signal), 0);
     assert_int_equal(exit_code(child), 1);
     assert_true(has(file_of("c/summary.json"), "{\"code\": 1, \"name\": \"interrupted\"}"));
@@ -203,7 +222,8 @@ int main(int, char** argv) {
       cmocka_unit_test(a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished),
       cmocka_unit_test(a_fault_ends_the_run_with_its_code_and_the_files_are_written),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success),
-      cmocka_unit_test(an_interrupt_ends_the_run_with_its_files_written),
+      cmocka_unit_test(a_folder_holds_one_run_and_what_is_needed_to_draw_it),
+      cmocka_unit_test(a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written),
       cmocka_unit_test(the_same_seed_writes_the_same_bytes_and_another_does_not),
   };
   return run_program_tests(argv[0], tests);

@@ -36,11 +36,12 @@ void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
   assert_true(has(output(), "  RUN   weak: measured velocity limit (68)\n"));
   assert_true(has(output(), "  RUN   nowhere: refused\n"));
   assert_true(has(output(), "  RUN   good: succeeded\n"));
-  assert_true(has(output(), "\nweak     fer    1000  measured velocity limit (68) "));
-  assert_true(has(output(), "\nnowhere               refused\n"));
-  assert_true(has(output(), "\ngood     fer    1000  succeeded "));
+  assert_true(has(output(), "\nweak     fer, simulated  nothing "));
+  assert_true(has(output(), "  measured velocity limit (68)\nnowhere  "));
+  assert_true(has(output(), "  refused\ngood     fer, simulated  nothing  max joint error  "));
+  assert_true(has(output(), "  as expected\n\n1 of 3 runs as expected\n"));
   assert_true(has(errors(), "weak.ini: stopped: joint "));
-  assert_true(has(errors(), " rad/s exceeds 0.001 rad/s (68)\n"));
+  assert_true(has(errors(), " rad/s exceeds 0.0011 rad/s (68)\n"));
   assert_true(has(errors(), "nowhere.ini: "));
 }
 
@@ -48,34 +49,34 @@ void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
 void the_report_shows_every_run_and_what_failed(void**) {
   const std::string_view page = file_of("t/out/report.html");
   for (const char* part : {
-           "<li><a href=\"#run-weak\">weak</a></li>",
-           "<tr class=\"failed\"><td class=\"text\"><a href=\"#run-weak\">weak</a></td>",
-           "<tr class=\"failed\"><td class=\"text\"><a href=\"#run-nowhere\">nowhere</a></td>",
-           "<tr><td class=\"text\"><a href=\"#run-good\">good</a></td>",
+           "1 of 3 runs as expected",
+           "No real robot moved: 2 runs of a robot arm simulated by MuJoCo.",
+           "<a href=\"#run-weak\">weak</a>",
+           "<tr class=\"failed\" data-run=\"weak\">",
+           "<tr class=\"failed\" data-run=\"nowhere\">",
+           "<tr class=\"met\" data-run=\"good\">",
            "did not succeed: <b>measured velocity limit (68)</b>",
            "weak.ini: stopped: joint ",
            "out/nowhere/summary.json: No such file or directory",
            "<section id=\"run-good\">",
-           "good: Waypoints (circles), reference (dashed) and measured (solid) joint position",
+           "Waypoints (circles), reference (dashed) and measured (solid) joint position",
            "Tracking error, jrg.q_d - robot.q",
-           "the guard limited 0 of ",
-           "Time per stage of the cycle",
+           "The guard limited 0 of ",
+           "Execution times",
            "kernel/control/pd_gravity",
            "905 of its 1745 source lines (52 %)",
        })
     assert_true(has(page, part));
-  // only the good one has a tracking entry
-  assert_int_equal(count(page, "src=\"data:image/svg+xml;base64,"), 1);
-  assert_int_equal(count(page, "src="), 1);
-  for (const char* part : {"<script", "<link", "http:", "https:", "url("})
-    assert_int_equal(count(page, part), 0);
+  assert_int_equal(count(page, ": arm and path\""), 2);
+  assert_int_equal(count(page, "src=\""), count(page, "src=\"data:image/svg+xml;base64,"));
+  assert_true(has(page, "content=\"default-src 'none'; img-src data:; "));  // fetches nothing
 }
 
 void the_images_of_the_report_are_well_formed(void**) {
   assert_int_equal(
       shell("/usr/bin/python3 -c \"import base64, os, re, xml.etree.ElementTree as tree\n"
             "page = open(os.environ['S'] + '/t/out/report.html').read()\n"
-            "for data in re.findall('base64,([^\\\"]*)', page):\n"
+            "for data in re.findall('svg.xml;base64,([^\\\"]*)', page):\n"
             "    assert tree.fromstring(base64.b64decode(data)).tag.endswith('svg')\""),
       0);
 }
@@ -104,12 +105,22 @@ void a_damaged_file_is_named_and_the_rest_is_drawn(void**) {
   assert_int_equal(count(errors(), "\n"), 7);
   const std::string_view page = file_of("t/out/report.html");
   assert_true(has(page, "out/cell/log.csv:3: robot.q_1 is &#x27;x&#x27;, not a number"));
-  assert_int_equal(count(page, "src=\"data:image/svg+xml;base64,"), 1);
+  assert_int_equal(count(page, ": arm and path\""), 1);
+}
+
+// Proves RUN-10.
+
+void a_folder_without_a_summary_is_incomplete(void**) {
+  assert_int_equal(shell("cd $S/t && mkdir out/half && cp out/good/log.csv out/half/ && "
+                         "$R/scripts/report out half"),
+                   1);
+  assert_true(has(errors(), "report: out/half: incomplete: the run has ended without a summary"));
+  assert_true(has(output(), "  incomplete\n\n0 of 1 runs as expected\n"));
 }
 
 void figure_and_report_say_what_they_lack(void**) {
   assert_int_equal(shell("mkdir -p $S/bare && $R/scripts/report $S/bare"), 1);
-  assert_true(has(errors(), "/bare: no folder in it has a summary.json\n"));
+  assert_true(has(errors(), "/bare: no folder of a run in it\n"));
   assert_int_equal(shell("$R/scripts/figure $S/bare"), 1);
   assert_true(has(errors(), "/bare/summary.json: No such file or directory\n"));
 }
@@ -118,12 +129,12 @@ void figure_and_report_say_what_they_lack(void**) {
 
 void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good"), 0);
-  assert_true(has(output(), "\nout/report.html\n"));
+  assert_true(has(output(), "\nout/report.html: "));
   write("t/pipelines/good.ini", {"[robot]\n"});
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good -- ./none weak"), 1);
   assert_true(has(errors(), "./none: No such file or directory\n"));
   for (const char* name : {"good/summary.json", "good/log.csv", "good/waypoints.csv",
-                           "good/figure.png", "weak/summary.json"})
+                           "good/figure.png", "good/figure.pdf", "weak/summary.json"})
     assert_false(exists((Line("t/out/") << name).c_str()));
 }
 
@@ -212,6 +223,7 @@ int main(int, char** argv) {
       cmocka_unit_test(the_report_shows_every_run_and_what_failed),
       cmocka_unit_test(the_images_of_the_report_are_well_formed),
       cmocka_unit_test(a_damaged_file_is_named_and_the_rest_is_drawn),
+      cmocka_unit_test(a_folder_without_a_summary_is_incomplete),
       cmocka_unit_test(figure_and_report_say_what_they_lack),
       cmocka_unit_test_setup(success_is_0_and_nothing_of_an_earlier_run_is_left, plant_pipelines),
       cmocka_unit_test(an_interrupt_ends_what_is_under_way_and_begins_nothing_more),

@@ -1,0 +1,60 @@
+"""The arm of scene.json: where its links and its tip are at given joint positions."""
+
+import numpy as np
+
+QUARTER_TURNS = {-1: (0, -1), 0: (1, 0), 1: (0, 1), 2: (-1, 0)}  # cosine and sine
+
+
+def rotation_matrix(quaternion):
+    """Returns the matrices [rows, 3, 3] of quaternions w x y z [rows, 4]."""
+    w, x, y, z = np.moveaxis(np.asarray(quaternion, float), -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def fixed(frame):
+    """Returns the matrix of a frame x, y, z, quarter turns about x."""
+    c, s = QUARTER_TURNS[frame[3]]
+    return np.array([[1, 0, 0, frame[0]], [0, c, -s, frame[1]], [0, s, c, frame[2]], [0, 0, 0, 1]], float)
+
+
+def turn(angles):
+    """Returns the turns about z [rows, 4, 4]."""
+    matrices = np.tile(np.eye(4), (len(angles), 1, 1))
+    matrices[:, 0, 0] = matrices[:, 1, 1] = np.cos(angles)
+    matrices[:, 1, 0] = np.sin(angles)
+    matrices[:, 0, 1] = -matrices[:, 1, 0]
+    return matrices
+
+
+def link_frames(scene, q):
+    """Returns the frames of base, links and flange at joint positions [rows, joints]: [rows, 4, 4] each."""
+    frames = [np.tile(np.eye(4), (len(q), 1, 1))]
+    for joint, angles in zip(scene["joints"], q.T):
+        frames.append(frames[-1] @ fixed(joint) @ turn(angles))
+    return frames + [frames[-1] @ fixed(scene["flange"])]
+
+
+def tip(scene, q):
+    """Returns the tip of the tool [rows, 3]."""
+    return link_frames(scene, q)[-1] @ np.append(scene["tool"]["tip"], 1) @ np.eye(4)[:, :3]
+
+
+def capsules(scene):
+    """Returns (frame, a, b, radius) of links and tool; the frame is an index of link_frames()."""
+    shapes = [(c["link"], c["a"], c["b"], c["radius"]) for c in scene["capsules"]]
+    tool = scene["tool"]
+    if np.any(tool["tip"]):
+        shapes.append((len(scene["joints"]) + 1, [0, 0, 0], tool["tip"], tool["radius"]))
+    return shapes
+
+
+def corners(box):
+    """Returns the eight corners of a box [8, 3], and its twelve edges as pairs of their indices."""
+    signs = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) - 0.5
+    points = box["centre"] + (signs * box["size"]) @ rotation_matrix(box["rotation"]).T
+    return points, [(i, i | bit) for i in range(8) for bit in (1, 2, 4) if not i & bit]

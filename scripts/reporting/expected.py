@@ -1,0 +1,193 @@
+"""What a run should show, computed from its pipeline file and its reference, and what it showed.
+
+Three cases, the first that applies:
+- An admittance meets a box. At rest its spring and the touched surface balance: with the stiffness K along the face's
+  normal, the penetration p of the reference, the requested force F_d and the surface's stiffness k, the force is
+  (K p + F_d) / (1 + K / k).
+- A law without a velocity reference (eq. 2 of the paper) lags. In steady motion K_P e = K_D dq + friction, so that
+  e = (K_D dq_d + friction(dq_d)) / K_P, where the friction is that of the simulated robot.
+- Otherwise the reference is followed: the error is 0, within the goal tolerance of its generator.
+"""
+
+import dataclasses
+import ipaddress
+
+import numpy as np
+
+from reporting import arm, friction, panels
+from reporting.units import words
+
+SPRING = ("admittance's spring", "the balance of the admittance's spring, the requested force and the surface")
+LAG = ("lag by K_D, friction", "the law has no velocity reference and lags by (K_D × velocity + friction) / K_P")
+FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
+FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
+TOUCH_N = 1.0  # a smaller force is noise of the sensor
+LAG_SHARE = 0.1  # the same of the largest lag; inertia is not in the formula
+PLATEAU_SHARE = 0.98  # of the largest expected force, above which the contact counts as steady ...
+SETTLE_S = 1.0  # ... after this time
+
+
+@dataclasses.dataclass
+class Judgement:
+    """Seen and expected, in words, the reason in short and in full; `met` says whether they agree."""
+
+    what: str
+    seen: str
+    expected: str
+    short: str
+    why: str
+    met: bool
+
+
+@dataclasses.dataclass
+class Contact:
+    """The force of a box on the tool along its normal [rows], and what it should be; `steady` selects rows."""
+
+    box: str
+    normal: np.ndarray
+    force: np.ndarray
+    expected: np.ndarray
+    steady: np.ndarray
+
+
+def kind(run):
+    """Returns "simulated", "emulated" or "real"; an emulated controller is one on this machine."""
+    if run.summary["board"].endswith("_sim"):
+        return "simulated"
+    address = run.settings.given("ur", "address")
+    try:
+        return "emulated" if address and ipaddress.ip_address(address).is_loopback else "real"
+    except ValueError:
+        return "real"
+
+
+def surroundings(run):
+    """Returns the boxes that the arm can touch; an emulated controller has none, whatever the file says."""
+    if kind(run) == "emulated" or (kind(run) == "simulated" and run.settings.value("plant", "scene") == "none"):
+        return []
+    return run.scene["boxes"]
+
+
+def ball(run, poses):
+    """Returns the centre of the ball at the tip [rows, 3] and its radius; a real tool is taken as a point."""
+    if kind(run) != "simulated":
+        return poses[:, :3], 0.0
+    beyond = np.subtract(run.settings.numbers("plant", "payload_tip", 3), run.scene["tool"]["tip"])
+    return poses[:, :3] + arm.rotation_matrix(poses[:, 3:]) @ beyond, run.settings.number("plant", "tip_radius")
+
+
+def distances(box, centre, radius):
+    """Returns the distances of a ball from the six faces [rows, 6], negative inside, and their normals [6, 3]."""
+    axes = arm.rotation_matrix(box["rotation"]).T
+    normals = np.vstack([axes, -axes])
+    return (centre - box["centre"]) @ normals.T - np.tile(box["size"], 2) / 2 - radius, normals
+
+
+def touched_face(run, measured):
+    """Returns the box and the face that the ball comes nearest to, or None."""
+    nearest = None
+    for box in surroundings(run):
+        away, _ = distances(box, *ball(run, measured))
+        outside = away.max(axis=1)
+        row = outside.argmin()
+        if nearest is None or outside[row] < nearest[0]:
+            nearest = outside[row], box, away[row].argmax()
+    return nearest and nearest[1:]
+
+
+def contact(run):
+    """Returns the contact of an admittance with a box, or None; its wrench must be recorded."""
+    blocks = [name for name in run.settings.blocks("admittance") if run.settings.given(name, "h") in run.names()]
+    poses = panels.task_pair(run)
+    face = touched_face(run, poses[1]) if blocks and poses else None
+    if face is None:
+        return None
+    block, (box, index) = blocks[0], face
+    away, normals = distances(box, *ball(run, poses[0]))
+    normal = normals[index]
+    along = np.tile(normal, (len(away), 1))
+    if run.settings.value(block, "frame") != "base":
+        along = np.einsum("rij,ri->rj", arm.rotation_matrix(poses[0][:, 3:]), along)
+    stiffness = along**2 @ run.settings.numbers(block, "stiffness", 3)
+    requested = run.settings.given(block, "h_d")
+    pull = run.values(requested)[:, :3] @ normal if requested in run.names() else 0.0
+    surface = run.settings.number("plant", "contact_stiffness") if kind(run) == "simulated" else np.inf
+    expected = np.maximum((pull - stiffness * away[:, index]) / (1 + stiffness / surface), 0.0)
+    t = run.log["time_s"]
+    steady = expected >= PLATEAU_SHARE * expected.max()
+    steady &= t >= t[steady.argmax()] + SETTLE_S
+    force = run.values(run.settings.given(block, "h"))[:, :3] @ normal
+    return Contact(box["name"], normal, force, expected, steady)
+
+
+def plant_friction(run, velocity):
+    """Returns the friction torque of a simulated robot; that of a real one is not known."""
+    if kind(run) != "simulated":
+        return 0.0
+    return run.settings.number("plant", "friction") * friction.torque(run.summary["robot"], velocity)
+
+
+def lag(run, entry):
+    """Returns the error that a law without a velocity reference should have [rows, joints], or None."""
+    for kind_of_law in ("pd_gravity", "pid"):
+        for law in run.settings.blocks(kind_of_law):
+            if run.settings.given(law, "q_d") != entry["reference"] or run.settings.given(law, "dq_d"):
+                continue
+            joints = len(run.scene["joints"])
+            kd, kp = (np.array(run.settings.numbers(law, key, joints)) for key in ("kd", "kp"))
+            velocity = panels.velocity_of(run, entry["reference"])
+            return (kd * velocity + plant_friction(run, velocity)) / kp
+    return None
+
+
+def touched(run):
+    """Returns what the tool touched, in words; without a force sensor only an empty place is certain."""
+    if kind(run) != "real" and not surroundings(run):
+        return "nothing"
+    found = contact(run)
+    if found is None:
+        return "not measured"
+    return found.box if found.force.max() > TOUCH_N else "nothing"
+
+
+def judge_contact(found):
+    if not found.steady.any():
+        return Judgement("mean force", "none steady", words(found.expected.max(), "N"), *SPRING, False)
+    seen, expected = found.force[found.steady].mean(), found.expected[found.steady].mean()
+    met = abs(seen - expected) <= FORCE_SHARE * expected
+    return Judgement("mean force", words(seen, "N"), words(expected, "N"), *SPRING, met)
+
+
+def judge_lag(predicted, error, tolerance):
+    seen, expected = np.abs(error).max(), np.abs(predicted).max()
+    met = abs(seen - expected) <= max(LAG_SHARE * expected, tolerance)
+    return Judgement("max joint error", words(seen, "rad"), words(expected, "rad"), *LAG, met)
+
+
+def tolerance(run, reference, is_pose):
+    """Returns the goal tolerance of the generator of a reference, m or the smallest of the joints, rad."""
+    block = reference.partition(".")[0]
+    if is_pose:
+        return run.settings.number(block, "goal_position_tolerance")
+    return min(run.settings.numbers(block, "goal_tolerance", len(run.scene["joints"])))
+
+
+def judge(run):
+    """Returns what the run was supposed to show and what it showed, or None if nothing was tracked."""
+    entry = panels.task_entry(run)
+    if entry is None:
+        return None
+    found = contact(run)
+    if found is not None:
+        return judge_contact(found)
+    reference, measured = panels.pair(run, entry)
+    is_pose = entry["quantity"] == "pose"
+    unit = "m" if is_pose else entry["unit"]
+    error = reference[:, :3] - measured[:, :3] if is_pose else reference - measured
+    bound = tolerance(run, entry["reference"], is_pose) if panels.from_generator(run, entry["reference"]) else 0.0
+    predicted = None if is_pose else lag(run, entry)
+    if predicted is not None:
+        return judge_lag(predicted, error, bound)
+    largest = np.linalg.norm(error, axis=1).max() if is_pose else np.abs(error).max()
+    what = "max tip error" if is_pose else "max joint error"
+    return Judgement(what, words(largest, unit), f"0 ± {words(bound, unit)}", *FOLLOWED, bool(largest <= bound))

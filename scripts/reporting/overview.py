@@ -1,0 +1,77 @@
+"""The first screen of the report: how many runs were as expected, the table, and the runs as a film."""
+
+import collections
+
+from reporting import animation, expected, page, table
+
+KINDS = {
+    "simulated": "of a robot arm simulated by MuJoCo",
+    "emulated": "with an <em>emulated</em> robot controller, which has no surroundings",
+    "real": "with a <b>real robot</b>",
+}
+LEGEND = (
+    "Seen and expected: the task's reference minus what was measured; in contact, the mean of the force. Click a"
+    " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may"
+    f" differ from the expected one by {100 * expected.FORCE_SHARE:.0f} %, a lag by {100 * expected.LAG_SHARE:.0f} % or"
+    " the goal tolerance."
+)
+
+
+def provenance(sections):
+    """Says what moved: how many runs are of which kind."""
+    counts = collections.Counter(section.kind for section in sections if section.kind)
+    told = [f"{count} {'run' if count == 1 else 'runs'} {KINDS[kind]}" for kind, count in counts.items()]
+    none = "No real robot moved: " if counts and not counts["real"] else ""
+    return f'<p class="provenance">{none}{"; ".join(told)}.</p>' if told else ""
+
+
+def picture(section):
+    return page.image(section.picture, f"{section.name}: arm and path") if section.picture else ""
+
+
+def row(section):
+    """Returns a row of the table: two lines in each cell."""
+    found, summary = section.judgement, section.summary
+    name = f'<a href="#{page.identifier(section.name)}">{page.escape(section.name).replace("_", "_<wbr>")}</a>'
+    rate = f"{summary['rate_hz']:g} Hz" if summary else ""
+    kind = section.kind if section.kind == "simulated" else f"<em>{section.kind}</em>"
+    manner = ", ".join(filter(None, (section.chain, rate)))
+    cells = [
+        f"{name}<small>{page.escape(manner)}</small>",
+        f"{page.escape(summary['robot'])}<small>{kind}</small>" if summary else "",
+        page.escape(section.touched),
+        f"<b>{found.seen}</b><small>{page.escape(found.what)}</small>" if found else "",
+        f"{found.expected}<small>{page.rich(found.short)}</small>" if found else "",
+        page.escape(section.verdict),
+    ]
+    mark = "met" if section.met else "failed"
+    text = "".join(f"<td>{cell}</td>" for cell in cells)
+    start = f'<tr class="{mark}" data-run="{page.escape(section.name)}">'
+    return f'{start}<td class="picture">{picture(section)}</td>{text}</tr>'
+
+
+def first_screen(sections):
+    heads = ("", "run", "robot", "touched", "seen", "expected", "verdict")
+    head = "".join(f"<th>{cell}</th>" for cell in heads)
+    rows = "\n".join(map(row, sections))
+    well = "all" if all(section.met for section in sections) else "some"
+    return (
+        f'<p class="headline {well}">{table.headline(sections)}</p>{provenance(sections)}\n'
+        f'<div class="first"><div><table class="runs"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
+        f'<p class="note">{LEGEND}</p></div>\n{animation.VIEWER}</div>'
+    )
+
+
+def sheet(sections):
+    """Returns the pictures of the runs, each with what was seen and expected."""
+    for section in sections:
+        if section.still is not None:
+            found = section.judgement
+            told = f"{found.seen}, expected {found.expected}" if found else section.verdict
+            yield section.still, f"{section.name}\n{section.kind}: {told}"
+
+
+def counters(sections):
+    """Returns the table of the counters, which belongs to the machine and not to the control."""
+    rows = [[page.escape(cell) for cell in table.counters(section)] for section in sections]
+    return page.table(table.COUNTERS, rows, table.COUNTERS_TEXT) + f'<p class="note">{table.COUNTERS_LEGEND}</p>'

@@ -1,0 +1,59 @@
+// Tests what the report expects of a run: scripts/reporting/expected.py.
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kLag =
+    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+    "[plant]\nfriction = 0\nrotor_inertia = 0\n"
+    "[gateway]\ntrajectory = trajectories/lag.csv\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
+    "[recorder]\ntracking = jrg.q_d robot.q\n";
+
+// Proves RUN-4.
+
+/// Joint 1 moves at 0.3 rad/s with kd / kp = 0.1 s; then the file claims half of its kp.
+void a_lag_is_expected_as_the_gains_say(void**) {
+  assert_int_equal(shell("mkdir -p $S/t/pipelines/trajectories"), 0);
+  write("t/pipelines/lag.ini", {kLag});
+  write("t/pipelines/trajectories/lag.csv",
+        {kHeader, kReady, "1.02,0.3,-0.785398,0,-2.356194,0,1.570796,0.785398\n"});
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P lag"), 0);
+  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad   as expected\n"));
+  assert_int_equal(shell("cd $S/t && sed -i 's/kp = 500/kp = 250/' out/lag/pipeline.ini && "
+                         "$R/scripts/report out lag"),
+                   1);
+  assert_true(has(output(), "  max joint error  30.0 mrad  60 mrad   not as expected\n"));
+  assert_true(has(output(), "\n0 of 1 runs as expected\n"));
+}
+
+/// A ball of 1 cm: 2 cm above the top of a box, and 3 cm inside it, seen from a turned frame too.
+void a_penetration_is_measured_from_the_face_to_the_foremost_point(void**) {
+  assert_int_equal(
+      shell("cd scripts && /usr/bin/python3 -B -c \"import numpy as np\n"
+            "from reporting import arm, expected\n"
+            "box = {'centre': [1, 2, 3], 'size': [4, 6, 8], 'rotation': [1, 0, 0, 0]}\n"
+            "away, normals = expected.distances(box, np.array([[1, 2, 7.03], [1, 2, 6.98]]), .01)\n"
+            "assert np.allclose(normals[2], [0, 0, 1]) and np.allclose(away[:, 2], [.02, -.03])\n"
+            "assert np.allclose(away[0, :2], [-2.01, -3.01]) and np.allclose(away[0, 5], -8.04)\n"
+            "half = np.sqrt(.5); box['rotation'] = [half, half, 0, 0]\n"
+            "away, normals = expected.distances(box, np.array([[1, 2 - 4.03, 3.]]), .01)\n"
+            "assert np.allclose(normals[2], [0, -1, 0]) and np.allclose(away[0, 2], .02)\""),
+      0);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_lag_is_expected_as_the_gains_say),
+      cmocka_unit_test(a_penetration_is_measured_from_the_face_to_the_foremost_point),
+  };
+  return run_program_tests(argv[0], tests);
+}
