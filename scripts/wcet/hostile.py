@@ -37,9 +37,14 @@ def joined(dof, stream, joins, step):
     return tape.cycles(30)
 
 
+def cornered(dof, signs):
+    """The arm is armed clear of itself; then every joint is at a limit."""
+    return Tape().numbers("joints", READY[dof]).cycles(1).numbers("joints", [127 * sign for sign in signs[:dof]])
+
+
 def at_limits(dof, signs, velocity):
     """Puts every joint at a limit and sends a reference that goes on moving."""
-    tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(1)
+    tape = cornered(dof, signs).cycles(1)
     return tape.point(BASE, 1, (0, 0, 0, 0, 0, 0) + tuple(velocity)).cycles(3)
 
 
@@ -55,7 +60,7 @@ CORNERED = (
 
 def all_at_once(dof, signs, velocity, step):
     """Fills the mailbox while the joints are at their limits: 13 points, then a trajectory in every store, begun late."""
-    tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(60)
+    tape = cornered(dof, signs).cycles(60)
     tape.point(BASE, 1, REST + velocity).cycles(12)
     for _ in range(13):
         tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + velocity + (2, 2, 2, 2, 2, 2) + REST)
