@@ -44,7 +44,7 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
                       const Vector3& tip, double period_s) {
   scene_ = &section.scene;
   margin_ = section.margin;
-  positions_ = kPositions / section.cycles;
+  positions_ = kCheckedPositions / section.cycles;
   const JointVector& braking = section.limits.ddq_max;
   braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
@@ -91,7 +91,7 @@ void Collision::add_pairs() {
 Status Collision::check(const RobotState& measured) {
   next_ = 0;
   Status status = step(measured);
-  LoopBound<kPositions> positions;
+  LoopBound<kCheckedPositions> positions;
   while (status == Status::kOk && next_ > 0) {
     positions.tick();
     status = step(measured);
@@ -103,14 +103,14 @@ Status Collision::step(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
   if (next_ == 0) begin(measured);
-  LoopBound<kPositions> positions;
+  LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
     const Status status = check_next();
     if (status != Status::kOk) return end(status);
     ++next_;
   }
-  return next_ < kPositions ? Status::kOk : end(Status::kOk);
+  return next_ < kCheckedPositions ? Status::kOk : end(Status::kOk);
 }
 
 void Collision::begin(const RobotState& measured) {

@@ -6,9 +6,9 @@
 // contact is a distance that is not proved to be more than `margin`: now, at the measured joints,
 // and in every position the joints can take until the arm is at rest (stopping.hpp).
 //
-// A check looks at kPositions positions of the arm, all from the state and the boxes of the cycle
-// in which it begins. It is spread evenly over N = [collision] cycles: step() checks kPositions / N
-// of them, and the next check begins in the cycle after the last.
+// A check looks at ten positions of the arm: now, and in nine sections of the way to rest. All of
+// them follow from the state and the boxes of the cycle in which it begins. It is spread evenly
+// over N = [collision] cycles, and the next check begins in the cycle after.
 //
 // Guarantee. If a check of the state (q, dq) ends without a contact, the capsules and boxes of
 // every pair that is checked are more than `margin` apart from then until the arm is at rest, if
@@ -53,8 +53,7 @@ class Collision {
   /// kStateNotFinite if q or dq is not finite; kNotStarted before start(). [cyclic]
   Status step(const RobotState& measured);
 
-  /// Does a whole check of a state, instead of the one that is under way. Returns as step().
-  /// [between two cycles]
+  /// Does a whole check of a state, instead of the one that is under way. Returns as step(). [init]
   Status check(const RobotState& measured);
 
   const Telemetry& telemetry() const { return telemetry_; }
@@ -93,7 +92,7 @@ class Collision {
 
   const CollisionScene* scene_ = nullptr;
   double margin_ = 0.0;
-  int positions_ = kPositions;  // in a cycle
+  int positions_ = 0;  // checked in a cycle
   Braking braking_;
   std::array<Body, kCapsules> bodies_;
   std::array<Pair, kMaxPairs> pairs_;         // of two capsules

@@ -19,7 +19,7 @@ inline constexpr int kMaxObstacles = 8;
 inline constexpr int kMaxBodies = kFirstBoxBody + kMaxObstacles;
 
 /// A check looks at the arm now and in every section of its way to rest.
-inline constexpr int kPositions = 1 + kSections;
+inline constexpr int kCheckedPositions = 1 + kSections;
 
 struct CollisionScene {
   std::array<const char*, kMaxBodies> names{};  ///< those of the boxes are in the port table
@@ -48,7 +48,7 @@ struct CollisionSection {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("cycles", cycles, Range{1.0, 1.0 * kPositions}, "cycles");
+    visit.param("cycles", cycles, Range{1.0, 1.0 * kCheckedPositions}, "cycles");
     visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
     visit.param("margin", margin, Range{1e-3, 0.5}, "m");
     visit.param("tool_radius", tool_radius, Range{1e-3, 0.5}, "m");

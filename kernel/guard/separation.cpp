@@ -1,6 +1,5 @@
 #include "kernel/guard/separation.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tactus {

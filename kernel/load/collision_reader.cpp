@@ -91,10 +91,11 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   const Place place{ini, *section, error};
   CollisionSection& collision = pipeline.collision;
   collision.present = true;
-  if (kPositions % collision.cycles != 0)
+  if (kCheckedPositions % collision.cycles != 0)
     return place.refuse(Status::kBadValue, "cycles",
-                        Message("") << collision.cycles << " cycles do not share the " << kPositions
-                                    << " positions of a check evenly; give 1, 2, 5 or 10");
+                        Message("")
+                            << collision.cycles << " cycles do not share the " << kCheckedPositions
+                            << " positions of a check evenly; give 1, 2, 5 or 10");
   TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;

@@ -37,13 +37,16 @@ def joined(dof, stream, joins, step):
     return tape.cycles(30)
 
 
+CLEAR = {6: {2: 70}, 7: {1: 127, 3: 127, 5: 127}}  # joints that keep the arm from touching itself where the others are at limits
+
+
 def cornered(dof, signs):
-    """The arm is armed clear of itself; then every joint is at a limit."""
-    return Tape().numbers("joints", READY[dof]).cycles(1).numbers("joints", [127 * sign for sign in signs[:dof]])
+    """Puts as many joints at a limit as an arm can that does not touch itself: another is not armed."""
+    return Tape().numbers("joints", [CLEAR[dof].get(i, 127 * sign) for i, sign in enumerate(signs[:dof])])
 
 
 def at_limits(dof, signs, velocity):
-    """Puts every joint at a limit and sends a reference that goes on moving."""
+    """Puts the joints at limits and sends a reference that goes on moving."""
     tape = cornered(dof, signs).cycles(1)
     return tape.point(BASE, 1, (0, 0, 0, 0, 0, 0) + tuple(velocity)).cycles(3)
 

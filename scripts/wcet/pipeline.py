@@ -6,7 +6,7 @@ import re
 from wcet.image import ROOT, Unbounded
 from wcet.kinds import kinds
 
-POSITIONS = 10  # that a collision check looks at: kPositions
+POSITIONS = 10  # that a collision check looks at: kCheckedPositions
 
 
 def sections(path):
