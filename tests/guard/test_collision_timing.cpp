@@ -78,12 +78,12 @@ void just_in_time_is_in_time(void**) {
   }
 }
 
-/// A robot that stops at once on command. Braked one cycle later it would be in the margin.
+/// A joint that stops at once on command. Braked one cycle later it would be in the margin.
 void until_the_brake_begins_the_cycles_of_two_checks_count_and_no_more(void**) {
   for (const int cycles : {1, 2, 5}) {
     CollisionBench& bench = fresh();
-    Turn turn{bench, stretched_out(bench), 0};
-    bench.limits.ddq_max[0] = 0.01;
+    Turn turn{bench, stretched_out(bench), kDof - 1};
+    bench.limits.ddq_max[kDof - 1] = 0.01;
     bench.section.limits.ddq_max.setConstant(1e4);
     bench.section.cycles = cycles;
     turn.place();
