@@ -83,6 +83,7 @@ void until_the_brake_begins_the_cycles_of_two_checks_count_and_no_more(void**) {
   for (const int cycles : {1, 2, 5}) {
     CollisionBench& bench = fresh();
     Turn turn{bench, stretched_out(bench), kDof - 1};
+    bench.tip = {0.6, 0.0, 0.05};
     bench.limits.ddq_max[kDof - 1] = 0.01;
     bench.section.limits.ddq_max.setConstant(1e4);
     bench.section.cycles = cycles;
