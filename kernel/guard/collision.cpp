@@ -71,19 +71,22 @@ bool Collision::meets(int first, int second) const {
   if (second - first < 2) return false;
   for (const LinkPair& pair : RobotCapsules::kTouching)
     if (pair.first == first && pair.second == second) return false;
-  return !scene_->allowed[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
+  return !is_allowed(first, second);
+}
+
+bool Collision::is_allowed(int first, int second) const {
+  return scene_->allowed[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
 }
 
 void Collision::add_pairs() {
   pair_count_ = box_pair_count_ = 0;
   for (int second = 0; second < kCapsules; ++second) {
     const Body& moving = body(second);
-    const auto& allowed = scene_->allowed[static_cast<std::size_t>(moving.body)];
     for (int first = 0; first < second; ++first)
       if (meets(body(first).body, moving.body))
         pairs_[static_cast<std::size_t>(pair_count_++)] = {second, first, body(first).link};
     for (int box = 0; box < scene_->box_count() && moving.link > 0; ++box)
-      if (!allowed[static_cast<std::size_t>(kFirstBoxBody + box)])
+      if (!is_allowed(kFirstBoxBody + box, moving.body))
         box_pairs_[static_cast<std::size_t>(box_pair_count_++)] = {second, box, 0};
   }
 }

@@ -82,6 +82,7 @@ class Collision {
   void add_capsules(const Vector3& tip, double tool_radius);
   void add_pairs();
   bool meets(int first, int second) const;
+  bool is_allowed(int first, int second) const;
   void begin(const RobotState& measured);
   Status end(Status status);
   Status check_next();
