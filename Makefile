@@ -58,17 +58,12 @@ AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
-# The source of libccd, for machines without a binary package in Debian.
-CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
-CCD_SRCS := $(if $(CCD),$(patsubst %,$(CCD)/src/%.c,ccd mpr polytope support vec3))
-CXXFLAGS += $(CCD:%=-isystem %/src)
-
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 TESTS    := $(TESTS:%.cpp=$(B)/%)
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
-TESTLIBS := -Wl,--as-needed -lccd -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
+TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
 PCH      := $(O)/precompiled.hpp
 QUICK    := $(filter-out $(SEAMS),$(ORACLES) $(TESTS:$(B)/%=%.cpp))
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
@@ -122,7 +117,7 @@ list-tests:
 	@echo $(TESTS)
 kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a $(O)/libccd.a
+$(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
@@ -148,14 +143,13 @@ $(O)/tests/pipeline/test_pipelines.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
 $(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
 $(O)/libkernel.a: $(call obj,$(KERNEL))
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
-$(O)/libccd.a: $(CCD_SRCS:%.c=$(O)/%.o)
 $(O)/liboracles.a: $(call obj,$(ORACLES))
 build/%.a:
 	$(call say,AR    $@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 $(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS) -lccd
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS)
 # Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
 build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
@@ -166,7 +160,7 @@ $(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lccd -lpthread
+	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
 $(O)/%.o: %.cpp Makefile | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
@@ -174,13 +168,6 @@ $(O)/%.o: %.cpp Makefile | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch
 $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefile
 	$(call say,PCH   $@)
 	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
-
-$(CCD_SRCS:%.c=$(O)/%.o): $(O)/%.o: %.c
-	$(call say,CC    $<)
-	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) $(DEBUG) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
-$(CCD_SRCS) &:
-	$(Q)scripts/libccd $(CCD)
-$(call obj,$(KERNEL) tests/bare_metal/link.cpp): | $(CCD_SRCS)
 
 include program/install.mk
 include tests/fuzz/fuzz.mk

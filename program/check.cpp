@@ -39,6 +39,7 @@ int check(Session& session, const Options& options) {
                          {held.stamp_ns});
   if (status != Status::kOk) {
     print_stop(options.pipeline, "refused", status, guard.telemetry());
+    if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
     return kRefused;
   }
   Report report;

@@ -29,12 +29,6 @@ Status record(void* recorder, const RobotState&, double time_s) {
   return Status::kOk;  // a full ring drops the row and counts it
 }
 
-void print_collision(const Collision::Telemetry& told) {
-  std::fprintf(
-      stderr, "  %s with %s, %s\n", told.first, told.second,
-      told.predicted ? "before the arm could have come to rest" : "at the present position");
-}
-
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
@@ -85,6 +79,12 @@ void print_stop(const char* subject, const char* event, Status status,
   if (!trouble.empty())
     std::fprintf(stderr, ": %.*s", static_cast<int>(trouble.size()), trouble.data());
   std::fprintf(stderr, "\n");
+}
+
+void print_collision(const Collision::Telemetry& told) {
+  std::fprintf(
+      stderr, "  %s with %s, %s\n", told.first, told.second,
+      told.predicted ? "before the arm could have come to rest" : "at the present position");
 }
 
 int run(Session& session, const Options& options) {

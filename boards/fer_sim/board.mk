@@ -15,3 +15,8 @@ HOST_STACK_BUDGET := 32768
 
 # All tests except those of the UR interfaces.
 TESTS  := $(filter-out tests/ur/%,$(TESTS))
+
+# The core on which `make wcet` judges the bound of a cycle with its rows, with code and data in tightly coupled memory:
+# its clock, and the longest time that such a cycle may take.
+CORE_MHZ      := 600
+CORE_LIMIT_US := 2500

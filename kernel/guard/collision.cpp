@@ -44,11 +44,12 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
                       const Vector3& tip, double period_s) {
   scene_ = &section.scene;
   margin_ = section.margin;
-  support_calls_ = section.support_calls;
+  positions_ = kCheckedPositions / section.cycles;
   const JointVector& braking = section.limits.ddq_max;
-  braking_ = {(section.divisor + 1) * period_s + section.delay_s + jerk_ramp_s(limits, braking),
+  braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
   telemetry_ = {};
+  next_ = 0;
   add_capsules(tip, section.tool_radius);
   add_pairs();
 }
@@ -70,33 +71,54 @@ bool Collision::meets(int first, int second) const {
   if (second - first < 2) return false;
   for (const LinkPair& pair : RobotCapsules::kTouching)
     if (pair.first == first && pair.second == second) return false;
-  return true;
+  return !is_allowed(first, second);
+}
+
+bool Collision::is_allowed(int first, int second) const {
+  return scene_->allowed[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
 }
 
 void Collision::add_pairs() {
-  pair_count_ = 0;
-  const auto add = [this](int first_body, const Pair& pair) {
-    const int second_body = bodies_[static_cast<std::size_t>(pair.second)].body;
-    if (!scene_
-             ->allowed[static_cast<std::size_t>(first_body)][static_cast<std::size_t>(second_body)])
-      pairs_[static_cast<std::size_t>(pair_count_++)] = pair;
-  };
+  pair_count_ = box_pair_count_ = 0;
   for (int second = 0; second < kCapsules; ++second) {
-    const Body& moving = bodies_[static_cast<std::size_t>(second)];
-    for (int first = 0; first < second; ++first) {
-      const int body = bodies_[static_cast<std::size_t>(first)].body;
-      if (meets(body, moving.body)) add(body, {second, first, -1});
-    }
+    const Body& moving = body(second);
+    for (int first = 0; first < second; ++first)
+      if (meets(body(first).body, moving.body))
+        pairs_[static_cast<std::size_t>(pair_count_++)] = {second, first, body(first).link};
     for (int box = 0; box < scene_->box_count() && moving.link > 0; ++box)
-      add(kFirstBoxBody + box, {second, -1, box});
+      if (!is_allowed(kFirstBoxBody + box, moving.body))
+        box_pairs_[static_cast<std::size_t>(box_pair_count_++)] = {second, box, 0};
   }
 }
 
 Status Collision::check(const RobotState& measured) {
+  next_ = 0;
+  Status status = step(measured);
+  LoopBound<kCheckedPositions> positions;
+  while (status == Status::kOk && next_ > 0) {
+    positions.tick();
+    status = step(measured);
+  }
+  return status;
+}
+
+Status Collision::step(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
-  ++telemetry_.checks;
-  telemetry_.support_calls = 0;
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
+  if (next_ == 0) begin(measured);
+  LoopBound<kCheckedPositions> positions;
+  for (int i = 0; i < positions_; ++i) {
+    positions.tick();
+    const Status status = check_next();
+    if (status != Status::kOk) return end(status);
+    ++next_;
+  }
+  return next_ < kCheckedPositions ? Status::kOk : end(Status::kOk);
+}
+
+void Collision::begin(const RobotState& measured) {
+  q_ = measured.q;
+  dq_ = measured.dq;
   LoopBound<kMaxObstacles> obstacles;
   for (int i = 0; i < scene_->box_count(); ++i) {
     obstacles.tick();
@@ -104,66 +126,59 @@ Status Collision::check(const RobotState& measured) {
     const Cuboid& cuboid = *scene_->boxes[box];
     boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
   }
-  Status status = check_at(measured.q, JointVector::Zero(), false);
-  if (status == Status::kOk) {
-    LoopBound<1 + kSections> sections;
-    for (const JointBox& box : stopping_boxes(braking_, measured.q, measured.dq)) {
-      sections.tick();
-      status = check_at(box.middle, box.half, true);
-      if (status != Status::kOk) break;
-    }
-  }
-  telemetry_.most_support_calls = std::max(telemetry_.most_support_calls, telemetry_.support_calls);
+}
+
+Status Collision::end(Status status) {
+  next_ = 0;
+  ++telemetry_.checks;
   return status;
 }
 
-Status Collision::check_at(const JointVector& q, const JointVector& half, bool predicted) {
-  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(q));
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
-    placed_[i] = {frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius};
-  }
+/// Checks all pairs in position next_: now, or in a section of the way to rest.
+Status Collision::check_next() {
+  place(next_ == 0 ? JointBox{q_, JointVector::Zero()}
+                   : stopping_box(braking_, q_, dq_, next_ - 1));
   LoopBound<kMaxPairs> pairs;
   for (int i = 0; i < pair_count_; ++i) {
     pairs.tick();
     const Pair& pair = pairs_[static_cast<std::size_t>(i)];
-    const Body& moving = bodies_[static_cast<std::size_t>(pair.second)];
-    const int still = pair.first < 0 ? 0 : bodies_[static_cast<std::size_t>(pair.first)].link;
-    double sweep = 0.0;
-    LoopBound<kDof> joints;
-    for (int joint = still; joint < moving.link; ++joint) {
-      joints.tick();
-      sweep += moving.reach[joint] * half[joint];
-    }
-    if (!apart(pair, margin_ + sweep)) return contact(pair, sweep, predicted);
+    const Swept& second = swept(pair.second);
+    if (!apart(second.capsule, swept(pair.first).capsule, margin_ + second.ways[pair.axis]))
+      return contact(pair, body(pair.first).body);
+  }
+  LoopBound<kMaxBoxPairs> box_pairs;
+  for (int i = 0; i < box_pair_count_; ++i) {
+    box_pairs.tick();
+    const Pair& pair = box_pairs_[static_cast<std::size_t>(i)];
+    const Swept& second = swept(pair.second);
+    const BoxShape& box = boxes_[static_cast<std::size_t>(pair.first)];
+    if (!apart(second.capsule, box, margin_ + second.ways[pair.axis]))
+      return contact(pair, kFirstBoxBody + pair.first);
   }
   return Status::kOk;
 }
 
-bool Collision::apart(const Pair& pair, double inflation) {
-  const Capsule& capsule = placed_[static_cast<std::size_t>(pair.second)];
-  const bool to_box = pair.first < 0;
-  const Capsule& other = placed_[static_cast<std::size_t>(to_box ? pair.second : pair.first)];
-  const BoxShape& box = boxes_[static_cast<std::size_t>(to_box ? pair.box : 0)];
-  if (to_box ? far_apart(capsule, box, inflation) : far_apart(capsule, other, inflation))
-    return true;
-  telemetry_.exhausted = telemetry_.support_calls + kSupportCallsOfPair > support_calls_;
-  if (telemetry_.exhausted) return false;
-  const Separation result =
-      to_box ? separate(capsule, box, inflation) : separate(capsule, other, inflation);
-  telemetry_.support_calls += result.support_calls;
-  return result.proved;
+/// Places the arm at the middle of a section, and finds how far each capsule can move in it against
+/// the links before each joint.
+void Collision::place(const JointBox& box) {
+  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(box.middle));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body& body = bodies_[i];
+    const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
+    swept_[i].capsule = {frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius};
+    double way = 0.0;
+    for (int joint = kDof - 1; joint >= 0; --joint) {
+      way += body.reach[joint] * box.half[joint];
+      swept_[i].ways[joint] = way;
+    }
+  }
 }
 
-Status Collision::contact(const Pair& pair, double sweep, bool predicted) {
-  const int second = bodies_[static_cast<std::size_t>(pair.second)].body;
-  const int first = pair.first < 0 ? kFirstBoxBody + pair.box
-                                   : bodies_[static_cast<std::size_t>(pair.first)].body;
-  telemetry_.first = scene_->names[static_cast<std::size_t>(first)];
-  telemetry_.second = scene_->names[static_cast<std::size_t>(second)];
-  telemetry_.predicted = predicted;
-  telemetry_.sweep_m = sweep;
+Status Collision::contact(const Pair& pair, int first_body) {
+  telemetry_.first = scene_->names[static_cast<std::size_t>(first_body)];
+  telemetry_.second = scene_->names[static_cast<std::size_t>(body(pair.second).body)];
+  telemetry_.predicted = next_ > 0;
+  telemetry_.sweep_m = swept(pair.second).ways[pair.axis];
   return Status::kCollision;
 }
 

@@ -7,6 +7,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/load_error.hpp"
+#include "kernel/guard/stopping.hpp"
 #include "kernel/robots/robot.hpp"
 
 namespace tactus {
@@ -16,6 +17,9 @@ inline constexpr int kToolBody = kDof + 1;
 inline constexpr int kFirstBoxBody = kToolBody + 1;
 inline constexpr int kMaxObstacles = 8;
 inline constexpr int kMaxBodies = kFirstBoxBody + kMaxObstacles;
+
+/// A check looks at the arm now and in every section of its way to rest.
+inline constexpr int kCheckedPositions = 1 + kSections;
 
 struct CollisionScene {
   std::array<const char*, kMaxBodies> names{};  ///< those of the boxes are in the port table
@@ -31,11 +35,11 @@ struct CollisionScene {
 };
 
 struct CollisionSection {
-  int divisor = 8, offset = 0;  ///< cycles
-  int budget_us = 250;
+  bool present = false;       ///< the file has the section
+  int cycles = 5;             ///< over which a check is spread, evenly
+  int budget_us = 250;        ///< in each of them
   double margin = 0.01;       ///< m: a smaller distance is a contact
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip
-  int support_calls = 4000;   ///< most support points in one check: its worst case
   double delay_s = 0.0;       ///< total delay of the measured state and the brake, s
   JointLimits limits;         ///< only ddq_max: each joint's deceleration, braked at once, rad/s^2
   Value allow;                ///< "tool table, link7 table"
@@ -44,10 +48,8 @@ struct CollisionSection {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("divisor", divisor, Range{1.0, 1000.0}, "cycles");
-    visit.param("offset", offset, Range{0.0, 999.0}, "cycles");
+    visit.param("cycles", cycles, Range{1.0, 1.0 * kCheckedPositions}, "cycles");
     visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
-    visit.param("support_calls", support_calls, Range{100.0, 4000.0}, "1");
     visit.param("margin", margin, Range{1e-3, 0.5}, "m");
     visit.param("tool_radius", tool_radius, Range{1e-3, 0.5}, "m");
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");

@@ -1,105 +1,84 @@
 #include "kernel/guard/separation.hpp"
 
-#include <ccd/ccd.h>
-
-#include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 namespace tactus {
 namespace {
 
-static_assert(std::is_same_v<ccd_real_t, double>);
-
-Vector3 from_ccd(const ccd_vec3_t* v) {
-  return {v->v[0], v->v[1], v->v[2]};
+/// Returns the part x / y of a segment, between its ends. A segment without length has y = 0.
+double part(double x, double y) {
+  const double p = y > 0.0 ? x / y : 0.0;
+  return p < 0.0 ? 0.0 : p > 1.0 ? 1.0 : p;
 }
 
-void to_ccd(const Vector3& v, ccd_vec3_t* to) {
-  for (int i = 0; i < 3; ++i) to->v[i] = v[i];
+/// What is left of x beyond a box of half size h.
+double beyond(double x, double h) {
+  return x > h ? x - h : x < -h ? x + h : 0.0;
 }
 
-/// Return the point farthest along d.
-Vector3 support(const Capsule& c, const Vector3& d) {
-  return (d.dot(c.b - c.a) > 0.0 ? c.b : c.a) + c.radius / std::sqrt(d.dot(d)) * d;
+/// Returns half the slope, at t, of the squared distance between a box and the point a + t d. It
+/// rises with t, and is linear between the six t at which the point crosses the plane of a face.
+double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) sum += d[i] * beyond(a[i] + t * d[i], half[i]);
+  return sum;
 }
 
-Vector3 support(const BoxShape& box, const Vector3& d) {
-  Vector3 corner = box.half;
-  for (int i = 0; i < 3; ++i)
-    if (box.r.col(i).dot(d) < 0.0) corner[i] = -corner[i];
-  return box.centre + box.r * corner;
-}
-
-/// A pair, and the result of libccd's questions about it.
-template <class Other>
-struct Query {
-  Capsule capsule;  // with the radii of both
-  Other other;
-  double ahead = 0.0;  // reach of the capsule along the direction asked for
-  Separation result;
-
-  /// libccd asks the first shape for its farthest point along d, then the second along -d.
-  static void ask_capsule(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
-    auto& query = *static_cast<Query*>(const_cast<void*>(object));
-    const Vector3 d = from_ccd(direction), p = support(query.capsule, d);
-    query.ahead = d.dot(p);
-    ++query.result.support_calls;
-    to_ccd(p, point);
+/// Returns where the segment a + t d, 0 <= t <= 1, is nearest to the box: where the slope is zero.
+double nearest_to_box(const Vector3& a, const Vector3& d, const Vector3& half) {
+  double low = 0.0, high = 1.0;
+  double at_low = slope(a, d, half, low), at_high = slope(a, d, half, high);
+  for (int i = 0; i < 3; ++i) {
+    for (int side = -1; side <= 1; side += 2) {
+      const double t = (side * half[i] - a[i]) / d[i];  // without effect if d[i] is 0
+      if (!(t > low && t < high)) continue;
+      const double at_t = slope(a, d, half, t);
+      if (at_t < 0.0) {
+        low = t;
+        at_low = at_t;
+      } else {
+        high = t;
+        at_high = at_t;
+      }
+    }
   }
-  static void ask_other(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
-    auto& query = *static_cast<Query*>(const_cast<void*>(object));
-    const Vector3 d = from_ccd(direction), p = support(query.other, d);
-    // Along -d the capsule ends at `ahead`, and the other begins at -d.p.
-    if (query.ahead + d.dot(p) < 0.0) query.result.proved = true;
-    ++query.result.support_calls;
-    to_ccd(p, point);
-  }
-  static void first_direction(const void* object, const void*, ccd_vec3_t* direction) {
-    const auto& query = *static_cast<const Query*>(object);
-    to_ccd(centre_of(query.other) - query.capsule.centre(), direction);
-  }
-  static Vector3 centre_of(const Capsule& capsule) { return capsule.centre(); }
-  static Vector3 centre_of(const BoxShape& box) { return box.centre; }
-};
+  return low + (high - low) * part(-at_low, at_high - at_low);
+}
 
-template <class Other>
-Separation run(Query<Other> query) {
-  ccd_t ccd{};
-  ccd.first_dir = Query<Other>::first_direction;
-  ccd.support1 = Query<Other>::ask_capsule;
-  ccd.support2 = Query<Other>::ask_other;
-  ccd.max_iterations = kGjkIterations;
-  static_cast<void>(ccdGJKIntersect(&query, &query, &ccd));
-  return query.result;
+/// Returns how far along n a segment begins, from its point a: at an end. NaN is kept.
+double first_along(const Vector3& n, const Vector3& d) {
+  const double at_b = n.dot(d);
+  return at_b > 0.0 ? 0.0 : at_b;
+}
+
+/// True if the gap along n, which is as long as n times the gap in m, is more than `reach`.
+bool separates(const Vector3& n, double gap, double reach) {
+  return gap > reach * std::sqrt(n.squaredNorm());
 }
 
 }  // namespace
 
-Separation separate(const Capsule& capsule, const Capsule& other, double inflation) {
-  const double thickness = capsule.radius + other.radius + inflation;
-  // The first takes the radii of both; the other is only its segment.
-  return run(Query<Capsule>{{capsule.a, capsule.b, thickness}, {other.a, other.b, 0.0}, 0.0, {}});
+// Ericson, Real-Time Collision Detection, 2005, section 5.1.9: the nearest points of two segments
+// p = a + s d. If t has to be moved to an end, s follows; otherwise it keeps its value.
+bool apart(const Capsule& capsule, const Capsule& other, double margin) {
+  const Vector3 d1 = capsule.b - capsule.a, d2 = other.b - other.a, r = capsule.a - other.a;
+  const double a = d1.squaredNorm(), b = d1.dot(d2), c = d1.dot(r);
+  const double e = d2.squaredNorm(), f = d2.dot(r);
+  const double on_line = part(b * f - c * e, a * e - b * b);
+  const double t = part(b * on_line + f, e), s = part(b * t - c, a);
+  const Vector3 n = r + s * d1 - t * d2;
+  const double gap = n.dot(r) + first_along(n, d1) + first_along(n, -d2);
+  return separates(n, gap, capsule.radius + other.radius + margin);
 }
 
-Separation separate(const Capsule& capsule, const BoxShape& box, double inflation) {
-  return run(Query<BoxShape>{{capsule.a, capsule.b, capsule.radius + inflation}, box, 0.0, {}});
-}
-
-bool far_apart(const Capsule& capsule, const Capsule& other, double inflation) {
-  const double reach = 0.5 * std::sqrt((capsule.b - capsule.a).squaredNorm()) + capsule.radius +
-                       0.5 * std::sqrt((other.b - other.a).squaredNorm()) + other.radius +
-                       inflation;
-  return (capsule.centre() - other.centre()).squaredNorm() > reach * reach;
-}
-
-bool far_apart(const Capsule& capsule, const BoxShape& box, double inflation) {
-  const double reach =
-      0.5 * std::sqrt((capsule.b - capsule.a).squaredNorm()) + capsule.radius + inflation;
-  const Vector3 centre = box.r.transpose() * (capsule.centre() - box.centre);
-  Vector3 gap;
-  for (int i = 0; i < 3; ++i) gap[i] = std::max(std::abs(centre[i]) - box.half[i], 0.0);
-  return gap.squaredNorm() > reach * reach;
+bool apart(const Capsule& capsule, const BoxShape& box, double margin) {
+  const Vector3 a = box.r.transpose() * (capsule.a - box.centre);
+  const Vector3 d = box.r.transpose() * (capsule.b - capsule.a);
+  const Vector3 at = a + nearest_to_box(a, d, box.half) * d;
+  Vector3 n;
+  for (int i = 0; i < 3; ++i) n[i] = beyond(at[i], box.half[i]);
+  const double gap = n.dot(a) + first_along(n, d) - n.cwiseAbs().dot(box.half);
+  return separates(n, gap, capsule.radius + margin);
 }
 
 }  // namespace tactus

@@ -31,29 +31,30 @@ struct Highest {
   }
 };
 
+/// Returns the time on the ramp, from t_r on, at which section `section` ends.
+double end_s(double t_s, int section) {
+  return t_s * (1.0 - std::sqrt(1.0 - static_cast<double>(section) / kBrakes));
+}
+
 }  // namespace
 
-StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const JointVector& dq) {
+JointBox stopping_box(const Braking& braking, const JointVector& q, const JointVector& dq,
+                      int section) {
   const double t_r = braking.reaction_s, t_s = stopping_time(braking, dq);
-  StoppingBoxes boxes;
+  const double end = end_s(t_s, section), begin = section > 0 ? end_s(t_s, section - 1) : 0.0;
+  JointBox box;
   for (int j = 0; j < kDof; ++j) {
     const double a = braking.acceleration[j], b = braking.deceleration[j];
     const Highest up = {dq[j], a, b, t_r, t_s}, down = {-dq[j], a, b, t_r, t_s};
-    double high = 0.0, low = 0.0;  // at the beginning of the section
-    for (int k = 0; k <= kSections; ++k) {
-      const double s = t_s * (1.0 - std::sqrt(1.0 - static_cast<double>(k) / kSections));
-      const double next_high = up.at(s), next_low = -down.at(s);
-      // Written so that NaN is kept.
-      const double top = high > next_high ? high : next_high;
-      const double bottom = low < next_low ? low : next_low;
-      JointBox& box = boxes[static_cast<std::size_t>(k)];
-      box.middle[j] = q[j] + 0.5 * (top + bottom);
-      box.half[j] = 0.5 * (top - bottom);
-      high = next_high;
-      low = next_low;
-    }
+    const double high = section > 0 ? up.at(begin) : 0.0, next_high = up.at(end);
+    const double low = section > 0 ? -down.at(begin) : 0.0, next_low = -down.at(end);
+    // Written so that NaN is kept.
+    const double top = high > next_high ? high : next_high;
+    const double bottom = low < next_low ? low : next_low;
+    box.middle[j] = q[j] + 0.5 * (top + bottom);
+    box.half[j] = 0.5 * (top - bottom);
   }
-  return boxes;
+  return box;
 }
 
 }  // namespace tactus

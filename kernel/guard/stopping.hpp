@@ -12,11 +12,9 @@
 //   U(t) = q + dq t + a t^2 / 2                                until t_r
 //   U(t) = U(t_r) + (own if v < 0, else common)(v, t - t_r),   v = dq + a t_r
 // and, mirrored, not below L(t). The time until t_r is one section; the rest is divided into
-// kSections of equal way on the common ramp. U is convex in the first section and monotone in the
+// kBrakes of equal way on the common ramp. U is convex in the first section and monotone in the
 // others, so its largest value in a section is at one end.
 #pragma once
-
-#include <array>
 
 #include "kernel/core/types.hpp"
 
@@ -33,10 +31,12 @@ struct JointBox {
   JointVector middle, half;
 };
 
-inline constexpr int kSections = 8;
-using StoppingBoxes = std::array<JointBox, 1 + kSections>;
+/// The sections of the way from the measurement until rest: one before braking, then kBrakes.
+inline constexpr int kBrakes = 8;
+inline constexpr int kSections = 1 + kBrakes;
 
-/// Returns the boxes of all sections, for q in rad and dq in rad/s. [cyclic]
-StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const JointVector& dq);
+/// Returns the box of section 0 .. kSections - 1, for q in rad and dq in rad/s. [cyclic]
+JointBox stopping_box(const Braking& braking, const JointVector& q, const JointVector& dq,
+                      int section);
 
 }  // namespace tactus

@@ -90,11 +90,12 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   if (section == nullptr) return Status::kOk;
   const Place place{ini, *section, error};
   CollisionSection& collision = pipeline.collision;
-  if (collision.offset >= collision.divisor)
-    return place.refuse(Status::kBadValue, "offset",
-                        Message("") << collision.offset
-                                    << " cycles is out of range; it must be less than the divisor, "
-                                    << collision.divisor);
+  collision.present = true;
+  if (kCheckedPositions % collision.cycles != 0)
+    return place.refuse(Status::kBadValue, "cycles",
+                        Message("")
+                            << collision.cycles << " cycles do not share the " << kCheckedPositions
+                            << " positions of a check evenly; give 1, 2, 5 or 10");
   TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;

@@ -54,7 +54,7 @@ Status add(Pipeline& pipeline, const Row& row, const char* section, const Place&
 }
 
 Status check_collision(void* collision, const RobotState& measured, double) {
-  return static_cast<Collision*>(collision)->check(measured);
+  return static_cast<Collision*>(collision)->step(measured);
 }
 
 }  // namespace
@@ -69,10 +69,10 @@ Status read_schedule(const Ini& ini, Pipeline& pipeline, LoadError& error) {
           "recorder", place));
   if (ini.find("collision") == nullptr) return Status::kOk;
   const CollisionSection& collision = pipeline.collision;
-  return add(pipeline,
-             {"collision", collision.divisor, collision.offset, collision.budget_us, false,
-              check_collision, &pipeline.collision_check},
-             "collision", place);
+  return add(
+      pipeline,
+      {"collision", 1, 0, collision.budget_us, false, check_collision, &pipeline.collision_check},
+      "collision", place);
 }
 
 }  // namespace tactus

@@ -64,7 +64,7 @@ Status Pipeline::start(const RobotState& measured) {
   robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
   collision_check.start(collision, guard.effective(), robot.tool_tip, robot.period_s());
-  return Status::kOk;
+  return collision.present ? collision_check.check(measured) : Status::kOk;
 }
 
 bool Pipeline::at_rest() const {

@@ -85,8 +85,8 @@ class Pipeline {
   /// Name of the section of a block.
   const Name& name(int block) const { return names_[static_cast<std::size_t>(block)]; }
 
-  /// Starts every block in order, from the measured state. Returns the first Status that is not
-  /// kOk. [init]
+  /// Starts every block in order, from the measured state, and checks that state for collisions.
+  /// Returns the first Status that is not kOk. [init]
   Status start(const RobotState& measured);
   /// Steps every block in order and times each. Returns the first Status that is not kOk. [cyclic]
   Status step(const RobotState& measured, Timing* timing = nullptr);

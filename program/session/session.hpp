@@ -37,5 +37,7 @@ int check(Session& session, const Options& options);
 /// found it, then the robot's own reason.
 void print_stop(const char* subject, const char* event, Status status,
                 const Guard::Telemetry& guard, std::string_view trouble = {});
+/// Prints the pair of a contact.
+void print_collision(const Collision::Telemetry& told);
 
 }  // namespace tactus

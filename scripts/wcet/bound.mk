@@ -26,6 +26,6 @@ certificate-host: $(O)/libkernel.a $(B)/stack_painter
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) -o $@ $^ -lccd
+	$(Q)$(CXX) -o $@ $^
 $(O)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
 $(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=pipelines/%.ini)

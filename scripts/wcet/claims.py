@@ -5,7 +5,7 @@ call reaches, and the facts of facts.txt and of the pipeline file. scripts/wcet/
 import re
 
 ROOT = r"^tactus::Executive::cycle\("  # nothing is claimed outside of it
-FLOW = ("calls", "reaches", "total")
+FLOW = ("calls", "reaches")
 
 
 def of(analysis):

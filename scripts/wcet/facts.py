@@ -10,8 +10,6 @@ source line.
                                         loops run once for each byte, or for each word if that is a multiple of four
     calls    FUNCTION  CALLEE  N        each call of FUNCTION calls CALLEE at most N times
     reaches  FUNCTION  CALLEE  INNER  N   in each call of FUNCTION, at most N of its calls of CALLEE reach INNER
-    total    FUNCTION  CALLEE  N        in each call of FUNCTION, which alone reaches CALLEE, the one loop of CALLEE
-                                        runs at most N times in total
     targets  FUNCTION  TEXT    CALLEE   a target of a call through a pointer; "none": the call is never made
     assume   FUNCTION  N       WHY      takes N instructions; not analysed
 """
@@ -20,7 +18,7 @@ import re
 
 from wcet.image import Unbounded
 
-KINDS = {"loop": 3, "words": 2, "calls": 3, "reaches": 4, "total": 3, "targets": 3, "assume": 3}
+KINDS = {"loop": 3, "words": 2, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
 
 
 class Facts:
@@ -71,16 +69,6 @@ class Facts:
             self.use(words)
             return words[2]
         return None
-
-    def total(self, function):
-        """Returns the functions that a fact says this one is: (callee, N) of loops whose runs are counted over a whole call."""
-        for words in self.of("total", function):
-            self.use(words)
-        return [(words[2], self.number(words[3])) for words in self.of("total", function)]
-
-    def counted_above(self, function):
-        """Returns True if the runs of this function's loop are counted over a call of another function."""
-        return any(words[0] == "total" and re.search(words[2], function.written) for words in self.facts)
 
     def targets(self, function, text):
         """Returns patterns of the targets of a call through a pointer, or None without a fact."""

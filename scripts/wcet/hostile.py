@@ -37,9 +37,17 @@ def joined(dof, stream, joins, step):
     return tape.cycles(30)
 
 
+CLEAR = {6: {2: 70}, 7: {1: 127, 3: 127, 5: 127}}  # joints that keep the arm from touching itself where the others are at limits
+
+
+def cornered(dof, signs):
+    """Puts as many joints at a limit as an arm can that does not touch itself: another is not armed."""
+    return Tape().numbers("joints", [CLEAR[dof].get(i, 127 * sign) for i, sign in enumerate(signs[:dof])])
+
+
 def at_limits(dof, signs, velocity):
-    """Puts every joint at a limit and sends a reference that goes on moving."""
-    tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(1)
+    """Puts the joints at limits and sends a reference that goes on moving."""
+    tape = cornered(dof, signs).cycles(1)
     return tape.point(BASE, 1, (0, 0, 0, 0, 0, 0) + tuple(velocity)).cycles(3)
 
 
@@ -55,7 +63,7 @@ CORNERED = (
 
 def all_at_once(dof, signs, velocity, step):
     """Fills the mailbox while the joints are at their limits: 13 points, then a trajectory in every store, begun late."""
-    tape = Tape().numbers("joints", [127 * sign for sign in signs[:dof]]).cycles(60)
+    tape = cornered(dof, signs).cycles(60)
     tape.point(BASE, 1, REST + velocity).cycles(12)
     for _ in range(13):
         tape.point(ALL_FRAMES, EVERYTHING, (1, 1, 1, 1, 1, 1) + velocity + (2, 2, 2, 2, 2, 2) + REST)

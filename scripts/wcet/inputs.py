@@ -11,6 +11,7 @@ RUN = "run"  # the tape of the recorded run, which defines the typical cycle
 CORPUS = pathlib.Path(__file__).resolve().parents[2] / "tests/wcet/corpus"
 BUILD = pathlib.Path("build/wcet")
 PIPELINES = pathlib.Path("pipelines")
+BOARDS = pathlib.Path("boards")
 
 
 def pipeline_text(pipeline):
@@ -24,6 +25,16 @@ def robot_of(pipeline):
 def board_of(pipeline):
     """Returns the board for which a pipeline's images are built."""
     return robot_of(pipeline) + "_sim"
+
+
+def period_us(pipeline):
+    return int(re.search(r"^period_us\s*=\s*(\d+)", pipeline_text(pipeline), re.MULTILINE)[1])
+
+
+def core_of(pipeline):
+    """Returns what a pipeline's board states of its core: {"MHZ": its clock, "LIMIT_US": the longest cycle with rows}."""
+    text = (BOARDS / board_of(pipeline) / "board.mk").read_text(encoding="utf-8")
+    return {key: float(value) for key, value in re.findall(r"^CORE_(\w+)\s*:=\s*([\d.]+)", text, re.MULTILINE)}
 
 
 def hand_tapes(pipeline):

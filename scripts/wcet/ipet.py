@@ -17,7 +17,6 @@ from wcet.values import Values
 
 
 WORD = 4  # bytes
-MANY = 10  # runs of a loop after which each further one costs the same
 
 
 def either(*patterns):
@@ -63,8 +62,6 @@ class Analysis:
         """Returns the largest cost of one call, callees included; `without`: functions that it does not reach."""
         if without and not self._reaches(function, without):
             without = None
-        if size is None and self.facts.counted_above(function):
-            size = 0
         key = (function.begin, size, without)
         if key in self.bounds:
             return self.bounds[key]
@@ -156,21 +153,7 @@ class Analysis:
             longest = longest if walked is None else min(longest, walked)
         if longest is None and not without:
             raise Unbounded(f"{function}: no path leads through it")
-        if longest is not None:
-            longest += sum(most * self._of_one_run(callee) for callee, most in self.facts.total(function))
         return longest
-
-    def _of_one_run(self, pattern):
-        """Returns the largest cost of each further run of a function's only loop."""
-        costs = []
-        for callee in self.image.matching(pattern):
-            self.graph(callee)
-            if len(self._loops[callee.begin]) != 1:
-                raise Unbounded(f"{callee}: it needs exactly one loop, so that runs can be counted over several calls")
-            costs.append(self.bound(callee, MANY + 1) - self.bound(callee, MANY))
-        if not costs:
-            raise Unbounded(f"{self.image.path}: no function matches {pattern}")
-        return max(costs)
 
     def _dearest(self, graph, callees, block, call, without):
         """Returns the largest bound of the functions called here; None if all of them reach `without`."""

@@ -6,6 +6,8 @@ import re
 from wcet.image import ROOT, Unbounded
 from wcet.kinds import kinds
 
+POSITIONS = 10  # that a collision check looks at: kCheckedPositions
+
 
 def sections(path):
     """Returns [(name, {key: value})] of the file, in order."""
@@ -58,25 +60,35 @@ def robot(path):
     return dict(sections(path))["robot"]["name"]
 
 
-def robot_capsules(robot):
-    """Returns the link of every capsule of a robot's table, and the tool's, which comes after the last."""
-    table = (ROOT / "kernel/robots" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
-    links = [int(link) for link in re.findall(r"^\s*\{(\d+),\s*\{", table, re.MULTILINE)]
-    return [*links, max(links) + 1]
+def robot_table(robot):
+    """Returns of a robot's table: the link of every capsule; the names of the links; pairs of links that always touch. The
+    tool comes after the last link."""
+    text = (ROOT / "kernel/robots" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
+    links = [int(link) for link in re.findall(r"^\s*\{(\d+),\s*\{", text, re.MULTILINE)]
+    names = re.findall(r'"(\w+)"', re.search(r"kLinkNames = \{(.*?)\}", text, re.DOTALL)[1])
+    touching = re.findall(r"\{(\d+), (\d+)\}", re.search(r"kTouching = (.*?);", text, re.DOTALL)[1])
+    return [*links, max(links) + 1], [*names, "tool"], {(int(first), int(second)) for first, second in touching}
 
 
 def tell_collision(facts, path):
-    """Adds the number of shapes in a collision check, and of its iterations: each takes two support points."""
-    keys, boxes = dict(sections(path)), sum(word == "BoxObstacle" for _, word in blocks(path))
-    links = robot_capsules(robot(path))
-    pairs = sum(second - first >= 2 for i, second in enumerate(links) for first in links[:i])
-    pairs += boxes * sum(link > 0 for link in links)
-    default = re.search(r"support_calls = (\d+);", (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8"))
-    supports = int(keys.get("collision", {}).get("support_calls", default[1]))
+    """Adds the number of shapes, pairs and positions that a cycle checks for collisions."""
+    keys, boxes = dict(sections(path)), [name for name, word in blocks(path) if word == "BoxObstacle"]
+    links, names, touching = robot_table(robot(path))
+    settings = keys.get("collision", {})
+    allowed = {frozenset(pair.split()) for pair in settings.get("allow", "").split(",")}
+    checked = lambda first, second: frozenset((first, second)) not in allowed
+    pairs = sum(
+        second - first >= 2 and (first, second) not in touching and checked(names[first], names[second])
+        for i, second in enumerate(links) for first in links[:i]
+    )  # fmt: skip
+    box_pairs = sum(link > 0 and checked(names[link], box) for link in links for box in boxes)
+    text = (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8")
+    cycles = int(settings.get("cycles", re.search(r"cycles = (\d+);", text)[1]))
     facts.add("loop", r"Collision::", r"bodies_\.size\(\)", str(len(links)))
-    facts.add("loop", r"Collision::", r"< scene_->box_count\(\)", str(boxes))
+    facts.add("loop", r"Collision::", r"< scene_->box_count\(\)", str(len(boxes)))
+    facts.add("loop", r"Collision::", r"i < positions_", str(POSITIONS // cycles))
     facts.add("loop", r"Collision::", r"i < pair_count_", str(pairs))
-    facts.add("total", r"tactus::Collision::check\(", r"^__ccdGJK$", str(supports // 2))
+    facts.add("loop", r"Collision::", r"i < box_pair_count_", str(box_pairs))
 
 
 def stages(analysis, steps):

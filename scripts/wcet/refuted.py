@@ -24,9 +24,8 @@ class Claims:
         self.sizes = {int(address): often for address, often in claims["sizes"].items()}
         self.assumed = {int(begin): most for begin, most in claims["assumed"].items()}
         self.loops, self.facts = claims["loops"], claims["facts"]
-        self.enters, self.heads, self.reach, self.limits, self.totals = {}, {}, {}, {}, {}
+        self.enters, self.heads, self.reach, self.limits = {}, {}, {}, {}
         self.root = set(claims["root"])
-        self.summed = {begin for fact in self.facts if fact["kind"] == "total" for begin in fact["of"]}
         self.copying = {begin for address in self.sizes for begin in self.sites[address]}
         for n, loop in enumerate(self.loops):
             for address in loop["enter"]:
@@ -36,9 +35,8 @@ class Claims:
         for n, fact in enumerate(self.facts):
             for begin in fact["inner"] or fact["of"]:
                 self.reach[begin] = self.reach.get(begin, 0) | 1 << n
-            table = self.totals if fact["kind"] == "total" else self.limits
             for begin in fact["in"]:
-                table.setdefault(begin, []).append((n, set(fact["of"]), fact["most"]))
+                self.limits.setdefault(begin, []).append((n, set(fact["of"]), fact["most"]))
 
     def marks(self):
         """Returns the addresses whose execution is an event."""
@@ -99,12 +97,10 @@ class Replay:
     def count(self, caller, frame):
         for n, callees, most in self.claims.limits.get(caller.begin, ()):
             if frame.begin in callees and frame.reached >> n & 1:
-                self.once_more(caller, n, most)
-
-    def once_more(self, owner, n, most):
-        owner.done[n] = owner.done.get(n, 0) + 1
-        if owner.done[n] > most:
-            self.complain(f"a call of {self.claims.names[owner.begin]} breaks the fact: {self.claims.facts[n]['fact']}")
+                caller.done[n] = caller.done.get(n, 0) + 1
+                if caller.done[n] > most:
+                    fact = self.claims.facts[n]["fact"]
+                    self.complain(f"a call of {self.claims.names[caller.begin]} breaks the fact: {fact}")
 
     def mark(self, address):
         frame, claims = self.stack[-1], self.claims
@@ -118,11 +114,6 @@ class Replay:
 
     def back(self, frame, n):
         loop, often = self.claims.loops[n], self.claims.loops[n]["often"]
-        if frame.begin in self.claims.summed:
-            for owner in self.stack:
-                for fact, callees, most in self.claims.totals.get(owner.begin, ()):
-                    self.once_more(owner, fact, most)
-            return
         if frame.begin in self.claims.copying:
             often = self.claims.sizes.get(frame.site, often if frame.site else frame.backs[n])
         if frame.backs[n] > often:

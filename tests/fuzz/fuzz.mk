@@ -22,5 +22,5 @@ fuzz-targets: $(addprefix $(B)/,$(FUZZ))
 $(O)/libfuzzed.a: $(call obj,$(FUZZED))
 $(addprefix $(B)/,$(FUZZ)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^ -lccd
+	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^
 endif

@@ -33,7 +33,7 @@ struct CollisionBench {
     boxes[1].size = {0.1, 0.2, 1.2};
     add_box("table", boxes[0]);
     add_box("beam", boxes[1]);
-    section.divisor = 4;
+    section.cycles = 2;
   }
   void add_box(const char* name, const Cuboid& box) {
     CollisionScene& scene = section.scene;
@@ -46,12 +46,8 @@ struct CollisionBench {
     allowed[a][b] = allowed[b][a] = true;
   }
   void start() { collision.start(section, limits, tip, kPeriod_s); }
-  Status check(const JointVector& q, const JointVector& dq) {
-    RobotState state;
-    state.q = q;
-    state.dq = dq;
-    return collision.check(state);
-  }
+  Status check(const JointVector& q, const JointVector& dq) { return collision.check(at(q, dq)); }
+  Status step(const JointVector& q, const JointVector& dq) { return collision.step(at(q, dq)); }
   int body(const char* name) const {
     for (int i = 0; i < section.scene.body_count; ++i)
       if (section.scene.names[static_cast<std::size_t>(i)] == name) return i;
@@ -73,6 +69,13 @@ struct CollisionBench {
   }
 
  private:
+  static RobotState at(const JointVector& q, const JointVector& dq) {
+    RobotState state;
+    state.q = q;
+    state.dq = dq;
+    return state;
+  }
+
   using Places = std::array<FclPlace, kDof + 1>;
 
   static Places places(const JointVector& q) {

@@ -21,7 +21,7 @@ bool reported(const CollisionBench& bench, const Nearest& nearest) {
 
 // Proves COL-1, COL-2.
 
-/// The oracle leaves undecided the 0.1 mm that GJK leaves open near contact.
+/// FCL's distance of a box is good to 0.1 mm.
 void at_rest_a_contact_is_what_is_nearer_than_the_margin(void**) {
   CollisionBench& bench = fresh();
   bench.start();
@@ -43,7 +43,6 @@ void at_rest_a_contact_is_what_is_nearer_than_the_margin(void**) {
     } else {
       ++open;
     }
-    assert_false(told.exhausted);
   }
   print_message("%d near, of which the nearest pair is named %d times; %d far, %d open\n", near,
                 named, far, open);
@@ -132,9 +131,9 @@ void a_contact_on_the_way_to_rest_was_said_before(void**) {
   bench.section.delay_s = 0.003;
   bench.start();
   RandomStates states;
-  const double reaction_s = 5 * CollisionBench::kPeriod_s + 0.003, margin = bench.section.margin;
+  const double reaction_s = 4 * CollisionBench::kPeriod_s + 0.003, margin = bench.section.margin;
   int contacts = 0, predicted = 0;
-  for (int i = 0; i < 1800; ++i) {
+  for (int i = 0; i < 2400; ++i) {
     states.next();
     const double speed = 0.3 + 0.7 * (i % 8) / 7.0;
     const Status status = bench.check(states.q, speed * states.dq);
@@ -162,8 +161,8 @@ void what_is_predicted_is_near_the_way(void**) {
     const Collision::Telemetry told = bench.collision.telemetry();
     if (status == Status::kOk || !told.predicted) continue;
     ++predicted;
-    Stop stop{bench, states.random, states.q, 0.6 * states.dq, 0.005, 0.001};
-    stop.q += 0.005 * stop.dq;
+    Stop stop{bench, states.random, states.q, 0.6 * states.dq, 0.004, 0.001};
+    stop.q += 0.004 * stop.dq;
     const double on_the_way =
         std::min(bench.nearest(states.q).distance, stop.nearest_until_rest(12));
     assert_true(on_the_way <= bench.section.margin + 2.0 * told.sweep_m);

@@ -1,5 +1,5 @@
-// Tests the separation of two shapes against FCL: a proof of separation is never wrong, and
-// separated shapes are proved so.
+// Tests the separation of two shapes against FCL and against a search along the segment: shapes are
+// proved apart if they are, and only then.
 #include "kernel/guard/separation.hpp"
 
 #include <Eigen/Geometry>
@@ -11,7 +11,13 @@
 namespace tactus {
 namespace {
 
+constexpr double kFclClose = 1e-4, kClose = 1e-8;  // m
+
 constexpr FclPlace kBase = {{0.0, 0.0, 0.0}, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
+void put_nan(void* object, std::size_t number) {
+  static_cast<double*>(object)[number] = std::nan("");
+}
 
 struct Shapes {
   std::mt19937_64 random{7};
@@ -22,6 +28,12 @@ struct Shapes {
     const Vector3 a = 0.6 * vector();
     return {a, a + 0.4 * vector(), 0.02 + 0.08 * std::abs(unit())};
   }
+  /// Parallel to a direction but for 1 to 1e-15, or without length.
+  Capsule along(const Vector3& direction) {
+    const double tilt = std::pow(10.0, -7.5 + 7.5 * unit()), length = unit() > 0.9 ? 0.0 : unit();
+    const Vector3 a = 0.6 * vector();
+    return {a, a + length * (direction + tilt * vector()), 0.02 + 0.08 * std::abs(unit())};
+  }
   BoxShape box() {
     const Eigen::Quaterniond r(unit(), unit(), unit(), unit());
     return {r.normalized().toRotationMatrix(), 0.6 * vector(),
@@ -30,7 +42,7 @@ struct Shapes {
 };
 
 FclCapsule fcl(const Capsule& c) {
-  const Vector3 m = c.centre(), along = c.b - c.a;
+  const Vector3 m = 0.5 * (c.a + c.b), along = c.b - c.a;
   return {{m[0], m[1], m[2]}, {along[0], along[1], along[2]}, c.radius, along.norm()};
 }
 
@@ -48,42 +60,81 @@ double distance(const Capsule& one, const BoxShape& box) {
                       at);
 }
 
-struct Count {
-  int apart = 0, met = 0, far = 0;
-};
-
-/// FCL gives no depth for shapes that overlap, only that they do.
-template <class Other>
-void compare(const Capsule& one, const Other& other, double inflation, Count& count) {
-  const double gap = distance(one, other) - inflation;
-  const Separation result = separate(one, other, inflation);
-  assert_in_range(result.support_calls, 2, kSupportCallsOfPair);
-  if (gap <= 0.0) {
-    assert_false(result.proved);
-    assert_false(far_apart(one, other, inflation));
-    ++count.met;
-  } else if (gap > 1e-4) {
-    assert_true(result.proved);
-    ++count.apart;
-    count.far += far_apart(one, other, inflation);
+/// Returns the smallest of a convex function of 0 <= t <= 1.
+template <class Function>
+long double smallest(Function function) {
+  long double low = 0.0L, high = 1.0L;
+  for (int k = 0; k < 150; ++k) {
+    const long double third = (high - low) / 3.0L;
+    if (function(low + third) < function(high - third))
+      high -= third;
+    else
+      low += third;
   }
+  return std::min({function(low), function(0.0L), function(1.0L)});
 }
 
-// Proves COL-1, COL-2, COL-6.
+using Long3 = Eigen::Matrix<long double, 3, 1>;
 
-void capsules_and_boxes_are_apart_when_fcl_says_so(void**) {
+Long3 point(const Capsule& c, long double t) {
+  return c.a.cast<long double>() + t * (c.b - c.a).cast<long double>();
+}
+
+/// Return the distance by search along the segment, to within rounding; not below zero before the
+/// radii are taken off.
+long double searched(const Capsule& one, const Capsule& other) {
+  const Long3 d = (other.b - other.a).cast<long double>();
+  const long double square = smallest([&](long double t) {
+    const Long3 r = point(one, t) - other.a.cast<long double>();
+    const long double part = d.squaredNorm() > 0.0L ? r.dot(d) / d.squaredNorm() : 0.0L;
+    return (r - std::clamp(part, 0.0L, 1.0L) * d).squaredNorm();
+  });
+  return std::sqrt(square) - one.radius - other.radius;
+}
+
+long double searched(const Capsule& one, const BoxShape& box) {
+  const long double square = smallest([&](long double t) {
+    const Long3 centre = box.centre.cast<long double>(), half = box.half.cast<long double>();
+    const Long3 r = box.r.cast<long double>().transpose() * (point(one, t) - centre);
+    return (r.cwiseAbs() - half).cwiseMax(Long3::Zero()).squaredNorm();
+  });
+  return std::sqrt(square) - one.radius;
+}
+
+/// The verdict changes where the margin is the distance, by the search and, as far as it is exact,
+/// by FCL.
+template <class Other>
+void compare(const Capsule& one, const Other& other, int& clear, int& met) {
+  const auto gap = static_cast<double>(searched(one, other));
+  const double by_fcl = distance(one, other);
+  if (gap <= 0.0) {
+    assert_false(apart(one, other, 0.0));
+    assert_true(by_fcl <= kFclClose);
+    ++met;
+    return;
+  }
+  assert_false(apart(one, other, gap + kClose) || apart(one, other, by_fcl + kFclClose));
+  if (gap > kClose) assert_true(apart(one, other, gap - kClose));
+  if (by_fcl > kFclClose) assert_true(apart(one, other, by_fcl - kFclClose));
+  ++clear;
+}
+
+// Proves COL-1, COL-2.
+
+/// The margin at which the verdict changes is the distance.
+void shapes_are_apart_by_their_distance_and_no_more(void**) {
   Shapes shapes;
-  Count capsules, boxes;
+  int clear = 0, met = 0, clear_of_box = 0, met_box = 0;
   for (int i = 0; i < 20000; ++i) {
     const Capsule one = shapes.capsule();
-    const double inflation = i % 3 * 0.05;
-    compare(one, shapes.capsule(), inflation, capsules);
-    compare(one, shapes.box(), inflation, boxes);
+    const BoxShape box = shapes.box();
+    compare(one, shapes.capsule(), clear, met);
+    compare(one, shapes.along(one.b - one.a), clear, met);
+    compare(one, box, clear_of_box, met_box);
+    compare(shapes.along(box.r.col(i % 3)), box, clear_of_box, met_box);
   }
-  print_message("capsules: %d apart, %d of them far, %d meet; boxes: %d, %d, %d\n", capsules.apart,
-                capsules.far, capsules.met, boxes.apart, boxes.far, boxes.met);
-  assert_true(capsules.apart > 5000 && capsules.met > 500 && capsules.far > 3000);
-  assert_true(boxes.apart > 2000 && boxes.met > 2000 && boxes.far > 100);
+  print_message("capsules: %d apart, %d meet; boxes: %d, %d\n", clear, met, clear_of_box, met_box);
+  assert_true(clear > 20000 && met > 500 && clear_of_box > 10000 && met_box > 2000);
 }
 
 /// Parallel, on one line, crossing, without length, about one centre, on a face.
@@ -92,45 +143,49 @@ void degenerate_shapes_are_no_exception(void**) {
                 z = Vector3::UnitZ();
   const Capsule along = {-x, x, 0.1}, point = {o, o, 0.1};
   const BoxShape box = {Matrix3::Identity(), o, {0.5, 0.5, 0.5}};
-  for (const double gap : {-0.3, -1e-3, -1e-9, 0.0, 1e-3, 0.1, 1.0}) {
-    const bool apart = gap > 0.0;
+  for (const double gap : {-0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.1, 1.0}) {
+    const bool clear = gap > 0.0;
     const Vector3 up = (0.2 + gap) * z, beside = (0.6 + gap) * y;
-    assert_int_equal(separate(along, Capsule{up - x, up + x, 0.1}, 0.0).proved, apart);
-    assert_int_equal(separate(along, Capsule{up - y, up + y, 0.1}, 0.0).proved, apart);
-    assert_int_equal(separate(along, Capsule{x + (0.2 + gap) * x, 3.0 * x, 0.1}, 0.0).proved,
-                     apart);
-    assert_int_equal(separate(point, Capsule{up, up, 0.1}, 0.0).proved, apart);
-    assert_int_equal(separate(Capsule{beside, beside, 0.1}, box, 0.0).proved, apart);
-    assert_int_equal(separate(Capsule{beside - x, beside + x, 0.1}, box, 0.0).proved, apart);
+    assert_int_equal(apart(along, Capsule{up - x, up + x, 0.1}, 0.0), clear);
+    assert_int_equal(apart(along, Capsule{up - y, up + y, 0.1}, 0.0), clear);
+    assert_int_equal(apart(along, Capsule{x + (0.2 + gap) * x, 3.0 * x, 0.1}, 0.0), clear);
+    assert_int_equal(apart(point, Capsule{up, up, 0.1}, 0.0), clear);
+    assert_int_equal(apart(Capsule{beside, beside, 0.1}, box, 0.0), clear);
+    assert_int_equal(apart(Capsule{beside - x, beside + x, 0.1}, box, 0.0), clear);
   }
-  assert_false(separate(along, along, 0.0).proved);
-  assert_false(separate(point, point, 0.0).proved);
-  assert_false(separate(point, box, 0.0).proved);
+  assert_false(apart(along, along, 0.0));
+  assert_false(apart(point, point, 0.0));
+  assert_false(apart(point, box, 0.0));
 }
 
 // Proves COL-4.
 
-void what_is_not_a_number_is_not_apart(void**) {
-  const double nan = std::nan("");
-  const Vector3 far = Vector3::Constant(5.0), bad = {5.0, nan, 5.0};
-  const Capsule here = {Vector3::Zero(), Vector3::UnitX(), 0.1}, there = {far, far, 0.1};
-  const BoxShape box = {Matrix3::Identity(), far, {0.5, 0.5, 0.5}};
-  assert_true(separate(here, there, 0.0).proved && separate(here, box, 0.0).proved);
-  const Capsule bad_end = {far, bad, 0.1}, bad_radius = {far, far, nan};
-  for (const Capsule& capsule : {bad_end, bad_radius}) {
-    assert_false(separate(here, capsule, 0.0).proved || far_apart(here, capsule, 0.0));
-    assert_false(separate(capsule, here, 0.0).proved || far_apart(capsule, here, 0.0));
-    assert_false(separate(capsule, BoxShape(), 0.0).proved || far_apart(capsule, BoxShape(), 0.0));
+/// Puts NaN in place of every number of two shapes that are far apart.
+template <class Other>
+void assert_nan_is_no_proof(const Capsule& one, const Other& other) {
+  static_assert(sizeof one % sizeof(double) == 0 && sizeof other % sizeof(double) == 0);
+  assert_true(apart(one, other, 0.0));
+  Capsule bad = one;
+  for (std::size_t i = 0; i < sizeof bad / sizeof(double); ++i, bad = one) {
+    put_nan(&bad, i);
+    assert_false(apart(bad, other, 0.0));
   }
-  BoxShape bad_box = box;
-  bad_box.centre = bad;
-  assert_false(separate(here, bad_box, 0.0).proved || far_apart(here, bad_box, 0.0));
-  bad_box = box;
-  bad_box.r(0, 0) = nan;
-  assert_false(separate(here, bad_box, 0.0).proved || far_apart(here, bad_box, 0.0));
-  for (const double inflation : {nan, HUGE_VAL}) {
-    assert_false(separate(here, there, inflation).proved || far_apart(here, there, inflation));
-    assert_false(separate(here, box, inflation).proved || far_apart(here, box, inflation));
+  Other bad_other = other;
+  for (std::size_t i = 0; i < sizeof bad_other / sizeof(double); ++i, bad_other = other) {
+    put_nan(&bad_other, i);
+    assert_false(apart(one, bad_other, 0.0));
+  }
+  for (const double margin : {std::nan(""), HUGE_VAL}) assert_false(apart(one, other, margin));
+}
+
+void what_is_not_a_number_is_not_apart(void**) {
+  const Vector3 far = {5.0, 6.0, 7.0}, on = {0.5, -0.2, 0.1}, o = Vector3::Zero();
+  const Capsule here = {o, on, 0.1}, point = {o, o, 0.1};
+  for (const Capsule& one : {here, point}) {
+    assert_nan_is_no_proof(one, Capsule{far, far + on, 0.1});
+    assert_nan_is_no_proof(one, Capsule{far, far, 0.1});
+    assert_nan_is_no_proof(one, BoxShape{Matrix3::Identity(), far, {0.5, 0.5, 0.5}});
+    assert_nan_is_no_proof(one, BoxShape{Shapes().box().r, far, {0.5, 0.5, 0.5}});
   }
 }
 
@@ -140,7 +195,7 @@ void what_is_not_a_number_is_not_apart(void**) {
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(capsules_and_boxes_are_apart_when_fcl_says_so),
+      cmocka_unit_test(shapes_are_apart_by_their_distance_and_no_more),
       cmocka_unit_test(degenerate_shapes_are_no_exception),
       cmocka_unit_test(what_is_not_a_number_is_not_apart),
   };

@@ -2,6 +2,7 @@
 // the boxes.
 #include "kernel/guard/stopping.hpp"
 
+#include <array>
 #include <random>
 
 #include "tests/support/model_cases.hpp"
@@ -9,6 +10,15 @@
 
 namespace tactus {
 namespace {
+
+using StoppingBoxes = std::array<JointBox, kSections>;
+
+StoppingBoxes stopping_boxes(const Braking& braking, const JointVector& q, const JointVector& dq) {
+  StoppingBoxes boxes;
+  for (int i = 0; i < kSections; ++i)
+    boxes[static_cast<std::size_t>(i)] = stopping_box(braking, q, dq, i);
+  return boxes;
+}
 
 struct Draw {
   std::mt19937_64 random{11};
@@ -88,8 +98,8 @@ void at_rest_only_the_reaction_counts(void**) {
   // a t^2 / 2 to gain speed, and as much to lose it
   for (int j = 0; j < kDof; ++j) {
     ASSERT_NEAR(boxes[0].half[j], 5e-4, 1e-15);
-    ASSERT_NEAR(boxes[kSections].half[j], 1e-3, 1e-15);
-    ASSERT_NEAR(boxes[kSections].middle[j], 0.3, 1e-15);
+    ASSERT_NEAR(boxes[kBrakes].half[j], 1e-3, 1e-15);
+    ASSERT_NEAR(boxes[kBrakes].middle[j], 0.3, 1e-15);
   }
 }
 
@@ -102,9 +112,9 @@ void the_last_section_ends_where_the_ramps_do(void**) {
   dq[0] = 2.0;
   dq[1] = -1.0;
   const StoppingBoxes boxes = stopping_boxes(braking, JointVector::Zero(), dq);
-  const JointBox& last = boxes[kSections];
+  const JointBox& last = boxes[kBrakes];
   ASSERT_NEAR(last.middle[0] + last.half[0], 0.4, 1e-15);
-  ASSERT_NEAR(last.middle[0] - last.half[0], 0.4 * (1.0 - 1.0 / kSections), 1e-15);
+  ASSERT_NEAR(last.middle[0] - last.half[0], 0.4 * (1.0 - 1.0 / kBrakes), 1e-15);
   ASSERT_NEAR(last.middle[1] - last.half[1], -0.2, 1e-15);
   ASSERT_NEAR(last.middle[1] + last.half[1], -0.1, 1e-15);
   ASSERT_NEAR(last.half[2], 0.0, 0.0);

@@ -18,15 +18,14 @@ void the_file_says_boxes_and_pairs(void**) {
                 "[cell]\ntype = frame\nposition = 1 2 3\nrotation = 0 0 1.5707963267948966\n"
                 "[floor]\ntype = box\ncentre = 0 0 -0.1\nsize = 2 3 0.2\n"
                 "[post]\ntype = box\nframe = cell.x\ncentre = 0.5 0 0\nsize = 0.1 0.2 1\n"
-                "[collision]\nmargin = 0.02\ndivisor = 3\noffset = 2\n"
+                "[collision]\nmargin = 0.02\ncycles = 2\n"
                 "allow = floor %s,  tool post\n",
                 Robot::kName, RobotCapsules::kLinkNames[1]);
   ASSERT_OK(bench.load(text.data()));
   ASSERT_OK(bench.pipeline.start(state_at(0.0, 0.0)));
   const CollisionSection& section = bench.pipeline.collision;
   assert_true(section.margin == 0.02);
-  assert_int_equal(section.divisor, 3);
-  assert_int_equal(section.offset, 2);
+  assert_int_equal(section.cycles, 2);
   const CollisionScene& scene = section.scene;
   assert_int_equal(scene.box_count(), 2);
   assert_string_equal(scene.names[kFirstBoxBody], "floor");

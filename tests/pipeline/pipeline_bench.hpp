@@ -59,11 +59,13 @@ struct PipelineBench {
     std::snprintf(options.trajectory, sizeof options.trajectory, "%s", trajectory.c_str());
     load(options.pipeline, from, to);
     assert_true(read_input(session, options, input));
-    hal.set_period(pipeline.robot.period_s());
-    board.plant.arming_cycles = 200;  // as drives on a bus do
-    ASSERT_OK(hal.load(board.plant, 1));
-    ASSERT_OK(start_armed(executive, period_ns(), armed_ns_));
+    ASSERT_OK(arm());
     assert_true(send_input(session, input));
+  }
+  /// The same, for an arm that is not armed. Returns why.
+  Status refused(const std::string& name, const char* from, const char* to) {
+    load(("pipelines/" + name + ".ini").c_str(), from, to);
+    return arm();
   }
   CycleTime next() { return {armed_ns_ + ++cycles * period_ns()}; }
   void cycle() {
@@ -85,6 +87,12 @@ struct PipelineBench {
   std::uint32_t limited() const { return executive.guard().telemetry().limited_cycles; }
 
  private:
+  Status arm() {
+    hal.set_period(pipeline.robot.period_s());
+    board.plant.arming_cycles = 200;  // as drives on a bus do
+    ASSERT_OK(hal.load(board.plant, 1));
+    return start_armed(executive, period_ns(), armed_ns_);
+  }
   std::int64_t period_ns() const { return std::int64_t{1000} * pipeline.robot.period_us; }
   void load(const char* path, const char* from, const char* to) {
     std::array<char, 8192> bytes;

@@ -127,14 +127,39 @@ void a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash(void**) {
 }
 
 void a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error(void**) {
+  for (const char* stage : {"cycle", "with rows"}) {
+    setenv("stage", stage, 1);
+    assert_true(passes(
+        "d=$(mktemp -d) && root=$PWD && mkdir -p $d/build/wcet/x && cd $d/build/wcet/x && "
+        "echo '{\"symbols\": {}, \"stages\": {\"'\"$stage\"'\": {\"typical\": "
+        "{\"instructions\": 5}, "
+        "\"worst\": {\"instructions\": 60, \"tape\": \"t\", \"cycle\": 3}}}}' >counted.json && "
+        "bound() { echo '{\"stages\": {\"'\"$stage\"'\": {\"instructions\": '$1'}}}' "
+        ">bounds.json; } && "
+        "bound 120 && (cd $d && $root/scripts/wcet/table x >out) && bound 121 && cd $d && "
+        "! $root/scripts/wcet/table x >out 2>err && "
+        "grep -q \"x: $stage: its tightness is 0.496, less than 0.500\" err && rm -r $d"));
+  }
+}
+
+/// 240 cycles at 60 MHz are 4 us: within the period of 4 us, and within the 4 us that the board
+/// states, but not within 3 us.
+void the_cycle_with_rows_is_compared_with_the_period_and_with_what_the_board_states(void**) {
   assert_true(passes(
-      "d=$(mktemp -d) && root=$PWD && mkdir -p $d/build/wcet/x && cd $d/build/wcet/x && "
-      "echo '{\"symbols\": {}, \"stages\": {\"cycle\": {\"typical\": {\"instructions\": 5}, "
-      "\"worst\": {\"instructions\": 60, \"tape\": \"t\", \"cycle\": 3}}}}' >counted.json && "
-      "bound() { echo '{\"stages\": {\"cycle\": {\"instructions\": '$1'}}}' >bounds.json; } && "
-      "bound 120 && (cd $d && $root/scripts/wcet/table x >out) && bound 121 && cd $d && "
-      "! $root/scripts/wcet/table x >out 2>err && "
-      "grep -q 'x: cycle: its tightness is 0.496, less than 0.500' err && rm -r $d"));
+      "d=$(mktemp -d) && root=$PWD && cd $d && mkdir -p build/wcet/x boards/y_sim pipelines && "
+      "state() { printf 'CORE_MHZ := 60\nCORE_LIMIT_US := %s\n' $1 >boards/y_sim/board.mk; "
+      "printf 'name = y\nperiod_us = %s\n' $2 >pipelines/x.ini; } && "
+      "echo '{\"symbols\": {}, \"stages\": {\"with rows\": {\"typical\": {\"instructions\": 5}, "
+      "\"worst\": {\"instructions\": 60, \"tape\": \"t\", \"cycle\": 3}}}}' "
+      ">build/wcet/x/counted.json && "
+      "echo '{\"stages\": {\"with rows\": {\"instructions\": 80, \"cycles\": 240}}}' "
+      ">build/wcet/x/bounds.json && "
+      "state 4 4 && $root/scripts/wcet/table x >out && "
+      "grep -q 'at 60 MHz with rows 4 us at most: fits the period of 4 us' out && "
+      "state 4 3 && $root/scripts/wcet/table x >out && grep -q 'does not fit the period of 3 us' "
+      "out "
+      "&& state 3 4 && ! $root/scripts/wcet/table x >out 2>err && "
+      "grep -q 'x: with rows: at most 4 us, but its board states 3 us' err && rm -r $d"));
 }
 
 }  // namespace
@@ -147,6 +172,8 @@ int main() {
       cmocka_unit_test(twice_the_same_tapes_give_the_same_counts),
       cmocka_unit_test(a_bound_below_a_count_is_an_error_and_what_is_missing_a_dash),
       cmocka_unit_test(a_bound_of_the_cycle_more_than_twice_its_worst_is_an_error),
+      cmocka_unit_test(
+          the_cycle_with_rows_is_compared_with_the_period_and_with_what_the_board_states),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -3,7 +3,8 @@
 //   wcet-replay PIPELINE REEL times OUT             what the executive times, by name in the first
 //                                                   line; then a line per cycle, in ns, 0: not run
 //   wcet-replay PIPELINE REEL count TAPE:CYCLE...   for valgrind --tool=callgrind
-//                                                   --instr-atstart=no: a dump of each of them
+//                                                   --instr-atstart=no: a dump of each of them; the
+//                                                   cycles of arming count
 //
 // Exit code 1 with a message on the error stream.
 #include <valgrind/callgrind.h>
@@ -80,7 +81,8 @@ void time(const std::string& text, Bytes reel, std::FILE* out) {
 void count(const std::string& text, Bytes reel, const std::vector<std::string>& wanted) {
   for (int number = 0; !reel.empty(); ++number) {
     play(text, next_tape(reel), nullptr, [&](Player& player, int k) {
-      const std::string here = std::to_string(number) + ":" + std::to_string(k);
+      const auto cycle = static_cast<unsigned>(k) + player.arming_cycles();
+      const std::string here = std::to_string(number) + ":" + std::to_string(cycle);
       bool dump = false;
       for (const std::string& each : wanted) dump = dump || each == here;
       if (!dump) return static_cast<void>(player.cycle());

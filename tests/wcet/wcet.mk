@@ -31,7 +31,7 @@ ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
 $(O)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a $(O)/libccd.a
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
 $(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini Makefile
@@ -43,7 +43,7 @@ ifeq ($(ARCH),host)
 wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) ;
 $(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco -lccd
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
@@ -51,7 +51,7 @@ $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
 $(O)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
 $(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lccd
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	$(call say,LD    $@)
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
@@ -63,7 +63,7 @@ ifeq ($(SANITIZE),fuzzer-no-link)
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ -lccd
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
 $(O)/tests/wcet/search-%.o: tests/wcet/search.cpp pipelines/%.ini Makefile
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@
