@@ -44,29 +44,28 @@ void PathLaw<Space>::start(const Path<Space>& path, double s, double rate, const
   stop();
   s_ = s;
   rate_ = rate;
-  rate_ = std::min(rate, std::sqrt(least_room(path, limits, dt_s)));
+  rate_ = std::min(rate, std::sqrt(least_room(path, slope_, limits, dt_s)));
 }
 
-/// Returns the path time after `time_s` if the slope stays constant; the path stops where it would
-/// turn back.
+/// Returns the path time after `time_s` at a constant slope, which ends where it would turn back.
 template <class Space>
-double PathLaw<Space>::later_s(double time_s) const {
-  const double t = slope_ < 0.0 ? std::min(time_s, -rate_ / slope_) : time_s;
-  return s_ + t * (rate_ + 0.5 * slope_ * t);
+double PathLaw<Space>::later_s(double time_s, double slope) const {
+  const double t = slope < 0.0 ? std::min(time_s, -rate_ / slope) : time_s;
+  return s_ + t * (rate_ + 0.5 * slope * t);
 }
 
-/// Returns the least room of the places that are reached while the slope changes at the jerk limit,
-/// so that the rate is low enough after the change. An open end counts half a period earlier, for
-/// the last change of slope.
+/// Returns the least room of the places that are reached, at a constant slope, in the time in which
+/// the slope can change at the jerk limit, so that the rate is low enough after the change. An open
+/// end counts half a period earlier, for the last change of slope.
 template <class Space>
-double PathLaw<Space>::least_room(const Path<Space>& path, const Limits& limits,
+double PathLaw<Space>::least_room(const Path<Space>& path, double slope, const Limits& limits,
                                   double dt_s) const {
   if (path.free()) return 1.0;
   const double delay_s = 0.5 * ramp_s(limits) + 2.0 * dt_s;
   double least = 1.0, before_s = s_;
   Room before;
   for (int i = 0; i <= kRooms; ++i) {
-    const double s = later_s(delay_s * i / kRooms);
+    const double s = later_s(delay_s * i / kRooms, slope);
     if (path.open() && s >= path.end_s() - 0.5 * dt_s) return 0.0;
     const Room room = path.room(s);
     least = std::min({least, room.most, lowest_between(before, room, s - before_s)});
@@ -83,9 +82,8 @@ typename PathLaw<Space>::Next PathLaw<Space>::next(double slope, double dt_s) co
   return {s_ + std::max(0.0, way), rate, slope};
 }
 
-/// Returns the slopes for which limits hold at the next sample. The acceleration is taken as linear
-/// in the slope about `guess`; the jerk is its change from the present rate and slope, so that
-/// steps of the path itself do not count.
+/// Returns the slopes for which limits hold at the next sample. Acceleration is taken as linear in
+/// the slope about `guess`; jerk is its change from the present rate and slope, without that of p.
 template <class Space>
 typename PathLaw<Space>::Slopes PathLaw<Space>::about(const Local& at, const Next& guess,
                                                       const Limits& limits, double dt_s) const {
@@ -127,8 +125,8 @@ typename PathLaw<Space>::Slopes PathLaw<Space>::slopes(const Path<Space>& path,
   return both;
 }
 
-/// Returns the slopes from which jerk can reach the slopes that the path ahead allows. This is
-/// advice: it must not break a limit at the next sample. Sets the largest bend.
+/// Returns the slopes from which jerk can reach the slopes that the path ahead allows: advice,
+/// which must not break a limit at the next sample. Sets the largest bend.
 template <class Space>
 Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, double dt_s,
                                 Ahead& ahead) {
@@ -139,7 +137,7 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
   for (int i = 0; i < kAhead; ++i) {
     // The slope may have to change from one period after the previous place on.
     const double time_s = dt_s + i * spacing_s, away_s = i > 0 ? (i - 1) * spacing_s + dt_s : 0.0;
-    const Local at = path.local(later_s(time_s), ahead.near, ahead.far);
+    const Local at = path.local(later_s(time_s, slope_), ahead.near, ahead.far);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
     const typename Space::Rates offset = at.d2 * (rate * rate);
     Interval there = kAnySlope;
@@ -171,7 +169,9 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
   hard.include(0.0);
   hard.include(falling);
   const double highest = 2.0 * (std::sqrt(std::max(room.most, 0.0)) - rate_) / dt_s - slope_;
-  hard.hi = std::max(hard.lo, std::min(hard.hi, highest));
+  // A rate that falls, and kept would run out of room, does not rise again on the way.
+  const bool runs_out = slope_ < 0.0 && least_room(path, 0.0, limits, dt_s) == 0.0;
+  hard.hi = std::max(hard.lo, std::min({hard.hi, highest, runs_out ? 0.0 : kFastest}));
 
   const Interval reach = advice(path, limits, dt_s, ahead);
   const double way = target - rate_ - 0.5 * slope_ * dt_s;
@@ -238,7 +238,7 @@ void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope
 template <class Space>
 void PathLaw<Space>::step(const Path<Space>& path, double target, const Limits& limits,
                           double dt_s) {
-  const double reached = std::min(target, std::sqrt(least_room(path, limits, dt_s)));
+  const double reached = std::min(target, std::sqrt(least_room(path, slope_, limits, dt_s)));
   const bool steady = slope_ == 0.0 && rate_ == reached;
   settle(path, reached, steady ? 0.0 : choose(path, reached, limits, dt_s), dt_s);
   assert(rate_ >= 0.0 && rate_ <= 1.0 && s_ >= 0.0 && s_ <= path.end_s());
