@@ -28,7 +28,9 @@ robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
 # Each board has its programs; boards with the same robot share objects.
 robot := $(robot)
-O     := build/$(robot)$(HOW)
+# The kinds of block that the board has, if not all; its objects are then its own.
+KINDS := $(KINDS_$(ARCH))
+O     := build/$(robot)$(HOW)$(if $(KINDS),-$(BOARD))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
 SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
@@ -52,17 +54,23 @@ CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SAN
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_m7    := arm-none-eabi-
 FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
-               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf
+               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
+               -fno-peel-loops --param max-completely-peeled-insns=16 --param max-inline-insns-auto=15 \
+               --param early-inlining-insns=6 --param inline-min-speedup=30 --param max-inline-insns-single=70
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
+CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
 # The source of libccd, for machines without a binary package in Debian.
 CCD      := $(if $(filter-out host,$(ARCH)),build/libccd)
 CCD_SRCS := $(if $(CCD),$(patsubst %,$(CCD)/src/%.c,ccd mpr polytope support vec3))
 CXXFLAGS += $(CCD:%=-isystem %/src)
 
+# What runs at load and what a client runs, outside the cycle.
+NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
+              kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
+              tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
@@ -111,12 +119,8 @@ list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-tests:
 	@echo $(TESTS)
-kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
+kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a $(O)/libccd.a
-	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
-	$(Q)$(CROSS_m7)size $@
 trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
@@ -131,6 +135,9 @@ tests: trajectories $(B)/$(NAME) $(TESTS)
 run-tests: tests
 	$(Q)$(if $(TESTS),scripts/run_tests $(TESTS))
 
+# Where flash is short it is compiled for size.
+$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os
+$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private PCH :=
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
 $(call obj,$(SEAMS)): private PCH :=
 $(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
@@ -171,10 +178,11 @@ $(CCD_SRCS:%.c=$(O)/%.o): $(O)/%.o: %.c
 	$(Q)$(CXX:g++=gcc) $(FLAGS_$(ARCH):-fno-threadsafe-statics=) $(NUMERICS) $(DEBUG) -w -DNDEBUG -I$(CCD)/src -c $< -o $@
 $(CCD_SRCS) &:
 	$(Q)scripts/libccd $(CCD)
-$(call obj,$(KERNEL) tests/bare_metal/link.cpp): | $(CCD_SRCS)
+$(call obj,$(KERNEL) tests/bare_metal/board.cpp): | $(CCD_SRCS)
 
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
+include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 
 .PRECIOUS: $(O)/%.o

@@ -44,8 +44,8 @@ class Collision {
 
   /// Sets up the pairs. `limits` are those of [guard]; `tip` is the tool tip, m, in the flange
   /// frame. The scene must outlive this object. [init]
-  void start(const CollisionSection& section, const JointLimits& limits, const Vector3& tip,
-             double period_s);
+  [[gnu::cold]] void start(const CollisionSection& section, const JointLimits& limits,
+                           const Vector3& tip, double period_s);
 
   /// Returns kCollision, with the pair in telemetry; kStateNotFinite if q or dq is not finite;
   /// kNotStarted before start(). [cyclic]
@@ -68,8 +68,8 @@ class Collision {
     int second = 0, first = -1, box = -1;
   };
 
-  void add_capsules(const Vector3& tip, double tool_radius);
-  void add_pairs();
+  [[gnu::cold]] void add_capsules(const Vector3& tip, double tool_radius);
+  [[gnu::cold]] void add_pairs();
   bool meets(int first, int second) const;
   Status check_at(const JointVector& q, const JointVector& half, bool predicted);
   bool apart(const Pair& pair, double inflation);
