@@ -31,12 +31,13 @@ class StandingHal final : public Hal {
   void disconnect() override {}
 };
 
-constexpr int kWaypoints = 256;
+// A store is 70 whole waypoints of 264 bytes, which are 256 of 72 bytes with positions only.
+constexpr int kWholeWaypoints = 70, kPositions = 256;
 
 StandingHal hal;
 ChannelMemory<TaskSpace, 4, 32, 2> channel;
 ReferenceClient<TaskSpace> client(channel);
-Waypoint<TaskSpace> waypoints[kStores][kWaypoints];
+Waypoint<TaskSpace> waypoints[kStores][kWholeWaypoints];
 PipelineMemory<std::size_t{14} << 10> pipeline;
 Executive executive(hal, pipeline);
 SimSections sections;
@@ -59,11 +60,14 @@ Status arm() {
 
 /// Sends a trajectory that fills a store and stays at the present reference.
 Verdict send(const Pose& here, std::uint32_t& id) {
-  Trajectory<TaskSpace>& trajectory = *client.acquire();
+  Trajectory<TaskSpace>& trajectory = *client.acquire(0);
+  if (trajectory.capacity != kPositions) return {Status::kReferenceSize};
   trajectory.count = trajectory.capacity;
+  Waypoint<TaskSpace> waypoint;
+  waypoint.point.x = here;
   for (int i = 0; i < trajectory.count; ++i) {
-    trajectory.waypoints[i].time_s = 0.01 * (i + 1);
-    trajectory.waypoints[i].point.x = here;
+    waypoint.time_s = 0.01 * (i + 1);
+    trajectory.set(i, waypoint);
   }
   return client.send(trajectory, id);
 }
@@ -91,7 +95,7 @@ int say(const char* what, const char* why) {
 extern "C" int program() {
   for (std::size_t i = 0; i < kStores; ++i) {
     channel.stores[i].waypoints = waypoints[i];
-    channel.stores[i].capacity = kWaypoints;
+    channel.stores[i].capacity = kWholeWaypoints;
   }
   Loader loader({nullptr, &channel}, hal.capabilities(), sections);
   if (loader.load(pipeline_file(), pipeline, error) != Status::kOk)
