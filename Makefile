@@ -54,9 +54,7 @@ CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SAN
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_m7    := arm-none-eabi-
 FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
-               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
-               -fno-peel-loops --param max-completely-peeled-insns=16 --param max-inline-insns-auto=15 \
-               --param early-inlining-insns=6 --param inline-min-speedup=30 --param max-inline-insns-single=70
+               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
@@ -144,7 +142,9 @@ $(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
 $(call obj,$(QUICK)): private PCH := $(O)/quick.hpp
 $(O)/tests/pipeline/test_pipelines.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
 $(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
-$(O)/libkernel.a: $(call obj,$(KERNEL))
+# Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
+$(O)/libkernel.a: $(call obj,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
+WHOLE_KERNEL = -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
 $(O)/libccd.a: $(CCD_SRCS:%.c=$(O)/%.o)
 $(O)/liboracles.a: $(call obj,$(ORACLES))

@@ -20,6 +20,8 @@ certificate-m7: $(O)/libkernel.a $(B)/board.elf
 	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/board.elf --tools $(CROSS_m7) \
 	  --static-budget $(STATIC_BUDGET) --flash-budget $(FLASH_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
 	@grep -E '^(memory|RAM|flash|stack)' $(B)/certificate.txt
+	$(Q)qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -semihosting-config enable=on,target=native \
+	  -kernel $(B)/board.elf
 certificate-host: $(O)/libkernel.a $(B)/stack_painter
 	$(Q)scripts/certificate $(BOARD) --callgraph $(O)/kernel --stack-budget $(HOST_STACK_BUDGET) \
 	  --painted $(B)/stack_painter > $(B)/certificate.txt

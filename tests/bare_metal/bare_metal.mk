@@ -8,7 +8,7 @@ BARE_BOARD    := $(call obj,tests/bare_metal/board.cpp tests/bare_metal/memory.c
 ifeq ($(ARCH),m7)
 $(B)/board.elf: $(BARE_BOARD) $(O)/libkernel.a $(O)/libccd.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
 $(O)/tests/bare_metal/board.o: CXXFLAGS += -DPIPELINE_FILE='"$(BARE_PIPELINE)"'
 $(O)/tests/bare_metal/board.o: $(BARE_PIPELINE)

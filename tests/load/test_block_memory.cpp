@@ -42,7 +42,7 @@ void a_block_that_does_not_fit_is_refused_with_what_it_takes_and_what_is_left(vo
   assert_string_equal(error.reason.c_str(), expected.c_str());
   assert_string_equal(error.section.c_str(), "stiff");
   assert_string_equal(error.key.c_str(), "type");
-  assert_int_equal(error.line, 38);
+  assert_int_equal(error.line, 34);
 }
 
 }  // namespace
