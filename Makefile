@@ -28,7 +28,9 @@ robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
 # Each board has its programs; boards with the same robot share objects.
 robot := $(robot)
-O     := build/$(robot)$(HOW)
+# The kinds of block that the board has, if not all; its objects are then its own.
+KINDS := $(KINDS_$(ARCH))
+O     := build/$(robot)$(HOW)$(if $(KINDS),-$(BOARD))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
 SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
@@ -56,8 +58,12 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
+CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
+# What runs at load and what a client runs, outside the cycle.
+NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
+              kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
+              tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
@@ -115,12 +121,8 @@ list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-tests:
 	@echo $(TESTS)
-kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/link.elf)
+kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
-$(B)/link.elf: $(call obj,tests/bare_metal/link.cpp tests/bare_metal/memory.cpp) $(O)/libkernel.a
-	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -Wl,--entry=main -o $@ $^ -lm -lgcc
-	$(Q)$(CROSS_m7)size $@
 trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
@@ -135,13 +137,18 @@ tests: trajectories $(B)/$(NAME) $(TESTS)
 run-tests: tests
 	$(Q)$(if $(TESTS),scripts/run_tests $(TESTS))
 
+# Where flash is short it is compiled for size.
+$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os
+$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private PCH :=
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
 $(call obj,$(SEAMS)): private PCH :=
 $(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
 $(call obj,$(QUICK)): private PCH := $(O)/quick.hpp
 $(O)/tests/pipeline/test_pipelines.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
 $(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
-$(O)/libkernel.a: $(call obj,$(KERNEL))
+# Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
+$(O)/libkernel.a: $(call obj,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
+WHOLE_KERNEL = -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
 $(B)/libprogram.a: $(call obj,$(PROGRAM))
 $(O)/liboracles.a: $(call obj,$(ORACLES))
 build/%.a:
@@ -172,6 +179,7 @@ $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefil
 include program/install.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
+include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 
 .PRECIOUS: $(O)/%.o

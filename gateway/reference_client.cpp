@@ -12,9 +12,20 @@ namespace tactus {
 template <class Space>
 Trajectory<Space>* ReferenceClient<Space>::acquire() {
   for (std::size_t i = 0; i < away_.size(); ++i) {
-    if (!away_[i]) return &channel_.stores[i];
+    if (away_[i]) continue;
+    channel_.stores[i].unpack();
+    return &channel_.stores[i];
   }
   return nullptr;
+}
+
+template <class Space>
+Trajectory<Space>* ReferenceClient<Space>::acquire(Fields fields) {
+  Trajectory<Space>* const trajectory = acquire();
+  if (trajectory == nullptr) return nullptr;
+  trajectory->fields = fields;
+  trajectory->pack(fields);
+  return trajectory;
 }
 
 template <class Space>
@@ -52,10 +63,10 @@ Verdict ReferenceClient<Space>::append(const Trajectory<Space>& trajectory,
   const int needed = channel_.needed[store].load(std::memory_order_acquire);
   if (stream.count - needed >= trajectory.capacity) return {Status::kWindowFull};
   const double earliest =
-      trajectory.at(stream.count - 1).time_s + channel_.settings.period_s / kMaxSegmentsPerCycle;
+      trajectory.time_s(stream.count - 1) + channel_.settings.period_s / kMaxSegmentsPerCycle;
   if (!(waypoint.time_s >= earliest))
     return {Status::kReferenceTime, stream.count, -1, waypoint.time_s, earliest};
-  trajectory.waypoints[stream.count % trajectory.capacity] = waypoint;
+  trajectory.set(stream.count, waypoint);
   const Verdict verdict =
       admit_waypoint(trajectory, stream.count, channel_.settings, stream.admitted);
   stream.count += verdict.ok() ? 1 : 0;
@@ -115,7 +126,7 @@ void ReferenceClient<Space>::settle(std::size_t store) {
   const Trajectory<Space>& trajectory = channel_.stores[store];
   const float room = set_rooms(trajectory, channel_.settings, needed, stream.settled, count - 1,
                                whole ? 1.0 : 0.0);
-  Published<float>& first = trajectory.waypoints[needed % trajectory.capacity].room;
+  Published<float>& first = trajectory.rooms(needed).room;
   if (room > first) first = room;
   stream.settled = count;
   stream.whole = whole;

@@ -18,6 +18,9 @@ class ReferenceClient {
   /// Returns a store to fill with waypoints, or null while all are in use. It is the caller's until
   /// it is sent.
   Trajectory<Space>* acquire();
+  /// The same for waypoints of these fields only, written by set(): more of them fit, and the
+  /// store's capacity says how many. kMonotone needs velocities, though it chooses them itself.
+  Trajectory<Space>* acquire(Fields fields);
 
   /// Writes into the waypoints what admission derives (see admit()) without sending them, and
   /// returns the verdict that send() would give. Like send(), it does not judge the way from the

@@ -130,7 +130,9 @@ bool take_row(const Cells& row, int line, Columns<Space>& columns, Trajectory<Sp
   if (trajectory.count == trajectory.capacity)
     return refuse(error, line, 0, {},
                   Message("too many waypoints; at most ") << trajectory.capacity << " fit");
-  if (!read_row(row, line, columns, trajectory.waypoints[trajectory.count], error)) return false;
+  Waypoint<Space> waypoint;
+  if (!read_row(row, line, columns, waypoint, error)) return false;
+  trajectory.set(trajectory.count, waypoint);
   ++trajectory.count;
   return true;
 }

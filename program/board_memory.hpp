@@ -18,9 +18,10 @@ struct BoardMemory {
   std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
   std::array<double, kRecorderNumbers> recorder_ring;
   std::array<std::array<Waypoint<TaskSpace>, kMaxPoses>, kStores> poses;
-  ReferenceChannel<JointSpace> channel;
-  ReferenceChannel<TaskSpace> task_channel;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> channel;
+  ChannelMemory<TaskSpace> task_channel;
+  RoomyPipeline pipeline;
+  CycleTimes times;
 
   /// The channels with their stores. [init]
   Channels channels() {

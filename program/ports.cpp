@@ -1,19 +1,8 @@
 #include "program/ports.hpp"
 
+#include "kernel/pipeline/kinds.hpp"
+
 namespace tactus {
-namespace {
-
-template <std::size_t I>
-void print_blocks_from() {
-  if constexpr (I < std::variant_size_v<Block>) {
-    std::variant_alternative_t<I, Block> block;
-    SectionPrinter().table((Message("type = ") << kBlockTypes[I]).c_str(), block);
-    print_blocks_from<I + 1>();
-  }
-}
-
-}  // namespace
-
 void print_board(const char* board, const Capabilities& offered) {
   std::printf("# Sections, blocks and ports\n\nBoard `%s`, robot `%s`, %d joints. ", board,
               Robot::kName, kDof);
@@ -30,7 +19,12 @@ void print_board(const char* board, const Capabilities& offered) {
 }
 
 void print_blocks() {
-  print_blocks_from<1>();
+  for (std::size_t i = 0; i < Kinds::kCount; ++i) {
+    with_kind(i, [i](auto kind) {
+      typename decltype(kind)::Type block;
+      SectionPrinter().table((Message("type = ") << Kinds::kTypes[i]).c_str(), block);
+    });
+  }
 }
 
 }  // namespace tactus

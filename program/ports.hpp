@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "kernel/core/names.hpp"
+#include "kernel/pipeline/channels.hpp"
 #include "kernel/pipeline/pipeline.hpp"
 #include "program/session/options.hpp"
 

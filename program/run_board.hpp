@@ -48,7 +48,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   }
 
   static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
-  static Executive executive(board.hal, pipeline, stopwatch_ns);
+  static Executive executive(board.hal, pipeline, {stopwatch_ns, memory.times});
   static ReferenceClient<JointSpace> client(memory.channel);
   static ReferenceClient<TaskSpace> task_client(memory.task_channel);
   const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +

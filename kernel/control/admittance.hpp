@@ -138,7 +138,7 @@ class Admittance {
   /// Starts without displacement: the commanded pose is the desired one. Returns kBadValue if a
   /// ratio is given for the damping of a compliant axis without stiffness, where it gives none;
   /// otherwise as step(). [init]
-  Status start();
+  [[gnu::cold]] Status start();
 
   /// Returns kCommandNotFinite if an input or the command is not finite. The first step after a
   /// change of period computes the coefficients again. [cyclic]

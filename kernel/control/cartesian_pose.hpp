@@ -78,6 +78,9 @@ class CartesianPose {
   Out<Quantity::kScalar> sigma;    ///< distance of the whole arm from a singularity
   Out<Quantity::kScalar> damping;  ///< lambda; zero: the inverse is exact
 
+  /// Returns the deceleration of every joint in a brake at once, rad/s^2. [any]
+  const JointVector& deceleration() const { return params.limits.ddq_max; }
+
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("position_gain", params.position_gain, Range{0.0, 1000.0}, "1/s");
@@ -108,7 +111,7 @@ class CartesianPose {
 
   /// Holds the measured position. Returns kUnstableGain unless every gain times (dt_s +
   /// measurement_delay) is at most kMaxGainPeriods; kStateNotFinite. [init]
-  Status start(double dt_s);
+  [[gnu::cold]] Status start(double dt_s);
 
   /// Returns kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.

@@ -114,7 +114,7 @@ class Pid {
   /// begins such that the first torque is the measured one, at joints with ki > 0 and within its
   /// limit. Returns kNotConnected if a feed-forward gain lacks its input; otherwise as step().
   /// [init]
-  Status start();
+  [[gnu::cold]] Status start();
 
   /// Returns kCommandNotFinite if an input that is read is not finite; torque and state are then
   /// unchanged. [cyclic]

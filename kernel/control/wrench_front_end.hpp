@@ -72,7 +72,7 @@ class WrenchFrontEnd {
   }
 
   /// Sets the wrench to zero and begins a new tare. Returns kSensorNotFinite, kSensorRange. [init]
-  Status start();
+  [[gnu::cold]] Status start();
 
   /// Returns kSensorNotFinite if ft or its transform is not finite, kSensorRange if |f| or |m| is
   /// beyond the sensor's range, kSensorStuck if ft is the same to the last bit for stuck_s, and

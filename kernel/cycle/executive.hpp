@@ -30,20 +30,19 @@ namespace tactus {
 
 class Executive {
  public:
-  using Stopwatch = Timing::Stopwatch;
-
   struct Telemetry {
     Published<std::uint32_t> cycles;
     Published<std::uint32_t> slips;     ///< periods without a cycle
     Published<std::uint32_t> overruns;  ///< cycles that took longer than the period
   };
 
-  Executive(Hal& hal, Pipeline& pipeline, Stopwatch stopwatch)
-      : hal_(hal), pipeline_(pipeline), timing_(stopwatch) {}
+  /// Without `timing` the board has no stopwatch: nothing is timed, and there are no overruns.
+  Executive(Hal& hal, Pipeline& pipeline, const Timing& timing = {})
+      : hal_(hal), pipeline_(pipeline), timing_(timing) {}
 
   /// Adds a row after those of the pipeline. Returns kTooLarge, kBadValue or kOverBudget as
   /// ScheduleVerdict says. [init]
-  Status add(const Row& row);
+  [[gnu::cold]] Status add(const Row& row);
 
   /// Declares that the stopwatch is not the clock that triggers the cycles: overruns are counted
   /// but are no cause of the ladder. [init]
@@ -51,7 +50,7 @@ class Executive {
 
   /// Opens the wire; the drives stay disabled. Clears telemetry and times, but not the event log,
   /// which keeps what happened before. Fails as Hal::connect(). [init]
-  Status start();
+  [[gnu::cold]] Status start();
 
   /// Runs one cycle: read, step, guard, write, rows. Bounded; never blocks, allocates or throws.
   /// Returns kOk on the rungs nominal and skip_optional, kArming while drives are armed, below them
@@ -64,7 +63,7 @@ class Executive {
   /// drives and arm are ready, kNotAtRest on stop, on a hold that moves and while drives are still
   /// being disabled, and otherwise why it refuses; that is also in the event log. [between two
   /// cycles]
-  Status arm();
+  [[gnu::cold]] Status arm();
 
   /// Brakes on the path, then disables the drives; cycle() returns kHalted, or a fault latched
   /// before. [between two cycles]
@@ -80,8 +79,8 @@ class Executive {
   bool at_rest() const { return rest_.still(); }
   /// Time at which the next cycle is due, ns.
   std::int64_t next_ns() const { return now_.stamp_ns + period_ns_; }
-  const Timing& timing() const { return timing_; }
-  const Histogram& times(Stage stage) const { return timing_.stage(stage); }
+  /// The execution times, or null without a stopwatch.
+  const CycleTimes* times() const { return timing_.times(); }
   const Telemetry& telemetry() const { return telemetry_; }
   const EventLog& events() const { return events_; }
   const Guard& guard() const { return guard_; }
@@ -107,12 +106,12 @@ class Executive {
   void watch_times();
   void give_up_arming();
 
-  Status take_over();
-  Status resume();
+  [[gnu::cold]] Status take_over();
+  [[gnu::cold]] Status resume();
   Status refuse(Status why, const Finding& found);
   Status refuse(Status why) { return refuse(why, Finding()); }
   Finding tripped() const;
-  void watch_anew();
+  [[gnu::cold]] void watch_anew();
   bool walk_unless_ok(Cause cause, Status status, const Finding& found);
   bool walk_unless_ok(Cause cause, Status status) {
     return walk_unless_ok(cause, status, Finding());

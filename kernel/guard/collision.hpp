@@ -45,8 +45,8 @@ class Collision {
 
   /// Sets up the pairs, and lets a check begin anew. `limits` are those of [guard]; `tip` is the
   /// tool tip, m, in the flange frame. The scene must outlive this object. [init]
-  void start(const CollisionSection& section, const JointLimits& limits, const Vector3& tip,
-             double period_s);
+  [[gnu::cold]] void start(const CollisionSection& section, const JointLimits& limits,
+                           const Vector3& tip, double period_s);
 
   /// Does a cycle's part of a check. `measured` counts in the cycle in which a check begins.
   /// Returns kCollision, with the pair in telemetry, and lets the next check begin;
@@ -79,8 +79,8 @@ class Collision {
     JointVector ways = JointVector::Zero();  // m: from joint k up, in the section
   };
 
-  void add_capsules(const Vector3& tip, double tool_radius);
-  void add_pairs();
+  [[gnu::cold]] void add_capsules(const Vector3& tip, double tool_radius);
+  [[gnu::cold]] void add_pairs();
   bool meets(int first, int second) const;
   bool is_allowed(int first, int second) const;
   void begin(const RobotState& measured);

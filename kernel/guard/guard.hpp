@@ -68,7 +68,7 @@ class Guard {
       visit.param("limiting_window", limiting_window, Range{0.01, 60.0}, "s");
     }
     /// Returns the limits reduced by the margin. [init]
-    JointLimits effective() const;
+    [[gnu::cold]] JointLimits effective() const;
   };
 
   /// Counters since start.
@@ -87,8 +87,8 @@ class Guard {
   /// at the measured velocity, or at the torque the actuators exert; feed-forward starts at zero.
   /// Returns kEffortLimit if that torque is beyond its limit, where no command could keep both
   /// torque and rate; otherwise as check(). [init]
-  Status start(const Params& params, CommandMode mode, const RobotState& state, double period_s,
-               const CycleTime& now);
+  [[gnu::cold]] Status start(const Params& params, CommandMode mode, const RobotState& state,
+                             double period_s, const CycleTime& now);
 
   /// Checks that the measured state is young, measured at every joint, finite, within position and
   /// velocity limits and their allowances and, if positions or velocities are commanded, near what

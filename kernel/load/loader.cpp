@@ -1,32 +1,40 @@
 #include "kernel/load/loader.hpp"
 
+#include <new>
+
 #include "kernel/load/collision_reader.hpp"
 #include "kernel/load/pipeline_sections.hpp"
 #include "kernel/load/recording_reader.hpp"
 #include "kernel/load/schedule_reader.hpp"
+#include "kernel/pipeline/kinds.hpp"
 
 namespace tactus {
 namespace {
 
-/// Puts a default block of the kind called `type` into the slot; false if there is no such kind.
-template <std::size_t I = 1>
-bool emplace(Block& block, std::string_view type) {
-  if constexpr (I < std::variant_size_v<Block>) {
-    if (type != kBlockTypes[I]) return emplace<I + 1>(block, type);
-    block.emplace<I>();
-    return true;
-  } else {
-    return false;
-  }
+/// Sets the number of the kind called `type`; false if there is none.
+bool find_kind(std::string_view type, std::size_t& kind) {
+  for (kind = 0; kind < Kinds::kCount; ++kind)
+    if (type == Kinds::kTypes[kind]) return true;
+  return false;
 }
 
-template <class Visitor>
-void describe_block(Block& block, Visitor& visitor) {
-  std::visit(
-      [&](auto& kind) {
-        if constexpr (!std::is_same_v<decltype(kind), std::monostate&>) kind.describe(visitor);
-      },
-      block);
+/// Puts a default block of its kind at the next place in the memory; false if there is none.
+bool place(Block& block, Arena& memory) {
+  return with_kind(block.kind, [&](auto kind) {
+    using Kind = typename decltype(kind)::Type;
+    block.place = memory.take(sizeof(Kind), alignof(Kind));
+    return block.place != nullptr && new (block.place) Kind() != nullptr;
+  });
+}
+
+std::size_t size_of(const Block& block) {
+  return with_kind(block.kind, [](auto kind) { return sizeof(typename decltype(kind)::Type); });
+}
+
+void describe_block(const Block& block, SectionReader& reader) {
+  with_kind(block.kind, [&](auto kind) {
+    static_cast<typename decltype(kind)::Type*>(block.place)->describe(reader);
+  });
 }
 
 int line_of(const Ini& ini, const IniSection& section, const char* key) {
@@ -36,8 +44,7 @@ int line_of(const Ini& ini, const IniSection& section, const char* key) {
 
 Message block_types() {
   Message words;
-  for (std::size_t i = 1; i < kBlockTypes.size(); ++i)
-    words << (i > 1 ? ", " : "") << kBlockTypes[i];
+  for (std::size_t i = 0; i < Kinds::kCount; ++i) words << (i > 0 ? ", " : "") << Kinds::kTypes[i];
   return words;
 }
 
@@ -90,21 +97,27 @@ Status Loader::load_section(const Ini& ini, const IniSection& section, Pipeline&
 Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                           LoadError& error) {
   const IniEntry& type = *ini.find(section, "type");
-  Block* block = pipeline.append(section.name);
-  if (block == nullptr)
+  Block block{section.name};
+  if (pipeline.count() == kMaxBlocks)
     return error.refuse(Status::kTooLarge, section.line, section.name, {},
                         Message("more than ") << kMaxBlocks << " blocks");
-  if (!emplace(*block, type.value))
+  if (!find_kind(type.value, block.kind))
     return error.refuse(Status::kUnknownType, type.line, section.name, "type",
                         Message("unknown type '")
                             << type.value << "'; expected one of " << block_types());
-  TRY(refuse_unknown_keys(ini, section, error, [&](KeyFinder& finder) {
-    finder.param("type");
-    describe_block(*block, finder);
-  }));
+  const std::size_t left = pipeline.memory.left();
+  if (!place(block, pipeline.memory))
+    return error.refuse(Status::kTooLarge, type.line, section.name, "type",
+                        Message("the block takes ")
+                            << size_of(block) << " bytes; of the board's " << pipeline.memory.size()
+                            << " for blocks " << left << " are left");
+  static_cast<void>(pipeline.append(block));
   SectionReader reader(ini, section, pipeline.ports, error);
   reader.offer(left_);
-  describe_block(*block, reader);
+  while (reader.next()) {
+    reader.know("type");
+    describe_block(block, reader);
+  }
   return error.status;
 }
 

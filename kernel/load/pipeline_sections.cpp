@@ -3,13 +3,15 @@
 namespace tactus {
 
 void PipelineSections::section(const char* name, RobotSection& robot) {
-  if (read(name, robot, [&](SectionReader& reader) { robot.describe_robot(reader); }))
-    check_robot(robot);
+  const auto describe = [&](SectionReader& reader) {
+    robot.describe_robot(reader);
+    if (reader.seeks()) robot.describe_command(reader);  // read after the last block
+  };
+  if (read(name, describe)) check_robot(robot);
 }
 
 void PipelineSections::section(const char* name, TaskLimits& limits) {
-  if (read(name, limits, [&](SectionReader& reader) { limits.describe(reader); }))
-    check_workspace(limits);
+  if (read(name, [&](SectionReader& reader) { limits.describe(reader); })) check_workspace(limits);
 }
 
 void PipelineSections::check_robot(const RobotSection& robot) {

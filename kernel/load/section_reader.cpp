@@ -26,6 +26,20 @@ Message& add_unit(Message& text, const char* unit) {
 
 }  // namespace
 
+bool SectionReader::next() {
+  if (failed() || (checked_ >= 0 && !seeks_)) return false;
+  if (seeks_ && !found_) {
+    const IniEntry& entry = ini_.entry(section_.first + checked_);
+    static_cast<void>(error_.refuse(Status::kUnknownKey, entry.line, section_.name, entry.key,
+                                    "the section has no such key"));
+    return false;
+  }
+  seeks_ = ++checked_ < section_.count;
+  found_ = false;
+  if (seeks_) sought_ = ini_.entry(section_.first + checked_).key;
+  return true;
+}
+
 void SectionReader::refuse(Status status, const char* key, std::string_view reason) {
   if (failed()) return;  // the first error is the one to report
   const IniEntry* entry = find(key);
@@ -86,6 +100,7 @@ bool SectionReader::numbers(const char* key, double* values, int count, bool joi
 }
 
 void SectionReader::param(const char* key, double& value, const Range& range, const char* unit) {
+  if (seeks_) return know(key);
   double read = value;
   if (!numbers(key, &read, 1, false, unit)) return;
   if (!range.contains(read))
@@ -96,6 +111,7 @@ void SectionReader::param(const char* key, double& value, const Range& range, co
 }
 
 void SectionReader::param(const char* key, int& value, const Range& range, const char* unit) {
+  if (seeks_) return know(key);
   const IniEntry* entry = find(key);
   if (entry == nullptr) {
     if (value == kRequiredInt) refuse_missing(key, unit);
@@ -114,6 +130,7 @@ void SectionReader::param(const char* key, int& value, const Range& range, const
 
 void SectionReader::param(const char* key, JointVector& value, const Range& range,
                           const char* unit) {
+  if (seeks_) return know(key);
   JointVector read = value;
   if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
@@ -126,6 +143,7 @@ void SectionReader::param(const char* key, JointVector& value, const Range& rang
 }
 
 void SectionReader::param(const char* key, Vector3& value, const Range& range, const char* unit) {
+  if (seeks_) return know(key);
   Vector3 read = value;
   if (!numbers(key, read.data(), 3, false, unit)) return;
   for (int i = 0; i < 3; ++i) {
@@ -138,6 +156,7 @@ void SectionReader::param(const char* key, Vector3& value, const Range& range, c
 }
 
 void SectionReader::limit(const char* key, JointVector& value, const char* unit) {
+  if (seeks_) return know(key);
   JointVector read = value;
   if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
@@ -150,6 +169,10 @@ void SectionReader::limit(const char* key, JointVector& value, const char* unit)
 }
 
 int SectionReader::choose(const char* key, const char* const* words, std::size_t count) {
+  if (seeks_) {
+    know(key);
+    return -1;
+  }
   const IniEntry* entry = find(key);
   if (entry == nullptr) return -1;
   Message reason("unknown value '");
@@ -163,6 +186,10 @@ int SectionReader::choose(const char* key, const char* const* words, std::size_t
 }
 
 const void* SectionReader::source(const char* key, Quantity quantity, bool required) {
+  if (seeks_) {
+    know(key);
+    return nullptr;
+  }
   const IniEntry* entry = find(key);
   if (entry == nullptr) {
     if (required)
@@ -192,7 +219,7 @@ const void* SectionReader::source(const char* key, Quantity quantity, bool requi
 }
 
 void SectionReader::add_output(const PortEntry& entry) {
-  if (!ports_.add(entry))
+  if (!seeks_ && !ports_.add(entry))
     refuse(Status::kTooLarge, entry.port, Message("more than ") << kMaxPorts << " outputs");
 }
 

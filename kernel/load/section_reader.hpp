@@ -1,6 +1,11 @@
 // SectionReader: the visitor that fills one block, or one section of settings, from the text of its
 // section and binds its inputs to the outputs above it. It keeps the first mistake as the error and
 // then stops reading.
+//
+// A key that nobody reads, a typing mistake, is refused before anything else in its section. For
+// that the same visitor passes the names once for every key, to find it among them:
+//
+//   while (reader.next()) settings.describe(reader);
 #pragma once
 
 #include <string_view>
@@ -18,6 +23,14 @@ class SectionReader {
   SectionReader(const Ini& ini, const IniSection& section, PortTable& ports, LoadError& error)
       : ini_(ini), section_(section), ports_(ports), error_(error) {}
 
+  /// Begins to seek the first key of the section, then the next, then to read them all. False when
+  /// that is done, or a key is not found among the names. [init]
+  bool next();
+  /// True while the names are only compared with a key.
+  bool seeks() const { return seeks_; }
+  /// Compares a name with the key sought. [init]
+  void know(const char* key) { found_ = found_ || sought_ == key; }
+
   void param(const char* key, double& value, const Range& range, const char* unit);
   void param(const char* key, int& value, const Range& range, const char* unit);
   void param(const char* key, JointVector& value, const Range& range, const char* unit);
@@ -26,6 +39,7 @@ class SectionReader {
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>
   void text(const char* key, Text<N>& value, const char* /*meaning*/) {
+    if (seeks_) return know(key);
     const IniEntry* entry = find(key);
     if (entry == nullptr) return;
     if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);
@@ -68,6 +82,7 @@ class SectionReader {
   }
   template <class Space>
   void take(ReferenceChannel<Space>*& channel, ReferenceChannel<Space>* Channels::*which) {
+    if (seeks_) return;
     channel = offered_ != nullptr ? offered_->*which : nullptr;
     if (channel == nullptr)
       return refuse(Status::kTooLarge, "type", "the board has no channel left for this generator");
@@ -90,46 +105,9 @@ class SectionReader {
   PortTable& ports_;
   LoadError& error_;
   Channels* offered_ = nullptr;
-};
-
-/// The visitor that finds out whether a key is one of the names of a section.
-class KeyFinder {
- public:
-  explicit KeyFinder(std::string_view key) : key_(key) {}
-  template <class... Ignored>
-  void param(const char* key, Ignored&&...) {
-    found_ = found_ || key_ == key;
-  }
-  template <class... Ignored>
-  void limit(const char* key, Ignored&&...) {
-    param(key);
-  }
-  template <class... Ignored>
-  void text(const char* key, Ignored&&...) {
-    param(key);
-  }
-  template <class... Ignored>
-  void choice(const char* key, Ignored&&...) {
-    param(key);
-  }
-  template <class... Ignored>
-  void in(const char* key, Ignored&&...) {
-    param(key);
-  }
-  template <class... Ignored>
-  void optional(const char* key, Ignored&&...) {
-    param(key);
-  }
-  template <class... Ignored>
-  void out(Ignored&&...) {}
-  template <class... Ignored>
-  void channel(Ignored&&...) {}
-
-  bool found() const { return found_; }
-
- private:
-  std::string_view key_;
-  bool found_ = false;
+  int checked_ = -1;         // keys that next() has sought; -1: it was not called
+  std::string_view sought_;  // the key, while seeks_
+  bool seeks_ = false, found_ = false;
 };
 
 }  // namespace tactus

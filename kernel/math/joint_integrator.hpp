@@ -35,7 +35,7 @@ class JointIntegrator {
   };
 
   /// Begins at rest at q. A joint outside its position limits can only move towards them. [init]
-  void start(const Bounds& bounds, const JointVector& q);
+  [[gnu::cold]] void start(const Bounds& bounds, const JointVector& q);
   /// Advances one period; every joint brakes separately, with its full acceleration. [cyclic]
   void brake(double dt_s);
   /// Stops the command at its present position. [any]

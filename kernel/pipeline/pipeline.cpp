@@ -1,6 +1,7 @@
 #include "kernel/pipeline/pipeline.hpp"
 
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/pipeline/kinds.hpp"
 
 namespace tactus {
 
@@ -32,6 +33,19 @@ constexpr bool kMoves = false;
 template <class Kind>
 constexpr bool kMoves<Kind, std::void_t<decltype(&Kind::at_rest)>> = true;
 
+template <class Kind, class = void>
+constexpr bool kLimitsBraking = false;
+template <class Kind>
+constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
+
+/// Returns act(block) with the block as its own kind.
+template <class Act>
+auto with_block(const Block& block, Act&& act) {
+  return with_kind(block.kind, [&](auto kind) {
+    return act(*static_cast<typename decltype(kind)::Type*>(block.place));
+  });
+}
+
 /// A block whose command must not step has a resume(); the others start anew.
 template <class Kind>
 Status resume_block(Kind& block, double period_s) {
@@ -46,16 +60,7 @@ Status resume_block(Kind& block, double period_s) {
 /// Calls act(block) for every block in order. Returns the first Status that is not kOk.
 template <class Act>
 Status Pipeline::for_each_block(Act act) {
-  for (int i = 0; i < count_; ++i) {
-    TRY(std::visit(
-        [&act](auto& block) {
-          if constexpr (std::is_same_v<decltype(block), std::monostate&>)
-            return Status::kOk;
-          else
-            return act(block);
-        },
-        blocks_[static_cast<std::size_t>(i)]));
-  }
+  for (int i = 0; i < count_; ++i) TRY(with_block(blocks_[static_cast<std::size_t>(i)], act));
   return Status::kOk;
 }
 
@@ -70,11 +75,9 @@ Status Pipeline::start(const RobotState& measured) {
 bool Pipeline::at_rest() const {
   bool rests = true;
   for (int i = 0; i < count_; ++i) {
-    std::visit(
-        [&rests](const auto& block) {
-          if constexpr (kMoves<std::decay_t<decltype(block)>>) rests = rests && block.at_rest();
-        },
-        blocks_[static_cast<std::size_t>(i)]);
+    with_block(blocks_[static_cast<std::size_t>(i)], [&rests](const auto& block) {
+      if constexpr (kMoves<std::decay_t<decltype(block)>>) rests = rests && block.at_rest();
+    });
   }
   return rests;
 }
@@ -90,14 +93,8 @@ Status Pipeline::step(const RobotState& measured, Timing* timing) {
   LoopBound<kMaxBlocks> steps;
   for (int i = 0; i < count_; ++i) {
     steps.tick();
-    TRY(std::visit(
-        [period_s](auto& block) {
-          if constexpr (std::is_same_v<decltype(block), std::monostate&>)
-            return Status::kOk;
-          else
-            return step_block(block, period_s);
-        },
-        blocks_[static_cast<std::size_t>(i)]));
+    TRY(with_block(blocks_[static_cast<std::size_t>(i)],
+                   [period_s](auto& block) { return step_block(block, period_s); }));
     if (timing != nullptr) timing->lap_block(i);
   }
   return Status::kOk;
@@ -107,19 +104,19 @@ void Pipeline::brake(Status why, BrakeWay way) {
   LoopBound<kMaxBlocks> brakes;
   for (int i = 0; i < count_; ++i) {
     brakes.tick();
-    std::visit(
-        [why, way](auto& block) {
-          if constexpr (!std::is_same_v<decltype(block), std::monostate&>) block.brake(why, way);
-        },
-        blocks_[static_cast<std::size_t>(i)]);
+    with_block(blocks_[static_cast<std::size_t>(i)],
+               [why, way](auto& block) { block.brake(why, way); });
   }
 }
 
 JointVector Pipeline::deceleration() const {
   JointVector least = guard.limits.ddq_max;
-  for (const Block& block : blocks_)
-    if (const auto* law = std::get_if<CartesianPose>(&block))
-      least = least.cwiseMin(law->params.limits.ddq_max);
+  for (int i = 0; i < count_; ++i) {
+    with_block(blocks_[static_cast<std::size_t>(i)], [&least](const auto& block) {
+      if constexpr (kLimitsBraking<std::decay_t<decltype(block)>>)
+        least = least.cwiseMin(block.deceleration());
+    });
+  }
   return least;
 }
 

@@ -1,56 +1,37 @@
-// Pipeline: the chain of blocks that a file describes, in fixed memory. The types are fixed here,
-// the composition is read at load, and nothing is decided in the cycle.
+// Pipeline: the chain of blocks that a file describes, in fixed memory. The types are fixed in
+// kinds.hpp, the composition is read at load, and nothing is decided in the cycle.
 #pragma once
 
 #include <array>
 #include <type_traits>
-#include <variant>
 
-#include "kernel/control/admittance.hpp"
-#include "kernel/control/cartesian_pose.hpp"
-#include "kernel/control/pd_gravity.hpp"
-#include "kernel/control/pid.hpp"
-#include "kernel/control/wrench_front_end.hpp"
-#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/core/arena.hpp"
+#include "kernel/core/brake.hpp"
+#include "kernel/core/task_limits.hpp"
 #include "kernel/guard/collision.hpp"
 #include "kernel/guard/guard.hpp"
-#include "kernel/model/robot_model.hpp"
 #include "kernel/pipeline/recorder.hpp"
 #include "kernel/pipeline/schedule.hpp"
 #include "kernel/pipeline/settings.hpp"
 #include "kernel/pipeline/timing.hpp"
-#include "kernel/reference/generator/frame.hpp"
-#include "kernel/reference/generator/joint_reference_generator.hpp"
-#include "kernel/reference/generator/task_reference_generator.hpp"
 
 namespace tactus {
 
-/// All kinds of block: a new controller is one line here. Each has its word in "type = ..." as
-/// kType.
-using Block = std::variant<std::monostate,           //
-                           RobotModel,               //
-                           Frame,                    //
-                           BoxObstacle,              //
-                           JointReferenceGenerator,  //
-                           TaskReferenceGenerator,   //
-                           PdGravity,                //
-                           Pid,                      //
-                           WrenchFrontEnd,           //
-                           Admittance,               //
-                           CartesianPose>;
-
-template <class... Blocks>
-constexpr std::array<const char*, 1 + sizeof...(Blocks)> block_types(
-    const std::variant<std::monostate, Blocks...>*) {
-  return {"", Blocks::kType...};
-}
-
-/// The word for each kind, in the order of Block.
-inline constexpr std::array<const char*, std::variant_size_v<Block>> kBlockTypes =
-    block_types(static_cast<const Block*>(nullptr));
+/// A block of the chain: a kind of Kinds, at its place in the board's memory.
+struct Block {
+  Name name;  ///< of its section
+  std::size_t kind = 0;
+  void* place = nullptr;
+};
 
 class Pipeline {
  public:
+  /// Places the blocks in `size` bytes at `bytes`, which the board owns and which are aligned as
+  /// `std::max_align_t` is. [init]
+  [[gnu::cold]] Pipeline(std::byte* bytes, std::size_t size) : memory(bytes, size) {}
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
   RobotSection robot;
   Guard::Params guard;
   CollisionSection collision;
@@ -62,6 +43,7 @@ class Pipeline {
   PortTable ports;
   Schedule schedule;  ///< the control chain, then the rows that the pipeline has
   bool takes_joints = false, takes_poses = false;  ///< spaces of its generators' references
+  Arena memory;                                    ///< what is left for further blocks
 
   /// Lists the sections of a file that are not blocks; a board adds its own.
   template <class Visitor>
@@ -74,41 +56,53 @@ class Pipeline {
     visit.section("recorder", recorder);
   }
 
-  /// Returns an empty slot at the end of the chain for the block of a section, or null if all slots
-  /// are taken. [init]
-  Block* append(const Name& section) {
-    if (count_ == kMaxBlocks) return nullptr;
-    names_[static_cast<std::size_t>(count_)] = section;
-    return &blocks_[static_cast<std::size_t>(count_++)];
+  /// Appends a block that the loader has placed in `memory`; false if there are kMaxBlocks. [init]
+  bool append(const Block& block) {
+    if (count_ == kMaxBlocks) return false;
+    blocks_[static_cast<std::size_t>(count_++)] = block;
+    return true;
   }
   int count() const { return count_; }
   /// Name of the section of a block.
-  const Name& name(int block) const { return names_[static_cast<std::size_t>(block)]; }
+  const Name& name(int block) const { return blocks_[static_cast<std::size_t>(block)].name; }
 
   /// Starts every block in order, from the measured state, and checks that state for collisions.
   /// Returns the first Status that is not kOk. [init]
-  Status start(const RobotState& measured);
+  [[gnu::cold]] Status start(const RobotState& measured);
   /// Steps every block in order and times each. Returns the first Status that is not kOk. [cyclic]
   Status step(const RobotState& measured, Timing* timing = nullptr);
   /// True if no block has a motion of its own that goes on: see kernel/core/brake.hpp.
   /// [between two cycles]
   bool at_rest() const;
   /// Lets every block go on after a brake that has come to rest: see kernel/core/brake.hpp. [init]
-  Status resume(const RobotState& measured);
+  [[gnu::cold]] Status resume(const RobotState& measured);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]
   void brake(Status why, BrakeWay way);
   /// Returns the deceleration of every joint in a brake at once, rad/s^2: the guard's limit, or a
   /// block's own. [init]
-  JointVector deceleration() const;
+  [[gnu::cold]] JointVector deceleration() const;
 
  private:
   template <class Act>
   Status for_each_block(Act act);
 
-  std::array<Name, kMaxBlocks> names_;
   std::array<Block, kMaxBlocks> blocks_;
   int count_ = 0;
 };
+
+/// A pipeline with `kBytes` for its blocks, which take the sizes of their kinds
+/// (docs/memory.md); a file whose blocks need more is refused.
+template <std::size_t kBytes>
+class PipelineMemory : public Pipeline {
+ public:
+  PipelineMemory() : Pipeline(bytes_, kBytes) {}
+
+ private:
+  alignas(std::max_align_t) std::byte bytes_[kBytes];
+};
+
+/// For a board that has memory enough: it holds the blocks of any file.
+using RoomyPipeline = PipelineMemory<std::size_t{64} << 10>;
 
 static_assert(std::is_trivially_destructible_v<Pipeline>,
               "a pipeline owns nothing but its own bytes");

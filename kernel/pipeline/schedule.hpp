@@ -85,7 +85,7 @@ class Schedule {
  public:
   /// Appends a row. Refused, without effect, if there is no place or not all rows can be met.
   /// [init]
-  ScheduleVerdict add(const Row& row, std::int64_t period_us);
+  [[gnu::cold]] ScheduleVerdict add(const Row& row, std::int64_t period_us);
   /// Sets the function of the row called `name`; false if there is none. [init]
   bool bind(std::string_view name, Row::Run run, void* context);
 

@@ -13,7 +13,7 @@ using Label = Text<2 * kMaxNameLength>;
 /// Calls visit(label, times, overruns) for every stage, block and row; overruns < 0: no budget.
 template <class Visit>
 void for_each_time(const Pipeline& pipeline, const Executive& executive, Visit visit) {
-  const Timing& timing = executive.timing();
+  const CycleTimes& timing = *executive.times();
   for (std::size_t i = 0; i < kNames<Stage>.size(); ++i) {
     visit(Label(kNames<Stage>[i]), timing.stage(static_cast<Stage>(i)), std::int64_t{-1});
     if (static_cast<Stage>(i) != Stage::kStep) continue;

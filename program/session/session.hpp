@@ -7,6 +7,7 @@
 #include "gateway/reference_client.hpp"
 #include "hal/os/realtime_settings.hpp"
 #include "kernel/cycle/executive.hpp"
+#include "kernel/pipeline/channels.hpp"
 #include "program/session/options.hpp"
 
 namespace tactus {

@@ -16,10 +16,12 @@ wcet-refute: wcet-bound build/wcet/count_plugin.so   ## try to refute the bounds
 certificate:                                  ## check static bytes, worst-case stack and heap calls of BOARD
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
-certificate-m7: $(O)/libkernel.a $(B)/link.elf
-	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/link.elf --tools $(CROSS_m7) \
-	  --static-budget $(STATIC_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
-	@grep -E '^(memory|RAM|stack)' $(B)/certificate.txt
+certificate-m7: $(O)/libkernel.a $(B)/board.elf
+	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/board.elf --tools $(CROSS_m7) \
+	  --static-budget $(STATIC_BUDGET) --flash-budget $(FLASH_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
+	@grep -E '^(memory|RAM|flash|stack)' $(B)/certificate.txt
+	$(Q)qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -semihosting-config enable=on,target=native \
+	  -kernel $(B)/board.elf
 certificate-host: $(O)/libkernel.a $(B)/stack_painter
 	$(Q)scripts/certificate $(BOARD) --callgraph $(O)/kernel --stack-budget $(HOST_STACK_BUDGET) \
 	  --painted $(B)/stack_painter > $(B)/certificate.txt

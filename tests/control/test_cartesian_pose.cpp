@@ -1,6 +1,7 @@
 // Cartesian pose control as a law: sign, response, start, rates, posture.
 #include "kernel/control/cartesian_pose.hpp"
 
+#include "kernel/pipeline/kinds.hpp"
 #include "kernel/pipeline/pipeline.hpp"
 #include "tests/control/pose_bench.hpp"
 #include "tests/support/testing.hpp"
@@ -133,8 +134,11 @@ void a_gain_too_large_for_the_period_is_refused_at_the_start(void**) {
   bench.law.params.measurement_delay = 10e-3;
   ASSERT_STATUS(bench.start(zero), Status::kUnstableGain);
 
-  static Pipeline pipeline;
-  pipeline.append({})->emplace<CartesianPose>();
+  static RoomyPipeline pipeline;
+  static CartesianPose law;
+  std::size_t kind = 0;
+  while (Kinds::kTypes[kind] != CartesianPose::kType) ++kind;
+  assert_true(pipeline.append({Name("cpc"), kind, &law}));
   pipeline.robot.period_us = 50000;
   ASSERT_OK(pipeline.start({}));
   pipeline.robot.period_us = 50001;

@@ -13,7 +13,7 @@ constexpr int kSides = 8;
 constexpr double kSideTime_s = 65.0 / kSides, kMeanSpeed_m_s = 0.033;
 
 struct Square {
-  ReferenceChannel<TaskSpace> channel;
+  ChannelMemory<TaskSpace> channel;
   std::array<std::array<Waypoint<TaskSpace>, kSides>, kStores> waypoints;
   ReferenceClient<TaskSpace> client{channel};
   TaskReferenceGenerator trg;

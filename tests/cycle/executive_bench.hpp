@@ -119,10 +119,11 @@ struct ExecutiveBench {
 
   FakeHal hal;
   std::array<Waypoint<JointSpace>, 2> waypoints;
-  ReferenceChannel<JointSpace> channel;
+  ChannelMemory<JointSpace> channel;
   ReferenceClient<JointSpace> client{channel};
-  Pipeline pipeline;
-  Executive executive{hal, pipeline, stopwatch};
+  RoomyPipeline pipeline;
+  CycleTimes times;
+  Executive executive{hal, pipeline, {stopwatch, times}};
   std::int64_t now_ns = 0;
   std::uint32_t armed_in = 0;
 

@@ -152,8 +152,8 @@ class FaultyHal final : public Hal {
 };
 
 struct FaultRun {
-  ReferenceChannel<JointSpace> channel;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> channel;
+  RoomyPipeline pipeline;
   ReferenceClient<JointSpace> client{channel};
   int takeovers = 0;
 
@@ -172,7 +172,7 @@ struct FaultRun {
     const JointLimits limits;
     const JointVector middle = 0.5 * (limits.q_min + limits.q_max);
     FaultyHal hal(random, middle, mode);
-    Executive executive(hal, pipeline, nullptr);
+    Executive executive(hal, pipeline);
     ASSERT_OK(executive.start());
     Rung explained = Rung::kDisabled;
     std::uint32_t read = 0;

@@ -106,7 +106,7 @@ void after_a_restart_the_reference_is_the_measured_state_and_the_old_motion_is_v
   b.now_ns = 0;             // and the clock began anew
   ASSERT_OK(b.start());
   assert_int_equal(b.executive.telemetry().slips, 0);
-  assert_int_equal(b.executive.times(Stage::kCycle).count(), 0);
+  assert_int_equal(b.executive.times()->stage(Stage::kCycle).count(), 0);
   for (int i = 0; i < 10; ++i) {
     ASSERT_OK(b.cycle());
     assert_true(b.reference() == b.hal.state.q[0]);

@@ -79,7 +79,7 @@ void drives_that_do_not_follow_get_none(void**) {
   ExecutiveBench& b = moving_bench();
   static WatchedHal hal;
   hal.inner.state = b.hal.state;
-  Executive executive(hal, b.pipeline, nullptr);
+  Executive executive(hal, b.pipeline);
   ASSERT_OK(executive.start());
   std::int64_t now_ns = 0;
   bool armed = false;

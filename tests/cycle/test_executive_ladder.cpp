@@ -115,8 +115,8 @@ void a_row_that_finds_something_stops_the_robot_and_its_overruns_are_its_own(voi
     probe.takes_ns = takes_ns;
     ASSERT_OK(b.cycle());
   }
-  assert_int_equal(b.executive.timing().row_overruns(index), 2);
-  assert_int_equal(b.executive.timing().row(index).max(), 500'000);
+  assert_int_equal(b.executive.times()->row_overruns(index), 2);
+  assert_int_equal(b.executive.times()->row(index).max(), 500'000);
   assert_int_equal(b.executive.telemetry().overruns, 0);
   probe.status = Status::kWorkspace;
   ASSERT_STATUS(b.cycle(), Status::kWorkspace);

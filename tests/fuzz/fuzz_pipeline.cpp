@@ -28,9 +28,9 @@ struct Sections : SimSections {
 };
 
 struct Board {
-  ReferenceChannel<JointSpace> joints;
-  ReferenceChannel<TaskSpace> poses;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> joints;
+  ChannelMemory<TaskSpace> poses;
+  RoomyPipeline pipeline;
   Sections sections;
   LoadError error;
 
@@ -83,7 +83,8 @@ void run(Board& board) {
   q << 0.0, -1.67, 1.87, 2.94, -1.57, 0.1;
   const RobotSection& robot = board.pipeline.robot;
   fuzz::GuardedHal hal(q, board.pipeline.guard.effective(), robot.period_s());
-  Executive executive(hal, board.pipeline, [] { return std::uint64_t{0}; });
+  CycleTimes times;
+  Executive executive(hal, board.pipeline, {[] { return std::uint64_t{0}; }, times});
   const std::int64_t period_ns = std::int64_t{1000} * robot.period_us;
   std::int64_t now_ns = 0;
   if (start_armed(executive, period_ns, now_ns) != Status::kOk) return;

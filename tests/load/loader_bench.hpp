@@ -2,6 +2,8 @@
 // objects that a board with a simulated robot loads it into.
 #pragma once
 
+#include <new>
+
 #include "kernel/load/loader.hpp"
 #include "program/sim/sim_sections.hpp"
 
@@ -28,14 +30,14 @@ inline constexpr Capabilities kTorqueRobot = {false, false, true, 100, 10000};
 
 /// The objects that a board with a simulated robot loads a file into.
 struct LoaderBench {
-  ReferenceChannel<JointSpace> channel;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> channel;
+  RoomyPipeline pipeline;
   SimSections board;
   LoadError error;
 
   Status load(std::string_view text, const Capabilities& offered = kTorqueRobot) {
     channel.settings = {};
-    pipeline = Pipeline();
+    new (&pipeline) RoomyPipeline;
     board = SimSections();
     return Loader({&channel}, offered, board).load(text, pipeline, error);
   }

@@ -36,7 +36,7 @@ struct Board {
 
 /// A robot at rest, followed by the given sections.
 struct Bench {
-  Pipeline pipeline;
+  RoomyPipeline pipeline;
   LoadError error;
   Text<1023> text{"[robot]\nname = "};
 

@@ -35,12 +35,12 @@ struct PipelineBench {
   static constexpr int kMaxWaypoints = 16;
   std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
   std::array<std::array<Waypoint<TaskSpace>, kMaxWaypoints>, kStores> poses;
-  ReferenceChannel<JointSpace> channel;
-  ReferenceChannel<TaskSpace> task_channel;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> channel;
+  ChannelMemory<TaskSpace> task_channel;
+  RoomyPipeline pipeline;
   SimSections board;
   SimHal hal;
-  Executive executive{hal, pipeline, nullptr};
+  Executive executive{hal, pipeline};
   Recorder recorder{nullptr, 0};
   ReferenceClient<JointSpace> client{channel};
   ReferenceClient<TaskSpace> task_client{task_channel};

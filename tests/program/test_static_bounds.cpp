@@ -107,14 +107,17 @@ void a_call_of_the_heap_is_refused_by_its_place(void**) {
 
 // Proves MEM-3.
 
-void static_bytes_over_the_budget_are_refused(void**) {
+void ram_and_flash_over_the_budget_are_refused(void**) {
   build("fine");
   const char* const command =
       "scripts/certificate fine --callgraph $S/fine --image $S/fine/planted.elf --tools "
-      "arm-none-eabi- --roots planted --static-budget ";
-  assert_int_equal(shell((Text<1023>(command) << "0").c_str()), 0);
-  assert_int_equal(shell((Text<1023>(command) << "-1").c_str()), 1);
-  assert_true(has(errors(), "0 static bytes exceed the budget of -1"));
+      "arm-none-eabi- --roots planted ";
+  assert_int_equal(shell((Text<1023>(command) << "--static-budget 0").c_str()), 0);
+  assert_int_equal(shell((Text<1023>(command) << "--static-budget -1").c_str()), 1);
+  assert_true(has(errors(), "0 bytes of RAM exceed the budget of -1"));
+  assert_int_equal(shell((Text<1023>(command) << "--flash-budget 65536").c_str()), 0);
+  assert_int_equal(shell((Text<1023>(command) << "--flash-budget 16").c_str()), 1);
+  assert_true(has(errors(), " bytes of flash exceed the budget of 16"));
 }
 
 }  // namespace
@@ -136,7 +139,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_frame_of_four_kilobytes_is_over_the_budget),
       cmocka_unit_test(a_stack_that_was_not_painted_is_no_certificate),
       cmocka_unit_test(a_call_of_the_heap_is_refused_by_its_place),
-      cmocka_unit_test(static_bytes_over_the_budget_are_refused),
+      cmocka_unit_test(ram_and_flash_over_the_budget_are_refused),
   };
   return run_program_tests(argv[0], tests);
 }

@@ -53,12 +53,12 @@ inline constexpr const char* kClosedLoopBlocks =
 struct ClosedLoop {
   const char* blocks = kClosedLoopBlocks;  ///< set both before start() to use another pipeline
   std::string gains = pd_gains();
-  ReferenceChannel<JointSpace> channel;
+  ChannelMemory<JointSpace> channel;
   std::array<std::array<Waypoint<JointSpace>, 16>, kStores> waypoints;
-  Pipeline pipeline;
+  RoomyPipeline pipeline;
   PlantParams plant;
   SimHal hal;
-  Executive executive{hal, pipeline, nullptr};
+  Executive executive{hal, pipeline};
   ReferenceClient<JointSpace> client{channel};
   LoadError error;
   std::int64_t cycles = 0;

@@ -38,7 +38,7 @@ struct TapeClient {
   TapeClient();
   void poll();
 
-  ReferenceChannel<Space> channel;
+  ChannelMemory<Space> channel;
   ReferenceClient<Space> client{channel};
   Waypoint<Space> waypoints[kStores][kCapacity];
   Trajectory<Space>* sent = nullptr;  ///< the last trajectory
@@ -46,8 +46,7 @@ struct TapeClient {
 
 class Player {
  public:
-  explicit Player(Executive::Stopwatch stopwatch = nullptr)
-      : executive_(hal_, pipeline_, stopwatch) {}
+  explicit Player(const Timing& timing = {}) : executive_(hal_, pipeline_, timing) {}
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
@@ -85,7 +84,7 @@ class Player {
   TapeHal hal_;
   TapeClient<JointSpace> joints_;
   TapeClient<TaskSpace> poses_;
-  Pipeline pipeline_;
+  RoomyPipeline pipeline_;
   SimSections board_;
   Executive executive_;
   const Pose* reference_ = nullptr;  ///< x_d of the task-space generator, if there is one

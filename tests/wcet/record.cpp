@@ -72,7 +72,7 @@ void put_point(const TaskSpace::Point& point) {
 }
 
 struct Board : SimSections {
-  Pipeline pipeline;
+  RoomyPipeline pipeline;
 };
 
 /// The pose of that name, and its number among the pipeline's poses from 1; 0 if there is none.
@@ -132,7 +132,7 @@ struct Way {
     while (client.poll_feedback(feedback)) {
     }
   }
-  ReferenceChannel<Space> channel;
+  ChannelMemory<Space> channel;
   ReferenceClient<Space> client{channel};
   Waypoint<Space> waypoints[kStores][kCapacity];
 };
@@ -149,7 +149,7 @@ int record(const char* path) {
   robot.set_period(period_s);
   if (robot.load(board.plant, 1) != Status::kOk) return 1;
   static RecordingHal hal(robot);
-  static Executive executive(hal, board.pipeline, nullptr);
+  static Executive executive(hal, board.pipeline);
   const std::int64_t period_ns = std::int64_t{1000} * board.pipeline.robot.period_us;
   std::int64_t now_ns = 0;
   if (start_armed(executive, period_ns, now_ns) != Status::kOk) return 1;

@@ -34,7 +34,7 @@ struct Timed {
 };
 
 std::vector<Timed> timed_of(const Player& player) {
-  const Timing& timing = player.executive().timing();
+  const CycleTimes& timing = *player.executive().times();
   const Pipeline& pipeline = player.pipeline();
   std::vector<Timed> timed;
   for (const Stage stage : {Stage::kCycle, Stage::kRead, Stage::kGuard, Stage::kWrite})
@@ -48,8 +48,8 @@ std::vector<Timed> timed_of(const Player& player) {
 
 /// Plays a tape once; calls `each` to run each cycle.
 template <class Each>
-void play(const std::string& text, const Bytes& tape, Executive::Stopwatch watch, Each each) {
-  const auto player = std::make_unique<Player>(watch);
+void play(const std::string& text, const Bytes& tape, const Timing& timing, Each each) {
+  const auto player = std::make_unique<Player>(timing);
   LoadError error;
   if (player->load(text, error) != Status::kOk) {
     std::fprintf(stderr, "wcet-replay: the pipeline is refused\n");
@@ -62,7 +62,8 @@ void play(const std::string& text, const Bytes& tape, Executive::Stopwatch watch
 void time(const std::string& text, Bytes reel, std::FILE* out) {
   for (bool first = true; !reel.empty(); first = false) {
     std::vector<Timed> timed;
-    play(text, next_tape(reel), stopwatch, [&](Player& player, int k) {
+    const auto times = std::make_unique<CycleTimes>();
+    play(text, next_tape(reel), {stopwatch, *times}, [&](Player& player, int k) {
       if (k == 0) timed = timed_of(player);
       for (const Timed& each : timed)
         if (first && k == 0) std::fprintf(out, "%s ", each.name.c_str());
@@ -80,7 +81,7 @@ void time(const std::string& text, Bytes reel, std::FILE* out) {
 
 void count(const std::string& text, Bytes reel, const std::vector<std::string>& wanted) {
   for (int number = 0; !reel.empty(); ++number) {
-    play(text, next_tape(reel), nullptr, [&](Player& player, int k) {
+    play(text, next_tape(reel), {}, [&](Player& player, int k) {
       const auto cycle = static_cast<unsigned>(k) + player.arming_cycles();
       const std::string here = std::to_string(number) + ":" + std::to_string(cycle);
       bool dump = false;

@@ -33,7 +33,7 @@ wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
 $(O)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 $(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
 $(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini Makefile
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@

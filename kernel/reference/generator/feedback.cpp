@@ -14,7 +14,7 @@ void FeedbackPublisher<Space>::start(int divisor, Fields measured) {
 template <class Space>
 void FeedbackPublisher<Space>::step(std::int64_t cycle, double time_s, std::uint32_t id,
                                     const Point& desired, const Point& measured,
-                                    FeedbackMailbox<Space>& mailbox) {
+                                    FeedbackQueue<Space>& queue) {
   if (divisor_ == 0 || cycle % divisor_ != 0) return;
   Feedback<Space> message;
   message.time_s = time_s;
@@ -23,7 +23,7 @@ void FeedbackPublisher<Space>::step(std::int64_t cycle, double time_s, std::uint
   message.desired = desired;
   message.actual = measured.as_measured(measured_);
   message.error = Space::error(desired, message.actual);
-  lost_ = mailbox.post(message) ? 0 : lost_ + 1;
+  lost_ = queue.post(message) ? 0 : lost_ + 1;
 }
 
 template class FeedbackPublisher<JointSpace>;

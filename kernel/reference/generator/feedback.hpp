@@ -20,7 +20,7 @@ struct Feedback {
 };
 
 template <class Space>
-using FeedbackMailbox = Mailbox<Feedback<Space>, 16>;
+using FeedbackQueue = MessageQueue<Feedback<Space>>;
 
 /// Posts a message when one is due. If the mailbox is full, the message is lost and counted; the
 /// cycle never waits for a client.
@@ -35,7 +35,7 @@ class FeedbackPublisher {
   /// Takes one cycle, numbered from 1 at start: its time, its reference, and the point measured in
   /// it. [cyclic]
   void step(std::int64_t cycle, double time_s, std::uint32_t id, const Point& desired,
-            const Point& measured, FeedbackMailbox<Space>& mailbox);
+            const Point& measured, FeedbackQueue<Space>& queue);
 
  private:
   int divisor_ = 0;

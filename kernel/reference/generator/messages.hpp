@@ -98,19 +98,50 @@ inline constexpr int kStores = 3;
 /// Largest number of unanswered controls: sent, and their final reports not yet fetched.
 inline constexpr std::size_t kControls = 16;
 
-/// The messages and stores between one client and one reference generator. Owned by the board.
+/// Most requests that a mailbox holds.
+inline constexpr std::uint32_t kMostRequests = 16;
+
+// One request causes at most four reports in its cycle: what it supersedes, a trajectory that ends,
+// a store released, its own. What then runs and waits causes six more later: a point, a trajectory
+// that ends and its store, one that starts and ends and its store. A request waits in its mailbox
+// until there is space for all of them and for one report of every control that can be unanswered,
+// so no report is ever lost.
+inline constexpr std::size_t kReportsPerRequest = 10;
+
+/// The messages and stores between one client and one reference generator. The board owns it, with
+/// its mailboxes, as a ChannelMemory.
 template <class Space>
 struct ReferenceChannel {
+  ReferenceChannel(MessageQueue<Request<Space>>& its_requests, MessageQueue<Report>& its_reports,
+                   FeedbackQueue<Space>& its_feedback)
+      : requests(its_requests), reports(its_reports), feedback(its_feedback) {}
+
   AdmissionSettings<Space> settings;
-  Mailbox<Request<Space>, 16> requests;
+  MessageQueue<Request<Space>>& requests;
   Mailbox<Control, kControls> controls;  ///< all are taken in every cycle
-  Mailbox<Report, 64> reports;
-  FeedbackMailbox<Space> feedback;
+  MessageQueue<Report>& reports;
+  FeedbackQueue<Space>& feedback;
   std::array<Trajectory<Space>, kStores> stores;
   /// First waypoint of each store that the motion still needs; earlier ones may be overwritten.
   std::array<std::atomic<int>, kStores> needed{};
   /// Number of waypoints of each store that the generator knows of; negative if none will follow.
   std::array<std::atomic<int>, kStores> known{};
+};
+
+/// A channel with its mailboxes. A board with little memory makes them smaller: requests and
+/// feedback for as many cycles as its client may be late, and reports for as many requests as may
+/// be unanswered at once.
+template <class Space, std::uint32_t kRequests = kMostRequests, std::uint32_t kReports = 64,
+          std::uint32_t kFeedback = 16>
+struct ChannelMemory : ReferenceChannel<Space> {
+  static_assert(kRequests <= kMostRequests, "a cycle takes no more");
+  static_assert(kReports >= kReportsPerRequest + kControls, "no request would ever be taken");
+
+  ChannelMemory() : ReferenceChannel<Space>(request_box, report_box, feedback_box) {}
+
+  Mailbox<Request<Space>, kRequests> request_box;
+  Mailbox<Report, kReports> report_box;
+  Mailbox<Feedback<Space>, kFeedback> feedback_box;
 };
 
 }  // namespace tactus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <new>
 
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
@@ -22,7 +23,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   const Point held = measured;  // NOLINT(performance-unnecessary-copy-initialization)
   FeedbackPublisher<Space> feedback = feedback_;
   feedback.start(params.feedback_divisor, params.measured);
-  *this = ReferenceGenerator();
+  new (this) ReferenceGenerator();  // anew in its place: a copy would be large on the stack
   feedback_ = feedback;
   channel_ = &channel;
   params_ = params;

@@ -48,7 +48,8 @@ class ReferenceGenerator {
 
   /// Holds `measured` until the next request. Aborts what ran and refuses what was sent before, as
   /// old targets are void after a start. kStateNotFinite if `measured` is not finite. [init]
-  Status start(ReferenceChannel<Space>& channel, const Params& params, const Point& measured);
+  [[gnu::cold]] Status start(ReferenceChannel<Space>& channel, const Params& params,
+                             const Point& measured);
 
   /// Moves the reference one period ahead, compares it with the measured point, answers controls
   /// and requests, publishes feedback. kReferenceFault if the reference is not finite. [cyclic]

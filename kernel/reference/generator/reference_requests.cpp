@@ -10,16 +10,6 @@
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
-namespace {
-
-// One request causes at most four reports in its cycle: what it supersedes, a trajectory that ends,
-// a store released, its own. What then runs and waits causes six more later: a point, a trajectory
-// that ends and its store, one that starts and ends and its store. A request waits in its mailbox
-// until there is space for all of them and for one report of every control that can be unanswered,
-// so no report is ever lost.
-constexpr std::size_t kReportsPerRequest = 10;
-
-}  // namespace
 
 template <class Space>
 bool ReferenceGenerator<Space>::has_room() const {
@@ -88,7 +78,7 @@ template <class Space>
 void ReferenceGenerator<Space>::take_requests() {
   std::array<Request<Space>, 2> taken;
   const Request<Space>* point = nullptr;
-  LoopBound<16> requests;  // what a mailbox holds
+  LoopBound<kMostRequests> requests;
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
     requests.tick();
     if (begun_ && refusing_ == Status::kOk) break;

@@ -1,5 +1,7 @@
 #include "kernel/reference/generator/tolerance_monitor.hpp"
 
+#include <new>
+
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/judge_channels.hpp"
 #include "kernel/reference/space/task_space.hpp"
@@ -9,7 +11,7 @@ namespace tactus {
 template <class Space>
 void ToleranceMonitor<Space>::start(const Point& reference, int latency_cycles,
                                     bool measures_velocity) {
-  *this = ToleranceMonitor();
+  new (this) ToleranceMonitor();
   measures_velocity_ = measures_velocity;
   line_.fill(reference);
   latency_ = static_cast<std::size_t>(latency_cycles);

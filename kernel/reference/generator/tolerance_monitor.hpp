@@ -20,7 +20,7 @@ class ToleranceMonitor {
   /// Starts with `reference` as the reference of all cycles before. If no velocity is measured, the
   /// robot counts as stopped once its position has moved for kWindow_s by no more than the velocity
   /// limit allows in that time. [init]
-  void start(const Point& reference, int latency_cycles, bool measures_velocity);
+  [[gnu::cold]] void start(const Point& reference, int latency_cycles, bool measures_velocity);
   /// Begins a goal with its tolerances. [cyclic]
   void begin(const Tolerances<Space>& tolerances);
   /// Takes the reference of this cycle. [cyclic]

@@ -19,7 +19,7 @@ Verdict admit_times(const Trajectory<Space>& trajectory, double period_s) {
   const double spacing = period_s / kMaxSegmentsPerCycle;
   double earliest = 0.0;
   for (int i = 0; i < trajectory.count; ++i) {
-    const double time = trajectory.at(i).time_s;
+    const double time = trajectory.time_s(i);
     if (!std::isfinite(time)) return {Status::kReferenceNotFinite, i, -1, time, 0.0};
     if (time < earliest - kRounding_s) return {Status::kReferenceTime, i, -1, time, earliest};
     earliest = time + spacing;
@@ -48,7 +48,7 @@ Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
   const typename Space::Peaks most = Space::peaks(limits).reserved(1.0 - settings.stop_reserve);
   const typename Space::Measure measure = Space::measure(segment, limits, most);
   const double pause_s =
-      index > 1 ? trajectory.at(index - 1).time_s - trajectory.at(index - 2).time_s : 0.0;
+      index > 1 ? trajectory.time_s(index - 1) - trajectory.time_s(index - 2) : 0.0;
   verdict = Space::judge_room(measure, limits);
   if (verdict.ok() && trajectory.exact) verdict = judge(measure.peaks, most, Space::kChannelSize);
   if (verdict.ok())
@@ -72,7 +72,7 @@ Verdict admit_end(const Trajectory<Space>& trajectory, int last,
       trajectory.point(last, Space::anywhere(trajectory.header, settings.limits));
   Verdict verdict = judge_end<Space>(end);
   if (verdict.ok() && last > 0) {
-    const double pause_s = trajectory.at(last).time_s - trajectory.at(last - 1).time_s;
+    const double pause_s = trajectory.time_s(last) - trajectory.time_s(last - 1);
     verdict = Space::judge_step(so_far.end, end.at_rest(), settings.limits, pause_s, so_far.steps);
   }
   return at_waypoint(verdict, last);
@@ -86,7 +86,7 @@ Admitted<Space> nothing_yet(const Trajectory<Space>& trajectory,
   nothing.end = trajectory.point(0, placement).at_rest();
   if (trajectory.count < 2) return nothing;
   const typename Space::Segment first = trajectory.segment(1, placement);
-  nothing.end = trajectory.at(0).time_s > 0.0 ? first.at(0.0) : first.corner();
+  nothing.end = trajectory.time_s(0) > 0.0 ? first.at(0.0) : first.corner();
   return nothing;
 }
 
@@ -99,8 +99,8 @@ Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
     longer = stretch(trajectory, settings, first, last, begin);
   }
   for (int i = first + 1; i <= last; ++i) {
-    Waypoint<Space>& waypoint = trajectory.waypoints[i % trajectory.capacity];
-    waypoint.room = waypoint.halfway = 0.0F;
+    WaypointRooms& rooms = trajectory.rooms(i);
+    rooms.room = rooms.halfway = 0.0F;
   }
   return longer <= settings.max_stretch ? Verdict() : part.worst;
 }
@@ -130,6 +130,7 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   if (trajectory.capacity > kMostWaypoints)
     return {Status::kReferenceSize, -1, -1, static_cast<double>(trajectory.capacity),
             static_cast<double>(kMostWaypoints)};
+  if (!trajectory.holds_fields()) return {Status::kReferenceSize};
   Verdict verdict = admit_times(trajectory, settings.period_s);
   if (verdict.ok()) verdict = shape_monotone(trajectory, settings);
   if (!verdict.ok()) return verdict;
@@ -144,12 +145,11 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   trajectory.extent = whole.extent;
   trajectory.stretch = 0.0;
   if (whole.room < 1.0) {
-    trajectory.waypoints[0].room = set_rooms(trajectory, settings, 0, 0, last, 1.0);
-    trajectory.stretch = stretch(trajectory, settings, 0, last, trajectory.at(0).room);
+    trajectory.rooms(0).room = set_rooms(trajectory, settings, 0, 0, last, 1.0);
+    trajectory.stretch = stretch(trajectory, settings, 0, last, trajectory.rooms(0).room);
     if (!(trajectory.stretch <= settings.max_stretch)) return whole.worst;
   }
-  if (trajectory.open)
-    trajectory.waypoints[0].room = set_rooms(trajectory, settings, 0, 0, last, 0.0);
+  if (trajectory.open) trajectory.rooms(0).room = set_rooms(trajectory, settings, 0, 0, last, 0.0);
   return {};
 }
 

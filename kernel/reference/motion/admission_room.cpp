@@ -101,7 +101,7 @@ struct Judge {
   }
   /// The room at place `index`: waypoint k is place 2 k, the middle of the way to it 2 k - 1.
   Published<float>& room(int index) const {
-    Waypoint<Space>& to = trajectory.waypoints[(index + 1) / 2 % trajectory.capacity];
+    WaypointRooms& to = trajectory.rooms((index + 1) / 2);
     return index % 2 == 0 ? to.room : to.halfway;
   }
   PartRooms parts(const typename Space::Segment& segment, double least) const {
@@ -184,7 +184,7 @@ double stretch(const Trajectory<Space>& trajectory, const AdmissionSettings<Spac
     longer_s += 2.0 * T / (std::sqrt(room) + std::sqrt(next)) - T;
     room = next;
   }
-  return longer_s / (trajectory.at(last).time_s - trajectory.at(first).time_s);
+  return longer_s / (trajectory.time_s(last) - trajectory.time_s(first));
 }
 
 template OwnRoom own_room(const JointSpace::Peaks&, const JointSpace::Peaks&, int);

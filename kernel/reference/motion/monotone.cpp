@@ -21,7 +21,7 @@ struct Secant {
 template <class Space>
 Secant<Space> secant(const Trajectory<Space>& trajectory, int index) {
   if (index < 1 || index >= trajectory.count) return {};
-  const Waypoint<Space>&from = trajectory.at(index - 1), &to = trajectory.at(index);
+  const Waypoint<Space> from = trajectory.at(index - 1), to = trajectory.at(index);
   const double T = to.time_s - from.time_s;
   return {Space::secant(from.point, to.point, T), T};
 }
@@ -47,7 +47,7 @@ void make_monotone(const Trajectory<Space>& trajectory) {
   Secant<Space> before;
   for (int i = 0; i < trajectory.count; ++i) {
     const Secant<Space> after = secant(trajectory, i + 1);
-    typename Space::Rates& v = Space::rates(trajectory.waypoints[i % trajectory.capacity].point);
+    Eigen::Map<typename Space::Rates> v(trajectory.numbers(i) + Space::numbers(0));
     for (Eigen::Index axis = 0; axis < v.size(); ++axis) {
       const double d0 = before.slope[axis], d1 = after.slope[axis];
       if (!given) v[axis] = mean_slope(d0, before.duration_s, d1, after.duration_s);

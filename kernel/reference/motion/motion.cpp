@@ -1,5 +1,7 @@
 #include "kernel/reference/motion/motion.hpp"
 
+#include <new>
+
 #include "kernel/reference/motion/slope_bounds.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
@@ -17,7 +19,7 @@ constexpr double kLongestBrake_s = 0.5;
 
 template <class Space>
 void Motion<Space>::start(const Point& point, const Settings& settings) {
-  *this = Motion();
+  new (this) Motion();
   settings_ = &settings;
   reference_ = point.at_rest();
   hold(reference_);

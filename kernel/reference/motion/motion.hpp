@@ -21,7 +21,7 @@ class Motion {
   using Settings = AdmissionSettings<Space>;
 
   /// Holds the position of `point` at rest. `settings` must outlive the motion. [init]
-  void start(const Point& point, const Settings& settings);
+  [[gnu::cold]] void start(const Point& point, const Settings& settings);
   /// Moves the reference one period ahead. [cyclic]
   void move_on(double dt_s);
 

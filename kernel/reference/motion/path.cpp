@@ -33,7 +33,7 @@ int Path<Space>::waypoint_from(double s, int before) const {
   while (found - before > 1) {
     halvings.tick();
     const int middle = before + (found - before) / 2;
-    (trajectory_->at(middle).time_s >= s ? found : before) = middle;
+    (trajectory_->time_s(middle) >= s ? found : before) = middle;
   }
   return found;
 }
@@ -43,14 +43,14 @@ template <class Space>
 int Path<Space>::target_at(double s) const {
   const int last = trajectory_->count - 1, present = present_.target;
   const double later = s + kTimeRounding_s;
-  if (present == last || later < trajectory_->at(present).time_s) return present;
-  if (later < trajectory_->at(present + 1).time_s) return present + 1;
+  if (present == last || later < trajectory_->time_s(present)) return present;
+  if (later < trajectory_->time_s(present + 1)) return present + 1;
   return waypoint_from(later, present);
 }
 
 template <class Space>
 typename Path<Space>::Piece Path<Space>::piece(int target) const {
-  return {target, trajectory_->at(target - 1).time_s, trajectory_->segment(target, placement_)};
+  return {target, trajectory_->time_s(target - 1), trajectory_->segment(target, placement_)};
 }
 
 template <class Space>
@@ -121,11 +121,12 @@ typename Space::Local Path<Space>::local(double s, int target, const Piece& know
 template <class Space>
 Room Path<Space>::room(double s, int target) const {
   if (free()) return {};
-  const Waypoint<Space>& to = trajectory_->at(target);
+  const WaypointRooms& to = trajectory_->rooms(target);
   // The segment that leads in is judged at the full rate; the room at its end is enough.
   if (target == 0) return {to.room, 0.0};
-  const Waypoint<Space>& from = trajectory_->at(target - 1);
-  const double T = 0.5 * (to.time_s - from.time_s), t = std::max(0.0, s - from.time_s);
+  const WaypointRooms& from = trajectory_->rooms(target - 1);
+  const double from_s = trajectory_->time_s(target - 1);
+  const double T = 0.5 * (trajectory_->time_s(target) - from_s), t = std::max(0.0, s - from_s);
   const bool second = t > T;
   const double begin = static_cast<float>(second ? to.halfway : from.room);
   const double end = static_cast<float>(second ? to.room : to.halfway);

@@ -76,7 +76,7 @@ class Path {
   bool smooth() const {
     return order_of(trajectory_->interpolation, trajectory_->fields) == Interpolation::kQuintic;
   }
-  double first_s() const { return trajectory_->at(0).time_s; }
+  double first_s() const { return trajectory_->time_s(0); }
   double end_s() const { return trajectory_->end_s(); }
   bool open() const { return trajectory_->open; }
   /// Index of the first waypoint that is still needed.

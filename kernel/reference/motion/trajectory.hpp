@@ -1,8 +1,18 @@
 // Trajectory: timed waypoints in a fixed store, which passes from the client to the generator and
 // back by messages, so that only one of them holds it at any time.
+//
+// A store is an array of whole waypoints. Packed, it holds more of them, each with the numbers of
+// the given fields only:
+//
+//   whole:                        time_s, position, velocity, acceleration, effort, rooms
+//   packed, positions only:       time_s, position, rooms
+//   packed, with velocities too:  time_s, position, velocity, rooms
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <new>
 
 #include "kernel/core/describe.hpp"
 #include "kernel/core/published.hpp"
@@ -17,6 +27,11 @@ struct Waypoint {
   typename Space::Point point;
   /// Room (admission_room.hpp) at this waypoint and in the middle of the way to it; the client may
   /// raise it while the motion runs.
+  Published<float> room = 1.0F, halfway = 1.0F;
+};
+
+/// The rooms of a waypoint as they lie at the end of its place.
+struct WaypointRooms {
   Published<float> room = 1.0F, halfway = 1.0F;
 };
 
@@ -50,7 +65,7 @@ inline constexpr int kMostWaypoints = 1 << 15;
 template <class Space>
 struct Trajectory {
   Waypoint<Space>* waypoints = nullptr;  ///< storage, owned by the board
-  int capacity = 0;                      ///< at most kMostWaypoints
+  int capacity = 0;                      ///< waypoints that fit, at most kMostWaypoints
   int count = 0;      ///< waypoints received; can exceed the capacity if the trajectory is open
   bool open = false;  ///< more waypoints follow, in the places of those that the motion has passed
   Fields fields = 0;  ///< given at every waypoint
@@ -63,19 +78,81 @@ struct Trajectory {
   typename Space::Extent extent;  ///< set by admission
   double stretch = 0.0;           ///< set by admission: how much longer it takes, as a fraction
 
-  const Waypoint<Space>& at(int index) const { return waypoints[index % capacity]; }
-  double end_s() const { return at(count - 1).time_s; }
+  /// Packs an empty store: from now on its waypoints hold `packed` fields and no others, and
+  /// `capacity` is how many of them fit. [any, not shared]
+  void pack(Fields packed) {
+    unpack();
+    whole_ = capacity;
+    stride_ = sizeof(Waypoint<Space>) - sizeof(typename Space::Point) +
+              sizeof(double) * static_cast<std::size_t>(Space::numbers(packed));
+    const std::size_t bytes = static_cast<std::size_t>(whole_) * sizeof(Waypoint<Space>);
+    capacity = static_cast<int>(std::min<std::size_t>(bytes / stride_, kMostWaypoints));
+  }
+  /// Makes an empty store one of whole waypoints again. [any, not shared]
+  void unpack() {
+    if (whole_ > 0) capacity = whole_;
+    whole_ = 0;
+    stride_ = sizeof(Waypoint<Space>);
+  }
+  /// False if the places of a packed store have no room for the fields that are given. [any]
+  bool holds_fields() const {
+    return Space::numbers(given()) <= static_cast<int>(kept() / sizeof(double));
+  }
+
+  /// Writes a waypoint, of which a packed store keeps the fields it holds. [any, not shared]
+  void set(int index, const Waypoint<Space>& waypoint) const {
+    time(index) = waypoint.time_s;
+    const auto* const from = reinterpret_cast<const double*>(&waypoint.point);
+    std::copy(from, from + kept() / sizeof(double), numbers(index));
+    new (&rooms(index)) WaypointRooms{waypoint.room, waypoint.halfway};
+  }
+  /// Returns a waypoint, with zeros in the fields that a packed store does not hold. [any]
+  Waypoint<Space> at(int index) const {
+    Waypoint<Space> waypoint;
+    waypoint.time_s = time_s(index);
+    std::copy(numbers(index), numbers(index) + kept() / sizeof(double),
+              reinterpret_cast<double*>(&waypoint.point));
+    waypoint.room = rooms(index).room;
+    waypoint.halfway = rooms(index).halfway;
+    return waypoint;
+  }
+  double time_s(int index) const { return time(index); }
+  double end_s() const { return time_s(count - 1); }
+  /// The numbers of a waypoint's point, in the order of its members.
+  double* numbers(int index) const { return &time(index) + 1; }
+  WaypointRooms& rooms(int index) const {
+    return *reinterpret_cast<WaypointRooms*>(place(index) + stride_ - sizeof(WaypointRooms));
+  }
+  /// The fields that are given or derived.
+  Fields given() const {
+    const bool chosen = interpolation == Interpolation::kMonotone;
+    return static_cast<Fields>(fields | (chosen ? kVelocityField : 0));
+  }
   /// Returns a waypoint as a placed reference, with zeros in the fields that are not given. [any]
   typename Space::Point point(int index, const typename Space::Placement& placement) const {
-    const bool chosen = interpolation == Interpolation::kMonotone;
-    const Fields given = static_cast<Fields>(fields | (chosen ? kVelocityField : 0));
-    return Space::placed(Space::only(given, at(index).point), placement);
+    return Space::placed(Space::only(given(), numbers(index)), placement);
   }
   /// Returns the segment that ends at waypoint `index` >= 1. [any]
   typename Space::Segment segment(int index, const typename Space::Placement& placement) const {
-    return {point(index - 1, placement), point(index, placement),
-            at(index).time_s - at(index - 1).time_s, interpolation, fields};
+    return {point(index - 1, placement), point(index, placement), time_s(index) - time_s(index - 1),
+            interpolation, fields};
   }
+
+ private:
+  static_assert(sizeof(Waypoint<Space>) ==
+                    sizeof(double) + sizeof(typename Space::Point) + sizeof(WaypointRooms),
+                "a waypoint lies as a place of all fields does");
+
+  std::byte* place(int index) const {
+    return reinterpret_cast<std::byte*>(waypoints) +
+           static_cast<std::size_t>(index % capacity) * stride_;
+  }
+  double& time(int index) const { return *reinterpret_cast<double*>(place(index)); }
+  /// Bytes of a point that a place keeps.
+  std::size_t kept() const { return stride_ - sizeof(double) - sizeof(WaypointRooms); }
+
+  int whole_ = 0;  // whole waypoints that a packed store would hold; 0: it is not packed
+  std::size_t stride_ = sizeof(Waypoint<Space>);  // bytes from a waypoint to the next
 };
 
 }  // namespace tactus

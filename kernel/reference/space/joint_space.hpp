@@ -118,7 +118,13 @@ struct JointSpace {
   static Placement anywhere(const Header& header, const Limits& limits);
   /// All limits.
   static Limits known_limits(const Header&, const Limits& limits) { return limits; }
-  static Point only(Fields given, const Point& point);
+  static constexpr int numbers(Fields given) {
+    return kDof * (given & kEffortField         ? 4
+                   : given & kAccelerationField ? 3
+                   : given & kVelocityField     ? 2
+                                                : 1);
+  }
+  static Point only(Fields given, const double* numbers);
   static Point placed(const Point& given, const Placement& placement);
   static Point without_held(const Point& reference, const Placement& placement) {
     return placed(reference, placement);

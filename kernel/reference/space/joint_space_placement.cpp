@@ -12,12 +12,12 @@ JointSpace::Placement JointSpace::anywhere(const Header& header, const Limits& l
   return {header.held, 0.5 * (limits.q_min + limits.q_max)};
 }
 
-JointSpace::Point JointSpace::only(Fields given, const Point& point) {
-  Point known = point;
-  if (!(given & kVelocityField)) known.dq.setZero();
-  if (!(given & kAccelerationField)) known.ddq.setZero();
-  if (!(given & kEffortField)) known.tau.setZero();
-  return known;
+JointSpace::Point JointSpace::only(Fields given, const double* numbers) {
+  const auto vector = [given, numbers](Fields field, int first) -> JointVector {
+    return given & field ? JointVector(numbers + first) : JointVector::Zero();
+  };
+  return {JointVector(numbers), vector(kVelocityField, kDof), vector(kAccelerationField, 2 * kDof),
+          vector(kEffortField, 3 * kDof)};
 }
 
 JointSpace::Point JointSpace::placed(const Point& given, const Placement& placement) {

@@ -173,8 +173,12 @@ struct SpaceContract : std::true_type {
   static_assert(kSame<decltype(S::anywhere), Placement(const Header&, const Limits&)>);
   /// Returns the limits with those infinite that only the placement allows to judge. [any]
   static_assert(kSame<decltype(S::known_limits), Limits(const Header&, const Limits&)>);
-  /// Returns a client's point with zeros in the fields that are not given. [cyclic]
-  static_assert(kSame<decltype(S::only), Point(Fields, const Point&)>);
+  /// Returns how many numbers of a point, in the order of its members, reach to the last of the
+  /// given fields; the position is always given. [any]
+  static_assert(kSame<decltype(S::numbers), int(Fields)>);
+  /// Returns a client's point from its numbers, with zeros in the fields that are not given; reads
+  /// the numbers of the given fields only. [cyclic]
+  static_assert(kSame<decltype(S::only), Point(Fields, const double*)>);
   /// Turns a client's point into a reference of all joints, or in the base frame. [cyclic]
   static_assert(
       kSame<decltype(S::placed(std::declval<const Point&>(), std::declval<const Placement&>())),

@@ -149,7 +149,13 @@ struct TaskSpace {
   static Placement anywhere(const Header&, const Limits&) { return {}; }
   /// No box if there is a motion frame, no largest moment if there is a wrench frame.
   static Limits known_limits(const Header& header, const Limits& limits);
-  static Point only(Fields given, const Point& point);
+  static constexpr int numbers(Fields given) {
+    return given & kEffortField         ? 31
+           : given & kAccelerationField ? 19
+           : given & kVelocityField     ? 13
+                                        : 7;
+  }
+  static Point only(Fields given, const double* numbers);
   static Point placed(Point point, const Placement& placement);
   /// The tip has no joints to hold: returns the reference as it is.
   static Point without_held(const Point& reference, const Placement&) { return reference; }

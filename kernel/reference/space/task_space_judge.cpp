@@ -17,7 +17,9 @@ constexpr double kUnitTolerance = 1e-3;         // of a quaternion's length
 
 /// Returns the first verdict that is not ok.
 Verdict first_of(std::initializer_list<Verdict> verdicts) {
+  LoopBound<5> asked;
   for (const Verdict& verdict : verdicts) {
+    asked.tick();
     if (!verdict.ok()) return verdict;
   }
   return {};

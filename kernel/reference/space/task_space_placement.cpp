@@ -32,15 +32,15 @@ TaskSpace::Limits TaskSpace::known_limits(const Header& header, const Limits& li
   return known;
 }
 
-TaskSpace::Point TaskSpace::only(Fields given, const Point& point) {
-  Point known = point;
-  if (!(given & kVelocityField)) known.v.setZero();
-  if (!(given & kAccelerationField)) known.a.setZero();
-  if (!(given & kEffortField)) {
-    known.h.setZero();
-    known.dh.setZero();
-  }
-  return known;
+TaskSpace::Point TaskSpace::only(Fields given, const double* numbers) {
+  const auto vector = [given, numbers](Fields field, int first) -> Vector6 {
+    return given & field ? Vector6(numbers + first) : Vector6::Zero();
+  };
+  return {{Vector3(numbers), Eigen::Quaterniond(numbers + 3)},
+          vector(kVelocityField, 7),
+          vector(kAccelerationField, 13),
+          vector(kEffortField, 19),
+          vector(kEffortField, 25)};
 }
 
 // With the pose (p_F, R_F) of the motion frame, which is constant,

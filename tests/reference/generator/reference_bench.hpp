@@ -20,7 +20,7 @@ struct ReferenceBench {
   static constexpr int kWaypoints = 64;
   static constexpr double kPeriod_s = 1e-3;
 
-  ReferenceChannel<JointSpace> channel;
+  ChannelMemory<JointSpace> channel;
   std::array<std::array<Waypoint<JointSpace>, kWaypoints>, kStores> waypoints;
   ReferenceClient<JointSpace> client{channel};
   ReferenceGenerator<JointSpace> generator;

@@ -16,7 +16,7 @@ constexpr double kPeriod_s = 1e-3;
 /// A generator's block with its client and the measured values.
 template <class Space, class Generator>
 struct Bench {
-  ReferenceChannel<Space> channel;
+  ChannelMemory<Space> channel;
   ReferenceClient<Space> client{channel};
   std::array<std::array<Waypoint<Space>, 4>, kStores> waypoints;
   Generator block;

@@ -32,7 +32,7 @@ Eigen::Isometry3d transform(const Pose& pose) {
 
 /// A task-space generator with stores for a few waypoints.
 struct TaskBench {
-  ReferenceChannel<TaskSpace> channel;
+  ChannelMemory<TaskSpace> channel;
   std::array<std::array<Waypoint<TaskSpace>, 8>, kStores> waypoints;
   ReferenceClient<TaskSpace> client{channel};
   ReferenceGenerator<TaskSpace> generator;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3;
 
 struct Bench {
-  ReferenceChannel<JointSpace> channel;
+  ChannelMemory<JointSpace> channel;
   ReferenceClient<JointSpace> client{channel};
   std::array<std::array<Waypoint<JointSpace>, 4>, kStores> waypoints;
   JointVector q = JointVector::Zero();

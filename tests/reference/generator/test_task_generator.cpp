@@ -15,7 +15,7 @@ const TaskLimits kLimits;
 
 /// A block with its client and a robot whose tip is where the reference was.
 struct TaskBench {
-  ReferenceChannel<TaskSpace> channel;
+  ChannelMemory<TaskSpace> channel;
   std::array<std::array<Waypoint<TaskSpace>, kWaypoints>, kStores> waypoints;
   ReferenceClient<TaskSpace> client{channel};
   Pose x = {{0.4, 0.1, 0.5}, exp_so3({3.0, 0.2, -0.1})};

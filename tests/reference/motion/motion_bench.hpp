@@ -56,7 +56,7 @@ struct MotionBench {
   static constexpr int kWaypoints = 24;
 
   double period_s;
-  ReferenceChannel<Space> channel;
+  ChannelMemory<Space> channel;
   std::array<std::array<Waypoint<Space>, kWaypoints>, kStores> waypoints;
   ReferenceClient<Space> client{channel};
   ReferenceGenerator<Space> generator;

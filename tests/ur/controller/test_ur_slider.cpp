@@ -23,12 +23,12 @@ Settings where_the_square_begins() {
 struct SquareBench {
   static constexpr int kMaxWaypoints = 16;
   std::array<std::array<Waypoint<TaskSpace>, kMaxWaypoints>, kStores> poses;
-  ReferenceChannel<JointSpace> channel;
-  ReferenceChannel<TaskSpace> task_channel;
-  Pipeline pipeline;
+  ChannelMemory<JointSpace> channel;
+  ChannelMemory<TaskSpace> task_channel;
+  RoomyPipeline pipeline;
   UrSections board;
   CoreHal hal{where_the_square_begins()};
-  Executive executive{hal, pipeline, nullptr};
+  Executive executive{hal, pipeline};
   Recorder recorder{nullptr, 0};
   ReferenceClient<JointSpace> client{channel};
   ReferenceClient<TaskSpace> task_client{task_channel};

@@ -30,10 +30,10 @@ struct UrArmBench {
   UrSettings settings;
   UrHal hal;
   std::array<Waypoint<JointSpace>, 8> waypoints;
-  ReferenceChannel<JointSpace> channel;
+  ChannelMemory<JointSpace> channel;
   ReferenceClient<JointSpace> client{channel};
-  Pipeline pipeline;
-  Executive executive{hal, pipeline, nullptr};
+  RoomyPipeline pipeline;
+  Executive executive{hal, pipeline};
 
   explicit UrArmBench(int period_us = 8000) {
     file << period_us << kUrPipeline;

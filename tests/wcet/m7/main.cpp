@@ -30,7 +30,7 @@ Status play(const Bytes& tape, std::uint32_t& cycles) {
 
 }  // namespace
 
-extern "C" int play_reel() {
+extern "C" int program() {
   static char line[512];
   const char* const path = semihosting::last_argument(line, sizeof line);
   Bytes reel(reel_bytes, semihosting::read_file(path, reel_bytes, sizeof reel_bytes));

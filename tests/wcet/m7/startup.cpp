@@ -1,4 +1,4 @@
-// The start of a bare Cortex-M7 from reset to play_reel(): stack, FPU, .data, .bss, constructors,
+// The start of a bare Cortex-M7 from reset to program(): stack, FPU, .data, .bss, constructors,
 // and faults that end the emulator with a message.
 #include "tests/wcet/m7/semihosting.hpp"
 
@@ -6,7 +6,7 @@ extern "C" {
 extern std::uint32_t stack_top, stack_limit, data_start, data_end, data_load, bss_start, bss_end;
 using Constructor = void (*)();
 extern Constructor constructors_start[], constructors_end[];
-int play_reel();
+int program();
 [[noreturn]] void on_reset();
 [[noreturn]] void on_fault();
 [[noreturn]] void run_main();
@@ -48,7 +48,7 @@ extern "C" [[gnu::used]] void run_main() {
   for (std::uint32_t* to = &bss_start; to < &bss_end; ++to) *to = 0;
   for (Constructor* each = constructors_start; each != constructors_end; ++each) (*each)();
   guard_stack();
-  semihosting::exit(play_reel());
+  semihosting::exit(program());
 }
 
 extern "C" void on_fault() {

@@ -1,0 +1,66 @@
+// Kinds: the list of all kinds of block. A board may build fewer, to save code: KINDS in its
+// board.mk. Everything that depends on the kind of a block finds its type here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "kernel/control/admittance.hpp"
+#include "kernel/control/cartesian_pose.hpp"
+#include "kernel/control/pd_gravity.hpp"
+#include "kernel/control/pid.hpp"
+#include "kernel/control/wrench_front_end.hpp"
+#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/model/robot_model.hpp"
+#include "kernel/reference/generator/frame.hpp"
+#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/generator/task_reference_generator.hpp"
+
+namespace tactus {
+
+template <class... Each>
+struct KindList {
+  static constexpr std::size_t kCount = sizeof...(Each);
+  /// The word of each kind in "type = ...".
+  static constexpr std::array<const char*, kCount> kTypes = {Each::kType...};
+};
+
+#ifdef TACTUS_KINDS
+using Kinds = KindList<TACTUS_KINDS>;
+#else
+/// A new controller is one line here. Each kind has its word in "type = ..." as kType.
+using Kinds = KindList<RobotModel,               //
+                       Frame,                    //
+                       BoxObstacle,              //
+                       JointReferenceGenerator,  //
+                       TaskReferenceGenerator,   //
+                       PdGravity,                //
+                       Pid,                      //
+                       WrenchFrontEnd,           //
+                       Admittance,               //
+                       CartesianPose>;
+#endif
+
+/// Stands for a type in an argument.
+template <class T>
+struct TypeOf {
+  using Type = T;
+};
+
+template <class First, class... Others, class Act>
+auto with_kind(KindList<First, Others...>, std::size_t kind, Act&& act) {
+  if constexpr (sizeof...(Others) == 0) {
+    return act(TypeOf<First>());
+  } else {
+    if (kind == 0) return act(TypeOf<First>());
+    return with_kind(KindList<Others...>(), kind - 1, act);
+  }
+}
+
+/// Returns act(TypeOf<Kind>()) for the kind of that number, less than Kinds::kCount. [any]
+template <class Act>
+auto with_kind(std::size_t kind, Act&& act) {
+  return with_kind(Kinds(), kind, act);
+}
+
+}  // namespace tactus
