@@ -1,6 +1,8 @@
 // Path: a trajectory that is being followed, and its present segment.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/reference/motion/admission.hpp"
 #include "kernel/reference/space/peaks.hpp"
 
@@ -11,6 +13,15 @@ namespace tactus {
 struct Room {
   double most = 1.0, slope = 0.0;
 };
+
+/// Returns the lowest room between two places `apart_s` apart, where a falling and a rising line
+/// meet; 1 if they do not. Without it the target of the rate would depend on the places sampled.
+/// [any]
+inline double lowest_between(const Room& from, const Room& to, double apart_s) {
+  if (!(from.slope < 0.0 && to.slope > 0.0)) return 1.0;
+  const double t = (to.most - from.most - to.slope * apart_s) / (from.slope - to.slope);
+  return from.most + from.slope * std::clamp(t, 0.0, apart_s);
+}
 
 template <class Space>
 class Path {

@@ -17,7 +17,6 @@ constexpr double kUnsure = 0.005;   // uncertainty of the next sample, as a frac
 constexpr int kCorrections = 4;
 constexpr double kRounding = 1e-11;  // as a fraction of a limit
 constexpr double kThere = 1e-10;     // distance of a rate from its target
-
 constexpr Interval kAnySlope = {-kFastest, kFastest};
 
 /// Returns the slope one period ahead from which the bend takes the rate `way` farther without
@@ -28,12 +27,10 @@ double onto(double way, double bend, double dt_s) {
   return bend * (std::sqrt(0.25 * dt_s * dt_s + 2.0 * way / bend) - 0.5 * dt_s);
 }
 
-/// Returns the lowest room between two places `apart_s` apart, where a falling and a rising line
-/// meet; 1 if they do not. Without it the target of the rate would depend on the places sampled.
-double lowest_between(const Room& from, const Room& to, double apart_s) {
-  if (!(from.slope < 0.0 && to.slope > 0.0)) return 1.0;
-  const double t = (to.most - from.most - to.slope * apart_s) / (from.slope - to.slope);
-  return from.most + from.slope * std::clamp(t, 0.0, apart_s);
+/// Returns the time in which the slope can change at the jerk limit, s.
+template <class Limits>
+double delay(const Limits& limits, double dt_s) {
+  return 0.5 * ramp_s(limits) + 2.0 * dt_s;
 }
 
 }  // namespace
@@ -44,28 +41,28 @@ void PathLaw<Space>::start(const Path<Space>& path, double s, double rate, const
   stop();
   s_ = s;
   rate_ = rate;
-  rate_ = std::min(rate, std::sqrt(least_room(path, slope_, limits, dt_s)));
+  rate_ = std::min(rate, std::sqrt(least_room(path, limits, dt_s)));
 }
 
-/// Returns the path time after `time_s` at a constant slope, which ends where it would turn back.
+/// Returns the path time after `time_s` at this slope, which ends where it would turn back.
 template <class Space>
-double PathLaw<Space>::later_s(double time_s, double slope) const {
-  const double t = slope < 0.0 ? std::min(time_s, -rate_ / slope) : time_s;
-  return s_ + t * (rate_ + 0.5 * slope * t);
+double PathLaw<Space>::later_s(double time_s) const {
+  const double t = slope_ < 0.0 ? std::min(time_s, -rate_ / slope_) : time_s;
+  return s_ + t * (rate_ + 0.5 * slope_ * t);
 }
 
-/// Returns the least room of the places that are reached, at a constant slope, in the time in which
-/// the slope can change at the jerk limit, so that the rate is low enough after the change. An open
+/// Returns the least room of the places that are reached, at this slope, in the time in which the
+/// slope can change at the jerk limit, so that the rate is low enough after the change. An open
 /// end counts half a period earlier, for the last change of slope.
 template <class Space>
-double PathLaw<Space>::least_room(const Path<Space>& path, double slope, const Limits& limits,
+double PathLaw<Space>::least_room(const Path<Space>& path, const Limits& limits,
                                   double dt_s) const {
   if (path.free()) return 1.0;
-  const double delay_s = 0.5 * ramp_s(limits) + 2.0 * dt_s;
+  const double delay_s = delay(limits, dt_s);
   double least = 1.0, before_s = s_;
   Room before;
   for (int i = 0; i <= kRooms; ++i) {
-    const double s = later_s(delay_s * i / kRooms, slope);
+    const double s = later_s(delay_s * i / kRooms);
     if (path.open() && s >= path.end_s() - 0.5 * dt_s) return 0.0;
     const Room room = path.room(s);
     least = std::min({least, room.most, lowest_between(before, room, s - before_s)});
@@ -137,7 +134,7 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
   for (int i = 0; i < kAhead; ++i) {
     // The slope may have to change from one period after the previous place on.
     const double time_s = dt_s + i * spacing_s, away_s = i > 0 ? (i - 1) * spacing_s + dt_s : 0.0;
-    const Local at = path.local(later_s(time_s, slope_), ahead.near, ahead.far);
+    const Local at = path.local(later_s(time_s), ahead.near, ahead.far);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
     const typename Space::Rates offset = at.d2 * (rate * rate);
     Interval there = kAnySlope;
@@ -169,9 +166,12 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
   hard.include(0.0);
   hard.include(falling);
   const double highest = 2.0 * (std::sqrt(std::max(room.most, 0.0)) - rate_) / dt_s - slope_;
-  // A rate that falls, and kept would run out of room, does not rise again on the way.
-  const bool runs_out = slope_ < 0.0 && least_room(path, 0.0, limits, dt_s) == 0.0;
-  hard.hi = std::max(hard.lo, std::min({hard.hi, highest, runs_out ? 0.0 : kFastest}));
+  // A rate that falls, and kept would have no room, does not rise again on the way.
+  const double coast_s = rate_ * delay(limits, dt_s);
+  const Room later = path.room(s_ + coast_s);
+  const double least = std::min(later.most, lowest_between(room, later, coast_s));
+  const bool rises = slope_ >= 0.0 || path.free() || rate_ * rate_ <= least;
+  hard.hi = std::max(hard.lo, std::min({hard.hi, highest, rises ? kFastest : 0.0}));
 
   const Interval reach = advice(path, limits, dt_s, ahead);
   const double way = target - rate_ - 0.5 * slope_ * dt_s;
@@ -215,7 +215,7 @@ double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Li
   return falling;
 }
 
-/// Applies the slope. The path time is summed up with compensation (Kahan 1965).
+/// Applies the slope. Path time is summed up with compensation (Kahan 1965).
 template <class Space>
 void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope, double dt_s) {
   Next now = next(slope, dt_s);
@@ -238,7 +238,7 @@ void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope
 template <class Space>
 void PathLaw<Space>::step(const Path<Space>& path, double target, const Limits& limits,
                           double dt_s) {
-  const double reached = std::min(target, std::sqrt(least_room(path, slope_, limits, dt_s)));
+  const double reached = std::min(target, std::sqrt(least_room(path, limits, dt_s)));
   const bool steady = slope_ == 0.0 && rate_ == reached;
   settle(path, reached, steady ? 0.0 : choose(path, reached, limits, dt_s), dt_s);
   assert(rate_ >= 0.0 && rate_ <= 1.0 && s_ >= 0.0 && s_ <= path.end_s());

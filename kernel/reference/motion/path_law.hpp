@@ -60,8 +60,8 @@ class PathLaw {
     Interval hard, soft;
   };
 
-  double later_s(double time_s, double slope) const;
-  double least_room(const Path<Space>& path, double slope, const Limits& limits, double dt_s) const;
+  double later_s(double time_s) const;
+  double least_room(const Path<Space>& path, const Limits& limits, double dt_s) const;
   Next next(double slope, double dt_s) const;
   Slopes about(const Local& at, const Next& guess, const Limits& limits, double dt_s) const;
   Slopes slopes(const Path<Space>& path, const Limits& limits, double dt_s, Ahead& ahead) const;
