@@ -7,7 +7,7 @@ COMMAND := $(NAME)-$(BOARD)
 
 # The program finds scripts/figure three folders above itself, as in this tree.
 .PHONY: install
-install: setup $(B)/$(NAME)                       ## install the program of BOARD below PREFIX (default /usr/local)
+install: setup $(B)/$(NAME) trajectories                       ## install the program of BOARD below PREFIX (default /usr/local)
 	$(Q)install -D $(B)/$(NAME) $(LIB)/boards/$(BOARD)/$(NAME)
 	$(Q)install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/bash-completion/completions $(SHARE)/tactus
 	$(Q)ln -sf ../lib/tactus/boards/$(BOARD)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(COMMAND)
@@ -18,6 +18,7 @@ install: setup $(B)/$(NAME)                       ## install the program of BOAR
 	$(Q)install -D -m 644 -t $(LIB)/sim_plant/arm sim_plant/arm/*_mjcf.cpp
 	$(Q)install -m 644 NOTICE $(LIB)/NOTICE
 	$(Q)cp -r pipelines $(SHARE)/tactus/
+	$(Q)install -D -m 644 -t $(SHARE)/tactus/build/trajectories build/trajectories/*
 	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) > $(SHARE)/man/man1/$(COMMAND).1
 	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) > $(SHARE)/bash-completion/completions/$(COMMAND)
 

@@ -73,12 +73,15 @@ void Executive::give_up_arming() {
     walk(Cause::kArmTime, Status::kNotAtRest, fastest);
 }
 
-/// The drives stay enabled, and the sequences of guard and commands continue.
+/// The drives stay enabled, and the sequences of guard and commands continue. A chain that the
+/// guard could not follow into the hold starts anew where the last command has brought the arm: its
+/// old targets must not move it.
 Status Executive::resume() {
   if (!rest_.at_rest() || !rest_.still() || !pipeline_.at_rest()) return Status::kNotAtRest;
   Status status = guard_.check(measured_, now_);
   if (status != Status::kOk) return refuse(status, tripped());
-  status = pipeline_.resume(measured_);
+  status =
+      guard_.left_behind() ? pipeline_.start(guard_.held(measured_)) : pipeline_.resume(measured_);
   if (status != Status::kOk) return refuse(status);
   watch_anew();
   walk(Cause::kRearm, Status::kOk);

@@ -138,6 +138,13 @@ RobotCommand Guard::brake(const RobotState& state) {
   return command;
 }
 
+RobotState Guard::held(RobotState measured) const {
+  measured.dq.setZero();
+  for (int i = 0; i < kDof && mode_ == CommandMode::kPosition; ++i)
+    measured.q[i] = positions_[static_cast<std::size_t>(i)].sent();
+  return measured;
+}
+
 /// True for torques: their law uses the measured state, so there is nothing to catch up with.
 bool Guard::follows(const JointVector& wanted, const RobotState& state) const {
   bool all = true;

@@ -8,6 +8,10 @@ namespace tactus {
 void PositionLimiter::start(const StepLimits& limits, double q) {
   *this = {};
   limits_ = limits;
+  q_min_ = limits.q_min;
+  q_max_ = limits.q_max;
+  limits_.q_min = std::min(q_min_, q);
+  limits_.q_max = std::max(q_max_, q);
   sent_ = target_ = q;
 }
 
@@ -33,10 +37,17 @@ double PositionLimiter::brake() {
   return move(to, to);
 }
 
+/// Draws limits that were widened for the start in behind the position sent.
+void PositionLimiter::draw_in() {
+  limits_.q_min = std::min(q_min_, std::max(limits_.q_min, sent_));
+  limits_.q_max = std::max(q_max_, std::min(limits_.q_max, sent_));
+}
+
 double PositionLimiter::move(double to, double target) {
   const double step = to - sent_, change = step - step_;
   jerky_ = limits_.jerky(change - change_);
   sent_ = to;
+  draw_in();
   target_ = target;
   step_ = step;
   change_ = change;

@@ -14,7 +14,8 @@ namespace tactus {
 
 class PositionLimiter {
  public:
-  /// Starts at rest at q. [init]
+  /// Starts at rest at q. If that is beyond a position limit, the sequence may stay there, and come
+  /// back, but not go out again. [init]
   void start(const StepLimits& limits, double q);
   /// True if `wanted` would be sent unchanged. [cyclic]
   bool follows(double wanted) const;
@@ -30,9 +31,11 @@ class PositionLimiter {
   bool jerky() const { return jerky_; }
 
  private:
+  void draw_in();
   double move(double to, double target);
 
-  StepLimits limits_;
+  double q_min_ = 0.0, q_max_ = 0.0;               // rad, those that hold inside
+  StepLimits limits_;                              // those that hold now
   double sent_ = 0.0, step_ = 0.0, change_ = 0.0;  // rad, rad per cycle, rad per cycle^2
   double target_ = 0.0;                            // last commanded, within position limits
   bool jerky_ = false;

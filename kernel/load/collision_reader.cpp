@@ -17,9 +17,15 @@ struct Place {
 Status add_boxes(const PortTable& ports, CollisionScene& scene, const Place& place) {
   for (int i = 0; i < ports.count(); ++i) {
     if (ports[i].quantity != Quantity::kBox) continue;
+    const Name& name = ports[i].block;
+    const int line = place.ini.find(name)->line;
     if (scene.body_count == kMaxBodies)
-      return place.refuse(Status::kTooLarge, "boxes",
-                          Message("more than ") << kMaxObstacles << " boxes in the file");
+      return place.error.refuse(Status::kTooLarge, line, name, {},
+                                Message("more than ") << kMaxObstacles << " boxes in the file");
+    for (int body = 0; body < kFirstBoxBody; ++body)
+      if (std::string_view(name) == scene.names[static_cast<std::size_t>(body)])
+        return place.error.refuse(Status::kBadValue, line, name, {},
+                                  "a body of the arm has this name; rename the box");
     scene.boxes[static_cast<std::size_t>(scene.box_count())] =
         static_cast<const Cuboid*>(ports[i].value);
     scene.names[static_cast<std::size_t>(scene.body_count++)] = ports[i].block.c_str();

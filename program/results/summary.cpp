@@ -12,6 +12,21 @@
 namespace tactus {
 namespace {
 
+/// Writes a name that a user has chosen as a string of JSON (RFC 8259, section 7).
+void write_string(std::FILE* file, std::string_view text) {
+  std::fputc('"', file);
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20)
+      std::fprintf(file, "\\u%04x", static_cast<unsigned>(byte));
+    else if (c == '"' || c == '\\')
+      std::fprintf(file, "\\%c", c);
+    else
+      std::fputc(c, file);
+  }
+  std::fputc('"', file);
+}
+
 void write_numbers(std::FILE* file, const char* key, const TrackingError& error,
                    double (*number)(const TrackingError&, int)) {
   std::fprintf(file, ", \"%s\": [", key);
@@ -81,8 +96,10 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   if (file == nullptr) return false;
   const Executive::Telemetry& telemetry = session.executive.telemetry();
   const Guard::Telemetry& guard = session.executive.guard().telemetry();
-  std::fprintf(file, "{\n  \"pipeline\": \"%.*s\",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n",
-               static_cast<int>(pipeline.size()), pipeline.data(), Robot::kName, session.board);
+  std::fprintf(file, "{\n  \"pipeline\": ");
+  write_string(file, pipeline);
+  std::fprintf(file, ",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n", Robot::kName,
+               session.board);
   std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);

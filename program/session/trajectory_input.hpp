@@ -2,6 +2,8 @@
 // form.
 #pragma once
 
+#include <variant>
+
 #include "program/session/files.hpp"
 #include "program/session/session.hpp"
 

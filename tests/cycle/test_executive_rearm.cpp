@@ -63,6 +63,31 @@ void from_a_hold_no_command_changes_and_old_targets_are_void(void**) {
   assert_moves_again(arm, early);
 }
 
+/// A point a radian away, forwarded at once, is followed by the guard at its own pace.
+void a_target_that_the_guard_had_not_reached_is_void_after_a_rearm(void**) {
+  Bench& b = started(kPositions);
+  FollowingArm arm{b};
+  JointSpace::Point point;
+  point.q = b.hal.state.q + JointVector::Unit(0);
+  std::uint32_t id = 0;
+  assert_true(b.client.send(point, id).ok());
+  for (int i = 0; i < 100; ++i) ASSERT_OK(arm.cycle());
+  ASSERT_STATUS(arm.cycle(7.0), Status::kSlip);
+  while (b.executive.busy()) ASSERT_STATUS(arm.cycle(), Status::kSlip);
+  const JointVector sent = b.hal.command.value;
+  assert_true(b.reference() - sent[0] > 0.3);
+  b.hal.state.q[1] -= 1e-3;  // the drives are off their target
+  ASSERT_STATUS(b.cycle(), Status::kSlip);
+  ASSERT_OK(b.executive.arm());
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_OK(b.cycle());
+    assert_true(b.hal.command.value == sent);
+  }
+  assert_true(b.send_line());
+  for (int i = 0; i < 100; ++i) ASSERT_OK(arm.cycle());
+  assert_true(b.hal.command.value[0] > sent[0]);
+}
+
 /// 20 N m that a spring of 100 N m/rad holds 0.2 rad beside its reference.
 void a_load_is_held_through_a_rearm_without_a_step_of_the_torque(void**) {
   Bench& b = started(kExecutivePipeline);
@@ -181,6 +206,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(from_disabled_the_reference_is_the_measured_state_and_old_targets_are_void),
       cmocka_unit_test(from_a_hold_no_command_changes_and_old_targets_are_void),
+      cmocka_unit_test(a_target_that_the_guard_had_not_reached_is_void_after_a_rearm),
       cmocka_unit_test(a_load_is_held_through_a_rearm_without_a_step_of_the_torque),
       cmocka_unit_test(a_rearm_waits_until_the_command_does_not_move),
       cmocka_unit_test(a_rearm_waits_for_rest_however_often_the_arm_has_been_at_rest),

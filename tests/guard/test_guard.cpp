@@ -74,13 +74,17 @@ void an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_bac
     bench.start();
     const bool positions = mode == CommandMode::kPosition;
     const JointVector stay = positions ? q : JointVector(JointVector::Zero());
-    assert_true(bench.sent(stay) == stay);
+    for (int k = 0; k < 1000; ++k) assert_true(bench.sent(stay) == stay);
+    assert_int_equal(bench.telemetry().limited_cycles, 0);
     const JointVector away = positions ? JointVector(q + JointVector::Ones()) : JointVector::Ones();
-    for (int k = 0; k < 100; ++k) {
-      const JointVector sent = bench.sent(k < 50 ? away : JointVector(-away));
-      if (positions) assert_true((sent.array() <= stay.array()).all());
+    JointVector last = stay;
+    for (int k = 0; k < 300; ++k) {
+      const JointVector sent = bench.sent(k < 50 || k > 250 ? away : JointVector(q - away));
+      if (positions) assert_true((sent - last).maxCoeff() <= (k > 250 ? 1.0 : 1e-8));
       if (!positions) assert_true((sent.array() <= 0.0).all());
+      last = sent;
     }
+    if (positions) assert_true((last.array() < bench.params.limits.q_max.array() + 1e-8).all());
   }
 }
 
