@@ -16,7 +16,8 @@ class ReferenceClient {
   explicit ReferenceClient(ReferenceChannel<Space>& channel) : channel_(channel) {}
 
   /// Returns a store to fill with waypoints, or null while all are in use. It is the caller's until
-  /// it is sent.
+  /// it is sent, or until the next acquire(), which may return the same store: one is filled at a
+  /// time.
   Trajectory<Space>* acquire();
   /// The same for waypoints of these fields only, written by set(): more of them fit, and the
   /// store's capacity says how many. kMonotone needs velocities, though it chooses them itself.

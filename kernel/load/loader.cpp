@@ -52,6 +52,9 @@ Message block_types() {
 
 Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error) {
   error = {};
+  if (pipeline.count() > 0 || pipeline.ports.count() > 0)
+    return error.refuse(Status::kBadValue, 0, {}, {},
+                        "a file was read into this pipeline before; take a new one");
   left_ = channels_;
   Ini ini;
   TRY(ini.parse(text, error));

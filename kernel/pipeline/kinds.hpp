@@ -1,4 +1,4 @@
-// Kinds: the list of all kinds of block. A board may build fewer, to save code: KINDS in its
+// Kinds: the list of all kinds of block. A board may build fewer, to save code: KINDS_m7 in its
 // board.mk. Everything that depends on the kind of a block finds its type here.
 #pragma once
 

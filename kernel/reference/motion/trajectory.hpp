@@ -82,7 +82,7 @@ struct Trajectory {
   /// `capacity` is how many of them fit. [any, not shared]
   void pack(Fields packed) {
     unpack();
-    whole_ = capacity;
+    whole_ = std::max(capacity, 0);
     stride_ = sizeof(Waypoint<Space>) - sizeof(typename Space::Point) +
               sizeof(double) * static_cast<std::size_t>(Space::numbers(packed));
     const std::size_t bytes = static_cast<std::size_t>(whole_) * sizeof(Waypoint<Space>);
