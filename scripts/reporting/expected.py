@@ -4,8 +4,9 @@ Three cases, the first that applies:
 - An admittance meets a box. At rest its spring and the touched surface balance: with the stiffness K along the face's
   normal, the penetration p of the reference, the requested force F_d and the surface's stiffness k, the force is
   (K p + F_d) / (1 + K / k).
-- A law without a velocity reference (eq. 2 of the paper) lags. In steady motion K_P e = K_D dq + friction, so that
-  e = (K_D dq_d + friction(dq_d)) / K_P, where the friction is that of the simulated robot.
+- A law that damps the measured velocity instead of its error lags: PD with gravity compensation (eq. 2 of the paper) and
+  a PID with `derivative = measurement`. With the friction of the simulated robot and the feed-forward F_V of a PID,
+  K_P e + K_I integral(e) = K_D dq_d + friction(dq_d) - F_V dq_d, in steady motion.
 - Otherwise the reference is followed: the error is 0, within the goal tolerance of its generator.
 """
 
@@ -15,10 +16,11 @@ import ipaddress
 import numpy as np
 
 from reporting import arm, friction, panels
+from reporting.settings import Settings
 from reporting.units import words
 
 SPRING = ("admittance's spring", "the balance of the admittance's spring, the requested force and the surface")
-LAG = ("lag by K_D, friction", "the law has no velocity reference and lags by (K_D × velocity + friction) / K_P")
+LAG = ("lag by K_D, friction", "the law damps the measured velocity: it lags by (K_D × velocity + friction) / K_P")
 FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
 FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
 TOUCH_N = 1.0  # a smaller force is noise of the sensor
@@ -51,10 +53,15 @@ class Contact:
 
 
 def kind(run):
-    """Returns "simulated", "emulated" or "real"; an emulated controller is one on this machine."""
-    if run.summary["board"].endswith("_sim"):
+    """Returns "simulated", "emulated" or "real"."""
+    return kind_of(run.summary, run.settings.path)
+
+
+def kind_of(summary, path):
+    """Returns the same from a summary and the path of the pipeline file; an emulated controller is on this machine."""
+    if summary["board"].endswith("_sim"):
         return "simulated"
-    address = run.settings.given("ur", "address")
+    address = Settings(path).given("ur", "address")
     try:
         return "emulated" if address and ipaddress.ip_address(address).is_loopback else "real"
     except ValueError:
@@ -127,16 +134,33 @@ def plant_friction(run, velocity):
     return run.settings.number("plant", "friction") * friction.torque(run.summary["robot"], velocity)
 
 
+def lag_with_integral(torque, kp, kd, ki, t):
+    """Returns e of kp e + kd de/dt + ki integral(e) = torque [rows, joints], from rest."""
+    error, integral = np.zeros_like(torque), np.zeros(torque.shape[1])
+    for row, dt in enumerate(np.diff(t), 1):
+        error[row] = (torque[row] - integral + kd / dt * error[row - 1]) / (kp + kd / dt + ki * dt)
+        integral = integral + ki * dt * error[row]
+    return error
+
+
 def lag(run, entry):
-    """Returns the error that a law without a velocity reference should have [rows, joints], or None."""
+    """Returns the error that a law should have that damps the measured velocity [rows, joints], or None."""
     for kind_of_law in ("pd_gravity", "pid"):
         for law in run.settings.blocks(kind_of_law):
-            if run.settings.given(law, "q_d") != entry["reference"] or run.settings.given(law, "dq_d"):
+            if run.settings.given(law, "q_d") != entry["reference"]:
+                continue
+            is_pid = kind_of_law == "pid"
+            if is_pid and run.settings.value(law, "derivative") != "measurement":
                 continue
             joints = len(run.scene["joints"])
-            kd, kp = (np.array(run.settings.numbers(law, key, joints)) for key in ("kd", "kp"))
+            kp, kd = (np.array(run.settings.numbers(law, key, joints)) for key in ("kp", "kd"))
+            ki, ahead = (
+                np.array(run.settings.numbers(law, key, joints)) if is_pid else np.zeros(joints)
+                for key in ("ki", "velocity_gain")
+            )
             velocity = panels.velocity_of(run, entry["reference"])
-            return (kd * velocity + plant_friction(run, velocity)) / kp
+            torque = (kd - ahead) * velocity + plant_friction(run, velocity)
+            return lag_with_integral(torque, kp, kd, ki, run.log["time_s"]) if np.any(ki) else torque / kp
     return None
 
 

@@ -1,6 +1,7 @@
 """The first screen of the report: how many runs were as expected, the table, and the runs as a film."""
 
 import collections
+import datetime
 
 from reporting import animation, expected, page, table
 
@@ -8,9 +9,11 @@ KINDS = {
     "simulated": "of a robot arm simulated by MuJoCo",
     "emulated": "with an <em>emulated</em> robot controller, which has no surroundings",
     "real": "with a <b>real robot</b>",
+    "": "<b>unknown</b>, for which no file says whether a real robot moved",
 }
 LEGEND = (
-    "Seen and expected: the task's reference minus what was measured; in contact, the mean of the force. Click a"
+    "Seen and expected: the task's reference minus what was measured. A run in contact is judged by its mean force,"
+    " not by its tracking error. The verdict's small print is when the run wrote its result. Click a"
     " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may"
     f" differ from the expected one by {100 * expected.FORCE_SHARE:.0f} %, a lag by {100 * expected.LAG_SHARE:.0f} % or"
     " the goal tolerance."
@@ -19,10 +22,15 @@ LEGEND = (
 
 def provenance(sections):
     """Says what moved: how many runs are of which kind."""
-    counts = collections.Counter(section.kind for section in sections if section.kind)
+    counts = collections.Counter(section.kind for section in sections)
     told = [f"{count} {'run' if count == 1 else 'runs'} {KINDS[kind]}" for kind, count in counts.items()]
-    none = "No real robot moved: " if counts and not counts["real"] else ""
-    return f'<p class="provenance">{none}{"; ".join(told)}.</p>' if told else ""
+    none = "" if counts["real"] or counts[""] else "No real robot moved: "
+    return f'<p class="provenance">{none}{"; ".join(told)}.</p>'
+
+
+def made():
+    """Says when the report is made, in local time."""
+    return f"Made {datetime.datetime.now().astimezone():{table.MOMENT}}"
 
 
 def picture(section):
@@ -42,7 +50,7 @@ def row(section):
         page.escape(section.touched),
         f"<b>{found.seen}</b><small>{page.escape(found.what)}</small>" if found else "",
         f"{found.expected}<small>{page.rich(found.short)}</small>" if found else "",
-        page.escape(section.verdict),
+        f"{page.escape(section.verdict)}<small>{section.written}</small>",
     ]
     mark = "met" if section.met else "failed"
     text = "".join(f"<td>{cell}</td>" for cell in cells)
@@ -57,6 +65,7 @@ def first_screen(sections):
     well = "all" if all(section.met for section in sections) else "some"
     return (
         f'<p class="headline {well}">{table.headline(sections)}</p>{provenance(sections)}\n'
+        f'<p class="note">{made()}</p>\n'
         f'<div class="first"><div><table class="runs"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
         f'<p class="note">{LEGEND}</p></div>\n{animation.VIEWER}</div>'
     )

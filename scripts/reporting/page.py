@@ -4,6 +4,7 @@ import base64
 import html
 import pathlib
 import re
+import string
 
 STYLE = pathlib.Path(__file__).with_name("web") / "page.css"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
@@ -18,7 +19,9 @@ def rich(text):
 
 
 def identifier(name):
-    return "run-" + "".join(c if c.isalnum() else "-" for c in name)
+    """Returns an identifier of the page that no other name has."""
+    plain = {"_": "-", **{c: c for c in string.ascii_letters + string.digits}}
+    return "run-" + "".join(plain.get(c, f".{ord(c):x}.") for c in name)
 
 
 def table(headers, rows, text_columns):

@@ -137,6 +137,16 @@ def result_words(summary):
     return re.sub("(?=[A-Z])", " ", name[1:]).strip().lower() + f" ({code})"
 
 
+def folder_of(out, name):
+    """Returns the folder of that name; else that of pipeline:trajectory, which run_all names with an underscore."""
+    return out / name if (out / name).is_dir() else out / name.replace(":", "_")
+
+
+def is_refused(summary):
+    """Returns whether the run ended before its first cycle."""
+    return summary["result"]["code"] != 0 and summary["cycles"] == 0
+
+
 def read_run(folder, name):
     """Reads all files of a run."""
     summary = read_summary(folder / "summary.json")

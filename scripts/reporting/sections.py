@@ -1,12 +1,13 @@
 """The section of one run in the report: result, figures, errors and times."""
 
 import dataclasses
+import datetime
 import math
 
 import numpy as np
 
 from reporting import animation, expected, more_plots, page, panels, plots, runs, table, thumbnails
-from reporting.inputs import InputError
+from reporting.inputs import InputError, shown
 from reporting.units import words
 
 FILES = "log.csv, summary.json, scene.json, pipeline.ini, figure.pdf, figure.svg"
@@ -29,7 +30,8 @@ class Section:
 
     name: str
     summary: dict = None
-    kind: str = ""  # simulated, emulated or real
+    kind: str = ""  # simulated, emulated or real; empty if unknown
+    written: str = ""  # when the run wrote its summary
     chain: str = ""
     touched: str = ""
     judgement: expected.Judgement = None
@@ -54,14 +56,14 @@ def purpose(section):
     )
 
 
-def facts(summary):
-    guard = summary["guard"]
+def facts(section):
+    summary, guard = section.summary, section.summary["guard"]
     return (
         f"<p>Robot {page.escape(summary['robot'])} on {page.escape(summary['board'])}, {summary['rate_hz']:g} Hz,"
         f" {summary['cycles']} cycles, seed {summary['seed']}, configuration {page.escape(summary['config_hash'])}."
         f" The guard limited {guard['limited']} cycles; {summary['slips']} periods were missed,"
         f" {summary['recorder_dropped']} rows of the log lost, {summary['heap_allocations_in_cycle']} heap allocations"
-        f" made in cycles. Files: {FILES}.</p>"
+        f" made in cycles. Written {section.written}. Files: {FILES}.</p>"
     )
 
 
@@ -173,7 +175,10 @@ def timing_table(summary):
 def screen(folder):
     """Returns the output of the run."""
     path = folder / "output.txt"
-    words = runs.read_text(path).strip() if path.exists() else ""
+    try:
+        words = runs.read_text(path).strip() if path.exists() else ""
+    except InputError as error:
+        words = str(error)
     return f"<pre>{page.escape(words)}</pre>" if words else ""
 
 
@@ -191,30 +196,45 @@ def verdict_of(summary, judgement, folder):
     if summary is None:
         return ("incomplete" if (folder / "log.csv").exists() else table.REFUSED), False
     if summary["result"]["code"] != 0:
-        return runs.result_words(summary), False
+        refused = f"{table.REFUSED}: " if runs.is_refused(summary) else ""
+        return refused + runs.result_words(summary), False
     if judgement is None:
         return "succeeded", True
     return ("as expected" if judgement.met else "not as expected"), judgement.met
 
 
+def moment_of(path):
+    """Says when a file was written, in local time."""
+    return f"{datetime.datetime.fromtimestamp(path.stat().st_mtime).astimezone():{table.MOMENT}}"
+
+
+def drawn(section, run):
+    """Judges and draws a run; returns the parts of its section."""
+    section.chain, section.touched = run.settings.chain(), expected.touched(run)
+    section.judgement = expected.judge(run)
+    section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
+    section.still = thumbnails.still(run)
+    section.animation = animation.data(run)
+    return [purpose(section), facts(section), *figures_of(run), timing_table(section.summary)]
+
+
 def section_of(out, name):
     """Returns the section of one run; a file that cannot be read or drawn is named in its place."""
-    folder, parts, section = out / name.replace(":", "_"), [], Section(name)
+    folder, parts, section = runs.folder_of(out, name), [], Section(shown(name))
     try:
         if not (folder / "summary.json").exists() and (folder / "log.csv").exists():
             raise InputError(f"{folder}: incomplete: the run has ended without a summary.json, or has not ended")
         section.summary = runs.read_summary(folder / "summary.json")
+        section.written = moment_of(folder / "summary.json")
+        section.kind = expected.kind_of(section.summary, folder / "pipeline.ini")
         if section.summary["result"]["code"] != 0:
             result = page.escape(runs.result_words(section.summary))
             parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>']
             parts += [screen(folder), "</div>"]
-        run = runs.read_run(folder, name)
-        section.kind, section.chain, section.touched = expected.kind(run), run.settings.chain(), expected.touched(run)
-        section.judgement = expected.judge(run)
-        section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
-        section.still = thumbnails.still(run)
-        section.animation = animation.data(run)
-        parts += [purpose(section), facts(section.summary), *figures_of(run), timing_table(section.summary)]
+        if runs.is_refused(section.summary):
+            parts += [facts(section)]
+        else:
+            parts += drawn(section, runs.read_run(folder, section.name))
     except (InputError, OSError, ValueError) as error:
         section.problem = f"{folder}: {error}" if isinstance(error, ValueError) else str(error)
         what = "This run wrote no result." if section.summary is None else "Not everything could be drawn."

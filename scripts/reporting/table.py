@@ -3,7 +3,8 @@
 from reporting.runs import result_words
 
 HEADERS = ("run", "robot", "touched", "what", "seen", "expected", "verdict")
-REFUSED = "refused"  # without a summary and a log the run did not begin
+REFUSED = "refused"  # without a summary and a log, or without a cycle, the run did not begin
+MOMENT = "%Y-%m-%d %H:%M:%S %Z"  # of a time that the report shows
 COUNTERS = ("run", "board", "Hz", "result", "limited", "slips", "heap", "step [µs]", "× real")
 COUNTERS_TEXT = ("run", "board", "result")
 COUNTERS_LEGEND = (

@@ -1,4 +1,5 @@
-// Tests what the report expects of a run: scripts/reporting/expected.py.
+// Tests what the report computes of a run: what it expects (scripts/reporting/expected.py), and the
+// curves that it draws.
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {
@@ -31,6 +32,18 @@ void a_lag_is_expected_as_the_gains_say(void**) {
   assert_true(has(output(), "\n0 of 1 runs as expected\n"));
 }
 
+/// A PID that damps the measured velocity lags as that law does; one that damps the error does not.
+void a_pid_lags_only_if_it_damps_the_measured_velocity(void**) {
+  assert_int_equal(
+      shell("cd $S/t && sed 's/pd_gravity/pid\\nki = 0\\ndq_d = jrg.dq_d\\nderivative = "
+            "measurement/' "
+            "pipelines/lag.ini >pipelines/slow.ini && sed 's/pd_gravity/pid\\nki = 0/' "
+            "pipelines/lag.ini >pipelines/fast.ini && $R/scripts/run_all -- $P slow fast"),
+      0);
+  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad      as expected\n"));
+  assert_true(has(output(), " mrad  0 ± 10 mrad  as expected\n"));
+}
+
 /// A ball of 1 cm: 2 cm above the top of a box, and 3 cm inside it, seen from a turned frame too.
 void a_penetration_is_measured_from_the_face_to_the_foremost_point(void**) {
   assert_int_equal(
@@ -46,6 +59,32 @@ void a_penetration_is_measured_from_the_face_to_the_foremost_point(void**) {
       0);
 }
 
+// Proves RUN-7.
+
+/// A turn about z at a constant rate, past half a turn, with quaternions of arbitrary sign; and a
+/// spike of one row in a million.
+void a_figure_keeps_peaks_and_lets_no_orientation_jump(void**) {
+  assert_int_equal(
+      shell("cd scripts && /usr/bin/python3 -B -c \"import numpy as np\n"
+            "from reporting import panels, plots\n"
+            "t = np.linspace(0, 6, 5000); zero = np.zeros_like(t)\n"
+            "q = np.stack([np.cos(t / 2), zero, zero, np.sin(t / 2)], axis=1)\n"
+            "q *= np.where(np.arange(5000) % 7 < 3, 1, -1)[:, None]\n"
+            "turn = panels.rotation_vector(panels.continuous(q))\n"
+            "assert np.allclose(turn, np.stack([zero, zero, t], axis=1), atol=1e-9)\n"
+            "back = panels.rotation_vector(panels.shortest(q))\n"
+            "assert np.allclose(back[:, 2], np.where(t > np.pi, t - 2 * np.pi, t), atol=1e-9)\n"
+            "assert np.allclose(panels.product(q, panels.inverse(q)), [1, 0, 0, 0])\n"
+            "i, j, k = np.eye(4)[1:, None]\n"
+            "assert np.array_equal(panels.product(i, j), k)\n"
+            "x = np.arange(10**6) * 1e-3; y = np.sin(x); y[654321] = 7; y[3] = -8\n"
+            "drawn_x, drawn_y = plots.thin_out(x, y)\n"
+            "assert len(drawn_x) <= 1202 and np.all(np.diff(drawn_x) > 0)\n"
+            "assert drawn_y.max() == 7 and drawn_y.min() == -8\n"
+            "assert drawn_x[drawn_y.argmax()] == x[654321] and drawn_x[-1] == x[-1]\""),
+      0);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -53,7 +92,9 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_lag_is_expected_as_the_gains_say),
+      cmocka_unit_test(a_pid_lags_only_if_it_damps_the_measured_velocity),
       cmocka_unit_test(a_penetration_is_measured_from_the_face_to_the_foremost_point),
+      cmocka_unit_test(a_figure_keeps_peaks_and_lets_no_orientation_jump),
   };
   return run_program_tests(argv[0], tests);
 }

@@ -50,7 +50,11 @@ void the_report_shows_every_run_and_what_failed(void**) {
   const std::string_view page = file_of("t/out/report.html");
   for (const char* part : {
            "1 of 3 runs as expected",
-           "No real robot moved: 2 runs of a robot arm simulated by MuJoCo.",
+           "\"provenance\">2 runs of a robot arm simulated by MuJoCo; 1 run <b>unknown</b>, for "
+           "which ",
+           "<p class=\"note\">Made 20",
+           "judged by its mean force",
+           "<td>as expected<small>20",
            "<a href=\"#run-weak\">weak</a>",
            "<tr class=\"failed\" data-run=\"weak\">",
            "<tr class=\"failed\" data-run=\"nowhere\">",
@@ -118,6 +122,26 @@ void a_folder_without_a_summary_is_incomplete(void**) {
   assert_true(has(output(), "  incomplete\n\n0 of 1 runs as expected\n"));
 }
 
+/// The first ended before its first cycle, the second has a FIFO, the third no name in UTF-8.
+void a_folder_is_shown_whatever_it_is_called_and_holds(void**) {
+  assert_int_equal(
+      shell(
+          "cd $S/t && mkdir -p odd && cd odd && for c in none fifo; do cp -r ../out/good $c; done\n"
+          "sed -i 's/\"cycles\": [0-9]*/\"cycles\": 0/; s/\"code\": 0/\"code\": 39/; "
+          "s/succeeded/kNotAtRest/' none/summary.json; sed -i 2,\\$d none/log.csv\n"
+          "rm fifo/log.csv; mkfifo fifo/log.csv; cp -r ../out/good x:y; cp -r ../out/weak x_y\n"
+          "cp -r ../out/good \"$(printf 'b\\377d')\"; cd .. && timeout 100 $R/scripts/report odd"),
+      1);
+  assert_true(has(output(), "  refused: not at rest (39)\n"));
+  assert_true(has(output(), "\nb\357\277\275d "));
+  assert_true(has(output(), "  as expected\nx_y "));
+  assert_string_equal(Line(errors()).c_str(), "report: odd/fifo/log.csv: not a regular file\n");
+  const std::string_view page = file_of("t/odd/report.html");
+  assert_true(has(page, "<section id=\"run-x.3a.y\">"));
+  assert_true(has(page, "No real robot moved: 5 runs of a robot arm simulated by MuJoCo."));
+  assert_false(exists("t/odd/report.part.html"));
+}
+
 void figure_and_report_say_what_they_lack(void**) {
   assert_int_equal(shell("mkdir -p $S/bare && $R/scripts/report $S/bare"), 1);
   assert_true(has(errors(), "/bare: no folder of a run in it\n"));
@@ -130,6 +154,7 @@ void figure_and_report_say_what_they_lack(void**) {
 void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good"), 0);
   assert_true(has(output(), "\nout/report.html: "));
+  assert_true(has(file_of("t/out/report.html"), "No real robot moved: 1 run of a robot arm simu"));
   write("t/pipelines/good.ini", {"[robot]\n"});
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good -- ./none weak"), 1);
   assert_true(has(errors(), "./none: No such file or directory\n"));
@@ -165,30 +190,20 @@ void an_interrupt_ends_what_is_under_way_and_begins_nothing_more(void**) {
   }
 }
 
-// Proves RUN-7.
-
-/// A turn about z at a constant rate, past half a turn, with quaternions of arbitrary sign; and a
-/// spike of one row in a million.
-void a_figure_keeps_peaks_and_lets_no_orientation_jump(void**) {
-  assert_int_equal(
-      shell("cd scripts && /usr/bin/python3 -B -c \"import numpy as np\n"
-            "from reporting import panels, plots\n"
-            "t = np.linspace(0, 6, 5000); zero = np.zeros_like(t)\n"
-            "q = np.stack([np.cos(t / 2), zero, zero, np.sin(t / 2)], axis=1)\n"
-            "q *= np.where(np.arange(5000) % 7 < 3, 1, -1)[:, None]\n"
-            "turn = panels.rotation_vector(panels.continuous(q))\n"
-            "assert np.allclose(turn, np.stack([zero, zero, t], axis=1), atol=1e-9)\n"
-            "back = panels.rotation_vector(panels.shortest(q))\n"
-            "assert np.allclose(back[:, 2], np.where(t > np.pi, t - 2 * np.pi, t), atol=1e-9)\n"
-            "assert np.allclose(panels.product(q, panels.inverse(q)), [1, 0, 0, 0])\n"
-            "i, j, k = np.eye(4)[1:, None]\n"
-            "assert np.array_equal(panels.product(i, j), k)\n"
-            "x = np.arange(10**6) * 1e-3; y = np.sin(x); y[654321] = 7; y[3] = -8\n"
-            "drawn_x, drawn_y = plots.thin_out(x, y)\n"
-            "assert len(drawn_x) <= 1202 and np.all(np.diff(drawn_x) > 0)\n"
-            "assert drawn_y.max() == 7 and drawn_y.min() == -8\n"
-            "assert drawn_x[drawn_y.argmax()] == x[654321] and drawn_x[-1] == x[-1]\""),
-      0);
+/// A drawing process interrupts the program that has begun it, and then draws for long.
+void an_interrupt_while_figures_are_drawn_is_quiet(void**) {
+  write("t/interrupt.py",
+        {"import os, runpy, signal, sys, time\nroot, script = os.environ['R'], sys.argv[1]\n",
+         "sys.path.insert(0, root + '/scripts')\nfrom reporting import plots, runs\n",
+         "home = os.getpid()\ndef slow(*_):\n    os.kill(home, signal.SIGINT)\n",
+         "    time.sleep(100)\nplots.write_figures = runs.folder_of = slow\n",
+         "sys.argv[:2] = [script]\n",
+         "runpy.run_path(f'{root}/scripts/{script}', run_name='__main__')\n"});
+  for (const char* words : {"figure out/good", "report out good good"}) {
+    Line line("cd $S/t && timeout 60 /usr/bin/python3 -B interrupt.py ");
+    assert_int_equal(shell((line << words).c_str()), 130);
+    assert_string_equal(Line(errors()).c_str(), "");
+  }
 }
 
 // Proves RUN-8.
@@ -224,10 +239,11 @@ int main(int, char** argv) {
       cmocka_unit_test(the_images_of_the_report_are_well_formed),
       cmocka_unit_test(a_damaged_file_is_named_and_the_rest_is_drawn),
       cmocka_unit_test(a_folder_without_a_summary_is_incomplete),
+      cmocka_unit_test(a_folder_is_shown_whatever_it_is_called_and_holds),
       cmocka_unit_test(figure_and_report_say_what_they_lack),
+      cmocka_unit_test(an_interrupt_while_figures_are_drawn_is_quiet),
       cmocka_unit_test_setup(success_is_0_and_nothing_of_an_earlier_run_is_left, plant_pipelines),
       cmocka_unit_test(an_interrupt_ends_what_is_under_way_and_begins_nothing_more),
-      cmocka_unit_test(a_figure_keeps_peaks_and_lets_no_orientation_jump),
       cmocka_unit_test(the_code_metric_counts_code_and_nothing_else),
   };
   return run_program_tests(argv[0], tests);
