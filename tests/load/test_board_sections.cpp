@@ -72,10 +72,13 @@ void a_section_that_the_board_does_not_have_is_refused_with_those_it_has(void**)
       bench.says("5: [eight] this board has no such section; it has robot, guard, "
                  "collision, task_limits, executive, recorder, one, two, three, four, "
                  "five, six, seven; a block has a type, one of robot_model, "));
-  ASSERT_STATUS(bench.load(), Status::kNotOffered);
+  static Bench bare("[eight]\nvalue = 6\n");
+  ASSERT_STATUS(bare.load(), Status::kNotOffered);
   assert_true(
-      bench.says("5: [eight] this board has no such section; it has robot, guard, "
-                 "collision, task_limits, executive, recorder; a block has a type, "));
+      bare.says("5: [eight] this board has no such section; it has robot, guard, "
+                "collision, task_limits, executive, recorder; a block has a type, "));
+  ASSERT_STATUS(bare.load(), Status::kBadValue);
+  assert_true(bare.says("a file was read into this pipeline before; take a new one"));
 }
 
 void a_section_with_a_type_is_a_block_whatever_other_boards_call_theirs(void**) {
