@@ -13,7 +13,7 @@ template <class Space>
 Trajectory<Space>* ReferenceClient<Space>::acquire() {
   for (std::size_t i = 0; i < away_.size(); ++i) {
     if (away_[i]) continue;
-    channel_.stores[i].unpack();
+    channel_.stores[i].clear();
     return &channel_.stores[i];
   }
   return nullptr;

@@ -15,9 +15,9 @@ class ReferenceClient {
  public:
   explicit ReferenceClient(ReferenceChannel<Space>& channel) : channel_(channel) {}
 
-  /// Returns a store to fill with waypoints, or null while all are in use. It is the caller's until
-  /// it is sent, or until the next acquire(), which may return the same store: one is filled at a
-  /// time.
+  /// Returns an empty store to fill with waypoints, or null while all are in use. It is the
+  /// caller's until it is sent, or until the next acquire(), which may return the same store, empty
+  /// again: one is filled at a time.
   Trajectory<Space>* acquire();
   /// The same for waypoints of these fields only, written by set(): more of them fit, and the
   /// store's capacity says how many. kMonotone needs velocities, though it chooses them itself.

@@ -151,7 +151,8 @@ bool read_file(std::FILE* file, bool partial, Trajectory<Space>& trajectory, Csv
     if (!is_text(row))
       return refuse(error, line, 0, {}, "the line contains bytes that are not text");
     if (line == 1) row = without_byte_order_mark(row);
-    if (trim(row).empty() || trim(row).front() == '#') continue;
+    const std::string_view content = trim(row);
+    if (content.empty() || content.front() == '#') continue;
     if (columns.count() == 0) separator = separator_of(row);
     if (!take_row(Cells(row, separator), line, columns, trajectory, error)) return false;
   }

@@ -131,7 +131,8 @@ class Guard {
   bool jerky(int joint) const;
 
   JointLimits limits_;
-  JointVector q_min_, q_max_, dq_max_;  // rad, rad/s: of what is measured
+  // Limits of what is measured, rad and rad/s.
+  JointVector q_min_ = JointVector::Zero(), q_max_ = q_min_, dq_max_ = q_min_;
   CommandMode mode_ = CommandMode::kEffort;
   std::array<PositionLimiter, kDof> positions_;
   std::array<VelocityLimiter, kDof> velocities_;

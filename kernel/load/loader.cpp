@@ -114,7 +114,7 @@ Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& p
                         Message("the block takes ")
                             << size_of(block) << " bytes; of the board's " << pipeline.memory.size()
                             << " for blocks " << left << " are left");
-  static_cast<void>(pipeline.append(block));
+  pipeline.append(block);
   SectionReader reader(ini, section, pipeline.ports, error);
   reader.offer(left_);
   while (reader.next()) {

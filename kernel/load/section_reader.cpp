@@ -41,14 +41,16 @@ bool SectionReader::next() {
 }
 
 void SectionReader::refuse(Status status, const char* key, std::string_view reason) {
-  if (failed()) return;  // the first error is the one to report
+  if (failed() || seeks_) return;  // the first error is the one to report
   const IniEntry* entry = find(key);
   static_cast<void>(
       error_.refuse(status, entry ? entry->line : section_.line, section_.name, key, reason));
 }
 
-const IniEntry* SectionReader::find(const char* key) const {
-  return ini_.find(section_, key);
+const IniEntry* SectionReader::find(const char* key) {
+  if (!seeks_) return ini_.find(section_, key);
+  know(key);
+  return nullptr;
 }
 
 void SectionReader::refuse_length(const char* key, std::size_t length, std::size_t limit) {
@@ -62,7 +64,7 @@ void SectionReader::refuse_missing(const char* key, const char* unit) {
   refuse(Status::kMissingKey, key, reason);
 }
 
-std::string_view SectionReader::written(const char* key, int index) const {
+std::string_view SectionReader::written(const char* key, int index) {
   const IniEntry* entry = find(key);
   std::string_view rest = entry != nullptr ? entry->value : std::string_view();
   std::string_view word = take_word(rest);
@@ -100,7 +102,6 @@ bool SectionReader::numbers(const char* key, double* values, int count, bool joi
 }
 
 void SectionReader::param(const char* key, double& value, const Range& range, const char* unit) {
-  if (seeks_) return know(key);
   double read = value;
   if (!numbers(key, &read, 1, false, unit)) return;
   if (!range.contains(read))
@@ -111,7 +112,6 @@ void SectionReader::param(const char* key, double& value, const Range& range, co
 }
 
 void SectionReader::param(const char* key, int& value, const Range& range, const char* unit) {
-  if (seeks_) return know(key);
   const IniEntry* entry = find(key);
   if (entry == nullptr) {
     if (value == kRequiredInt) refuse_missing(key, unit);
@@ -130,7 +130,6 @@ void SectionReader::param(const char* key, int& value, const Range& range, const
 
 void SectionReader::param(const char* key, JointVector& value, const Range& range,
                           const char* unit) {
-  if (seeks_) return know(key);
   JointVector read = value;
   if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
@@ -143,7 +142,6 @@ void SectionReader::param(const char* key, JointVector& value, const Range& rang
 }
 
 void SectionReader::param(const char* key, Vector3& value, const Range& range, const char* unit) {
-  if (seeks_) return know(key);
   Vector3 read = value;
   if (!numbers(key, read.data(), 3, false, unit)) return;
   for (int i = 0; i < 3; ++i) {
@@ -156,7 +154,6 @@ void SectionReader::param(const char* key, Vector3& value, const Range& range, c
 }
 
 void SectionReader::limit(const char* key, JointVector& value, const char* unit) {
-  if (seeks_) return know(key);
   JointVector read = value;
   if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
@@ -169,10 +166,6 @@ void SectionReader::limit(const char* key, JointVector& value, const char* unit)
 }
 
 int SectionReader::choose(const char* key, const char* const* words, std::size_t count) {
-  if (seeks_) {
-    know(key);
-    return -1;
-  }
   const IniEntry* entry = find(key);
   if (entry == nullptr) return -1;
   Message reason("unknown value '");
@@ -186,10 +179,6 @@ int SectionReader::choose(const char* key, const char* const* words, std::size_t
 }
 
 const void* SectionReader::source(const char* key, Quantity quantity, bool required) {
-  if (seeks_) {
-    know(key);
-    return nullptr;
-  }
   const IniEntry* entry = find(key);
   if (entry == nullptr) {
     if (required)

@@ -39,7 +39,6 @@ class SectionReader {
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>
   void text(const char* key, Text<N>& value, const char* /*meaning*/) {
-    if (seeks_) return know(key);
     const IniEntry* entry = find(key);
     if (entry == nullptr) return;
     if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);
@@ -89,13 +88,14 @@ class SectionReader {
     offered_->*which = nullptr;
   }
   void add_output(const PortEntry& entry);
-  const IniEntry* find(const char* key) const;
+  /// Returns the entry of a key, or null; while it seeks, compares the name and returns null.
+  const IniEntry* find(const char* key);
   int choose(const char* key, const char* const* words, std::size_t count);
   /// Reads as many numbers as there are values, or for joints also one number for all. Without the
   /// key the defaults remain, if there are any.
   bool numbers(const char* key, double* values, int count, bool joints, const char* unit);
   /// Returns the word in the file that gave value `index`.
-  std::string_view written(const char* key, int index) const;
+  std::string_view written(const char* key, int index);
   void refuse(Status status, const char* key, std::string_view reason);
   void refuse_length(const char* key, std::size_t length, std::size_t limit);
   void refuse_missing(const char* key, const char* unit);

@@ -56,12 +56,9 @@ class Pipeline {
     visit.section("recorder", recorder);
   }
 
-  /// Appends a block that the loader has placed in `memory`; false if there are kMaxBlocks. [init]
-  bool append(const Block& block) {
-    if (count_ == kMaxBlocks) return false;
-    blocks_[static_cast<std::size_t>(count_++)] = block;
-    return true;
-  }
+  /// Appends a block that the loader has placed in `memory`; there are fewer than kMaxBlocks.
+  /// [init]
+  void append(const Block& block) { blocks_[static_cast<std::size_t>(count_++)] = block; }
   int count() const { return count_; }
   /// Name of the section of a block.
   const Name& name(int block) const { return blocks_[static_cast<std::size_t>(block)].name; }

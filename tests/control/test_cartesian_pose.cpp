@@ -138,7 +138,7 @@ void a_gain_too_large_for_the_period_is_refused_at_the_start(void**) {
   static CartesianPose law;
   std::size_t kind = 0;
   while (Kinds::kTypes[kind] != CartesianPose::kType) ++kind;
-  assert_true(pipeline.append({Name("cpc"), kind, &law}));
+  pipeline.append({Name("cpc"), kind, &law});
   pipeline.robot.period_us = 50000;
   ASSERT_OK(pipeline.start({}));
   pipeline.robot.period_us = 50001;

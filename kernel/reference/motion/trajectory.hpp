@@ -78,21 +78,23 @@ struct Trajectory {
   typename Space::Extent extent;  ///< set by admission
   double stretch = 0.0;           ///< set by admission: how much longer it takes, as a fraction
 
+  /// Forgets the last trajectory: no waypoints, whole ones from now on, every setting its default.
+  /// [any, not shared]
+  void clear() {
+    Waypoint<Space>* const storage = waypoints;
+    const int whole = whole_waypoints();
+    *this = Trajectory();
+    waypoints = storage;
+    capacity = whole;
+  }
   /// Packs an empty store: from now on its waypoints hold `packed` fields and no others, and
   /// `capacity` is how many of them fit. [any, not shared]
   void pack(Fields packed) {
-    unpack();
-    whole_ = std::max(capacity, 0);
+    whole_ = std::max(whole_waypoints(), 0);
     stride_ = sizeof(Waypoint<Space>) - sizeof(typename Space::Point) +
               sizeof(double) * static_cast<std::size_t>(Space::numbers(packed));
     const std::size_t bytes = static_cast<std::size_t>(whole_) * sizeof(Waypoint<Space>);
     capacity = static_cast<int>(std::min<std::size_t>(bytes / stride_, kMostWaypoints));
-  }
-  /// Makes an empty store one of whole waypoints again. [any, not shared]
-  void unpack() {
-    if (whole_ > 0) capacity = whole_;
-    whole_ = 0;
-    stride_ = sizeof(Waypoint<Space>);
   }
   /// False if the places of a packed store have no room for the fields that are given. [any]
   bool holds_fields() const {
@@ -143,6 +145,7 @@ struct Trajectory {
                     sizeof(double) + sizeof(typename Space::Point) + sizeof(WaypointRooms),
                 "a waypoint lies as a place of all fields does");
 
+  int whole_waypoints() const { return whole_ > 0 ? whole_ : capacity; }
   std::byte* place(int index) const {
     return reinterpret_cast<std::byte*>(waypoints) +
            static_cast<std::size_t>(index % capacity) * stride_;

@@ -71,8 +71,27 @@ void as_many_waypoints_fit_as_their_fields_take(void**) {
   assert_int_equal(poses.capacity, 256);
   poses.pack(kVelocityField);
   assert_int_equal(poses.capacity, 154);
-  poses.unpack();
+  poses.clear();
   assert_int_equal(poses.capacity, 70);
+}
+
+/// Who goes on with a store after the next acquire() must not have it read in another layout.
+void a_store_that_is_acquired_again_is_empty(void**) {
+  ReferenceBench bench;
+  bench.channel.stores[0].capacity = kWhole;
+  Trajectory<JointSpace>& kept = *bench.client.acquire(kVelocityField);
+  kept.count = 2;
+  kept.open = kept.exact = true;
+  kept.start_s = 1.0;
+  for (int i = 0; i < kept.count; ++i) {
+    Waypoint<JointSpace> waypoint;
+    waypoint.time_s = i;
+    kept.set(i, waypoint);
+  }
+  assert_ptr_equal(bench.client.acquire(0), &kept);
+  std::uint32_t id = 0;
+  ASSERT_STATUS(bench.client.send(kept, id).status, Status::kReferenceSize);
+  assert_true(!kept.open && !kept.exact && kept.start_s == kStartAtOnce);
 }
 
 void a_waypoint_comes_out_as_it_went_in_and_touches_no_other(void**) {
@@ -142,6 +161,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(as_many_waypoints_fit_as_their_fields_take),
+      cmocka_unit_test(a_store_that_is_acquired_again_is_empty),
       cmocka_unit_test(a_waypoint_comes_out_as_it_went_in_and_touches_no_other),
       cmocka_unit_test(more_fields_than_the_store_holds_are_refused),
       cmocka_unit_test(a_stream_through_a_packed_window_is_the_one_through_whole_waypoints),
