@@ -31,26 +31,16 @@ Status Executive::cycle(const CycleTime& now) {
   return latched_;
 }
 
-/// Checks the clock. A late cycle is counted and bridged: the blocks always move by one period, so
-/// nothing is caught up in a burst. One early cycle may follow a late one; a second in a row is a
-/// burst.
+/// Checks the clock and counts the periods without a cycle.
 void Executive::check_clock(const CycleTime& now) {
-  const std::int64_t before_ns = now_.stamp_ns;
-  const bool first = before_ns < 0, goes_on = now.stamp_ns >= 0 && now.stamp_ns > before_ns;
   now_ = now;
-  if (!walk_unless_ok(Cause::kClock, goes_on ? Status::kOk : Status::kClock) || first) return;
-  const std::int64_t elapsed_ns = now.stamp_ns - before_ns;
-  early_ = elapsed_ns < period_ns_ / 2 ? early_ + 1 : 0;
-  if (early_ > 1) walk(Cause::kClock, Status::kClock);
-  const std::int64_t missed = (elapsed_ns - period_ns_ / 2) / period_ns_;
-  const std::int64_t bridged = pipeline_.executive.max_slip;
-  const Finding found{static_cast<double>(missed)};
-  telemetry_.slips += static_cast<std::uint32_t>(std::min<std::int64_t>(missed, UINT32_MAX));
-  const bool often = late_.add(missed > 0) == RateWatch::Result::kTooMany;
-  if (missed > 2 * bridged)
-    walk(Cause::kLongSlip, Status::kSlip, found);
-  else if (missed > bridged || often)
-    walk(Cause::kSlip, Status::kSlip, found);
+  const ClockWatch::Result result = clock_.add(now.stamp_ns);
+  telemetry_.slips +=
+      static_cast<std::uint32_t>(std::min<std::int64_t>(clock_.missed(), UINT32_MAX));
+  const Finding missed{static_cast<double>(clock_.missed())};
+  if (result == ClockWatch::Result::kWrong) walk(Cause::kClock, Status::kClock);
+  if (result == ClockWatch::Result::kSlip) walk(Cause::kSlip, Status::kSlip, missed);
+  if (result == ClockWatch::Result::kLongSlip) walk(Cause::kLongSlip, Status::kSlip, missed);
 }
 
 /// Reads and judges the state. One that is not finite is discarded; the last finite one remains.

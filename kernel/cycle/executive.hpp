@@ -17,6 +17,7 @@
 #include <cstdint>
 
 #include "kernel/core/hal.hpp"
+#include "kernel/cycle/clock_watch.hpp"
 #include "kernel/cycle/event_log.hpp"
 #include "kernel/cycle/ladder.hpp"
 #include "kernel/cycle/limiting_watch.hpp"
@@ -139,9 +140,9 @@ class Executive {
   CycleTime now_;
   std::int64_t commanded_ = 0;  // cycles in which the drives followed: the schedule's time
   std::int64_t arming_ = 0, disabling_ = 0;  // cycles left; 0: not under way
-  int early_ = 0;  // cycles in a row that began less than half a period after the last
   bool judges_overruns_ = true;
-  RateWatch overruns_, late_;
+  ClockWatch clock_;
+  RateWatch overruns_;
   LimitingWatch limiting_;
   RestWatch rest_;
   Telemetry telemetry_;

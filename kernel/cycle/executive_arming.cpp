@@ -14,6 +14,7 @@ Status Executive::start() {
   if (rung() != Rung::kDisabled) stop();
   period_ns_ = std::int64_t{1000} * pipeline_.robot.period_us;
   now_ = {-1};  // before any clock
+  clock_.start(period_ns_, pipeline_.executive);
   commanded_ = 0;
   arming_ = disabling_ = 0;
   telemetry_.cycles = telemetry_.slips = telemetry_.overruns = 0;
@@ -98,7 +99,7 @@ Status Executive::refuse(Status why, const Finding& found) {
 void Executive::watch_anew() {
   const ExecutiveSection& settings = pipeline_.executive;
   overruns_.start(settings.max_overruns, settings.overrun_window, settings.clean_cycles);
-  late_.start(settings.max_late, settings.late_window, settings.late_window);
+  clock_.forgive(settings);
   const Guard::Params& guard = pipeline_.guard;
   limiting_.start(guard.limiting_share, static_cast<std::int64_t>(guard.limiting_window * 1e6) /
                                             pipeline_.robot.period_us);

@@ -55,6 +55,7 @@ void more_missed_periods_than_are_bridged_brake_the_robot(void**) {
   for (const int allowed : {0, 3, 50}) {
     Bench& b = started_bench();
     b.pipeline.executive.max_slip = allowed;
+    ASSERT_OK(b.start());
     ASSERT_OK(b.cycle());
     ASSERT_OK(b.cycle(1.0 + allowed));
     ASSERT_STATUS(b.cycle(2.0 + allowed), Status::kSlip);
@@ -62,6 +63,7 @@ void more_missed_periods_than_are_bridged_brake_the_robot(void**) {
     assert_true(b.executive.rung() == (allowed > 0 ? Rung::kHold : Rung::kStop));
     Bench& longer = started_bench();
     longer.pipeline.executive.max_slip = allowed;
+    ASSERT_OK(longer.start());
     ASSERT_OK(longer.cycle());
     ASSERT_STATUS(longer.cycle(2.0 + 2 * allowed), Status::kSlip);
     assert_true(longer.executive.rung() == Rung::kStop);
