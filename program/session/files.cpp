@@ -62,8 +62,7 @@ bool make_folder(std::string_view path) {
     if (end < path.size() && path[end] != '/') continue;
     const FilePath part(path.substr(0, end));
     if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
-      std::fprintf(stderr, "%s: %s; choose another folder with --out\n", part.c_str(),
-                   std::strerror(errno));
+      std::fprintf(stderr, "%s: %s; choose another --out\n", part.c_str(), std::strerror(errno));
       return false;
     }
   }
