@@ -77,7 +77,13 @@ Message not_a_number(std::string_view cell) {
   const std::size_t comma = cell.find(',');
   if (comma != std::string_view::npos && cell.find(',', comma + 1) == std::string_view::npos)
     reason << "; write " << cell.substr(0, comma) << "." << cell.substr(comma + 1);
+  else
+    reason << "; write a number such as -0.5";
   return reason;
+}
+
+Message not_readable(int error) {
+  return Message(std::strerror(error)) << "; give the path of a trajectory file";
 }
 
 template <class Space>
@@ -181,11 +187,11 @@ bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajecto
   error = {};
   trajectory.count = 0;
   std::FILE* file = std::fopen(path, "rb");
-  if (file == nullptr) return refuse(error, 0, 0, {}, std::strerror(errno));
+  if (file == nullptr) return refuse(error, 0, 0, {}, not_readable(errno));
   const bool read = read_file(file, partial, trajectory, error);
   const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
-  return failure == 0 ? read : refuse(error, 0, 0, {}, std::strerror(failure));
+  return failure == 0 ? read : refuse(error, 0, 0, {}, not_readable(failure));
 }
 
 template bool read_trajectory(const char*, bool, Trajectory<JointSpace>&, CsvError&);

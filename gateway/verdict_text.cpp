@@ -127,6 +127,23 @@ Message& add_code(Message& text, Status status) {
 
 }  // namespace
 
+const char* remedy(Status status) {
+  switch (status) {
+    case Status::kPositionLimit: return "; keep within the range of the joint: are these degrees?";
+    case Status::kWorkspace: return "; keep within [task_limits]: are these millimetres?";
+    case Status::kReferenceTime: return "; sort the waypoints by time";
+    case Status::kVelocityLimit:
+    case Status::kAccelerationLimit:
+    case Status::kJerkLimit: return "; give this part more time";
+    case Status::kVelocityStep: return "; give velocities, or this part more time";
+    case Status::kNotAtRest: return "; end with a velocity of zero";
+    case Status::kStartTolerance: return "; begin there, or later than at t = 0";
+    case Status::kEffortLimit: return "; ask for less";
+    case Status::kQuaternion: return "; write qw, qx, qy, qz of length 1";
+    default: return "";
+  }
+}
+
 Message describe(Status status) {
   Message text(meaning(status));
   return add_code(text, status);

@@ -17,4 +17,8 @@ Message describe(Status status);
 /// [any]
 Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfinity);
 
+/// What a person does about a refused reference: "; give this part more time"; empty if nothing is
+/// known to help. [any]
+const char* remedy(Status status);
+
 }  // namespace tactus

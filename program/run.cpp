@@ -132,7 +132,9 @@ int run(Session& session, const Options& options) {
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
-  if (!written) std::fprintf(stderr, "%s: not all files could be written\n", folder.c_str());
+  if (!written)
+    std::fprintf(stderr, "%s: not all files could be written; make room or choose another --out\n",
+                 folder.c_str());
   if (options.figure && written) draw_figure(folder.c_str());
   std::printf("  written to %s\n", folder.c_str());
   if (result.cycles == 0) return kRefused;

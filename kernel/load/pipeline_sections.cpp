@@ -18,11 +18,11 @@ void PipelineSections::check_robot(const RobotSection& robot) {
   if (!offered_.wrench) ports_.withhold(&robot.ft.value);
   if (robot.name.empty())
     return refuse(Status::kMissingKey, "name",
-                  "the key is missing; it names the robot the file is written for");
+                  "the key is missing; add it, the robot the file is written for");
   if (std::string_view(robot.name) != Robot::kName)
-    return refuse(
-        Status::kNotOffered, "name",
-        Message("'") << robot.name << "', but this program is built for " << Robot::kName);
+    return refuse(Status::kNotOffered, "name",
+                  Message("'") << robot.name << "', but this program is built for " << Robot::kName
+                               << "; take a board with the robot of the file");
   if (robot.period_us < offered_.min_period_us || robot.period_us > offered_.max_period_us)
     refuse(Status::kNotOffered, "period_us",
            Message("") << robot.period_us << " us is out of range; the robot takes "

@@ -31,11 +31,12 @@ bool SectionReader::next() {
   if (seeks_ && !found_) {
     const IniEntry& entry = ini_.entry(section_.first + checked_);
     static_cast<void>(error_.refuse(Status::kUnknownKey, entry.line, section_.name, entry.key,
-                                    "the section has no such key"));
+                                    Message("the section has no such key; it has ") << names_));
     return false;
   }
   seeks_ = ++checked_ < section_.count;
   found_ = false;
+  names_ = {};
   if (seeks_) sought_ = ini_.entry(section_.first + checked_).key;
   return true;
 }
@@ -60,7 +61,8 @@ void SectionReader::refuse_length(const char* key, std::size_t length, std::size
 
 void SectionReader::refuse_missing(const char* key, const char* unit) {
   Message reason("the key is missing");
-  if (!dimensionless(unit)) reason << "; its unit is " << unit;
+  reason << "; add it";
+  if (!dimensionless(unit)) reason << ", in " << unit;
   refuse(Status::kMissingKey, key, reason);
 }
 
@@ -201,7 +203,7 @@ const void* SectionReader::source(const char* key, Quantity quantity, bool requi
   if (port->quantity != quantity) {
     refuse(Status::kWrongQuantity, key,
            Message("") << entry->value << " is a " << info(port->quantity).name
-                       << ", but the input takes a " << info(quantity).name);
+                       << ", but the input takes a " << info(quantity).name << "; wire one");
     return nullptr;
   }
   return port->value;

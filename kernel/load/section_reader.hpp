@@ -29,7 +29,10 @@ class SectionReader {
   /// True while the names are only compared with a key.
   bool seeks() const { return seeks_; }
   /// Compares a name with the key sought. [init]
-  void know(const char* key) { found_ = found_ || sought_ == key; }
+  void know(const char* key) {
+    found_ = found_ || sought_ == key;
+    names_ << (names_.empty() ? "" : ", ") << key;
+  }
 
   void param(const char* key, double& value, const Range& range, const char* unit);
   void param(const char* key, int& value, const Range& range, const char* unit);
@@ -107,6 +110,7 @@ class SectionReader {
   Channels* offered_ = nullptr;
   int checked_ = -1;         // keys that next() has sought; -1: it was not called
   std::string_view sought_;  // the key, while seeks_
+  Message names_;            // those it was compared with
   bool seeks_ = false, found_ = false;
 };
 

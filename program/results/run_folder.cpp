@@ -40,8 +40,10 @@ bool begin_folder(std::string_view folder, std::string_view pipeline) {
   FilePath path = folder;
   if (!lock(folder)) {
     const bool taken = errno == EWOULDBLOCK;
-    std::fprintf(stderr, "%s: %s\n", path.c_str(),
-                 taken ? "another run writes into this folder" : std::strerror(errno));
+    std::fprintf(
+        stderr, "%s: %s\n", path.c_str(),
+        taken ? "another run writes into this folder; wait for its end, or choose another --out"
+              : std::strerror(errno));
     return false;
   }
   for (const char* name : kResults) {

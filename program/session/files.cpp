@@ -14,14 +14,15 @@ std::array<char, kMaxPipelineBytes + 1> pipeline_text;
 bool read_text(const char* path, std::string_view& text) {
   std::FILE* file = std::fopen(path, "rb");
   if (file == nullptr) {
-    std::fprintf(stderr, "%s: %s\n", path, std::strerror(errno));
+    std::fprintf(stderr, "%s: %s; give the path of a pipeline file\n", path, std::strerror(errno));
     return false;
   }
   const std::size_t size = std::fread(pipeline_text.data(), 1, pipeline_text.size(), file);
   const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
   if (failure != 0) {
-    std::fprintf(stderr, "%s: %s\n", path, std::strerror(failure));
+    std::fprintf(stderr, "%s: %s; give the path of a pipeline file\n", path,
+                 std::strerror(failure));
     return false;
   }
   if (size > kMaxPipelineBytes) {
@@ -61,7 +62,7 @@ bool make_folder(std::string_view path) {
     if (end < path.size() && path[end] != '/') continue;
     const FilePath part(path.substr(0, end));
     if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
-      std::fprintf(stderr, "%s: %s\n", part.c_str(), std::strerror(errno));
+      std::fprintf(stderr, "%s: %s; choose another --out\n", part.c_str(), std::strerror(errno));
       return false;
     }
   }

@@ -91,6 +91,9 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("tactus: ") + error.what() + "; tactus --help-all lists what there is\n";
+  });
   app.require_subcommand(0, 1);  // a missing verb is refused below, with a better message
   app.footer("Exit codes: 0 succeeded; 1 ended otherwise; 2 refused before the first cycle.");
 
@@ -123,8 +126,7 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
     return false;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr, "a verb is required: run, check, ports, doctor or jitter\n%s\n",
-                 "Run with --help for more information.");
+    std::fprintf(stderr, "tactus: a verb is required: run, check, ports, doctor or jitter\n");
     exit_code = kRefused;
     return false;
   }

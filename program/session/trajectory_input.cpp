@@ -92,8 +92,8 @@ double TrajectoryInput::stretch() const {
 void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
   const VerdictAxes axes = input.trajectory.index() == 2 ? VerdictAxes::kTip : VerdictAxes::kJoints;
   const double time_s = verdict.waypoint >= 0 ? input.time_s(verdict.waypoint) : kInfinity;
-  std::fprintf(stderr, "%s: refused: %s\n", input.path.c_str(),
-               describe(verdict, axes, time_s).c_str());
+  std::fprintf(stderr, "%s: refused: %s%s\n", input.path.c_str(),
+               describe(verdict, axes, time_s).c_str(), remedy(verdict.status));
 }
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {

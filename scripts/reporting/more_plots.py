@@ -78,7 +78,7 @@ def draw_shares(part, run):
     """Draws position, velocity, acceleration and torque of the joints as shares of their limits."""
     found, t = shares(run), run.log["time_s"]
     rows = -(-len(found) // 2)
-    grid = {"top": 0.94, "bottom": 0.22 / rows, "hspace": 0.32, "wspace": 0.2, **MARGINS}
+    grid = {"top": 0.94, "bottom": 0.28 / rows, "hspace": 0.32, "wspace": 0.2, **MARGINS}
     plots = part.subplots(rows, 2, sharex=True, squeeze=False, gridspec_kw=grid).ravel()
     for axes, (what, values) in zip(plots, found):
         for i in range(values.shape[1]):
@@ -89,7 +89,9 @@ def draw_shares(part, run):
         axes.set_yticks([-1, 0, 1])
         axes.set_ylim(-1.15, 1.15)
         axes.set_ylabel("share of limit")
+    for axes in plots[max(0, len(found) - 2) : len(found)]:  # the lowest of each column
         axes.set_xlabel("time [s]")
+        axes.tick_params(labelbottom=True)
     for axes in plots[len(found) :]:
         axes.set_axis_off()
     handles = plots[0].get_legend_handles_labels()[0] + [Line2D([], [], label="limit", **LIMIT)]

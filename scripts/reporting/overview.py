@@ -11,8 +11,11 @@ KINDS = {
     "real": "with a <b>real robot</b>",
     "": "<b>unknown</b>, for which no file says whether a real robot moved",
 }
+ARMS = {"fer": "Franka FER", "gen3": "Kinova Gen3", "ur10": "Universal Robots UR10"}
+HEADS = ("", "run", "robot", "touched", "seen", "expected", "verdict")
 LEGEND = (
-    "Seen and expected: the task's reference minus what was measured. A run in contact is judged by its mean force,"
+    "JRG, TRG: reference generator of joints, of the task space; PDGC: PD with gravity compensation; CPC: Cartesian pose"
+    " control; AC: admittance control. Seen and expected: the task's reference minus what was measured. A run in contact is judged by its mean force,"
     " not by its tracking error. The verdict's small print is when the run wrote its result. Click a"
     " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may"
     f" differ from the expected one by {100 * expected.FORCE_SHARE:.0f} %, a lag by {100 * expected.LAG_SHARE:.0f} % or"
@@ -25,7 +28,9 @@ def provenance(sections):
     counts = collections.Counter(section.kind for section in sections)
     told = [f"{count} {'run' if count == 1 else 'runs'} {KINDS[kind]}" for kind, count in counts.items()]
     none = "" if counts["real"] or counts[""] else "No real robot moved: "
-    return f'<p class="provenance">{none}{"; ".join(told)}.</p>'
+    names = sorted({section.summary["robot"] for section in sections if section.summary})
+    arms = ", ".join(page.escape(f"{name}: {ARMS[name]}" if name in ARMS else name) for name in names)
+    return f'<p class="provenance">{none}{"; ".join(told)}. <span>{arms}.</span></p>'
 
 
 def made():
@@ -53,14 +58,13 @@ def row(section):
         f"{page.escape(section.verdict)}<small>{section.written}</small>",
     ]
     mark = "met" if section.met else "failed"
-    text = "".join(f"<td>{cell}</td>" for cell in cells)
+    text = "".join(f'<td data-head="{head}">{cell}</td>' for head, cell in zip(HEADS[1:], cells))
     start = f'<tr class="{mark}" data-run="{page.escape(section.name)}">'
     return f'{start}<td class="picture">{picture(section)}</td>{text}</tr>'
 
 
 def first_screen(sections):
-    heads = ("", "run", "robot", "touched", "seen", "expected", "verdict")
-    head = "".join(f"<th>{cell}</th>" for cell in heads)
+    head = "".join(f"<th>{cell}</th>" for cell in HEADS)
     rows = "\n".join(map(row, sections))
     well = "all" if all(section.met for section in sections) else "some"
     return (

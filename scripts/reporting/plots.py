@@ -40,7 +40,7 @@ PREDICTED = {"linewidth": 1.1, "linestyle": (0, (1, 1.6))}
 LIMIT = {"linewidth": 1.0, "linestyle": (0, (6, 2)), "color": "#a01c10"}
 GREY = {"color": "#555555"}
 MARGINS = {"left": 0.105, "right": 0.84}
-OVER_ERROR = {"height_ratios": (3, 1), "hspace": 0.1, "top": 0.93, **MARGINS}
+OVER_ERROR = {"height_ratios": (3, 1), "hspace": 0.1, "top": 0.93, "bottom": 0.125, **MARGINS}
 
 
 def thin_out(t, values):

@@ -212,7 +212,8 @@ void a_cell_that_is_no_finite_number_is_refused_with_its_column(void**) {
     std::snprintf(text, sizeof text, "%s\n0,1,2,3,1,0,%s,0\n", kPose, bad);
     assert_false(read_text(text));
     char expected[128];
-    std::snprintf(expected, sizeof expected, "2:7: qy: '%s' is not a finite number", bad);
+    std::snprintf(expected, sizeof expected,
+                  "2:7: qy: '%s' is not a finite number; write a number such as -0.5", bad);
     assert_string_equal(error.message().c_str(), expected);
   }
   std::snprintf(text, sizeof text, "%s\n0,1,2,3,1,0,,0\n", kPose);

@@ -154,9 +154,11 @@ void every_file_with_a_mistake_is_refused_with_its_message(void**) {
 
 void what_is_no_file_is_refused_with_the_reason_of_the_system(void**) {
   assert_false(read("/tmp"));
-  assert_string_equal(error.message().c_str(), "Is a directory");
+  assert_string_equal(error.message().c_str(),
+                      "Is a directory; give the path of a trajectory file");
   assert_false(read("tests/refused/there_is_none.csv"));
-  assert_string_equal(error.message().c_str(), "No such file or directory");
+  assert_string_equal(error.message().c_str(),
+                      "No such file or directory; give the path of a trajectory file");
   assert_false(read_text(""));
   assert_string_equal(error.message().c_str(), "the file has no header");
 }

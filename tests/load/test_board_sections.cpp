@@ -98,7 +98,7 @@ void a_mistake_in_a_section_of_a_board_is_refused_where_it_is(void**) {
   ASSERT_STATUS(range.load(board), Status::kBadValue);
   assert_true(range.says("7: [two] value: 10 is out of range; it must be in [0, 9]"));
   ASSERT_STATUS(key.load(board), Status::kUnknownKey);
-  assert_true(key.says("6: [two] values: the section has no such key"));
+  assert_true(key.says("6: [two] values: the section has no such key; it has value"));
 }
 
 void a_required_number_without_a_unit_is_reported_without_one(void**) {
@@ -106,7 +106,8 @@ void a_required_number_without_a_unit_is_reported_without_one(void**) {
   Board board;
   board.numbers[1].value = kRequiredInt;
   ASSERT_STATUS(missing.load(board), Status::kMissingKey);
-  assert_string_equal(missing.error.message().c_str(), "5: [two] value: the key is missing");
+  assert_string_equal(missing.error.message().c_str(),
+                      "5: [two] value: the key is missing; add it");
 }
 
 /// Exit of a process whose board calls a section `name`: 0, or the signal that stopped it.

@@ -36,7 +36,7 @@ int check(const char* step, const char* before = "true") {
 // Proves CHK-3.
 
 void a_tree_in_which_nothing_is_wrong_passes(void**) {
-  assert_int_equal(check("formatted sizes scripts/statements tidy ports"), 0);
+  assert_int_equal(check("formatted sizes lines scripts/statements tidy ports"), 0);
   for (const char* step :
        {"== formatted\n", "== sizes\n", "== scripts/statements\n", "== tidy\n", "== ports\n"})
     assert_true(has(output(), step));
@@ -69,6 +69,15 @@ void long_scripts_are_found_and_what_make_writes_is_not_judged(void**) {
   assert_int_equal(check("sizes formatted", "seq 251 > build/bad.cpp"), 0);
   assert_true(check("formatted", "rm -r kernel gateway hal program sim_plant boards") != 0);
   assert_true(has(errors(), "no source below this folder"));
+}
+
+void a_long_line_of_a_page_is_found_but_not_one_of_a_table_or_of_code(void**) {
+  constexpr const char* kPage =
+      "long=$(seq -s o 1 60); { echo \"| $long |\"; echo '```'; echo $long; echo '```'; "
+      "printf '%0140d\\n' 0 | sed 's/0/\u2192/g'; } > docs/x.md";
+  assert_int_equal(check("lines", kPage), 0);
+  assert_int_equal(check("lines", "printf '%0141d\\n' 0 >> docs/x.md"), 1);
+  assert_true(has(errors(), "./docs/x.md:6: longer than 140 characters; break the line\n"));
 }
 
 void a_linter_that_is_missing_or_crashes_fails_with_its_reason(void**) {
@@ -187,6 +196,8 @@ int main(int, char** argv) {
       cmocka_unit_test_setup(a_step_that_does_not_exist_is_refused, plant_tree),
       cmocka_unit_test(a_source_of_any_suffix_is_judged_whether_git_knows_it_or_not),
       cmocka_unit_test(long_scripts_are_found_and_what_make_writes_is_not_judged),
+      cmocka_unit_test_setup(a_long_line_of_a_page_is_found_but_not_one_of_a_table_or_of_code,
+                             plant_tree),
       cmocka_unit_test_setup(a_linter_that_is_missing_or_crashes_fails_with_its_reason, plant_tree),
       cmocka_unit_test_setup(a_linter_that_finds_something_or_has_no_rules_fails, plant_tree),
       cmocka_unit_test_setup(generated_documents_need_a_program_that_ends_well, plant_tree),

@@ -80,9 +80,11 @@ void check_refuses_every_trajectory_that_breaks_a_limit_and_no_other(void**) {
 
 void a_file_that_cannot_be_read_is_refused_with_the_reason(void**) {
   assert_int_equal(tactus_run({"check", "tests/there_is_none.ini"}), 2);
-  assert_true(errors() == "tests/there_is_none.ini: No such file or directory\n");
+  assert_true(
+      errors() ==
+      "tests/there_is_none.ini: No such file or directory; give the path of a pipeline file\n");
   assert_int_equal(tactus_run({"run", "tests"}), 2);
-  assert_true(errors() == "tests: Is a directory\n");
+  assert_true(errors() == "tests: Is a directory; give the path of a pipeline file\n");
   static char blanks[65537];
   std::memset(blanks, '\n', sizeof blanks - 1);
   const Line path = write("large.ini", {blanks, "\n"});
@@ -90,7 +92,8 @@ void a_file_that_cannot_be_read_is_refused_with_the_reason(void**) {
   assert_true(has(errors(), "large.ini: the file is larger than 65536 bytes\n"));
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(tactus_run({"check", pipeline.c_str(), "--trajectory", "none.csv"}), 2);
-  assert_true(errors() == "none.csv: No such file or directory\n");
+  assert_true(errors() ==
+              "none.csv: No such file or directory; give the path of a trajectory file\n");
 }
 
 void a_command_line_that_is_not_understood_is_refused(void**) {

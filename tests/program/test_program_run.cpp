@@ -154,10 +154,10 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
 void a_folder_that_cannot_be_made_is_refused_and_a_full_disk_is_no_success(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(run_into("p.ini/below", pipeline.c_str()), 2);
-  assert_true(has(errors(), "p.ini/below: Not a directory\n"));
+  assert_true(has(errors(), "p.ini/below: Not a directory; choose another --out\n"));
   // no file may grow beyond 64 blocks of 512 bytes
   assert_int_equal(shell("trap '' XFSZ; ulimit -f 64; exec $P run $S/p.ini --out $S/full"), 1);
-  assert_true(has(errors(), "not all files could be written\n"));
+  assert_true(has(errors(), "not all files could be written; make room or choose another --out\n"));
   assert_false(exists("full/summary.json"));
 }
 
@@ -187,7 +187,9 @@ void a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written(vo
       nanosleep(&millisecond, nullptr);
     }
     assert_int_equal(run_into("c", pipeline.c_str()), 2);
-    assert_true(has(errors(), "/c: another run writes into this folder\n"));
+    assert_true(has(
+        errors(),
+        "/c: another run writes into this folder; wait for its end, or choose another --out\n"));
     assert_int_equal(kill(child, signal), 0);
     assert_int_equal(exit_code(child), 1);
     assert_true(has(file_of("c/summary.json"), "{\"code\": 1, \"name\": \"interrupted\"}"));

@@ -54,7 +54,7 @@ void the_report_shows_every_run_and_what_failed(void**) {
            "which ",
            "<p class=\"note\">Made 20",
            "judged by its mean force",
-           "<td>as expected<small>20",
+           "<td data-head=\"verdict\">as expected<small>20",
            "<a href=\"#run-weak\">weak</a>",
            "<tr class=\"failed\" data-run=\"weak\">",
            "<tr class=\"failed\" data-run=\"nowhere\">",

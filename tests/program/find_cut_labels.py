@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""find_cut_labels.py OUT RUN...: draws the figures of runs as the report does and names every label that is cut.
+
+A label is a title, the label of an axis or an entry of a legend; it is cut if a part of it is outside of its figure.
+"""
+
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from matplotlib import rc_context  # noqa: E402: after the path of the project
+from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+
+from reporting import plots, sections  # noqa: E402
+
+
+def labels(figure):
+    for axes in figure.findobj(lambda thing: hasattr(thing, "xaxis")):
+        yield from (axes.xaxis.label, axes.yaxis.label, axes.title, axes._left_title, axes._right_title)
+        if axes.get_legend():
+            yield from axes.get_legend().get_texts()
+
+
+def cut_labels(figure):
+    """Returns the labels of a figure that are cut."""
+    FigureCanvasAgg(figure).draw()
+    whole, cut = figure.bbox, []
+    for label in labels(figure):
+        box = label.get_window_extent()
+        if label.get_text() and not (box.x0 >= 0 and box.y0 >= 0 and box.x1 <= whole.x1 and box.y1 <= whole.y1):
+            cut.append(label.get_text())
+    return cut
+
+
+def main():
+    found, count, draw_svg = [], [], plots.svg
+
+    def svg(height, draw, *arguments, width=8):
+        with rc_context(plots.STYLE):
+            figure = Figure(figsize=(width, height))
+            draw(figure, *arguments)
+            found.extend(f"{draw.__name__}: {text}" for text in cut_labels(figure))
+        count.append(draw)
+        return draw_svg(height, draw, *arguments, width=width)
+
+    plots.svg = svg
+    for name in sys.argv[2:]:
+        sections.section_of(pathlib.Path(sys.argv[1]), name)
+    print(f"{len(count)} figures, {len(found)} labels cut")
+    print("\n".join(found), file=sys.stderr)
+    return 0 if count and not found else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,50 @@
+// Tests the tutorial: its commands are run as they stand, in a fresh folder.
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kTry = "$R/tests/program/try_tutorial.py ";
+
+int try_page(const char* page) {
+  return shell((Line(kTry) << page).c_str());
+}
+
+// Proves DOC-1.
+
+void the_tutorial_prints_what_it_says(void**) {
+  const int code = try_page("docs/tutorial.md");
+  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
+  assert_int_equal(code, 0);
+}
+
+void a_page_that_says_anything_else_is_found(void**) {
+  constexpr struct {
+    const char *text, *complaint;
+  } kPages[] = {
+      {"```sh\necho 12\n```\n\n```text\n1...3\n```\n", "page.md:1:"},
+      {"A line.\n```sh\nexit 3\n```\n", "page.md:2: exit code 3"},
+      {"```sh\necho 12\n```\n", "Got:"},
+      {"```sh\ntrue\n```\n```text\n12\n```\n", "Expected:"},
+      {"No block.\n", "page.md: no commands"},
+  };
+  for (const auto& [text, complaint] : kPages) {
+    write("page.md", {text});
+    assert_int_equal(try_page("$S/page.md"), 1);
+    assert_true(has(errors(), complaint));
+  }
+  write("page.md", {"```sh\necho 123; echo 4 >&2\n```\n\n```text\n1...3\n4\n```\n"});
+  assert_int_equal(try_page("$S/page.md"), 0);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_tutorial_prints_what_it_says),
+      cmocka_unit_test(a_page_that_says_anything_else_is_found),
+  };
+  return run_program_tests(argv[0], tests);
+}
