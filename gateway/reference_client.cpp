@@ -20,6 +20,16 @@ Trajectory<Space>* ReferenceClient<Space>::acquire() {
 }
 
 template <class Space>
+Verdict ReferenceClient<Space>::judge_goal(const Feedback<Space>& feedback) const {
+  if (tolerances() == nullptr) return {Status::kNotStarted};
+  const Verdict near = Space::judge_error(feedback.desired, feedback.actual, tolerances()->goal,
+                                          Status::kGoalTolerance);
+  const bool measured = Space::rates(feedback.actual).allFinite();
+  if (!near.ok() || !measured) return near;
+  return judge_stopped<Space>(feedback.actual, tolerances()->stopped_velocity);
+}
+
+template <class Space>
 Trajectory<Space>* ReferenceClient<Space>::acquire(Fields fields) {
   Trajectory<Space>* const trajectory = acquire();
   if (trajectory == nullptr) return nullptr;

@@ -52,6 +52,13 @@ class ReferenceClient {
   Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
   Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }
 
+  /// Conditions under which a goal counts as reached, unless it says otherwise; null before the
+  /// generator has started.
+  const Tolerances<Space>* tolerances() const { return channel_.tolerances; }
+  /// Judges whether the robot had reached a goal at the time of this feedback, as the generator
+  /// does, but for its latency and dwell time: kGoalTolerance, kGoalVelocity.
+  Verdict judge_goal(const Feedback<Space>& feedback) const;
+
   /// Takes the next report; false if there is none. Frees the store that the report returns.
   bool poll(Report& report);
   /// Takes the oldest message of feedback; false if there is none.

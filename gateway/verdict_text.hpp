@@ -17,4 +17,8 @@ Message describe(Status status);
 /// [any]
 Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfinity);
 
+/// What to do about a goal that was not followed or reached: settings of the reference generator
+/// and of the law. Null for any other Status. [any]
+const char* goal_remedy(Status status, VerdictAxes axes);
+
 }  // namespace tactus

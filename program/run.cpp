@@ -37,7 +37,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
   const auto cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
-  RunLoop loop(session, input, watchdog, result, cycles);
+  RunLoop loop(session, input, watchdog, result, cycles, options.duration_s <= 0.0);
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
   if (started && !guarded) end_with(result, kRefused, "refused");
@@ -57,8 +57,11 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   result.wall_s = wall_s() - begin_s;
   result.simulated_s = loop.time_s();
   result.cycles = loop.commanded();
+  if (result.code == kEndedOtherwise) result.why = loop.why();
   result.heap_allocations = heap_allocations();
   progress.end();
+  if (!result.why.empty())
+    std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), result.name, result.why.c_str());
   if (latched == Status::kOk || loop.ended_as_planned() || (started && !guarded)) return;
   if (loop.cut_short())
     std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
@@ -66,6 +69,27 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
     print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
                session.executive.guard().telemetry(), trouble);
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
+}
+
+RunInputs inputs_of(const Options& options, const TrajectoryInput& input) {
+  return {options.pipeline, input.path.empty() ? nullptr : input.path.c_str()};
+}
+
+/// Writes all files but the log and the figures, up to the first that cannot be written; false:
+/// prints which.
+bool write_results(RunFolder& folder, const Session& session, const TrajectoryInput& input,
+                   std::string_view pipeline, const RunResult& result) {
+  const Recording& recording = session.pipeline.recording;
+  if (!write_scene(folder.file("scene.json").c_str(), session.pipeline)) return false;
+  if (input.given() && recording.tracking_count > 0 &&
+      !write_waypoints(folder.file("waypoints.csv").c_str(), input,
+                       *recording.tracking[0].reference))
+    return false;
+  const FilePath summary = folder.summary_part();
+  if (write_summary(summary.c_str(), pipeline, session, result))
+    return folder.complete(result.cycles > 0);
+  std::remove(summary.c_str());
+  return false;
 }
 
 }  // namespace
@@ -89,27 +113,28 @@ void print_collision(const Collision::Telemetry& told) {
 
 int run(Session& session, const Options& options) {
   const std::string_view pipeline = stem(options.pipeline);
-  FilePath folder(options.out);
-  if (folder.empty()) folder << "out/" << pipeline;
+  RunFolder folder(options);
   TrajectoryInput input;
-  if (!read_input(session, options, input)) return kRefused;
   RunLog log;
   LogWriter writer(log);
   WatchdogThread watchdog;
   Realtime realtime;
-  if (options.realtime &&
-      !(writer.start() && watchdog.start(session.realtime) && prepare(realtime, session.realtime)))
+  const bool accepted = read_input(session, options, input);
+  if (!accepted || (options.realtime && !(writer.start() && watchdog.start(session.realtime) &&
+                                          prepare(realtime, session.realtime)))) {
+    folder.refuse(inputs_of(options, input));
     return kRefused;
-  if (!begin_folder(folder, session.text)) return kRefused;
+  }
+  if (!folder.begin(inputs_of(options, input), session.text)) return kRefused;
   const Recording& recording = session.pipeline.recording;
-  if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
+  if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
   static RunResult result;
   result.seed = options.seed;
   result.stretch = input.stretch();
   result.realtime.asked = options.realtime;
   result.realtime.report = realtime.report();
-  result.config_hash = fnv1a_of_file(input.path.c_str(), fnv1a(session.text));
+  result.config_hash = fnv1a_of_file(input.source.c_str(), fnv1a(session.text));
   for (; result.tracking_count < recording.tracking_count; ++result.tracking_count) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
     result.tracking[i].start(recording.tracking[i]);
@@ -121,20 +146,13 @@ int run(Session& session, const Options& options) {
   execute(session, options, input, log, writer, watchdog, result);
   realtime.release();  // or the program that draws the figure would inherit it
 
-  bool written = log.close();
-  written &= write_scene(in_folder(folder, "scene.json").c_str(), session.pipeline);
-  if (input.given() && recording.tracking_count > 0)
-    written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
-                               *recording.tracking[0].reference);
-  written = written &&
-            write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
+  const bool written = log.close() && write_results(folder, session, input, pipeline, result);
   print_table(pipeline, session, result);
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
-  if (!written) std::fprintf(stderr, "%s: not all files could be written\n", folder.c_str());
-  if (options.figure && written) draw_figure(folder.c_str());
-  std::printf("  written to %s\n", folder.c_str());
+  if (options.figure && written) draw_figure(folder.path().c_str());
+  std::printf("  %s %s\n", written ? "written to" : "incomplete:", folder.path().c_str());
   if (result.cycles == 0) return kRefused;
   return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
 }

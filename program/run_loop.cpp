@@ -11,6 +11,19 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+/// True of the final report on a trajectory.
+bool ends(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kSucceeded:
+    case Outcome::kPreempted:
+    case Outcome::kAborted:
+    case Outcome::kCanceled:
+    case Outcome::kSuperseded:
+    case Outcome::kRefused: return true;
+    default: return false;
+  }
+}
+
 void on_signal(int) {
   interrupted = 1;
 }
@@ -20,7 +33,9 @@ void on_signal(int) {
 void catch_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // a log that becomes too large is an error of its file
+  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading the messages stops no arm
 }
 
 void end_with(RunResult& result, int code, const char* name) {
@@ -36,10 +51,12 @@ void end_with(RunResult& result, Status fault) {
 /// Takes the result of the run from the reports on its trajectory. A run without a trajectory
 /// succeeds. False: the trajectory was refused, and the run ends.
 bool RunLoop::follow() {
+  if (!planned_end_) goal_.follow();
   Report report;
   while (poll_report(session_, input_, report)) {
-    const bool of_input = report.id == input_.id && report.outcome != Outcome::kStarted;
-    if (!of_input || planned_end_) continue;
+    if (report.id != input_.id || !ends(report.outcome) || planned_end_) continue;
+    pending_ = false;
+    end_ = report.verdict;
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result_,
              refused                                 ? static_cast<int>(report.verdict.status)
@@ -74,6 +91,7 @@ bool RunLoop::arm() {
     return session_.executive.busy();
   }
   armed_ = true;
+  pending_ = input_.given();
   return send_input(session_, input_);
 }
 
@@ -85,8 +103,9 @@ bool RunLoop::cycle(const CycleTime& now) {
     status = session_.executive.cycle(now);
   }
   watchdog_.cycle_completed();
-  if (interrupted != 0 && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
-  if (status == Status::kArming && interrupted == 0) return arm();
+  halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
+  if (halted_ && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
+  if (status == Status::kArming && !halted_) return arm();
   commanded_ += commanded ? 1 : 0;
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
@@ -97,17 +116,29 @@ bool RunLoop::cycle(const CycleTime& now) {
 
 void RunLoop::take_result(Status status) {
   if (status == Status::kOk || planned_end_) return;
-  if (interrupted != 0 && (status == Status::kHalted || status == Status::kArming))
+  if (halted_ && (status == Status::kHalted || status == Status::kArming))
     end_with(result_, kEndedOtherwise, "interrupted");
   else
     end_with(result_, status);
 }
 
+bool RunLoop::time_has_passed() const {
+  if (commanded_ < cycles_) return false;
+  const double latest_s = goal_.latest_report_s();
+  return !(waits_ && pending_ && latest_s < kInfinity && time_s() < latest_s);
+}
+
+Reason RunLoop::why() const {
+  if (pending_ && planned_end_) return goal_.unfinished(ended_s_);
+  return goal_.given_up(end_);
+}
+
 /// True if no cycle is to follow. An arm that moves when its time has passed is halted first.
 bool RunLoop::over(Status status) {
-  if (status != Status::kOk || refused_ || interrupted != 0) return true;
-  if (commanded_ < cycles_) return false;
+  if (status != Status::kOk || refused_ || halted_) return true;
+  if (!time_has_passed()) return false;
   planned_end_ = true;
+  ended_s_ = time_s();
   if (session_.executive.at_rest()) return true;
   session_.executive.halt();
   return false;

@@ -11,7 +11,8 @@
 
 namespace tactus {
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program.
+/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program, and writing to a closed
+/// pipe or beyond a limit of size an error instead of its end.
 void catch_interrupts();
 
 void end_with(RunResult& result, int code, const char* name);
@@ -20,10 +21,17 @@ void end_with(RunResult& result, Status fault);
 
 class RunLoop {
  public:
-  /// `cycles`: those in which the arm is to be commanded.
+  /// `cycles`: those in which the arm is to be commanded; more if the run `waits` for the report on
+  /// its goal.
   RunLoop(Session& session, TrajectoryInput& input, WatchdogThread& watchdog, RunResult& result,
-          std::int64_t cycles)
-      : session_(session), input_(input), watchdog_(watchdog), result_(result), cycles_(cycles) {}
+          std::int64_t cycles, bool waits)
+      : session_(session),
+        input_(input),
+        watchdog_(watchdog),
+        result_(result),
+        cycles_(cycles),
+        waits_(waits),
+        goal_(session, input) {}
 
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
@@ -36,6 +44,8 @@ class RunLoop {
   /// Cycles in which it has been, and their time.
   std::int64_t commanded() const { return commanded_; }
   double time_s() const;
+  /// Why the trajectory was not followed to its end, if the robot or the time of the run is why.
+  Reason why() const;
   /// Runs cycles as fast as the host can and logs the rows after each.
   void in_lock_step(RunLog& log, Progress& progress);
   /// Runs each cycle at its time by the monotonic clock; the writer logs rows and shows progress.
@@ -52,6 +62,7 @@ class RunLoop {
   bool arm();
   bool follow();
   void take_result(Status status);
+  bool time_has_passed() const;
   bool over(Status status);
 
   Session& session_;
@@ -59,10 +70,16 @@ class RunLoop {
   WatchdogThread& watchdog_;
   RunResult& result_;
   const std::int64_t cycles_;
+  const bool waits_;
+  GoalWatch goal_;
+  Verdict end_;           // of the goal's final report
+  double ended_s_ = 0.0;  // when the time of the run had passed
+  bool pending_ = false;  // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
   bool refused_ = false;  // the trajectory was refused
+  bool halted_ = false;   // a signal has come
 };
 
 }  // namespace tactus

@@ -5,7 +5,7 @@
 
 #include "program/results/realtime_result.hpp"
 #include "program/results/tracking_error.hpp"
-#include "program/session/session.hpp"
+#include "program/session/goal_watch.hpp"
 
 namespace tactus {
 
@@ -13,6 +13,7 @@ struct RunResult {
   int code = 0;  ///< 0: succeeded; else a Status, or kEndedOtherwise
   const char* name = "succeeded";
   Status fault = Status::kOk;   ///< the Status that ended the run, if one did
+  Reason why;                   ///< of a goal that was not reached, in words
   Rung rung = Rung::kDisabled;  ///< after the last cycle
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
   double stretch = 0.0;  ///< time added to the trajectory, as a fraction
@@ -23,7 +24,7 @@ struct RunResult {
   RealtimeResult realtime;
 };
 
-/// Writes summary.json. False if the file cannot be written.
+/// Writes summary.json. False if the file cannot be written: prints the reason to stderr.
 bool write_summary(const char* path, std::string_view pipeline, const Session& session,
                    const RunResult& result);
 

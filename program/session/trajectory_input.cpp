@@ -4,6 +4,7 @@
 
 #include "gateway/trajectory_csv.hpp"
 #include "gateway/verdict_text.hpp"
+#include "program/session/seekable.hpp"
 
 namespace tactus {
 namespace {
@@ -59,7 +60,8 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
   const bool partial = session.gateway.partial_joints == PartialJoints::kHold;
   CsvError error;
   if (!set_terms(session, options, *trajectory)) return false;
-  if (!read_trajectory(input.path.c_str(), partial, *trajectory, error)) {
+  input.source = seekable(input.path);
+  if (!read_trajectory(input.source.c_str(), partial, *trajectory, error)) {
     std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), error.line > 0 ? "" : " ",
                  error.message().c_str());
     return false;

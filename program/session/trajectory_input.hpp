@@ -11,7 +11,8 @@ namespace tactus {
 
 /// The trajectory of a run, in the space whose references the pipeline takes.
 struct TrajectoryInput {
-  FilePath path;  ///< empty: the run has no trajectory
+  FilePath path;    ///< empty: the run has no trajectory
+  FilePath source;  ///< where its text can be read more than once: see seekable()
   std::variant<std::monostate, Trajectory<JointSpace>*, Trajectory<TaskSpace>*> trajectory;
   std::uint32_t id = 0;
   double start_s = 0.0;  ///< start time
@@ -22,6 +23,9 @@ struct TrajectoryInput {
   double time_s(int waypoint) const;  ///< of a waypoint, since the start of the trajectory
   double stretch() const;             ///< time added to stay within limits, as a fraction
   double end_s() const { return given() ? time_s(count() - 1) : 0.0; }
+  bool takes_poses() const { return trajectory.index() == 2; }
+  /// When it ends, slowed down as admission says, if the robot keeps up; s of the run.
+  double planned_end_s() const { return start_s + end_s() * (1.0 + stretch()); }
 };
 
 /// Reads and judges the trajectory of the command line, or else the pipeline's own, without sending
