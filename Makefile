@@ -65,7 +65,7 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
               kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 TESTS    := $(TESTS:%.cpp=$(B)/%)
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)

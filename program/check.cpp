@@ -1,7 +1,9 @@
 // `tactus check`: runs the loader, the admission and the first step of the pipeline from the state
-// of the robot, whose drives stay disabled.
+// of the robot, whose drives stay disabled; then it goes along a path of the tip by inverse
+// kinematics.
 #include <cstdio>
 
+#include "program/reach/reach_warnings.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 
@@ -48,6 +50,7 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
+  print_reach_warnings(session, input, initial.q);
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
     std::printf("; %s: accepted, %d %s, %.6g s", input.path.c_str(), input.count(),
