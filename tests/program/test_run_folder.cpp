@@ -137,6 +137,10 @@ void the_inputs_of_a_run_are_not_taken_for_results(void**) {
   assert_int_equal(shell("cd $S/i && $P run pipeline.ini "
                          "--duration 0.05 --no-figure --out . && cmp pipeline.ini ../p.ini"),
                    0);
+  assert_int_equal(shell("cd $S/i && echo '[typing error' >>pipeline.ini && "
+                         "! $P run pipeline.ini --out . && grep -q typing pipeline.ini && "
+                         "test -f earlier_run/summary.json"),
+                   0);
   run_before("i");
   assert_int_equal(shell("sed 's/jrg[.]q_d_/q/g; 1s/\\(q[1-7]\\)/\\1_rad/g' $S/i/waypoints.csv "
                          ">$S/w.csv && mv $S/w.csv $S/i/waypoints.csv && $P run $S/p.ini "
@@ -201,11 +205,14 @@ void a_trajectory_from_a_pipe_is_read_and_hashed_as_a_file_is(void**) {
 
 void a_hangup_does_not_end_a_run_under_nohup(void**) {
   pipeline();
-  assert_int_equal(shell("cd $S && { nohup $P run p.ini --duration 1000000 --no-figure --out h "
-                         ">$S/said 2>&1 & } && until test -s h/log.csv; do sleep 0.01; done\n"
-                         "kill -HUP $!; sleep 0.2; kill -0 $! && kill -TERM $!; wait $!; test $? "
-                         "= 1"),
-                   0);
+  assert_int_equal(
+      shell("size() { stat -c %s h/log.csv 2>/dev/null || echo 0; }\n"
+            "grow() { until test $(size) -gt $(($1 + 100000)) -o -e h/summary.json; do sleep 0.01; "
+            "done; }\n"
+            "cd $S && { nohup $P run p.ini --duration 1000000 --no-figure --out h >said 2>&1 & }\n"
+            "grow 0; kill -HUP $!; grow $(size); test ! -e h/summary.json; alive=$?\n"
+            "kill -TERM $!; wait $!; test $? = 1 -a $alive = 0"),
+      0);
 }
 
 }  // namespace
