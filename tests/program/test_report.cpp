@@ -122,28 +122,6 @@ void a_folder_without_a_summary_is_incomplete(void**) {
   assert_true(has(output(), "  incomplete\n\n0 of 1 runs as expected\n"));
 }
 
-/// Both have no log: the first was killed at its beginning.
-void a_folder_without_a_log_is_listed_too(void**) {
-  assert_int_equal(
-      shell("mkdir -p $S/none/killed $S/none/refused $S/none/other && cd $S/none && "
-            "echo began >killed/incomplete.txt && echo 'The run of x' >refused/refused.txt && "
-            "echo text >other/notes.txt && $R/scripts/report ."),
-      1);
-  assert_true(has(output(), "  incomplete\nrefused"));
-  assert_true(has(output(), "  refused\n\n0 of 2 runs as expected\n"));
-  assert_true(has(errors(), "report: refused: refused: The run of x\n"));
-}
-
-void output_that_is_older_than_the_run_is_not_shown_as_its_own(void**) {
-  assert_int_equal(shell("cd $S/t && mkdir -p old && cp -r out/weak old/a && cp -r out/weak old/b "
-                         "&& echo 'of this run' >old/a/output.txt && "
-                         "echo 'of another run' >old/b/output.txt && "
-                         "touch -d '1 hour ago' old/b/output.txt && $R/scripts/report old"),
-                   1);
-  assert_true(has(file_of("t/old/report.html"), "<pre>of this run</pre>"));
-  assert_true(file_of("t/old/report.html").find("of another run") == std::string_view::npos);
-}
-
 /// The first ended before its first cycle, the second has a FIFO, the third no name in UTF-8.
 void a_folder_is_shown_whatever_it_is_called_and_holds(void**) {
   assert_int_equal(
@@ -261,8 +239,6 @@ int main(int, char** argv) {
       cmocka_unit_test(the_images_of_the_report_are_well_formed),
       cmocka_unit_test(a_damaged_file_is_named_and_the_rest_is_drawn),
       cmocka_unit_test(a_folder_without_a_summary_is_incomplete),
-      cmocka_unit_test(a_folder_without_a_log_is_listed_too),
-      cmocka_unit_test(output_that_is_older_than_the_run_is_not_shown_as_its_own),
       cmocka_unit_test(a_folder_is_shown_whatever_it_is_called_and_holds),
       cmocka_unit_test(figure_and_report_say_what_they_lack),
       cmocka_unit_test(an_interrupt_while_figures_are_drawn_is_quiet),
