@@ -1,5 +1,6 @@
 // `tactus check`: runs the loader, the admission and the first step of the pipeline from the state
 // of the robot, whose drives stay disabled.
+#include <cinttypes>
 #include <cstdio>
 
 #include "program/session/session.hpp"
@@ -48,9 +49,10 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
+  if (!judge_rest(session, input)) return kRefused;
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
-    std::printf("; %s: accepted, %d %s, %.6g s", input.path.c_str(), input.count(),
+    std::printf("; %s: accepted, %" PRId64 " %s, %.6g s", input.path.c_str(), input.count(),
                 input.count() == 1 ? "waypoint" : "waypoints", input.end_s());
   if (input.stretch() > 0.0)
     std::printf(", %.1f %% longer to stay within limits", 100.0 * input.stretch());

@@ -1,5 +1,6 @@
 #include "program/run_loop.hpp"
 
+#include <cmath>
 #include <csignal>
 
 #include "hal/os/cycle_clock.hpp"
@@ -37,9 +38,13 @@ void end_with(RunResult& result, Status fault) {
 /// succeeds. False: the trajectory was refused, and the run ends.
 bool RunLoop::follow() {
   Report report;
-  while (poll_report(session_, input_, report)) {
+  while (feed_.poll(report)) {
     const bool of_input = report.id == input_.id && report.outcome != Outcome::kStarted;
     if (!of_input || planned_end_) continue;
+    if (report.outcome == Outcome::kStarved) count_starving();
+    if (is_final(report.outcome) && length_.cycles == kUnlimited)
+      length_.cycles =
+          commanded_ + std::llround(session_.gateway.settle_s / session_.pipeline.robot.period_s());
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result_,
              refused                                 ? static_cast<int>(report.verdict.status)
@@ -51,6 +56,24 @@ bool RunLoop::follow() {
     return false;
   }
   return true;
+}
+
+/// The arm waits on its path for a file: the planned time of the run is no longer its end.
+void RunLoop::count_starving() {
+  ++result_.starved;
+  if (!length_.fixed) length_.cycles = kUnlimited;
+}
+
+/// Feeds a file longer than its store between two cycles. Virtual time waits for a pipe.
+void RunLoop::feed() {
+  while (feed_.advance() == Fed::kNotYet && interrupted == 0) {
+  }
+}
+
+/// A part of the file was refused: the arm is brought to rest on its path, and the run ends.
+void RunLoop::break_off() {
+  broken_off_ = true;
+  end_with(result_, refusal_code(input_), name(Outcome::kRefused));
 }
 
 bool RunLoop::start() {
@@ -74,7 +97,7 @@ bool RunLoop::arm() {
     return session_.executive.busy();
   }
   armed_ = true;
-  return send_input(session_, input_);
+  return feed_.begin();
 }
 
 bool RunLoop::cycle(const CycleTime& now) {
@@ -91,12 +114,13 @@ bool RunLoop::cycle(const CycleTime& now) {
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
   if (!follow()) refused_ = true;
+  if (feed_.refused() && !broken_off_ && !planned_end_) break_off();
   take_result(status);
   return session_.executive.busy() || !over(status);
 }
 
 void RunLoop::take_result(Status status) {
-  if (status == Status::kOk || planned_end_) return;
+  if (status == Status::kOk || planned_end_ || broken_off_) return;
   if (interrupted != 0 && (status == Status::kHalted || status == Status::kArming))
     end_with(result_, kEndedOtherwise, "interrupted");
   else
@@ -106,7 +130,7 @@ void RunLoop::take_result(Status status) {
 /// True if no cycle is to follow. An arm that moves when its time has passed is halted first.
 bool RunLoop::over(Status status) {
   if (status != Status::kOk || refused_ || interrupted != 0) return true;
-  if (commanded_ < cycles_) return false;
+  if (commanded_ < length_.cycles && !broken_off_) return false;
   planned_end_ = true;
   if (session_.executive.at_rest()) return true;
   session_.executive.halt();
@@ -122,6 +146,7 @@ void RunLoop::in_lock_step(RunLog& log, Progress& progress) {
   bool goes_on = true;
   for (std::int64_t k = 0; goes_on; ++k) {
     goes_on = cycle({k * period_ns});
+    if (goes_on) feed();
     log.drain(session_.recorder);
     progress.update(time_s());
   }

@@ -2,11 +2,13 @@
 // the robot's clock, with tracking errors and heap calls of each.
 #pragma once
 
+#include <limits>
+
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
 #include "program/results/summary.hpp"
-#include "program/session/trajectory_input.hpp"
+#include "program/trajectory_feed.hpp"
 #include "program/watchdog_thread.hpp"
 
 namespace tactus {
@@ -18,12 +20,24 @@ void end_with(RunResult& result, int code, const char* name);
 /// The same for a run that a Status ended.
 void end_with(RunResult& result, Status fault);
 
+inline constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+
+/// Length of a run, in cycles in which the arm is commanded.
+struct RunLength {
+  std::int64_t cycles = kUnlimited;  ///< until then; unlimited: until the trajectory has settled
+  bool fixed = false;  ///< the user's; else a trajectory that has to wait for its file gets longer
+};
+
 class RunLoop {
  public:
-  /// `cycles`: those in which the arm is to be commanded.
-  RunLoop(Session& session, TrajectoryInput& input, WatchdogThread& watchdog, RunResult& result,
-          std::int64_t cycles)
-      : session_(session), input_(input), watchdog_(watchdog), result_(result), cycles_(cycles) {}
+  RunLoop(Session& session, TrajectoryInput& input, TrajectoryFeed& feed, WatchdogThread& watchdog,
+          RunResult& result, RunLength length)
+      : session_(session),
+        input_(input),
+        feed_(feed),
+        watchdog_(watchdog),
+        result_(result),
+        length_(length) {}
 
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
@@ -51,18 +65,23 @@ class RunLoop {
   bool cycle(const CycleTime& now);
   bool arm();
   bool follow();
+  void count_starving();
+  void feed();
+  void break_off();
   void take_result(Status status);
   bool over(Status status);
 
   Session& session_;
   TrajectoryInput& input_;
+  TrajectoryFeed& feed_;
   WatchdogThread& watchdog_;
   RunResult& result_;
-  const std::int64_t cycles_;
+  RunLength length_;
   std::int64_t commanded_ = 0;
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
-  bool refused_ = false;  // the trajectory was refused
+  bool refused_ = false;     // the trajectory was refused
+  bool broken_off_ = false;  // a later part of it was
 };
 
 }  // namespace tactus

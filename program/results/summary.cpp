@@ -104,7 +104,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
   std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
-  std::fprintf(file, "  \"stretch\": %.4g,\n", result.stretch);
+  std::fprintf(file, "  \"stretch\": %.4g,\n  \"starved\": %d,\n", result.stretch, result.starved);
   write_tracking(file, result);
   write_signals(file, session);
   write_timing(file, session.pipeline, session.executive);

@@ -15,6 +15,7 @@ struct RunResult {
   Status fault = Status::kOk;   ///< the Status that ended the run, if one did
   Rung rung = Rung::kDisabled;  ///< after the last cycle
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
+  int starved = 0;       ///< times that the arm waited on its path for the trajectory file
   double stretch = 0.0;  ///< time added to the trajectory, as a fraction
   double wall_s = 0.0, simulated_s = 0.0;
   std::int64_t cycles = 0;  ///< in which the arm was commanded
