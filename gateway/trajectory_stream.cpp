@@ -108,7 +108,7 @@ Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
     const Verdict verdict = client.append(*window_, next_);
     if (verdict.status == Status::kWindowFull) return Fed::kAhead;
     note(appended_);
-    if (!verdict.ok()) return refuse(verdict), state_;
+    if (!verdict.ok()) return give_up(verdict);
     has_next_ = false;
     ++appended_;
     if (part_full(appended_ - sent_)) return send_part(client, false);
@@ -117,9 +117,9 @@ Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
 
 template <class Space>
 Fed TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last) {
-  if (changed(last)) return refuse(kChanged), state_;
+  if (changed(last)) return give_up(kChanged);
   const Verdict verdict = client.flush(*window_, last, awaited_);
-  if (!verdict.ok()) return refuse(verdict), state_;
+  if (!verdict.ok()) return give_up(verdict);
   sent_ = appended_;
   if (!reader_.lines().regular()) {
     count_ = sent_;

@@ -68,6 +68,11 @@ class TrajectoryStream {
 
   bool refuse(const Verdict& verdict);
   bool refuse(std::string_view reason);
+  template <class Reason>
+  Fed give_up(const Reason& reason) {
+    refuse(reason);
+    return state_;
+  }
   bool fill_window();
   RowTaken take(int wait_ms);
   bool judge_parts(const AdmissionSettings<Space>& settings);
