@@ -140,8 +140,8 @@ int run(Session& session, const Options& options) {
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
   if (result.starved > 0)
-    std::printf("  the arm waited on its path %d times: %s came too slowly\n", result.starved,
-                input.path.c_str());
+    std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
+                result.starved);
   if (!written) std::fprintf(stderr, "%s: not all files could be written\n", folder.c_str());
   if (options.figure && written) draw_figure(folder.c_str());
   std::printf("  written to %s\n", folder.c_str());

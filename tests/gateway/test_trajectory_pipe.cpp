@@ -68,7 +68,7 @@ StreamBench<JointSpace>& fresh(int which) {
   return *bench;
 }
 
-// Proves CSV-7.
+// Proves CSV-5.
 
 void a_pipe_gives_the_same_references_as_the_file(void**) {
   make_text();
@@ -91,7 +91,7 @@ void a_pipe_gives_the_same_references_as_the_file(void**) {
   pipe.close();
 }
 
-// Proves CSV-9.
+// Proves CSV-7.
 
 void a_slow_pipe_makes_the_arm_wait_on_its_path_and_go_on(void**) {
   make_text();
@@ -110,7 +110,7 @@ void a_slow_pipe_makes_the_arm_wait_on_its_path_and_go_on(void**) {
   pipe.close();
 }
 
-// Proves CSV-8.
+// Proves CSV-6.
 
 void a_later_waypoint_of_a_pipe_is_refused_on_the_way_with_its_line(void**) {
   constexpr int kBroken = 400;

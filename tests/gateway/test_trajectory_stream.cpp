@@ -46,7 +46,7 @@ void assert_same(int rows, int window) {
   ASSERT_STATUS(streamed.outcome, Outcome::kSucceeded);
 }
 
-// Proves CSV-7.
+// Proves CSV-5.
 
 void a_joint_file_gives_the_same_references_bit_for_bit_through_a_window(void**) {
   Random random{1};
@@ -132,7 +132,7 @@ void assert_same_refusals(std::uint64_t seed) {
   }
 }
 
-// Proves CSV-8.
+// Proves CSV-6.
 
 void a_joint_file_is_refused_before_it_moves_as_if_it_fitted(void**) {
   assert_same_refusals<JointSpace>(4);
@@ -184,8 +184,10 @@ void a_file_that_changes_after_it_was_judged_is_refused_on_the_way(void**) {
     struct stat before = {};
     assert_int_equal(stat(scratch(), &before), 0);
     std::FILE* file = std::fopen(scratch(), "r+");
-    std::fseek(file, -8, SEEK_END);
-    std::fputs(" ", file);
+    std::fseek(file, -16, SEEK_END);  // the last digit of the last position
+    const int digit = std::fgetc(file);
+    std::fseek(file, -16, SEEK_END);
+    std::fputc(digit == '1' ? '2' : '1', file);
     std::fclose(file);
     const timespec times[2] = {before.st_atim, before.st_mtim};
     const timespec later[2] = {before.st_atim, {before.st_mtim.tv_sec + 1, 0}};
@@ -195,8 +197,7 @@ void a_file_that_changes_after_it_was_judged_is_refused_on_the_way(void**) {
       fed = streamed.step();
     ASSERT_STATUS(fed, Fed::kRefused);
     const std::string_view reason = streamed.stream.refusal().row.reason;
-    if (!hidden) assert_true(reason.substr(0, 16) == "the file changed");
-    assert_false(reason.empty());
+    assert_true(reason.substr(0, 16) == "the file changed");
   }
 }
 
