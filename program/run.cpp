@@ -74,6 +74,14 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
+/// Refuses a file like ".ini" or "...ini", whose results would go to out/ or beside it.
+int refuse_name(const char* path) {
+  std::fprintf(stderr,
+               "%s: refused: its name gives no folder for the results; rename it, or give --out\n",
+               path);
+  return kRefused;
+}
+
 }  // namespace
 
 void print_stop(const char* subject, const char* event, Status status,
@@ -96,7 +104,11 @@ void print_collision(const Collision::Telemetry& told) {
 int run(Session& session, const Options& options) {
   const std::string_view pipeline = stem(options.pipeline);
   FilePath folder(options.out);
-  if (folder.empty()) folder << "out/" << pipeline;
+  if (folder.empty()) {
+    if (pipeline.empty() || pipeline == "." || pipeline == "..")
+      return refuse_name(options.pipeline);
+    folder << "out/" << pipeline;
+  }
   static TrajectoryInput input;  // too large for a stack that is locked in memory
   if (!read_input(session, options, input)) return kRefused;
   RunLog log;
