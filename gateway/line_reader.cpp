@@ -68,16 +68,18 @@ LineReader::Take LineReader::next(std::string_view& line, int wait_ms) {
   }
 }
 
-/// Reads more bytes behind those that were not yet taken; kLine if there are more, or no more.
+/// Reads more bytes behind those that were not yet taken; kLine to look again, whether there are
+/// more, no more, or a signal came.
 LineReader::Take LineReader::fill(int wait_ms) {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
   pollfd readable = {file_, POLLIN, 0};
   const int ready = poll(&readable, 1, wait_ms);
-  if (ready == 0 || (ready < 0 && errno == EINTR)) return Take::kNotYet;
+  if (ready < 0 && errno == EINTR) return wait_ms < 0 ? Take::kLine : Take::kNotYet;
+  if (ready == 0) return Take::kNotYet;
   const ssize_t size = read(file_, buffer_.data() + end_, buffer_.size() - end_);
-  if (size < 0) return errno == EINTR ? Take::kNotYet : Take::kFailed;
+  if (size < 0) return errno == EINTR ? Take::kLine : Take::kFailed;
   const auto count = static_cast<std::size_t>(size);
   hash_ = fnv1a({buffer_.data() + end_, count}, hash_);
   all_read_ = count == 0;

@@ -102,6 +102,21 @@ void a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path(void**
   assert_true(has(errors(), "/dev/stdin:39002: refused: waypoint 39001 (t = 3.932 s), joint 1 "));
 }
 
+// Proves RUN-1.
+
+void an_interrupt_ends_a_run_that_waits_for_a_pipe(void**) {
+  quiet_pipeline();
+  write_long("long.csv", 1e-4);
+  assert_int_equal(
+      shell(
+          "mkfifo $S/fifo && exec 3<>$S/fifo && { head -n 35000 $S/long.csv >&3 & } && "
+          "{ $P run $S/p.ini --trajectory $S/fifo --no-figure --out $S/i 3>&- & } && reader=$! && "
+          "until [ -s $S/i/log.csv ]; do sleep 0.1; done; sleep 1; kill -INT $reader; "
+          "wait $reader"),
+      1);
+  assert_true(has(file_of("i/summary.json"), "{\"code\": 1, \"name\": \"interrupted\"}"));
+}
+
 // Proves CSV-7.
 
 /// The window holds 2.05 s of this file.
@@ -127,6 +142,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_pipe_is_run_as_its_file_is),
       cmocka_unit_test(a_long_file_is_refused_with_its_line_before_anything_moves),
       cmocka_unit_test(a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path),
+      cmocka_unit_test(an_interrupt_ends_a_run_that_waits_for_a_pipe),
       cmocka_unit_test(in_real_time_the_arm_waits_on_its_path_for_a_slow_pipe_and_goes_on),
   };
   return run_program_tests(argv[0], tests);
