@@ -10,6 +10,7 @@
 #include "program/ports.hpp"
 #include "program/results/run_folder.hpp"
 #include "program/session/files.hpp"
+#include "program/session/trajectory_input.hpp"
 
 namespace tactus {
 
@@ -60,7 +61,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   static ReferenceClient<TaskSpace> task_client(memory.task_channel);
   const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +
                                    sizeof recorder + sizeof executive + sizeof client +
-                                   sizeof task_client;
+                                   sizeof task_client + sizeof(TrajectoryInput);
   Session session{board.name,       static_bytes, text,   board.hal,   pipeline,
                   executive,        recorder,     client, task_client, sections.gateway,
                   sections.realtime};

@@ -1,5 +1,6 @@
 #include "program/run_loop.hpp"
 
+#include <cmath>
 #include <csignal>
 
 #include "hal/os/cycle_clock.hpp"
@@ -10,19 +11,6 @@ namespace tactus {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-/// True of the final report on a trajectory.
-bool ends(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSucceeded:
-    case Outcome::kPreempted:
-    case Outcome::kAborted:
-    case Outcome::kCanceled:
-    case Outcome::kSuperseded:
-    case Outcome::kRefused: return true;
-    default: return false;
-  }
-}
 
 void on_signal(int) {
   interrupted = 1;
@@ -53,10 +41,15 @@ void end_with(RunResult& result, Status fault) {
 bool RunLoop::follow() {
   if (!planned_end_) goal_.follow();
   Report report;
-  while (poll_report(session_, input_, report)) {
-    if (report.id != input_.id || !ends(report.outcome) || planned_end_) continue;
+  while (feed_.poll(report)) {
+    if (report.id != input_.id || planned_end_) continue;
+    if (report.outcome == Outcome::kStarved) count_starving();
+    if (!is_final(report.outcome)) continue;
     pending_ = false;
     end_ = report.verdict;
+    if (length_.cycles == kUnlimited)
+      length_.cycles =
+          commanded_ + std::llround(session_.gateway.settle_s / session_.pipeline.robot.period_s());
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result_,
              refused                                 ? static_cast<int>(report.verdict.status)
@@ -68,6 +61,24 @@ bool RunLoop::follow() {
     return false;
   }
   return true;
+}
+
+/// The arm waits on its path for a file: the planned time of the run is no longer its end.
+void RunLoop::count_starving() {
+  ++result_.starved;
+  if (!length_.fixed) length_.cycles = kUnlimited;
+}
+
+/// Feeds a file longer than its store between two cycles. Virtual time waits for a pipe.
+void RunLoop::feed() {
+  while (feed_.advance() == Fed::kNotYet && interrupted == 0) {
+  }
+}
+
+/// A part of the file was refused: the arm is brought to rest on its path, and the run ends.
+void RunLoop::break_off() {
+  broken_off_ = true;
+  end_with(result_, refusal_code(input_), name(Outcome::kRefused));
 }
 
 bool RunLoop::start() {
@@ -92,7 +103,7 @@ bool RunLoop::arm() {
   }
   armed_ = true;
   pending_ = input_.given();
-  return send_input(session_, input_);
+  return feed_.begin();
 }
 
 bool RunLoop::cycle(const CycleTime& now) {
@@ -110,12 +121,13 @@ bool RunLoop::cycle(const CycleTime& now) {
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
   if (!follow()) refused_ = true;
+  if (feed_.refused() && !broken_off_ && !planned_end_) break_off();
   take_result(status);
   return session_.executive.busy() || !over(status);
 }
 
 void RunLoop::take_result(Status status) {
-  if (status == Status::kOk || planned_end_) return;
+  if (status == Status::kOk || planned_end_ || broken_off_) return;
   if (halted_ && (status == Status::kHalted || status == Status::kArming))
     end_with(result_, kEndedOtherwise, "interrupted");
   else
@@ -123,9 +135,9 @@ void RunLoop::take_result(Status status) {
 }
 
 bool RunLoop::time_has_passed() const {
-  if (commanded_ < cycles_) return false;
+  if (commanded_ < length_.cycles) return false;
   const double latest_s = goal_.latest_report_s();
-  return !(waits_ && pending_ && latest_s < kInfinity && time_s() < latest_s);
+  return length_.fixed || !pending_ || latest_s == kInfinity || time_s() >= latest_s;
 }
 
 Reason RunLoop::why() const {
@@ -136,7 +148,7 @@ Reason RunLoop::why() const {
 /// True if no cycle is to follow. An arm that moves when its time has passed is halted first.
 bool RunLoop::over(Status status) {
   if (status != Status::kOk || refused_ || halted_) return true;
-  if (!time_has_passed()) return false;
+  if (!time_has_passed() && !broken_off_) return false;
   planned_end_ = true;
   ended_s_ = time_s();
   if (session_.executive.at_rest()) return true;
@@ -153,6 +165,7 @@ void RunLoop::in_lock_step(RunLog& log, Progress& progress) {
   bool goes_on = true;
   for (std::int64_t k = 0; goes_on; ++k) {
     goes_on = cycle({k * period_ns});
+    if (goes_on) feed();
     log.drain(session_.recorder);
     progress.update(time_s());
   }

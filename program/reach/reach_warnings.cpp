@@ -120,6 +120,9 @@ void print_reach_warnings(const Session& session, const TrajectoryInput& input,
   const InverseKinematics arm(pipeline.guard.effective(), pipeline.robot.tool.value.tip);
   PathCheck check(arm, q);
   walk(**poses, input.motion_frame, pipeline.robot.period_s(), check);
+  if (input.longer())
+    std::fprintf(stderr, "%s: note: the reach is judged for its first %d waypoints only\n",
+                 input.path.c_str(), (*poses)->count);
   const int shown = std::min(check.count(), kMostLines);
   for (int i = 0; i < shown; ++i)
     std::fprintf(stderr, "%s: warning: %s\n", input.path.c_str(), words_of(check[i]).c_str());

@@ -97,7 +97,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
     write_json_string(file, result.why);
   }
   std::fprintf(file, "},\n");
-  std::fprintf(file, "  \"stretch\": %.4g,\n", result.stretch);
+  std::fprintf(file, "  \"stretch\": %.4g,\n  \"starved\": %d,\n", result.stretch, result.starved);
   write_tracking(file, result);
   write_signals(file, session);
   write_timing(file, session.pipeline, session.executive);
