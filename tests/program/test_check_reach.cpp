@@ -37,7 +37,7 @@ double number_after(std::string_view text, std::string_view word) {
   return std::atof(std::string(text.substr(at + word.size(), 20)).c_str());
 }
 
-// Proves RUN-16.
+// Proves RUN-26.
 
 void a_pose_out_of_reach_is_a_warning_with_time_place_and_distance(void**) {
   const Line far =

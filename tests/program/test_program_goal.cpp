@@ -39,7 +39,7 @@ double length_s() {
   return std::atof(std::string(log.substr(log.rfind('\n', log.size() - 2) + 1)).c_str());
 }
 
-// Proves RUN-14.
+// Proves RUN-24.
 
 void a_goal_given_up_names_joint_value_limit_and_what_to_do(void**) {
   assert_int_equal(whole_run(pipeline("goal_tolerance = 1 1 1 1e-6 1 1 1\ngoal_time_s = 0.5\n")),
@@ -97,7 +97,7 @@ void a_run_that_is_too_short_says_by_how_much_and_how_far_the_goal_was(void**) {
   assert_true(has(errors(), " or give a longer --duration\n"));
 }
 
-// Proves RUN-15.
+// Proves RUN-25.
 
 void a_run_waits_for_its_goal_as_long_as_the_generator_does(void**) {
   assert_int_equal(whole_run(pipeline("dwell_ms = 3000\n")), 0);

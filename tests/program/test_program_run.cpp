@@ -159,7 +159,7 @@ void a_fault_ends_the_run_with_its_code_and_the_files_are_written(void**) {
   assert_true(has(file_of("weak/log.csv"), "time_s,"));
 }
 
-// Proves RUN-1, RUN-10, RUN-13.
+// Proves RUN-1, RUN-10, RUN-23.
 
 void a_folder_that_cannot_be_made_is_refused(void**) {
   const Line pipeline = write("p.ini", {kPipeline});

@@ -51,7 +51,7 @@ struct Bench {
   }
 };
 
-// Proves RUN-16.
+// Proves RUN-26.
 
 void a_pose_near_the_arm_is_reached_within_the_limits(void**) {
   Bench bench;

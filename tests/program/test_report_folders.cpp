@@ -4,7 +4,7 @@
 namespace tactus {
 namespace {
 
-// Proves RUN-10, RUN-11.
+// Proves RUN-10, RUN-21.
 
 /// Both have no log: the first was killed at its beginning.
 void a_folder_without_a_log_is_listed_too(void**) {

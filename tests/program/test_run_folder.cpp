@@ -49,7 +49,7 @@ pid_t endless_run(const char* folder) {
   return child;
 }
 
-// Proves RUN-10, RUN-11.
+// Proves RUN-10, RUN-21.
 
 void a_run_that_is_killed_is_incomplete_and_the_run_before_it_is_set_aside_whole(void**) {
   run_before("k");
@@ -152,7 +152,7 @@ void the_inputs_of_a_run_are_not_taken_for_results(void**) {
   assert_true(has_results("i"));
 }
 
-// Proves RUN-12.
+// Proves RUN-22.
 
 /// No file may grow beyond 64 blocks of 512 bytes, as if the disk were full.
 void a_log_that_cannot_be_written_is_named_with_the_reason_and_its_rows(void**) {
@@ -201,7 +201,7 @@ void a_trajectory_from_a_pipe_is_read_and_hashed_as_a_file_is(void**) {
       0);
 }
 
-// Proves RUN-13.
+// Proves RUN-23.
 
 void a_hangup_does_not_end_a_run_under_nohup(void**) {
   pipeline();
