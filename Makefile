@@ -60,12 +60,15 @@ AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
+# `make run ONLY="fer_trg_cpc ur10_trg_cpc"` runs these, and ALWAYS=1 also what has not changed.
+RUN_OPTIONS := $(if $(strip $(ONLY)),--only '$(ONLY)') $(if $(ALWAYS),--always)
+
 # What runs at load and what a client runs, outside the cycle.
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
               kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results gateway hal/os)) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 TESTS    := $(TESTS:%.cpp=$(B)/%)
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
@@ -79,9 +82,9 @@ each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOAR
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
 all: $(B)/$(NAME)                             ## build the program of BOARD
 
-run: setup                                    ## run every pipeline of every board; out/report.html
+run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
 	$(Q)$(call each,-j2 all trajectories)
-	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $$runs
+	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board
 	$(Q)$(call each,-j2 tests)
 	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests

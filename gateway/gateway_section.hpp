@@ -36,9 +36,11 @@ struct GatewaySection {
   Times times = Times::kStretched;
   double start_s = 0.0;  ///< when the trajectory begins, by the generator's clock; 0: at once
   PartialJoints partial_joints = PartialJoints::kRefuse;
-  Value motion_frame;     ///< a pose of the pipeline, "block.port"; none: the base
-  Value wrench_frame;     ///< a pose of the pipeline; none: the axes of the base, about the tip
-  double settle_s = 2.0;  ///< time for which a run continues after its trajectory has ended
+  Value motion_frame;  ///< a pose of the pipeline, "block.port"; none: the base
+  Value wrench_frame;  ///< a pose of the pipeline; none: the axes of the base, about the tip
+  /// Time for which a run continues after its trajectory has ended; longer if its goal is still
+  /// awaited, up to the generator's goal_time_s.
+  double settle_s = 2.0;
 
   template <class Visitor>
   void describe(Visitor& visit) {

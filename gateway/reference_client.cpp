@@ -20,6 +20,16 @@ Trajectory<Space>* ReferenceClient<Space>::acquire() {
 }
 
 template <class Space>
+Verdict ReferenceClient<Space>::judge_goal(const Feedback<Space>& feedback) const {
+  if (tolerances() == nullptr) return {Status::kNotStarted};
+  const Verdict near = Space::judge_error(feedback.desired, feedback.actual, tolerances()->goal,
+                                          Status::kGoalTolerance);
+  const bool measured = Space::rates(feedback.actual).allFinite();
+  if (!near.ok() || !measured) return near;
+  return judge_stopped<Space>(feedback.actual, tolerances()->stopped_velocity);
+}
+
+template <class Space>
 Trajectory<Space>* ReferenceClient<Space>::acquire(Fields fields) {
   Trajectory<Space>* const trajectory = acquire();
   if (trajectory == nullptr) return nullptr;
@@ -37,17 +47,18 @@ template <class Space>
 Verdict ReferenceClient<Space>::send(Trajectory<Space>& trajectory, std::uint32_t& id) {
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || away_[store]) return {Status::kNoFreeStore};
-  Stream stream;
-  Verdict verdict = tactus::admit(trajectory, channel_.settings, stream.admitted);
+  Admitted<Space> admitted;
+  Verdict verdict = tactus::admit(trajectory, channel_.settings, admitted);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kTrajectory;
   request.store = static_cast<int>(store);
   channel_.needed[store].store(0, std::memory_order_relaxed);
   channel_.known[store].store(trajectory.count, std::memory_order_relaxed);
-  stream.count = stream.flushed = stream.settled = trajectory.count;
-  begin_part(stream);
-  streams_[store] = stream;
+  Stream& stream = streams_[store];
+  stream.parts.begin(trajectory.count, admitted);
+  stream.settled = trajectory.count;
+  stream.whole = false;
   verdict = post(request, id);
   away_[store] = verdict.ok();
   return verdict;
@@ -59,18 +70,9 @@ Verdict ReferenceClient<Space>::append(const Trajectory<Space>& trajectory,
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
   settle(store);
-  Stream& stream = streams_[store];
-  const int needed = channel_.needed[store].load(std::memory_order_acquire);
-  if (stream.count - needed >= trajectory.capacity) return {Status::kWindowFull};
-  const double earliest =
-      trajectory.time_s(stream.count - 1) + channel_.settings.period_s / kMaxSegmentsPerCycle;
-  if (!(waypoint.time_s >= earliest))
-    return {Status::kReferenceTime, stream.count, -1, waypoint.time_s, earliest};
-  trajectory.set(stream.count, waypoint);
-  const Verdict verdict =
-      admit_waypoint(trajectory, stream.count, channel_.settings, stream.admitted);
-  stream.count += verdict.ok() ? 1 : 0;
-  return verdict;
+  PartAccount<Space>& parts = streams_[store].parts;
+  if (parts.count() - needed(trajectory) >= trajectory.capacity) return {Status::kWindowFull};
+  return parts.append(trajectory, waypoint, channel_.settings);
 }
 
 template <class Space>
@@ -79,38 +81,19 @@ Verdict ReferenceClient<Space>::flush(const Trajectory<Space>& trajectory, bool 
   const std::size_t store = index_of(trajectory);
   if (store >= away_.size() || !away_[store]) return {Status::kNothingToExtend};
   settle(store);
-  Stream& stream = streams_[store];
-  Verdict verdict =
-      last ? admit_end(trajectory, stream.count - 1, channel_.settings, stream.admitted)
-           : Verdict();
+  PartAccount<Space>& parts = streams_[store].parts;
+  double longer = 0.0;
+  Verdict verdict = parts.judge_part(trajectory, last, channel_.settings, longer);
   if (!verdict.ok()) return verdict;
-  verdict = admit_part(trajectory, stream.flushed - 1, stream.count - 1, channel_.settings,
-                       stream.admitted);
-  if (!verdict.ok()) {
-    stream.count = stream.flushed;
-    stream.admitted = stream.sent;
-    return verdict;
-  }
   Request<Space> request;
   request.kind = RequestKind::kAppend;
   request.store = static_cast<int>(store);
-  request.count = stream.count;
+  request.count = parts.count();
   request.last = last;
-  request.extent = stream.admitted.extent;
+  request.extent = parts.extent();
   verdict = post(request, id);
-  if (!verdict.ok()) return verdict;
-  stream.flushed = stream.count;
-  begin_part(stream);
-  return {};
-}
-
-/// Begins the account of a new part: it continues the end of the last one, and its own extent and
-/// room are empty.
-template <class Space>
-void ReferenceClient<Space>::begin_part(Stream& stream) {
-  stream.admitted.extent = {};
-  stream.admitted.room = 1.0;
-  stream.sent = stream.admitted;
+  if (verdict.ok()) parts.end_part();
+  return verdict;
 }
 
 /// Raises the rooms of an open trajectory once the generator has taken its new part; not before, as

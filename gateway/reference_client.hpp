@@ -4,8 +4,8 @@
 
 #include <array>
 
+#include "gateway/part_account.hpp"
 #include "kernel/reference/generator/messages.hpp"
-#include "kernel/reference/motion/admission.hpp"
 #include "kernel/reference/motion/admission_room.hpp"
 
 namespace tactus {
@@ -37,6 +37,12 @@ class ReferenceClient {
   /// the part as a whole, and drops it, if it must be slowed down too much. The motion uses it once
   /// the generator has taken it and a function of this client, such as poll(), has been called.
   Verdict flush(const Trajectory<Space>& trajectory, bool last, std::uint32_t& id);
+  /// Returns the first waypoint of an open trajectory that the motion still needs.
+  int needed(const Trajectory<Space>& trajectory) const {
+    return channel_.needed[index_of(trajectory)].load(std::memory_order_acquire);
+  }
+  /// Returns what trajectories are judged by.
+  const AdmissionSettings<Space>& settings() const { return channel_.settings; }
   /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
                const typename Space::Header& header = {});
@@ -52,6 +58,13 @@ class ReferenceClient {
   Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
   Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }
 
+  /// Conditions under which a goal counts as reached, unless it says otherwise; null before the
+  /// generator has started.
+  const Tolerances<Space>* tolerances() const { return channel_.tolerances; }
+  /// Judges whether the robot had reached a goal at the time of this feedback, as the generator
+  /// does, but for its latency and dwell time: kGoalTolerance, kGoalVelocity.
+  Verdict judge_goal(const Feedback<Space>& feedback) const;
+
   /// Takes the next report; false if there is none. Frees the store that the report returns.
   bool poll(Report& report);
   /// Takes the oldest message of feedback; false if there is none.
@@ -61,17 +74,15 @@ class ReferenceClient {
   /// The client's account of an open trajectory; the count in the trajectory belongs to the
   /// generator once it is sent.
   struct Stream {
-    int count = 0, flushed = 0, settled = 0;  // waypoints: all, sent, those whose rooms are set
-    bool whole = false;                       // no more waypoints follow those settled
-    Admitted<Space> admitted;                 // up to the last; extent and room of the unsent part
-    Admitted<Space> sent;                     // up to the last that was sent
+    PartAccount<Space> parts;
+    int settled = 0;     // waypoints whose rooms are set
+    bool whole = false;  // no more waypoints follow those settled
   };
 
   std::size_t index_of(const Trajectory<Space>& trajectory) const {
     return static_cast<std::size_t>(&trajectory - channel_.stores.data());
   }
   Verdict control(ControlKind kind, std::uint32_t& id, double rate = 1.0);
-  static void begin_part(Stream& stream);
   void settle(std::size_t store);
   Verdict post(Request<Space> request, std::uint32_t& id);
 

@@ -46,7 +46,8 @@ constexpr Measured kMeasured[] = {
     {Status::kQuaternion, kOutside, true, "length of the quaternion", "", "", ""},
     {Status::kWorkspace, kOutside, false, "position", " rad", " m", " rad"},
     {Status::kPathTolerance, kExceeds, true, "path error", " rad", " m", " rad"},
-    {Status::kGoalTolerance, kExceeds, true, "position error or velocity", "", "", ""},
+    {Status::kGoalTolerance, kExceeds, true, "position error", " rad", " m", " rad"},
+    {Status::kGoalVelocity, kExceeds, true, "velocity", " rad/s", " m/s", " rad/s"},
     {Status::kBadOverride, Relation::kNotUpTo, true, "override", "", "", ""},
     {Status::kStateNotFinite, Relation::kNotFinite, false, "measured value", "", "", ""},
     {Status::kCommandNotFinite, Relation::kNotFinite, false, "command", "", "", ""},
@@ -147,6 +148,23 @@ const char* remedy(Status status) {
 Message describe(Status status) {
   Message text(meaning(status));
   return add_code(text, status);
+}
+
+const char* goal_remedy(Status status, VerdictAxes axes) {
+  const bool joints = axes == VerdictAxes::kJoints;
+  switch (status) {
+    case Status::kPathTolerance:
+      return joints ? "give the trajectory more time, raise the gains of the law, or path_tolerance"
+                    : "give the trajectory more time, raise the gains of the law, or "
+                      "path_position_tolerance and path_angle_tolerance";
+    case Status::kGoalTolerance:
+      return joints ? "raise the gains of the law, goal_tolerance or goal_time_s"
+                    : "raise the gains of the law, goal_position_tolerance and "
+                      "goal_angle_tolerance, or goal_time_s";
+    case Status::kGoalVelocity:
+      return "raise the damping of the law, stopped_velocity or goal_time_s";
+    default: return nullptr;
+  }
 }
 
 Message describe(const Verdict& verdict, VerdictAxes axes, double time_s) {

@@ -1,7 +1,10 @@
 // `tactus check`: runs the loader, the admission and the first step of the pipeline from the state
-// of the robot, whose drives stay disabled.
+// of the robot, whose drives stay disabled; then it goes along a path of the tip by inverse
+// kinematics.
+#include <cinttypes>
 #include <cstdio>
 
+#include "program/reach/reach_warnings.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 
@@ -48,9 +51,11 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
+  print_reach_warnings(session, input, initial.q);
+  if (!judge_rest(session, input)) return kRefused;
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
-    std::printf("; %s: accepted, %d %s, %.6g s", input.path.c_str(), input.count(),
+    std::printf("; %s: accepted, %" PRId64 " %s, %.6g s", input.path.c_str(), input.count(),
                 input.count() == 1 ? "waypoint" : "waypoints", input.end_s());
   if (input.stretch() > 0.0)
     std::printf(", %.1f %% longer to stay within limits", 100.0 * input.stretch());

@@ -1,16 +1,19 @@
 # The version, and `make install`. The Makefile includes this file and defines B, O, NAME and obj.
 VERSION := 0.1$(shell git describe --always --dirty 2>/dev/null | sed 's/^/-/')
 PREFIX  ?= /usr/local
-LIB     := $(DESTDIR)$(PREFIX)/lib/tactus
-SHARE   := $(DESTDIR)$(PREFIX)/share
+# A word of the shell, whatever it contains.
+quote    = '$(subst ','\'',$(1))'
+ROOT    := $(call quote,$(DESTDIR)$(PREFIX))
+LIB     := $(ROOT)/lib/tactus
+SHARE   := $(ROOT)/share
 COMMAND := $(NAME)-$(BOARD)
 
 # The program finds scripts/figure three folders above itself, as in this tree.
 .PHONY: install
 install: setup $(B)/$(NAME) trajectories                       ## install the program of BOARD below PREFIX (default /usr/local)
 	$(Q)install -D $(B)/$(NAME) $(LIB)/boards/$(BOARD)/$(NAME)
-	$(Q)install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/bash-completion/completions $(SHARE)/tactus
-	$(Q)ln -sf ../lib/tactus/boards/$(BOARD)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(COMMAND)
+	$(Q)install -d $(ROOT)/bin $(SHARE)/man/man1 $(SHARE)/bash-completion/completions $(SHARE)/tactus
+	$(Q)ln -sf ../lib/tactus/boards/$(BOARD)/$(NAME) $(ROOT)/bin/$(COMMAND)
 	$(Q)install -D -t $(LIB)/scripts scripts/figure scripts/report
 	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting scripts/reporting/*.py
 	$(Q)install -D -m 644 -t $(LIB)/scripts/reporting/web scripts/reporting/web/*

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gateway/fnv1a.hpp"
 #include "gateway/verdict_text.hpp"
 #include "program/heap_count.hpp"
 #include "program/results/figure.hpp"
@@ -21,7 +22,8 @@ double planned_duration(const Session& session, const Options& options,
                         const TrajectoryInput& input) {
   if (options.duration_s > 0.0) return options.duration_s;
   if (!input.given()) return kDefaultDuration_s;
-  return input.start_s + input.end_s() + session.gateway.settle_s;
+  if (!input.whole_known()) return kInfinity;
+  return input.start_s + input.duration_s() + session.gateway.settle_s;
 }
 
 Status record(void* recorder, const RobotState&, double time_s) {
@@ -31,13 +33,16 @@ Status record(void* recorder, const RobotState&, double time_s) {
 
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
-void execute(Session& session, const Options& options, TrajectoryInput& input, RunLog& log,
-             LogWriter& writer, WatchdogThread& watchdog, RunResult& result) {
+void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
+             RunLog& log, LogWriter& writer, WatchdogThread& watchdog, RunResult& result) {
   const double duration_s = planned_duration(session, options, input);
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
-  const auto cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
-  RunLoop loop(session, input, watchdog, result, cycles);
+  RunLength length;
+  length.fixed = options.duration_s > 0.0;
+  if (duration_s < kInfinity)
+    length.cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
+  RunLoop loop(session, input, feed, watchdog, result, length);
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
   if (started && !guarded) end_with(result, kRefused, "refused");
@@ -49,6 +54,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
     else
       loop.in_lock_step(log, progress);
   }
+  feed.end();
   const Status latched = session.executive.latched();
   const Message trouble = latched != Status::kOk ? session.hal.trouble() : Message();
   result.rung = session.executive.rung();
@@ -57,8 +63,11 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   result.wall_s = wall_s() - begin_s;
   result.simulated_s = loop.time_s();
   result.cycles = loop.commanded();
+  if (result.code == kEndedOtherwise) result.why = loop.why();
   result.heap_allocations = heap_allocations();
   progress.end();
+  if (!result.why.empty())
+    std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), result.name, result.why.c_str());
   if (latched == Status::kOk || loop.ended_as_planned() || (started && !guarded)) return;
   if (loop.cut_short())
     std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
@@ -66,6 +75,35 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
     print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
                session.executive.guard().telemetry(), trouble);
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
+}
+
+RunInputs inputs_of(const Options& options, const TrajectoryInput& input) {
+  return {options.pipeline, input.path.empty() ? nullptr : input.path.c_str()};
+}
+
+/// Writes all files but the log and the figures, up to the first that cannot be written; false:
+/// prints which.
+bool write_results(RunFolder& folder, const Session& session, const TrajectoryInput& input,
+                   std::string_view pipeline, const RunResult& result) {
+  const Recording& recording = session.pipeline.recording;
+  if (!write_scene(folder.file("scene.json").c_str(), session.pipeline)) return false;
+  if (input.given() && recording.tracking_count > 0 &&
+      !write_waypoints(folder.file("waypoints.csv").c_str(), input,
+                       *recording.tracking[0].reference))
+    return false;
+  const FilePath summary = folder.summary_part();
+  if (write_summary(summary.c_str(), pipeline, session, result))
+    return folder.complete(result.cycles > 0);
+  std::remove(summary.c_str());
+  return false;
+}
+
+/// Refuses a file like ".ini" or "...ini", whose results would go to out/ or beside it.
+int refuse_name(const char* path) {
+  std::fprintf(stderr,
+               "%s: refused: its name gives no folder for the results; rename it, or give --out\n",
+               path);
+  return kRefused;
 }
 
 }  // namespace
@@ -89,27 +127,30 @@ void print_collision(const Collision::Telemetry& told) {
 
 int run(Session& session, const Options& options) {
   const std::string_view pipeline = stem(options.pipeline);
-  FilePath folder(options.out);
-  if (folder.empty()) folder << "out/" << pipeline;
-  TrajectoryInput input;
-  if (!read_input(session, options, input)) return kRefused;
+  if (options.out[0] == '\0' && (pipeline.empty() || pipeline == "." || pipeline == ".."))
+    return refuse_name(options.pipeline);
+  RunFolder folder(options);
+  static TrajectoryInput input;  // too large for a stack that is locked in memory
   RunLog log;
   LogWriter writer(log);
+  TrajectoryFeed feed(session, input);
   WatchdogThread watchdog;
   Realtime realtime;
-  if (options.realtime &&
-      !(writer.start() && watchdog.start(session.realtime) && prepare(realtime, session.realtime)))
+  const bool accepted = read_input(session, options, input);
+  if (!accepted ||
+      (options.realtime && !(writer.start() && feed.start() && watchdog.start(session.realtime) &&
+                             prepare(realtime, session.realtime)))) {
+    folder.refuse(inputs_of(options, input));
     return kRefused;
-  if (!begin_folder(folder, session.text)) return kRefused;
+  }
+  if (!folder.begin(inputs_of(options, input), session.text)) return kRefused;
   const Recording& recording = session.pipeline.recording;
-  if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
+  if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
   static RunResult result;
   result.seed = options.seed;
-  result.stretch = input.stretch();
   result.realtime.asked = options.realtime;
   result.realtime.report = realtime.report();
-  result.config_hash = fnv1a_of_file(input.path.c_str(), fnv1a(session.text));
   for (; result.tracking_count < recording.tracking_count; ++result.tracking_count) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
     result.tracking[i].start(recording.tracking[i]);
@@ -118,25 +159,21 @@ int run(Session& session, const Options& options) {
   session.pipeline.schedule.bind("recorder", record, &session.recorder);
   if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
-  execute(session, options, input, log, writer, watchdog, result);
+  execute(session, options, input, feed, log, writer, watchdog, result);
+  result.stretch = input.stretch();
+  result.config_hash = input.hash(fnv1a(session.text));
   realtime.release();  // or the program that draws the figure would inherit it
 
-  bool written = log.close();
-  written &= write_scene(in_folder(folder, "scene.json").c_str(), session.pipeline);
-  if (input.given() && recording.tracking_count > 0)
-    written &= write_waypoints(in_folder(folder, "waypoints.csv").c_str(), input,
-                               *recording.tracking[0].reference);
-  written = written &&
-            write_summary(in_folder(folder, "summary.json").c_str(), pipeline, session, result);
+  const bool written = log.close() && write_results(folder, session, input, pipeline, result);
   print_table(pipeline, session, result);
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
-  if (!written)
-    std::fprintf(stderr, "%s: not all files could be written; make room or choose another --out\n",
-                 folder.c_str());
-  if (options.figure && written) draw_figure(folder.c_str());
-  std::printf("  written to %s\n", folder.c_str());
+  if (result.starved > 0)
+    std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
+                result.starved);
+  if (options.figure && written) draw_figure(folder.path().c_str());
+  std::printf("  %s %s\n", written ? "written to" : "incomplete:", folder.path().c_str());
   if (result.cycles == 0) return kRefused;
   return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
 }

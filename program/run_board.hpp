@@ -8,9 +8,17 @@
 #include "program/board_memory.hpp"
 #include "program/doctor.hpp"
 #include "program/ports.hpp"
+#include "program/results/run_folder.hpp"
 #include "program/session/files.hpp"
+#include "program/session/trajectory_input.hpp"
 
 namespace tactus {
+
+/// Returns the exit code of a program that has refused the pipeline file.
+inline int refused(const Options& options) {
+  if (options.verb == Verb::kRun) RunFolder(options).refuse({options.pipeline, options.trajectory});
+  return kRefused;
+}
 
 template <class Sections>
 struct Board {
@@ -40,11 +48,11 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   if (options.verb == Verb::kPorts) return print_ports(board.name, offered, pipeline, sections);
   Loader loader(memory.channels(), offered, sections);
   std::string_view text;
-  if (!load_pipeline(options.pipeline, loader, pipeline, text)) return kRefused;
+  if (!load_pipeline(options.pipeline, loader, pipeline, text)) return refused(options);
   const Status status = board.configure(sections, pipeline, options);
   if (status != Status::kOk) {
     std::fprintf(stderr, "%s: robot: %s\n", options.pipeline, describe(status).c_str());
-    return kRefused;
+    return refused(options);
   }
 
   static Recorder recorder(memory.recorder_ring.data(), memory.recorder_ring.size());
@@ -53,7 +61,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   static ReferenceClient<TaskSpace> task_client(memory.task_channel);
   const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +
                                    sizeof recorder + sizeof executive + sizeof client +
-                                   sizeof task_client;
+                                   sizeof task_client + sizeof(TrajectoryInput);
   Session session{board.name,       static_bytes, text,   board.hal,   pipeline,
                   executive,        recorder,     client, task_client, sections.gateway,
                   sections.realtime};

@@ -1,5 +1,6 @@
 #include "program/run_loop.hpp"
 
+#include <cmath>
 #include <csignal>
 
 #include "hal/os/cycle_clock.hpp"
@@ -20,7 +21,9 @@ void on_signal(int) {
 void catch_interrupts() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  std::signal(SIGHUP, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // a log that becomes too large is an error of its file
+  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading the messages stops no arm
 }
 
 void end_with(RunResult& result, int code, const char* name) {
@@ -36,10 +39,17 @@ void end_with(RunResult& result, Status fault) {
 /// Takes the result of the run from the reports on its trajectory. A run without a trajectory
 /// succeeds. False: the trajectory was refused, and the run ends.
 bool RunLoop::follow() {
+  if (!planned_end_) goal_.follow();
   Report report;
-  while (poll_report(session_, input_, report)) {
-    const bool of_input = report.id == input_.id && report.outcome != Outcome::kStarted;
-    if (!of_input || planned_end_) continue;
+  while (feed_.poll(report)) {
+    if (report.id != input_.id || planned_end_) continue;
+    if (report.outcome == Outcome::kStarved) count_starving();
+    if (!is_final(report.outcome)) continue;
+    pending_ = false;
+    end_ = report.verdict;
+    if (length_.cycles == kUnlimited)
+      length_.cycles =
+          commanded_ + std::llround(session_.gateway.settle_s / session_.pipeline.robot.period_s());
     const bool refused = report.outcome == Outcome::kRefused;
     end_with(result_,
              refused                                 ? static_cast<int>(report.verdict.status)
@@ -51,6 +61,24 @@ bool RunLoop::follow() {
     return false;
   }
   return true;
+}
+
+/// The arm waits on its path for a file: the planned time of the run is no longer its end.
+void RunLoop::count_starving() {
+  ++result_.starved;
+  if (!length_.fixed) length_.cycles = kUnlimited;
+}
+
+/// Feeds a file longer than its store between two cycles. Virtual time waits for a pipe.
+void RunLoop::feed() {
+  while (feed_.advance() == Fed::kNotYet && interrupted == 0) {
+  }
+}
+
+/// A part of the file was refused: the arm is brought to rest on its path, and the run ends.
+void RunLoop::break_off() {
+  broken_off_ = true;
+  end_with(result_, refusal_code(input_), name(Outcome::kRefused));
 }
 
 bool RunLoop::start() {
@@ -74,7 +102,8 @@ bool RunLoop::arm() {
     return session_.executive.busy();
   }
   armed_ = true;
-  return send_input(session_, input_);
+  pending_ = input_.given();
+  return feed_.begin();
 }
 
 bool RunLoop::cycle(const CycleTime& now) {
@@ -85,29 +114,43 @@ bool RunLoop::cycle(const CycleTime& now) {
     status = session_.executive.cycle(now);
   }
   watchdog_.cycle_completed();
-  if (interrupted != 0 && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
-  if (status == Status::kArming && interrupted == 0) return arm();
+  halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
+  if (halted_ && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
+  if (status == Status::kArming && !halted_) return arm();
   commanded_ += commanded ? 1 : 0;
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
   if (!follow()) refused_ = true;
+  if (feed_.refused() && !broken_off_ && !planned_end_) break_off();
   take_result(status);
   return session_.executive.busy() || !over(status);
 }
 
 void RunLoop::take_result(Status status) {
-  if (status == Status::kOk || planned_end_) return;
-  if (interrupted != 0 && (status == Status::kHalted || status == Status::kArming))
+  if (status == Status::kOk || planned_end_ || broken_off_) return;
+  if (halted_ && (status == Status::kHalted || status == Status::kArming))
     end_with(result_, kEndedOtherwise, "interrupted");
   else
     end_with(result_, status);
 }
 
+bool RunLoop::time_has_passed() const {
+  if (commanded_ < length_.cycles) return false;
+  const double latest_s = goal_.latest_report_s();
+  return length_.fixed || !pending_ || latest_s == kInfinity || time_s() >= latest_s;
+}
+
+Reason RunLoop::why() const {
+  if (pending_ && planned_end_) return goal_.unfinished(ended_s_);
+  return goal_.given_up(end_);
+}
+
 /// True if no cycle is to follow. An arm that moves when its time has passed is halted first.
 bool RunLoop::over(Status status) {
-  if (status != Status::kOk || refused_ || interrupted != 0) return true;
-  if (commanded_ < cycles_) return false;
+  if (status != Status::kOk || refused_ || halted_) return true;
+  if (!time_has_passed() && !broken_off_) return false;
   planned_end_ = true;
+  ended_s_ = time_s();
   if (session_.executive.at_rest()) return true;
   session_.executive.halt();
   return false;
@@ -122,6 +165,7 @@ void RunLoop::in_lock_step(RunLog& log, Progress& progress) {
   bool goes_on = true;
   for (std::int64_t k = 0; goes_on; ++k) {
     goes_on = cycle({k * period_ns});
+    if (goes_on) feed();
     log.drain(session_.recorder);
     progress.update(time_s());
   }

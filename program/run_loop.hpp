@@ -2,28 +2,44 @@
 // the robot's clock, with tracking errors and heap calls of each.
 #pragma once
 
+#include <limits>
+
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
 #include "program/results/summary.hpp"
-#include "program/session/trajectory_input.hpp"
+#include "program/trajectory_feed.hpp"
 #include "program/watchdog_thread.hpp"
 
 namespace tactus {
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program.
+/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program, and writing to a closed
+/// pipe or beyond a limit of size an error instead of its end.
 void catch_interrupts();
 
 void end_with(RunResult& result, int code, const char* name);
 /// The same for a run that a Status ended.
 void end_with(RunResult& result, Status fault);
 
+inline constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+
+/// Length of a run, in cycles in which the arm is commanded.
+struct RunLength {
+  std::int64_t cycles = kUnlimited;  ///< until then; unlimited: until the trajectory has settled
+  bool fixed = false;  ///< the user's; else a trajectory that has to wait for its file gets longer
+};
+
 class RunLoop {
  public:
-  /// `cycles`: those in which the arm is to be commanded.
-  RunLoop(Session& session, TrajectoryInput& input, WatchdogThread& watchdog, RunResult& result,
-          std::int64_t cycles)
-      : session_(session), input_(input), watchdog_(watchdog), result_(result), cycles_(cycles) {}
+  RunLoop(Session& session, TrajectoryInput& input, TrajectoryFeed& feed, WatchdogThread& watchdog,
+          RunResult& result, RunLength length)
+      : session_(session),
+        input_(input),
+        feed_(feed),
+        watchdog_(watchdog),
+        result_(result),
+        length_(length),
+        goal_(session, input) {}
 
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
@@ -36,6 +52,8 @@ class RunLoop {
   /// Cycles in which it has been, and their time.
   std::int64_t commanded() const { return commanded_; }
   double time_s() const;
+  /// Why the trajectory was not followed to its end, if the robot or the time of the run is why.
+  Reason why() const;
   /// Runs cycles as fast as the host can and logs the rows after each.
   void in_lock_step(RunLog& log, Progress& progress);
   /// Runs each cycle at its time by the monotonic clock; the writer logs rows and shows progress.
@@ -51,18 +69,29 @@ class RunLoop {
   bool cycle(const CycleTime& now);
   bool arm();
   bool follow();
+  void count_starving();
+  void feed();
+  void break_off();
   void take_result(Status status);
+  bool time_has_passed() const;
   bool over(Status status);
 
   Session& session_;
   TrajectoryInput& input_;
+  TrajectoryFeed& feed_;
   WatchdogThread& watchdog_;
   RunResult& result_;
-  const std::int64_t cycles_;
+  RunLength length_;
+  GoalWatch goal_;
+  Verdict end_;           // of the goal's final report
+  double ended_s_ = 0.0;  // when the time of the run had passed
+  bool pending_ = false;  // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
-  bool refused_ = false;  // the trajectory was refused
+  bool refused_ = false;     // the trajectory was refused
+  bool halted_ = false;      // a signal has come
+  bool broken_off_ = false;  // a later part of it was
 };
 
 }  // namespace tactus

@@ -46,6 +46,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kWindowFull = 54,
     kNotStreamable = 55,
     kLeftPath = 57,
+    kGoalVelocity = 58,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

@@ -1,8 +1,7 @@
 #include "program/results/run_log.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
+#include <cinttypes>
 #include <string_view>
 
 #include "kernel/load/ini.hpp"
@@ -11,6 +10,15 @@ namespace tactus {
 namespace {
 
 constexpr std::size_t kNumberLength = 32;  // fits the shortest text that gives the same double
+
+/// Returns the number of whole rows below the header of the file at `path`.
+std::int64_t count_rows(const char* path) {
+  std::FILE* file = std::fopen(path, "rb");
+  std::int64_t lines = 0;
+  for (int c = 0; file != nullptr && (c = std::getc(file)) != EOF;) lines += c == '\n' ? 1 : 0;
+  if (file != nullptr) std::fclose(file);
+  return lines > 0 ? lines - 1 : 0;
+}
 
 }  // namespace
 
@@ -28,17 +36,13 @@ void write_names(std::FILE* file, const PortEntry& port) {
 }
 
 bool RunLog::open(const char* path, const Recording& recording) {
-  file_ = std::fopen(path, "wb");
-  if (file_ == nullptr) {
-    std::fprintf(stderr, "%s: %s\n", path, std::strerror(errno));
-    return false;
-  }
+  if (!file_.open(path)) return false;
   width_ = recording.width();
-  std::fprintf(file_, "time_s");
+  std::fprintf(file_.stream(), "time_s");
   for (int i = 0; i < recording.signal_count; ++i) {
-    write_names(file_, *recording.signals[static_cast<std::size_t>(i)]);
+    write_names(file_.stream(), *recording.signals[static_cast<std::size_t>(i)]);
   }
-  std::fprintf(file_, "\n");
+  std::fprintf(file_.stream(), "\n");
   return true;
 }
 
@@ -54,12 +58,16 @@ void RunLog::write_row(const double* row) {
     to = std::to_chars(to, text.data() + text.size(), row[i]).ptr;
   }
   *to++ = '\n';
-  std::fwrite(text.data(), 1, static_cast<std::size_t>(to - text.data()), file_);
+  std::fwrite(text.data(), 1, static_cast<std::size_t>(to - text.data()), file_.stream());
+  ++rows_;
 }
 
 bool RunLog::close() {
-  const bool failed = std::ferror(file_) != 0;
-  return std::fclose(file_) == 0 && !failed;
+  if (file_.finish() == 0) return true;
+  char extent[96];
+  std::snprintf(extent, sizeof extent, " after %" PRId64 " of %" PRId64 " rows",
+                count_rows(file_.path().c_str()), rows_);
+  return file_.close(extent);
 }
 
 }  // namespace tactus

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstdio>
+#include <cstdint>
 
 #include "kernel/pipeline/recorder.hpp"
+#include "program/results/result_file.hpp"
 
 namespace tactus {
 
@@ -20,15 +21,17 @@ class RunLog {
   bool open(const char* path, const Recording& recording);
   /// Writes all rows that the recorder holds.
   void drain(Recorder& recorder);
-  /// Closes the file. False if anything could not be written.
+  /// Closes the file. False if a row could not be written: prints the reason to stderr, and how
+  /// many rows the file holds of those that were recorded.
   bool close();
 
  private:
   static constexpr std::size_t kMaxWidth = 1 + kMaxSignals * 8;
   void write_row(const double* row);
 
-  std::FILE* file_ = nullptr;
+  ResultFile file_;
   std::size_t width_ = 0;
+  std::int64_t rows_ = 0;
   std::array<double, kMaxWidth> row_{};
 };
 

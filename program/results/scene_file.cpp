@@ -1,6 +1,6 @@
 #include "program/results/scene_file.hpp"
 
-#include <cstdio>
+#include "program/results/result_file.hpp"
 
 namespace tactus {
 namespace {
@@ -79,8 +79,9 @@ void write_limits(std::FILE* file, const JointLimits& limits) {
 }  // namespace
 
 bool write_scene(const char* path, const Pipeline& pipeline) {
-  std::FILE* file = std::fopen(path, "wb");
-  if (file == nullptr) return false;
+  ResultFile result;
+  if (!result.open(path)) return false;
+  std::FILE* const file = result.stream();
   std::fprintf(file, "{\n  \"robot\": \"%s\",\n", Robot::kName);
   write_arm(file);
   std::fprintf(file, "  \"tool\": {");
@@ -89,8 +90,7 @@ bool write_scene(const char* path, const Pipeline& pipeline) {
   write_boxes(file, pipeline.ports);
   write_limits(file, pipeline.guard.limits);
   std::fprintf(file, "}\n");
-  const bool failed = std::ferror(file) != 0;
-  return std::fclose(file) == 0 && !failed;
+  return result.close();
 }
 
 }  // namespace tactus

@@ -6,7 +6,8 @@
 namespace tactus {
 
 /// Writes the robot's joint frames and capsules, the tool, the boxes of the pipeline file in the
-/// base frame, and the limits of the joints in force. False if the file cannot be written.
+/// base frame, and the limits of the joints in force. False if the file
+/// cannot be written: prints the reason to stderr.
 bool write_scene(const char* path, const Pipeline& pipeline);
 
 }  // namespace tactus

@@ -6,26 +6,13 @@
 
 #include "gateway/verdict_text.hpp"
 #include "kernel/load/ini.hpp"
+#include "program/results/json_string.hpp"
+#include "program/results/result_file.hpp"
 #include "program/results/run_log.hpp"
 #include "program/results/timing_report.hpp"
 
 namespace tactus {
 namespace {
-
-/// Writes a name that a user has chosen as a string of JSON (RFC 8259, section 7).
-void write_string(std::FILE* file, std::string_view text) {
-  std::fputc('"', file);
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20)
-      std::fprintf(file, "\\u%04x", static_cast<unsigned>(byte));
-    else if (c == '"' || c == '\\')
-      std::fprintf(file, "\\%c", c);
-    else
-      std::fputc(c, file);
-  }
-  std::fputc('"', file);
-}
 
 void write_numbers(std::FILE* file, const char* key, const TrackingError& error,
                    double (*number)(const TrackingError&, int)) {
@@ -92,19 +79,25 @@ double realtime_factor(const RunResult& result) {
 
 bool write_summary(const char* path, std::string_view pipeline, const Session& session,
                    const RunResult& result) {
-  std::FILE* file = std::fopen(path, "wb");
-  if (file == nullptr) return false;
+  ResultFile written;
+  if (!written.open(path)) return false;
+  std::FILE* const file = written.stream();
   const Executive::Telemetry& telemetry = session.executive.telemetry();
   const Guard::Telemetry& guard = session.executive.guard().telemetry();
   std::fprintf(file, "{\n  \"pipeline\": ");
-  write_string(file, pipeline);
+  write_json_string(file, pipeline);
   std::fprintf(file, ",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n", Robot::kName,
                session.board);
   std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
-  std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
-  std::fprintf(file, "  \"stretch\": %.4g,\n", result.stretch);
+  std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"", result.code, result.name);
+  if (!result.why.empty()) {
+    std::fprintf(file, ", \"why\": ");
+    write_json_string(file, result.why);
+  }
+  std::fprintf(file, "},\n");
+  std::fprintf(file, "  \"stretch\": %.4g,\n  \"starved\": %d,\n", result.stretch, result.starved);
   write_tracking(file, result);
   write_signals(file, session);
   write_timing(file, session.pipeline, session.executive);
@@ -118,7 +111,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   std::fprintf(file, "  \"heap_allocations_in_cycle\": %" PRIu64 ",\n  \"static_bytes\": %zu,\n",
                result.heap_allocations, session.static_bytes);
   std::fprintf(file, "  \"realtime_factor\": %.4g\n}\n", realtime_factor(result));
-  return std::fclose(file) == 0;
+  return written.close();
 }
 
 void print_table(std::string_view pipeline, const Session& session, const RunResult& result) {

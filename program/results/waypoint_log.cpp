@@ -1,7 +1,5 @@
 #include "program/results/waypoint_log.hpp"
 
-#include <cstdio>
-
 #include "program/results/run_log.hpp"
 
 namespace tactus {
@@ -31,8 +29,9 @@ bool write_waypoints(const char* path, const TrajectoryInput& input, const PortE
   Pose pose;
   if (input.count() > kFewWaypoints || position_of(input, 0, pose).quantity != reference.quantity)
     return true;
-  std::FILE* file = std::fopen(path, "wb");
-  if (file == nullptr) return false;
+  ResultFile result;
+  if (!result.open(path)) return false;
+  std::FILE* const file = result.stream();
   std::fprintf(file, "time_s");
   write_names(file, reference);
   std::fprintf(file, "\n");
@@ -44,7 +43,7 @@ bool write_waypoints(const char* path, const TrajectoryInput& input, const PortE
       std::fprintf(file, ",%.9g", numbers[static_cast<std::size_t>(n)]);
     std::fprintf(file, "\n");
   }
-  return std::fclose(file) == 0;
+  return result.close();
 }
 
 }  // namespace tactus

@@ -69,21 +69,4 @@ bool make_folder(std::string_view path) {
   return true;
 }
 
-std::uint64_t fnv1a(std::string_view text, std::uint64_t hash) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
-std::uint64_t fnv1a_of_file(const char* path, std::uint64_t hash) {
-  std::FILE* file = std::fopen(path, "rb");
-  if (file == nullptr) return hash;
-  std::array<char, 65536> buffer;
-  for (std::size_t size = 1; size > 0;) {
-    size = std::fread(buffer.data(), 1, buffer.size(), file);
-    hash = fnv1a({buffer.data(), size}, hash);
-  }
-  std::fclose(file);
-  return hash;
-}
-
 }  // namespace tactus

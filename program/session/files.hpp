@@ -24,9 +24,4 @@ std::string_view stem(std::string_view path);
 /// Makes the folder and its parents. False: prints the reason to stderr.
 bool make_folder(std::string_view path);
 
-/// Returns the FNV-1a hash of a text, continued from `hash`.
-std::uint64_t fnv1a(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U);
-/// The same for a whole file; returns `hash` if it cannot be read.
-std::uint64_t fnv1a_of_file(const char* path, std::uint64_t hash);
-
 }  // namespace tactus

@@ -2,17 +2,17 @@
 
 #include <cstdio>
 
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/fnv1a.hpp"
 #include "gateway/verdict_text.hpp"
 
 namespace tactus {
 namespace {
 
-/// Calls `act` with the trajectory, whatever its space; returns `none` if there is no trajectory.
-template <class Result, class Act>
-Result with_trajectory(const TrajectoryInput& input, Result none, Act act) {
-  if (const auto* joints = std::get_if<1>(&input.trajectory)) return act(**joints);
-  if (const auto* poses = std::get_if<2>(&input.trajectory)) return act(**poses);
+/// Calls `act` with the stream of a file, whatever its space; returns `none` if there is no file.
+template <class Result, class Input, class Act>
+Result with_stream(Input& input, Result none, Act act) {
+  if (auto* joints = std::get_if<1>(&input.file)) return act(*joints);
+  if (auto* poses = std::get_if<2>(&input.file)) return act(*poses);
   return none;
 }
 
@@ -52,47 +52,76 @@ bool set_terms(const Session& session, const Options& options, Trajectory<TaskSp
          find_frame(options, ports, "wrench_frame", gateway.wrench_frame, header.wrench);
 }
 
+/// Prints why a file was refused. Returns false.
+template <class Space>
+bool print_refusal(const TrajectoryInput& input, const TrajectoryStream<Space>& stream) {
+  const StreamRefusal& refusal = stream.refusal();
+  if (refusal.row.reason.empty()) {
+    print_verdict(input, refusal.verdict, stream.longer() ? refusal.line : 0);
+    return false;
+  }
+  std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), refusal.row.line > 0 ? "" : " ",
+               refusal.row.message().c_str());
+  return false;
+}
+
 template <class Space>
 bool read_and_judge(const Session& session, const Options& options, ReferenceClient<Space>& client,
                     TrajectoryInput& input) {
   Trajectory<Space>* trajectory = client.acquire();
   const bool partial = session.gateway.partial_joints == PartialJoints::kHold;
-  CsvError error;
   if (!set_terms(session, options, *trajectory)) return false;
-  if (!read_trajectory(input.path.c_str(), partial, *trajectory, error)) {
-    std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), error.line > 0 ? "" : " ",
-                 error.message().c_str());
-    return false;
-  }
+  auto& stream = input.file.template emplace<TrajectoryStream<Space>>();
+  if (!stream.open(input.path.c_str(), partial, fnv1a(session.text), *trajectory))
+    return print_refusal(input, stream);
   trajectory->interpolation = session.gateway.interpolation;
   trajectory->exact = session.gateway.times == Times::kExact;
   input.start_s = session.gateway.start_s;
   if (input.start_s > 0.0) trajectory->start_s = input.start_s;
   input.trajectory = trajectory;
-  const Verdict verdict = client.admit(*trajectory);
-  if (!verdict.ok()) print_verdict(input, verdict);
-  return verdict.ok();
+  return stream.judge(client.settings()) || print_refusal(input, stream);
 }
 
 }  // namespace
 
-int TrajectoryInput::count() const {
-  return with_trajectory(*this, 0, [](const auto& motion) { return motion.count; });
+bool TrajectoryInput::longer() const {
+  return with_stream(*this, false, [](const auto& stream) { return stream.longer(); });
+}
+
+bool TrajectoryInput::whole_known() const {
+  return with_stream(*this, true, [](const auto& stream) { return stream.whole_known(); });
+}
+
+std::int64_t TrajectoryInput::count() const {
+  return with_stream(*this, std::int64_t{0}, [](const auto& stream) { return stream.count(); });
 }
 
 double TrajectoryInput::time_s(int waypoint) const {
-  return with_trajectory(
-      *this, 0.0, [waypoint](const auto& motion) { return motion.waypoints[waypoint].time_s; });
+  return with_stream(*this, 0.0, [=](const auto& stream) { return stream.time_s(waypoint); });
 }
 
 double TrajectoryInput::stretch() const {
-  return with_trajectory(*this, 0.0, [](const auto& motion) { return motion.stretch; });
+  return with_stream(*this, 0.0, [](const auto& stream) { return stream.stretch(); });
 }
 
-void print_verdict(const TrajectoryInput& input, const Verdict& verdict) {
+double TrajectoryInput::longer_s() const {
+  return with_stream(*this, 0.0, [](const auto& stream) { return stream.longer_s(); });
+}
+
+double TrajectoryInput::end_s() const {
+  return with_stream(*this, 0.0, [](const auto& stream) { return stream.end_s(); });
+}
+
+std::uint64_t TrajectoryInput::hash(std::uint64_t none) const {
+  return with_stream(*this, none, [](const auto& stream) { return stream.hash(); });
+}
+
+void print_verdict(const TrajectoryInput& input, const Verdict& verdict, int line) {
   const VerdictAxes axes = input.trajectory.index() == 2 ? VerdictAxes::kTip : VerdictAxes::kJoints;
   const double time_s = verdict.waypoint >= 0 ? input.time_s(verdict.waypoint) : kInfinity;
-  std::fprintf(stderr, "%s: refused: %s%s\n", input.path.c_str(),
+  FilePath place = input.path;
+  if (line > 0) place << ":" << line;
+  std::fprintf(stderr, "%s: refused: %s%s\n", place.c_str(),
                describe(verdict, axes, time_s).c_str(), remedy(verdict.status));
 }
 
@@ -124,9 +153,47 @@ bool send_input(Session& session, TrajectoryInput& input) {
   return verdict.ok();
 }
 
-bool poll_report(Session& session, const TrajectoryInput& input, Report& report) {
-  return input.trajectory.index() == 2 ? session.task_client.poll(report)
-                                       : session.client.poll(report);
+bool is_final(Outcome outcome) {
+  return outcome != Outcome::kScheduled && outcome != Outcome::kStarted &&
+         outcome != Outcome::kStarved && outcome != Outcome::kReleased;
+}
+
+int refusal_code(const TrajectoryInput& input) {
+  return with_stream(input, static_cast<int>(kRefused), [](const auto& stream) {
+    const Verdict& verdict = stream.refusal().verdict;
+    return verdict.ok() ? static_cast<int>(kRefused) : static_cast<int>(verdict.status);
+  });
+}
+
+bool judge_rest(const Session& session, TrajectoryInput& input) {
+  if (auto* joints = std::get_if<1>(&input.file))
+    return joints->judge_rest(session.client.settings()) || print_refusal(input, *joints);
+  if (auto* poses = std::get_if<2>(&input.file))
+    return poses->judge_rest(session.task_client.settings()) || print_refusal(input, *poses);
+  return true;
+}
+
+bool poll_report(Session& session, TrajectoryInput& input, Report& report) {
+  const bool polled = input.trajectory.index() == 2 ? session.task_client.poll(report)
+                                                    : session.client.poll(report);
+  if (!polled) return false;
+  const bool ended = report.id == input.id && is_final(report.outcome);
+  with_stream(input, 0, [&](auto& stream) {
+    ended ? stream.end() : stream.answered(report);
+    return 0;
+  });
+  return true;
+}
+
+Fed feed_input(Session& session, TrajectoryInput& input, int wait_ms) {
+  const auto feed = [&](auto& stream, auto& client) {
+    const Fed fed = stream.feed(client, wait_ms);
+    if (fed == Fed::kRefused) print_refusal(input, stream);
+    return fed;
+  };
+  if (auto* joints = std::get_if<1>(&input.file)) return feed(*joints, session.client);
+  if (auto* poses = std::get_if<2>(&input.file)) return feed(*poses, session.task_client);
+  return Fed::kIdle;
 }
 
 }  // namespace tactus

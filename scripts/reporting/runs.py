@@ -137,6 +137,26 @@ def result_words(summary):
     return re.sub("(?=[A-Z])", " ", name[1:]).strip().lower() + f" ({code})"
 
 
+def why(summary):
+    """Returns ": " and why a goal was not reached, as the run said it; empty if it did not."""
+    words = summary["result"].get("why")
+    return f": {words}" if isinstance(words, str) else ""
+
+
+BEGUN = ("summary.json", "log.csv", "incomplete.txt", "refused.txt")  # a folder with one of them is that of a run
+
+
+def without_result(folder):
+    """Says why a folder holds no run that has ended; None if a run has ended, or has not begun, in it."""
+    if (folder / "summary.json").exists():
+        return None
+    if (folder / "refused.txt").exists():
+        return f"{folder}: refused: {read_text(folder / 'refused.txt').strip()}"
+    if (folder / "log.csv").exists() or (folder / "incomplete.txt").exists():
+        return f"{folder}: incomplete: the run has ended without a summary.json, or has not ended"
+    return None
+
+
 def folder_of(out, name):
     """Returns the folder of that name; else that of pipeline:trajectory, which run_all names with an underscore."""
     return out / name if (out / name).is_dir() else out / name.replace(":", "_")

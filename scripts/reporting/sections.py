@@ -8,6 +8,7 @@ import numpy as np
 
 from reporting import animation, expected, more_plots, page, panels, plots, runs, table, thumbnails
 from reporting.inputs import InputError, shown
+from reporting.screen import screen
 from reporting.units import words
 
 FILES = "log.csv, summary.json, scene.json, pipeline.ini, figure.pdf, figure.svg"
@@ -172,16 +173,6 @@ def timing_table(summary):
     return TIMES + page.table(headers, rows, headers[:1]) + "</details>"
 
 
-def screen(folder):
-    """Returns the output of the run."""
-    path = folder / "output.txt"
-    try:
-        words = runs.read_text(path).strip() if path.exists() else ""
-    except InputError as error:
-        words = str(error)
-    return f"<pre>{page.escape(words)}</pre>" if words else ""
-
-
 def figures_of(run):
     """Yields the figures and tables of a run; where something was to be touched, the force comes first."""
     groups = [tracking_figures, path_figures, force_figures]
@@ -194,7 +185,8 @@ def figures_of(run):
 def verdict_of(summary, judgement, folder):
     """Returns the verdict in words and whether all was as expected."""
     if summary is None:
-        return ("incomplete" if (folder / "log.csv").exists() else table.REFUSED), False
+        begun = any((folder / file).exists() for file in ("log.csv", "incomplete.txt"))
+        return ("incomplete" if begun else table.REFUSED), False
     if summary["result"]["code"] != 0:
         refused = f"{table.REFUSED}: " if runs.is_refused(summary) else ""
         return refused + runs.result_words(summary), False
@@ -222,14 +214,15 @@ def section_of(out, name):
     """Returns the section of one run; a file that cannot be read or drawn is named in its place."""
     folder, parts, section = runs.folder_of(out, name), [], Section(shown(name))
     try:
-        if not (folder / "summary.json").exists() and (folder / "log.csv").exists():
-            raise InputError(f"{folder}: incomplete: the run has ended without a summary.json, or has not ended")
+        if missing := runs.without_result(folder):
+            raise InputError(missing)
         section.summary = runs.read_summary(folder / "summary.json")
         section.written = moment_of(folder / "summary.json")
         section.kind = expected.kind_of(section.summary, folder / "pipeline.ini")
         if section.summary["result"]["code"] != 0:
             result = page.escape(runs.result_words(section.summary))
-            parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>.</p>']
+            why = page.escape(runs.why(section.summary))
+            parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>{why}.</p>']
             parts += [screen(folder), "</div>"]
         if runs.is_refused(section.summary):
             parts += [facts(section)]

@@ -40,6 +40,19 @@ void a_verdict_on_a_length_names_the_translation_or_the_rotation_and_its_unit(vo
              "waypoint 1, rotation: length of the quaternion 0.9 is below 0.999 (47)");
 }
 
+void a_goal_that_was_missed_is_an_error_of_position_or_a_velocity_and_has_a_remedy(void**) {
+  assert_joints({Status::kGoalTolerance, -1, 3, 0.021, 0.01},
+                "joint 4 (fer_joint4): position error 0.021 rad exceeds 0.01 rad (50)");
+  assert_joints({Status::kGoalVelocity, -1, 3, 0.02, 0.01},
+                "joint 4 (fer_joint4): velocity 0.02 rad/s exceeds 0.01 rad/s (58)");
+  assert_tip({Status::kGoalTolerance, -1, 3, 0.03, 0.02},
+             "rotation: position error 0.03 rad exceeds 0.02 rad (50)");
+  for (const Status status :
+       {Status::kPathTolerance, Status::kGoalTolerance, Status::kGoalVelocity})
+    assert_non_null(goal_remedy(status, VerdictAxes::kTip));
+  assert_null(goal_remedy(Status::kHalted, VerdictAxes::kJoints));
+}
+
 void a_verdict_on_one_direction_names_it(void**) {
   assert_tip({Status::kWorkspace, 2, 2, -0.1, 0.05},
              "waypoint 3, z: position -0.1 m is below 0.05 m (48)");
@@ -83,6 +96,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(every_status_has_words_of_its_own_and_its_code),
       cmocka_unit_test(a_verdict_on_a_length_names_the_translation_or_the_rotation_and_its_unit),
+      cmocka_unit_test(
+          a_goal_that_was_missed_is_an_error_of_position_or_a_velocity_and_has_a_remedy),
       cmocka_unit_test(a_verdict_on_one_direction_names_it),
       cmocka_unit_test(a_verdict_without_joint_or_value_says_what_it_knows),
       cmocka_unit_test(a_value_that_hardly_exceeds_its_limit_is_told_apart_from_it),

@@ -59,6 +59,16 @@ void the_completion_knows_verbs_and_their_options(void**) {
   assert_true(passes(command));
 }
 
+/// A folder with blanks and a quote; the program draws its figure from there too.
+void a_prefix_may_be_any_name_of_a_folder(void**) {
+  assert_true(passes(
+      "p=\"/a 'b' c\"; env -u MAKEFLAGS make -s BOARD=fer_sim install DESTDIR=$at PREFIX=\"$p\" "
+      ">$at.log 2>&1 || cat $at.log; \"$at$p/bin/tactus-fer_sim\" run "
+      "\"$at$p/share/tactus/pipelines/fer_trg_cpc.ini\" --duration 0.1 --out \"$at/r 1\" "
+      ">/dev/null; test -s \"$at/r 1/figure.png\" && "
+      "test -s \"$at$p/share/man/man1/tactus-fer_sim.1\""));
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -69,6 +79,7 @@ int main() {
       cmocka_unit_test(an_installed_program_draws_its_figure),
       cmocka_unit_test(the_man_page_has_every_verb_and_the_exit_codes),
       cmocka_unit_test(the_completion_knows_verbs_and_their_options),
+      cmocka_unit_test(a_prefix_may_be_any_name_of_a_folder),
   };
   return cmocka_run_group_tests(tests, install, remove_installation);
 }

@@ -128,7 +128,10 @@ void a_command_line_that_is_not_understood_is_refused(void**) {
 // Proves RUN-3.
 
 void help_and_ports_end_with_zero(void**) {
-  assert_int_equal(tactus_run({"--help"}), 0);
+  for (const char* words : {"--help", "--help-all"}) {
+    assert_int_equal(tactus_run({words}), 0);
+    assert_true(has(output(), "Exit codes: 0 succeeded; 1 ended otherwise; 2 refused before"));
+  }
   assert_int_equal(tactus_run({"ports"}), 0);
   for (const char* part : {"## [robot]", "`period_us`", "## type = pd_gravity", "`kp`"})
     assert_true(has(output(), part));

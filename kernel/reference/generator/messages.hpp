@@ -117,6 +117,7 @@ struct ReferenceChannel {
       : requests(its_requests), reports(its_reports), feedback(its_feedback) {}
 
   AdmissionSettings<Space> settings;
+  const Tolerances<Space>* tolerances = nullptr;  ///< the generator's defaults; set by its start
   MessageQueue<Request<Space>>& requests;
   Mailbox<Control, kControls> controls;  ///< all are taken in every cycle
   MessageQueue<Report>& reports;

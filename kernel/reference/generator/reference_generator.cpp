@@ -27,6 +27,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   feedback_ = feedback;
   channel_ = &channel;
   params_ = params;
+  channel.tolerances = &params_.tolerances;
   void_requests_ = channel.requests.size();
   void_controls_ = channel.controls.size();
   motion_.start(held, channel.settings);

@@ -21,7 +21,7 @@ template <class Space>
 void ToleranceMonitor<Space>::begin(const Tolerances<Space>& tolerances) {
   tolerances_ = tolerances;
   waiting_s_ = inside_s_ = window_s_ = 0.0;
-  found_ = {Status::kGoalTolerance};
+  found_ = {Status::kGoalVelocity};
 }
 
 template <class Space>

@@ -47,9 +47,9 @@ class ToleranceMonitor {
   double waiting_s_ = 0.0, inside_s_ = 0.0;
 
   bool measures_velocity_ = true;
-  Point window_from_;                      // measured at the beginning of the window
-  double window_s_ = 0.0;                  // time since then
-  Verdict found_{Status::kGoalTolerance};  // result of the last window
+  Point window_from_;                     // measured at the beginning of the window
+  double window_s_ = 0.0;                 // time since then
+  Verdict found_{Status::kGoalVelocity};  // result of the last window
 };
 
 }  // namespace tactus

@@ -14,25 +14,30 @@ namespace {
 // Times in a file are rounded to about ten digits; a spacing met exactly must not be refused.
 constexpr double kRounding_s = 1e-9;
 
-template <class Space>
-Verdict admit_times(const Trajectory<Space>& trajectory, double period_s) {
-  const double spacing = period_s / kMaxSegmentsPerCycle;
-  double earliest = 0.0;
-  for (int i = 0; i < trajectory.count; ++i) {
-    const double time = trajectory.time_s(i);
-    if (!std::isfinite(time)) return {Status::kReferenceNotFinite, i, -1, time, 0.0};
-    if (time < earliest - kRounding_s) return {Status::kReferenceTime, i, -1, time, earliest};
-    earliest = time + spacing;
-  }
-  return {};
-}
-
 Verdict at_waypoint(Verdict verdict, int waypoint) {
   verdict.waypoint = waypoint;
   return verdict;
 }
 
+template <class Space>
+Verdict admit_times(const Trajectory<Space>& trajectory, double period_s) {
+  for (int i = 0; i < trajectory.count; ++i) {
+    const Verdict verdict = admit_time(trajectory, i, trajectory.time_s(i), period_s);
+    if (!verdict.ok()) return verdict;
+  }
+  return {};
+}
+
 }  // namespace
+
+template <class Space>
+Verdict admit_time(const Trajectory<Space>& trajectory, int index, double time_s, double period_s) {
+  const double earliest =
+      index == 0 ? 0.0 : trajectory.time_s(index - 1) + period_s / kMaxSegmentsPerCycle;
+  if (!std::isfinite(time_s)) return {Status::kReferenceNotFinite, index, -1, time_s, 0.0};
+  if (time_s >= earliest - kRounding_s) return {};
+  return {Status::kReferenceTime, index, -1, time_s, earliest};
+}
 
 template <class Space>
 Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
@@ -92,8 +97,9 @@ Admitted<Space> nothing_yet(const Trajectory<Space>& trajectory,
 
 template <class Space>
 Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
-                   const AdmissionSettings<Space>& settings, const Admitted<Space>& part) {
-  double longer = 0.0;
+                   const AdmissionSettings<Space>& settings, const Admitted<Space>& part,
+                   double& longer) {
+  longer = 0.0;
   if (part.room < 1.0) {
     const float begin = set_rooms(trajectory, settings, first, first, last, 1.0);
     longer = stretch(trajectory, settings, first, last, begin);
@@ -161,7 +167,8 @@ Verdict admit(Trajectory<Space>& trajectory, const AdmissionSettings<Space>& set
   template Verdict admit_end(const Trajectory<Space>&, int, const AdmissionSettings<Space>&,       \
                              Admitted<Space>);                                                     \
   template Verdict admit_part(const Trajectory<Space>&, int, int, const AdmissionSettings<Space>&, \
-                              const Admitted<Space>&)
+                              const Admitted<Space>&, double&);                                    \
+  template Verdict admit_time(const Trajectory<Space>&, int, double, double)
 
 TACTUS_ADMISSION(JointSpace);
 TACTUS_ADMISSION(TaskSpace);

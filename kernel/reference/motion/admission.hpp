@@ -46,6 +46,11 @@ template <class Space>
 Admitted<Space> nothing_yet(const Trajectory<Space>& trajectory,
                             const AdmissionSettings<Space>& settings);
 
+/// Judges the time of waypoint `index`: at least a sixteenth of the period after the one before it,
+/// the first not before zero. [any]
+template <class Space>
+Verdict admit_time(const Trajectory<Space>& trajectory, int index, double time_s, double period_s);
+
 /// Judges one more waypoint of an open trajectory and the segment that ends there. [any]
 template <class Space>
 Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
@@ -56,11 +61,12 @@ template <class Space>
 Verdict admit_end(const Trajectory<Space>& trajectory, int last,
                   const AdmissionSettings<Space>& settings, Admitted<Space> so_far);
 
-/// Judges how much longer the part of an open trajectory after waypoint `first`, up to `last`,
-/// becomes by being slowed down; `part` is the account of it. Sets the rooms after `first` to zero.
-/// [any, not cyclic]
+/// Judges by which fraction, `longer`, the part of an open trajectory after waypoint `first`, up to
+/// `last`, is slowed down; `part` is the account of it. Sets the rooms after `first` to zero. [any,
+/// not cyclic]
 template <class Space>
 Verdict admit_part(const Trajectory<Space>& trajectory, int first, int last,
-                   const AdmissionSettings<Space>& settings, const Admitted<Space>& part);
+                   const AdmissionSettings<Space>& settings, const Admitted<Space>& part,
+                   double& longer);
 
 }  // namespace tactus

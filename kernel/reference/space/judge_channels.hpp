@@ -53,7 +53,7 @@ Verdict judge_end(const typename Space::Point& end) {
   return {};
 }
 
-/// Judges a measured velocity against one limit for all channels, in rad/s or m/s: kGoalTolerance.
+/// Judges a measured velocity against one limit for all channels, in rad/s or m/s: kGoalVelocity.
 /// A limit of 0 is not checked. [cyclic]
 template <class Space>
 Verdict judge_stopped(const typename Space::Point& measured, double limit) {
@@ -61,7 +61,7 @@ Verdict judge_stopped(const typename Space::Point& measured, double limit) {
   const typename Space::Rates& v = Space::rates(measured);
   for (int axis = 0; axis < v.size(); axis += Space::kChannelSize) {
     const double speed = length<Space::kChannelSize>(&v[axis]);
-    if (!(speed <= limit)) return {Status::kGoalTolerance, -1, axis, speed, limit};
+    if (!(speed <= limit)) return {Status::kGoalVelocity, -1, axis, speed, limit};
   }
   return {};
 }

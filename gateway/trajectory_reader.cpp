@@ -1,0 +1,184 @@
+#include "gateway/trajectory_reader.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include "kernel/load/ini.hpp"
+
+namespace tactus {
+namespace {
+
+/// Cuts a row into cells.
+class Cells {
+ public:
+  Cells(std::string_view row, char separator) : row_(row), separator_(separator) {}
+
+  /// Takes the next cell; false if none is left.
+  bool take(std::string_view& cell) {
+    if (!more_) return false;
+    const std::size_t end = row_.find(separator_);
+    more_ = end != std::string_view::npos;
+    cell = trim(row_.substr(0, end));
+    row_.remove_prefix(more_ ? end + 1 : row_.size());
+    return true;
+  }
+
+ private:
+  std::string_view row_;
+  char separator_;
+  bool more_ = true;
+};
+
+/// Returns what separates the cells of a file: a semicolon or a tab if its header has one.
+char separator_of(std::string_view header) {
+  for (const char separator : {';', '\t'})
+    if (header.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+bool refuse(CsvError& error, int line, int column, std::string_view header,
+            std::string_view reason) {
+  error.line = line;
+  error.column = column;
+  error.header = Name(header);
+  error.reason = Message(reason);
+  return false;
+}
+
+bool read_number(std::string_view cell, double& value) {
+  if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
+  const char* end = cell.data() + cell.size();
+  const auto [stop, code] = std::from_chars(cell.data(), end, value);
+  return code == std::errc() && stop == end && std::isfinite(value);
+}
+
+template <class Space>
+bool read_header(Cells cells, int line, Columns<Space>& columns, CsvError& error) {
+  std::string_view cell;
+  for (int column = 1; cells.take(cell); ++column) {
+    Message reason;
+    if (!columns.add(cell, reason)) return refuse(error, line, column, cell, reason);
+  }
+  Message reason;
+  return columns.complete(reason) || refuse(error, line, 0, {}, reason);
+}
+
+/// Explains a cell that is not a number.
+Message not_a_number(std::string_view cell) {
+  Message reason("'");
+  reason << cell << "' is not a finite number";
+  const std::size_t comma = cell.find(',');
+  if (comma != std::string_view::npos && cell.find(',', comma + 1) == std::string_view::npos)
+    reason << "; write " << cell.substr(0, comma) << "." << cell.substr(comma + 1);
+  else
+    reason << "; write a number such as -0.5";
+  return reason;
+}
+
+Message not_readable(int error) {
+  return Message(std::strerror(error)) << "; give the path of a trajectory file";
+}
+
+template <class Space>
+bool read_row(Cells cells, int line, const Columns<Space>& columns, Waypoint<Space>& waypoint,
+              CsvError& error) {
+  waypoint = {};
+  std::string_view cell;
+  int column = 0;
+  while (cells.take(cell)) {
+    if (++column > columns.count()) {
+      return refuse(error, line, column, {},
+                    Message("more cells than the ") << columns.count()
+                                                    << " columns of the header; "
+                                                       "decimals are written with a point");
+    }
+    const std::string_view header = columns.name(column - 1);
+    if (cell.empty()) return refuse(error, line, column, header, "the cell is empty");
+    double& value = columns.value(column - 1, waypoint);
+    if (!read_number(cell, value)) return refuse(error, line, column, header, not_a_number(cell));
+    value *= columns.scale(column - 1);
+  }
+  if (column == columns.count()) return true;
+  return refuse(
+      error, line, 0, {},
+      Message("") << column << " cells, but the header has " << columns.count() << " columns");
+}
+
+}  // namespace
+
+PlacedMessage CsvError::message() const {
+  PlacedMessage text;
+  if (line > 0) text << line << ":";
+  if (column > 0) text << column << ":";
+  if (line > 0) text << " ";
+  if (!header.empty()) text << header << ": ";
+  text << reason;
+  return text;
+}
+
+template <class Space>
+bool TrajectoryReader<Space>::open(const char* path, bool partial, std::uint64_t hash,
+                                   CsvError& error) {
+  error = {};
+  columns_ = Columns<Space>(partial);
+  partial_ = partial;
+  rows_ = 0;
+  return lines_.open(path, hash) || refuse(error, 0, 0, {}, not_readable(errno));
+}
+
+template <class Space>
+bool TrajectoryReader<Space>::rewind(CsvError& error) {
+  error = {};
+  columns_ = Columns<Space>(partial_);
+  rows_ = 0;
+  return lines_.rewind() || refuse(error, 0, 0, {}, not_readable(errno));
+}
+
+template <class Space>
+RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
+  std::string_view row;
+  for (;;) {
+    switch (lines_.next(row, wait_ms)) {
+      case LineReader::Take::kLine: break;
+      case LineReader::Take::kNotYet: return RowTaken::kNotYet;
+      case LineReader::Take::kEnd: return end(error);
+      case LineReader::Take::kTooLong:
+        refuse(error, lines_.line(), 0, {},
+               Message("the line is longer than ") << LineReader::kLongest << " characters");
+        return RowTaken::kRefused;
+      case LineReader::Take::kFailed:
+        refuse(error, 0, 0, {}, not_readable(errno));
+        return RowTaken::kRefused;
+    }
+    const int line = lines_.line();
+    if (!is_text(row)) {
+      refuse(error, line, 0, {}, "the line contains bytes that are not text");
+      return RowTaken::kRefused;
+    }
+    if (line == 1) row = without_byte_order_mark(row);
+    const std::string_view content = trim(row);
+    if (content.empty() || content.front() == '#') continue;
+    if (columns_.count() > 0) {
+      rows_ += 1;
+      const bool read = read_row(Cells(row, separator_), line, columns_, waypoint, error);
+      return read ? RowTaken::kWaypoint : RowTaken::kRefused;
+    }
+    separator_ = separator_of(row);
+    if (!read_header(Cells(row, separator_), line, columns_, error)) return RowTaken::kRefused;
+  }
+}
+
+template <class Space>
+RowTaken TrajectoryReader<Space>::end(CsvError& error) const {
+  if (columns_.count() > 0 && rows_ > 0) return RowTaken::kEnd;
+  refuse(error, 0, 0, {},
+         columns_.count() == 0 ? "the file has no header" : "the file has no waypoints");
+  return RowTaken::kRefused;
+}
+
+template class TrajectoryReader<JointSpace>;
+template class TrajectoryReader<TaskSpace>;
+
+}  // namespace tactus

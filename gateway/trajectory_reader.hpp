@@ -1,0 +1,69 @@
+// TrajectoryReader: the waypoints of a trajectory file, one after the other, whatever its length:
+// CSV with one header row that names quantity and unit. The columns may be in any order, '#' begins
+// a comment line, empty lines are skipped. The columns of the joints, with numbers or names
+// (q_fer_joint1_rad):
+//
+//   time_s, q1_rad ... q7_rad [, dq1_rad_s ...] [, ddq1_rad_s2 ...] [, tau1_Nm ...]
+//
+// and of the tool tip in the base frame, with the wrench that the environment exerts on the tool:
+//
+//   time_s, x_m, y_m, z_m, qw, qx, qy, qz
+//   [, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s]
+//   [, ax_m_s2, ay_m_s2, az_m_s2, alphax_rad_s2, alphay_rad_s2, alphaz_rad_s2]
+//   [, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm]
+//
+// A group in brackets is given completely or left out.
+#pragma once
+
+#include "gateway/line_reader.hpp"
+#include "gateway/trajectory_columns.hpp"
+
+namespace tactus {
+
+/// Place and reason of a refusal. Lines and columns count from 1; 0: none in particular.
+struct CsvError {
+  int line = 0, column = 0;
+  Name header;  ///< header of the column
+  Message reason;
+
+  /// Returns "line:column: header: reason" without the parts that are empty.
+  PlacedMessage message() const;
+};
+
+enum class RowTaken : std::uint8_t {
+  kWaypoint,
+  kEnd,      // there are no more waypoints
+  kRefused,  // the error says why
+  kNotYet,   // a pipe had no whole row within the time to wait
+};
+
+template <class Space>
+class TrajectoryReader {
+ public:
+  /// Opens a file; the hash of its bytes continues `hash`. With `partial` a file may leave out
+  /// joints, the same in every group; they are held. False: refused. [init]
+  bool open(const char* path, bool partial, std::uint64_t hash, CsvError& error);
+  /// Returns to the first waypoint; only of a regular file. False: refused. [init]
+  bool rewind(CsvError& error);
+  /// Takes the next waypoint, in SI units. Refuses cells that are empty, no number, NaN or
+  /// infinite, and a file without header or waypoints. Waits for a pipe at most `wait_ms`;
+  /// negative: until it has a row or is closed. [any, not cyclic]
+  RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
+
+  /// Fields that are given; known once a waypoint was taken.
+  Fields fields() const { return columns_.fields(); }
+  /// Writes the joints that are left out into the header; once a waypoint was taken.
+  void note_left_out(typename Space::Header& header) const { columns_.note_left_out(header); }
+  const LineReader& lines() const { return lines_; }
+
+ private:
+  RowTaken end(CsvError& error) const;
+
+  LineReader lines_;
+  Columns<Space> columns_{false};
+  bool partial_ = false;
+  char separator_ = ',';
+  std::int64_t rows_ = 0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,176 @@
+#include "gateway/trajectory_stream.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kChanged =
+    "the file changed after it was judged; leave it alone while it runs, and run it again";
+
+}  // namespace
+
+template <class Space>
+bool TrajectoryStream<Space>::open(const char* path, bool partial, std::uint64_t hash,
+                                   Trajectory<Space>& store) {
+  window_ = &store;
+  return reader_.open(path, partial, hash, refusal_.row) && fill_window();
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::fill_window() {
+  window_->count = 0;
+  has_next_ = whole_known_ = false;
+  RowTaken taken = take(-1);
+  for (; taken == RowTaken::kWaypoint && window_->count < window_->capacity; taken = take(-1)) {
+    note(window_->count);
+    window_->set(window_->count++, next_);
+    has_next_ = false;
+  }
+  if (taken == RowTaken::kRefused) return false;
+  window_->fields = reader_.fields();
+  reader_.note_left_out(window_->header);
+  window_->open = longer_ = taken == RowTaken::kWaypoint;
+  appended_ = sent_ = window_->count;
+  state_ = longer_ ? Fed::kMore : Fed::kIdle;
+  return true;
+}
+
+template <class Space>
+RowTaken TrajectoryStream<Space>::take(int wait_ms) {
+  const RowTaken taken = reader_.next(next_, refusal_.row, wait_ms);
+  has_next_ = taken == RowTaken::kWaypoint;
+  whole_known_ = whole_known_ || taken == RowTaken::kEnd;
+  return taken;
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings) {
+  Admitted<Space> admitted;
+  const Verdict verdict = admit(*window_, settings, admitted);
+  if (!verdict.ok()) return refuse(verdict);
+  count_ = window_->count;
+  end_s_ = window_->end_s();
+  first_s_ = window_->time_s(0);
+  longer_s_ = window_->stretch * (end_s_ - first_s_);
+  account_.begin(window_->count, admitted);
+  if (!longer_ || !reader_.lines().regular()) return true;
+  if (!judge_parts(settings)) return false;
+  judged_hash_ = hash();
+  const bool again = reader_.rewind(refusal_.row) && fill_window();
+  return changed(false) || (again && !longer_) ? refuse(kChanged) : again;
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::judge_rest(const AdmissionSettings<Space>& settings) {
+  return !longer_ || reader_.lines().regular() || judge_parts(settings);
+}
+
+/// Judges all parts behind the first window, which they overwrite.
+template <class Space>
+bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settings) {
+  for (;;) {
+    const RowTaken taken = has_next_ ? RowTaken::kWaypoint : take(-1);
+    if (taken == RowTaken::kRefused) return false;
+    if (taken != RowTaken::kWaypoint) return judge_part(true, settings);
+    note(account_.count());
+    const Verdict verdict = account_.append(*window_, next_, settings);
+    if (!verdict.ok()) return refuse(verdict);
+    has_next_ = false;
+    if (part_full(account_.count() - account_.ended()) && !judge_part(false, settings))
+      return false;
+  }
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::judge_part(bool last, const AdmissionSettings<Space>& settings) {
+  double longer = 0.0;
+  const Verdict verdict = account_.judge_part(*window_, last, settings, longer);
+  if (!verdict.ok()) return refuse(verdict);
+  count_ = account_.count();
+  end_s_ = window_->time_s(account_.count() - 1);
+  longer_s_ += longer * (end_s_ - window_->time_s(account_.ended() - 1));
+  account_.end_part();
+  return true;
+}
+
+template <class Space>
+Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
+  if (state_ != Fed::kMore) return state_;
+  if (awaited_ != 0) return Fed::kAhead;
+  for (;;) {
+    if (!has_next_ && !whole_known_) {
+      const RowTaken taken = take(wait_ms);
+      if (taken == RowTaken::kRefused) return state_ = Fed::kRefused;
+      const bool starves = sent_ - client.needed(*window_) < window_->capacity / kParts;
+      if (taken == RowTaken::kNotYet)
+        return starves && appended_ > sent_ ? send_part(client, false) : Fed::kNotYet;
+    }
+    if (!has_next_) return send_part(client, true);
+    const Verdict verdict = client.append(*window_, next_);
+    if (verdict.status == Status::kWindowFull) return Fed::kAhead;
+    note(appended_);
+    if (!verdict.ok()) return give_up(verdict);
+    has_next_ = false;
+    ++appended_;
+    if (part_full(appended_ - sent_)) return send_part(client, false);
+  }
+}
+
+template <class Space>
+Fed TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last) {
+  if (changed(last)) return give_up(kChanged);
+  const Verdict verdict = client.flush(*window_, last, awaited_);
+  if (!verdict.ok()) return give_up(verdict);
+  sent_ = appended_;
+  if (!reader_.lines().regular()) {
+    count_ = sent_;
+    end_s_ = window_->time_s(sent_ - 1);
+  }
+  return state_ = last ? Fed::kWhole : Fed::kMore;
+}
+
+template <class Space>
+void TrajectoryStream<Space>::answered(const Report& report) {
+  if (awaited_ == 0 || report.id != awaited_) return;
+  awaited_ = 0;
+  if (report.outcome == Outcome::kRefused && state_ != Fed::kIdle) refuse(report.verdict);
+}
+
+/// True if a file that was judged is not the same any more.
+template <class Space>
+bool TrajectoryStream<Space>::changed(bool at_end) const {
+  if (!reader_.lines().regular()) return false;
+  return !reader_.lines().unchanged() || (at_end && hash() != judged_hash_);
+}
+
+template <class Space>
+void TrajectoryStream<Space>::note(int index) {
+  newest_ = index;
+  lines_[static_cast<std::size_t>(index % window_->capacity)] = reader_.lines().line();
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::refuse(const Verdict& verdict) {
+  state_ = Fed::kRefused;
+  refusal_.verdict = verdict;
+  if (verdict.waypoint >= 0 && in_window(verdict.waypoint))
+    refusal_.line = lines_[static_cast<std::size_t>(verdict.waypoint % window_->capacity)];
+  return false;
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::refuse(std::string_view reason) {
+  state_ = Fed::kRefused;
+  refusal_.row = {};
+  refusal_.row.reason = Message(reason);
+  return false;
+}
+
+template <class Space>
+double TrajectoryStream<Space>::time_s(int waypoint) const {
+  return in_window(waypoint) ? window_->time_s(waypoint) : kInfinity;
+}
+
+template class TrajectoryStream<JointSpace>;
+template class TrajectoryStream<TaskSpace>;
+
+}  // namespace tactus

@@ -1,0 +1,105 @@
+// TrajectoryStream: a trajectory file of any length, on its way through the window of a store. The
+// first waypoints fill the store and are sent as an open trajectory; the others follow in parts of
+// a fixed number of waypoints, so that a file is judged before it moves exactly as it is judged
+// when its parts are sent.
+#pragma once
+
+#include <algorithm>
+
+#include "gateway/part_account.hpp"
+#include "gateway/reference_client.hpp"
+#include "gateway/trajectory_csv.hpp"
+
+namespace tactus {
+
+/// Why a file was refused: a row that cannot be read, or else a waypoint that cannot be followed.
+struct StreamRefusal {
+  CsvError row;     ///< if its reason is not empty
+  Verdict verdict;  ///< otherwise
+  int line = 0;     ///< of the verdict's waypoint; 0: none in particular
+};
+
+enum class Fed : std::uint8_t {
+  kIdle,     ///< nothing to feed: the file fits its store, or its trajectory has ended
+  kAhead,    ///< the window is full, or the generator has not yet answered the last part
+  kNotYet,   ///< a pipe has no more rows at present
+  kMore,     ///< a part was sent, more may follow
+  kWhole,    ///< the last part was sent
+  kRefused,  ///< refusal() says why; nothing more is sent
+};
+
+template <class Space>
+class TrajectoryStream {
+ public:
+  /// Opens a file and fills the store with its first waypoints. False: refused. [init]
+  bool open(const char* path, bool partial, std::uint64_t hash, Trajectory<Space>& store);
+  /// Judges the file except for the way from the robot to its first waypoint: the whole of one that
+  /// fits or can be read twice, of another the first waypoints. The store then holds the first
+  /// waypoints, ready to be sent. False: refused. [init]
+  bool judge(const AdmissionSettings<Space>& settings);
+  /// Judges the rest of a file that cannot be read twice, and is not to be sent. False: refused.
+  /// [init]
+  bool judge_rest(const AdmissionSettings<Space>& settings);
+
+  /// Appends and sends the next part of a trajectory that was sent, if there is space. Waits for a
+  /// pipe at most `wait_ms`. [any, not cyclic]
+  Fed feed(ReferenceClient<Space>& client, int wait_ms);
+  /// Takes the answer to a part. [any, not cyclic]
+  void answered(const Report& report);
+  /// Gives up: the trajectory has ended.
+  void end() { state_ = Fed::kIdle; }
+
+  /// True if the file does not fit into the store.
+  bool longer() const { return longer_; }
+  /// True if the last waypoint is known, since the file was judged or read to its end.
+  bool whole_known() const { return whole_known_ || reader_.lines().regular(); }
+  std::int64_t count() const { return count_; }  ///< waypoints known so far
+  double end_s() const { return end_s_; }        ///< time of the last of them
+  double longer_s() const { return longer_s_; }  ///< time by which they are slowed down
+  /// The same as a fraction of the time from the first to the last of them.
+  double stretch() const { return longer_s_ > 0.0 ? longer_s_ / (end_s_ - first_s_) : 0.0; }
+  std::uint64_t hash() const { return reader_.lines().hash(); }  ///< of the bytes read so far
+  const StreamRefusal& refusal() const { return refusal_; }
+  /// Returns the time of a waypoint, or infinity if it is not in the window.
+  double time_s(int waypoint) const;
+
+ private:
+  static constexpr int kParts = 4;  // in a window
+
+  bool refuse(const Verdict& verdict);
+  bool refuse(std::string_view reason);
+  template <class Reason>
+  Fed give_up(const Reason& reason) {
+    refuse(reason);
+    return state_;
+  }
+  bool fill_window();
+  RowTaken take(int wait_ms);
+  bool judge_parts(const AdmissionSettings<Space>& settings);
+  bool judge_part(bool last, const AdmissionSettings<Space>& settings);
+  Fed send_part(ReferenceClient<Space>& client, bool last);
+  bool changed(bool at_end) const;
+  /// Notes the line of the waypoint that becomes number `index`.
+  void note(int index);
+  bool in_window(int index) const {
+    return index <= newest_ && index > newest_ - window_->capacity;
+  }
+  bool part_full(int count) const { return count >= std::max(1, window_->capacity / kParts); }
+
+  TrajectoryReader<Space> reader_;
+  Trajectory<Space>* window_ = nullptr;
+  Waypoint<Space> next_;  // read, but not yet in the window
+  bool has_next_ = false, longer_ = false, whole_known_ = false;
+  PartAccount<Space> account_;   // of the judge
+  int appended_ = 0, sent_ = 0;  // waypoints in the window, and those that were sent
+  std::uint32_t awaited_ = 0;    // request of the part that is not yet answered; 0: none
+  Fed state_ = Fed::kIdle;
+  std::int64_t count_ = 0;
+  double first_s_ = 0.0, end_s_ = 0.0, longer_s_ = 0.0;
+  std::uint64_t judged_hash_ = 0;
+  StreamRefusal refusal_;
+  int newest_ = -1;                          // the newest waypoint in the window
+  std::array<int, kMostWaypoints> lines_{};  // of the waypoints in the window
+};
+
+}  // namespace tactus

@@ -1,0 +1,64 @@
+#include "program/session/goal_watch.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double kReportPeriods = 10.0;  // a report comes a few cycles after what it tells
+
+template <class Space>
+double goal_time_s(const ReferenceClient<Space>& client) {
+  const Tolerances<Space>* const tolerances = client.tolerances();
+  return tolerances != nullptr && tolerances->goal_time_s > 0.0 ? tolerances->goal_time_s
+                                                                : kInfinity;
+}
+
+}  // namespace
+
+VerdictAxes GoalWatch::axes() const {
+  return input_.takes_poses() ? VerdictAxes::kTip : VerdictAxes::kJoints;
+}
+
+void GoalWatch::follow() {
+  while (input_.takes_poses() ? session_.task_client.poll_feedback(tip_)
+                              : session_.client.poll_feedback(joints_))
+    told_ = true;
+}
+
+double GoalWatch::latest_report_s() const {
+  const double waits_s =
+      input_.takes_poses() ? goal_time_s(session_.task_client) : goal_time_s(session_.client);
+  return input_.planned_end_s() + waits_s + kReportPeriods * session_.pipeline.robot.period_s();
+}
+
+Verdict GoalWatch::last_verdict() const {
+  if (!told_) return {Status::kNotStarted};
+  return input_.takes_poses() ? session_.task_client.judge_goal(tip_)
+                              : session_.client.judge_goal(joints_);
+}
+
+Reason GoalWatch::given_up(const Verdict& verdict) const {
+  const char* const remedy = goal_remedy(verdict.status, axes());
+  Reason text;
+  if (remedy == nullptr) return text;
+  text << (verdict.status == Status::kPathTolerance ? "path not followed: " : "goal not reached: ");
+  return text << describe(verdict, axes()) << "; " << remedy;
+}
+
+Reason GoalWatch::unfinished(double time_s) const {
+  Reason text;
+  const double end_s = input_.planned_end_s();
+  if (time_s < end_s) {
+    text << "the run ended at " << time_s << " s, the trajectory ends at " << end_s;
+    return text << " s; give a longer --duration";
+  }
+  const Verdict verdict = last_verdict();
+  if (goal_remedy(verdict.status, axes()) != nullptr) {
+    text << given_up(verdict);
+    return text << ", or give a longer --duration";
+  }
+  text << "the run ended " << time_s - end_s << " s after the planned end of the trajectory";
+  return text << ", before the generator reported it; the robot was slowed down or must stay at "
+                 "the goal for dwell_ms: give a longer --duration";
+}
+
+}  // namespace tactus

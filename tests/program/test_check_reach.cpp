@@ -1,0 +1,112 @@
+// Tests that `check` names the places at which the arm cannot follow a path of its tip, and that a
+// run then stays behind by as much.
+#include <algorithm>
+#include <string>
+
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kPoses = "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
+constexpr const char* kPosition =
+    "[robot]\nname = fer\nperiod_us = 1000\nq_c = cpc.q_c\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
+    "[trg]\ntype = task_reference_generator\nx = model.x\n"
+    "[cpc]\ntype = cartesian_pose\nx_d = trg.x_d\nv_d = trg.v_d\nx = model.x\nJ = model.J\n"
+    "q = robot.q\n"
+    "[recorder]\nsignals = model.x\ntracking = trg.x_d model.x\n";
+
+/// A row of a trajectory with the flange as in the ready pose.
+Line row(double time_s, double x_m, double y_m = 0.0) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%g,%g,%g,0.5,0,0.923879532511,-0.382683432365,0\n", time_s, x_m,
+                y_m);
+  return Line(text);
+}
+
+int check(const Line& trajectory) {
+  const Line pipeline = write("cpc.ini", {kPosition});
+  return tactus_run({"check", pipeline.c_str(), "--trajectory", trajectory.c_str()});
+}
+
+/// The number after `word` in a text.
+double number_after(std::string_view text, std::string_view word) {
+  const std::size_t at = text.find(word);
+  assert_true(at != std::string_view::npos);
+  return std::atof(std::string(text.substr(at + word.size(), 20)).c_str());
+}
+
+// Proves RUN-26.
+
+void a_pose_out_of_reach_is_a_warning_with_time_place_and_distance(void**) {
+  const Line far =
+      write("far.csv", {kPoses, row(5, 0.5).c_str(), row(15, 1.1).c_str(), row(25, 0.5).c_str()});
+  assert_int_equal(check(far), 0);
+  assert_true(has(output(), "accepted, 3 waypoints, 25 s\n"));
+  assert_true(has(errors(), "/far.csv: warning: t = 9."));
+  assert_true(has(errors(), " s: out of reach: at t = 15 s, (1.1, 0, 0.5) m, it stays 0.3"));
+  assert_true(has(errors(), "; move the path or the base of the arm\n"));
+  const double short_m = number_after(errors(), "it stays ");
+  const Line out = in_folder("far"), pipeline = in_folder("cpc.ini");
+  tactus_run(
+      {"run", pipeline.c_str(), "--trajectory", far.c_str(), "--no-figure", "--out", out.c_str()});
+  assert_int_equal(
+      shell(
+          "python3 -c \"import json, math; t = json.load(open('$S/far/summary.json'))['tracking'];"
+          " print('largest', math.hypot(*t[0]['max'][:3]))\""),
+      0);
+  ASSERT_NEAR(number_after(output(), "largest "), short_m, 0.02);
+}
+
+void an_arm_that_is_singular_and_a_joint_that_is_too_fast_are_named(void**) {
+  const Line far = write("far.csv", {kPoses, row(5, 0.5).c_str(), row(15, 1.1).c_str()});
+  assert_int_equal(check(far), 0);
+  assert_true(has(errors(), " s: near a singularity: at t = 9."));
+  assert_true(has(errors(), " m, sigma is 0.0"));
+  assert_true(has(errors(), ", and below 0.05 the tip may leave the path; "));
+  assert_true(has(errors(), " s: too fast for the arm: at t = 9."));
+  assert_true(has(errors(), " m, joint 4 (fer_joint4) turns at "));
+}
+
+void a_joint_at_its_limit_is_named_with_value_and_limit(void**) {
+  const Line turn =
+      write("turn.csv", {kPoses, row(5, 0.4).c_str(), "25,0.4,0,0.5,0,0.38268343,0.9238795,0\n",
+                         "45,0.4,0,0.5,0,-0.38268343,0.9238795,0\n"});
+  assert_int_equal(check(turn), 0);
+  assert_true(has(errors(), " s: near a joint limit: at t = "));
+  assert_true(has(errors(), " joint 7 (fer_joint7) is at -2.89"));
+  assert_true(has(errors(), " rad, its limit is -2.8973; "));
+  assert_int_equal(std::count(errors().begin(), errors().end(), '\n'), 1);
+}
+
+void a_path_in_reach_and_a_path_of_joints_have_no_warning(void**) {
+  for (const char* pipeline : {"pipelines/fer_trg_cpc.ini", "pipelines/fer_trg_ac_cpc_pid.ini",
+                               "pipelines/fer_jrg_pdgc.ini"}) {
+    assert_int_equal(tactus_run({"check", pipeline}), 0);
+    assert_true(errors().empty());
+  }
+}
+
+void a_path_that_is_in_and_out_of_reach_very_often_has_few_lines(void**) {
+  std::string text(kPoses);
+  for (int i = 0; i < 300; ++i) text += row(5 + 3 * i, i % 2 == 0 ? 0.5 : 0.9, 0.1).c_str();
+  assert_int_equal(check(write("often.csv", {text.c_str()})), 0);
+  assert_int_equal(std::count(errors().begin(), errors().end(), '\n'), 13);
+  assert_true(has(errors(), "/often.csv: warning: and "));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_pose_out_of_reach_is_a_warning_with_time_place_and_distance),
+      cmocka_unit_test(an_arm_that_is_singular_and_a_joint_that_is_too_fast_are_named),
+      cmocka_unit_test(a_joint_at_its_limit_is_named_with_value_and_limit),
+      cmocka_unit_test(a_path_in_reach_and_a_path_of_joints_have_no_warning),
+      cmocka_unit_test(a_path_that_is_in_and_out_of_reach_very_often_has_few_lines),
+  };
+  return run_program_tests(argv[0], tests);
+}

@@ -1,0 +1,137 @@
+// Tests what `make run` repeats and what it refuses to begin.
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+/// A tree in the scratch folder with two pipelines, one with a trajectory, and a pipeline that
+/// fails.
+int plant(void**) {
+  shell("mkdir -p $S/t/pipelines/trajectories && cp $P $S/t/tactus");
+  write("t/pipelines/one.ini", {kPipeline, "[gateway]\ntrajectory = trajectories/t.csv  # its\n"});
+  write("t/pipelines/two.ini", {kPipeline});
+  write("t/pipelines/weak.ini", {kPipeline, "[guard]\nmax_velocity = 1e-3\n"});
+  for (const char* name : {"t/pipelines/trajectories/t.csv", "t/pipelines/trajectories/u.csv"})
+    write(name, {kHeader, kReady});
+  return 0;
+}
+
+/// Runs one, two and two:u with a copy of the program, which finds no script that draws figures.
+int run_all(const char* options) {
+  Line line("cd $S/t && $R/scripts/run_all ");
+  return shell((line << options << " -- ./tactus one two two:u").c_str());
+}
+
+/// Whether exactly these of the three are said to be unchanged.
+bool unchanged(bool one, bool two, bool two_u) {
+  const auto said = [](const char* line) { return output().find(line) != std::string_view::npos; };
+  return said("  RUN   one: unchanged, run of ") == one &&
+         said("  RUN   two: unchanged, run of ") == two &&
+         said("  RUN   two:u: unchanged, run of ") == two_u &&
+         has(output(), "\n3 of 3 runs as expected\n");
+}
+
+// Proves RUN-11.
+
+void only_what_has_changed_is_run_again(void**) {
+  assert_int_equal(run_all(""), 0);
+  assert_true(unchanged(false, false, false));
+  assert_int_equal(run_all(""), 0);
+  assert_true(unchanged(true, true, true));
+  const char* changes[] = {"echo '# x' >>pipelines/two.ini",
+                           "echo '# x' >>pipelines/trajectories/t.csv",
+                           "echo '# x' >>pipelines/trajectories/u.csv", "rm out/two/log.csv",
+                           "printf ' ' >>out/one/summary.json"};
+  const bool repeated[][3] = {{false, true, true},
+                              {true, false, false},
+                              {false, false, true},
+                              {false, true, false},
+                              {true, false, false}};
+  for (std::size_t i = 0; i < std::size(changes); ++i) {
+    Line line("cd $S/t && ");
+    assert_int_equal(shell((line << changes[i]).c_str()), 0);
+    assert_int_equal(run_all(""), 0);
+    assert_true(unchanged(!repeated[i][0], !repeated[i][1], !repeated[i][2]));
+  }
+  assert_int_equal(shell("printf x >>$S/t/tactus"), 0);
+  assert_int_equal(run_all(""), 0);
+  assert_true(unchanged(false, false, false));
+  assert_int_equal(run_all("--always"), 0);
+  assert_true(unchanged(false, false, false));
+}
+
+void a_script_is_repeated_when_a_program_it_names_has_changed(void**) {
+  assert_int_equal(shell("mkdir -p $S/t/build/b && cp $S/t/tactus $S/t/build/b/tactus && "
+                         "printf '#!/bin/sh\\nexec build/b/tactus \"$@\"\\n' >$S/t/beside && chmod "
+                         "+x $S/t/beside"),
+                   0);
+  constexpr const char* kRun = "cd $S/t && $R/scripts/run_all -- ./beside two";
+  assert_int_equal(shell(kRun), 0);
+  assert_int_equal(shell(kRun), 0);
+  assert_true(has(output(), "  RUN   two: unchanged, run of "));
+  assert_int_equal(shell("printf x >>$S/t/build/b/tactus"), 0);
+  assert_int_equal(shell(kRun), 0);
+  assert_true(has(output(), "  RUN   two: succeeded\n"));
+}
+
+void a_run_that_was_not_as_expected_is_always_repeated(void**) {
+  for (int i = 0; i < 2; ++i) {
+    assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- ./tactus weak"), 1);
+    assert_true(has(output(), "  RUN   weak: measured velocity limit (68)\n"));
+  }
+}
+
+void the_runs_that_are_named_are_run_and_the_report_has_all_there_are(void**) {
+  assert_int_equal(run_all(""), 0);
+  assert_int_equal(shell("rm -r $S/t/out/one"), 0);
+  assert_int_equal(run_all("--always --only 'two:u'"), 0);
+  assert_true(has(output(), "  RUN   two:u: succeeded\n"));
+  assert_true(output().find("  RUN   two: ") == std::string_view::npos);
+  assert_true(has(output(), "\n2 of 2 runs as expected\n"));  // two is there, one is not
+  assert_int_equal(run_all("--only 'one, two'"), 0);
+  assert_true(unchanged(false, true, false));
+  assert_int_equal(run_all("--only three"), 1);
+  assert_true(has(errors(), "run_all: there is no run 'three'; there are one, two, two:u\n"));
+}
+
+// Proves RUN-12.
+
+void runs_that_would_write_into_one_folder_or_into_none_are_refused(void**) {
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- ./tactus a:b -- ./other a_b"), 1);
+  assert_true(has(errors(), "run_all: a:b and a_b would both be written to out/a_b; rename a "));
+  write("t/summary.json", {"not of a run"});
+  for (const char* name : {"..", ".", "''", "../t/pipelines/one", "one:", "one:../t"}) {
+    Line line("cd $S/t && $R/scripts/run_all -- ./tactus ");
+    assert_int_equal(shell((line << name).c_str()), 1);
+    assert_true(has(errors(), "' is not the name of a pipeline, or of pipeline:trajectory; "));
+  }
+  assert_true(exists("t/summary.json"));
+}
+
+void a_pipeline_whose_name_gives_no_folder_is_refused(void**) {
+  for (const char* name : {"t/.ini", "t/..ini", "t/...ini"}) {
+    const Line path = write(name, {kPipeline});
+    assert_int_equal(tactus_run({"run", path.c_str(), "--duration", "0.05", "--no-figure"}), 2);
+    assert_true(has(errors(),
+                    "ini: refused: its name gives no folder for the results; rename it, "
+                    "or give --out\n"));
+    assert_int_equal(run_into("named", path.c_str()), 0);
+  }
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(only_what_has_changed_is_run_again),
+      cmocka_unit_test(a_script_is_repeated_when_a_program_it_names_has_changed),
+      cmocka_unit_test(a_run_that_was_not_as_expected_is_always_repeated),
+      cmocka_unit_test(the_runs_that_are_named_are_run_and_the_report_has_all_there_are),
+      cmocka_unit_test(runs_that_would_write_into_one_folder_or_into_none_are_refused),
+      cmocka_unit_test(a_pipeline_whose_name_gives_no_folder_is_refused),
+  };
+  if (!find_program(argv[0], "tactus")) return 1;
+  return cmocka_run_group_tests(tests, plant, remove_folder);
+}
