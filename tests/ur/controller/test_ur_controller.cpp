@@ -53,7 +53,7 @@ void the_real_time_port_sends_a_packet_every_cycle(void**) {
   assert_true(number(kTimeOffset) == 100.0 + 3 * 0.008);
   for (int i = 0; i < 6; ++i)
     ASSERT_NEAR(number(kQActualOffset + 8 * static_cast<std::size_t>(i)), Settings().initial_q[i],
-                1e-9);
+                kEncoder_rad);
   assert_true(number(kRobotModeOffset) == 7.0);
   assert_true(number(kJointModesOffset) == 253.0);
   assert_true(number(kSafetyModeOffset) == 1.0);

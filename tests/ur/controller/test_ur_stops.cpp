@@ -95,7 +95,7 @@ void the_tool_stays_below_its_speed_limit(void**) {
   assert_true(fastest > 1.3 && fastest < 1.5);
   assert_true(scaling > 0.3 && scaling < 0.9);  // 2 rad/s at 1.2 m would be 2.4 m/s
   ASSERT_NEAR(g_bench.image().target_speed_fraction, 1.0, 0.0);
-  ASSERT_NEAR(g_bench.image().actual_q[0], 2.5, 1e-6);
+  ASSERT_NEAR(g_bench.image().actual_q[0], 2.5, kEncoder_rad);
   assert_int_equal(g_bench.image().safety_mode, 1);
 }
 

@@ -107,7 +107,7 @@ void brackets_without_end_are_no_value(void**) {
 
 void movej_takes_a_plausible_time(void**) {
   static ProgramBench bench;
-  ASSERT_OK(bench.machine().body.load(joints({-1.57, -1.57, 0, 0, 0, 0}), 0.0, Vector3::Zero()));
+  ASSERT_OK(bench.machine().body.load(joints({-1.57, -1.57, 0, 0, 0, 0})));
   bench.machine().motion.rest(joints({-1.57, -1.57, 0, 0, 0, 0}));
   for (const std::string_view text : {"movej([-1.57, -1.6, 1.6, -0.7, 0.7, 0.2], a=3.4, v=3.1)\n",
                                       "movej([-1.57, -1.57, 0, 0, 0, 0], a=3.4, v=3.1)\n"}) {
