@@ -2,6 +2,7 @@
 // of the robot, whose drives stay disabled.
 #include <cstdio>
 
+#include "program/results/expectation.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 
@@ -18,6 +19,9 @@ Status look(Hal& hal, CommandMode mode, RobotState& state) {
 }  // namespace
 
 int check(Session& session, const Options& options) {
+  Expectation expectation;
+  if (!expectation.start(session.expect, session.pipeline.robot.period_s(), options.pipeline))
+    return kRefused;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
   Pipeline& pipeline = session.pipeline;

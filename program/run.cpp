@@ -68,6 +68,13 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
+/// A run that has not seen what its file states does not succeed.
+void judge(const Options& options, RunResult& result) {
+  if (result.code != 0 || result.expectation.met()) return;
+  end_with(result, kEndedOtherwise, "not as stated");
+  result.expectation.print_miss(options.pipeline);
+}
+
 }  // namespace
 
 void print_stop(const char* subject, const char* event, Status status,
@@ -93,6 +100,10 @@ int run(Session& session, const Options& options) {
   if (folder.empty()) folder << "out/" << pipeline;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
+  static RunResult result;
+  if (!result.expectation.start(session.expect, session.pipeline.robot.period_s(),
+                                options.pipeline))
+    return kRefused;
   RunLog log;
   LogWriter writer(log);
   WatchdogThread watchdog;
@@ -104,7 +115,6 @@ int run(Session& session, const Options& options) {
   const Recording& recording = session.pipeline.recording;
   if (!log.open(in_folder(folder, "log.csv").c_str(), recording)) return kRefused;
 
-  static RunResult result;
   result.seed = options.seed;
   result.stretch = input.stretch();
   result.realtime.asked = options.realtime;
@@ -120,6 +130,8 @@ int run(Session& session, const Options& options) {
   catch_interrupts();
   execute(session, options, input, log, writer, watchdog, result);
   realtime.release();  // or the program that draws the figure would inherit it
+
+  judge(options, result);
 
   bool written = log.close();
   written &= write_scene(in_folder(folder, "scene.json").c_str(), session.pipeline);

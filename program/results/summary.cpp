@@ -104,6 +104,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
   std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"},\n", result.code, result.name);
+  result.expectation.write(file);
   std::fprintf(file, "  \"stretch\": %.4g,\n", result.stretch);
   write_tracking(file, result);
   write_signals(file, session);
@@ -137,6 +138,7 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
     for (int c = 0; c < error.components(); ++c)
       std::printf("  %9d %12.3e %12.3e %12.3e\n", c + 1, error.rms(c), error.max(c), error.last(c));
   }
+  result.expectation.print();
   print_timing(session.pipeline, executive);
   if (result.realtime.asked) print_realtime(result.realtime);
   print_events(executive.events());
