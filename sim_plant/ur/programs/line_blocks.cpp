@@ -102,7 +102,7 @@ bool LineProgram::call_own(std::string_view line, Line& result) {
 /// After an `if` that is false, goes on in the branch that is true, or after the end.
 void LineProgram::find_branch(Machine& machine) {
   std::string_view line;
-  while (next(line)) {
+  while (!ended_ && next(line)) {
     const std::string_view word = leading_name(line);
     if (opens_block(line)) {
       skip_blocks(1);

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "sim_plant/ur/script/script_expression.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
@@ -21,7 +22,7 @@ ProgramStep LineProgram::poll(Machine& machine) {
   std::string_view line;
   for (int lines = 0; lines < kLinesAtOnce; ++lines) {
     const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
-    ended_ = result == Line::kEnded;
+    ended_ = ended_ || result == Line::kEnded;
     if (ended_) return end(machine);
     if (result == Line::kWait) break;
   }
@@ -69,7 +70,7 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
   if (evaluate(condition, {&variables_, &machine}, value) && trimmed(condition).empty() &&
       value.numeric())
     return value.number != 0.0;
-  not_emulated(line, machine);
+  fail(line, machine);
   return false;
 }
 
@@ -98,7 +99,11 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
   rest = trimmed(rest.substr(1));
   std::string_view expression = rest;
   if (!evaluate(expression, scope, value)) {
-    result = run_call_line(rest, machine);  // a call whose value is not emulated
+    if (is_emulated_call(leading_name(rest)))
+      result = run_call_line(rest, machine);  // such as socket_open(), which is taken to succeed
+    else
+      fail(line, machine);
+    if (ended_) return true;
     value.kind = ScriptValue::Kind::kBool;
     value.number = 1.0;
   }
@@ -111,9 +116,9 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
     if (fits)
       whole->elements[static_cast<std::size_t>(index.number)] = value.number;
     else
-      not_emulated(line, machine);
+      fail(line, machine);
   } else if (!variables_.set(name, value)) {
-    not_emulated(line, machine);
+    fail(line, machine);
   }
   return true;
 }
@@ -124,8 +129,8 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, {&variables_, &machine}, call)) {
-    not_emulated(line, machine);
-    return Line::kNext;
+    fail(line, machine);
+    return Line::kEnded;
   }
   const CallOutcome outcome = run_call(call, moves_, machine);
   switch (outcome.result) {
@@ -142,16 +147,16 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   return Line::kNext;
 }
 
-/// Reports once per program that a line is not emulated.
-void LineProgram::not_emulated(std::string_view line, Machine& machine) {
-  if (told_) return;
-  told_ = true;
+/// Ends the program with a runtime exception: a value of the line does not exist or does not fit.
+void LineProgram::fail(std::string_view line, Machine& machine) {
+  if (ended_) return;
+  ended_ = true;
   std::array<char, 160> text;
-  constexpr std::string_view kWhat = "not emulated: ";
+  constexpr std::string_view kWhat = "runtime_error:no value:";
   std::memcpy(text.data(), kWhat.data(), kWhat.size());
   const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
   std::memcpy(text.data() + kWhat.size(), line.data(), size);
-  machine.messages.text({text.data(), kWhat.size() + size});
+  machine.messages.runtime_exception(here_.line, 1, {text.data(), kWhat.size() + size});
 }
 
 }  // namespace tactus::ur

@@ -1,7 +1,7 @@
 // LineProgram: interprets a program of plain lines: calls, assignments, `while` and `if` with
-// conditions, and functions of the program without arguments and results. If a condition or value
-// is not understood, its block is skipped and a text message reports it; threads, and functions
-// with arguments, are not understood.
+// conditions, and functions of the program without arguments and results. Runner refuses a program
+// that has anything else (script_check.hpp). If a value does not exist or fit, the program ends
+// with a runtime exception.
 #pragma once
 
 #include "sim_plant/ur/programs/program_step.hpp"
@@ -50,7 +50,7 @@ class LineProgram {
   bool enter(Block::Kind kind, const Place& next);
   void find_branch(Machine& machine);
   void skip_blocks(std::size_t count);
-  void not_emulated(std::string_view line, Machine& machine);
+  void fail(std::string_view line, Machine& machine);
 
   static constexpr std::size_t kDeepest = 12;
   static constexpr int kLinesAtOnce = 256;  // per cycle, for a loop that never waits
@@ -60,7 +60,6 @@ class LineProgram {
   int first_line_ = 1;
   bool moves_ = true;
   bool ended_ = false;
-  bool told_ = false;  // has reported that something is not emulated
   double wait_until_s_ = -1.0;
   std::array<Block, kDeepest> blocks_{};
   std::size_t depth_ = 0;

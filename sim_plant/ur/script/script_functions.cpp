@@ -53,6 +53,10 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
     value = six_value(Kind::kPose, (forward(machine.measured_q()) * motion.tool()).pose());
   else if (name == "get_target_tcp_pose")
     value = six_value(Kind::kPose, (forward(motion.q()) * motion.tool()).pose());
+  else if (name == "get_tcp_force")
+    value = six_value(Kind::kPose, machine.measured_wrench());
+  else if (name == "force")
+    value = number_value(machine.measured_wrench().head<3>().norm());
   else if (name == "get_tcp_offset")
     value = six_value(Kind::kPose, machine.tcp_offset);
   else if (name == "get_target_payload")
