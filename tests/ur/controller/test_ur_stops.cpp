@@ -66,6 +66,20 @@ void a_protective_stop_is_told_and_unlocked_when_it_may_be(void**) {
   assert_true(g_bench.until([] { return !protective_stopped(); }, 625));
 }
 
+/// The sum of 2500 cycles of 2 ms is a little less than 5 s.
+void a_stop_is_unlocked_exactly_five_seconds_after_it(void**) {
+  const Settings settings;
+  for (const double cycle_s : {0.008, 0.002}) {
+    Safety safety(settings);
+    assert_true(safety.protective_stop());
+    const int cycles = static_cast<int>(5.0 / cycle_s + 0.5);
+    for (int k = 1; k < cycles; ++k) safety.tick(cycle_s);
+    assert_false(safety.unlock());
+    safety.tick(cycle_s);
+    assert_true(safety.unlock());
+  }
+}
+
 void the_safety_system_steps_in_at_its_limits(void**) {
   connect();
   g_bench.controller().faults().encoder_offset[0] = 7.0;  // rad: beyond 363 degrees
@@ -119,6 +133,7 @@ int main() {
       cmocka_unit_test(a_push_is_a_collision_and_a_wrong_encoder_a_deviation),
       cmocka_unit_test(a_script_that_goes_silent_at_speed_is_a_sudden_stop),
       cmocka_unit_test(a_protective_stop_is_told_and_unlocked_when_it_may_be),
+      cmocka_unit_test(a_stop_is_unlocked_exactly_five_seconds_after_it),
       cmocka_unit_test(the_safety_system_steps_in_at_its_limits),
       cmocka_unit_test(the_tool_stays_below_its_speed_limit),
       cmocka_unit_test(what_a_test_breaks_is_broken),
