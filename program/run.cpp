@@ -68,6 +68,17 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, R
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
+/// Says where the files are, and what compares them with the expected lag or force.
+void print_folder(const FilePath& folder) {
+  std::string_view path = folder;
+  while (path.size() > 1 && path.back() == '/') path.remove_suffix(1);
+  const std::size_t slash = path.rfind('/');
+  const FilePath parent(slash == std::string_view::npos ? "." : path.substr(0, slash + 1));
+  const FilePath name(slash == std::string_view::npos ? path : path.substr(slash + 1));
+  std::printf("  written to %s; seen and expected: scripts/report %s %s\n", folder.c_str(),
+              parent.c_str(), name.c_str());
+}
+
 /// A run that has not seen what its file states does not succeed.
 void judge(const Options& options, RunResult& result) {
   if (result.code != 0 || result.expectation.met()) return;
@@ -146,7 +157,7 @@ int run(Session& session, const Options& options) {
                 100.0 * input.stretch());
   if (!written) std::fprintf(stderr, "%s: not all files could be written\n", folder.c_str());
   if (options.figure && written) draw_figure(folder.c_str());
-  std::printf("  written to %s\n", folder.c_str());
+  print_folder(folder);
   if (result.cycles == 0) return kRefused;
   return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
 }
