@@ -53,10 +53,10 @@ bool LineProgram::next(std::string_view& line) {
 LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine) {
   if (line.empty()) return Line::kNext;
   const std::string_view word = leading_name(line);
-  if (word == "end") return run_end();
+  if (word == "end") return run_end(line, machine);
   if (word == "break" || word == "continue") return run_jump(word == "break");
   if (word == "halt") return Line::kEnded;
-  if (word == "return") return run_return();
+  if (word == "return") return run_return(line, machine);
   if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
 }
@@ -75,30 +75,34 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
 }
 
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
-  for (const std::string_view word : {"global ", "local "})
-    if (starts_with(line, word)) line = trimmed(line.substr(word.size()));
+  const std::string_view word = leading_name(line);
+  const Scope scope = word == "global"  ? Scope::kGlobal
+                      : word == "local" ? Scope::kLocal
+                                        : Scope::kNearest;
+  if (scope != Scope::kNearest) line = trimmed(line.substr(word.size()));
   Line result = Line::kNext;
-  return assign(line, machine, result) ? result : run_call_line(line, machine);
+  return assign(line, scope, machine, result) ? result : run_call_line(line, machine);
 }
 
 /// Runs "name = value" or "name[index] = value"; "digital_out[n] = b" is the call of versions
 /// before
 /// 3. False: the line is not an assignment.
-bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
-  const ScriptScope scope = {&variables_, &machine};
+bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, Line& result) {
+  const ScriptScope known = {&variables_, &machine};
   const std::string_view name = leading_name(line);
   std::string_view rest = trimmed(line.substr(name.size()));
   ScriptValue index, value;
   const bool element = starts_with(rest, "[");
   if (element) {
     rest.remove_prefix(1);
-    if (!evaluate(rest, scope, index) || !starts_with(trimmed(rest), "]")) return false;
+    if (!evaluate(rest, known, index) || !starts_with(trimmed(rest), "]")) return false;
     rest = trimmed(trimmed(rest).substr(1));
   }
   if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
   rest = trimmed(rest.substr(1));
+  if (!element && call_own(rest, name, scope, machine)) return true;
   std::string_view expression = rest;
-  if (!evaluate(expression, scope, value)) {
+  if (!evaluate(expression, known, value)) {
     if (is_emulated_call(leading_name(rest)))
       result = run_call_line(rest, machine);  // such as socket_open(), which is taken to succeed
     else
@@ -117,15 +121,14 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
       whole->elements[static_cast<std::size_t>(index.number)] = value.number;
     else
       fail(line, machine);
-  } else if (!variables_.set(name, value)) {
+  } else if (!variables_.set(name, value, scope)) {
     fail(line, machine);
   }
   return true;
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
-  Line result = Line::kNext;
-  if (call_own(line, result)) return result;
+  if (call_own(line, {}, Scope::kNearest, machine)) return Line::kNext;
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, {&variables_, &machine}, call)) {

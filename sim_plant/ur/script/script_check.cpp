@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim_plant/ur/script/script_definition.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
@@ -57,6 +58,13 @@ bool ScriptCheck::collect_variables() {
     const std::string_view code = without_scope(trimmed(without_comment(line)));
     const bool whole = !assigned(code).empty() && assigned(code)[0] == '=';
     if (whole && !variables_.set(leading_name(code), {})) return false;
+    std::string_view name, parameters;
+    if (!read_definition(code, name, parameters)) continue;
+    while (!parameters.empty()) {
+      const std::string_view parameter = take_parameter(parameters);
+      if (parameter.empty()) break;  // good_line() finds it
+      if (!variables_.set(parameter, {})) return false;
+    }
   }
   return true;
 }
@@ -65,15 +73,21 @@ bool ScriptCheck::good_line(std::string_view line) {
   const std::string_view word = leading_name(line);
   if (line.empty() || line == "end" || line == "else:") return true;
   if (is_one_of(word, {"break", "continue", "halt", "return"}) && line == word) return true;
+  if (word == "return") return whole(line.substr(word.size()), "");
   if (is_one_of(word, {"while", "if", "elif"})) return good_block(word, line);
-  if (word == "def") {
-    const std::string_view name = leading_name(trimmed(line.substr(word.size())));
-    const auto behind = static_cast<std::size_t>(name.data() + name.size() - line.data());
-    return trimmed(line.substr(behind)) == "():" || blame(name);
-  }
+  if (word == "def") return good_definition(line);
   if (is_urscript_word(word) && !is_one_of(word, {"global", "local", "p", "not"}))
     return blame(word);
   return good_statement(without_scope(line));
+}
+
+/// Reads "def name(a, b):"; parameters have no defaults.
+bool ScriptCheck::good_definition(std::string_view line) {
+  std::string_view name, parameters;
+  if (!read_definition(line, name, parameters)) return false;
+  while (!parameters.empty())
+    if (take_parameter(parameters).empty()) return blame(name);
+  return true;
 }
 
 /// Reads the condition of "while ...:", "if ...:" or "elif ...:".
@@ -92,7 +106,8 @@ bool ScriptCheck::good_statement(std::string_view line) {
 
 /// Reads "= value" or "[index] = value"; the value of a call without one counts as True.
 bool ScriptCheck::good_assignment(std::string_view rest) {
-  if (rest[0] == '[') {
+  const bool element = rest[0] == '[';
+  if (element) {
     ScriptValue index;
     rest.remove_prefix(1);
     if (!evaluate(rest, {&variables_, nullptr, &strange_}, index)) return false;
@@ -102,17 +117,23 @@ bool ScriptCheck::good_assignment(std::string_view rest) {
     if (!starts_with(rest, "=")) return false;
   }
   rest = trimmed(rest.substr(1));
-  if (is_emulated_call(leading_name(rest))) return good_call(rest);
+  const std::string_view name = leading_name(rest);
+  const bool calls = starts_with(trimmed(rest.substr(name.size())), "(");
+  if (calls && !element && defines(name)) return good_call(rest);
+  if (is_emulated_call(name)) return good_call(rest);
   return whole(rest, "");
 }
 
 bool ScriptCheck::good_call(std::string_view line) {
   const std::string_view name = leading_name(line);
   if (name.empty()) return false;
-  if (defines(name)) return line.substr(name.size()) == "()" || blame(name);
-  if (!is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
+  const std::size_t parameters = count_parameters(name);
+  const bool own = parameters != kNone;
+  if (!own && !is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
   ScriptCall call;
-  return read_call(line, {&variables_, nullptr, &strange_}, call) && trimmed(line).empty();
+  if (!read_call(line, {&variables_, nullptr, &strange_}, call) || !trimmed(line).empty())
+    return false;
+  return !own || call.count == parameters;
 }
 
 /// Reads an expression and, to the end of the text, what follows it.
@@ -137,6 +158,19 @@ bool ScriptCheck::defines(std::string_view name) const {
         return true;
   }
   return false;
+}
+
+/// Returns the number of parameters of a function of the program; kNone: there is no such function.
+std::size_t ScriptCheck::count_parameters(std::string_view name) const {
+  std::string_view rest = program_, line, found, parameters;
+  while (next_line(rest, line)) {
+    if (!read_definition(trimmed(without_comment(line)), found, parameters) || found != name)
+      continue;
+    std::size_t count = 0;
+    while (!take_parameter(parameters).empty()) ++count;
+    return count;
+  }
+  return kNone;
 }
 
 ScriptFault::Kind ScriptCheck::kind_of(std::string_view name) const {

@@ -1,7 +1,7 @@
 // ScriptCheck: reads a plain program before it runs, and finds the first place that the interpreter
-// of lines does not understand: threads, functions with arguments or results, functions that are
-// not emulated, names without a value, and what is no line of URScript. Such a program is refused
-// as a whole, because an arm that does half of a program is worse than one that stands.
+// of lines does not understand: threads, functions of the program within an expression, functions
+// that are not emulated, names without a value, and what is no line of URScript. Such a program is
+// refused as a whole, because an arm that does half of a program is worse than one that stands.
 #pragma once
 
 #include "sim_plant/ur/script/script_expression.hpp"
@@ -31,6 +31,7 @@ class ScriptCheck {
  private:
   bool collect_variables();
   bool good_line(std::string_view line);
+  bool good_definition(std::string_view line);
   bool good_block(std::string_view word, std::string_view line);
   bool good_statement(std::string_view line);
   bool good_assignment(std::string_view rest);
@@ -38,7 +39,10 @@ class ScriptCheck {
   bool whole(std::string_view text, std::string_view after);
   bool blame(std::string_view name);
   bool defines(std::string_view name) const;
+  std::size_t count_parameters(std::string_view name) const;
   ScriptFault::Kind kind_of(std::string_view name) const;
+
+  static constexpr std::size_t kNone = ~std::size_t{0};
 
   std::string_view program_;
   ScriptVariables variables_;  // every name that some line assigns

@@ -137,43 +137,6 @@ void a_move_begins_at_rest(void**) {
   assert_joints(bench.target(), joints({0.0, -1.2, 1.2, -0.1, 1.57, 0.0}), 1e-9);
 }
 
-void functions_of_the_programs_own_are_run(void**) {
-  static ProgramBench bench;
-  bench.upload(
-      "def functions():\n"
-      "  def add():\n"
-      "    while True:\n"
-      "      n = n + 1\n"
-      "      if n % 2 == 0:\n"
-      "        return\n"
-      "      end\n"
-      "    end\n"
-      "  end\n"
-      "  def twice():\n"
-      "    add()\n"
-      "    add() # and again\n"
-      "  end\n"
-      "  n = 1\n"
-      "  twice()\n"
-      "  write_output_integer_register(0, n)\n"
-      "  sync()\n"
-      "  add()\n"
-      "  write_output_integer_register(0, n)\n"
-      "end\n");
-  bench.run(1);
-  assert_int_equal(int_output(bench, 0), 4);
-  bench.run(3);
-  assert_int_equal(int_output(bench, 0), 6);
-  assert_false(bench.running());
-}
-
-void a_function_that_calls_itself_ends_the_program(void**) {
-  static ProgramBench bench;
-  bench.upload("def deep():\n  def again():\n    again()\n  end\n  again()\nend\n");
-  bench.run(3);
-  assert_false(bench.running());
-}
-
 }  // namespace
 
 int main() {
@@ -185,8 +148,6 @@ int main() {
       cmocka_unit_test(movej_takes_a_plausible_time),
       cmocka_unit_test(a_target_out_of_reach_moves_nothing),
       cmocka_unit_test(a_move_begins_at_rest),
-      cmocka_unit_test(functions_of_the_programs_own_are_run),
-      cmocka_unit_test(a_function_that_calls_itself_ends_the_program),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -26,12 +26,15 @@ struct Row {
 
 // Each would move the arm or set an output if its known lines were run.
 constexpr Row kRows[] = {
-    {"def a():\n  def f(x):\n    return x\n  end\n  set_digital_out(0, True)\n  a=f(3)\nend\n", 2,
-     7, "compile_error_not_emulated:f:"},
-    {"def a():\n  def f():\n    return 3\n  end\n  set_digital_out(0, True)\n  a=f()\nend\n", 3, 5,
-     "compile_error_not_emulated:return:"},
-    {"def a():\n  movej([1,0,0,0,0,0])\n  b = f()\n  def f():\n    sync()\n  end\nend\n", 3, 7,
+    {"def a():\n  def f(x):\n    return x\n  end\n  set_digital_out(0, True)\n  a = 1 + "
+     "f(3)\nend\n",
+     6, 11, "compile_error_not_emulated:f:"},
+    {"def a():\n  def f(x=1):\n    return 3\n  end\n  set_digital_out(0, True)\nend\n", 2, 7,
      "compile_error_not_emulated:f:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  b = f(1)\n  def f():\n    sync()\n  end\nend\n", 3, 3,
+     "compile_error_syntax:b = f(1):"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  h = run T()\n  thread T():\n    sync()\n  end\nend\n", 3,
+     7, "compile_error_not_emulated:run:"},
     {"def a():\n  thread T():\n    sync()\n  end\n  h = run T()\n  movel(p[0,0,0,0,0,0])\nend\n", 2,
      3, "compile_error_not_emulated:thread:"},
     {"def a():\n  movej([1,0,0,0,0,0])\n  kill h\nend\n", 3, 3, "compile_error_not_emulated:kill:"},
@@ -98,6 +101,10 @@ void what_is_understood_is_not_refused(void**) {
       "  set_analog_inputrange(0, 1)\n"
       "  q[0] = q[0] + norm(get_tcp_force()) * 0\n"
       "  write_output_integer_register(1, n)\n"
+      "  def sum(a, b):\n"
+      "    return a + b\n"
+      "  end\n"
+      "  s = sum(2, 3)\n"
       "end\n");
   bench.run(5);
   assert_false(bench.said.has("compile_error"));
