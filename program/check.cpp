@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "program/reach/reach_warnings.hpp"
+#include "program/results/expectation.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 
@@ -21,6 +22,9 @@ Status look(Hal& hal, CommandMode mode, RobotState& state) {
 }  // namespace
 
 int check(Session& session, const Options& options) {
+  Expectation expectation;
+  if (!expectation.start(session.expect, session.pipeline.robot.period_s(), options.pipeline))
+    return kRefused;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
   Pipeline& pipeline = session.pipeline;

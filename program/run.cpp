@@ -106,6 +106,36 @@ int refuse_name(const char* path) {
   return kRefused;
 }
 
+/// Says how the trajectory was changed, where the files are, and what compares them with the
+/// expected lag or force.
+void print_files(const TrajectoryInput& input, const RunResult& result, const FilePath& folder,
+                 bool written) {
+  if (input.stretch() > 0.0)
+    std::printf("  trajectory made %.1f %% longer to stay within limits\n",
+                100.0 * input.stretch());
+  if (result.starved > 0)
+    std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
+                result.starved);
+  if (!written) {
+    std::printf("  incomplete: %s\n", folder.c_str());
+    return;
+  }
+  std::string_view path = folder;
+  while (path.size() > 1 && path.back() == '/') path.remove_suffix(1);
+  const std::size_t slash = path.rfind('/');
+  const FilePath parent(slash == std::string_view::npos ? "." : path.substr(0, slash + 1));
+  const FilePath name(slash == std::string_view::npos ? path : path.substr(slash + 1));
+  std::printf("  written to %s; seen and expected: scripts/report %s %s\n", folder.c_str(),
+              parent.c_str(), name.c_str());
+}
+
+/// A run that has not seen what its file states does not succeed.
+void judge(const Options& options, RunResult& result) {
+  if (result.code != 0 || result.expectation.met()) return;
+  end_with(result, kEndedOtherwise, "not as stated");
+  result.expectation.print_miss(options.pipeline);
+}
+
 }  // namespace
 
 void print_stop(const char* subject, const char* event, Status status,
@@ -130,13 +160,16 @@ int run(Session& session, const Options& options) {
   if (options.out[0] == '\0' && (pipeline.empty() || pipeline == "." || pipeline == ".."))
     return refuse_name(options.pipeline);
   RunFolder folder(options);
+  static RunResult result;
   static TrajectoryInput input;  // too large for a stack that is locked in memory
   RunLog log;
   LogWriter writer(log);
   TrajectoryFeed feed(session, input);
   WatchdogThread watchdog;
   Realtime realtime;
-  const bool accepted = read_input(session, options, input);
+  const bool accepted =
+      read_input(session, options, input) &&
+      result.expectation.start(session.expect, session.pipeline.robot.period_s(), options.pipeline);
   if (!accepted ||
       (options.realtime && !(writer.start() && feed.start() && watchdog.start(session.realtime) &&
                              prepare(realtime, session.realtime)))) {
@@ -147,7 +180,6 @@ int run(Session& session, const Options& options) {
   const Recording& recording = session.pipeline.recording;
   if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
-  static RunResult result;
   result.seed = options.seed;
   result.realtime.asked = options.realtime;
   result.realtime.report = realtime.report();
@@ -164,16 +196,11 @@ int run(Session& session, const Options& options) {
   result.config_hash = input.hash(fnv1a(session.text));
   realtime.release();  // or the program that draws the figure would inherit it
 
+  judge(options, result);
   const bool written = log.close() && write_results(folder, session, input, pipeline, result);
   print_table(pipeline, session, result);
-  if (input.stretch() > 0.0)
-    std::printf("  trajectory made %.1f %% longer to stay within limits\n",
-                100.0 * input.stretch());
-  if (result.starved > 0)
-    std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
-                result.starved);
   if (options.figure && written) draw_figure(folder.path().c_str());
-  std::printf("  %s %s\n", written ? "written to" : "incomplete:", folder.path().c_str());
+  print_files(input, result, folder.path(), written);
   if (result.cycles == 0) return kRefused;
   return result.code == 0 && written ? kSucceeded : kEndedOtherwise;
 }

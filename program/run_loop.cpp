@@ -120,6 +120,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   commanded_ += commanded ? 1 : 0;
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
+  if (commanded) result_.expectation.add();
   if (!follow()) refused_ = true;
   if (feed_.refused() && !broken_off_ && !planned_end_) break_off();
   take_result(status);

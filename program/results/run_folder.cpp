@@ -121,7 +121,10 @@ bool RunFolder::begin(const RunInputs& inputs, std::string_view text) {
   const Lock locked = lock();
   if (locked == Lock::kFailed) return complain(path_);
   if (locked == Lock::kOther) {
-    std::fprintf(stderr, "%s: another run writes into this folder; wait for its end, or choose another --out\n", path_.c_str());
+    std::fprintf(
+        stderr,
+        "%s: another run writes into this folder; wait for its end, or choose another --out\n",
+        path_.c_str());
     return false;
   }
   for (const char* name : kResults) {

@@ -97,6 +97,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
     write_json_string(file, result.why);
   }
   std::fprintf(file, "},\n");
+  result.expectation.write(file);
   std::fprintf(file, "  \"stretch\": %.4g,\n  \"starved\": %d,\n", result.stretch, result.starved);
   write_tracking(file, result);
   write_signals(file, session);
@@ -130,6 +131,7 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
     for (int c = 0; c < error.components(); ++c)
       std::printf("  %9d %12.3e %12.3e %12.3e\n", c + 1, error.rms(c), error.max(c), error.last(c));
   }
+  result.expectation.print();
   print_timing(session.pipeline, executive);
   if (result.realtime.asked) print_realtime(result.realtime);
   print_events(executive.events());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "program/results/expectation.hpp"
 #include "program/results/realtime_result.hpp"
 #include "program/results/tracking_error.hpp"
 #include "program/session/goal_watch.hpp"
@@ -22,6 +23,7 @@ struct RunResult {
   std::int64_t cycles = 0;  ///< in which the arm was commanded
   std::array<TrackingError, kMaxTracking> tracking;
   int tracking_count = 0;
+  Expectation expectation;
   RealtimeResult realtime;
 };
 

@@ -8,6 +8,7 @@
 #include "hal/os/realtime_settings.hpp"
 #include "kernel/cycle/executive.hpp"
 #include "kernel/pipeline/channels.hpp"
+#include "program/session/expect_section.hpp"
 #include "program/session/options.hpp"
 
 namespace tactus {
@@ -24,6 +25,7 @@ struct Session {
   ReferenceClient<TaskSpace>& task_client;
   const GatewaySection& gateway;
   const RealtimeSettings& realtime;
+  const ExpectSection& expect;
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

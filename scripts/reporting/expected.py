@@ -23,7 +23,8 @@ SPRING = ("admittance's spring", "the balance of the admittance's spring, the re
 LAG = ("lag by K_D, friction", "the law damps the measured velocity: it lags by (K_D × velocity + friction) / K_P")
 FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
 FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
-TOUCH_N = 1.0  # a smaller force is noise of the sensor
+TOUCH_N = {"simulated": 1.0, "emulated": 10.0, "real": 10.0}  # a smaller force is an error of the sensor
+EMULATED_STIFFNESS = 2e4  # N/m, of a surface: kStiffness of sim_plant/ur/motion/surroundings.hpp
 LAG_SHARE = 0.1  # the same of the largest lag; inertia is not in the formula
 PLATEAU_SHARE = 0.98  # of the largest expected force, above which the contact counts as steady ...
 SETTLE_S = 1.0  # ... after this time
@@ -69,18 +70,21 @@ def kind_of(summary, path):
 
 
 def surroundings(run):
-    """Returns the boxes that the arm can touch; an emulated controller has none, whatever the file says."""
-    if kind(run) == "emulated" or (kind(run) == "simulated" and run.settings.value("plant", "scene") == "none"):
+    """Returns the boxes that the arm can touch; an emulated one those of the file, as scripts/beside_emulator has it."""
+    if kind(run) == "simulated" and run.settings.value("plant", "scene") == "none":
         return []
     return run.scene["boxes"]
 
 
 def ball(run, poses):
     """Returns the centre of the ball at the tip [rows, 3] and its radius; a real tool is taken as a point."""
-    if kind(run) != "simulated":
+    if kind(run) == "real":
         return poses[:, :3], 0.0
+    radius = run.settings.number("plant", "tip_radius")
+    if kind(run) == "emulated":
+        return poses[:, :3], radius
     beyond = np.subtract(run.settings.numbers("plant", "payload_tip", 3), run.scene["tool"]["tip"])
-    return poses[:, :3] + arm.rotation_matrix(poses[:, 3:]) @ beyond, run.settings.number("plant", "tip_radius")
+    return poses[:, :3] + arm.rotation_matrix(poses[:, 3:]) @ beyond, radius
 
 
 def distances(box, centre, radius):
@@ -102,6 +106,13 @@ def touched_face(run, measured):
     return nearest and nearest[1:]
 
 
+def surface(run):
+    """Returns the stiffness of the touched surface, N/m; that of a real one is not known."""
+    if kind(run) == "simulated":
+        return run.settings.number("plant", "contact_stiffness")
+    return EMULATED_STIFFNESS if kind(run) == "emulated" else np.inf
+
+
 def contact(run):
     """Returns the contact of an admittance with a box, or None; its wrench must be recorded."""
     blocks = [name for name in run.settings.blocks("admittance") if run.settings.given(name, "h") in run.names()]
@@ -118,8 +129,7 @@ def contact(run):
     stiffness = along**2 @ run.settings.numbers(block, "stiffness", 3)
     requested = run.settings.given(block, "h_d")
     pull = run.values(requested)[:, :3] @ normal if requested in run.names() else 0.0
-    surface = run.settings.number("plant", "contact_stiffness") if kind(run) == "simulated" else np.inf
-    expected = np.maximum((pull - stiffness * away[:, index]) / (1 + stiffness / surface), 0.0)
+    expected = np.maximum((pull - stiffness * away[:, index]) / (1 + stiffness / surface(run)), 0.0)
     t = run.log["time_s"]
     steady = expected >= PLATEAU_SHARE * expected.max()
     steady &= t >= t[steady.argmax()] + SETTLE_S
@@ -171,7 +181,7 @@ def touched(run):
     found = contact(run)
     if found is None:
         return "not measured"
-    return found.box if found.force.max() > TOUCH_N else "nothing"
+    return found.box if found.force.max() > TOUCH_N[kind(run)] else "nothing"
 
 
 def judge_contact(found):

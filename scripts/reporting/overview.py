@@ -7,7 +7,7 @@ from reporting import animation, expected, page, table
 
 KINDS = {
     "simulated": "of a robot arm simulated by MuJoCo",
-    "emulated": "with an <em>emulated</em> robot controller, which has no surroundings",
+    "emulated": "with an <em>emulated</em> robot controller, whose arm is simulated",
     "real": "with a <b>real robot</b>",
     "": "<b>unknown</b>, for which no file says whether a real robot moved",
 }

@@ -88,6 +88,11 @@ Arm::~Arm() {
 }
 
 Status Arm::load(const PlantParams& params) {
+  const Scene scene = make_scene(params.scene, params.scene_offset, params.tip_radius);
+  return load(params, turned(scene, robot_mjcf().base_link_yaw));
+}
+
+Status Arm::load(const PlantParams& params, const Scene& scene) {
   RangeCheck check;
   PlantParams(params).describe(check);
   if (!check.ok) return Status::kBadValue;
@@ -104,9 +109,8 @@ Status Arm::load(const PlantParams& params) {
   apply(params, model_, data_);
   mj_resetData(model_, data_);
   Eigen::Map<JointVector>(data_->qpos) = params.initial_q;
-  const Scene scene = make_scene(params.scene, params.scene_offset, params.tip_radius);
-  contact_.load(turned(scene, robot_mjcf().base_link_yaw), params.material,
-                mj_name2id(model_, mjOBJ_BODY, "flange"), params.payload_tip, params.tip_radius);
+  contact_.load(scene, params.material, mj_name2id(model_, mjOBJ_BODY, "flange"),
+                params.payload_tip, params.tip_radius);
   carries_ = params.payload_kg > 0.0;
   contact_.attach(data_);
   stand();
@@ -152,6 +156,12 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   mj_mulM(model_, data_, tau.data(), ddq.data());
   return tau + Eigen::Map<const JointVector>(data_->qfrc_bias) -
          Eigen::Map<const JointVector>(data_->qfrc_passive);
+}
+
+JointVector Arm::contact_torque() const {
+  JointVector tau = JointVector::Zero();
+  contact_.add_torque(model_, data_, tau.data());
+  return tau;
 }
 
 bool Arm::diverged() const {

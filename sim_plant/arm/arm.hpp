@@ -31,6 +31,8 @@ class Arm {
   /// Builds the arm at `initial_q` and drops an arm loaded before. kBadValue if a setting is
   /// outside its range. Allocates all memory. [init]
   Status load(const PlantParams& params);
+  /// As load(params), in `scene`, given in the base frame, instead of that of the settings. [init]
+  Status load(const PlantParams& params, const Scene& scene);
 
   /// Closes the brakes: dq = 0. Returns the torque that takes over from them without motion, N m:
   /// g(q) of arm and payload, less the torque of the scene. The arm must be loaded. [any]
@@ -43,6 +45,10 @@ class Arm {
   /// Returns the torque that would cause `ddq` (rad/s^2) now, N m, by the equation above, payload
   /// and scene included. The arm must be loaded. [cyclic]
   JointVector inverse_dynamics(const JointVector& ddq);
+
+  /// Returns the torque of the scene on the joints, N m, at the state of the last call of step() or
+  /// inverse_dynamics(); a controller without a force sensor does not know it. [cyclic]
+  JointVector contact_torque() const;
 
   bool loaded() const { return data_ != nullptr; }  ///< [any]
 

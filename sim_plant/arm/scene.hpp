@@ -22,7 +22,7 @@ constexpr const char* name(SceneKind kind) {
   return nullptr;
 }
 
-inline constexpr int kMaxBoxes = 2;
+inline constexpr int kMaxBoxes = 8;
 
 struct Scene {
   std::array<Box, kMaxBoxes> boxes;

@@ -45,6 +45,9 @@ class TipContact {
   /// frame, N and N m, at a state within the step; the poses in `data` must be up to date. [cyclic]
   Vector6 wrench(const mjModel_* model, const mjData_* data) const;
 
+  /// Adds the joint torques of the scene to `tau`, N m, at such a state. [cyclic]
+  void add_torque(const mjModel_* model, const mjData_* data, double* tau) const;
+
   /// Returns the energy stored in the contacts at the last call of begin(), J. [any]
   double energy() const;
 
@@ -63,7 +66,6 @@ class TipContact {
   };
 
   Force find_force(const mjModel_* model, const mjData_* data, int i) const;
-  void add_torque(const mjModel_* model, const mjData_* data, double* tau) const;
   void slip(const Touch& touch, const Force& force, double h_s, Contact& contact) const;
 
   Scene scene_;

@@ -1,7 +1,6 @@
 // Fuzzes expressions, calls, names and servo laws in a script's text, without running it: a reader
 // must consume text from the front, and every name it returns must lie within the text.
-#include "sim_plant/ur/script/script_expression.hpp"
-#include "sim_plant/ur/script/script_names.hpp"
+#include "sim_plant/ur/script/script_check.hpp"
 #include "tests/fuzz/ur_controller.hpp"
 
 namespace {
@@ -37,9 +36,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool called = read_call(rest, {&variables, machine}, call);
     MUST(is_rest(rest, text) && (called || rest == text) && call.count <= ScriptCall::kMost);
   }
-  UnknownName unknown;
-  if (find_unknown_name(text, unknown))
-    MUST(unknown.line >= 1 && unknown.column >= 1 && within(unknown.name, text));
+  ScriptFault fault;
+  if (ScriptCheck(text).find(fault))
+    MUST(fault.line >= 1 && fault.column >= 1 && within(fault.name, text));
   SocketPlace place;
   if (find_socket(text, "socket_open", 0, place))
     MUST(within(place.host, text) && (place.name == "socket_0" || within(place.name, text)));

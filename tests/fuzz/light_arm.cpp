@@ -10,7 +10,7 @@ JointVector g_q, g_dq;
 }  // namespace
 
 Arm::~Arm() = default;
-Status Arm::load(const PlantParams& params) {
+Status Arm::load(const PlantParams& params, const Scene&) {
   g_q = params.initial_q;
   g_dq.setZero();
   return Status::kOk;
@@ -25,6 +25,9 @@ void Arm::step(const JointVector& tau, double dt_s) {
 }
 JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   return ddq;
+}
+JointVector Arm::contact_torque() const {
+  return JointVector::Zero();
 }
 bool Arm::diverged() const {
   return !g_q.allFinite();

@@ -68,6 +68,8 @@ void a_trajectory_for_a_pipeline_without_generator_is_refused(void**) {
 void a_run_writes_a_log_with_a_header_and_a_row_for_every_recorded_cycle(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   assert_int_equal(run_into("a", pipeline.c_str()), 0);
+  const Line compare = Line("seen and expected: scripts/report ") << scratch << "/ a\n";
+  assert_true(has(output(), compare));
   const std::string_view log = file_of("a/log.csv");
   assert_true(log.substr(0, 36) == "time_s,robot.q_1,robot.q_2,robot.q_3");
   int lines = 0;

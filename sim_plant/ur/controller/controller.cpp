@@ -15,7 +15,7 @@ constexpr double kLimiter = 0.95;  // fraction of a safety limit at which slowin
 
 Status Controller::start() {
   const Settings& settings = machine_.settings;
-  TRY(machine_.body.load(settings.initial_q, 0.0, Vector3::Zero()));
+  TRY(machine_.body.load(settings.initial_q, settings.surroundings));
   machine_.motion.rest(settings.initial_q);
   show();
   return Status::kOk;
@@ -39,6 +39,7 @@ void Controller::tick() {
     machine_.body.stand();
     machine_.motion.rest(machine_.body.q());
   }
+  machine_.sensors.sample(machine_.body.dq(), machine_.cycle_s());
   say_changes();
   show();
 }

@@ -28,6 +28,7 @@ class Controller {
 
   const Image& image() const { return image_; }
   Machine& machine() { return machine_; }
+  const Machine& machine() const { return machine_; }
   Runner& runner() { return runner_; }
   Dashboard& dashboard() { return dashboard_; }
   Faults& faults() { return faults_; }

@@ -1,5 +1,4 @@
 // The image that the controller shows on its ports.
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
@@ -29,10 +28,10 @@ void Controller::show() {
   image_.target_qdd = (image_.target_qd - dq_before_) / machine_.cycle_s();
   image_.target_moment = body.model();
   image_.target_current = body.model().cwiseQuotient(k);
-  image_.actual_q = body.q() + faults_.encoder_offset;
+  image_.actual_q = machine_.measured_q() + faults_.encoder_offset;
   if (faults_.nan_positions) image_.actual_q.setConstant(std::numeric_limits<double>::quiet_NaN());
-  image_.actual_qd = body.dq();
-  image_.actual_current = body.tau().cwiseQuotient(k);
+  image_.actual_qd = machine_.measured_dq();
+  image_.actual_current = (body.tau() + machine_.sensors.torque_error()).cwiseQuotient(k);
   image_.joint_control_output = image_.actual_current;
   show_tool();
   show_io();
@@ -41,19 +40,14 @@ void Controller::show() {
 
 void Controller::show_tool() {
   const Motion& motion = machine_.motion;
-  const Body& body = machine_.body;
   const Frame& tool = motion.tool();
-  const Joints q = body.q(), dq = body.dq();
+  const Joints q = machine_.measured_q(), dq = machine_.measured_dq();
   const Frame tip = forward(q) * tool;
   image_.actual_tcp_pose = tip.pose();
   image_.actual_tcp_speed = jacobian(q, tool) * dq;
   image_.target_tcp_pose = (forward(motion.q()) * tool).pose();
   image_.target_tcp_speed = jacobian(motion.q(), tool) * image_.target_qd;
-  // The force is the motor torque beyond the model, mapped by the transposed Jacobian.
-  const Eigen::Matrix<double, 6, 6> j = jacobian(q, tool);
-  Eigen::Matrix<double, 6, 6> jj = j * j.transpose();
-  jj.diagonal().array() += 1e-3;
-  image_.actual_tcp_force = jj.ldlt().solve(j * -body.residual());
+  image_.actual_tcp_force = machine_.measured_wrench();
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   const Vector3 g(0.0, 0.0, 9.81);

@@ -49,7 +49,7 @@ bool Dashboard::run(std::string_view line, Reply& reply) {
   if (quits) {
     reply << (line == "quit" ? "Disconnected" : "Shutting down");
   } else if (!run_program_command(line, reply) && !run_robot_command(line, reply) &&
-             !run_other_command(line, reply)) {
+             !run_other_command(line, reply) && !run_e_series_command(line, reply)) {
     reply << "could not understand: '" << line.substr(0, 200) << "'";
   }
   reply.end_line();
@@ -186,6 +186,32 @@ bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
     reply << "Completed successfully: ur_support_file.zip";
   } else if (line == "saveLog") {
     reply << "Log saved to disk";
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/// Runs the commands of an e-Series, which is always in remote control. The operational mode is
+/// kept for the clients; it limits nothing.
+bool Dashboard::run_e_series_command(std::string_view line, Reply& reply) {
+  const Version& version = machine_.settings.version;
+  std::string_view rest;
+  if (!version.at_least(5, 0)) return false;
+  if (argument(line, "set operational mode", rest)) {
+    const bool manual = rest == "manual", known = manual || rest == "automatic";
+    if (known) operational_mode_ = manual ? "MANUAL" : "AUTOMATIC";
+    if (known)
+      reply << "Operational mode " << operational_mode_ << " is set";
+    else
+      reply << "Failed setting operational mode: " << rest;
+  } else if (line == "clear operational mode") {
+    reply << "No longer controlling the operational mode. Current operational mode: '"
+          << operational_mode_ << "'.";
+  } else if (line == "get operational mode" && version.at_least(5, 6)) {
+    reply << operational_mode_;
+  } else if (line == "is in remote control" && version.at_least(5, 6)) {
+    reply << "true";
   } else {
     return false;
   }

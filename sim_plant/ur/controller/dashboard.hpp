@@ -32,6 +32,7 @@ class Dashboard {
   bool run_program_command(std::string_view line, Reply& reply);
   bool run_robot_command(std::string_view line, Reply& reply);
   bool run_other_command(std::string_view line, Reply& reply);
+  bool run_e_series_command(std::string_view line, Reply& reply);
   void load(std::string_view path, Reply& reply);
   void play(Reply& reply);
   std::string_view loaded() const { return {loaded_.data(), loaded_size_}; }
@@ -39,6 +40,7 @@ class Dashboard {
 
   Runner& runner_;
   Machine& machine_;
+  std::string_view operational_mode_ = "NONE";  // until a client sets one
   std::array<char, 128> loaded_{};
   std::size_t loaded_size_ = 0;
   std::array<char, 32> role_{};

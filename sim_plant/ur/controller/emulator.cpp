@@ -11,6 +11,9 @@ constexpr int kPatience = 625;  // cycles in which a client may take nothing
 }  // namespace
 
 int Emulator::open(Service service) {
+  int taken = 0;
+  for (const Session& session : sessions_) taken += session.open && session.service == service;
+  if (taken == kPlaces) return -1;
   for (int i = 0; i < kSessions; ++i) {
     Session& session = at(i);
     if (session.open) continue;
@@ -21,12 +24,24 @@ int Emulator::open(Service service) {
     session.script.clear();
     session.line_size = 0;
     session.stalled = 0;
-    session.unsent = 0;
+    session.unsent = session.kept = 0;
+    session.idle = 0;
     session.rtde.open(i);
     greet(session);
     return i;
   }
   return -1;
+}
+
+int Emulator::find_idle(Service service) const {
+  int found = -1, longest = static_cast<int>(kIdle_s / controller_.machine().cycle_s());
+  for (int i = 0; i < kSessions; ++i) {
+    const Session& session = sessions_[static_cast<std::size_t>(i)];
+    if (!session.open || session.service != service || session.idle < longest) continue;
+    found = i;
+    longest = session.idle + 1;
+  }
+  return found;
 }
 
 void Emulator::close(int session) {
@@ -46,6 +61,7 @@ void Emulator::greet(Session& session) {
 void Emulator::receive(int session, const std::uint8_t* data, std::size_t size) {
   Session& client = at(session);
   if (!client.open || client.ended) return;
+  client.idle = 0;
   Machine& machine = controller_.machine();
   switch (client.service) {
     case Service::kDashboard: return take_lines(client, data, size);
@@ -86,12 +102,14 @@ void Emulator::tick() {
   for (Session& session : sessions_) {
     if (!session.open) continue;
     watch_reader(session);
+    watch_idle(session);
     send_cycle(session);
     const bool state =
         session.service == Service::kPrimary || session.service == Service::kSecondary;
     if (state && (due || !session.told)) send_state(session);
   }
   send_messages();
+  for (Session& session : sessions_) session.kept = session.out.size();
 }
 
 Pace Emulator::pace() const {
@@ -143,6 +161,11 @@ void Emulator::send_messages() {
     if (session.open && session.service == Service::kPrimary)
       session.out.put(pending.data(), pending.size());
   messages.clear();
+}
+
+/// Counts the cycles in which the client has taken no byte; receive() begins the count again.
+void Emulator::watch_idle(Session& session) {
+  session.idle = session.out.size() < session.kept ? 0 : session.idle + 1;
 }
 
 /// Ends the session of a client that takes no bytes for too long although some are waiting.

@@ -1,6 +1,8 @@
 // Emulator: the controller with its clients. The owner of the network opens a session for every
 // connection, passes bytes in and out, and calls tick() once per cycle. A client that does not read
-// loses packets and, after some seconds, its session.
+// loses packets and, after some seconds, its session. Every service has places of its own, so that
+// clients of one do not lock out those of another. An idle client keeps its place, as on a robot,
+// until another needs it.
 #pragma once
 
 #include "sim_plant/ur/controller/controller.hpp"
@@ -20,15 +22,20 @@ enum class Pace : std::uint8_t {
 
 class Emulator {
  public:
-  static constexpr int kSessions = 24;
+  static constexpr int kPlaces = 8;              ///< of each service
+  static constexpr int kSessions = 5 * kPlaces;  ///< of all services
+  static constexpr double kIdle_s = 10.0;        ///< after which a client may lose its place
 
   explicit Emulator(const Settings& settings) : controller_(settings) {}
 
   Status start() { return controller_.start(); }  ///< [init]
   void tick();                                    ///< [cyclic]
 
-  /// Opens a session for a new client; -1: no session is free. [any]
+  /// Opens a session for a new client; -1: no place of the service is free. [any]
   int open(Service service);
+  /// Returns the session of the service whose client has sent and taken no byte for the longest
+  /// time, and for kIdle_s; -1: there is none. [any]
+  int find_idle(Service service) const;
   void close(int session);
   /// Takes bytes from the client, in pieces of any size.
   void receive(int session, const std::uint8_t* data, std::size_t size);
@@ -53,7 +60,9 @@ class Emulator {
     std::size_t line_size = 0;
     int stalled = 0;  // cycles in which the client has taken nothing
     std::size_t unsent = 0;
-    bool told = false;  // has been sent a whole state
+    int idle = 0;          // cycles in which no byte was exchanged
+    std::size_t kept = 0;  // bytes that waited at the end of the last cycle
+    bool told = false;     // has been sent a whole state
   };
 
   Session& at(int session) { return sessions_[static_cast<std::size_t>(session)]; }
@@ -64,6 +73,7 @@ class Emulator {
   void send_state(Session& session);
   void send_messages();
   void watch_reader(Session& session);
+  void watch_idle(Session& session);
   bool state_is_due();
 
   Controller controller_;

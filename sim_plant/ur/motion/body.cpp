@@ -13,15 +13,25 @@ int inner_steps(double h_s) {
 
 }  // namespace
 
-Status Body::load(const Joints& q, double payload_kg, const Vector3& payload_com) {
+Status Body::load(const Joints& q, const Surroundings& around) {
   PlantParams params;
   params.initial_q = q;
-  params.payload_kg = payload_kg;
-  params.payload_com = payload_com;
-  TRY(arm_.load(params));
+  params.payload_kg = around.payload_kg;
+  params.payload_com = around.payload_com;
+  params.payload_tip = around.tip;
+  params.tip_radius = around.tip_radius;
+  params.material = around.material;
+  TRY(arm_.load(params, around.scene));
   target_ = q;
   tau_ = model_ = arm_.stand();
   return Status::kOk;
+}
+
+/// Returns the torque that the controller expects for `ddq`: it knows the payload, and a touch only
+/// by the error that it causes.
+Joints Body::expected(const Joints& ddq) {
+  const Joints tau = arm_.inverse_dynamics(ddq);
+  return tau + arm_.contact_torque();
 }
 
 void Body::move(const Joints& q_t, double h_s) {
@@ -29,13 +39,12 @@ void Body::move(const Joints& q_t, double h_s) {
   const Joints from = target_, slope = (q_t - target_) / h_s;
   const int steps = inner_steps(h_s);
   const double step_s = h_s / steps, T = kTimeConstant_s;
-  model_ = arm_.inverse_dynamics((slope - slope_) / h_s);
+  model_ = expected((slope - slope_) / h_s);
   Joints sum = Joints::Zero();
   for (int k = 1; k <= steps; ++k) {
     const Joints target = from + slope * (k * step_s);
     const Joints ddq = 2.0 / T * (slope - arm_.dq()) + (target - arm_.q()) / (T * T);
-    // The controller notices a push only by the error it causes.
-    const Joints tau = arm_.inverse_dynamics(ddq).cwiseMax(-limit).cwiseMin(limit);
+    const Joints tau = expected(ddq).cwiseMax(-limit).cwiseMin(limit);
     arm_.step(tau + push_, step_s);
     sum += tau;
   }
@@ -50,7 +59,7 @@ void Body::drift(double slowing_s, double h_s) {
   const int steps = inner_steps(h_s);
   Joints sum = Joints::Zero();
   for (int k = 0; k < steps; ++k) {
-    const Joints wanted = arm_.inverse_dynamics(-arm_.dq() / slowing_s);
+    const Joints wanted = expected(-arm_.dq() / slowing_s);
     const Joints tau = wanted.cwiseMax(-limit).cwiseMin(limit);
     arm_.step(tau + push_, h_s / steps);
     sum += tau;

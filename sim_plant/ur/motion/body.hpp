@@ -3,18 +3,20 @@
 //
 //   ddq = 2/T (dq_t - dq) + 1/T^2 (q_t - q)
 //
-// up to the limits of the drives. A test can push the arm with additional torques.
+// up to the limits of the drives. A test can push the arm with additional torques. The arm touches
+// its surroundings as a simulated one does; the controllers do not know these forces.
 #pragma once
 
 #include "sim_plant/arm/arm.hpp"
 #include "sim_plant/ur/motion/kinematics.hpp"
+#include "sim_plant/ur/motion/surroundings.hpp"
 
 namespace tactus::ur {
 
 class Body {
  public:
   /// Builds the arm at `q` with its brakes closed. [init]
-  Status load(const Joints& q, double payload_kg, const Vector3& payload_com);
+  Status load(const Joints& q, const Surroundings& around = {});
 
   /// Runs one cycle of `h_s` from the targets of the last cycle to `q_t`, brakes open. [cyclic]
   void move(const Joints& q_t, double h_s);
@@ -37,6 +39,8 @@ class Body {
   bool diverged() const { return arm_.diverged(); }
 
  private:
+  Joints expected(const Joints& ddq);
+
   Arm arm_;
   Joints target_ = Joints::Zero(), slope_ = Joints::Zero();
   Joints tau_ = Joints::Zero(), model_ = Joints::Zero(), push_ = Joints::Zero();

@@ -20,6 +20,7 @@ struct Machine {
         power(settings),
         safety(settings),
         messages(settings.version),
+        sensors(settings.sensor_errors, settings.version),
         motion(settings.motion, settings.force) {}
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
@@ -35,6 +36,7 @@ struct Machine {
   Power power;
   Safety safety;
   RobotMessages messages;
+  Sensors sensors;
   Motion motion;
   Body body;
   Io io;
@@ -50,6 +52,14 @@ struct Machine {
   Watchdogs watchdogs;
   Stop last_stop;
   bool stop_unsaid = false;  ///< the stop is to be reported to the clients in the next cycle
+
+  Joints measured_q() const { return sensors.position(body.q()); }    ///< rad
+  Joints measured_dq() const { return sensors.velocity(body.dq()); }  ///< rad/s
+
+  /// The wrench on the tip as the controller sees it, base axes, N and N m.
+  Vector6 measured_wrench() const { return sensors.wrench(estimated_wrench()); }
+  /// Takes the present wrench as zero, if there is a sensor.
+  void zero_force() { sensors.set_zero(estimated_wrench()); }
 
   double cycle_s() const { return settings.version.cycle_s(); }
   /// Time of the controller's clock, s.
@@ -79,6 +89,8 @@ struct Machine {
   }
 
  private:
+  Vector6 estimated_wrench() const;
+
   static constexpr double kMost = 1e4;  // m, rad or kg; beyond the range of 32 bits of millionths
   void refuse() { protective_stop({Code::kPathSanity, kInvalidSetPoint}); }
 };

@@ -22,7 +22,7 @@ class Safety {
   /// Unlocks as the dashboard does. False: too early.
   bool unlock() {
     if (mode_ != SafetyMode::kProtectiveStop) return true;
-    if (since_s_ < settings_.unlock_wait_s) return false;
+    if (since_s_ < settings_.unlock_wait_s - kRounding_s) return false;
     release_in_s_ = 0.1;
     return true;
   }
@@ -48,6 +48,8 @@ class Safety {
   bool emergency_stopped() const { return mode_ == SafetyMode::kRobotEmergencyStop; }
 
  private:
+  static constexpr double kRounding_s = 1e-6;  // of the sum of many cycles
+
   bool hard_stop(SafetyMode mode) {
     if (mode_ == mode) return false;
     enter(mode);

@@ -7,12 +7,16 @@
 #include "hal/ur/protocol_state.hpp"
 #include "sim_plant/ur/motion/motion.hpp"
 #include "sim_plant/ur/motion/safety_limits.hpp"
+#include "sim_plant/ur/motion/sensors.hpp"
+#include "sim_plant/ur/motion/surroundings.hpp"
 
 namespace tactus::ur {
 
 struct Settings {
   Version version;
-  Joints initial_q;             ///< rad
+  Joints initial_q;  ///< rad
+  SensorErrors sensor_errors;
+  Surroundings surroundings;    ///< none: the arm is bare and touches nothing
   bool switched_on = true;      ///< begin in RUNNING; else in POWER_OFF, as after a start
   double start_time_s = 100.0;  ///< initial time of the controller's clock
   std::string_view serial_number = "2017300001";

@@ -1,5 +1,7 @@
 // Blocks of plain programs: loops, branches, and the program's own functions.
 #include "sim_plant/ur/programs/line_program.hpp"
+#include "sim_plant/ur/script/script_definition.hpp"
+#include "sim_plant/ur/script/script_expression.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
@@ -16,12 +18,12 @@ LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view
   if (word == "while") {
     if (!holds(line, machine))
       skip_blocks(1);
-    else if (!enter(Block::kLoop, here_))
+    else if (!enter({Block::kLoop, here_, {}}))
       return Line::kEnded;
   } else if (word == "if") {
     if (!holds(line, machine))
       find_branch(machine);
-    else if (!enter(Block::kBranch, here_))
+    else if (!enter({Block::kBranch, here_, {}}))
       return Line::kEnded;
   } else if (word == "elif" || word == "else") {
     if (depth_ > 0) --depth_;  // the branch before was taken
@@ -32,10 +34,11 @@ LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view
   return Line::kNext;
 }
 
-LineProgram::Line LineProgram::run_end() {
+LineProgram::Line LineProgram::run_end(std::string_view line, Machine& machine) {
   if (depth_ == 0) return Line::kEnded;
+  if (blocks_[depth_ - 1].kind == Block::kCall) return run_return(line, machine);
   const Block& block = blocks_[--depth_];
-  if (block.kind != Block::kBranch) now_ = block.next;
+  if (block.kind == Block::kLoop) now_ = block.next;
   return Line::kNext;
 }
 
@@ -56,60 +59,78 @@ LineProgram::Line LineProgram::run_jump(bool out) {
   return Line::kEnded;  // outside any loop
 }
 
-bool LineProgram::enter(Block::Kind kind, const Place& next) {
+bool LineProgram::enter(const Block& block) {
   if (depth_ == kDeepest) return false;
-  blocks_[depth_++] = {kind, next};
+  blocks_[depth_++] = block;
   return true;
 }
 
 /// Returns from the running function, or ends the program outside of functions.
-LineProgram::Line LineProgram::run_return() {
-  while (depth_ > 0) {
-    const Block& block = blocks_[--depth_];
+LineProgram::Line LineProgram::run_return(std::string_view line, Machine& machine) {
+  std::string_view expression = trimmed(line.substr(leading_name(line).size()));
+  ScriptValue value;
+  const bool has_value = !expression.empty();
+  if (has_value && !evaluate(expression, {&variables_, &machine}, value)) fail(line, machine);
+  while (depth_ > 0 && !ended_) {
+    const Block block = blocks_[--depth_];
     if (block.kind != Block::kCall) continue;
+    variables_.leave();
     now_ = block.next;
+    if (block.result.empty()) return Line::kNext;
+    if (!has_value || !variables_.set(block.result, value, block.scope)) fail(line, machine);
     return Line::kNext;
   }
   return Line::kEnded;
 }
 
-/// Finds the lines after "def name():". False: the program has no such function.
-bool LineProgram::find_function(std::string_view name, Place& body) const {
+/// Finds the lines after "def name(parameters):". False: the program has no such function.
+bool LineProgram::find_function(std::string_view name, Place& body,
+                                std::string_view& parameters) const {
   std::string_view rest = text_, line;
   for (int number = first_line_; next_line(rest, line); ++number) {
     line = trimmed(without_comment(line));
-    if (leading_name(line) != "def") continue;
-    line = trimmed(line.substr(3));
-    if (leading_name(line) != name || !starts_with(line.substr(name.size()), "():")) continue;
+    std::string_view found;
+    if (!read_definition(line, found, parameters) || found != name) continue;
     body = {text_.size() - rest.size(), number + 1};
     return true;
   }
   return false;
 }
 
-/// Calls a function of the program by "name()". False: the line is not such a call.
-bool LineProgram::call_own(std::string_view line, Line& result) {
+/// Calls a function of the program by "name(arguments)"; its result becomes the value of a
+/// variable. False: the line is not such a call.
+bool LineProgram::call_own(std::string_view line, std::string_view result, Scope scope,
+                           Machine& machine) {
   const std::string_view name = leading_name(line);
+  std::string_view parameters, rest = line;
   Place body;
-  if (name.empty() || line.substr(name.size()) != "()" || is_urscript_function(name) ||
-      !find_function(name, body))
-    return false;
-  result = enter(Block::kCall, now_) ? Line::kNext : Line::kEnded;
-  now_ = body;
+  if (name.empty() || !starts_with(trimmed(line.substr(name.size())), "(")) return false;
+  if (is_urscript_function(name) || !find_function(name, body, parameters)) return false;
+  ScriptCall call;
+  const bool good = read_call(rest, {&variables_, &machine}, call) && trimmed(rest).empty() &&
+                    enter({Block::kCall, now_, result, scope});
+  if (good) variables_.enter();
+  for (std::size_t i = 0; good && i < call.count; ++i)
+    if (!variables_.set(take_parameter(parameters), call.arguments[i].value, Scope::kLocal))
+      fail(line, machine);
+  if (good)
+    now_ = body;
+  else
+    fail(line, machine);
   return true;
 }
 
 /// After an `if` that is false, goes on in the branch that is true, or after the end.
 void LineProgram::find_branch(Machine& machine) {
   std::string_view line;
-  while (next(line)) {
+  while (!ended_ && next(line)) {
     const std::string_view word = leading_name(line);
     if (opens_block(line)) {
       skip_blocks(1);
     } else if (word == "end") {
       return;
     } else if (word == "else" || (word == "elif" && holds(line, machine))) {
-      ended_ = !enter(Block::kBranch, here_);
+      ended_ = !enter({Block::kBranch, here_, {}});
       return;
     }
   }

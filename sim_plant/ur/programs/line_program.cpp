@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "sim_plant/ur/script/script_expression.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
 void LineProgram::start(std::string_view text, int first_line, bool moves) {
@@ -21,7 +22,7 @@ ProgramStep LineProgram::poll(Machine& machine) {
   std::string_view line;
   for (int lines = 0; lines < kLinesAtOnce; ++lines) {
     const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
-    ended_ = result == Line::kEnded;
+    ended_ = ended_ || result == Line::kEnded;
     if (ended_) return end(machine);
     if (result == Line::kWait) break;
   }
@@ -52,10 +53,10 @@ bool LineProgram::next(std::string_view& line) {
 LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine) {
   if (line.empty()) return Line::kNext;
   const std::string_view word = leading_name(line);
-  if (word == "end") return run_end();
+  if (word == "end") return run_end(line, machine);
   if (word == "break" || word == "continue") return run_jump(word == "break");
   if (word == "halt") return Line::kEnded;
-  if (word == "return") return run_return();
+  if (word == "return") return run_return(line, machine);
   if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
 }
@@ -69,36 +70,44 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
   if (evaluate(condition, {&variables_, &machine}, value) && trimmed(condition).empty() &&
       value.numeric())
     return value.number != 0.0;
-  not_emulated(line, machine);
+  fail(line, machine);
   return false;
 }
 
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
-  for (const std::string_view word : {"global ", "local "})
-    if (starts_with(line, word)) line = trimmed(line.substr(word.size()));
+  const std::string_view word = leading_name(line);
+  const Scope scope = word == "global"  ? Scope::kGlobal
+                      : word == "local" ? Scope::kLocal
+                                        : Scope::kNearest;
+  if (scope != Scope::kNearest) line = trimmed(line.substr(word.size()));
   Line result = Line::kNext;
-  return assign(line, machine, result) ? result : run_call_line(line, machine);
+  return assign(line, scope, machine, result) ? result : run_call_line(line, machine);
 }
 
 /// Runs "name = value" or "name[index] = value"; "digital_out[n] = b" is the call of versions
 /// before
 /// 3. False: the line is not an assignment.
-bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
-  const ScriptScope scope = {&variables_, &machine};
+bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, Line& result) {
+  const ScriptScope known = {&variables_, &machine};
   const std::string_view name = leading_name(line);
   std::string_view rest = trimmed(line.substr(name.size()));
   ScriptValue index, value;
   const bool element = starts_with(rest, "[");
   if (element) {
     rest.remove_prefix(1);
-    if (!evaluate(rest, scope, index) || !starts_with(trimmed(rest), "]")) return false;
+    if (!evaluate(rest, known, index) || !starts_with(trimmed(rest), "]")) return false;
     rest = trimmed(trimmed(rest).substr(1));
   }
   if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
   rest = trimmed(rest.substr(1));
+  if (!element && call_own(rest, name, scope, machine)) return true;
   std::string_view expression = rest;
-  if (!evaluate(expression, scope, value)) {
-    result = run_call_line(rest, machine);  // a call whose value is not emulated
+  if (!evaluate(expression, known, value)) {
+    if (is_emulated_call(leading_name(rest)))
+      result = run_call_line(rest, machine);  // such as socket_open(), which is taken to succeed
+    else
+      fail(line, machine);
+    if (ended_) return true;
     value.kind = ScriptValue::Kind::kBool;
     value.number = 1.0;
   }
@@ -111,21 +120,20 @@ bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) 
     if (fits)
       whole->elements[static_cast<std::size_t>(index.number)] = value.number;
     else
-      not_emulated(line, machine);
-  } else if (!variables_.set(name, value)) {
-    not_emulated(line, machine);
+      fail(line, machine);
+  } else if (!variables_.set(name, value, scope)) {
+    fail(line, machine);
   }
   return true;
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
-  Line result = Line::kNext;
-  if (call_own(line, result)) return result;
+  if (call_own(line, {}, Scope::kNearest, machine)) return Line::kNext;
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, {&variables_, &machine}, call)) {
-    not_emulated(line, machine);
-    return Line::kNext;
+    fail(line, machine);
+    return Line::kEnded;
   }
   const CallOutcome outcome = run_call(call, moves_, machine);
   switch (outcome.result) {
@@ -142,16 +150,16 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   return Line::kNext;
 }
 
-/// Reports once per program that a line is not emulated.
-void LineProgram::not_emulated(std::string_view line, Machine& machine) {
-  if (told_) return;
-  told_ = true;
+/// Ends the program with a runtime exception: a value of the line does not exist or does not fit.
+void LineProgram::fail(std::string_view line, Machine& machine) {
+  if (ended_) return;
+  ended_ = true;
   std::array<char, 160> text;
-  constexpr std::string_view kWhat = "not emulated: ";
+  constexpr std::string_view kWhat = "runtime_error:no value:";
   std::memcpy(text.data(), kWhat.data(), kWhat.size());
   const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
   std::memcpy(text.data() + kWhat.size(), line.data(), size);
-  machine.messages.text({text.data(), kWhat.size() + size});
+  machine.messages.runtime_exception(here_.line, 1, {text.data(), kWhat.size() + size});
 }
 
 }  // namespace tactus::ur

@@ -1,7 +1,7 @@
 // LineProgram: interprets a program of plain lines: calls, assignments, `while` and `if` with
-// conditions, and functions of the program without arguments and results. If a condition or value
-// is not understood, its block is skipped and a text message reports it; threads, and functions
-// with arguments, are not understood.
+// conditions, and functions of the program, called by a line of their own or as the whole value of
+// an assignment. Runner refuses a program that has anything else (script_check.hpp). If a value
+// does not exist or fit, the program ends with a runtime exception.
 #pragma once
 
 #include "sim_plant/ur/programs/program_step.hpp"
@@ -20,6 +20,7 @@ class LineProgram {
   ProgramStep command(Machine& machine);
 
  private:
+  using Scope = ScriptVariables::Scope;
   enum class Line : std::uint8_t { kNext, kWait, kEnded };
   /// A line of the text: its beginning and its number.
   struct Place {
@@ -30,27 +31,29 @@ class LineProgram {
   struct Block {
     enum Kind : std::uint8_t { kBranch, kLoop, kCall };
     Kind kind = kBranch;
-    Place next;  ///< after its end: a loop's beginning, or the line after a call
+    Place next;               ///< after its end: a loop's beginning, or the line after a call
+    std::string_view result;  ///< variable that gets the result of a call; empty: none does
+    Scope scope = Scope::kNearest;
   };
 
   ProgramStep end(const Machine& machine) const;
   bool next(std::string_view& line);
   Line run_line(std::string_view line, Machine& machine);
   Line run_block(std::string_view word, std::string_view line, Machine& machine);
-  Line run_end();
+  Line run_end(std::string_view line, Machine& machine);
   Line run_jump(bool out);
-  Line run_return();
-  bool find_function(std::string_view name, Place& body) const;
-  bool call_own(std::string_view line, Line& result);
+  Line run_return(std::string_view line, Machine& machine);
+  bool find_function(std::string_view name, Place& body, std::string_view& parameters) const;
+  bool call_own(std::string_view line, std::string_view result, Scope scope, Machine& machine);
   Line run_statement(std::string_view line, Machine& machine);
   Line run_call_line(std::string_view line, Machine& machine);
-  bool assign(std::string_view line, Machine& machine, Line& result);
+  bool assign(std::string_view line, Scope scope, Machine& machine, Line& result);
   bool holds(std::string_view line, Machine& machine);
   static bool opens_block(std::string_view line);
-  bool enter(Block::Kind kind, const Place& next);
+  bool enter(const Block& block);
   void find_branch(Machine& machine);
   void skip_blocks(std::size_t count);
-  void not_emulated(std::string_view line, Machine& machine);
+  void fail(std::string_view line, Machine& machine);
 
   static constexpr std::size_t kDeepest = 12;
   static constexpr int kLinesAtOnce = 256;  // per cycle, for a loop that never waits
@@ -60,7 +63,6 @@ class LineProgram {
   int first_line_ = 1;
   bool moves_ = true;
   bool ended_ = false;
-  bool told_ = false;  // has reported that something is not emulated
   double wait_until_s_ = -1.0;
   std::array<Block, kDeepest> blocks_{};
   std::size_t depth_ = 0;

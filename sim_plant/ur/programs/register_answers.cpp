@@ -40,7 +40,7 @@ Program::Outcome Program::joints_within(Machine& machine) {
 }
 
 Program::Outcome Program::forward_here(Machine& machine) {
-  return answer_six((forward(machine.body.q()) * machine.motion.tool()).pose(), machine);
+  return answer_six((forward(machine.measured_q()) * machine.motion.tool()).pose(), machine);
 }
 
 Program::Outcome Program::forward_of(Machine& machine) {
@@ -48,7 +48,7 @@ Program::Outcome Program::forward_of(Machine& machine) {
 }
 
 Program::Outcome Program::flange_pose(Machine& machine) {
-  return answer_six(forward(machine.body.q()).pose(), machine);
+  return answer_six(forward(machine.measured_q()).pose(), machine);
 }
 
 Program::Outcome Program::pose_trans(Machine& machine) {

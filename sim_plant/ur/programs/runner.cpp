@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sim_plant/ur/script/script_check.hpp"
 #include "sim_plant/ur/script/script_motion.hpp"
-#include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -38,15 +38,19 @@ bool takes_over(std::string_view text) {
   return is_motion(leading_name(trimmed(text)));
 }
 
-/// Returns false, after a message, for a program that calls a function that does not exist.
+/// Returns false, after a message, for a program that cannot be run as it is written.
 bool compiles(std::string_view text, Machine& machine) {
-  UnknownName unknown;
-  if (!find_unknown_name(text, unknown)) return true;
+  ScriptFault fault;
+  if (!ScriptCheck(text).find(fault)) return true;
+  const std::string_view what =
+      fault.kind == ScriptFault::Kind::kNameNotFound  ? "compile_error_name_not_found:"
+      : fault.kind == ScriptFault::Kind::kNotEmulated ? "compile_error_not_emulated:"
+                                                      : "compile_error_syntax:";
   std::array<char, 160> words{};
-  std::size_t size = copy("compile_error_name_not_found:", words.data(), words.size()).size();
-  size += copy(unknown.name, words.data() + size, 96).size();
+  std::size_t size = copy(what, words.data(), words.size()).size();
+  size += copy(fault.name, words.data() + size, 96).size();
   words[size++] = ':';
-  machine.messages.runtime_exception(unknown.line, unknown.column, {words.data(), size});
+  machine.messages.runtime_exception(fault.line, fault.column, {words.data(), size});
   return false;
 }
 

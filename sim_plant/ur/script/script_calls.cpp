@@ -117,6 +117,7 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   if (name == "set_payload" || name == "set_target_payload") set_payload(call, machine);
   const ScriptValue* pose = call.find("pose", 0);
   if (name == "set_tcp" && pose != nullptr && pose->six()) machine.set_tcp(pose->vector());
+  if (name == "zero_ftsensor") machine.zero_force();
   if (name == "popup" && call.count > 0)
     machine.messages.popup("Message", call.arguments[0].value.text, false, false);
   if (starts_with(name, "socket_")) use_socket(call, machine);

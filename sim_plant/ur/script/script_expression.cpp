@@ -1,6 +1,7 @@
 #include "sim_plant/ur/script/script_expression.hpp"
 
 #include "sim_plant/ur/script/script_functions.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
 #include "sim_plant/ur/script/script_operators.hpp"
 
 namespace tactus::ur {
@@ -39,6 +40,11 @@ class Expression {
   bool argument(ScriptCall::Argument& argument);
   std::string_view operator_of(std::size_t level);
   bool eat(std::string_view word);
+  /// True for a value whose kind is only known when the program runs.
+  bool open(const ScriptValue& value) const {
+    return scope_.reads_only() && value.kind == Kind::kNothing;
+  }
+  bool numeric(const ScriptValue& value) const { return value.numeric() || open(value); }
 
   std::string_view text_;
   const ScriptScope& scope_;
@@ -67,16 +73,20 @@ bool Expression::level(std::size_t at, ScriptValue& value) {
   if (!level(at + 1, value)) return false;
   for (std::string_view word = operator_of(at); !word.empty(); word = operator_of(at)) {
     ScriptValue right;
-    if (!level(at + 1, right) || !apply_operator(word, right, value)) return false;
+    if (!level(at + 1, right)) return false;
+    if (open(value) || open(right))
+      value = {};
+    else if (!apply_operator(word, right, value))
+      return false;
   }
   return true;
 }
 
 bool Expression::signed_value(ScriptValue& value) {
   if (eat("not")) {
-    if (++depth_ > kDeepest || !level(2, value) || !value.numeric()) return false;
+    if (++depth_ > kDeepest || !level(2, value) || !numeric(value)) return false;
     --depth_;
-    value = truth_value(value.number == 0.0);
+    if (!open(value)) value = truth_value(value.number == 0.0);
     return true;
   }
   bool negative = false;
@@ -89,14 +99,19 @@ bool Expression::signed_value(ScriptValue& value) {
   if (!with_element(value)) return false;
   if (!negative) return true;
   value.number = -value.number;
-  return value.kind == Kind::kNumber;
+  return value.kind == Kind::kNumber || open(value);
 }
 
 bool Expression::with_element(ScriptValue& value) {
   if (!primary(value)) return false;
   while (eat("[")) {
     ScriptValue index;
-    if (!level(0, index) || !eat("]") || !index.numeric()) return false;
+    if (!level(0, index) || !eat("]") || !numeric(index)) return false;
+    if (open(value)) continue;
+    if (open(index)) {
+      value = {};
+      continue;
+    }
     if (!(index.number >= 0.0 && index.number < static_cast<double>(value.count))) return false;
     const double element = value.elements[static_cast<std::size_t>(index.number)];
     value = number_value(element);
@@ -142,7 +157,7 @@ bool Expression::elements(Kind kind, ScriptValue& value) {
   while (!eat("]")) {
     ScriptValue element;
     if (value.count > 0 && !eat(",")) return false;
-    if (value.count == value.elements.size() || !level(0, element) || !element.numeric())
+    if (value.count == value.elements.size() || !level(0, element) || !numeric(element))
       return false;
     value.elements[value.count++] = element.number;
   }
@@ -160,9 +175,13 @@ bool Expression::name(ScriptValue& value) {
   skip_blanks(behind);
   if (starts_with(behind, "(")) {
     ScriptCall call;
-    return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value);
+    if (!scope_.reads_only())
+      return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value);
+    if (!is_emulated_value(word)) *scope_.strange = word;
+    return is_emulated_value(word) && read(call);
   }
   const ScriptValue* variable = scope_.variables ? scope_.variables->find(word) : nullptr;
+  if (variable == nullptr && scope_.reads_only()) *scope_.strange = word;
   if (variable == nullptr) return false;
   value = *variable;
   text_.remove_prefix(word.size());

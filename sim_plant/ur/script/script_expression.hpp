@@ -11,9 +11,16 @@ struct Machine;
 
 /// The values of names and functions. Without a machine functions have no value, and only literals
 /// are read.
+///
+/// With `strange`, an expression is only read, before its program runs: variables and functions
+/// have values of kind kNothing, which every operator takes. A name that is no variable and no
+/// function with a value is left in `strange`.
 struct ScriptScope {
   const ScriptVariables* variables = nullptr;
   const Machine* machine = nullptr;
+  std::string_view* strange = nullptr;
+
+  bool reads_only() const { return strange != nullptr; }
 };
 
 /// Takes an expression off the text. False: there is none, or it has no value here; the text is

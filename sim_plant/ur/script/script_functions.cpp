@@ -42,17 +42,21 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
   const Motion& motion = machine.motion;
   const std::string_view name = call.name;
   if (name == "get_actual_joint_positions")
-    value = six_value(Kind::kList, machine.body.q());
+    value = six_value(Kind::kList, machine.measured_q());
   else if (name == "get_actual_joint_speeds")
-    value = six_value(Kind::kList, machine.body.dq());
+    value = six_value(Kind::kList, machine.measured_dq());
   else if (name == "get_target_joint_positions")
     value = six_value(Kind::kList, motion.q());
   else if (name == "get_target_joint_speeds")
     value = six_value(Kind::kList, motion.dq());
   else if (name == "get_actual_tcp_pose")
-    value = six_value(Kind::kPose, (forward(machine.body.q()) * motion.tool()).pose());
+    value = six_value(Kind::kPose, (forward(machine.measured_q()) * motion.tool()).pose());
   else if (name == "get_target_tcp_pose")
     value = six_value(Kind::kPose, (forward(motion.q()) * motion.tool()).pose());
+  else if (name == "get_tcp_force")
+    value = six_value(Kind::kPose, machine.measured_wrench());
+  else if (name == "force")
+    value = number_value(machine.measured_wrench().head<3>().norm());
   else if (name == "get_tcp_offset")
     value = six_value(Kind::kPose, machine.tcp_offset);
   else if (name == "get_target_payload")

@@ -9,12 +9,10 @@ namespace tactus::ur {
 bool is_urscript_function(std::string_view name);
 /// True for a word of the language that may precede a bracket.
 bool is_urscript_word(std::string_view name);
-
-/// A call of a function that does not exist: line and column from 1, and the name.
-struct UnknownName {
-  int line = 0, column = 0;
-  std::string_view name;
-};
-bool find_unknown_name(std::string_view program, UnknownName& unknown);
+/// True for a function that a line may call: it is emulated, or a setting that the emulated arm has
+/// no use for.
+bool is_emulated_call(std::string_view name);
+/// True for a function that has a value in expressions.
+bool is_emulated_value(std::string_view name);
 
 }  // namespace tactus::ur

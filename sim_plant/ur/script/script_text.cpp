@@ -90,25 +90,37 @@ double ScriptCall::number(std::string_view argument, std::size_t position, doubl
 }
 
 const ScriptValue* ScriptVariables::find(std::string_view name) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (rows[i].name == name) return &rows[i].value;
-  return nullptr;
+  return const_cast<ScriptVariables*>(this)->find(name);
 }
 
 ScriptValue* ScriptVariables::find(std::string_view name) {
-  for (std::size_t i = 0; i < count; ++i)
-    if (rows[i].name == name) return &rows[i].value;
+  ScriptValue* local = find_at(name, depth_);
+  return local != nullptr ? local : find_at(name, 0);
+}
+
+ScriptValue* ScriptVariables::find_at(std::string_view name, int depth) {
+  for (std::size_t i = 0; i < count_; ++i)
+    if (rows_[i].depth == depth && rows_[i].name == name) return &rows_[i].value;
   return nullptr;
 }
 
-bool ScriptVariables::set(std::string_view name, const ScriptValue& value) {
-  if (ScriptValue* known = find(name)) {
+bool ScriptVariables::set(std::string_view name, const ScriptValue& value, Scope scope) {
+  const int depth = scope == Scope::kGlobal ? 0 : depth_;
+  ScriptValue* known = scope == Scope::kNearest ? find(name) : find_at(name, depth);
+  if (known != nullptr) {
     *known = value;
     return true;
   }
-  if (count == rows.size()) return false;
-  rows[count++] = {name, value};
+  if (count_ == rows_.size()) return false;
+  rows_[count_++] = {name, value, depth};
   return true;
+}
+
+void ScriptVariables::leave() {
+  const auto* const end = std::remove_if(rows_.begin(), rows_.begin() + count_,
+                                         [this](const Row& row) { return row.depth == depth_; });
+  count_ = static_cast<std::size_t>(end - rows_.begin());
+  --depth_;
 }
 
 }  // namespace tactus::ur

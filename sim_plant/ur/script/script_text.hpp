@@ -55,18 +55,31 @@ struct ScriptCall {
   double number(std::string_view argument, std::size_t position, double otherwise) const;
 };
 
-/// The variables that were assigned, by name.
-struct ScriptVariables {
-  struct Row {
-    std::string_view name;
-    ScriptValue value;
-  };
-  std::array<Row, 64> rows;
-  std::size_t count = 0;
+/// The variables that were assigned, by name: those of the program, and those of the running
+/// functions. A name means the variable of the innermost function, else that of the program.
+class ScriptVariables {
+ public:
+  enum class Scope : std::uint8_t { kNearest, kLocal, kGlobal };
 
   const ScriptValue* find(std::string_view name) const;
   ScriptValue* find(std::string_view name);
-  /// Assigns a value. False: too many variables.
-  bool set(std::string_view name, const ScriptValue& value);
+  /// Assigns a value; a new variable belongs to the innermost function, unless it is global. False:
+  /// too many variables.
+  bool set(std::string_view name, const ScriptValue& value, Scope scope = Scope::kNearest);
+  void enter() { ++depth_; }  ///< a function begins
+  void leave();               ///< it ends, and its variables with it
+
+ private:
+  struct Row {
+    std::string_view name;
+    ScriptValue value;
+    int depth = 0;  // of calls; 0: of the program
+  };
+  ScriptValue* find_at(std::string_view name, int depth);
+
+  std::array<Row, 64> rows_;
+  std::size_t count_ = 0;
+  int depth_ = 0;
 };
+
 }  // namespace tactus::ur

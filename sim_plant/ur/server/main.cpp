@@ -8,6 +8,7 @@
 #include "hal/os/cycle_clock.hpp"
 #include "sim_plant/ur/server/cycle_grid.hpp"
 #include "sim_plant/ur/server/options.hpp"
+#include "sim_plant/ur/server/scene_file.hpp"
 #include "sim_plant/ur/server/server.hpp"
 
 namespace tactus::ur {
@@ -25,6 +26,8 @@ Settings settings_of(const EmulatorOptions& options) {
                       options.version[3]};
   settings.initial_q = Joints(options.initial_q);
   settings.switched_on = !options.switched_off;
+  settings.sensor_errors.on = options.sensor_errors;
+  settings.sensor_errors.seed = options.seed;
   settings.start_time_s = options.start_time_s;
   settings.external_control_host = options.external_control_host;
   settings.external_control_port = options.external_control_port;
@@ -67,7 +70,9 @@ int main(int argc, char** argv) {
   EmulatorOptions options;
   int exit_code = 0;
   if (!parse_emulator_options(argc, argv, options, exit_code)) return exit_code;
-  static Emulator emulator(settings_of(options));
+  Settings settings = settings_of(options);
+  if (options.scene[0] != '\0' && !read_scene_file(options.scene, settings.surroundings)) return 2;
+  static Emulator emulator(settings);
   if (emulator.start() != tactus::Status::kOk) {
     std::fprintf(stderr, "ur10_emulator: the arm could not be built\n");
     return 2;

@@ -26,9 +26,9 @@ CLI::Validator finite(double lowest, double highest) {
       "");
 }
 
-CLI::Validator short_text() {
+CLI::Validator shorter_than(std::size_t size) {
   return CLI::Validator(
-      [](std::string& text) { return text.size() < 64 ? "" : "the address is too long"; }, "");
+      [size](std::string& text) { return text.size() < size ? "" : "the text is too long"; }, "");
 }
 
 bool parse_version(const std::string& text, unsigned (&version)[4]) {
@@ -42,11 +42,11 @@ bool parse_version(const std::string& text, unsigned (&version)[4]) {
 }  // namespace
 
 bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int& exit_code) {
-  std::string address = options.address, host, version = "3.15.8.106339";
+  std::string address = options.address, host, scene, version = "3.15.8.106339";
   std::vector<double> q(std::begin(options.initial_q), std::end(options.initial_q));
   CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "ur10_emulator"};
   app.add_option("--bind", address, "IPv4 address to listen at (default 127.0.0.1)")
-      ->check(short_text());
+      ->check(shorter_than(sizeof options.address));
   app.add_option("--port-offset", options.port_offset, "added to every port (default 0)")
       ->check(finite(-28000, 30000));
   app.add_option("--speed", options.speed, "speed as a multiple of real time (default 1)")
@@ -63,11 +63,17 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   app.add_option("--joints", q, "initial positions of the six joints, rad")
       ->expected(6)
       ->check(finite(-6.3, 6.3));
+  app.add_option("--scene", scene,
+                 "pipeline file whose boxes the arm touches, with its tool (default: none)")
+      ->check(shorter_than(sizeof options.scene));
+  app.add_flag("--sensor-errors", options.sensor_errors,
+               "force and speeds have noise and bias like a robot's (default: exact)");
+  app.add_option("--seed", options.seed, "seed of these errors (default 1)");
   app.add_option("--software", version,
                  "software version (default 3.15.8.106339); 5 has the cycle of an e-Series");
   app.add_option("--external-control", host,
                  "address from which external_control.urp fetches its script (default: no program)")
-      ->check(short_text());
+      ->check(shorter_than(sizeof options.address));
   app.add_option("--external-control-port", options.external_control_port,
                  "port from which it fetches the script (default 50002)")
       ->check(finite(1, 65535));
@@ -86,6 +92,7 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
     return false;
   }
   std::strncpy(options.address, address.c_str(), sizeof options.address - 1);
+  std::strncpy(options.scene, scene.c_str(), sizeof options.scene - 1);
   std::strncpy(options.external_control_host, host.c_str(),
                sizeof options.external_control_host - 1);
   for (std::size_t i = 0; i < 6; ++i) options.initial_q[i] = q[i];

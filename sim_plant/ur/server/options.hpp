@@ -14,6 +14,9 @@ struct EmulatorOptions {
   bool switched_off = false;  ///< POWER_OFF at the beginning
   double initial_q[6] = {0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0};  ///< rad
   unsigned version[4] = {3, 15, 8, 106339};
+  bool sensor_errors = false;  ///< force and speeds are as uncertain as a robot's
+  unsigned seed = 1;           ///< of these errors
+  char scene[512] = "";        ///< pipeline file with what the arm carries and can touch
   char external_control_host[64] = "";
   int external_control_port = 50002;
 };

@@ -135,7 +135,7 @@ void Server::let_in(Listener& listener) {
   const int socket = accept4(listener.socket, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (socket < 0) return;
   set_no_delay(socket);
-  const int session = emulator_.open(listener.service);
+  const int session = find_place(listener.service);
   if (session < 0) {
     close(socket);
     return;
@@ -146,6 +146,16 @@ void Server::let_in(Listener& listener) {
     write_to(connection);
     return;
   }
+}
+
+/// Opens a session; if all places are taken, in the place of a client that is idle.
+int Server::find_place(Service service) {
+  const int session = emulator_.open(service);
+  const int idle = session < 0 ? emulator_.find_idle(service) : -1;
+  if (idle < 0) return session;
+  for (Connection& connection : connections_)
+    if (connection.socket >= 0 && connection.session == idle) show_out(connection);
+  return emulator_.open(service);
 }
 
 bool Server::read_some(Connection& connection) {

@@ -40,6 +40,7 @@ class Server {
 
   int build_poll_list();
   void let_in(Listener& listener);
+  int find_place(Service service);
   bool read_some(Connection& connection);
   void read_from(Connection& connection);
   void write_to(Connection& connection);

@@ -36,7 +36,8 @@ void plant(const char* address) {
           "rm -f said && mkdir -p build/ur10_socket build/ur10_emulator pipelines/trajectories && "
           "touch pipelines/trajectories/t && ln -sf $P build/ur10_emulator/ur10_emulator"),
       0);
-  write(kName, {"[ur]\n", address, "[other]\nkeep = this\n"});
+  write(kName,
+        {"[robot]\nname = ur10\nperiod_us = 8000\n[ur]\n", address, "[other]\nkeep = this\n"});
   write("build/ur10_socket/tactus", {kProgram});
   assert_int_equal(shell_there("chmod +x build/ur10_socket/tactus"), 0);
 }

@@ -53,7 +53,7 @@ void the_real_time_port_sends_a_packet_every_cycle(void**) {
   assert_true(number(kTimeOffset) == 100.0 + 3 * 0.008);
   for (int i = 0; i < 6; ++i)
     ASSERT_NEAR(number(kQActualOffset + 8 * static_cast<std::size_t>(i)), Settings().initial_q[i],
-                1e-9);
+                kEncoder_rad);
   assert_true(number(kRobotModeOffset) == 7.0);
   assert_true(number(kJointModesOffset) == 253.0);
   assert_true(number(kSafetyModeOffset) == 1.0);
@@ -121,6 +121,28 @@ void the_dashboard_answers_line_by_line(void**) {
   assert_true(g_bench->ended(g_dashboard));
 }
 
+void an_e_series_has_an_operational_mode(void**) {
+  Settings settings;
+  settings.version = {5, 11, 1, 108318};
+  connect(settings);
+  expect_reply("get operational mode", "NONE");
+  expect_reply("is in remote control", "true");
+  expect_reply("set operational mode manual", "Operational mode MANUAL is set");
+  expect_reply("set operational mode automatic", "Operational mode AUTOMATIC is set");
+  expect_reply("set operational mode fast", "Failed setting operational mode: fast");
+  expect_reply("get operational mode", "AUTOMATIC");
+  expect_reply("clear operational mode",
+               "No longer controlling the operational mode. Current operational mode: "
+               "'AUTOMATIC'.");
+  connect();
+  for (const char* line :
+       {"set operational mode manual", "clear operational mode", "get operational mode"}) {
+    std::array<char, 96> reply{};
+    std::snprintf(reply.data(), reply.size(), "could not understand: '%s'", line);
+    expect_reply(line, reply.data());
+  }
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -131,6 +153,7 @@ int main() {
       cmocka_unit_test(the_real_time_port_sends_a_packet_every_cycle),
       cmocka_unit_test(power_comes_and_goes_in_its_own_time),
       cmocka_unit_test(the_dashboard_answers_line_by_line),
+      cmocka_unit_test(an_e_series_has_an_operational_mode),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -36,7 +36,7 @@ void a_data_package_holds_the_fields_in_their_order(void**) {
   assert_int_equal(reader.u8(), 0x55);
   assert_int_equal(reader.u8(), 1);
   assert_true(reader.f64() == 100.008);
-  for (int i = 0; i < 6; ++i) ASSERT_NEAR(reader.f64(), settings.initial_q[i], 1e-9);
+  for (int i = 0; i < 6; ++i) ASSERT_NEAR(reader.f64(), settings.initial_q[i], kEncoder_rad);
   assert_int_equal(reader.u32(), 7);
   assert_int_equal(reader.u32(), 1);  // no program
   assert_true(reader.done());

@@ -1,70 +1,9 @@
 // Tests the emulated controller behind real sockets: a session over the loopback, programs that
 // connect out, and misbehaving clients.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-#include <cerrno>
-
-#include "sim_plant/ur/server/server.hpp"
-#include "tests/support/testing.hpp"
-#include "tests/ur/controller/ur_bench.hpp"
+#include "tests/ur/controller/ur_server_bench.hpp"
 
 namespace tactus::ur {
 namespace {
-
-constexpr const char* kAddress = "127.0.0.77";
-const int kOffset = -10000 - 20 * (getpid() % 400);  // below the ports of clients
-
-Bench g_bench;
-alignas(Server) unsigned char g_memory[sizeof(Server)];
-Server* g_server = nullptr;
-
-void start() {
-  g_bench.start();
-  assert_true(g_bench.started());
-  if (g_server != nullptr) g_server->~Server();
-  g_server = new (g_memory) Server(*g_bench);
-  assert_true(g_server->start(kAddress, kOffset));
-}
-
-sockaddr_in place(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  inet_pton(AF_INET, kAddress, &address.sin_addr);
-  return address;
-}
-
-int connect_to(int port) {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  const int small = 4096;
-  setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-  const sockaddr_in address = place(port + kOffset);
-  assert_int_equal(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-  for (int i = 0; i < 5; ++i) g_server->pump(1'000'000);
-  return socket;
-}
-
-void tick() {
-  g_server->pump(0);
-  g_bench->tick();
-  g_server->flush();
-}
-
-/// Receives exactly `size` bytes, running cycles until they have arrived.
-bool receive(int socket, std::uint8_t* data, std::size_t size) {
-  std::size_t got = 0;
-  for (int i = 0; i < 2000 && got < size; ++i) {
-    const ssize_t more = recv(socket, data + got, size - got, MSG_DONTWAIT);
-    if (more == 0) return false;
-    if (more > 0)
-      got += static_cast<std::size_t>(more);
-    else
-      g_server->pump(1'000'000);
-  }
-  return got == size;
-}
 
 // Proves URE-40.
 
@@ -224,7 +163,5 @@ int main() {
       cmocka_unit_test(a_client_that_vanishes_frees_its_place_and_its_claims),
       cmocka_unit_test(a_port_that_is_taken_is_said),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  if (g_server != nullptr) g_server->stop();
-  return failed;
+  return run_server_tests(tests);
 }

@@ -66,6 +66,20 @@ void a_protective_stop_is_told_and_unlocked_when_it_may_be(void**) {
   assert_true(g_bench.until([] { return !protective_stopped(); }, 625));
 }
 
+/// The sum of 2500 cycles of 2 ms is a little less than 5 s.
+void a_stop_is_unlocked_exactly_five_seconds_after_it(void**) {
+  const Settings settings;
+  for (const double cycle_s : {0.008, 0.002}) {
+    Safety safety(settings);
+    assert_true(safety.protective_stop());
+    const int cycles = static_cast<int>(5.0 / cycle_s + 0.5);
+    for (int k = 1; k < cycles; ++k) safety.tick(cycle_s);
+    assert_false(safety.unlock());
+    safety.tick(cycle_s);
+    assert_true(safety.unlock());
+  }
+}
+
 void the_safety_system_steps_in_at_its_limits(void**) {
   connect();
   g_bench.controller().faults().encoder_offset[0] = 7.0;  // rad: beyond 363 degrees
@@ -95,7 +109,7 @@ void the_tool_stays_below_its_speed_limit(void**) {
   assert_true(fastest > 1.3 && fastest < 1.5);
   assert_true(scaling > 0.3 && scaling < 0.9);  // 2 rad/s at 1.2 m would be 2.4 m/s
   ASSERT_NEAR(g_bench.image().target_speed_fraction, 1.0, 0.0);
-  ASSERT_NEAR(g_bench.image().actual_q[0], 2.5, 1e-6);
+  ASSERT_NEAR(g_bench.image().actual_q[0], 2.5, kEncoder_rad);
   assert_int_equal(g_bench.image().safety_mode, 1);
 }
 
@@ -119,6 +133,7 @@ int main() {
       cmocka_unit_test(a_push_is_a_collision_and_a_wrong_encoder_a_deviation),
       cmocka_unit_test(a_script_that_goes_silent_at_speed_is_a_sudden_stop),
       cmocka_unit_test(a_protective_stop_is_told_and_unlocked_when_it_may_be),
+      cmocka_unit_test(a_stop_is_unlocked_exactly_five_seconds_after_it),
       cmocka_unit_test(the_safety_system_steps_in_at_its_limits),
       cmocka_unit_test(the_tool_stays_below_its_speed_limit),
       cmocka_unit_test(what_a_test_breaks_is_broken),

@@ -11,6 +11,8 @@
 
 namespace tactus::ur {
 
+inline constexpr double kEncoder_rad = 6.0e-6;  ///< half a step of an encoder
+
 /// One controller at a time, because MuJoCo's memory outlives a failed assertion.
 class Bench {
  public:

@@ -79,7 +79,7 @@ void the_example_message_moves_the_arm_to_its_position(void**) {
                                        0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01};
   static ExternalBench bench;
   const Joints near = kStart + Joints::Constant(0.05);
-  ASSERT_OK(bench.machine().body.load(near, 0.0, Vector3::Zero()));
+  ASSERT_OK(bench.machine().body.load(near));
   bench.machine().motion.rest(near);
   bench.start();
   for (int k = 0; k < 100; ++k) {

@@ -33,12 +33,14 @@ struct Said {
 };
 
 struct ProgramBench {
-  Controller controller{settings()};
+  Controller controller;
   ScriptIntake intake;
   Said said;
   bool listening = true;  // the control computer accepts connections
 
-  ProgramBench() { ASSERT_OK(controller.start()); }
+  explicit ProgramBench(const Settings& chosen = settings()) : controller(chosen) {
+    ASSERT_OK(controller.start());
+  }
 
   static Settings settings() {
     Settings settings;

@@ -1,0 +1,182 @@
+#include "sim_plant/ur/script/script_check.hpp"
+
+#include <algorithm>
+
+#include "sim_plant/ur/script/script_definition.hpp"
+#include "sim_plant/ur/script/script_names.hpp"
+
+namespace tactus::ur {
+namespace {
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Returns a statement without "global" or "local".
+std::string_view without_scope(std::string_view line) {
+  for (const std::string_view word : {"global ", "local "})
+    if (starts_with(line, word)) return trimmed(line.substr(word.size()));
+  return line;
+}
+
+/// Returns what follows the name in "name = value" or "name[index] = value", from the first sign
+/// on; empty: the line is no assignment.
+std::string_view assigned(std::string_view line) {
+  const std::string_view rest = trimmed(line.substr(leading_name(line).size()));
+  if (leading_name(line).empty() || rest.empty()) return {};
+  if (rest[0] == '=') return starts_with(rest, "==") ? std::string_view() : rest;
+  const std::size_t end = rest.find(']');
+  if (rest[0] != '[' || end == std::string_view::npos) return {};
+  const std::string_view behind = trimmed(rest.substr(end + 1));
+  return starts_with(behind, "=") && !starts_with(behind, "==") ? rest : std::string_view();
+}
+
+}  // namespace
+
+bool ScriptCheck::find(ScriptFault& fault) {
+  const bool fits = collect_variables();
+  const bool block = starts_with(program_, "def ") || starts_with(program_, "sec ");
+  std::string_view rest = program_, line;
+  for (int number = 1; next_line(rest, line); ++number) {
+    const std::string_view code = trimmed(without_comment(line));
+    strange_ = {};
+    if ((block && number == 1) || (fits && good_line(code))) continue;
+    const std::string_view at = strange_.empty() ? code : strange_;
+    fault.line = number;
+    fault.column = static_cast<int>(at.data() - line.data()) + 1;
+    fault.name = strange_.empty() ? code : strange_;
+    fault.kind = kind_of(strange_);
+    return true;
+  }
+  return false;
+}
+
+/// Notes every variable of the program. False: there are too many.
+bool ScriptCheck::collect_variables() {
+  std::string_view rest = program_, line;
+  while (next_line(rest, line)) {
+    const std::string_view code = without_scope(trimmed(without_comment(line)));
+    const bool whole = !assigned(code).empty() && assigned(code)[0] == '=';
+    if (whole && !variables_.set(leading_name(code), {})) return false;
+    std::string_view name, parameters;
+    if (!read_definition(code, name, parameters)) continue;
+    while (!parameters.empty()) {
+      const std::string_view parameter = take_parameter(parameters);
+      if (parameter.empty()) break;  // good_line() finds it
+      if (!variables_.set(parameter, {})) return false;
+    }
+  }
+  return true;
+}
+
+bool ScriptCheck::good_line(std::string_view line) {
+  const std::string_view word = leading_name(line);
+  if (line.empty() || line == "end" || line == "else:") return true;
+  if (is_one_of(word, {"break", "continue", "halt", "return"}) && line == word) return true;
+  if (word == "return") return whole(line.substr(word.size()), "");
+  if (is_one_of(word, {"while", "if", "elif"})) return good_block(word, line);
+  if (word == "def") return good_definition(line);
+  if (is_urscript_word(word) && !is_one_of(word, {"global", "local", "p", "not"}))
+    return blame(word);
+  return good_statement(without_scope(line));
+}
+
+/// Reads "def name(a, b):"; parameters have no defaults.
+bool ScriptCheck::good_definition(std::string_view line) {
+  std::string_view name, parameters;
+  if (!read_definition(line, name, parameters)) return false;
+  while (!parameters.empty())
+    if (take_parameter(parameters).empty()) return blame(name);
+  return true;
+}
+
+/// Reads the condition of "while ...:", "if ...:" or "elif ...:".
+bool ScriptCheck::good_block(std::string_view word, std::string_view line) {
+  return whole(line.substr(word.size()), ":");
+}
+
+bool ScriptCheck::good_statement(std::string_view line) {
+  const std::string_view rest = assigned(line);
+  if (rest.empty()) return good_call(line);
+  const std::string_view name = leading_name(line);
+  if (rest[0] == '[' && name != "digital_out" && variables_.find(name) == nullptr)
+    return blame(name);
+  return good_assignment(rest);
+}
+
+/// Reads "= value" or "[index] = value"; the value of a call without one counts as True.
+bool ScriptCheck::good_assignment(std::string_view rest) {
+  const bool element = rest[0] == '[';
+  if (element) {
+    ScriptValue index;
+    rest.remove_prefix(1);
+    if (!evaluate(rest, {&variables_, nullptr, &strange_}, index)) return false;
+    rest = trimmed(rest);
+    if (!starts_with(rest, "]")) return false;
+    rest = trimmed(rest.substr(1));
+    if (!starts_with(rest, "=")) return false;
+  }
+  rest = trimmed(rest.substr(1));
+  const std::string_view name = leading_name(rest);
+  const bool calls = starts_with(trimmed(rest.substr(name.size())), "(");
+  if (calls && !element && defines(name)) return good_call(rest);
+  if (is_emulated_call(name)) return good_call(rest);
+  return whole(rest, "");
+}
+
+bool ScriptCheck::good_call(std::string_view line) {
+  const std::string_view name = leading_name(line);
+  if (name.empty()) return false;
+  const std::size_t parameters = count_parameters(name);
+  const bool own = parameters != kNone;
+  if (!own && !is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
+  ScriptCall call;
+  if (!read_call(line, {&variables_, nullptr, &strange_}, call) || !trimmed(line).empty())
+    return false;
+  return !own || call.count == parameters;
+}
+
+/// Reads an expression and, to the end of the text, what follows it.
+bool ScriptCheck::whole(std::string_view text, std::string_view after) {
+  ScriptValue value;
+  return evaluate(text, {&variables_, nullptr, &strange_}, value) && trimmed(text) == after;
+}
+
+/// Notes a name; returns false.
+bool ScriptCheck::blame(std::string_view name) {
+  strange_ = name;
+  return false;
+}
+
+/// True for a function or thread that the program defines.
+bool ScriptCheck::defines(std::string_view name) const {
+  std::string_view rest = program_, line;
+  while (next_line(rest, line)) {
+    line = trimmed(line);
+    for (const std::string_view word : {"def ", "thread "})
+      if (starts_with(line, word) && leading_name(trimmed(line.substr(word.size()))) == name)
+        return true;
+  }
+  return false;
+}
+
+/// Returns the number of parameters of a function of the program; kNone: there is no such function.
+std::size_t ScriptCheck::count_parameters(std::string_view name) const {
+  std::string_view rest = program_, line, found, parameters;
+  while (next_line(rest, line)) {
+    if (!read_definition(trimmed(without_comment(line)), found, parameters) || found != name)
+      continue;
+    std::size_t count = 0;
+    while (!take_parameter(parameters).empty()) ++count;
+    return count;
+  }
+  return kNone;
+}
+
+ScriptFault::Kind ScriptCheck::kind_of(std::string_view name) const {
+  if (name.empty()) return ScriptFault::Kind::kSyntax;
+  const bool known = is_urscript_function(name) || is_urscript_word(name) || defines(name);
+  return known ? ScriptFault::Kind::kNotEmulated : ScriptFault::Kind::kNameNotFound;
+}
+
+}  // namespace tactus::ur

@@ -1,0 +1,133 @@
+// Tests the errors of the emulated controller's sensors against the figures that they are taken
+// from.
+#include "tests/ur/programs/ur_program_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+constexpr double kStep = 6.283185307179586 / 524288.0;  // 19 bits per turn
+
+Settings with_errors(unsigned seed, bool e_series = false) {
+  Settings settings = ProgramBench::settings();
+  settings.sensor_errors.on = true;
+  settings.sensor_errors.seed = seed;
+  if (e_series) settings.version = {5, 11, 1, 108318};
+  return settings;
+}
+
+/// Mean and standard deviation of the force along an axis over some cycles at rest.
+struct Reading {
+  Vector6 mean = Vector6::Zero(), deviation = Vector6::Zero();
+};
+Reading read(Controller& controller, int cycles) {
+  Vector6 sum = Vector6::Zero(), squares = Vector6::Zero();
+  for (int k = 0; k < cycles; ++k) {
+    controller.tick();
+    const Vector6 h = controller.image().actual_tcp_force;
+    sum += h;
+    squares += h.cwiseProduct(h);
+  }
+  Reading reading;
+  reading.mean = sum / cycles;
+  reading.deviation = (squares / cycles - reading.mean.cwiseProduct(reading.mean)).cwiseSqrt();
+  return reading;
+}
+
+// Proves URE-62.
+
+void an_arm_at_rest_shows_the_same_position_in_every_cycle(void**) {
+  static ProgramBench bench;
+  bench.upload("movej([0.1,-1.1,1.1,-0.2,1.4,0.0])\n");
+  bench.run_s(3.0);
+  bench.run(20);
+  const Joints shown = bench.image().actual_q;
+  const Vector6 pose = bench.image().actual_tcp_pose;
+  for (int i = 0; i < 6; ++i) {
+    const double steps = shown[i] / kStep;
+    ASSERT_NEAR(steps, std::round(steps), 1e-6);
+    ASSERT_NEAR(shown[i], bench.machine().body.q()[i], 0.5001 * kStep);
+  }
+  for (int k = 0; k < 100; ++k) {
+    bench.tick();
+    assert_true(bench.image().actual_q == shown && bench.image().actual_tcp_pose == pose);
+  }
+}
+
+void without_errors_the_force_of_nothing_is_nothing(void**) {
+  static ProgramBench bench;
+  const Reading reading = read(bench.controller, 50);
+  assert_true(reading.mean.norm() < 1e-6 && reading.deviation.norm() < 1e-6);
+}
+
+/// 10 N are three standard deviations of the error of a CB3; 20 controllers.
+void the_estimate_of_a_cb3_is_as_uncertain_as_its_maker_says(void**) {
+  double squares = 0.0, noise = 0.0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Controller controller(with_errors(seed));
+    ASSERT_OK(controller.start());
+    const Reading reading = read(controller, 250);
+    squares += reading.mean.head<3>().squaredNorm() / 3.0;
+    noise += reading.deviation.head<3>().squaredNorm() / 3.0;
+  }
+  const double rms = std::sqrt(squares / 20.0), noise_rms = std::sqrt(noise / 20.0);
+  print_message("%.2f N, noise %.2f N\n", rms, noise_rms);
+  assert_true(rms > 1.0 && rms < 10.0);
+  assert_true(noise_rms > 0.2 && noise_rms < 3.0);
+}
+
+void friction_that_is_not_known_depends_on_the_way_to_a_place(void**) {
+  static ProgramBench bench{with_errors(3)};
+  constexpr const char* kWays[] = {"movej([0.2,-1.1,1.3,-0.1,1.57,0.1])\n",
+                                   "movej([-0.2,-1.3,1.1,-0.1,1.57,-0.1])\n"};
+  Reading readings[2];
+  for (int way = 0; way < 2; ++way) {
+    for (const char* line : {kWays[way], "movej([0.0,-1.2,1.2,-0.1,1.57,0.0])\n"}) {
+      bench.upload(line);
+      bench.run_s(3.0);
+    }
+    bench.run(50);
+    readings[way] = read(bench.controller, 250);
+  }
+  const double apart = (readings[0].mean - readings[1].mean).head<3>().norm();
+  print_message("%.2f N\n", apart);
+  assert_true(apart > 1.0 && apart < 20.0);
+}
+
+void the_same_seed_gives_the_same_errors(void**) {
+  Vector6 last[3];
+  constexpr unsigned kSeeds[] = {5, 5, 6};
+  for (int i = 0; i < 3; ++i) {
+    Controller controller(with_errors(kSeeds[i]));
+    ASSERT_OK(controller.start());
+    for (int k = 0; k < 30; ++k) controller.tick();
+    last[i] = controller.image().actual_tcp_force;
+  }
+  assert_true(last[0] == last[1] && last[0] != last[2]);
+}
+
+void the_sensor_of_an_e_series_can_be_zeroed(void**) {
+  static ProgramBench bench{with_errors(4, true)};
+  const Reading before = read(bench.controller, 500);
+  bench.upload("zero_ftsensor()\n");
+  bench.run(10);
+  const Reading after = read(bench.controller, 500);
+  assert_true(before.mean.head<3>().norm() > 0.5 && before.mean.head<3>().norm() < 7.0);
+  assert_true(after.mean.head<3>().norm() < 0.4);
+  for (int i = 0; i < 3; ++i) ASSERT_NEAR(after.deviation[i], 5.0 / 3.0, 0.2);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(an_arm_at_rest_shows_the_same_position_in_every_cycle),
+      cmocka_unit_test(without_errors_the_force_of_nothing_is_nothing),
+      cmocka_unit_test(the_estimate_of_a_cb3_is_as_uncertain_as_its_maker_says),
+      cmocka_unit_test(friction_that_is_not_known_depends_on_the_way_to_a_place),
+      cmocka_unit_test(the_same_seed_gives_the_same_errors),
+      cmocka_unit_test(the_sensor_of_an_e_series_can_be_zeroed),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

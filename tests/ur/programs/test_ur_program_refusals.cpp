@@ -1,0 +1,155 @@
+// Tests that a program which the interpreter does not understand is refused as a whole, with line
+// and name, before anything moves; and that a value that does not exist ends a program.
+#include "kernel/core/text.hpp"
+#include "tests/ur/programs/ur_program_bench.hpp"
+
+namespace {
+
+using namespace tactus;
+using namespace tactus::ur;
+
+/// The message of a runtime exception: line and column as big-endian integers, then the text.
+bool told(const ProgramBench& bench, int line, int column, const char* text) {
+  std::array<char, 256> bytes{};
+  bytes[3] = static_cast<char>(line);
+  bytes[7] = static_cast<char>(column);
+  const std::size_t size = std::strlen(text);
+  std::memcpy(bytes.data() + 8, text, size);
+  return bench.said.has({bytes.data(), 8 + size});
+}
+
+struct Row {
+  const char* text;
+  int line, column;
+  const char* message;
+};
+
+// Each would move the arm or set an output if its known lines were run.
+constexpr Row kRows[] = {
+    {"def a():\n  def f(x):\n    return x\n  end\n  set_digital_out(0, True)\n  a = 1 + "
+     "f(3)\nend\n",
+     6, 11, "compile_error_not_emulated:f:"},
+    {"def a():\n  def f(x=1):\n    return 3\n  end\n  set_digital_out(0, True)\nend\n", 2, 7,
+     "compile_error_not_emulated:f:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  b = f(1)\n  def f():\n    sync()\n  end\nend\n", 3, 3,
+     "compile_error_syntax:b = f(1):"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  h = run T()\n  thread T():\n    sync()\n  end\nend\n", 3,
+     7, "compile_error_not_emulated:run:"},
+    {"def a():\n  thread T():\n    sync()\n  end\n  h = run T()\n  movel(p[0,0,0,0,0,0])\nend\n", 2,
+     3, "compile_error_not_emulated:thread:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  kill h\nend\n", 3, 3, "compile_error_not_emulated:kill:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  x = get_joint_torques()\nend\n", 3, 7,
+     "compile_error_not_emulated:get_joint_torques:"},
+    {"def a():\n  set_digital_out(0, True)\n  if get_flag(3):\n    sync()\n  end\nend\n", 3, 6,
+     "compile_error_not_emulated:get_flag:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  x = 3 + unknown\nend\n", 3, 11,
+     "compile_error_name_not_found:unknown:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  textmsg(\"a\", foo(1))\nend\n", 3, 16,
+     "compile_error_name_not_found:foo:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  x = [[1, 2], [3, 4]]\nend\n", 3, 3,
+     "compile_error_syntax:x = [[1, 2], [3, 4]]:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  set_payload((1, 2, 3))\nend\n", 3, 3,
+     "compile_error_syntax:set_payload((1, 2, 3)):"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  track_conveyor_linear(p[1,0,0,0,0,0], 500)\nend\n", 3, 3,
+     "compile_error_not_emulated:track_conveyor_linear:"},
+    {"def a():\n  set_digital_out(0, True)\n  while 1 < 2\n    sync()\n  end\nend\n", 3, 3,
+     "compile_error_syntax:while 1 < 2:"},
+    {"sec s():\n  set_digital_out(0, True)\n  x = get_flag(1)\nend\n", 3, 7,
+     "compile_error_not_emulated:get_flag:"},
+};
+
+// Proves URP-14.
+
+void what_is_not_understood_is_refused_before_anything_is_done(void**) {
+  for (const Row& row : kRows) {
+    static ProgramBench bench;
+    bench.said = {};
+    const Joints q = bench.target();
+    bench.upload(row.text);
+    bench.run(10);
+    if (!told(bench, row.line, row.column, row.message)) print_error("%s\n", row.text);
+    assert_true(told(bench, row.line, row.column, row.message));
+    assert_false(bench.running());
+    assert_int_equal(bench.machine().io.digital_outputs, 0);
+    assert_joints(bench.target(), q, 0.0);
+    assert_false(bench.said.has("PROGRAM_XXX_STARTED"));
+  }
+}
+
+void what_is_understood_is_not_refused(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def good():\n"
+      "  # a comment: f(x)\n"
+      "  global q = get_actual_joint_positions()\n"
+      "  local pose = p[0.1, -0.2, d2r(30), 0, 0, q[5]]\n"
+      "  ok = socket_open(\"127.0.0.1\", 50001, \"s\")\n"
+      "  def f():\n"
+      "    n = n + 1\n"
+      "  end\n"
+      "  n = 0\n"
+      "  while n < 3 and not False:\n"
+      "    f()\n"
+      "  end\n"
+      "  if (n == 3):\n"
+      "    digital_out[1] = True\n"
+      "  elif n == 4:\n"
+      "    halt\n"
+      "  else:\n"
+      "    textmsg(\"foo(1)\", pose)\n"
+      "  end\n"
+      "  set_analog_inputrange(0, 1)\n"
+      "  q[0] = q[0] + norm(get_tcp_force()) * 0\n"
+      "  write_output_integer_register(1, n)\n"
+      "  def sum(a, b):\n"
+      "    return a + b\n"
+      "  end\n"
+      "  s = sum(2, 3)\n"
+      "end\n");
+  bench.run(5);
+  assert_false(bench.said.has("compile_error"));
+  assert_false(bench.said.has("runtime_error"));
+  assert_int_equal(bench.machine().io.output.ints[1], 3);
+  assert_int_equal(bench.machine().io.digital_outputs, 2);
+}
+
+void a_value_that_does_not_exist_ends_the_program(void**) {
+  for (const char* line : {"list[7] = 1", "x = list[7]", "x = \"a\" + 1",
+                           "x = get_inverse_kin(p[9,0,0,0,0,0])", "movej([1, 0, 0])"}) {
+    static ProgramBench bench;
+    bench.said = {};
+    std::array<char, 256> text;
+    std::snprintf(text.data(), text.size(),
+                  "def ends():\n  list = [1, 2]\n  set_digital_out(0, False)\n  %s\n"
+                  "  set_digital_out(0, True)\nend\n",
+                  line);
+    bench.upload(text.data());
+    bench.run(5);
+    assert_false(bench.running());
+    assert_int_equal(bench.machine().io.digital_outputs, 0);
+    assert_true(bench.said.has("runtime_error:") || bench.said.has("compile_error_syntax:"));
+  }
+}
+
+void more_variables_than_there_is_room_for_are_refused(void**) {
+  static ProgramBench bench;
+  static Text<4095> text("def many():\n");
+  for (int i = 0; i < 70; ++i) text << "  v" << i << " = 1\n";
+  text << "  set_digital_out(0, True)\nend\n";
+  bench.upload(text);
+  bench.run(5);
+  assert_true(bench.said.has("compile_error_syntax:"));
+  assert_int_equal(bench.machine().io.digital_outputs, 0);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_not_understood_is_refused_before_anything_is_done),
+      cmocka_unit_test(what_is_understood_is_not_refused),
+      cmocka_unit_test(a_value_that_does_not_exist_ends_the_program),
+      cmocka_unit_test(more_variables_than_there_is_room_for_are_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
