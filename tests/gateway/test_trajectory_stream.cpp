@@ -149,8 +149,9 @@ void a_row_that_cannot_be_read_is_refused_before_anything_moves(void**) {
   std::fclose(file);
   StreamBench<JointSpace>& streamed = fresh<JointSpace>(1);
   assert_false(streamed.open(60));
-  assert_string_equal(streamed.stream.refusal().row.message().c_str(),
-                      "202:1: time_s: 'nothing' is not a finite number");
+  assert_string_equal(
+      streamed.stream.refusal().row.message().c_str(),
+      "202:1: time_s: 'nothing' is not a finite number; write a number such as -0.5");
 }
 
 void the_last_waypoint_of_a_long_file_is_at_rest(void**) {

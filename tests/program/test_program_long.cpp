@@ -76,7 +76,7 @@ void a_long_file_is_refused_with_its_line_before_anything_moves(void**) {
   const Line pipeline = quiet_pipeline(), trajectory = write_long("wild.csv", 1e-4, 39'000);
   const Line expected = Line(trajectory)
                         << ":39002: refused: waypoint 39001 (t = 3.932 s), joint "
-                           "1 (fer_joint1): position 9 rad exceeds 2.8973 rad (34)\n";
+                           "1 (fer_joint1): position 9 rad exceeds 2.8973 rad (34); ";
   const Line out = in_folder("refused");
   assert_int_equal(tactus_run({"check", pipeline.c_str(), "--trajectory", trajectory.c_str()}), 2);
   assert_true(has(errors(), std::string_view(expected)));
