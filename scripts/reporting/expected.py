@@ -184,18 +184,22 @@ def touched(run):
     return found.box if found.force.max() > TOUCH_N[kind(run)] else "nothing"
 
 
+def around(seen, expected, band, unit, why):
+    """Returns the expected value with its band in words, why it is expected, and whether the seen one is within it."""
+    return f"{words(expected, unit)} ± {words(band, unit)}", *why, bool(abs(seen - expected) <= band)
+
+
 def judge_contact(found):
     if not found.steady.any():
         return Judgement("mean force", "none steady", words(found.expected.max(), "N"), *SPRING, False)
     seen, expected = found.force[found.steady].mean(), found.expected[found.steady].mean()
-    met = abs(seen - expected) <= FORCE_SHARE * expected
-    return Judgement("mean force", words(seen, "N"), words(expected, "N"), *SPRING, met)
+    return Judgement("mean force", words(seen, "N"), *around(seen, expected, FORCE_SHARE * expected, "N", SPRING))
 
 
 def judge_lag(predicted, error, tolerance):
     seen, expected = np.abs(error).max(), np.abs(predicted).max()
-    met = abs(seen - expected) <= max(LAG_SHARE * expected, tolerance)
-    return Judgement("max joint error", words(seen, "rad"), words(expected, "rad"), *LAG, met)
+    band = max(LAG_SHARE * expected, tolerance)
+    return Judgement("max joint error", words(seen, "rad"), *around(seen, expected, band, "rad", LAG))
 
 
 def tolerance(run, reference, is_pose):

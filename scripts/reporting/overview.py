@@ -17,9 +17,8 @@ LEGEND = (
     "JRG, TRG: reference generator of joints, of the task space; PDGC: PD with gravity compensation; CPC: Cartesian pose"
     " control; AC: admittance control. Seen and expected: the task's reference minus what was measured. A run in contact is judged by its mean force,"
     " not by its tracking error. The verdict's small print is when the run wrote its result. Click a"
-    " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator. A force may"
-    f" differ from the expected one by {100 * expected.FORCE_SHARE:.0f} %, a lag by {100 * expected.LAG_SHARE:.0f} % or"
-    " the goal tolerance."
+    " picture to see the run, a name for its figures. ± is the goal tolerance of the reference generator,"
+    f" {100 * expected.FORCE_SHARE:.0f} % of a force, {100 * expected.LAG_SHARE:.0f} % of a lag if that is more."
 )
 
 
