@@ -99,6 +99,7 @@ Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
   for (;;) {
     if (!has_next_ && !whole_known_) {
       const RowTaken taken = take(wait_ms);
+      if (taken == RowTaken::kRefused && reader_.lines().regular()) return give_up(kChanged);
       if (taken == RowTaken::kRefused) return state_ = Fed::kRefused;
       const bool starves = sent_ - client.needed(*window_) < window_->capacity / kParts;
       if (taken == RowTaken::kNotYet)

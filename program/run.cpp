@@ -31,6 +31,12 @@ Status record(void* recorder, const RobotState&, double time_s) {
   return Status::kOk;  // a full ring drops the row and counts it
 }
 
+/// Returns the cycles that cover a time, at least one; rounding is no cycle.
+std::int64_t cycles_of(double duration_s, double period_s) {
+  constexpr double kRounding = 1e-6;  // of a cycle
+  return std::max<std::int64_t>(1, std::llround(std::ceil(duration_s / period_s - kRounding)));
+}
+
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
@@ -41,7 +47,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   RunLength length;
   length.fixed = options.duration_s > 0.0;
   if (duration_s < kInfinity)
-    length.cycles = std::max(1LL, std::llround(duration_s / session.pipeline.robot.period_s()));
+    length.cycles = cycles_of(duration_s, session.pipeline.robot.period_s());
   RunLoop loop(session, input, feed, watchdog, result, length);
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);

@@ -137,12 +137,12 @@ void RunLoop::take_result(Status status) {
 
 bool RunLoop::time_has_passed() const {
   if (commanded_ < length_.cycles) return false;
-  const double latest_s = goal_.latest_report_s();
-  return length_.fixed || !pending_ || latest_s == kInfinity || time_s() >= latest_s;
+  return length_.fixed || !pending_ || time_s() >= goal_.latest_report_s();
 }
 
 Reason RunLoop::why() const {
   if (pending_ && planned_end_) return goal_.unfinished(ended_s_);
+  if (end_.ok() && std::string_view(result_.name) == name(Outcome::kAborted)) return goal_.left();
   return goal_.given_up(end_);
 }
 

@@ -34,7 +34,7 @@ void Expectation::print_miss(const char* path) const {
   const bool below = largest_ < section_.contact_force_min;
   std::fprintf(
       stderr,
-      "%s: [expect] contact_force_%s: the largest contact force was %.3g N, expected at "
+      "%s: [expect] contact_force_%s: the largest contact force was %.9g N, expected at "
       "%s %g N: %s\n",
       path, below ? "min" : "max", largest_, below ? "least" : "most",
       below ? section_.contact_force_min : section_.contact_force_max,

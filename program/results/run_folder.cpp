@@ -116,6 +116,24 @@ bool RunFolder::mark(const char* marker, const char* what, std::string_view pipe
   return write_text(file(marker), text);
 }
 
+/// False: the run would replace a file that it reads, or that no run has written; prints which.
+bool RunFolder::keeps(const RunInputs& inputs) const {
+  const FilePath earlier = file(kEarlier);
+  bool runs = exists(in_folder(earlier, kSummary));
+  for (const char* name : {kSummary, kIncomplete, kRefusedRun}) runs = runs || exists(file(name));
+  for (const char* name : kResults) {
+    const FilePath path = file(name), old = in_folder(earlier, name);
+    const bool copied = std::strcmp(name, kPipeline) == 0 && same_file(inputs.pipeline, path);
+    const bool read = same_file(inputs.trajectory, path) || same_file(inputs.trajectory, old) ||
+                      same_file(inputs.pipeline, path) || same_file(inputs.pipeline, old);
+    if (copied || (!read && (runs || !exists(path)))) continue;
+    std::fprintf(stderr, "%s: the run would replace this file, %s; choose another --out\n",
+                 path.c_str(), read ? "which it reads" : "which no run has written");
+    return false;
+  }
+  return true;
+}
+
 bool RunFolder::begin(const RunInputs& inputs, std::string_view text) {
   if (!make_folder(path_)) return false;
   const Lock locked = lock();
@@ -127,13 +145,8 @@ bool RunFolder::begin(const RunInputs& inputs, std::string_view text) {
         path_.c_str());
     return false;
   }
-  for (const char* name : kResults) {
-    if (!same_file(inputs.trajectory, file(name))) continue;
-    std::fprintf(stderr, "%s: the run would replace its own trajectory; choose another --out\n",
-                 file(name).c_str());
-    return false;
-  }
-  if (!set_aside(inputs) || !mark(kIncomplete, "has not ended, or was killed.", inputs.pipeline))
+  if (!keeps(inputs) || !set_aside(inputs) ||
+      !mark(kIncomplete, "has not ended, or was killed.", inputs.pipeline))
     return false;
   return same_file(inputs.pipeline, file(kPipeline)) || write_text(file(kPipeline), text);
 }

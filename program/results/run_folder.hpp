@@ -44,6 +44,7 @@ class RunFolder {
  private:
   enum class Lock { kTaken, kOther, kFailed };
   Lock lock();
+  bool keeps(const RunInputs& inputs) const;
   bool set_aside(const RunInputs& inputs);
   bool mark(const char* marker, const char* what, std::string_view pipeline);
 

@@ -1,5 +1,7 @@
 #include "program/session/goal_watch.hpp"
 
+#include <algorithm>
+
 namespace tactus {
 namespace {
 
@@ -8,8 +10,7 @@ constexpr double kReportPeriods = 10.0;  // a report comes a few cycles after wh
 template <class Space>
 double goal_time_s(const ReferenceClient<Space>& client) {
   const Tolerances<Space>* const tolerances = client.tolerances();
-  return tolerances != nullptr && tolerances->goal_time_s > 0.0 ? tolerances->goal_time_s
-                                                                : kInfinity;
+  return tolerances != nullptr ? std::max(tolerances->goal_time_s, 0.0) : 0.0;
 }
 
 }  // namespace
@@ -42,6 +43,12 @@ Reason GoalWatch::given_up(const Verdict& verdict) const {
   if (remedy == nullptr) return text;
   text << (verdict.status == Status::kPathTolerance ? "path not followed: " : "goal not reached: ");
   return text << describe(verdict, axes()) << "; " << remedy;
+}
+
+Reason GoalWatch::left() {
+  return Reason(
+      "goal reached, but not for dwell_ms within goal_time_s after the end of the trajectory; give "
+      "a shorter dwell_ms or a longer goal_time_s");
 }
 
 Reason GoalWatch::unfinished(double time_s) const {

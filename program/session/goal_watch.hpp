@@ -15,12 +15,14 @@ class GoalWatch {
 
   /// Takes what the generator has told about its goal since the last call. [cyclic]
   void follow();
-  /// Latest time at which the generator reports the end of the trajectory, s of the run; infinite
-  /// if the generator waits without an end. Call it once the generator has started.
+  /// Time until which a run waits for the generator's report on the end of the trajectory, s; of
+  /// one that waits without an end, only for its cycles. Call it once the generator has started.
   double latest_report_s() const;
   /// Returns joint or axis, value, limit and remedy of a goal that the generator gave up; empty if
   /// something else ended it.
   Reason given_up(const Verdict& verdict) const;
+  /// Returns the same of one that was reached, but not for as long as it must be.
+  static Reason left();
   /// Returns the same of a goal that was pending when the run ended after `time_s`.
   Reason unfinished(double time_s) const;
 

@@ -56,6 +56,26 @@ void a_goal_given_up_names_joint_value_limit_and_what_to_do(void**) {
   assert_true(has(file_of("report.html"), "<b>aborted</b>: goal not reached: joint 4 "));
 }
 
+void a_goal_that_is_not_held_long_enough_names_the_settings(void**) {
+  assert_int_equal(
+      whole_run(pipeline(
+          "goal_tolerance = 1\nstopped_velocity = 0\ndwell_ms = 500\ngoal_time_s = 0.4\n")),
+      1);
+  assert_true(has(errors(), "aborted: goal reached, but not for dwell_ms within goal_time_s"));
+  assert_true(has(file_of("g/summary.json"), "\"why\": \"goal reached, but not for dwell_ms"));
+}
+
+void a_run_covers_the_last_part_of_a_cycle(void**) {
+  const Line file = pipeline(
+      "goal_time_s = 0\ngoal_tolerance = 1\nstopped_velocity = 0\n[gateway]\nsettle_s = 0\n");
+  const Line csv =
+      write("odd.csv", {kHeader, "0.50018,0,-0.785398,0,-2.256194,0,1.570796,0.785398\n"});
+  const Line out = in_folder("g");
+  assert_int_equal(tactus_run({"run", file.c_str(), "--no-figure", "--trajectory", csv.c_str(),
+                               "--out", out.c_str()}),
+                   0);
+}
+
 void a_path_that_was_not_followed_names_joint_value_limit_and_what_to_do(void**) {
   assert_int_equal(whole_run(pipeline("path_tolerance = 0 0 0 0.001 0 0 0\n")), 1);
   assert_true(has(errors(), "aborted: path not followed: joint 4 (fer_joint4): path error 0.001"));
@@ -134,6 +154,8 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_goal_given_up_names_joint_value_limit_and_what_to_do),
+      cmocka_unit_test(a_goal_that_is_not_held_long_enough_names_the_settings),
+      cmocka_unit_test(a_run_covers_the_last_part_of_a_cycle),
       cmocka_unit_test(a_path_that_was_not_followed_names_joint_value_limit_and_what_to_do),
       cmocka_unit_test(an_arm_that_does_not_stop_at_its_goal_is_told_from_one_that_is_not_there),
       cmocka_unit_test(the_tip_is_named_by_its_translation_or_rotation),

@@ -81,6 +81,28 @@ void a_run_that_was_not_as_expected_is_always_repeated(void**) {
   }
 }
 
+void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
+  assert_int_equal(run_all("--always"), 0);
+  assert_int_equal(shell("cd $S/t && cp pipelines/one.ini one.ini && echo '[typing error' "
+                         ">>pipelines/one.ini"),
+                   0);
+  assert_int_equal(run_all("--only one"), 1);
+  assert_true(has(output(), "  RUN   one: refused"));
+  assert_int_equal(shell("cd $S/t && mv one.ini pipelines/one.ini; test -f out/one/refused.txt && "
+                         "test -f out/one/earlier_run/summary.json && ! test -e "
+                         "out/one/summary.json"),
+                   0);
+}
+
+void a_program_that_does_not_start_shows_no_earlier_run(void**) {
+  assert_int_equal(run_all("--always"), 0);
+  assert_int_equal(shell("cd $S/t && mv tactus away; mkdir tactus"), 0);
+  assert_int_equal(run_all("--only one"), 1);
+  assert_int_equal(shell("cd $S/t && rmdir tactus && mv away tactus && ! test -e "
+                         "out/one/summary.json && test -f out/one/earlier_run/summary.json"),
+                   0);
+}
+
 void the_runs_that_are_named_are_run_and_the_report_has_all_there_are(void**) {
   assert_int_equal(run_all(""), 0);
   assert_int_equal(shell("rm -r $S/t/out/one"), 0);
@@ -128,6 +150,8 @@ int main(int, char** argv) {
       cmocka_unit_test(only_what_has_changed_is_run_again),
       cmocka_unit_test(a_script_is_repeated_when_a_program_it_names_has_changed),
       cmocka_unit_test(a_run_that_was_not_as_expected_is_always_repeated),
+      cmocka_unit_test(the_last_good_run_is_kept_when_the_next_is_refused),
+      cmocka_unit_test(a_program_that_does_not_start_shows_no_earlier_run),
       cmocka_unit_test(the_runs_that_are_named_are_run_and_the_report_has_all_there_are),
       cmocka_unit_test(runs_that_would_write_into_one_folder_or_into_none_are_refused),
       cmocka_unit_test(a_pipeline_whose_name_gives_no_folder_is_refused),

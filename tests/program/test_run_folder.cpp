@@ -147,9 +147,31 @@ void the_inputs_of_a_run_are_not_taken_for_results(void**) {
                          "--no-figure --trajectory $S/i/waypoints.csv --out $S/i"),
                    2);
   assert_true(has(errors(),
-                  "/i/waypoints.csv: the run would replace its own trajectory; choose "
+                  "/i/waypoints.csv: the run would replace this file, which it reads; choose "
                   "another --out\n"));
   assert_true(has_results("i"));
+}
+
+void files_that_no_run_has_written_are_not_replaced(void**) {
+  pipeline();
+  for (const char* name : {"waypoints.csv", "log.csv", "figure.pdf", "pipeline.ini"}) {
+    Line make("rm -rf $S/own; mkdir $S/own && echo mine >$S/own/"), look("cd $S/own && grep mine ");
+    make << name << " && $P run $S/p.ini --duration 0.05 --out $S/own";
+    assert_int_equal(shell(make.c_str()), 2);
+    assert_true(has(errors(), Line(name) << ": the run would replace this file, which no run has "
+                                            "written; choose another --out\n"));
+    look << name << " && test $(ls | wc -l) = 1";
+    assert_int_equal(shell(look.c_str()), 0);
+  }
+}
+
+void a_run_does_not_remove_what_it_reads(void**) {
+  run_before("e");
+  assert_int_equal(shell("mkdir $S/e/earlier_run && mv $S/e/pipeline.ini $S/e/earlier_run && "
+                         "$P run $S/e/earlier_run/pipeline.ini --out $S/e"),
+                   2);
+  assert_true(has(errors(), "which it reads; choose another --out\n"));
+  assert_int_equal(shell("test -s $S/e/earlier_run/pipeline.ini && test -s $S/e/summary.json"), 0);
 }
 
 // Proves RUN-22.
@@ -230,6 +252,8 @@ int main(int, char** argv) {
       cmocka_unit_test(
           a_folder_may_be_a_link_the_present_one_or_in_a_parent_that_cannot_be_written),
       cmocka_unit_test(the_inputs_of_a_run_are_not_taken_for_results),
+      cmocka_unit_test(files_that_no_run_has_written_are_not_replaced),
+      cmocka_unit_test(a_run_does_not_remove_what_it_reads),
       cmocka_unit_test(a_log_that_cannot_be_written_is_named_with_the_reason_and_its_rows),
       cmocka_unit_test(a_disk_that_is_full_is_named),
       cmocka_unit_test(a_trajectory_from_a_pipe_is_read_and_hashed_as_a_file_is),
