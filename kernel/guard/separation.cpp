@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus {
 namespace {
 
@@ -28,8 +30,12 @@ double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) 
 double nearest_to_box(const Vector3& a, const Vector3& d, const Vector3& half) {
   double low = 0.0, high = 1.0;
   double at_low = slope(a, d, half, low), at_high = slope(a, d, half, high);
+  LoopBound<3> axes;
   for (int i = 0; i < 3; ++i) {
+    axes.tick();
+    LoopBound<2> sides;
     for (int side = -1; side <= 1; side += 2) {
+      sides.tick();
       const double t = (side * half[i] - a[i]) / d[i];  // without effect if d[i] is 0
       if (!(t > low && t < high)) continue;
       const double at_t = slope(a, d, half, t);

@@ -111,9 +111,9 @@ TaskSpace::Local TaskSpace::Segment::local(double t) const {
   const VectorPolynomial p = p_.from(t);
   const TurningRates turning = rotation_.rates(t);
   Local local;
-  local.d1 << p.c[1], turning.w;
-  local.d2 << 2.0 * p.c[2], turning.alpha;
-  local.d3 << 6.0 * p.c[3], turning.jerk;
+  local.d1 = stacked(p.c[1], turning.w);
+  local.d2 = stacked(2.0 * p.c[2], turning.alpha);
+  local.d3 = stacked(6.0 * p.c[3], turning.jerk);
   return local;
 }
 
@@ -147,9 +147,9 @@ TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
   const Vector3 dw = base_in_a * (a.a.tail<3>() - b.a.tail<3>() - omega.cross(u));
   const Vector3 dphi = j.inverse_times(base_in_a * u);
   Difference d;
-  d.x << a.x.p - b.x.p, phi;
-  d.dx << a.v.head<3>() - b.v.head<3>(), dphi;
-  d.ddx << a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi));
+  d.x = stacked(a.x.p - b.x.p, phi);
+  d.dx = stacked(a.v.head<3>() - b.v.head<3>(), dphi);
+  d.ddx = stacked(a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi)));
   return d;
 }
 

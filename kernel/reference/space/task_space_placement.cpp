@@ -7,9 +7,7 @@ namespace {
 
 /// Returns linear and angular part, or force and moment, in the axes of the base.
 Vector6 turned(const Eigen::Quaterniond& r, const Vector6& vector) {
-  Vector6 in_base;
-  in_base << r * Vector3(vector.head<3>()), r * Vector3(vector.tail<3>());
-  return in_base;
+  return stacked(r * Vector3(vector.head<3>()), r * Vector3(vector.tail<3>()));
 }
 
 }  // namespace
@@ -86,9 +84,7 @@ TaskSpace::Extent TaskSpace::placed(const Extent& given, const Placement& placem
 }
 
 TaskSpace::Rates TaskSpace::secant(const Point& from, const Point& to, double T) {
-  Rates rates;
-  rates << (to.x.p - from.x.p) / T, from.x.r * log_so3(from.x.r.conjugate() * to.x.r) / T;
-  return rates;
+  return stacked((to.x.p - from.x.p) / T, from.x.r * log_so3(from.x.r.conjugate() * to.x.r) / T);
 }
 
 }  // namespace tactus
