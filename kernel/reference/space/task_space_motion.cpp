@@ -213,11 +213,9 @@ TaskSpace::Point TaskSpace::come_to_rest(const Point& reference, const Limits& l
   const NormLimits p = translation_limits(limits), r = rotation_limits(limits);
   const VectorState moved = stop_on(translation_of(reference), p.a, p.j, dt_s);
   const VectorState from = rotation_of(reference), to = stop_on(from, r.a, r.j, dt_s);
-  Point point;
-  point.x = {moved.p, turned(reference.x.r, from, to, dt_s)};
-  point.v = stacked(moved.v, to.v);
-  point.a = stacked(moved.a, to.a);
-  return point;
+  return {{moved.p, turned(reference.x.r, from, to, dt_s)},
+          stacked(moved.v, to.v),
+          stacked(moved.a, to.a)};
 }
 
 TaskSpace::Point TaskSpace::rest_of(const Point& reference, const Limits& limits) {

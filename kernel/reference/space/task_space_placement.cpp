@@ -47,13 +47,14 @@ TaskSpace::Point TaskSpace::only(Fields given, const double* numbers) {
 //   f = R_W f_given,  m = R_W m_given + (p_W - p) x f,
 // whose rate contains the velocity v of the tip, as the lever arm changes by -v.
 
-TaskSpace::Point TaskSpace::placed(Point point, const Placement& placement) {
-  if (placement.moved) {
-    const Eigen::Quaterniond& r = placement.motion.r;
-    point.x = {placement.motion.p + r * point.x.p, r * point.x.r};
-    point.v = turned(r, point.v);
-    point.a = turned(r, point.a);
-  }
+TaskSpace::Point TaskSpace::placed(const Point& given, const Placement& placement) {
+  const Eigen::Quaterniond& r = placement.motion.r;
+  Point point = placement.moved ? Point{{placement.motion.p + r * given.x.p, r * given.x.r},
+                                        turned(r, given.v),
+                                        turned(r, given.a),
+                                        given.h,
+                                        given.dh}
+                                : given;
   if (placement.levered) {
     point.h = turned(placement.wrench.r, point.h);
     point.dh = turned(placement.wrench.r, point.dh);
