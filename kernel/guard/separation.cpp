@@ -20,8 +20,9 @@ double beyond(double x, double h) {
 
 /// Returns half the slope, at t, of the squared distance between a box and the point a + t d. It
 /// rises with t, and is linear between the six t at which the point crosses the plane of a face.
-double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) {
+inline double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) {
   double sum = 0.0;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) sum += d[i] * beyond(a[i] + t * d[i], half[i]);
   return sum;
 }
