@@ -49,7 +49,7 @@ int Path<Space>::target_at(double s) const {
   return waypoint_from(later, present);
 }
 
-/// Builds a piece in its place: a copy of its polynomials would cost more than a call.
+/// Builds a piece where it stays, so that no polynomial is copied.
 template <class Space>
 void Path<Space>::build(Piece& place, int target) const {
   new (&place) Piece{target, trajectory_->time_s(target - 1),
