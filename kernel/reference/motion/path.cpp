@@ -52,8 +52,8 @@ int Path<Space>::target_at(double s) const {
 /// Builds a piece where it stays, so that no polynomial is copied.
 template <class Space>
 void Path<Space>::build(Piece& place, int target) const {
-  new (&place) Piece{target, trajectory_->time_s(target - 1),
-                     trajectory_->segment(target, placement_)};
+  new (&place)
+      Piece{target, trajectory_->time_s(target - 1), trajectory_->segment(target, placement_)};
 }
 
 template <class Space>
