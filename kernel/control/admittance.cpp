@@ -54,8 +54,7 @@ Status Admittance::step(double dt_s) {
   }
   const Matrix3 to_axes = frame().transpose();
   const Vector6 wrench = *h - *h_d;
-  Vector6 force;
-  force << to_axes * wrench.head<3>(), to_axes * wrench.tail<3>();
+  const Vector6 force = stacked(to_axes * wrench.head<3>(), to_axes * wrench.tail<3>());
   limited.value = false;
   LoopBound<6> axes;
   for (int i = 0; i < 6; ++i) {

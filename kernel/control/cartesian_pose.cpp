@@ -22,9 +22,7 @@ bool finite(const Pose& pose) {
 
 /// Returns the twist that moves x onto x_d in one second, in the base frame.
 Vector6 pose_error(const Pose& x_d, const Pose& x) {
-  Vector6 e;
-  e << x_d.p - x.p, log_so3(x_d.r * x.r.conjugate());
-  return e;
+  return stacked(x_d.p - x.p, log_so3(x_d.r * x.r.conjugate()));
 }
 
 /// Returns the joint furthest beyond its bounds, or -1.

@@ -77,17 +77,13 @@ Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
 
 Vector6 WrenchFrontEnd::weight(const Matrix3& R) const {
   const Vector3 force = R.transpose() * Vector3(0.0, 0.0, -tool->mass_kg * kGravity_m_s2);
-  Vector6 wrench;
-  wrench << force, tool->com.cross(force);
-  return wrench;
+  return stacked(force, tool->com.cross(force));
 }
 
 Vector6 WrenchFrontEnd::at_tip(const Vector6& flange, const Matrix3& R) const {
   const Vector3 force = flange.head<3>();
   const Vector3 moment = flange.tail<3>() - tool->tip.p.cross(force);
-  Vector6 wrench;
-  wrench << R * force, R * moment;
-  return wrench;
+  return stacked(R * force, R * moment);
 }
 
 void WrenchFrontEnd::filter(const Vector6& contact, double dt_s) {

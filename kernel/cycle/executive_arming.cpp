@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus {
 
 Status Executive::add(const Row& row) {
@@ -63,7 +65,9 @@ Status Executive::take_over() {
 /// Gives the time-out the first joint whose drive is not enabled, or the fastest one. [cyclic]
 void Executive::give_up_arming() {
   Finding slow, fastest;
+  LoopBound<kDof> joints;
   for (int i = 0; i < kDof; ++i) {
+    joints.tick();
     const Drive& drive = measured_.drives[static_cast<std::size_t>(i)];
     if (slow.joint < 0 && drive.state != DriveState::kEnabled) slow = {0.0, i, drive.code};
     if (std::abs(measured_.dq[i]) >= std::abs(fastest.value)) fastest = {measured_.dq[i], i};

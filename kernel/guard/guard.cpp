@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus {
 
 JointLimits Guard::Params::effective() const {
@@ -108,7 +110,9 @@ Status Guard::limit(const RobotState& state, RobotCommand& command, bool braked)
     return Status::kOk;
   }
   bool limited = false, rough = false, fed = false;
+  LoopBound<kDof> joints;
   for (int i = 0; i < kDof; ++i) {
+    joints.tick();
     const double wanted = command.value[i];
     command.value[i] = allowed(i, wanted, state);
     rough = rough || jerky(i);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus {
 namespace {
 
@@ -18,8 +20,9 @@ double beyond(double x, double h) {
 
 /// Returns half the slope, at t, of the squared distance between a box and the point a + t d. It
 /// rises with t, and is linear between the six t at which the point crosses the plane of a face.
-double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) {
+inline double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) {
   double sum = 0.0;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) sum += d[i] * beyond(a[i] + t * d[i], half[i]);
   return sum;
 }
@@ -28,8 +31,12 @@ double slope(const Vector3& a, const Vector3& d, const Vector3& half, double t) 
 double nearest_to_box(const Vector3& a, const Vector3& d, const Vector3& half) {
   double low = 0.0, high = 1.0;
   double at_low = slope(a, d, half, low), at_high = slope(a, d, half, high);
+  LoopBound<3> axes;
   for (int i = 0; i < 3; ++i) {
+    axes.tick();
+    LoopBound<2> sides;
     for (int side = -1; side <= 1; side += 2) {
+      sides.tick();
       const double t = (side * half[i] - a[i]) / d[i];  // without effect if d[i] is 0
       if (!(t > low && t < high)) continue;
       const double at_t = slope(a, d, half, t);

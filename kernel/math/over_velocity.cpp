@@ -12,6 +12,7 @@
 //   w = w_least + x^2,
 //
 // and the radicands are j x^2 plus constants, which are not computed from differences of w.
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/math/axis_ascent.hpp"
 #include "kernel/math/sincos.hpp"  // bits_of, double_of
 #include "kernel/math/velocity_change.hpp"
@@ -76,7 +77,9 @@ class OverVelocity {
     double x = x_most_;
     const double trial = trial_x();
     if (trial < x_most_) evaluate(x = trial);
+    LoopBound<kSteps> steps;
     for (int i = 0; i < kSteps; ++i) {
+      steps.tick();
       (beyond_ > 0.0 ? high_ : low_) = x;
       if (std::abs(beyond_) <= close_) return;
       x = next(x, i);

@@ -29,6 +29,7 @@ constexpr auto kInverseFactorial = inverse_factorials();
 /// Returns the power series of c_n for 0 <= s < 1 and n <= 7.
 double series(std::size_t n, double s) {
   double sum = 0.0;
+#pragma GCC unroll 8
   for (std::size_t k = kTerms; k-- > 0;) sum = kInverseFactorial[2 * k + n] - s * sum;
   return sum;
 }

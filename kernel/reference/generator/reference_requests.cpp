@@ -76,13 +76,13 @@ Verdict ReferenceGenerator<Space>::set_override(double rate) {
 /// this cycle, together with the request after it.
 template <class Space>
 void ReferenceGenerator<Space>::take_requests() {
-  std::array<Request<Space>, 2> taken;
+  Request<Space> one, other;
   const Request<Space>* point = nullptr;
   LoopBound<kMostRequests> requests;
   for (std::size_t i = 0; i < channel_->requests.capacity(); ++i) {
     requests.tick();
     if (begun_ && refusing_ == Status::kOk) break;
-    Request<Space>& request = taken[point == taken.data() ? 1 : 0];
+    Request<Space>& request = point == &one ? other : one;
     if (!has_room() || !channel_->requests.take(request)) break;
     if (answered(request)) continue;
     if (request.kind != RequestKind::kPoint) {

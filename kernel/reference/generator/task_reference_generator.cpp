@@ -22,11 +22,7 @@ Status TaskReferenceGenerator::step(double dt_s) {
 }
 
 TaskSpace::Point TaskReferenceGenerator::measured() const {
-  TaskSpace::Point point;
-  point.x = *x;
-  point.v = *v;
-  point.h = *h;
-  return point;
+  return {*x, *v, Vector6::Zero(), *h};
 }
 
 void TaskReferenceGenerator::write(const Eigen::Quaterniond& last) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <new>
 
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/reference/space/joint_space.hpp"
@@ -48,9 +49,11 @@ int Path<Space>::target_at(double s) const {
   return waypoint_from(later, present);
 }
 
+/// Builds a piece where it stays, so that no polynomial is copied.
 template <class Space>
-typename Path<Space>::Piece Path<Space>::piece(int target) const {
-  return {target, trajectory_->time_s(target - 1), trajectory_->segment(target, placement_)};
+void Path<Space>::build(Piece& place, int target) const {
+  new (&place)
+      Piece{target, trajectory_->time_s(target - 1), trajectory_->segment(target, placement_)};
 }
 
 template <class Space>
@@ -58,7 +61,7 @@ void Path<Space>::enter(double s) {
   if (trajectory_->count == 1)
     present_ = {0, first_s(), Segment(end(), end(), 1.0, Interpolation::kLinear, 0)};
   else
-    present_ = piece(std::max(waypoint_from(s + kTimeRounding_s, -1), 1));
+    build(present_, std::max(waypoint_from(s + kTimeRounding_s, -1), 1));
 }
 
 template <class Space>
@@ -69,7 +72,7 @@ Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& set
   const Interpolation how =
       reference.standing() ? trajectory_->interpolation : Interpolation::kQuintic;
   const Point to = trajectory_->point(0, placement_);
-  present_ = {0, s, Segment(reference, to, first_s() - s, how, trajectory_->fields)};
+  new (&present_) Piece{0, s, Segment(reference, to, first_s() - s, how, trajectory_->fields)};
   const typename Space::Peaks most =
       Space::peaks(settings.limits).reserved(1.0 - 0.5 * settings.stop_reserve);
   const typename Space::Measure measure =
@@ -106,14 +109,14 @@ bool Path<Space>::ended(double s) const {
 template <class Space>
 typename Space::Point Path<Space>::at(double s) {
   const int target = target_at(s);
-  if (target != present_.target) present_ = piece(target);
+  if (target != present_.target) build(present_, target);
   return present_.segment.at(std::min(s - present_.start_s, present_.segment.duration()));
 }
 
 template <class Space>
 typename Space::Local Path<Space>::local(double s, int target, const Piece& known,
                                          Piece& ahead) const {
-  if (!built(target, known, ahead)) ahead = piece(target);
+  if (!built(target, known, ahead)) build(ahead, target);
   const Piece& on = target == present_.target ? present_ : target == known.target ? known : ahead;
   return on.segment.local(std::clamp(s - on.start_s, 0.0, on.segment.duration()));
 }

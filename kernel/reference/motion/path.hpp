@@ -100,7 +100,7 @@ class Path {
  private:
   Verdict judge_corners(const Point& reference, const Settings& settings) const;
   int waypoint_from(double s, int before) const;
-  [[gnu::noinline]] Piece piece(int target) const;  // kilobytes of code, once
+  [[gnu::noinline]] void build(Piece& place, int target) const;  // kilobytes of code, once
 
   const Trajectory<Space>* trajectory_ = nullptr;
   typename Space::Placement placement_;

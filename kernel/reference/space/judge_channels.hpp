@@ -16,16 +16,22 @@ double length(const double* channel) {
     return Eigen::Map<const Vector3>(channel).norm();
 }
 
+/// Judges the length of every channel of a velocity against a limit of its own. [cyclic]
+template <class Space>
+Verdict judge_lengths(const typename Space::Rates& v, const typename Space::Levels& most,
+                      Status status) {
+  for (std::size_t c = 0; c < most.size(); ++c) {
+    const int axis = Space::kChannelSize * static_cast<int>(c);
+    const double speed = length<Space::kChannelSize>(&v[axis]);
+    if (exceeds(speed, most[c])) return {status, -1, axis, speed, most[c]};
+  }
+  return {};
+}
+
 /// Judges a velocity: kVelocityLimit. [cyclic]
 template <class Space>
 Verdict judge_velocity(const typename Space::Rates& v, const typename Space::Limits& limits) {
-  const typename Space::Levels most = Space::peaks(limits).v;
-  Verdict verdict;
-  for (std::size_t c = 0; verdict.ok() && c < most.size(); ++c) {
-    const int axis = Space::kChannelSize * static_cast<int>(c);
-    verdict = at_most(length<Space::kChannelSize>(&v[axis]), most[c], Status::kVelocityLimit, axis);
-  }
-  return verdict;
+  return judge_lengths<Space>(v, Space::peaks(limits).v, Status::kVelocityLimit);
 }
 
 /// Judges an online point: as a waypoint, and its velocity. [cyclic]
@@ -58,12 +64,9 @@ Verdict judge_end(const typename Space::Point& end) {
 template <class Space>
 Verdict judge_stopped(const typename Space::Point& measured, double limit) {
   if (!(limit > 0.0)) return {};
-  const typename Space::Rates& v = Space::rates(measured);
-  for (int axis = 0; axis < v.size(); axis += Space::kChannelSize) {
-    const double speed = length<Space::kChannelSize>(&v[axis]);
-    if (!(speed <= limit)) return {Status::kGoalVelocity, -1, axis, speed, limit};
-  }
-  return {};
+  typename Space::Levels most;
+  most.fill(limit);
+  return judge_lengths<Space>(Space::rates(measured), most, Status::kGoalVelocity);
 }
 
 }  // namespace tactus

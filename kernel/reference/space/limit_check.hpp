@@ -27,14 +27,16 @@ inline Verdict at_most(double value, double limit, Status status, int axis) {
 /// axis of channel c is size * c. [any]
 template <int n>
 Verdict judge(const MotionPeaks<n>& peaks, const MotionPeaks<n>& limits, int size) {
-  Verdict verdict;
-  for (std::size_t c = 0; verdict.ok() && c < peaks.v.size(); ++c) {
+  for (std::size_t c = 0; c < peaks.v.size(); ++c) {
     const int axis = size * static_cast<int>(c);
-    verdict = at_most(peaks.v[c], limits.v[c], Status::kVelocityLimit, axis);
-    if (verdict.ok()) verdict = at_most(peaks.a[c], limits.a[c], Status::kAccelerationLimit, axis);
-    if (verdict.ok()) verdict = at_most(peaks.j[c], limits.j[c], Status::kJerkLimit, axis);
+    if (exceeds(peaks.v[c], limits.v[c]))
+      return {Status::kVelocityLimit, -1, axis, peaks.v[c], limits.v[c]};
+    if (exceeds(peaks.a[c], limits.a[c]))
+      return {Status::kAccelerationLimit, -1, axis, peaks.a[c], limits.a[c]};
+    if (exceeds(peaks.j[c], limits.j[c]))
+      return {Status::kJerkLimit, -1, axis, peaks.j[c], limits.j[c]};
   }
-  return verdict;
+  return {};
 }
 
 }  // namespace tactus

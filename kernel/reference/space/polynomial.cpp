@@ -78,7 +78,7 @@ template <std::size_t degree>
 
 Extremes hull(const Polynomial& polynomial, double T) {
   // b_j = sum over i <= j of C(j, i) / C(5, i) c_i T^i.   [Farouki 2012, eq. 13]
-  constexpr double kWeight[6][6] = {
+  static constexpr double kWeight[6][6] = {
       {1.0},
       {1.0, 0.2},
       {1.0, 0.4, 0.1},
@@ -95,6 +95,7 @@ Extremes hull(const Polynomial& polynomial, double T) {
   Extremes found = {polynomial.c[0], polynomial.c[0]};
   for (const auto& row : kWeight) {
     double b = 0.0;
+#pragma GCC unroll 6
     for (std::size_t i = 0; i < scaled.size(); ++i) b += row[i] * scaled[i];
     if (!(b >= found.min)) found.min = b;
     if (!(b <= found.max)) found.max = b;

@@ -33,24 +33,32 @@ struct PolynomialOf {
   }
   /// Returns the same polynomial with t counted from `begin`, by Horner's rule with the remainders
   /// kept. [any]
-  PolynomialOf from(double begin) const {
-    PolynomialOf moved = *this;
+  PolynomialOf from(double begin) const { return {counted_from(begin)}; }
+
+ private:
+  std::array<Value, kSize> counted_from(double begin) const {
+    std::array<Value, kSize> moved;
     for (int axis = 0; axis < size(c[0]); ++axis) {
+      std::array<double, kSize> one;
+#pragma GCC unroll 6
+      for (std::size_t i = 0; i < kSize; ++i) one[i] = number(c[i], axis);
 #pragma GCC unroll 5
       for (std::size_t i = 0; i < kOrder; ++i) {
 #pragma GCC unroll 5
-        for (std::size_t k = kOrder; k > i; --k)
-          number(moved.c[k - 1], axis) += begin * number(moved.c[k], axis);
+        for (std::size_t k = kOrder; k > i; --k) one[k - 1] += begin * one[k];
       }
+#pragma GCC unroll 6
+      for (std::size_t i = 0; i < kSize; ++i) number(moved[i], axis) = one[i];
     }
     return moved;
   }
-
- private:
   static constexpr int size(double) {
     return 1;
   }
   static double& number(double& value, int) {
+    return value;
+  }
+  static double number(const double& value, int) {
     return value;
   }
   template <class Vector>
@@ -59,6 +67,10 @@ struct PolynomialOf {
   }
   template <class Vector>
   static double& number(Vector& value, int axis) {
+    return value[axis];
+  }
+  template <class Vector>
+  static double number(const Vector& value, int axis) {
     return value[axis];
   }
   static std::array<Value, kSize> zeros() {
@@ -112,18 +124,13 @@ PolynomialOf<Value> cubic(const BoundaryOf<Value>& from, const BoundaryOf<Value>
 /// Returns the Hermite quintic with p, v and a at both ends, T > 0 in seconds. [any]
 template <class Value>
 PolynomialOf<Value> quintic(const BoundaryOf<Value>& from, const BoundaryOf<Value>& to, double T) {
-  PolynomialOf<Value> path;
   const double T2 = T * T, T3 = T2 * T;
   const Value d = to.p - from.p;
-  path.c[0] = from.p;
-  path.c[1] = from.v;
-  path.c[2] = 0.5 * from.a;
-  path.c[3] =
-      (20.0 * d - (8.0 * to.v + 12.0 * from.v) * T - (3.0 * from.a - to.a) * T2) / (2.0 * T3);
-  path.c[4] = (-30.0 * d + (14.0 * to.v + 16.0 * from.v) * T + (3.0 * from.a - 2.0 * to.a) * T2) /
-              (2.0 * T2 * T2);
-  path.c[5] = (12.0 * d - 6.0 * (to.v + from.v) * T - (from.a - to.a) * T2) / (2.0 * T2 * T3);
-  return path;
+  return {{from.p, from.v, 0.5 * from.a,
+           (20.0 * d - (8.0 * to.v + 12.0 * from.v) * T - (3.0 * from.a - to.a) * T2) / (2.0 * T3),
+           (-30.0 * d + (14.0 * to.v + 16.0 * from.v) * T + (3.0 * from.a - 2.0 * to.a) * T2) /
+               (2.0 * T2 * T2),
+           (12.0 * d - 6.0 * (to.v + from.v) * T - (from.a - to.a) * T2) / (2.0 * T2 * T3)}};
 }
 
 /// Returns the polynomial of the given order: kLinear, kCubic or kQuintic. [any]

@@ -49,9 +49,7 @@ bool TaskSpace::Point::idle() const {
 }
 
 TaskSpace::Point TaskSpace::Point::at_rest() const {
-  Point rest;
-  rest.x = {x.p, unit(x.r)};
-  return rest;
+  return {{x.p, unit(x.r)}};
 }
 
 TaskSpace::Point TaskSpace::Point::stopped() const {
@@ -88,15 +86,11 @@ TaskSpace::Point TaskSpace::Segment::corner() const {
 TaskSpace::Point TaskSpace::Segment::at(double t) const {
   const VectorPolynomial p = p_.from(t);
   const RotationBoundary rotation = rotation_.at(t);
-  Point point;
-  point.x = {p.c[0], rotation.r};
-  point.v.head<3>() = p.c[1];
-  point.v.tail<3>() = rotation.w;
-  point.a.head<3>() = 2.0 * p.c[2];
-  point.a.tail<3>() = rotation.alpha;
-  point.h = h_ + t * dh_;
-  point.dh = dh_;
-  return point;
+  return {{p.c[0], rotation.r},
+          stacked(p.c[1], rotation.w),
+          stacked(2.0 * p.c[2], rotation.alpha),
+          h_ + t * dh_,
+          dh_};
 }
 
 TaskSpace::Segment TaskSpace::Segment::part(double begin, double duration) const {
@@ -110,11 +104,8 @@ TaskSpace::Segment TaskSpace::Segment::part(double begin, double duration) const
 TaskSpace::Local TaskSpace::Segment::local(double t) const {
   const VectorPolynomial p = p_.from(t);
   const TurningRates turning = rotation_.rates(t);
-  Local local;
-  local.d1 << p.c[1], turning.w;
-  local.d2 << 2.0 * p.c[2], turning.alpha;
-  local.d3 << 6.0 * p.c[3], turning.jerk;
-  return local;
+  return {stacked(p.c[1], turning.w), stacked(2.0 * p.c[2], turning.alpha),
+          stacked(6.0 * p.c[3], turning.jerk)};
 }
 
 // With R_a = R_b exp(phi), the angular velocity w = J_r(phi) dphi of exp(phi) in a's frame and
@@ -146,11 +137,8 @@ TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
   const Vector3 u = a.v.tail<3>() - omega;
   const Vector3 dw = base_in_a * (a.a.tail<3>() - b.a.tail<3>() - omega.cross(u));
   const Vector3 dphi = j.inverse_times(base_in_a * u);
-  Difference d;
-  d.x << a.x.p - b.x.p, phi;
-  d.dx << a.v.head<3>() - b.v.head<3>(), dphi;
-  d.ddx << a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi));
-  return d;
+  return {stacked(a.x.p - b.x.p, phi), stacked(a.v.head<3>() - b.v.head<3>(), dphi),
+          stacked(a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi)))};
 }
 
 void TaskSpace::keep_sign(Point& point, const Point& before) {

@@ -156,7 +156,7 @@ struct TaskSpace {
                                         : 7;
   }
   static Point only(Fields given, const double* numbers);
-  static Point placed(Point point, const Placement& placement);
+  static Point placed(const Point& given, const Placement& placement);
   /// The tip has no joints to hold: returns the reference as it is.
   static Point without_held(const Point& reference, const Placement&) { return reference; }
   /// Box and moment become upper bounds.

@@ -25,22 +25,29 @@ Verdict first_of(std::initializer_list<Verdict> verdicts) {
   return {};
 }
 
-Verdict finite(double value, int axis) {
-  return std::isfinite(value) ? Verdict{}
-                              : Verdict{Status::kReferenceNotFinite, -1, axis, value, 0.0};
+Verdict not_finite(double value, int axis) {
+  return {Status::kReferenceNotFinite, -1, axis, value, 0.0};
 }
 
 Verdict judge_finite(const TaskSpace::Point& point) {
   const Eigen::Quaterniond& r = point.x.r;
-  Verdict verdict = first_of({finite(r.w(), kRotation), finite(r.x(), kRotation),
-                              finite(r.y(), kRotation), finite(r.z(), kRotation)});
-  LoopBound<6> axes;
-  for (int i = 0; verdict.ok() && i < 6; ++i) {
-    axes.tick();
-    verdict = first_of({finite(i < 3 ? point.x.p[i] : 0.0, i), finite(point.v[i], i),
-                        finite(point.a[i], i), finite(point.h[i], i), finite(point.dh[i], i)});
+  LoopBound<4> numbers;
+  for (const double number : {r.w(), r.x(), r.y(), r.z()}) {
+    numbers.tick();
+    if (!std::isfinite(number)) return not_finite(number, kRotation);
   }
-  return verdict;
+  LoopBound<6> axes;
+  for (int i = 0; i < 6; ++i) {
+    axes.tick();
+    const double given[] = {i < 3 ? point.x.p[i] : 0.0, point.v[i], point.a[i], point.h[i],
+                            point.dh[i]};
+    LoopBound<5> fields;
+    for (const double number : given) {
+      fields.tick();
+      if (!std::isfinite(number)) return not_finite(number, i);
+    }
+  }
+  return {};
 }
 
 Verdict judge_unit(const Eigen::Quaterniond& r) {

@@ -139,13 +139,12 @@ struct Allowed {
 /// Moves translation and rotation along their common line; false, with no effect, if the offset
 /// does not move along it.
 bool move_on_line(TaskSpace::Difference& offset, const Allowed& allowed, double dt_s) {
-  std::array<AxisLimits, 6> limits;
-  for (std::size_t i = 0; i < 6; ++i) limits[i] = symmetric(i < 3 ? allowed.p : allowed.r);
+  const AxisLimits p = symmetric(allowed.p), r = symmetric(allowed.r);
   LineLimits line;
-  line.add(offset.x.head<3>().norm(), symmetric(allowed.p));
-  line.add(offset.x.tail<3>().norm(), symmetric(allowed.r));
+  line.add(offset.x.head<3>().norm(), p);
+  line.add(offset.x.tail<3>().norm(), r);
   AxisState s;
-  if (!on_line<6>(offset, limits, line.limits(), s)) return false;
+  if (!on_line<6>(offset, {p, p, p, r, r, r}, line.limits(), s)) return false;
   follow_line<6>(offset, s, line.limits(), dt_s);
   return true;
 }
@@ -214,11 +213,9 @@ TaskSpace::Point TaskSpace::come_to_rest(const Point& reference, const Limits& l
   const NormLimits p = translation_limits(limits), r = rotation_limits(limits);
   const VectorState moved = stop_on(translation_of(reference), p.a, p.j, dt_s);
   const VectorState from = rotation_of(reference), to = stop_on(from, r.a, r.j, dt_s);
-  Point point;
-  point.x = {moved.p, turned(reference.x.r, from, to, dt_s)};
-  point.v << moved.v, to.v;
-  point.a << moved.a, to.a;
-  return point;
+  return {{moved.p, turned(reference.x.r, from, to, dt_s)},
+          stacked(moved.v, to.v),
+          stacked(moved.a, to.a)};
 }
 
 TaskSpace::Point TaskSpace::rest_of(const Point& reference, const Limits& limits) {

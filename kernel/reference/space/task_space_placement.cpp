@@ -7,9 +7,7 @@ namespace {
 
 /// Returns linear and angular part, or force and moment, in the axes of the base.
 Vector6 turned(const Eigen::Quaterniond& r, const Vector6& vector) {
-  Vector6 in_base;
-  in_base << r * Vector3(vector.head<3>()), r * Vector3(vector.tail<3>());
-  return in_base;
+  return stacked(r * Vector3(vector.head<3>()), r * Vector3(vector.tail<3>()));
 }
 
 }  // namespace
@@ -49,13 +47,14 @@ TaskSpace::Point TaskSpace::only(Fields given, const double* numbers) {
 //   f = R_W f_given,  m = R_W m_given + (p_W - p) x f,
 // whose rate contains the velocity v of the tip, as the lever arm changes by -v.
 
-TaskSpace::Point TaskSpace::placed(Point point, const Placement& placement) {
-  if (placement.moved) {
-    const Eigen::Quaterniond& r = placement.motion.r;
-    point.x = {placement.motion.p + r * point.x.p, r * point.x.r};
-    point.v = turned(r, point.v);
-    point.a = turned(r, point.a);
-  }
+TaskSpace::Point TaskSpace::placed(const Point& given, const Placement& placement) {
+  const Eigen::Quaterniond& r = placement.motion.r;
+  Point point = placement.moved ? Point{{placement.motion.p + r * given.x.p, r * given.x.r},
+                                        turned(r, given.v),
+                                        turned(r, given.a),
+                                        given.h,
+                                        given.dh}
+                                : given;
   if (placement.levered) {
     point.h = turned(placement.wrench.r, point.h);
     point.dh = turned(placement.wrench.r, point.dh);
@@ -86,9 +85,7 @@ TaskSpace::Extent TaskSpace::placed(const Extent& given, const Placement& placem
 }
 
 TaskSpace::Rates TaskSpace::secant(const Point& from, const Point& to, double T) {
-  Rates rates;
-  rates << (to.x.p - from.x.p) / T, from.x.r * log_so3(from.x.r.conjugate() * to.x.r) / T;
-  return rates;
+  return stacked((to.x.p - from.x.p) / T, from.x.r * log_so3(from.x.r.conjugate() * to.x.r) / T);
 }
 
 }  // namespace tactus
