@@ -24,11 +24,11 @@ void a_lag_is_expected_as_the_gains_say(void**) {
   write("t/pipelines/trajectories/lag.csv",
         {kHeader, kReady, "1.02,0.3,-0.785398,0,-2.356194,0,1.570796,0.785398\n"});
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P lag"), 0);
-  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad   as expected\n"));
+  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad ± 10 mrad  as expected\n"));
   assert_int_equal(shell("cd $S/t && sed -i 's/kp = 500/kp = 250/' out/lag/pipeline.ini && "
                          "$R/scripts/report out lag"),
                    1);
-  assert_true(has(output(), "  max joint error  30.0 mrad  60 mrad   not as expected\n"));
+  assert_true(has(output(), "  max joint error  30.0 mrad  60 mrad ± 10 mrad  not as expected\n"));
   assert_true(has(output(), "\n0 of 1 runs as expected\n"));
 }
 
@@ -40,8 +40,8 @@ void a_pid_lags_only_if_it_damps_the_measured_velocity(void**) {
             "pipelines/lag.ini >pipelines/slow.ini && sed 's/pd_gravity/pid\\nki = 0/' "
             "pipelines/lag.ini >pipelines/fast.ini && $R/scripts/run_all -- $P slow fast"),
       0);
-  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad      as expected\n"));
-  assert_true(has(output(), " mrad  0 ± 10 mrad  as expected\n"));
+  assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad ± 10 mrad  as expected\n"));
+  assert_true(has(output(), " mrad  0 ± 10 mrad        as expected\n"));
 }
 
 /// A ball of 1 cm: 2 cm above the top of a box, and 3 cm inside it, seen from a turned frame too.
