@@ -9,6 +9,7 @@
 
 #include <array>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -80,8 +81,16 @@ inline pid_t spawn(std::initializer_list<const char*> arguments) {
   constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
   posix_spawn_file_actions_addopen(&files, 1, in_folder("out").c_str(), kFlags, 0666);
   posix_spawn_file_actions_addopen(&files, 2, in_folder("err").c_str(), kFlags, 0666);
+  sigset_t kills;  // nohup and a shell's & let tests begin without them
+  sigemptyset(&kills);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&kills, signal);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setsigdefault(&attributes, &kills);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
-  const int failed = posix_spawn(&child, program, &files, nullptr, words.data(), environ);
+  const int failed = posix_spawn(&child, program, &files, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
   if (failed != 0) print_error("%s: %s; run make all\n", program, std::strerror(failed));
   assert_int_equal(failed, 0);
