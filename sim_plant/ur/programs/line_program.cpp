@@ -122,7 +122,7 @@ bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, L
     else
       fail(line, machine);
   } else if (!variables_.set(name, value, scope)) {
-    fail(line, machine);
+    fail(line, machine, kTooManyVariables);
   }
   return true;
 }
@@ -150,16 +150,19 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   return Line::kNext;
 }
 
-/// Ends the program with a runtime exception: a value of the line does not exist or does not fit.
-void LineProgram::fail(std::string_view line, Machine& machine) {
+/// Ends the program with a runtime exception, "runtime_error:what:line".
+void LineProgram::fail(std::string_view line, Machine& machine, std::string_view what) {
   if (ended_) return;
   ended_ = true;
   std::array<char, 160> text;
-  constexpr std::string_view kWhat = "runtime_error:no value:";
-  std::memcpy(text.data(), kWhat.data(), kWhat.size());
-  const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
-  std::memcpy(text.data() + kWhat.size(), line.data(), size);
-  machine.messages.runtime_exception(here_.line, 1, {text.data(), kWhat.size() + size});
+  std::size_t size = 0;
+  for (const std::string_view part : {std::string_view("runtime_error:"), what,
+                                      std::string_view(line.empty() ? "" : ":"), line}) {
+    const std::size_t more = std::min(part.size(), text.size() - size);
+    if (more > 0) std::memcpy(text.data() + size, part.data(), more);
+    size += more;
+  }
+  machine.messages.runtime_exception(here_.line, 1, {text.data(), size});
 }
 
 }  // namespace tactus::ur

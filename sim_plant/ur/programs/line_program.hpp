@@ -5,6 +5,7 @@
 #pragma once
 
 #include "sim_plant/ur/programs/program_step.hpp"
+#include "sim_plant/ur/script/script_blocks.hpp"
 #include "sim_plant/ur/script/script_calls.hpp"
 
 namespace tactus::ur {
@@ -50,12 +51,11 @@ class LineProgram {
   bool assign(std::string_view line, Scope scope, Machine& machine, Line& result);
   bool holds(std::string_view line, Machine& machine);
   static bool opens_block(std::string_view line);
-  bool enter(const Block& block);
+  bool enter(const Block& block, Machine& machine);
   void find_branch(Machine& machine);
   void skip_blocks(std::size_t count);
-  void fail(std::string_view line, Machine& machine);
+  void fail(std::string_view line, Machine& machine, std::string_view what = "no value");
 
-  static constexpr std::size_t kDeepest = 12;
   static constexpr int kLinesAtOnce = 256;  // per cycle, for a loop that never waits
 
   std::string_view text_;
@@ -64,7 +64,7 @@ class LineProgram {
   bool moves_ = true;
   bool ended_ = false;
   double wait_until_s_ = -1.0;
-  std::array<Block, kDeepest> blocks_{};
+  std::array<Block, ScriptBlocks::kDeepest> blocks_{};
   std::size_t depth_ = 0;
   ScriptVariables variables_;
 };
