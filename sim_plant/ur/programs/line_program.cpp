@@ -146,6 +146,7 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
     case CallResult::kNoReach:
       machine.messages.runtime_exception(here_.line, 3, "runtime_error:no inverse kinematics");
       return Line::kEnded;
+    case CallResult::kOutOfRange: fail(line, machine, outcome.why); return Line::kEnded;
   }
   return Line::kNext;
 }

@@ -148,7 +148,7 @@ bool ScriptCheck::good_assignment(std::string_view rest) {
   if (element) {
     ScriptValue index;
     rest.remove_prefix(1);
-    if (!evaluate(rest, {&variables_, nullptr, &strange_}, index)) return false;
+    if (!evaluate(rest, {&variables_, nullptr, &strange_, &reason_}, index)) return false;
     rest = trimmed(rest);
     if (!starts_with(rest, "]")) return false;
     rest = trimmed(rest.substr(1));
@@ -169,15 +169,19 @@ bool ScriptCheck::good_call(std::string_view line) {
   const bool own = parameters != kNone;
   if (!own && !is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
   ScriptCall call;
-  if (!read_call(line, {&variables_, nullptr, &strange_}, call) || !trimmed(line).empty())
+  if (!read_call(line, {&variables_, nullptr, &strange_, &reason_}, call) || !trimmed(line).empty())
     return false;
-  return !own || call.count == parameters;
+  if (!own) return true;
+  for (std::size_t i = 0; i < call.count; ++i)
+    if (!call.arguments[i].name.empty()) return blame(name, "takes arguments by position");
+  return call.count == parameters || blame({}, "has another number of parameters");
 }
 
 /// Reads an expression and, to the end of the text, what follows it.
 bool ScriptCheck::whole(std::string_view text, std::string_view after) {
   ScriptValue value;
-  return evaluate(text, {&variables_, nullptr, &strange_}, value) && trimmed(text) == after;
+  return evaluate(text, {&variables_, nullptr, &strange_, &reason_}, value) &&
+         trimmed(text) == after;
 }
 
 /// Notes a name and what is wrong with it, unless it is not emulated; returns false.

@@ -3,6 +3,7 @@
 #include "sim_plant/ur/script/script_functions.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 #include "sim_plant/ur/script/script_operators.hpp"
+#include "sim_plant/ur/script/script_signatures.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -210,7 +211,13 @@ bool Expression::read(ScriptCall& call) {
     if (call.count > 0 && !eat(",")) return false;
     if (call.count == ScriptCall::kMost || !argument(call.arguments[call.count++])) return false;
   }
-  return true;
+  if (!scope_.reads_only()) return true;
+  std::string_view word;
+  const std::string_view fault = argument_fault(call, word);
+  if (fault.empty()) return true;
+  *scope_.strange = word;
+  *scope_.reason = fault;
+  return false;
 }
 
 }  // namespace

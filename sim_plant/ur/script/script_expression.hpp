@@ -14,13 +14,15 @@ struct Machine;
 ///
 /// With `strange`, an expression is only read, before its program runs: variables and functions
 /// have values of kind kNothing, which every operator takes. A name that is no variable and no
-/// function with a value is left in `strange`.
+/// function with a value is left in `strange`, or the word of a call whose arguments do not fit,
+/// with the `reason`.
 struct ScriptScope {
   const ScriptVariables* variables = nullptr;
   const Machine* machine = nullptr;
   std::string_view* strange = nullptr;
+  std::string_view* reason = nullptr;
 
-  bool reads_only() const { return strange != nullptr; }
+  bool reads_only() const { return strange != nullptr && reason != nullptr; }
 };
 
 /// Takes an expression off the text. False: there is none, or it has no value here; the text is
