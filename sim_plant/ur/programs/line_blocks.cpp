@@ -1,7 +1,6 @@
 // Blocks of plain programs: loops, branches, and the program's own functions.
 #include "sim_plant/ur/programs/line_program.hpp"
 #include "sim_plant/ur/script/script_definition.hpp"
-#include "sim_plant/ur/script/script_expression.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
@@ -74,7 +73,7 @@ LineProgram::Line LineProgram::run_return(std::string_view line, Machine& machin
   std::string_view expression = trimmed(line.substr(leading_name(line).size()));
   ScriptValue value;
   const bool has_value = !expression.empty();
-  if (has_value && !evaluate(expression, {&variables_, &machine}, value)) fail(line, machine);
+  if (has_value && !evaluate(expression, known(machine), value)) fail(line, machine);
   while (depth_ > 0 && !ended_) {
     const Block block = blocks_[--depth_];
     if (block.kind != Block::kCall) continue;
@@ -114,7 +113,7 @@ bool LineProgram::call_own(std::string_view line, std::string_view result, Scope
   if (name.empty() || !starts_with(trimmed(line.substr(name.size())), "(")) return false;
   if (is_urscript_function(name) || !find_function(name, body, parameters)) return false;
   ScriptCall call;
-  const bool good = read_call(rest, {&variables_, &machine}, call) && trimmed(rest).empty() &&
+  const bool good = read_call(rest, known(machine), call) && trimmed(rest).empty() &&
                     enter({Block::kCall, now_, result, scope}, machine);
   if (good) variables_.enter();
   for (std::size_t i = 0; good && i < call.count; ++i)

@@ -20,10 +20,14 @@ struct ScriptScope {
   const ScriptVariables* variables = nullptr;
   const Machine* machine = nullptr;
   std::string_view* strange = nullptr;
-  std::string_view* reason = nullptr;
+  std::string_view* reason = nullptr;  ///< why there is no value, if more is known
+  int* work = nullptr;                 ///< grows by the values read, and by kHeavyCall
 
   bool reads_only() const { return strange != nullptr && reason != nullptr; }
 };
+
+/// The work of a call that searches joint positions, in values read.
+constexpr int kHeavyCall = 512;
 
 /// Takes an expression off the text. False: there is none, or it has no value here; the text is
 /// unchanged.

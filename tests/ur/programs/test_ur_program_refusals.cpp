@@ -194,6 +194,38 @@ void a_value_that_does_not_exist_ends_the_program(void**) {
   }
 }
 
+void a_value_that_is_not_finite_ends_the_program(void**) {
+  static ProgramBench bench;
+  for (const char* value : {"1/0", "0/0", "5%0", "-zero/0", "sqrt(-1)", "pow(10, 400)", "1e308*10",
+                            "1e308 + 1e308", "[1, 1/zero]", "pose_trans(far, far)"}) {
+    bench.said = {};
+    std::array<char, 256> text;
+    std::snprintf(
+        text.data(), text.size(),
+        "def ends():\n  zero = 0\n  far = p[1e308,1e308,1e308,0,0,0]\n"
+        "  write_output_integer_register(1, 1)\n  x = %s\n  set_digital_out(0, True)\nend\n",
+        value);
+    bench.upload(text.data());
+    bench.run(5);
+    if (!bench.said.has("runtime_error:not finite:x = ")) print_error("%s\n", value);
+    assert_true(bench.said.has("runtime_error:not finite:x = "));
+    assert_int_equal(bench.machine().io.output.ints[1], 1);
+    assert_int_equal(bench.machine().io.digital_outputs, 0);
+  }
+}
+
+void limits_of_a_line_are_named(void**) {
+  constexpr Row kLimits[] = {
+      {"def a():\n  set_digital_out(0, True)\n  x = [1,2,3,4,5,6,7,8,9]\nend\n", 3, 3,
+       "compile_error_limit:x = [1,2,3,4,5,6,7,8,9]:limit of 8 elements:"},
+      {"def a():\n  set_digital_out(0, True)\n  x = ((((((((((((((((1))))))))))))))))\nend\n", 3, 3,
+       "compile_error_limit:x = ((((((((((((((((1)))))))))))))))):limit of 16 nested values:"},
+      {"def a():\n  set_digital_out(0, True)\n  textmsg(1,2,3,4,5,6,7,8,9,10,11)\nend\n", 3, 3,
+       "compile_error_limit:textmsg(1,2,3,4,5,6,7,8,9,10,11):limit of 10 arguments:"},
+  };
+  for (const Row& row : kLimits) assert_refused(row);
+}
+
 void more_variables_than_there_is_room_for_are_refused(void**) {
   static Text<4095> text("def many():\n  set_digital_out(0, True)\n");
   for (int i = 0; i < 70; ++i) text << "  v" << i << " = 1\n";
@@ -210,6 +242,8 @@ int main() {
       cmocka_unit_test(nesting_is_run_or_refused_as_a_whole),
       cmocka_unit_test(what_is_understood_is_not_refused),
       cmocka_unit_test(a_value_that_does_not_exist_ends_the_program),
+      cmocka_unit_test(a_value_that_is_not_finite_ends_the_program),
+      cmocka_unit_test(limits_of_a_line_are_named),
       cmocka_unit_test(more_variables_than_there_is_room_for_are_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
