@@ -1,7 +1,6 @@
 // Blocks of plain programs: loops, branches, and the program's own functions.
 #include "sim_plant/ur/programs/line_program.hpp"
 #include "sim_plant/ur/script/script_definition.hpp"
-#include "sim_plant/ur/script/script_expression.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
@@ -18,12 +17,12 @@ LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view
   if (word == "while") {
     if (!holds(line, machine))
       skip_blocks(1);
-    else if (!enter({Block::kLoop, here_, {}}))
+    else if (!enter({Block::kLoop, here_, {}}, machine))
       return Line::kEnded;
   } else if (word == "if") {
     if (!holds(line, machine))
       find_branch(machine);
-    else if (!enter({Block::kBranch, here_, {}}))
+    else if (!enter({Block::kBranch, here_, {}}, machine))
       return Line::kEnded;
   } else if (word == "elif" || word == "else") {
     if (depth_ > 0) --depth_;  // the branch before was taken
@@ -59,8 +58,12 @@ LineProgram::Line LineProgram::run_jump(bool out) {
   return Line::kEnded;  // outside any loop
 }
 
-bool LineProgram::enter(const Block& block) {
-  if (depth_ == kDeepest) return false;
+/// Enters a block. False, after a runtime exception: there are too many.
+bool LineProgram::enter(const Block& block, Machine& machine) {
+  if (depth_ == blocks_.size()) {
+    fail({}, machine, ScriptBlocks::kTooDeep);
+    return false;
+  }
   blocks_[depth_++] = block;
   return true;
 }
@@ -70,14 +73,17 @@ LineProgram::Line LineProgram::run_return(std::string_view line, Machine& machin
   std::string_view expression = trimmed(line.substr(leading_name(line).size()));
   ScriptValue value;
   const bool has_value = !expression.empty();
-  if (has_value && !evaluate(expression, {&variables_, &machine}, value)) fail(line, machine);
+  if (has_value && !evaluate(expression, known(machine), value)) fail(line, machine);
   while (depth_ > 0 && !ended_) {
     const Block block = blocks_[--depth_];
     if (block.kind != Block::kCall) continue;
     variables_.leave();
     now_ = block.next;
     if (block.result.empty()) return Line::kNext;
-    if (!has_value || !variables_.set(block.result, value, block.scope)) fail(line, machine);
+    if (!has_value)
+      fail(line, machine);
+    else if (!variables_.set(block.result, value, block.scope))
+      fail(line, machine, kTooManyVariables);
     return Line::kNext;
   }
   return Line::kEnded;
@@ -107,12 +113,12 @@ bool LineProgram::call_own(std::string_view line, std::string_view result, Scope
   if (name.empty() || !starts_with(trimmed(line.substr(name.size())), "(")) return false;
   if (is_urscript_function(name) || !find_function(name, body, parameters)) return false;
   ScriptCall call;
-  const bool good = read_call(rest, {&variables_, &machine}, call) && trimmed(rest).empty() &&
-                    enter({Block::kCall, now_, result, scope});
+  const bool good = read_call(rest, known(machine), call) && trimmed(rest).empty() &&
+                    enter({Block::kCall, now_, result, scope}, machine);
   if (good) variables_.enter();
   for (std::size_t i = 0; good && i < call.count; ++i)
     if (!variables_.set(take_parameter(parameters), call.arguments[i].value, Scope::kLocal))
-      fail(line, machine);
+      fail(line, machine, kTooManyVariables);
   if (good)
     now_ = body;
   else
@@ -130,7 +136,7 @@ void LineProgram::find_branch(Machine& machine) {
     } else if (word == "end") {
       return;
     } else if (word == "else" || (word == "elif" && holds(line, machine))) {
-      ended_ = !enter({Block::kBranch, here_, {}});
+      enter({Block::kBranch, here_, {}}, machine);
       return;
     }
   }

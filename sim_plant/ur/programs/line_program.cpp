@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "sim_plant/ur/script/script_expression.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 
 namespace tactus::ur {
@@ -20,7 +19,9 @@ ProgramStep LineProgram::poll(Machine& machine) {
   if (ended_) return end(machine);
   if (machine.time_s() < wait_until_s_) return ProgramStep::kRunning;
   std::string_view line;
-  for (int lines = 0; lines < kLinesAtOnce; ++lines) {
+  if (cycle_ != machine.cycle) work_ = std::max(0, work_ - kWorkPerCycle);
+  cycle_ = machine.cycle;
+  while (work_ < kWorkPerCycle) {
     const Line result = next(line) ? run_line(line, machine) : Line::kEnded;
     ended_ = ended_ || result == Line::kEnded;
     if (ended_) return end(machine);
@@ -44,6 +45,8 @@ ProgramStep LineProgram::command(Machine& machine) {
 bool LineProgram::next(std::string_view& line) {
   std::string_view rest = text_.substr(now_.at);
   if (!next_line(rest, line)) return false;
+  reason_ = {};
+  work_ += 1 + static_cast<int>(line.size() / 64);
   here_ = now_;
   now_ = {text_.size() - rest.size(), now_.line + 1};
   line = trimmed(without_comment(line));
@@ -67,8 +70,7 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
   const std::size_t colon = condition.rfind(':');
   if (colon != std::string_view::npos) condition = condition.substr(0, colon);
   ScriptValue value;
-  if (evaluate(condition, {&variables_, &machine}, value) && trimmed(condition).empty() &&
-      value.numeric())
+  if (evaluate(condition, known(machine), value) && trimmed(condition).empty() && value.numeric())
     return value.number != 0.0;
   fail(line, machine);
   return false;
@@ -88,21 +90,21 @@ LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& mac
 /// before
 /// 3. False: the line is not an assignment.
 bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, Line& result) {
-  const ScriptScope known = {&variables_, &machine};
+  const ScriptScope names = known(machine);
   const std::string_view name = leading_name(line);
   std::string_view rest = trimmed(line.substr(name.size()));
   ScriptValue index, value;
   const bool element = starts_with(rest, "[");
   if (element) {
     rest.remove_prefix(1);
-    if (!evaluate(rest, known, index) || !starts_with(trimmed(rest), "]")) return false;
+    if (!evaluate(rest, names, index) || !starts_with(trimmed(rest), "]")) return false;
     rest = trimmed(trimmed(rest).substr(1));
   }
   if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
   rest = trimmed(rest.substr(1));
   if (!element && call_own(rest, name, scope, machine)) return true;
   std::string_view expression = rest;
-  if (!evaluate(expression, known, value)) {
+  if (!evaluate(expression, names, value)) {
     if (is_emulated_call(leading_name(rest)))
       result = run_call_line(rest, machine);  // such as socket_open(), which is taken to succeed
     else
@@ -122,7 +124,7 @@ bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, L
     else
       fail(line, machine);
   } else if (!variables_.set(name, value, scope)) {
-    fail(line, machine);
+    fail(line, machine, kTooManyVariables);
   }
   return true;
 }
@@ -131,10 +133,11 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
   if (call_own(line, {}, Scope::kNearest, machine)) return Line::kNext;
   ScriptCall call;
   std::string_view rest = line;
-  if (!read_call(rest, {&variables_, &machine}, call)) {
+  if (!read_call(rest, known(machine), call)) {
     fail(line, machine);
     return Line::kEnded;
   }
+  if (starts_with(call.name, "move")) work_ += kHeavyCall;
   const CallOutcome outcome = run_call(call, moves_, machine);
   switch (outcome.result) {
     case CallResult::kDone: return Line::kNext;
@@ -146,20 +149,25 @@ LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& mac
     case CallResult::kNoReach:
       machine.messages.runtime_exception(here_.line, 3, "runtime_error:no inverse kinematics");
       return Line::kEnded;
+    case CallResult::kOutOfRange: fail(line, machine, outcome.why); return Line::kEnded;
   }
   return Line::kNext;
 }
 
-/// Ends the program with a runtime exception: a value of the line does not exist or does not fit.
-void LineProgram::fail(std::string_view line, Machine& machine) {
+/// Ends the program with a runtime exception, "runtime_error:what:line".
+void LineProgram::fail(std::string_view line, Machine& machine, std::string_view what) {
   if (ended_) return;
   ended_ = true;
+  if (what.empty()) what = reason_.empty() ? "no value" : reason_;
   std::array<char, 160> text;
-  constexpr std::string_view kWhat = "runtime_error:no value:";
-  std::memcpy(text.data(), kWhat.data(), kWhat.size());
-  const std::size_t size = std::min(line.size(), text.size() - kWhat.size());
-  std::memcpy(text.data() + kWhat.size(), line.data(), size);
-  machine.messages.runtime_exception(here_.line, 1, {text.data(), kWhat.size() + size});
+  std::size_t size = 0;
+  for (const std::string_view part : {std::string_view("runtime_error:"), what,
+                                      std::string_view(line.empty() ? "" : ":"), line}) {
+    const std::size_t more = std::min(part.size(), text.size() - size);
+    if (more > 0) std::memcpy(text.data() + size, part.data(), more);
+    size += more;
+  }
+  machine.messages.runtime_exception(here_.line, 1, {text.data(), size});
 }
 
 }  // namespace tactus::ur

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "sim_plant/ur/programs/program_step.hpp"
+#include "sim_plant/ur/script/script_blocks.hpp"
 #include "sim_plant/ur/script/script_calls.hpp"
+#include "sim_plant/ur/script/script_expression.hpp"
 
 namespace tactus::ur {
 
@@ -45,26 +47,33 @@ class LineProgram {
   Line run_return(std::string_view line, Machine& machine);
   bool find_function(std::string_view name, Place& body, std::string_view& parameters) const;
   bool call_own(std::string_view line, std::string_view result, Scope scope, Machine& machine);
+  ScriptScope known(const Machine& machine) {
+    return {&variables_, &machine, nullptr, &reason_, &work_};
+  }
   Line run_statement(std::string_view line, Machine& machine);
   Line run_call_line(std::string_view line, Machine& machine);
   bool assign(std::string_view line, Scope scope, Machine& machine, Line& result);
   bool holds(std::string_view line, Machine& machine);
   static bool opens_block(std::string_view line);
-  bool enter(const Block& block);
+  bool enter(const Block& block, Machine& machine);
   void find_branch(Machine& machine);
   void skip_blocks(std::size_t count);
-  void fail(std::string_view line, Machine& machine);
+  void fail(std::string_view line, Machine& machine, std::string_view what = {});
 
-  static constexpr std::size_t kDeepest = 12;
-  static constexpr int kLinesAtOnce = 256;  // per cycle, for a loop that never waits
+  /// Lines and values read in a cycle, for a loop that never waits. The rest of a line that needs
+  /// more is taken off the next cycles.
+  static constexpr int kWorkPerCycle = 1024;
 
   std::string_view text_;
   Place now_, here_;  // the next line, and the running one
   int first_line_ = 1;
   bool moves_ = true;
   bool ended_ = false;
+  int work_ = 0;
+  decltype(Machine::cycle) cycle_ = 0;
+  std::string_view reason_;  // why the running line has no value, if more is known
   double wait_until_s_ = -1.0;
-  std::array<Block, kDeepest> blocks_{};
+  std::array<Block, ScriptBlocks::kDeepest> blocks_{};
   std::size_t depth_ = 0;
   ScriptVariables variables_;
 };

@@ -45,11 +45,15 @@ bool compiles(std::string_view text, Machine& machine) {
   const std::string_view what =
       fault.kind == ScriptFault::Kind::kNameNotFound  ? "compile_error_name_not_found:"
       : fault.kind == ScriptFault::Kind::kNotEmulated ? "compile_error_not_emulated:"
+      : fault.kind == ScriptFault::Kind::kLimit       ? "compile_error_limit:"
                                                       : "compile_error_syntax:";
-  std::array<char, 160> words{};
+  std::array<char, 200> words{};
   std::size_t size = copy(what, words.data(), words.size()).size();
-  size += copy(fault.name, words.data() + size, 96).size();
-  words[size++] = ':';
+  for (const std::string_view part : {fault.name, fault.reason}) {
+    if (part.empty()) continue;
+    size += copy(part, words.data() + size, 72).size();
+    words[size++] = ':';
+  }
   machine.messages.runtime_exception(fault.line, fault.column, {words.data(), size});
   return false;
 }

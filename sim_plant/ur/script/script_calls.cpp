@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "sim_plant/ur/script/script_motion.hpp"
+#include "sim_plant/ur/script/script_signatures.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -35,7 +36,8 @@ void text_message(const ScriptCall& call, Machine& machine) {
 }
 
 void write_register(const ScriptCall& call, Machine& machine) {
-  const double index = call.number("port_id", 0, -1.0), value = call.number("value", 1, 0.0);
+  const double index = call.number("address", 0, call.number("port_id", 0, -1.0)),
+               value = call.number("value", 1, 0.0);
   const bool bits = call.name == "write_output_boolean_register";
   if (!(index >= 0.0 && index < (bits ? kBitRegisters : kRegisters))) return;
   const auto i = static_cast<std::size_t>(index);
@@ -96,7 +98,12 @@ void use_socket(const ScriptCall& call, Machine& machine) {
 
 CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine) {
   const std::string_view name = call.name;
-  if (is_motion(name)) return {moves ? run_motion(call, machine) : CallResult::kDone};
+  if (is_motion(name) && moves) {
+    const std::string_view why = range_fault(call);
+    if (!why.empty()) return {CallResult::kOutOfRange, 0.0, why};
+    return {run_motion(call, machine)};
+  }
+  if (is_motion(name)) return {};
   if (run_mode_call(call, machine)) return {};
   if (name == "sleep") return {CallResult::kWait, call.number("t", 0, 0.0)};
   if (name == "sync") return {CallResult::kWait, machine.cycle_s()};

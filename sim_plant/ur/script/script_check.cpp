@@ -12,6 +12,12 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// True for a name that a program may not define or assign.
+bool is_taken(std::string_view name) {
+  return is_urscript_function(name) || is_one_of(name, {"True", "False"}) ||
+         (is_urscript_word(name) && name != "p");
+}
+
 /// Returns a statement without "global" or "local".
 std::string_view without_scope(std::string_view line) {
   for (const std::string_view word : {"global ", "local "})
@@ -33,40 +39,61 @@ std::string_view assigned(std::string_view line) {
 
 }  // namespace
 
-bool ScriptCheck::find(ScriptFault& fault) {
-  const bool fits = collect_variables();
-  const bool block = starts_with(program_, "def ") || starts_with(program_, "sec ");
-  std::string_view rest = program_, line;
-  for (int number = 1; next_line(rest, line); ++number) {
-    const std::string_view code = trimmed(without_comment(line));
-    strange_ = {};
-    if ((block && number == 1) || (fits && good_line(code))) continue;
-    const std::string_view at = strange_.empty() ? code : strange_;
-    fault.line = number;
-    fault.column = static_cast<int>(at.data() - line.data()) + 1;
-    fault.name = strange_.empty() ? code : strange_;
-    fault.kind = kind_of(strange_);
-    return true;
-  }
-  return false;
+ScriptCheck::ScriptCheck(std::string_view program) : program_(program), body_(program) {
+  std::string_view first;
+  if (starts_with(program, "def ") || starts_with(program, "sec ")) next_line(body_, first);
 }
 
-/// Notes every variable of the program. False: there are too many.
-bool ScriptCheck::collect_variables() {
+bool ScriptCheck::find(ScriptFault& fault) {
+  collect_variables();
   std::string_view rest = program_, line;
-  while (next_line(rest, line)) {
+  const auto tell = [&](int where, std::string_view text, std::string_view code) {
+    const std::string_view at = strange_.empty() ? code : strange_;
+    fault = {kind(), where, static_cast<int>(at.data() - text.data()) + 1, at, reason_};
+    return true;
+  };
+  for (int number = 1; next_line(rest, line); ++number) {
+    const std::string_view code = trimmed(without_comment(line));
+    strange_ = reason_ = {};
+    const bool first = number == 1 && body_.size() < program_.size();
+    if (!good_place(code, number) || !(first || good_line(code))) return tell(number, line, code);
+  }
+  const int open = blocks_.open_line();
+  if (open == 0) return false;
+  rest = program_;
+  for (int i = 0; i < open; ++i) next_line(rest, line);
+  blame({}, "has no end");
+  return tell(open, line, trimmed(without_comment(line)));
+}
+
+/// Notes every variable of the program, and the first line that has one too many.
+void ScriptCheck::collect_variables() {
+  std::string_view rest = program_, line;
+  for (int number = 1; next_line(rest, line); ++number) {
     const std::string_view code = without_scope(trimmed(without_comment(line)));
     const bool whole = !assigned(code).empty() && assigned(code)[0] == '=';
-    if (whole && !variables_.set(leading_name(code), {})) return false;
+    if (whole && !note(leading_name(code), number)) return;
     std::string_view name, parameters;
     if (!read_definition(code, name, parameters)) continue;
     while (!parameters.empty()) {
       const std::string_view parameter = take_parameter(parameters);
       if (parameter.empty()) break;  // good_line() finds it
-      if (!variables_.set(parameter, {})) return false;
+      if (!note(parameter, number)) return;
     }
   }
-  return true;
+}
+
+bool ScriptCheck::note(std::string_view variable, int number) {
+  if (variables_.set(variable, {})) return true;
+  overflow_ = number;
+  return false;
+}
+
+/// True for a line whose block may have it, and whose variables have room.
+bool ScriptCheck::good_place(std::string_view line, int number) {
+  const std::string_view reason = blocks_.take(line, number);
+  if (!reason.empty()) return blame({}, reason);
+  return number != overflow_ || blame({}, kTooManyVariables);
 }
 
 bool ScriptCheck::good_line(std::string_view line) {
@@ -85,8 +112,18 @@ bool ScriptCheck::good_line(std::string_view line) {
 bool ScriptCheck::good_definition(std::string_view line) {
   std::string_view name, parameters;
   if (!read_definition(line, name, parameters)) return false;
-  while (!parameters.empty())
-    if (take_parameter(parameters).empty()) return blame(name);
+  if (is_taken(name)) return blame(name, "is a name of the language");
+  if (defined_before(name)) return blame(name, "is defined twice");
+  while (!parameters.empty()) {
+    const std::string_view parameter = take_parameter(parameters);
+    if (parameter.empty()) return blame(name);
+    if (is_taken(parameter)) return blame(parameter, "is a name of the language");
+    for (std::string_view others = parameters; !others.empty();) {
+      const std::string_view other = take_parameter(others);
+      if (other == parameter) return blame(other, "is a parameter twice");
+      if (other.empty()) break;
+    }
+  }
   return true;
 }
 
@@ -99,6 +136,7 @@ bool ScriptCheck::good_statement(std::string_view line) {
   const std::string_view rest = assigned(line);
   if (rest.empty()) return good_call(line);
   const std::string_view name = leading_name(line);
+  if (is_taken(name)) return blame(name, "is a name of the language");
   if (rest[0] == '[' && name != "digital_out" && variables_.find(name) == nullptr)
     return blame(name);
   return good_assignment(rest);
@@ -110,7 +148,7 @@ bool ScriptCheck::good_assignment(std::string_view rest) {
   if (element) {
     ScriptValue index;
     rest.remove_prefix(1);
-    if (!evaluate(rest, {&variables_, nullptr, &strange_}, index)) return false;
+    if (!evaluate(rest, {&variables_, nullptr, &strange_, &reason_}, index)) return false;
     rest = trimmed(rest);
     if (!starts_with(rest, "]")) return false;
     rest = trimmed(rest.substr(1));
@@ -131,26 +169,40 @@ bool ScriptCheck::good_call(std::string_view line) {
   const bool own = parameters != kNone;
   if (!own && !is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
   ScriptCall call;
-  if (!read_call(line, {&variables_, nullptr, &strange_}, call) || !trimmed(line).empty())
+  if (!read_call(line, {&variables_, nullptr, &strange_, &reason_}, call) || !trimmed(line).empty())
     return false;
-  return !own || call.count == parameters;
+  if (!own) return true;
+  for (std::size_t i = 0; i < call.count; ++i)
+    if (!call.arguments[i].name.empty()) return blame(name, "takes arguments by position");
+  return call.count == parameters || blame({}, "has another number of parameters");
 }
 
 /// Reads an expression and, to the end of the text, what follows it.
 bool ScriptCheck::whole(std::string_view text, std::string_view after) {
   ScriptValue value;
-  return evaluate(text, {&variables_, nullptr, &strange_}, value) && trimmed(text) == after;
+  return evaluate(text, {&variables_, nullptr, &strange_, &reason_}, value) &&
+         trimmed(text) == after;
 }
 
-/// Notes a name; returns false.
-bool ScriptCheck::blame(std::string_view name) {
+/// Notes a name and what is wrong with it, unless it is not emulated; returns false.
+bool ScriptCheck::blame(std::string_view name, std::string_view reason) {
   strange_ = name;
+  reason_ = reason;
+  return false;
+}
+
+/// True if a line before the one of this name defines a function of the same name.
+bool ScriptCheck::defined_before(std::string_view name) const {
+  std::string_view rest = body_, line, found, parameters;
+  while (next_line(rest, line) && line.data() + line.size() < name.data())
+    if (read_definition(trimmed(without_comment(line)), found, parameters) && found == name)
+      return true;
   return false;
 }
 
 /// True for a function or thread that the program defines.
 bool ScriptCheck::defines(std::string_view name) const {
-  std::string_view rest = program_, line;
+  std::string_view rest = body_, line;
   while (next_line(rest, line)) {
     line = trimmed(line);
     for (const std::string_view word : {"def ", "thread "})
@@ -162,7 +214,7 @@ bool ScriptCheck::defines(std::string_view name) const {
 
 /// Returns the number of parameters of a function of the program; kNone: there is no such function.
 std::size_t ScriptCheck::count_parameters(std::string_view name) const {
-  std::string_view rest = program_, line, found, parameters;
+  std::string_view rest = body_, line, found, parameters;
   while (next_line(rest, line)) {
     if (!read_definition(trimmed(without_comment(line)), found, parameters) || found != name)
       continue;
@@ -173,9 +225,11 @@ std::size_t ScriptCheck::count_parameters(std::string_view name) const {
   return kNone;
 }
 
-ScriptFault::Kind ScriptCheck::kind_of(std::string_view name) const {
-  if (name.empty()) return ScriptFault::Kind::kSyntax;
-  const bool known = is_urscript_function(name) || is_urscript_word(name) || defines(name);
+ScriptFault::Kind ScriptCheck::kind() const {
+  if (starts_with(reason_, "limit of ")) return ScriptFault::Kind::kLimit;
+  if (strange_.empty() || !reason_.empty()) return ScriptFault::Kind::kSyntax;
+  const bool known =
+      is_urscript_function(strange_) || is_urscript_word(strange_) || defines(strange_);
   return known ? ScriptFault::Kind::kNotEmulated : ScriptFault::Kind::kNameNotFound;
 }
 

@@ -1,52 +1,61 @@
 // ScriptCheck: reads a plain program before it runs, and finds the first place that the interpreter
 // of lines does not understand: threads, functions of the program within an expression, functions
-// that are not emulated, names without a value, and what is no line of URScript. Such a program is
-// refused as a whole, because an arm that does half of a program is worse than one that stands.
+// that are not emulated, names without a value, blocks without end, and what is no line of
+// URScript. Such a program is refused as a whole, because an arm that does half of a program is
+// worse than one that stands.
 #pragma once
 
+#include "sim_plant/ur/script/script_blocks.hpp"
 #include "sim_plant/ur/script/script_expression.hpp"
 
 namespace tactus::ur {
 
-/// The first fault of a program: line and column from 1, and the name or word.
+/// The first fault of a program: line and column from 1, the name or word, and the reason if the
+/// word alone does not tell it.
 struct ScriptFault {
   enum class Kind : std::uint8_t {
     kNameNotFound,  ///< as on the robot
     kNotEmulated,   ///< the robot knows it
     kSyntax,
+    kLimit,  ///< the interpreter has no room for it
   };
   Kind kind = Kind::kSyntax;
   int line = 0, column = 0;
-  std::string_view name;
+  std::string_view name, reason;
 };
 
 class ScriptCheck {
  public:
   /// Takes the whole text: "def name(): ... end", "sec name(): ... end", or a single line.
-  explicit ScriptCheck(std::string_view program) : program_(program) {}
+  explicit ScriptCheck(std::string_view program);
 
   /// True if there is a fault.
   bool find(ScriptFault& fault);
 
  private:
-  bool collect_variables();
+  void collect_variables();
+  bool note(std::string_view variable, int number);
   bool good_line(std::string_view line);
+  bool good_place(std::string_view line, int number);
   bool good_definition(std::string_view line);
   bool good_block(std::string_view word, std::string_view line);
   bool good_statement(std::string_view line);
   bool good_assignment(std::string_view rest);
   bool good_call(std::string_view line);
   bool whole(std::string_view text, std::string_view after);
-  bool blame(std::string_view name);
+  bool blame(std::string_view name, std::string_view reason = {});
+  bool defined_before(std::string_view name) const;
   bool defines(std::string_view name) const;
   std::size_t count_parameters(std::string_view name) const;
-  ScriptFault::Kind kind_of(std::string_view name) const;
+  ScriptFault::Kind kind() const;
 
   static constexpr std::size_t kNone = ~std::size_t{0};
 
-  std::string_view program_;
-  ScriptVariables variables_;  // every name that some line assigns
-  std::string_view strange_;   // the name or word to blame
+  std::string_view program_, body_;  // the text, and its lines after "def name():"
+  ScriptVariables variables_;        // every name that some line assigns
+  int overflow_ = 0;                 // first line with a variable too many
+  ScriptBlocks blocks_;
+  std::string_view strange_, reason_;  // the name or word to blame, and why
 };
 
 }  // namespace tactus::ur

@@ -1,8 +1,13 @@
 #include "sim_plant/ur/script/script_expression.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "sim_plant/ur/script/script_functions.hpp"
 #include "sim_plant/ur/script/script_names.hpp"
 #include "sim_plant/ur/script/script_operators.hpp"
+#include "sim_plant/ur/script/script_reader.hpp"
+#include "sim_plant/ur/script/script_signatures.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -10,6 +15,7 @@ namespace {
 using Kind = ScriptValue::Kind;
 
 constexpr int kDeepest = 16;  // nesting of brackets and nots
+constexpr std::string_view kTooDeep = "limit of 16 nested values";
 
 /// The operators of one level; if two begin alike, the longer one comes first.
 struct Level {
@@ -21,38 +27,10 @@ constexpr std::array<Level, 5> kLevels = {{{{"or"}},
                                            {{"+", "-"}},
                                            {{"*", "/", "%"}}}};
 
-class Expression {
- public:
-  Expression(std::string_view text, const ScriptScope& scope) : text_(text), scope_(scope) {}
-
-  bool read(ScriptValue& value) { return level(0, value); }
-  bool read(ScriptCall& call);
-  std::string_view rest() const { return text_; }
-
- private:
-  bool level(std::size_t at, ScriptValue& value);
-  bool signed_value(ScriptValue& value);
-  bool with_element(ScriptValue& value);
-  bool primary(ScriptValue& value);
-  bool name(ScriptValue& value);
-  bool quoted(ScriptValue& value);
-  bool elements(Kind kind, ScriptValue& value);
-  bool argument(ScriptCall::Argument& argument);
-  std::string_view operator_of(std::size_t level);
-  bool eat(std::string_view word);
-  /// True for a value whose kind is only known when the program runs.
-  bool open(const ScriptValue& value) const {
-    return scope_.reads_only() && value.kind == Kind::kNothing;
-  }
-  bool numeric(const ScriptValue& value) const { return value.numeric() || open(value); }
-
-  std::string_view text_;
-  const ScriptScope& scope_;
-  int depth_ = 0;
-};
+}  // namespace
 
 /// Takes a word off the text, unless it is the beginning of a longer one.
-bool Expression::eat(std::string_view word) {
+bool ScriptReader::eat(std::string_view word) {
   skip_blanks(text_);
   if (!starts_with(text_, word)) return false;
   const std::string_view begun = leading_name(text_);
@@ -61,14 +39,14 @@ bool Expression::eat(std::string_view word) {
   return true;
 }
 
-std::string_view Expression::operator_of(std::size_t level) {
+std::string_view ScriptReader::operator_of(std::size_t level) {
   for (const std::string_view word : kLevels[level].operators)
     if (!word.empty() && eat(word)) return word;
   if (level == 2 && eat(">")) return ">";
   return {};
 }
 
-bool Expression::level(std::size_t at, ScriptValue& value) {
+bool ScriptReader::level(std::size_t at, ScriptValue& value) {
   if (at == kLevels.size()) return signed_value(value);
   if (!level(at + 1, value)) return false;
   for (std::string_view word = operator_of(at); !word.empty(); word = operator_of(at)) {
@@ -76,15 +54,27 @@ bool Expression::level(std::size_t at, ScriptValue& value) {
     if (!level(at + 1, right)) return false;
     if (open(value) || open(right))
       value = {};
-    else if (!apply_operator(word, right, value))
+    else if (!apply_operator(word, right, value) || !finite(value))
       return false;
   }
   return true;
 }
 
-bool Expression::signed_value(ScriptValue& value) {
+/// True for a finite value; what is only read is known when the program runs.
+bool ScriptReader::finite(ScriptValue& value) const {
+  const double* const first = value.elements.data();
+  if (std::isfinite(value.number) &&
+      std::all_of(first, first + value.count, [](double x) { return std::isfinite(x); }))
+    return true;
+  if (!scope_.reads_only()) return fail("not finite");
+  value = {};
+  return true;
+}
+
+bool ScriptReader::signed_value(ScriptValue& value) {
   if (eat("not")) {
-    if (++depth_ > kDeepest || !level(2, value) || !numeric(value)) return false;
+    if (++depth_ > kDeepest) return fail(kTooDeep);
+    if (!level(2, value) || !numeric(value)) return false;
     --depth_;
     if (!open(value)) value = truth_value(value.number == 0.0);
     return true;
@@ -102,7 +92,7 @@ bool Expression::signed_value(ScriptValue& value) {
   return value.kind == Kind::kNumber || open(value);
 }
 
-bool Expression::with_element(ScriptValue& value) {
+bool ScriptReader::with_element(ScriptValue& value) {
   if (!primary(value)) return false;
   while (eat("[")) {
     ScriptValue index;
@@ -119,10 +109,12 @@ bool Expression::with_element(ScriptValue& value) {
   return true;
 }
 
-bool Expression::primary(ScriptValue& value) {
+bool ScriptReader::primary(ScriptValue& value) {
   value = {};
   skip_blanks(text_);
-  if (text_.empty() || ++depth_ > kDeepest) return false;
+  if (text_.empty()) return false;
+  if (++depth_ > kDeepest) return fail(kTooDeep);
+  work(1);
   bool good = false;
   if (text_[0] == '"') {
     good = quoted(value);
@@ -143,7 +135,7 @@ bool Expression::primary(ScriptValue& value) {
   return good;
 }
 
-bool Expression::quoted(ScriptValue& value) {
+bool ScriptReader::quoted(ScriptValue& value) {
   const std::size_t end = text_.find('"', 1);
   if (end == std::string_view::npos) return false;
   value.kind = Kind::kText;
@@ -152,19 +144,19 @@ bool Expression::quoted(ScriptValue& value) {
   return true;
 }
 
-bool Expression::elements(Kind kind, ScriptValue& value) {
+bool ScriptReader::elements(Kind kind, ScriptValue& value) {
   value.kind = kind;
   while (!eat("]")) {
     ScriptValue element;
     if (value.count > 0 && !eat(",")) return false;
-    if (value.count == value.elements.size() || !level(0, element) || !numeric(element))
-      return false;
+    if (value.count == value.elements.size()) return fail("limit of 8 elements");
+    if (!level(0, element) || !numeric(element)) return false;
     value.elements[value.count++] = element.number;
   }
   return true;
 }
 
-bool Expression::name(ScriptValue& value) {
+bool ScriptReader::name(ScriptValue& value) {
   const std::string_view word = leading_name(text_);
   if (word == "True" || word == "False") {
     value = truth_value(word == "True");
@@ -173,13 +165,7 @@ bool Expression::name(ScriptValue& value) {
   }
   std::string_view behind = text_.substr(word.size());
   skip_blanks(behind);
-  if (starts_with(behind, "(")) {
-    ScriptCall call;
-    if (!scope_.reads_only())
-      return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value);
-    if (!is_emulated_value(word)) *scope_.strange = word;
-    return is_emulated_value(word) && read(call);
-  }
+  if (starts_with(behind, "(")) return call(word, value);
   const ScriptValue* variable = scope_.variables ? scope_.variables->find(word) : nullptr;
   if (variable == nullptr && scope_.reads_only()) *scope_.strange = word;
   if (variable == nullptr) return false;
@@ -188,7 +174,19 @@ bool Expression::name(ScriptValue& value) {
   return true;
 }
 
-bool Expression::argument(ScriptCall::Argument& argument) {
+/// Reads a call with a value.
+bool ScriptReader::call(std::string_view word, ScriptValue& value) {
+  ScriptCall call;
+  if (scope_.reads_only()) {
+    if (!is_emulated_value(word)) *scope_.strange = word;
+    return is_emulated_value(word) && read(call);
+  }
+  if (starts_with(word, "get_inverse_kin")) work(kHeavyCall);
+  return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value) &&
+         finite(value);
+}
+
+bool ScriptReader::argument(ScriptCall::Argument& argument) {
   skip_blanks(text_);
   const std::string_view name = leading_name(text_);
   std::string_view rest = text_.substr(name.size());
@@ -200,7 +198,7 @@ bool Expression::argument(ScriptCall::Argument& argument) {
   return level(0, argument.value);
 }
 
-bool Expression::read(ScriptCall& call) {
+bool ScriptReader::read(ScriptCall& call) {
   call = {};
   skip_blanks(text_);
   call.name = leading_name(text_);
@@ -208,22 +206,27 @@ bool Expression::read(ScriptCall& call) {
   if (call.name.empty() || !eat("(")) return false;
   while (!eat(")")) {
     if (call.count > 0 && !eat(",")) return false;
-    if (call.count == ScriptCall::kMost || !argument(call.arguments[call.count++])) return false;
+    if (call.count == ScriptCall::kMost) return fail("limit of 10 arguments");
+    if (!argument(call.arguments[call.count++])) return false;
   }
-  return true;
+  if (!scope_.reads_only()) return true;
+  std::string_view word;
+  const std::string_view fault = argument_fault(call, word);
+  if (fault.empty()) return true;
+  *scope_.strange = word;
+  *scope_.reason = fault;
+  return false;
 }
 
-}  // namespace
-
 bool evaluate(std::string_view& text, const ScriptScope& scope, ScriptValue& value) {
-  Expression expression(text, scope);
+  ScriptReader expression(text, scope);
   if (!expression.read(value)) return false;
   text = expression.rest();
   return true;
 }
 
 bool read_call(std::string_view& text, const ScriptScope& scope, ScriptCall& call) {
-  Expression expression(text, scope);
+  ScriptReader expression(text, scope);
   if (!expression.read(call)) return false;
   text = expression.rest();
   return true;

@@ -14,14 +14,20 @@ struct Machine;
 ///
 /// With `strange`, an expression is only read, before its program runs: variables and functions
 /// have values of kind kNothing, which every operator takes. A name that is no variable and no
-/// function with a value is left in `strange`.
+/// function with a value is left in `strange`, or the word of a call whose arguments do not fit,
+/// with the `reason`.
 struct ScriptScope {
   const ScriptVariables* variables = nullptr;
   const Machine* machine = nullptr;
   std::string_view* strange = nullptr;
+  std::string_view* reason = nullptr;  ///< why there is no value, if more is known
+  int* work = nullptr;                 ///< grows by the values read, and by kHeavyCall
 
-  bool reads_only() const { return strange != nullptr; }
+  bool reads_only() const { return strange != nullptr && reason != nullptr; }
 };
+
+/// The work of a call that searches joint positions, in values read.
+constexpr int kHeavyCall = 512;
 
 /// Takes an expression off the text. False: there is none, or it has no value here; the text is
 /// unchanged.

@@ -72,7 +72,7 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
 
 bool of_poses(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
   const ScriptValue* first = call.find("", 0);
-  const ScriptValue* second = call.find("", 1);
+  const ScriptValue* second = call.find("qnear", 1);
   if (first == nullptr || !first->six()) return false;
   const Frame& tool = machine.motion.tool();
   if (call.name == "get_inverse_kin" || call.name == "get_inverse_kin_has_solution") {

@@ -1,5 +1,7 @@
 #include "sim_plant/ur/script/script_names.hpp"
 
+#include "sim_plant/ur/script/script_signatures.hpp"
+
 namespace tactus::ur {
 namespace {
 
@@ -43,30 +45,6 @@ constexpr std::string_view kFunctions =
     "track_conveyor_circular track_conveyor_linear wrench_trans write_output_boolean_register "
     "write_output_float_register write_output_integer_register write_port_bit "
     "write_port_register zero_ftsensor ";
-constexpr std::string_view kCalls =
-    " end_force_mode end_freedrive_mode end_teach_mode force_mode force_mode_set_damping "
-    "freedrive_mode halt movec movej movel movep popup powerdown protective_stop rtde_set_watchdog "
-    "servoc servoj set_analog_out set_configurable_digital_out set_digital_out set_payload "
-    "set_standard_analog_out set_standard_digital_out set_target_payload set_tcp "
-    "set_tool_digital_out set_tool_voltage sleep socket_close socket_open socket_send_int "
-    "socket_send_line socket_send_string speedj speedl stopj stopl sync teach_mode textmsg "
-    "write_output_boolean_register write_output_float_register write_output_integer_register "
-    "zero_ftsensor ";
-constexpr std::string_view kWithoutEffect =
-    " position_deviation_warning reset_revolution_counter set_analog_inputrange "
-    "set_analog_outputdomain set_input_actions_to_default "
-    "set_runstate_standard_analog_output_to_value set_safety_mode_transition_hardness "
-    "set_standard_analog_input_domain set_tool_analog_input_domain set_tool_communication ";
-constexpr std::string_view kValues =
-    " atan2 ceil cos d2r floor force get_actual_joint_positions get_actual_joint_speeds "
-    "get_actual_tcp_pose get_configurable_digital_in get_configurable_digital_out get_digital_in "
-    "get_digital_out get_forward_kin get_inverse_kin get_inverse_kin_has_solution "
-    "get_standard_digital_in get_standard_digital_out get_steptime get_target_joint_positions "
-    "get_target_joint_speeds get_target_payload get_target_tcp_pose get_tcp_force get_tcp_offset "
-    "get_tool_digital_in get_tool_digital_out is_steady norm pose_inv pose_trans pow r2d "
-    "read_input_boolean_register read_input_float_register read_input_integer_register "
-    "read_output_boolean_register read_output_float_register read_output_integer_register sin sqrt "
-    "tan ";
 constexpr std::string_view kWords =
     " and break continue def elif else end enter_critical exit_critical global if join kill local "
     "not or p return run sec thread while xor ";
@@ -88,11 +66,13 @@ bool is_urscript_word(std::string_view name) {
 }
 
 bool is_emulated_call(std::string_view name) {
-  return !name.empty() && (listed(kCalls, name) || listed(kWithoutEffect, name));
+  const ScriptSignature* signature = find_signature(name);
+  return signature != nullptr && signature->use != ScriptSignature::Use::kValue;
 }
 
 bool is_emulated_value(std::string_view name) {
-  return !name.empty() && listed(kValues, name);
+  const ScriptSignature* signature = find_signature(name);
+  return signature != nullptr && signature->use == ScriptSignature::Use::kValue;
 }
 
 }  // namespace tactus::ur

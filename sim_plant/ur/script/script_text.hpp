@@ -55,6 +55,8 @@ struct ScriptCall {
   double number(std::string_view argument, std::size_t position, double otherwise) const;
 };
 
+constexpr std::string_view kTooManyVariables = "limit of 64 variables";
+
 /// The variables that were assigned, by name: those of the program, and those of the running
 /// functions. A name means the variable of the innermost function, else that of the program.
 class ScriptVariables {

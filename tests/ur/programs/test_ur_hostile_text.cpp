@@ -18,11 +18,17 @@ void what_is_no_number_shows_on_no_port(void**) {
   ASSERT_NEAR(bench.machine().io.speed_fraction, 1.0, 0.0);
   bench.upload("set_standard_analog_out(0, 0 * pow(10, 400))\n");
   bench.run(4);
+  assert_true(bench.said.has("runtime_error:not finite:"));
+  bench.machine().io.set_analog(0, std::nan(""));
+  bench.run(4);
   ASSERT_NEAR(bench.image().standard_analog_output0, 0.004, 1e-12);
   bench.upload("write_output_integer_register(3, 0 * pow(10, 400))\n");
   bench.run(4);
   assert_int_equal(bench.image().output.ints[3], 0);
   bench.upload("set_payload(pow(10, 400), [0, 0, 0])\n");
+  bench.run(4);
+  assert_false(bench.image().protective_stopped);
+  bench.machine().set_payload(HUGE_VAL, Vector3::Zero());
   bench.run(4);
   assert_true(bench.image().protective_stopped);
   ASSERT_NEAR(bench.image().payload, 0.0, 0.0);
@@ -32,7 +38,9 @@ void what_is_no_number_shows_on_no_port(void**) {
 // Proves FUZ-1.
 void a_tool_that_is_none_stops_the_arm(void**) {
   static ProgramBench bench;
-  bench.upload("set_tcp(p[0, 0, 0 * pow(10, 400), 0, 0, 0])\n");
+  Vector6 tool = Vector6::Zero();
+  tool[2] = std::nan("");
+  bench.machine().set_tcp(tool);
   bench.run(4);
   assert_true(bench.image().protective_stopped);
   assert_int_equal(static_cast<int>(bench.machine().last_stop.code), 204);
@@ -43,12 +51,11 @@ void a_tool_that_is_none_stops_the_arm(void**) {
 
 // Proves FUZ-1.
 void a_servo_law_that_is_none_stops_the_arm(void**) {
-  constexpr const char* kLines[] = {
-      "servoj([0, -1.2, 1.2, -0.1, 1.57, 0], t=0.1, lookahead_time=0 * pow(10, 400), gain=300)\n",
-      "servoj([0, -1.2, 1.2, -0.1, 1.57, 0], t=0.1, lookahead_time=0.1, gain=pow(10, 400))\n"};
-  for (const char* line : kLines) {
+  for (const bool gain : {false, true}) {
     static ProgramBench bench;
-    bench.upload(line);
+    ServoLaw law;
+    (gain ? law.gain : law.lookahead_s) = gain ? HUGE_VAL : std::nan("");
+    bench.machine().motion.servo_j(bench.target(), 0.1, law);
     bench.run(4);
     assert_true(bench.image().protective_stopped);
     assert_int_equal(static_cast<int>(bench.machine().last_stop.code), 204);

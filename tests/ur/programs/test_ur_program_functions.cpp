@@ -122,6 +122,7 @@ void a_function_that_calls_itself_ends_the_program(void**) {
   static ProgramBench bench;
   bench.upload("def deep():\n  def again():\n    again()\n  end\n  again()\nend\n");
   bench.run(3);
+  assert_true(bench.said.has("runtime_error:limit of 32 nested blocks and calls"));
   assert_false(bench.running());
 }
 

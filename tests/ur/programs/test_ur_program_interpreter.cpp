@@ -75,6 +75,37 @@ void a_loop_that_never_waits_costs_a_bounded_time(void**) {
   assert_false(bench.running());
 }
 
+/// Runs lines in a loop for some cycles; returns how often they ran.
+int loops(const char* lines, int cycles) {
+  static ProgramBench bench;
+  static std::array<char, 16384> text;
+  const int size =
+      std::snprintf(text.data(), text.size(),
+                    "def busy():\n  n = 0\n  x = 0\n  while True:\n    %s\n    n = n + 1\n"
+                    "    write_output_integer_register(0, n)\n  end\nend\n",
+                    lines);
+  bench.upload({text.data(), static_cast<std::size_t>(size)});
+  bench.run(cycles);
+  assert_true(bench.running());
+  return int_output(bench, 0);
+}
+
+void costly_lines_count_by_their_cost(void**) {
+  const int plain = loops("x = 1", 20);
+  const int searches = loops("x = get_inverse_kin(get_target_tcp_pose())", 20);
+  assert_in_range(searches, 20, 2 * 20);
+  assert_true(plain > 20 * searches);
+  static std::array<char, 8192> sum;
+  std::memcpy(sum.data(), "x = 1", 5);
+  for (std::size_t i = 5; i + 2 < 5 + 2 * 3000; i += 2) std::memcpy(&sum[i], "+1", 2);
+  assert_in_range(loops(sum.data(), 20), 6, 8);  // 3000 values of 1024 in a cycle
+}
+
+void a_stream_that_searches_joints_keeps_the_cycle(void**) {
+  const int sent = loops("q = get_inverse_kin(get_target_tcp_pose())\n    servoj(q, t=0.008)", 300);
+  assert_in_range(sent, 298, 300);
+}
+
 void brackets_without_end_are_no_value(void**) {
   static ProgramBench bench;
   for (const std::string_view text :
@@ -144,6 +175,8 @@ int main() {
       cmocka_unit_test(values_are_computed_in_the_order_of_the_manual),
       cmocka_unit_test(branches_and_loops_are_followed),
       cmocka_unit_test(a_loop_that_never_waits_costs_a_bounded_time),
+      cmocka_unit_test(costly_lines_count_by_their_cost),
+      cmocka_unit_test(a_stream_that_searches_joints_keeps_the_cycle),
       cmocka_unit_test(brackets_without_end_are_no_value),
       cmocka_unit_test(movej_takes_a_plausible_time),
       cmocka_unit_test(a_target_out_of_reach_moves_nothing),

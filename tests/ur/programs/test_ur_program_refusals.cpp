@@ -58,22 +58,85 @@ constexpr Row kRows[] = {
      "compile_error_not_emulated:get_flag:"},
 };
 
+// Each has a line that stands where it may not, or a name that is taken. The second would move the
+// arm if the lines before it were run.
+constexpr Row kBlocks[] = {
+    {"def a():\n  if True:\n    set_digital_out(0, True)\nend\n", 1, 1,
+     "compile_error_syntax:def a()::has no end:"},
+    {"def a():\n  set_digital_out(0, True)\n  while True:\n    if True:\n  end\nend\n", 1, 1,
+     "compile_error_syntax:def a()::has no end:"},
+    {"if True:\n", 1, 1, "compile_error_syntax:if True::has no end:"},
+    {"def a():\n  set_digital_out(0, True)\n  end\n  sync()\nend\n", 4, 3,
+     "compile_error_syntax:sync():stands after the end of the program:"},
+    {"end\n", 1, 1, "compile_error_syntax:end:ends no block:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  else:\n    sync()\n  end\nend\n", 3, 3,
+     "compile_error_syntax:else::belongs to no if:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  while True:\n  else:\n  end\nend\n", 4, 3,
+     "compile_error_syntax:else::belongs to no if:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  if True:\n  else:\n  else:\n  end\nend\n", 5, 3,
+     "compile_error_syntax:else::stands after else:"},
+    {"def a():\n  movej([1,0,0,0,0,0])\n  if True:\n  else:\n  elif True:\n  end\nend\n", 5, 3,
+     "compile_error_syntax:elif True::stands after else:"},
+    {"def a():\n  set_digital_out(0, True)\n  if True:\n    break\n  end\nend\n", 4, 5,
+     "compile_error_syntax:break:stands outside of a loop:"},
+    {"def a():\n  set_digital_out(0, True)\n  while True:\n    def f():\n      continue\n    end\n"
+     "  end\nend\n",
+     5, 7, "compile_error_syntax:continue:stands outside of a loop:"},
+    {"def a():\n  def f():\n    sync()\n  end\n  def f():\n    sync()\n  end\n  f()\nend\n", 5, 7,
+     "compile_error_syntax:f:is defined twice:"},
+    {"def a():\n  def f(x, y, x):\n    sync()\n  end\n  set_digital_out(0, True)\nend\n", 2, 15,
+     "compile_error_syntax:x:is a parameter twice:"},
+    {"def a():\n  def sin(x):\n    return 7\n  end\n  set_digital_out(0, True)\nend\n", 2, 7,
+     "compile_error_syntax:sin:is a name of the language:"},
+    {"def a():\n  set_digital_out(0, True)\n  True = 5\nend\n", 3, 3,
+     "compile_error_syntax:True:is a name of the language:"},
+    {"def a():\n  set_digital_out(0, True)\n  global movej = 5\nend\n", 3, 10,
+     "compile_error_syntax:movej:is a name of the language:"},
+    {"def a():\n  set_digital_out(0, True)\n  a()\nend\n", 3, 3, "compile_error_name_not_found:a:"},
+};
+
+void assert_refused(const Row& row) {
+  static ProgramBench bench;
+  bench.said = {};
+  const Joints q = bench.target();
+  bench.upload(row.text);
+  bench.run(10);
+  if (!told(bench, row.line, row.column, row.message)) print_error("%s\n", row.text);
+  assert_true(told(bench, row.line, row.column, row.message));
+  assert_false(bench.running());
+  assert_int_equal(bench.machine().io.digital_outputs, 0);
+  assert_joints(bench.target(), q, 0.0);
+  assert_false(bench.said.has("PROGRAM_XXX_STARTED"));
+}
+
 // Proves URP-14.
 
 void what_is_not_understood_is_refused_before_anything_is_done(void**) {
-  for (const Row& row : kRows) {
-    static ProgramBench bench;
-    bench.said = {};
-    const Joints q = bench.target();
-    bench.upload(row.text);
-    bench.run(10);
-    if (!told(bench, row.line, row.column, row.message)) print_error("%s\n", row.text);
-    assert_true(told(bench, row.line, row.column, row.message));
-    assert_false(bench.running());
-    assert_int_equal(bench.machine().io.digital_outputs, 0);
-    assert_joints(bench.target(), q, 0.0);
-    assert_false(bench.said.has("PROGRAM_XXX_STARTED"));
-  }
+  for (const Row& row : kRows) assert_refused(row);
+}
+
+void blocks_and_names_that_do_not_fit_are_refused(void**) {
+  for (const Row& row : kBlocks) assert_refused(row);
+}
+
+/// Nests `count` branches around an output.
+const char* nested(int count, Text<4095>& text) {
+  text << "def deep():\n  set_digital_out(1, True)\n";
+  for (int i = 0; i < count; ++i) text << "  if True:\n";
+  text << "  set_digital_out(0, True)\n";
+  for (int i = 0; i < count; ++i) text << "  end\n";
+  text << "end\n";
+  return text.c_str();
+}
+
+void nesting_is_run_or_refused_as_a_whole(void**) {
+  static Text<4095> most, beyond;
+  static ProgramBench bench;
+  assert_refused({nested(33, beyond), 35, 3,
+                  "compile_error_limit:if True::limit of 32 nested blocks and calls:"});
+  bench.upload(nested(32, most));
+  bench.run(5);
+  assert_int_equal(bench.machine().io.digital_outputs, 3);
 }
 
 void what_is_understood_is_not_refused(void**) {
@@ -131,15 +194,43 @@ void a_value_that_does_not_exist_ends_the_program(void**) {
   }
 }
 
-void more_variables_than_there_is_room_for_are_refused(void**) {
+void a_value_that_is_not_finite_ends_the_program(void**) {
   static ProgramBench bench;
-  static Text<4095> text("def many():\n");
+  for (const char* value : {"1/0", "0/0", "5%0", "-zero/0", "sqrt(-1)", "pow(10, 400)", "1e308*10",
+                            "1e308 + 1e308", "[1, 1/zero]", "pose_trans(far, far)"}) {
+    bench.said = {};
+    std::array<char, 256> text;
+    std::snprintf(
+        text.data(), text.size(),
+        "def ends():\n  zero = 0\n  far = p[1e308,1e308,1e308,0,0,0]\n"
+        "  write_output_integer_register(1, 1)\n  x = %s\n  set_digital_out(0, True)\nend\n",
+        value);
+    bench.upload(text.data());
+    bench.run(5);
+    if (!bench.said.has("runtime_error:not finite:x = ")) print_error("%s\n", value);
+    assert_true(bench.said.has("runtime_error:not finite:x = "));
+    assert_int_equal(bench.machine().io.output.ints[1], 1);
+    assert_int_equal(bench.machine().io.digital_outputs, 0);
+  }
+}
+
+void limits_of_a_line_are_named(void**) {
+  constexpr Row kLimits[] = {
+      {"def a():\n  set_digital_out(0, True)\n  x = [1,2,3,4,5,6,7,8,9]\nend\n", 3, 3,
+       "compile_error_limit:x = [1,2,3,4,5,6,7,8,9]:limit of 8 elements:"},
+      {"def a():\n  set_digital_out(0, True)\n  x = ((((((((((((((((1))))))))))))))))\nend\n", 3, 3,
+       "compile_error_limit:x = ((((((((((((((((1)))))))))))))))):limit of 16 nested values:"},
+      {"def a():\n  set_digital_out(0, True)\n  textmsg(1,2,3,4,5,6,7,8,9,10,11)\nend\n", 3, 3,
+       "compile_error_limit:textmsg(1,2,3,4,5,6,7,8,9,10,11):limit of 10 arguments:"},
+  };
+  for (const Row& row : kLimits) assert_refused(row);
+}
+
+void more_variables_than_there_is_room_for_are_refused(void**) {
+  static Text<4095> text("def many():\n  set_digital_out(0, True)\n");
   for (int i = 0; i < 70; ++i) text << "  v" << i << " = 1\n";
-  text << "  set_digital_out(0, True)\nend\n";
-  bench.upload(text);
-  bench.run(5);
-  assert_true(bench.said.has("compile_error_syntax:"));
-  assert_int_equal(bench.machine().io.digital_outputs, 0);
+  text << "end\n";
+  assert_refused({text.c_str(), 67, 3, "compile_error_limit:v64 = 1:limit of 64 variables:"});
 }
 
 }  // namespace
@@ -147,8 +238,12 @@ void more_variables_than_there_is_room_for_are_refused(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_is_not_understood_is_refused_before_anything_is_done),
+      cmocka_unit_test(blocks_and_names_that_do_not_fit_are_refused),
+      cmocka_unit_test(nesting_is_run_or_refused_as_a_whole),
       cmocka_unit_test(what_is_understood_is_not_refused),
       cmocka_unit_test(a_value_that_does_not_exist_ends_the_program),
+      cmocka_unit_test(a_value_that_is_not_finite_ends_the_program),
+      cmocka_unit_test(limits_of_a_line_are_named),
       cmocka_unit_test(more_variables_than_there_is_room_for_are_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
