@@ -50,8 +50,7 @@ Reach InverseKinematics::solve(const Pose& target, JointVector& q, int steps) co
   for (int k = 0;; ++k) {
     JacobianOf<Robot> J;
     const Pose x = forward_kinematics<Robot>(joint_trig<Robot>(q), tip_, J);
-    Vector6 error;
-    error << target.p - x.p, log_so3(target.r * x.r.conjugate());
+    const Vector6 error = stacked(target.p - x.p, log_so3(target.r * x.r.conjugate()));
     reach = {error.head<3>().norm(), error.tail<3>().norm()};
     reach.sigma = DampedInverse<kDof>(J, kOnset).sigma();
     const JointVector dq = step(q, error, J, reach);

@@ -64,10 +64,7 @@ bool PathCheck::elsewhere(const Pose& pose) {
 }
 
 void PathCheck::judge_reach(Finding found, const Pose& pose, const Reach& reach) {
-  if (reach.reached()) {
-    end(Finding::kOutOfReach);
-    end(Finding::kOtherPosture);
-  } else {
+  if (!reach.reached()) {  // there the arm is singular anyway
     const bool goes_on = open_[Finding::kOutOfReach] != nullptr;
     const bool other = !goes_on && (open_[Finding::kOtherPosture] != nullptr || elsewhere(pose));
     found.kind = other ? Finding::kOtherPosture : Finding::kOutOfReach;
@@ -75,9 +72,10 @@ void PathCheck::judge_reach(Finding found, const Pose& pose, const Reach& reach)
     found.angle_rad = reach.angle_rad;
     found.joint = reach.blocked;
     found.severity = reach.error();
-    note(found);
+    return note(found);
   }
-  if (!reach.reached()) return;  // out of reach the arm is singular anyway
+  end(Finding::kOutOfReach);
+  end(Finding::kOtherPosture);
   if (reach.sigma >= kDampedBelow) return end(Finding::kSingular);
   found.kind = Finding::kSingular;
   found.joint = -1;
