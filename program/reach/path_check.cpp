@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <random>
 
+#include "kernel/control/cartesian_pose.hpp"
+
 namespace tactus {
 namespace {
 
-constexpr int kApproach = 200;        // samples on the way to the path
-constexpr int kSteps = 60;            // of one sample
-constexpr int kSearchSteps = 200;     // of one posture that is tried
-constexpr int kPostures = 40;         // that are tried
-constexpr int kMostSearches = 8;      // for the whole path: they take the longest
-constexpr double kPostureGain = 0.5;  // 1/s, default posture_gain of cartesian_pose
+constexpr int kApproach = 200;     // samples on the way to the path
+constexpr int kSteps = 60;         // of one sample
+constexpr int kSearchSteps = 200;  // of one posture that is tried
+constexpr int kPostures = 40;      // that are tried
+constexpr int kMostSearches = 8;   // for the whole path: they take the longest
+const CartesianPose::Params kLaw;  // its defaults: the file may have others
 
 Pose between(const Pose& from, const Pose& to, double share) {
   return {from.p + share * (to.p - from.p), from.r.slerp(share, to.r)};
@@ -29,7 +31,7 @@ void PathCheck::approach(const Pose& first) {
 void PathCheck::go_on(double time_s, const Pose& pose) {
   const double passed_s = begun_ ? time_s - time_s_ : 0.0;
   before_ = q_;
-  if (begun_) arm_.move_posture(posture_, std::min(1.0, kPostureGain * passed_s), q_);
+  if (begun_) arm_.move_posture(posture_, std::min(1.0, kLaw.posture_gain * passed_s), q_);
   const Reach reach = arm_.solve(pose, q_, kSteps);
   Finding found;
   found.from_s = found.to_s = found.worst_s = time_s;
@@ -76,12 +78,12 @@ void PathCheck::judge_reach(Finding found, const Pose& pose, const Reach& reach)
   }
   end(Finding::kOutOfReach);
   end(Finding::kOtherPosture);
-  if (reach.sigma >= kDampedBelow) return end(Finding::kSingular);
+  if (reach.sigma >= kLaw.damping_onset) return end(Finding::kSingular);
   found.kind = Finding::kSingular;
   found.joint = -1;
   found.value = reach.sigma;
-  found.limit = kDampedBelow;
-  found.severity = kDampedBelow - reach.sigma;
+  found.limit = kLaw.damping_onset;
+  found.severity = kLaw.damping_onset - reach.sigma;
   note(found);
 }
 

@@ -31,7 +31,6 @@ struct Finding {
 class PathCheck {
  public:
   static constexpr std::size_t kMostFindings = 64;
-  static constexpr double kDampedBelow = 0.05;  ///< default damping_onset of cartesian_pose
   static constexpr double kNear_rad = 0.02;
 
   /// Begins with the arm at `q`, rad.
