@@ -100,56 +100,6 @@ void frames_that_no_filter_names_are_not_received(void**) {
   assert_int_equal(g_frames[2].id, 0x081);
 }
 
-void frames_with_29_bits_are_counted_and_dropped(void**) {
-  CanPair& pair = fresh();
-  assert_true(pair.put_frame(0x181 | CAN_EFF_FLAG, 8));
-  assert_int_equal(receive(pair), 0);
-  assert_int_equal(pair.can.health().foreign, 1);
-  assert_int_equal(pair.can.health().malformed, 0);
-}
-
-void packets_that_are_no_frame_are_counted_and_dropped(void**) {
-  CanPair& pair = fresh(true);
-  std::array<std::uint8_t, 200> noise{};
-  noise[0] = 1;
-  std::uint32_t sent = 0;
-  for (const std::size_t size : {0, 1, 4, 5, 8, 15, 17, 40, 71, 73, 144, 200}) {
-    assert_true(pair.put(noise.data(), size));
-    ++sent;
-  }
-  assert_true(pair.put_frame(0x181, 8));
-  assert_int_equal(receive(pair), 1);
-  assert_int_equal(g_frames[0].id, 0x181);
-  assert_int_equal(pair.can.health().malformed, sent);
-  assert_false(pair.can.health().lost);
-}
-
-void data_longer_than_a_frame_is_malformed(void**) {
-  CanPair& pair = fresh(true);
-  canfd_frame raw{};
-  raw.can_id = 0x181;
-  for (const int length : {9, 64, 255}) {
-    raw.len = static_cast<std::uint8_t>(length);
-    assert_true(pair.put(&raw, CAN_MTU));
-  }
-  for (const int length : {65, 255}) {
-    raw.len = static_cast<std::uint8_t>(length);
-    assert_true(pair.put(&raw, CANFD_MTU));
-  }
-  assert_int_equal(receive(pair), 0);
-  assert_int_equal(pair.can.health().malformed, 5);
-}
-
-void a_classic_bus_takes_no_long_frames(void**) {
-  CanPair& pair = fresh(false);
-  canfd_frame raw{};
-  raw.can_id = 0x181;
-  raw.len = 8;
-  assert_true(pair.put(&raw, CANFD_MTU));
-  assert_int_equal(receive(pair), 0);
-  assert_int_equal(pair.can.health().malformed, 1);
-}
-
 void a_burst_longer_than_a_batch_comes_in_two_calls(void**) {
   CanPair& pair = fresh();
   for (std::uint32_t i = 0; i < CanSocket::kBatch + 2; ++i) assert_true(pair.put_frame(i, 1));
@@ -239,10 +189,6 @@ int main() {
       cmocka_unit_test(bytes_beyond_the_data_are_zero),
       cmocka_unit_test(a_remote_request_has_no_data),
       cmocka_unit_test(frames_that_no_filter_names_are_not_received),
-      cmocka_unit_test(frames_with_29_bits_are_counted_and_dropped),
-      cmocka_unit_test(packets_that_are_no_frame_are_counted_and_dropped),
-      cmocka_unit_test(data_longer_than_a_frame_is_malformed),
-      cmocka_unit_test(a_classic_bus_takes_no_long_frames),
       cmocka_unit_test(a_burst_longer_than_a_batch_comes_in_two_calls),
       cmocka_unit_test(no_more_frames_are_taken_than_there_is_room_for),
       cmocka_unit_test(a_cycle_is_one_system_call_in_each_direction),
