@@ -15,7 +15,8 @@ inline Text<kMostHexDigits + 1> hexadecimal(std::uint64_t number, int digits) {
   Text<kMostHexDigits + 1> text;
   for (int i = digits < kMostHexDigits ? digits : kMostHexDigits; i-- > 0;)
     text << std::string_view(&"0123456789ABCDEF"[number >> 4 * i & 0xF], 1);
-  return text << "h", text;
+  text << "h";
+  return text;
 }
 
 }  // namespace tactus::can
