@@ -34,7 +34,6 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   cia402::Feedbacks feedbacks;
   for (std::size_t j = 0; j < kDof; ++j) {
     feedbacks[j] = nodes_[j].feedback;
-    nodes_[j].booted = false;
   }
   TRY(drives_.attach(mode_, feedbacks, why_));
   sent_ = {};
@@ -59,7 +58,7 @@ void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
     if (node.bus != bus || frame.remote) continue;
     if (frame.id == kTpdoBase[0] + node.id()) take_feedback(node, frame);
     if (frame.id == kEmcyBase + node.id()) take_emergency(node, frame);
-    if (frame.id == kHeartbeatBase + node.id()) take_heartbeat(node, frame, now_ns);
+    node.heart.receive(frame, now_ns);
     if (frame.id == kSdoAnswerBase + node.id()) sdo_.receive(frame, now_ns);
   }
 }
@@ -75,14 +74,6 @@ void CanMaster::take_feedback(Node& node, const CanFrame& frame) {
   ++node.frames;
 }
 
-void CanMaster::take_heartbeat(Node& node, const CanFrame& frame, std::int64_t now_ns) {
-  if (frame.size != 1) return;
-  node.nmt = static_cast<NmtState>(frame.data[0] & 0x7FU);
-  node.heard_ns = now_ns;
-  node.heard = true;
-  node.booted = node.booted || node.nmt == NmtState::kBootUp;
-}
-
 void CanMaster::take_emergency(Node& node, const CanFrame& frame) {
   if (frame.size != kEmergencySize) return;
   node.feedback.error_code = load<std::uint16_t>(frame.data, 0);
@@ -93,10 +84,11 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
   if (!connected_) return Status::kNotStarted;
   const bool first = now_ns_ < 0;
   now_ns_ = now.stamp_ns;
-  if (first) {
+  if (first) {  // the clock of the cycles is not that of the start-up
     heartbeat_ns_ = now_ns_ - can_->heartbeat_ms * kMillisecond_ns;
     sampled_ns_ = now_ns_;
-    for (Node& node : nodes_) node.heard_ns = now_ns_;
+    const std::int64_t limit_ns = kLostHeartbeats * can_->heartbeat_ms * kMillisecond_ns;
+    for (Node& node : nodes_) node.heart.start(node.id(), limit_ns, now_ns_);
   }
   cia402::Feedbacks feedbacks;
   for (std::size_t j = 0; j < kDof; ++j) {
@@ -124,9 +116,9 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
 void CanMaster::judge(Node& node) {
   Status& lost = node.feedback.lost;
   if (lost != Status::kOk) return;
-  const std::int64_t limit_ns = kLostHeartbeats * can_->heartbeat_ms * kMillisecond_ns;
-  if (node.booted || node.nmt != NmtState::kOperational) lost = Status::kConnectionLost;
-  if (now_ns_ - node.heard_ns > limit_ns) lost = Status::kBusTimeout;
+  const bool left = node.heart.known() && node.heart.state() != NmtState::kOperational;
+  if (node.heart.boot_ups() > 0 || left) lost = Status::kConnectionLost;
+  if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
   if (node.frames > kMostFeedback) conflict_ = kTpdoBase[0] + node.id();
 }
 

@@ -61,7 +61,6 @@ class CanMaster {
   Status judge_load();
   bool is_ours(int bus, std::uint16_t id) const;
   void take_feedback(Node& node, const CanFrame& frame);
-  void take_heartbeat(Node& node, const CanFrame& frame, std::int64_t now_ns);
   void take_emergency(Node& node, const CanFrame& frame);
   void judge(Node& node);
   void check_modes();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "hal/can/heartbeat_watch.hpp"
 #include "hal/can/pdo_layout.hpp"
 #include "hal/can/protocol_canopen.hpp"
 #include "hal/cia402/drive_wire.hpp"
@@ -16,12 +17,9 @@ inline constexpr int kMaxBuses = 4;
 struct Node {
   int bus = 0;  ///< from 0
   Slot slot;
-  bool booted = false;  ///< a boot-up message came since the flag was cleared
-  bool heard = false;   ///< a heartbeat came since the flag was cleared
-  NmtState nmt = NmtState::kBootUp;
-  std::int64_t heard_ns = 0;  ///< when its last heartbeat came
-  int frames = 0;             ///< of feedback since the last cycle
-  int last_size = -1;         ///< bytes of the last feedback that had a wrong size; -1: none had
+  HeartbeatWatch heart;
+  int frames = 0;      ///< of feedback since the last cycle
+  int last_size = -1;  ///< bytes of the last feedback that had a wrong size; -1: none had
   cia402::DriveFeedback feedback;
 
   std::uint8_t id() const { return slot.node; }

@@ -37,7 +37,7 @@ void Startup::enter(Stage stage, std::int64_t now_ns) {
   if (stage != Stage::kReset && stage != Stage::kStart) return;
   const bool reset = stage == Stage::kReset;
   for (Node& node : nodes_) {
-    node.booted = node.heard = false;
+    node.heart.start(node.id(), can_->boot_ms * kMillisecond_ns, now_ns);
     out_[static_cast<std::size_t>(node.bus)].add(
         nmt_frame(reset ? NmtCommand::kResetCommunication : NmtCommand::kStart, node.id()));
   }
@@ -63,9 +63,9 @@ Status Startup::silent(int joint, const char* what, int limit_ms) {
 Status Startup::reset(std::int64_t now_ns) {
   for (int j = 0; j < kDof; ++j) {
     const Node& node = nodes_[static_cast<std::size_t>(j)];
-    if (node.booted) continue;
+    if (node.heart.boot_ups() > 0) continue;
     bus_ = node.bus;
-    const bool over = now_ns - since_ns_ > can_->boot_ms * kMillisecond_ns;
+    const bool over = node.heart.is_lost(now_ns);
     return over ? silent(j, "no boot-up message after its reset", can_->boot_ms) : Status::kArming;
   }
   enter(Stage::kSetup, now_ns);
@@ -75,7 +75,7 @@ Status Startup::reset(std::int64_t now_ns) {
 Status Startup::start(std::int64_t now_ns) {
   for (int j = 0; j < kDof; ++j) {
     const Node& node = nodes_[static_cast<std::size_t>(j)];
-    if (node.heard && node.nmt == NmtState::kOperational) continue;
+    if (node.heart.known() && node.heart.state() == NmtState::kOperational) continue;
     bus_ = node.bus;
     const bool over = now_ns - since_ns_ > can_->boot_ms * kMillisecond_ns;
     return over ? silent(j, "no heartbeat that says operational", can_->boot_ms) : Status::kArming;

@@ -127,7 +127,8 @@ void a_fault_from_before_is_cleared_and_a_new_one_ends_the_way_up(void**) {
 }
 
 void a_state_that_lasts_too_long_is_late(void**) {
-  for (const std::uint16_t word : {0x0000, 0x0250, 0x0231, 0x000F, 0x0017}) {
+  for (const int shown : {0x0000, 0x0250, 0x0231, 0x000F, 0x0017}) {
+    const auto word = static_cast<std::uint16_t>(shown);
     DriveMachine drive = machine();
     (void)drive.step(word, Goal::kSwitchedOn, 0);
     (void)drive.step(word, Goal::kSwitchedOn, 100 * kMs);
