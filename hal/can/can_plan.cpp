@@ -97,17 +97,14 @@ Status CanMaster::place_joints() {
 Status CanMaster::judge_load() {
   const BitRates rates = {can_->bitrate_kbit * 1e3,
                           layout_.fd() ? can_->data_bitrate_kbit * 1e3 : 0.0};
-  const double heartbeats = 1e-3 * period_us_ / can_->heartbeat_ms;
   for (int bus = 0; bus < buses_; ++bus) {
     BusLoad load(rates);
-    load.add(0, 1.0, false);         // SYNC
-    load.add(1, heartbeats, false);  // ours
+    load.add(0, 1.0, false);  // SYNC
     int joints = 0;
     for (const Node& node : nodes_) {
       if (node.bus != bus) continue;
       const bool first = joints++ == 0;
       load.add(layout_.feedback(node.slot).size);
-      load.add(1, heartbeats, false);
       if (!layout_.packed() || first)
         load.add(layout_.frame_size(layout_.command_frames(), node.slot));
     }
