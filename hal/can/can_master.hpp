@@ -8,7 +8,7 @@
 #pragma once
 
 #include "hal/can/bus_load.hpp"
-#include "hal/can/can_socket.hpp"
+#include "hal/can/can_filter.hpp"
 #include "hal/can/startup.hpp"
 #include "hal/cia402/drives.hpp"
 

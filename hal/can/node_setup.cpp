@@ -65,7 +65,8 @@ void NodeSetup::watchdogs(const CanSettings& can, int period_us) {
   write(Kind::kMayWrite, cia402::kQuickStopOption, kRampThenOff, "quick stop option");
   write(Kind::kMayWrite, cia402::kFaultReactionOption, kRampThenOff, "fault reaction option");
   write(Kind::kMayWrite, kSyncIdObject, 0, 4, kSyncId, "identifier of SYNC");
-  write(Kind::kMayWrite, kSyncPeriod, 0, 4, static_cast<std::uint32_t>(period_us), "SYNC period");
+  // The commands have a time-out; a watch over SYNC would stop the arm for half a period of jitter.
+  write(Kind::kMayWrite, kSyncPeriod, 0, 4, 0, "SYNC period");
   // The period as value * 10^index s.
   const bool whole_ms = period_us % 1000 == 0;
   const int value = whole_ms ? period_us / 1000 : period_us / 100;

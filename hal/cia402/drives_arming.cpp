@@ -1,5 +1,6 @@
 // Drives: how the drives are armed, commanded and stopped.
 #include "hal/cia402/drives.hpp"
+#include "hal/cia402/protocol_errors.hpp"
 
 namespace tactus::cia402 {
 
@@ -61,7 +62,8 @@ void Drives::judge_rise() {
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     const char* state = name(joint.machine.state());
     if (joint.machine.faulted())
-      fail(j, Status::kDriveFault, joint.last.error_code, "went to fault while it was armed");
+      fail(j, Status::kDriveFault, joint.last.error_code,
+           Message("went to fault while it was armed: ") << error_text(joint.last.error_code));
     else if (joint.machine.late())
       fail(j, Status::kDriveFault, joint.last.error_code,
            Message("stays in '") << state << "' for longer than [cia402] step_ms or reset_ms");

@@ -89,8 +89,12 @@ class WiredHal final : public Hal {
 
   /// The targets of joint `j` in the commands of this cycle; 0 if there were none. [any]
   std::int16_t torque_sent(int j) const {
-    for (const CanFrame& frame : sent)
-      if (frame.id == kRpdoBase[0] + j + 1) return load<std::int16_t>(frame.data, 2);
+    for (const CanFrame& frame : sent) {
+      if (frame.size == 32 && frame.id == kRpdoBase[0] + 1)
+        return can::load<std::int16_t>(frame.data, static_cast<std::size_t>(4 * j + 2));
+      if (frame.size == 4 && frame.id == kRpdoBase[0] + j + 1)
+        return can::load<std::int16_t>(frame.data, 2);
+    }
     return 0;
   }
 
@@ -171,6 +175,7 @@ struct MasterBench {
   MasterBench() {
     can.interfaces = Value("vcan0");
     can.frames = Frames::kFd;
+    can.commands = Commands::kPacked;
     drive.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
     plant.plant.rotor_inertia.setConstant(0.1);
   }
