@@ -10,9 +10,9 @@ using cia402::hex;
 using cia402::Phase;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kLostHeartbeats = 3;  // after which a node is lost
-constexpr int kMostFeedback =
-    2;  // frames of a node in a cycle: the last one, delayed, and this one
+constexpr int kLostHeartbeats = 3;   // after which a node is lost
+constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
+constexpr int kMostSurplus = 3;      // cycles in a row with a frame of feedback too many
 
 }  // namespace
 
@@ -25,6 +25,7 @@ void CanMaster::connect(std::int64_t now_ns) {
     node.feedback = {};
     node.frames = 0;
     node.last_size = -1;
+    node.unanswered = node.surplus = 0;
   }
   startup_.begin(*can_, *drive_, layout_, mode_, period_us_, buses_, now_ns);
 }
@@ -93,6 +94,7 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
   cia402::Feedbacks feedbacks;
   for (std::size_t j = 0; j < kDof; ++j) {
     judge(nodes_[j]);
+    if (!first) count_feedback(nodes_[j]);
     nodes_[j].feedback.fresh = nodes_[j].frames > 0;
     feedbacks[j] = nodes_[j].feedback;
     nodes_[j].feedback.emergency = false;
@@ -119,7 +121,15 @@ void CanMaster::judge(Node& node) {
   const bool left = node.heart.known() && node.heart.state() != NmtState::kOperational;
   if (node.heart.boot_ups() > 0 || left) lost = Status::kConnectionLost;
   if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
-  if (node.frames > kMostFeedback) conflict_ = kTpdoBase[0] + node.id();
+}
+
+/// A drive answers every SYNC once. Late answers come together; a bus may double one now and then.
+/// More than that has another sender.
+void CanMaster::count_feedback(Node& node) {
+  const int surplus = node.frames - node.unanswered;
+  node.surplus = surplus > 0 ? node.surplus + 1 : 0;
+  if (surplus > 1 || node.surplus > kMostSurplus) conflict_ = kTpdoBase[0] + node.id();
+  node.unanswered = surplus < 0 ? -surplus : 0;
 }
 
 /// While the brakes open, every drive is asked for the mode that it is in.
@@ -160,6 +170,8 @@ void CanMaster::write(const RobotCommand& command) {
   const int bus = nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
   if (sdo_.take(request)) outbox(bus).add(request);
   for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  for (Node& node : nodes_)
+    if (node.unanswered < kMostUnanswered) ++node.unanswered;
   sampled_ns_ = now_ns_;
 }
 

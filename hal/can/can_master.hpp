@@ -63,6 +63,7 @@ class CanMaster {
   void take_feedback(Node& node, const CanFrame& frame);
   void take_emergency(Node& node, const CanFrame& frame);
   void judge(Node& node);
+  void count_feedback(Node& node);
   void check_modes();
   void send_commands();
   void send_heartbeat();
