@@ -10,16 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/can/can_filter.hpp"
 #include "hal/can/link_health.hpp"
 #include "hal/can/protocol_frame.hpp"
 #include "kernel/core/load_error.hpp"
 
 namespace tactus::can {
-
-/// Frames to receive: those with `frame.id & mask == id & mask`.
-struct CanFilter {
-  std::uint16_t id = 0, mask = 0x7FF;
-};
 
 /// kQueueFull: at least one frame was not sent.
 enum class Sent : std::uint8_t { kAll, kQueueFull, kLost };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "hal/can/hexadecimal.hpp"
 #include "hal/can/protocol_canopen.hpp"
+#include "hal/cia402/hex.hpp"
 
 namespace tactus::can {
 namespace {
@@ -210,8 +210,7 @@ void SdoClient::give_up(SdoAbort why, Cause cause) {
 
 Message SdoClient::describe() const {
   Message text;
-  text << "node " << int{node_} << ": object " << hexadecimal(index_, 4) << ":" << int{sub_}
-       << ": ";
+  text << "node " << int{node_} << ": object " << cia402::hex(index_) << ":" << int{sub_} << ": ";
   if (progress_ != Progress::kAborted) {
     text << name(progress_);
     return text;
@@ -224,7 +223,7 @@ Message SdoClient::describe() const {
     case Cause::kTime: text << "not complete within " << ms(times_.transfer_ns) << " ms"; break;
     case Cause::kValue: text << "the value to write is " << meaning(abort_); break;
   }
-  text << " (" << hexadecimal(static_cast<std::uint32_t>(abort_), 8) << ")";
+  text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")";
   return text;
 }
 
