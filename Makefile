@@ -33,7 +33,7 @@ KINDS := $(KINDS_$(ARCH))
 O     := build/$(robot)$(HOW)$(if $(KINDS),-$(BOARD))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
-SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp sim_plant/drives/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 # GCC 12 sees reads beyond a string_view where its header is precompiled, and none without.
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror -Wno-stringop-overread
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)

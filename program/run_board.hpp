@@ -51,7 +51,9 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   if (!load_pipeline(options.pipeline, loader, pipeline, text)) return refused(options);
   const Status status = board.configure(sections, pipeline, options);
   if (status != Status::kOk) {
-    std::fprintf(stderr, "%s: robot: %s\n", options.pipeline, describe(status).c_str());
+    const Message trouble = board.hal.trouble();
+    std::fprintf(stderr, "%s: robot: %s%s%s\n", options.pipeline, describe(status).c_str(),
+                 trouble.empty() ? "" : ": ", trouble.c_str());
     return refused(options);
   }
 

@@ -50,6 +50,7 @@ enum class SdoAbort : std::uint32_t {
   kNotStored = 0x08000020,
   kLocalControl = 0x08000021,
   kDeviceState = 0x08000022,
+  kNoData = 0x08000024,
 };
 
 /// Returns what an abort code means, never null. [any]
@@ -79,6 +80,7 @@ constexpr const char* meaning(SdoAbort abort) {
     case SdoAbort::kNotStored: return "data cannot be stored";
     case SdoAbort::kLocalControl: return "data cannot be stored because of local control";
     case SdoAbort::kDeviceState: return "data cannot be stored in the present state of the device";
+    case SdoAbort::kNoData: return "no data available";
   }
   return "unknown abort code";
 }

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace tactus::ur {
+namespace tactus {
 
 class Deadline {
  public:
@@ -35,4 +35,4 @@ class Deadline {
   std::int64_t end_ns_;
 };
 
-}  // namespace tactus::ur
+}  // namespace tactus

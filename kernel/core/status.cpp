@@ -86,6 +86,8 @@ constexpr StatusWords words_of(Status status) {
     case Status::kWireFormat: return {"kWireFormat", "message from the robot malformed"};
     case Status::kRefusedByRobot: return {"kRefusedByRobot", "request refused by the robot"};
     case Status::kNotReferenced: return {"kNotReferenced", "a joint is not referenced"};
+    case Status::kBusConflict:
+      return {"kBusConflict", "somebody else on the bus uses our identifiers"};
   }
   return {"unknown", "unknown status"};
 }

@@ -84,6 +84,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kWireFormat = 105,
     kRefusedByRobot = 106,
     kNotReferenced = 107,
+    kBusConflict = 108,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]

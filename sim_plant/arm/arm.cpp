@@ -158,6 +158,41 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
          Eigen::Map<const JointVector>(data_->qfrc_passive);
 }
 
+JointVector Arm::gravity() {
+  const JointVector dq = this->dq();
+  Eigen::Map<JointVector>(data_->qvel).setZero();
+  mj_fwdPosition(model_, data_);
+  mj_fwdVelocity(model_, data_);
+  const JointVector g = Eigen::Map<const JointVector>(data_->qfrc_bias);
+  Eigen::Map<JointVector>(data_->qvel) = dq;
+  return g;
+}
+
+JointVector Arm::torque_holding(const std::array<bool, kDof>& held, const JointVector& ddq,
+                                const JointVector& tau) {
+  // M ddq + h = tau, with the accelerations of the held joints given and those of the others not.
+  Eigen::Matrix<double, kDof, kDof> M, A;
+  const JointVector h = inverse_dynamics(JointVector::Zero());
+  mj_fullM(model_, M.data(), data_->qM);
+  A = M;
+  JointVector given = JointVector::Zero(), known = tau - h;
+  for (int i = 0; i < kDof; ++i)
+    if (held[static_cast<std::size_t>(i)]) given[i] = ddq[i];
+  known -= M * given;
+  for (int i = 0; i < kDof; ++i) {
+    if (!held[static_cast<std::size_t>(i)]) continue;
+    A.row(i).setZero();
+    A.col(i).setZero();
+    A(i, i) = 1.0;
+    known[i] = ddq[i];
+  }
+  const JointVector all = A.ldlt().solve(known);
+  JointVector torque = M * all + h;
+  for (int i = 0; i < kDof; ++i)
+    if (!held[static_cast<std::size_t>(i)]) torque[i] = tau[i];
+  return torque;
+}
+
 JointVector Arm::contact_torque() const {
   JointVector tau = JointVector::Zero();
   contact_.add_torque(model_, data_, tau.data());

@@ -11,6 +11,8 @@
 // f_e is the force of the scene on the tip, also evaluated in every stage (tip_contact.hpp).
 #pragma once
 
+#include <array>
+
 #include "kernel/core/status.hpp"
 #include "kernel/core/types.hpp"
 #include "sim_plant/arm/plant_params.hpp"
@@ -45,6 +47,15 @@ class Arm {
   /// Returns the torque that would cause `ddq` (rad/s^2) now, N m, by the equation above, payload
   /// and scene included. The arm must be loaded. [cyclic]
   JointVector inverse_dynamics(const JointVector& ddq);
+
+  /// Returns the torque that holds the arm at its present position without motion, N m: g(q) of arm
+  /// and payload. The arm must be loaded. [cyclic]
+  JointVector gravity();
+
+  /// Returns the torque that lets the joints marked in `held` accelerate by `ddq` (rad/s^2), while
+  /// the others get `tau` and follow freely, N m. The arm must be loaded. [cyclic]
+  JointVector torque_holding(const std::array<bool, kDof>& held, const JointVector& ddq,
+                             const JointVector& tau);
 
   /// Returns the torque of the scene on the joints, N m, at the state of the last call of step() or
   /// inverse_dynamics(); a controller without a force sensor does not know it. [cyclic]

@@ -1,0 +1,24 @@
+// fer_can: a Franka FER as seven CiA 402 drives on CAN; the computer's clock starts every cycle.
+#include "boards/fer_can/can_sections.hpp"
+#include "hal/can/can_hal.hpp"
+#include "program/run_board.hpp"
+
+namespace tactus {
+namespace {
+
+can::CanHal hal;
+
+Status configure(const CanSections& sections, const Pipeline& pipeline, const Options&) {
+  const RobotSection& robot = pipeline.robot;
+  Tool tool{robot.tool_mass, robot.tool_com, {}};
+  tool.tip.p = robot.tool_tip;
+  return hal.configure(sections.can, sections.cia402, tool, robot.mode(), robot.period_us);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int argc, char** argv) {
+  using namespace tactus;
+  return run_board<CanSections>(argc, argv, {"fer_can", hal, sizeof hal, true, configure});
+}

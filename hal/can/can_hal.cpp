@@ -1,0 +1,145 @@
+#include "hal/can/can_hal.hpp"
+
+#include <ctime>
+
+#include "hal/net/deadline.hpp"
+
+namespace tactus::can {
+namespace {
+
+constexpr std::int64_t kAnswer_ns = 1'000'000;  // between two looks at the bus while connecting
+constexpr int kMostUnsent = 3;  // cycles in a row whose frames a full queue may refuse
+
+}  // namespace
+
+Status CanHal::configure(const CanSettings& can, const cia402::Cia402Settings& drive,
+                         const Tool& tool, CommandMode mode, int period_us) {
+  can_ = &can;
+  mode_ = mode;
+  return master_.configure(can, drive, tool, mode, period_us);
+}
+
+Capabilities CanHal::capabilities() const {
+  Capabilities offered;
+  offered.position = offered.velocity = offered.effort = true;
+  offered.velocity_feed_forward = offered.effort_feed_forward = true;
+  offered.min_period_us = 500;
+  offered.max_period_us = 20000;
+  return offered;
+}
+
+Status CanHal::connect(CommandMode mode) {
+  disconnect();
+  if (can_ == nullptr || mode != mode_) return fault_ = Status::kNotStarted;
+  fault_ = open();
+  if (fault_ == Status::kOk) fault_ = start_up();
+  if (fault_ != Status::kOk)
+    for (CanSocket& socket : sockets_) socket.close();
+  return fault_;
+}
+
+Status CanHal::open() {
+  for (int bus = 0; bus < master_.buses(); ++bus) {
+    std::array<CanFilter, CanMaster::kMaxFilters> filters;
+    const int count = master_.filters(bus, filters);
+    const bool fd = can_->frames == Frames::kFd;
+    TRY(sockets_[static_cast<std::size_t>(bus)].open(master_.interface(bus), fd, filters.data(),
+                                                     count, master_.why()));
+    unsent_[static_cast<std::size_t>(bus)] = 0;
+  }
+  return Status::kOk;
+}
+
+/// Every round looks at all buses, so the start-up is as fast as the drives answer.
+Status CanHal::start_up() {
+  const Deadline deadline(can_->connect_ms);
+  const std::int64_t whole_ns = deadline.left_ns();
+  master_.connect(0);
+  while (deadline.left_ns() > 0) {
+    const std::int64_t now_ns = whole_ns - deadline.left_ns();
+    for (int bus = 0; bus < master_.buses(); ++bus) {
+      receive(bus, now_ns);
+      TRY(judge_link(bus));
+    }
+    const Status status = master_.connecting(now_ns);
+    TRY(send());
+    if (status != Status::kArming) return status;
+    sockets_[static_cast<std::size_t>(master_.awaited_bus())].wait(kAnswer_ns);
+  }
+  master_.why() = Message("the drives are not ready after [can] connect_ms, ");
+  master_.why() << can_->connect_ms << " ms";
+  return Status::kBusTimeout;
+}
+
+void CanHal::receive(int bus, std::int64_t now_ns) {
+  CanSocket& socket = sockets_[static_cast<std::size_t>(bus)];
+  const int count = socket.receive(frames_.data(), static_cast<int>(frames_.size()));
+  for (int i = 0; i < count; ++i)
+    master_.receive(bus, frames_[static_cast<std::size_t>(i)], now_ns);
+}
+
+/// A controller that is error passive still works; its drives' time-outs tell whether it is enough.
+Status CanHal::judge_link(int bus) {
+  const LinkHealth& health = sockets_[static_cast<std::size_t>(bus)].health();
+  if (!health.lost && !health.bus_off && health.restarted == 0) return Status::kOk;
+  master_.why() = Message("bus ");
+  master_.why() << master_.interface(bus)
+                << (health.lost ? ": the interface is down or gone"
+                                : ": bus-off: the controller has taken itself off the bus")
+                << "; check cabling, termination and bit rate, set the interface up again";
+  return Status::kConnectionLost;
+}
+
+Status CanHal::read(const CycleTime& now, RobotState& state) {
+  for (int bus = 0; bus < master_.buses() && fault_ == Status::kOk; ++bus) {
+    receive(bus, now.stamp_ns);
+    fault_ = judge_link(bus);
+  }
+  if (fault_ == Status::kOk) fault_ = master_.read(now, state);
+  return fault_;
+}
+
+/// Without a wire that works, the drives on the buses that do are still told to stop.
+Status CanHal::write(const RobotCommand& command) {
+  RobotCommand sent = command;
+  if (fault_ != Status::kOk) sent.request = DriveRequest::kDisable;
+  master_.write(sent);
+  const Status status = send();
+  if (fault_ == Status::kOk) fault_ = status;
+  return fault_;
+}
+
+Status CanHal::send() {
+  Status status = Status::kOk;
+  for (int bus = 0; bus < master_.buses(); ++bus) {
+    Outbox& outbox = master_.outbox(bus);
+    if (outbox.count() == 0) continue;
+    int& unsent = unsent_[static_cast<std::size_t>(bus)];
+    const Sent sent = sockets_[static_cast<std::size_t>(bus)].send(outbox.frames(), outbox.count());
+    outbox.clear();
+    unsent = sent == Sent::kQueueFull ? unsent + 1 : 0;
+    if (sent == Sent::kLost) status = judge_link(bus);
+    if (unsent <= kMostUnsent) continue;
+    master_.why() = Message("bus ");
+    master_.why() << master_.interface(bus) << ": its queue was full in " << unsent
+                  << " cycles in a row: nobody acknowledges, or the bus is overloaded; txqueuelen"
+                     " must hold the frames of a cycle";
+    status = Status::kBusTimeout;
+  }
+  return status;
+}
+
+void CanHal::disconnect() {
+  master_.leave();
+  (void)send();
+  for (CanSocket& socket : sockets_) socket.close();
+  fault_ = Status::kNotStarted;
+}
+
+int CanHal::system_calls() const {
+  int calls = 0;
+  for (const CanSocket& socket : sockets_) calls += socket.system_calls();
+  return calls;
+}
+
+}  // namespace tactus::can

@@ -1,0 +1,55 @@
+// CanHal: seven CiA 402 drives on one to four CAN buses. It carries the frames of CanMaster: in a
+// cycle one system call per bus takes what has come and one sends what the cycle leaves.
+//
+// connect() resets, checks and configures the drives and enables none. A drive's fault is a fault
+// of its joint, and the drives can be armed again; read() fails only if a bus does not work any
+// more (bus-off, interface down) or somebody else commands the drives, and from then on until the
+// next connect().
+#pragma once
+
+#include "hal/can/can_master.hpp"
+#include "hal/can/can_socket.hpp"
+
+namespace tactus::can {
+
+class CanHal final : public Hal {
+ public:
+  /// Takes the settings of the pipeline file, which must outlive the use of the Hal. As
+  /// CanMaster::configure(); trouble() says more. [init]
+  Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
+                   CommandMode mode, int period_us);
+
+  /// Positions, velocities with a torque and torques; 0.5 to 20 ms.
+  Capabilities capabilities() const override;
+  /// Opens the buses and starts the drives up, in all no longer than `connect_ms`. kNotOffered,
+  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() says more. [init]
+  Status connect(CommandMode mode) override;
+  Status read(const CycleTime& now, RobotState& state) override;
+  Status write(const RobotCommand& command) override;
+  void disconnect() override;
+  Message trouble() override { return master_.trouble(); }
+
+  const CanMaster& master() const { return master_; }
+  const LinkHealth& health(int bus) const {
+    return sockets_[static_cast<std::size_t>(bus)].health();
+  }
+  /// System calls of all cycles since the buses were opened. [any]
+  int system_calls() const;
+
+ private:
+  Status open();
+  Status start_up();
+  void receive(int bus, std::int64_t now_ns);
+  Status judge_link(int bus);
+  Status send();
+
+  const CanSettings* can_ = nullptr;
+  CommandMode mode_ = CommandMode::kEffort;
+  CanMaster master_;
+  std::array<CanSocket, kMaxBuses> sockets_;
+  std::array<CanFrame, CanSocket::kBatch> frames_;
+  std::array<int, kMaxBuses> unsent_{};  // cycles in a row in which a bus did not take all frames
+  Status fault_ = Status::kNotStarted;   // of the wire
+};
+
+}  // namespace tactus::can

@@ -1,0 +1,197 @@
+// CanMaster: its cycle.
+#include "hal/can/can_master.hpp"
+
+#include "hal/cia402/hex.hpp"
+
+namespace tactus::can {
+namespace {
+
+using cia402::hex;
+using cia402::Phase;
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr int kLostHeartbeats = 3;   // after which a node is lost
+constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
+constexpr int kMostSurplus = 3;      // cycles in a row with a frame of feedback too many
+
+}  // namespace
+
+void CanMaster::connect(std::int64_t now_ns) {
+  connected_ = false;
+  why_ = {};
+  conflict_ = -1;
+  for (Outbox& outbox : out_) outbox.clear();
+  for (Node& node : nodes_) {
+    node.feedback = {};
+    node.frames = 0;
+    node.last_size = -1;
+    node.unanswered = node.surplus = 0;
+  }
+  startup_.begin(*can_, *drive_, layout_, mode_, period_us_, buses_, now_ns);
+}
+
+Status CanMaster::connecting(std::int64_t now_ns) {
+  TRY(startup_.advance(now_ns));
+  cia402::Feedbacks feedbacks;
+  for (std::size_t j = 0; j < kDof; ++j) {
+    feedbacks[j] = nodes_[j].feedback;
+  }
+  TRY(drives_.attach(mode_, feedbacks, why_));
+  sent_ = {};
+  since_refresh_ = PdoLayout::kRefresh;
+  now_ns_ = -1;
+  connected_ = true;
+  return Status::kOk;
+}
+
+/// True for an identifier that only a master sends.
+bool CanMaster::is_ours(int bus, std::uint16_t id) const {
+  if (id == kNmtId || id == kSyncId || id == kHeartbeatBase + can_->master_node) return true;
+  for (const Node& node : nodes_)
+    for (int number = 1; number <= layout_.command_frames() && node.bus == bus; ++number)
+      if (id == layout_.frame_id(number, node.slot)) return true;
+  return false;
+}
+
+void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
+  if (is_ours(bus, frame.id)) conflict_ = frame.id;
+  for (Node& node : nodes_) {
+    if (node.bus != bus || frame.remote) continue;
+    if (frame.id == kTpdoBase[0] + node.id()) take_feedback(node, frame);
+    if (frame.id == kEmcyBase + node.id()) take_emergency(node, frame);
+    node.heart.receive(frame, now_ns);
+    if (frame.id == kSdoAnswerBase + node.id()) sdo_.receive(frame, now_ns);
+  }
+}
+
+/// Feedback of another size was sent by somebody else, or by a drive that lost its mapping.
+void CanMaster::take_feedback(Node& node, const CanFrame& frame) {
+  const std::size_t size = layout_.feedback(node.slot).size;
+  if (frame.size != size || frame.fd != layout_.fd()) {
+    node.last_size = frame.size;
+    return;
+  }
+  layout_.decode(frame, node.feedback);
+  ++node.frames;
+}
+
+void CanMaster::take_emergency(Node& node, const CanFrame& frame) {
+  if (frame.size != kEmergencySize) return;
+  node.feedback.error_code = load<std::uint16_t>(frame.data, 0);
+  node.feedback.emergency = node.feedback.emergency || node.feedback.error_code != 0;
+}
+
+Status CanMaster::read(const CycleTime& now, RobotState& state) {
+  if (!connected_) return Status::kNotStarted;
+  const bool first = now_ns_ < 0;
+  now_ns_ = now.stamp_ns;
+  if (first) {  // the clock of the cycles is not that of the start-up
+    heartbeat_ns_ = now_ns_ - can_->heartbeat_ms * kMillisecond_ns;
+    sampled_ns_ = now_ns_;
+    const std::int64_t limit_ns = kLostHeartbeats * can_->heartbeat_ms * kMillisecond_ns;
+    for (Node& node : nodes_) node.heart.start(node.id(), limit_ns, now_ns_);
+  }
+  cia402::Feedbacks feedbacks;
+  for (std::size_t j = 0; j < kDof; ++j) {
+    judge(nodes_[j]);
+    if (!first) count_feedback(nodes_[j]);
+    nodes_[j].feedback.fresh = nodes_[j].frames > 0;
+    feedbacks[j] = nodes_[j].feedback;
+    nodes_[j].feedback.emergency = false;
+    nodes_[j].frames = 0;
+  }
+  if (first)  // what it holds is of the start-up; from now on there is one sample per cycle
+    for (cia402::DriveFeedback& feedback : feedbacks) feedback.fresh = true;
+  drives_.watch(feedbacks, sampled_ns_);
+  check_modes();
+  drives_.show(state);
+  if (conflict_ < 0) return Status::kOk;
+  why_ = Message("identifier ");
+  why_ << hex(static_cast<std::uint32_t>(conflict_))
+       << " was sent by somebody else on the bus; there must be one master, and every node its own"
+          " number";
+  return Status::kBusConflict;
+}
+
+/// A node that was restarted, left "operational" or is silent has lost its settings or will not
+/// follow; it can be used again after the next connect().
+void CanMaster::judge(Node& node) {
+  Status& lost = node.feedback.lost;
+  if (lost != Status::kOk) return;
+  const bool left = node.heart.known() && node.heart.state() != NmtState::kOperational;
+  if (node.heart.boot_ups() > 0 || left) lost = Status::kConnectionLost;
+  if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
+}
+
+/// A drive answers every SYNC once. Late answers come together; a bus may double one now and then.
+/// More than that has another sender.
+void CanMaster::count_feedback(Node& node) {
+  const int surplus = node.frames - node.unanswered;
+  node.surplus = surplus > 0 ? node.surplus + 1 : 0;
+  if (surplus > 1 || node.surplus > kMostSurplus) conflict_ = kTpdoBase[0] + node.id();
+  node.unanswered = surplus < 0 ? -surplus : 0;
+}
+
+/// While the brakes open, every drive is asked for the mode that it is in.
+void CanMaster::check_modes() {
+  if (drives_.phase() < Phase::kReleasing || drives_.phase() > Phase::kArmed) {
+    checked_ = 0;
+    asked_ = false;
+    return;
+  }
+  if (checked_ == kDof) return;
+  const Node& node = nodes_[static_cast<std::size_t>(checked_)];
+  const cia402::Object& display = cia402::kModeDisplay;
+  if (!asked_) {
+    asked_ = true;
+    sdo_.upload(node.id(), display.index, display.sub, now_ns_);
+    return;
+  }
+  sdo_.advance(now_ns_);
+  if (sdo_.progress() == Progress::kBusy) return;
+  const auto mode = static_cast<std::int8_t>(sdo_.value());
+  Message what("display of the mode of operation (6061h) is ");
+  what << static_cast<int>(mode) << ", expected " << static_cast<int>(mode_of(mode_));
+  if (sdo_.progress() == Progress::kAborted)
+    drives_.fail(checked_, Status::kBusTimeout, 0, sdo_.describe());
+  else if (mode != static_cast<std::int8_t>(mode_of(mode_)))
+    drives_.fail(checked_, Status::kDriveFault, 0, what);
+  ++checked_;
+  asked_ = false;
+}
+
+void CanMaster::write(const RobotCommand& command) {
+  if (!connected_) return;
+  drives_.step(command, commands_, now_ns_);
+  for (Outbox& outbox : out_) outbox.clear();
+  send_commands();
+  send_heartbeat();
+  CanFrame request;
+  const int bus = nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
+  if (sdo_.take(request)) outbox(bus).add(request);
+  for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  for (Node& node : nodes_)
+    if (node.unanswered < kMostUnanswered) ++node.unanswered;
+  sampled_ns_ = now_ns_;
+}
+
+void CanMaster::leave() {
+  if (!connected_) return;
+  connected_ = false;
+  RobotCommand stop;
+  stop.mode = mode_;
+  drives_.step(stop, commands_, now_ns_);
+  for (Outbox& outbox : out_) outbox.clear();
+  since_refresh_ = PdoLayout::kRefresh;
+  send_commands();
+  for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  for (const Node& node : nodes_) {
+    SdoClient farewell;  // no heartbeat of ours is to be missed
+    farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);
+    CanFrame request;
+    if (farewell.take(request)) outbox(node.bus).add(request);
+    outbox(node.bus).add(nmt_frame(NmtCommand::kPreOperational, node.id()));
+  }
+}
+
+}  // namespace tactus::can

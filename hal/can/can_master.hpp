@@ -1,0 +1,96 @@
+// CanMaster: seven drives behind one to four CAN buses, without the buses: frames in, frames out,
+// time passed in. CanHal carries the frames.
+//
+// A cycle: receive() takes what has come since the last one; read() judges it; write() leaves the
+// frames of this cycle in the outboxes, SYNC last. A drive takes its command into force at that
+// SYNC and samples its feedback there, so a command acts exactly one period after the sample that
+// it answers.
+#pragma once
+
+#include "hal/can/bus_load.hpp"
+#include "hal/can/can_filter.hpp"
+#include "hal/can/startup.hpp"
+#include "hal/cia402/drives.hpp"
+
+namespace tactus::can {
+
+class CanMaster {
+ public:
+  static constexpr int kMaxFilters = 5 * kDof + 3;
+
+  /// Takes the settings, which must outlive the master. kBadValue, kTooLarge, kOverBudget for
+  /// buses that cannot carry a cycle; `why` names key, value and limit. [init]
+  Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
+                   CommandMode mode, int period_us);
+
+  int buses() const { return buses_; }
+  /// Name of a bus, from 0. [init]
+  const char* interface(int bus) const {
+    return interfaces_[static_cast<std::size_t>(bus)].c_str();
+  }
+  /// Lists what a bus needs to receive; returns the number of filters. [init]
+  int filters(int bus, std::array<CanFilter, kMaxFilters>& filters) const;
+
+  /// Begins the start-up; connecting() is called until it does not return kArming. [init]
+  void connect(std::int64_t now_ns);
+  Status connecting(std::int64_t now_ns);
+  /// Bus that answers are awaited from while connecting. [init]
+  int awaited_bus() const { return startup_.bus(); }
+
+  /// Takes a frame that has come on a bus. [init, cyclic]
+  void receive(int bus, const CanFrame& frame, std::int64_t now_ns);
+  /// Judges what has come since the last cycle. kBusConflict: somebody else commands the drives.
+  /// [cyclic]
+  Status read(const CycleTime& now, RobotState& state);
+  /// Leaves the frames of this cycle in the outboxes. [cyclic]
+  void write(const RobotCommand& command);
+  /// Leaves frames that stop the drives and end our heartbeat. [any]
+  void leave();
+  Outbox& outbox(int bus) { return out_[static_cast<std::size_t>(bus)]; }
+
+  Message& why() { return why_; }
+  /// The last Status in words. [between two cycles]
+  Message trouble() const { return why_.empty() ? drives_.why() : why_; }
+  cia402::Phase phase() const { return drives_.phase(); }
+  /// Time on a bus that the frames of a cycle take at most, us. [init]
+  double load_us(int bus) const { return load_us_[static_cast<std::size_t>(bus)]; }
+
+ private:
+  Status read_interfaces();
+  Status place_joints();
+  Status judge_load();
+  bool is_ours(int bus, std::uint16_t id) const;
+  void take_feedback(Node& node, const CanFrame& frame);
+  void take_emergency(Node& node, const CanFrame& frame);
+  void judge(Node& node);
+  void count_feedback(Node& node);
+  void check_modes();
+  void send_commands();
+  void send_heartbeat();
+
+  const CanSettings* can_ = nullptr;
+  const cia402::Cia402Settings* drive_ = nullptr;
+  CommandMode mode_ = CommandMode::kEffort;
+  int period_us_ = 1, buses_ = 0;
+  std::array<Name, kMaxBuses> interfaces_;
+  std::array<double, kMaxBuses> load_us_{};
+  PdoLayout layout_;
+  Nodes nodes_;
+  Outboxes out_;
+  Message why_;
+  SdoClient sdo_;
+  Startup startup_{nodes_, out_, sdo_, why_};
+  cia402::Drives drives_;
+  cia402::DriveCommands commands_, sent_;
+
+  bool connected_ = false;
+  std::int64_t now_ns_ = 0;        // of this cycle
+  std::int64_t sampled_ns_ = 0;    // begin of the cycle that sent the last SYNC
+  std::int64_t heartbeat_ns_ = 0;  // of our last heartbeat
+  int since_refresh_ = 0;          // cycles since the controlwords were sent
+  int checked_ = 0;                // joints whose display of the mode was checked in this arming
+  bool asked_ = false;
+  int conflict_ = -1;  // identifier that somebody else sent
+};
+
+}  // namespace tactus::can

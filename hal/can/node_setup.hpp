@@ -1,0 +1,70 @@
+// NodeSetup: what is read from and written to one drive by SDO before its first PDO, as a list of
+// steps: who it is and whether its scaling is the one in the pipeline file, then watchdogs, PDOs
+// and mode. Everything that is written to the PDOs is read back. PDOs are changed in the order that
+// CiA 301 demands (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
+#pragma once
+
+#include "hal/can/pdo_layout.hpp"
+#include "hal/cia402/cia402_settings.hpp"
+
+namespace tactus::can {
+
+struct SetupStep {
+  enum class Kind : std::uint8_t {
+    kExpect,  ///< read; it must be `value`, in the bits of `mask`
+    kWrite,
+    kMayWrite,  ///< write; a drive that does not have the object is left as it is
+    kAwait,     ///< read until it is `value`
+  };
+
+  Kind kind = Kind::kExpect;
+  std::uint8_t sub = 0, bytes = 0;
+  std::uint16_t index = 0;
+  std::uint32_t value = 0, mask = 0xFFFFFFFF;
+  const char* what = "";    ///< the object in words
+  const char* remedy = "";  ///< for a value that is not the expected one
+
+  bool reads() const { return kind == Kind::kExpect || kind == Kind::kAwait; }
+};
+
+class NodeSetup {
+ public:
+  static constexpr int kMaxSteps = 128;
+
+  /// Lists the steps of the drive of joint `joint`, from 0, with PDOs for `mode`. [init]
+  void begin(const CanSettings& can, const cia402::Cia402Settings& drive, const PdoLayout& layout,
+             const Slot& slot, int joint, CommandMode mode, int period_us);
+
+  int count() const { return count_; }
+  const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
+
+ private:
+  using Kind = SetupStep::Kind;
+
+  void identity(const CanSettings& can, CommandMode mode);
+  void scaling(const cia402::Cia402Settings& drive, int joint);
+  void watchdogs(const CanSettings& can, int period_us);
+  void pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot);
+  void pdo(std::uint16_t communication, std::uint16_t mapping, const Pdo& pdo, int timeout_ms);
+  void unused(std::uint16_t communication, std::uint16_t id);
+  void expect(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value,
+              const char* what, const char* remedy, std::uint32_t mask = 0xFFFFFFFF);
+  void write(Kind kind, std::uint16_t index, std::uint8_t sub, std::uint8_t bytes,
+             std::uint32_t value, const char* what);
+  void write(Kind kind, const cia402::Object& object, std::uint32_t value, const char* what);
+
+  std::array<SetupStep, kMaxSteps> steps_;
+  int count_ = 0;
+};
+
+/// Returns the drive's mode for commands of a pipeline. [any]
+constexpr cia402::Mode mode_of(CommandMode mode) {
+  switch (mode) {
+    case CommandMode::kPosition: return cia402::Mode::kCyclicPosition;
+    case CommandMode::kVelocity: return cia402::Mode::kCyclicVelocity;
+    case CommandMode::kEffort: break;
+  }
+  return cia402::Mode::kCyclicTorque;
+}
+
+}  // namespace tactus::can

@@ -1,0 +1,179 @@
+#include "hal/can/startup.hpp"
+
+#include "hal/cia402/hex.hpp"
+
+namespace tactus::can {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr const char* kCheck = "; check power, cabling, bit rate and [can] node and bus";
+
+}  // namespace
+
+void Startup::begin(const CanSettings& can, const cia402::Cia402Settings& drive,
+                    const PdoLayout& layout, CommandMode mode, int period_us, int buses,
+                    std::int64_t now_ns) {
+  can_ = &can;
+  drive_ = &drive;
+  layout_ = &layout;
+  mode_ = mode;
+  period_us_ = period_us;
+  buses_ = buses;
+  SdoTimes times;
+  times.answer_ns = can.sdo_ms * kMillisecond_ns;
+  sdo_.set_times(times);
+  enter(Stage::kReset, now_ns);
+}
+
+void Startup::enter(Stage stage, std::int64_t now_ns) {
+  stage_ = stage;
+  since_ns_ = now_ns;
+  joint_ = steady_ = 0;
+  if (stage == Stage::kSetup) {
+    list_steps();
+    ask(now_ns);
+  }
+  if (stage == Stage::kSync) sync_ns_ = now_ns;
+  if (stage != Stage::kReset && stage != Stage::kStart) return;
+  const bool reset = stage == Stage::kReset;
+  for (Node& node : nodes_) {
+    node.heart.start(node.id(), can_->boot_ms * kMillisecond_ns, now_ns);
+    out_[static_cast<std::size_t>(node.bus)].add(
+        nmt_frame(reset ? NmtCommand::kResetCommunication : NmtCommand::kStart, node.id()));
+  }
+}
+
+Status Startup::advance(std::int64_t now_ns) {
+  switch (stage_) {
+    case Stage::kReset: return reset(now_ns);
+    case Stage::kSetup: return setup(now_ns);
+    case Stage::kStart: return start(now_ns);
+    case Stage::kSync: return sync(now_ns);
+    case Stage::kDone: break;
+  }
+  return Status::kOk;
+}
+
+Status Startup::silent(int joint, const char* what, int limit_ms) {
+  why_ = label(joint, nodes_[static_cast<std::size_t>(joint)]);
+  why_ << ": " << what << " within " << limit_ms << " ms" << kCheck;
+  return Status::kBusTimeout;
+}
+
+Status Startup::reset(std::int64_t now_ns) {
+  for (int j = 0; j < kDof; ++j) {
+    const Node& node = nodes_[static_cast<std::size_t>(j)];
+    if (node.heart.boot_ups() > 0) continue;
+    bus_ = node.bus;
+    const bool over = node.heart.is_lost(now_ns);
+    return over ? silent(j, "no boot-up message after its reset", can_->boot_ms) : Status::kArming;
+  }
+  enter(Stage::kSetup, now_ns);
+  return Status::kArming;
+}
+
+Status Startup::start(std::int64_t now_ns) {
+  for (int j = 0; j < kDof; ++j) {
+    const Node& node = nodes_[static_cast<std::size_t>(j)];
+    if (node.heart.known() && node.heart.state() == NmtState::kOperational) continue;
+    bus_ = node.bus;
+    const bool over = now_ns - since_ns_ > can_->boot_ms * kMillisecond_ns;
+    return over ? silent(j, "no heartbeat that says operational", can_->boot_ms) : Status::kArming;
+  }
+  enter(Stage::kSync, now_ns);
+  return Status::kArming;
+}
+
+/// A cycle counts if every node has answered the SYNC before.
+Status Startup::sync(std::int64_t now_ns) {
+  const std::int64_t period_ns = std::int64_t{1000} * period_us_;
+  if (now_ns - sync_ns_ < period_ns) return Status::kArming;
+  int silent_joint = -1;
+  for (int j = kDof - 1; j >= 0; --j) {
+    Node& node = nodes_[static_cast<std::size_t>(j)];
+    if (node.frames == 0) silent_joint = j;
+    node.frames = 0;
+  }
+  steady_ = silent_joint < 0 ? steady_ + 1 : 0;
+  if (steady_ >= kSteady) {
+    stage_ = Stage::kDone;
+    return Status::kOk;
+  }
+  if (silent_joint >= 0 && now_ns - since_ns_ > can_->boot_ms * kMillisecond_ns)
+    return silent(silent_joint, "no steady feedback PDO", can_->boot_ms);
+  sync_ns_ = now_ns;
+  for (int bus = 0; bus < buses_; ++bus) out_[static_cast<std::size_t>(bus)].add(sync_frame());
+  return Status::kArming;
+}
+
+Status Startup::setup(std::int64_t now_ns) {
+  sdo_.advance(now_ns);
+  Status status = Status::kArming;
+  if (sdo_.progress() == Progress::kDone || sdo_.progress() == Progress::kAborted)
+    status = finish_step(now_ns);
+  CanFrame request;
+  if (sdo_.take(request)) out_[static_cast<std::size_t>(bus_)].add(request);
+  return status;
+}
+
+/// Lists the steps of the node of joint_.
+void Startup::list_steps() {
+  const Node& node = nodes_[static_cast<std::size_t>(joint_)];
+  bus_ = node.bus;
+  step_ = 0;
+  steps_.begin(*can_, *drive_, *layout_, node.slot, joint_, mode_, period_us_);
+}
+
+/// Sends the request of step `step_`.
+void Startup::ask(std::int64_t now_ns) {
+  const SetupStep& step = steps_.step(step_);
+  const std::uint8_t id = nodes_[static_cast<std::size_t>(joint_)].id();
+  if (step.reads())
+    sdo_.upload(id, step.index, step.sub, now_ns);
+  else
+    sdo_.download(id, step.index, step.sub, step.value, step.bytes, now_ns);
+}
+
+/// Goes on with the next step, the next node, or the next stage.
+void Startup::next_step(std::int64_t now_ns) {
+  step_ns_ = now_ns;
+  if (++step_ == steps_.count()) {
+    if (++joint_ == kDof) return enter(Stage::kStart, now_ns);
+    list_steps();
+  }
+  ask(now_ns);
+}
+
+Status Startup::finish_step(std::int64_t now_ns) {
+  const SetupStep& step = steps_.step(step_);
+  if (sdo_.progress() == Progress::kAborted) {
+    const bool absent =
+        sdo_.abort() == SdoAbort::kNoObject || sdo_.abort() == SdoAbort::kNoSubIndex;
+    if (!(absent && step.kind == SetupStep::Kind::kMayWrite)) {
+      why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
+      why_ << ": " << step.what << ": " << sdo_.describe();
+      return sdo_.abort() == SdoAbort::kTimeout ? Status::kBusTimeout : Status::kRefusedByRobot;
+    }
+  } else if (step.reads()) {
+    return judge_value(step, now_ns);
+  }
+  next_step(now_ns);
+  return Status::kArming;
+}
+
+Status Startup::judge_value(const SetupStep& step, std::int64_t now_ns) {
+  const std::uint32_t value = sdo_.value();
+  const bool right = (value & step.mask) == (step.value & step.mask);
+  const bool waits =
+      step.kind == SetupStep::Kind::kAwait && now_ns - step_ns_ <= can_->sdo_ms * kMillisecond_ns;
+  if (right) next_step(now_ns);
+  if (!right && waits) ask(now_ns);
+  if (right || waits) return Status::kArming;
+  why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
+  why_ << ": " << step.what << " (" << cia402::hex(step.index) << ":" << static_cast<int>(step.sub)
+       << ") is " << static_cast<double>(value) << ", expected " << static_cast<double>(step.value);
+  if (step.remedy[0] != '\0') why_ << "; " << step.remedy;
+  return Status::kRefusedByRobot;
+}
+
+}  // namespace tactus::can

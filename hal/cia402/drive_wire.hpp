@@ -1,0 +1,36 @@
+// What a bus brings from the drives of an arm and takes to them in every cycle, in the drives' own
+// numbers. CAN and EtherCAT fill in and send the same.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernel/core/status.hpp"
+#include "kernel/core/types.hpp"
+
+namespace tactus::cia402 {
+
+/// The newest process data of one drive.
+struct DriveFeedback {
+  bool fresh = false;         ///< came since the last cycle
+  bool has_velocity = false;  ///< 606Ch is mapped; otherwise the positions are differentiated
+  std::uint16_t statusword = 0;
+  std::int32_t position = 0, velocity = 0;  ///< increments, increments/s
+  std::int16_t torque = 0;                  ///< permille of the rated torque
+  std::uint16_t error_code = 0;  ///< 603Fh of the last EMCY message; 0: none, or it was taken back
+  bool emergency = false;        ///< an EMCY message with an error came since the last cycle
+  /// kOk, or why the drive cannot be used until the next connect(): restarted, silent ...
+  Status lost = Status::kOk;
+};
+
+struct DriveCommand {
+  std::uint16_t controlword = 0;
+  std::int16_t target_torque = 0, torque_offset = 0;      ///< permille of the rated torque
+  std::int32_t target_position = 0;                       ///< increments
+  std::int32_t target_velocity = 0, velocity_offset = 0;  ///< increments/s
+};
+
+using Feedbacks = std::array<DriveFeedback, kDof>;
+using DriveCommands = std::array<DriveCommand, kDof>;
+
+}  // namespace tactus::cia402

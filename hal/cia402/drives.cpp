@@ -1,0 +1,181 @@
+// Drives: what the drives of the arm say, and what it means.
+#include "hal/cia402/drives.hpp"
+
+#include <limits>
+
+#include "hal/cia402/hex.hpp"
+#include "hal/cia402/protocol_errors.hpp"
+
+namespace tactus::cia402 {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
+constexpr auto kSmallest = std::numeric_limits<std::int16_t>::min();
+
+JointUnits units_of(const Cia402Settings& settings, int j) {
+  return {settings.increments[j], settings.gear_ratio[j], settings.rated_torque[j],
+          settings.direction[j], settings.position_offset[j]};
+}
+
+Message joint_text(int j) {
+  Message text("joint ");
+  text << j + 1;
+  return text;
+}
+
+}  // namespace
+
+Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
+                         Message& why) {
+  settings_ = &settings;
+  period_s_ = 1e-6 * period_us;
+  hold_.configure(settings, tool, period_s_);
+  const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
+                            settings.stop_ms * kMillisecond_ns};
+  const JointLimits limits;
+  for (int j = 0; j < kDof; ++j) {
+    Joint& joint = joints_[static_cast<std::size_t>(j)];
+    joint.units = units_of(settings, j);
+    joint.machine.configure(times);
+    why = joint_text(j);
+    if (std::abs(joint.units.direction) != 1.0) {
+      why << ": [cia402] direction is " << joint.units.direction << "; it must be 1 or -1";
+      return Status::kBadValue;
+    }
+    const double most_Nm = kLargest * joint.units.step_Nm();
+    if (!(limits.tau_max[j] <= most_Nm)) {
+      why << ": its torque limit of " << limits.tau_max[j] << " N m is beyond " << most_Nm
+          << " N m, 32767 permille of [cia402] rated_torque; the drive needs a larger one";
+      return Status::kBadValue;
+    }
+  }
+  why = {};
+  return Status::kOk;
+}
+
+Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
+  mode_ = mode;
+  phase_ = Phase::kOff;
+  why_ = {};
+  for (int j = 0; j < kDof; ++j) TRY(attach_joint(j, feedbacks[static_cast<std::size_t>(j)], why));
+  return Status::kOk;
+}
+
+/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range.
+Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) {
+  Joint& joint = joints_[static_cast<std::size_t>(j)];
+  joint.reason = Status::kOk;
+  joint.code = 0;
+  joint.missed = 0;
+  joint.turn = 0;
+  const JointLimits limits;
+  if (settings_->encoder == Encoder::kSingleTurn) {
+    const double turn = joint.units.encoder * joint.units.gear;
+    const double middle = 0.5 * (limits.q_min[j] + limits.q_max[j]);
+    const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
+                         (turn * joint.units.step_rad());
+    joint.turn = static_cast<std::int64_t>(std::floor(turns + 0.5) * turn);
+  }
+  joint.counter.start(feedback.position, joint.turn);
+  joint.q = joint.units.q(joint.counter.total());
+  joint.dq = joint.tau = 0.0;
+  joint.last = feedback;
+  const Range range = {limits.q_min[j], limits.q_max[j]};
+  if (range.contains(joint.q)) return Status::kOk;
+  why = joint_text(j);
+  why << ": its drive counts " << feedback.position << " increments, which is " << joint.q
+      << " rad, outside of " << range.lo << " to " << range.hi
+      << " rad; reference the drive, or correct [cia402] position_offset, direction or increments";
+  return Status::kNotReferenced;
+}
+
+void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
+  for (int j = 0; j < kDof; ++j) {
+    measure(joints_[static_cast<std::size_t>(j)], feedbacks[static_cast<std::size_t>(j)],
+            sampled_ns);
+    judge(j);
+  }
+}
+
+void Drives::measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) const {
+  const int periods = joint.missed + 1;
+  joint.missed = feedback.fresh ? 0 : joint.missed + (joint.missed <= settings_->max_missed);
+  joint.last = feedback;
+  if (!feedback.fresh) return;
+  const double before = joint.q;
+  joint.q = joint.units.q(joint.counter.follow(feedback.position));
+  joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
+                                   : (joint.q - before) / (periods * period_s_);
+  joint.tau = joint.units.tau(feedback.torque);
+  joint.stamp_ns = sampled_ns;
+}
+
+/// A drive that holds or follows must stay enabled, be heard and report no error. One that was lost
+/// fails in every phase in which it is used.
+void Drives::judge(int j) {
+  const Joint& joint = joints_[static_cast<std::size_t>(j)];
+  if (!enabled() && !rising()) return;
+  const std::uint32_t code = joint.last.error_code;
+  if (joint.last.lost != Status::kOk) {
+    fail(j, joint.last.lost, code, "the drive was lost; connect again");
+  } else if (joint.missed > settings_->max_missed) {
+    fail(j, Status::kBusTimeout, code, "no feedback in more cycles than [cia402] max_missed");
+  } else if (enabled() && joint.last.emergency) {
+    fail(j, Status::kDriveFault, code, error_text(joint.last.error_code));
+  } else if (enabled() && state_of(joint.last.statusword) != State::kOperationEnabled) {
+    const State state = state_of(joint.last.statusword);
+    fail(j, Status::kDriveFault, code, code != 0 ? error_text(joint.last.error_code) : name(state));
+  }
+}
+
+/// The first fault is the one that is explained.
+void Drives::fail(int joint, Status reason, std::uint32_t code, std::string_view what) {
+  Joint& failed = joints_[static_cast<std::size_t>(joint)];
+  if (failed.reason != Status::kOk) return;
+  failed.reason = reason;
+  failed.code = code;
+  if (phase_ == Phase::kFailed) return;
+  phase_ = Phase::kFailed;
+  why_ = joint_text(joint);
+  why_ << ": " << what;
+  if (code != 0) why_ << " (error code " << hex(code) << ")";
+}
+
+void Drives::show(RobotState& state) const {
+  state.stamp_ns = joints_[0].stamp_ns;
+  for (int j = 0; j < kDof; ++j) {
+    const Joint& joint = joints_[static_cast<std::size_t>(j)];
+    state.q[j] = joint.q;
+    state.dq[j] = joint.dq;
+    state.tau[j] = joint.tau;
+    if (joint.stamp_ns < state.stamp_ns) state.stamp_ns = joint.stamp_ns;
+    state.drives[static_cast<std::size_t>(j)] = drive_of(joint);
+  }
+}
+
+/// A measured torque at the end of its numbers may be any larger one.
+Drive Drives::drive_of(const Joint& joint) const {
+  Drive drive;
+  const bool saturated = joint.last.torque == kLargest || joint.last.torque == kSmallest;
+  drive.valid = joint.missed <= settings_->max_missed && !saturated;
+  drive.code = joint.last.error_code;
+  if (phase_ == Phase::kArmed) {
+    drive.state = DriveState::kEnabled;
+  } else if (enabled() || rising()) {
+    drive.state = DriveState::kArming;
+  } else if (joint.reason != Status::kOk) {
+    drive = {DriveState::kFault, drive.valid, joint.reason, joint.code};
+  } else if (joint.missed > settings_->max_missed) {
+    drive.state = DriveState::kUnknown;
+  } else if (state_of(joint.last.statusword) == State::kFault) {
+    drive.state = DriveState::kFault;
+    drive.reason = Status::kDriveFault;
+  } else {
+    const bool off = phase_ == Phase::kOff || joint.machine.reached();
+    drive.state = off ? DriveState::kDisabled : DriveState::kStopping;
+  }
+  return drive;
+}
+
+}  // namespace tactus::cia402

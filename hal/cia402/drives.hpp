@@ -1,0 +1,102 @@
+// Drives: the CiA 402 drives of all joints as one robot, over any bus: armed together or not at
+// all.
+//
+// A bus hands the newest process data to watch() and takes the commands of step(), in every cycle.
+// Arming: every drive is taken to "switched on", its old fault cleared; then all of them are
+// enabled in the same cycle, and hold the arm while their brakes open. As soon as one drive leaves
+// "operation enabled", is silent for too long or reports an error, all drives get a quick stop in
+// that cycle, and no command before the next arming.
+#pragma once
+
+#include "hal/cia402/cia402_settings.hpp"
+#include "hal/cia402/drive_machine.hpp"
+#include "hal/cia402/drive_wire.hpp"
+#include "hal/cia402/hold_effort.hpp"
+#include "hal/cia402/joint_units.hpp"
+#include "kernel/core/hal.hpp"
+
+namespace tactus::cia402 {
+
+enum class Phase : std::uint8_t {
+  kOff,
+  kSwitchingOn,  ///< faults are cleared; no torque
+  kEnabling,     ///< all at once
+  kReleasing,    ///< the motors hold the arm; the brakes open
+  kArmed,        ///< holds, or follows commands
+  kStopping,
+  kFailed,  ///< stopping by a fault; stays until the drives are requested to be disabled
+};
+
+class Drives {
+ public:
+  /// Takes the settings, which must outlive the use of the drives. kBadValue, with `why`: a
+  /// direction that is not 1 or -1, a torque limit that is beyond the drive's numbers. [init]
+  Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
+  /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
+  /// for a position outside the joint's range. [init]
+  Status attach(CommandMode mode, const Feedbacks& feedbacks, Message& why);
+
+  /// Takes the newest process data, sampled at `sampled_ns`, and finds faults. [cyclic]
+  void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
+  /// Takes every drive a step towards what is requested. [cyclic]
+  void step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns);
+  /// Fails the joint, from 0, as a fault of its drive does. [cyclic]
+  void fail(int joint, Status reason, std::uint32_t code, std::string_view what);
+
+  void show(RobotState& state) const;
+  Phase phase() const { return phase_; }
+  /// The last fault in words, with its joint. [between two cycles]
+  const Message& why() const { return why_; }
+
+ private:
+  struct Joint {
+    JointUnits units;
+    PositionCounter counter;
+    std::int64_t turn = 0;  // increments added to the drive's count
+    DriveMachine machine;
+    DriveFeedback last;
+    double q = 0.0, dq = 0.0, tau = 0.0;
+    std::int64_t stamp_ns = 0;
+    int missed = 0;
+    Status reason = Status::kOk;  // of its failure
+    std::uint32_t code = 0;
+
+    /// The drive's own count at q, rad.
+    std::int32_t count_of(double at) const {
+      return static_cast<std::int32_t>(static_cast<std::uint32_t>(units.position(at)) -
+                                       static_cast<std::uint32_t>(turn));
+    }
+  };
+
+  Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
+  void measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) const;
+  void judge(int j);
+  bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
+  bool rising() const { return phase_ == Phase::kSwitchingOn || phase_ == Phase::kEnabling; }
+  Drive drive_of(const Joint& joint) const;
+  bool follows(const RobotCommand& command);
+
+  // Steps of arming and stopping: drives_arming.cpp.
+  void take(DriveRequest request);
+  void advance(std::int64_t now_ns);
+  bool ready(int j);
+  Goal goal() const;
+  bool all_reached() const;
+  void judge_rise();
+  JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
+                     const JointVector& dq);
+  void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
+  void enter(Phase phase, std::int64_t now_ns);
+
+  const Cia402Settings* settings_ = nullptr;
+  double period_s_ = 1.0;
+  CommandMode mode_ = CommandMode::kEffort;
+  Phase phase_ = Phase::kOff;
+  std::int64_t since_ns_ = 0;  // in this phase
+  std::array<Joint, kDof> joints_;
+  HoldEffort hold_;
+  JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
+  Message why_;
+};
+
+}  // namespace tactus::cia402

@@ -1,0 +1,158 @@
+// Drives: how the drives are armed, commanded and stopped.
+#include "hal/cia402/drives.hpp"
+#include "hal/cia402/protocol_errors.hpp"
+
+namespace tactus::cia402 {
+
+void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns) {
+  take(command.request);
+  const bool follow = phase_ == Phase::kArmed && command.request == DriveRequest::kFollow;
+  if (follow && !follows(command)) take(DriveRequest::kArm);  // failed: stops now
+  for (std::size_t j = 0; j < kDof; ++j)
+    out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
+  judge_rise();
+  if (phase_ == Phase::kFailed)
+    for (std::size_t j = 0; j < kDof; ++j)
+      out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
+  set_target(command, follow && phase_ == Phase::kArmed, out);
+  advance(now_ns);
+}
+
+/// A fault stays until the drives are requested to be disabled; only then they can be armed again.
+void Drives::take(DriveRequest request) {
+  if (request == DriveRequest::kDisable) {
+    if (phase_ != Phase::kOff) phase_ = Phase::kStopping;
+  } else if (phase_ == Phase::kOff) {
+    phase_ = Phase::kSwitchingOn;
+    why_ = {};
+    for (Joint& joint : joints_) joint.reason = Status::kOk;
+    for (int j = 0; j < kDof; ++j)
+      if (!ready(j)) return;
+  }
+}
+
+/// Refuses to arm a drive that was lost or does not know its position.
+bool Drives::ready(int j) {
+  const DriveFeedback& last = joints_[static_cast<std::size_t>(j)].last;
+  const int bit = settings_->referenced_bit;
+  if (last.lost != Status::kOk) {
+    fail(j, last.lost, last.error_code, "the drive was lost; connect again");
+  } else if (bit >= 0 && (last.statusword >> bit & 1U) == 0) {
+    fail(j, Status::kNotReferenced, last.error_code, "the drive is not referenced; home it");
+  }
+  return phase_ != Phase::kFailed;
+}
+
+Goal Drives::goal() const {
+  switch (phase_) {
+    case Phase::kSwitchingOn: return Goal::kSwitchedOn;
+    case Phase::kEnabling:
+    case Phase::kReleasing:
+    case Phase::kArmed: return Goal::kOperationEnabled;
+    case Phase::kOff:
+    case Phase::kStopping:
+    case Phase::kFailed: break;
+  }
+  return Goal::kDisabled;
+}
+
+/// A drive that goes to fault on its way, or stays in a state for too long, ends arming.
+void Drives::judge_rise() {
+  for (int j = 0; j < kDof && rising(); ++j) {
+    const Joint& joint = joints_[static_cast<std::size_t>(j)];
+    const char* state = name(joint.machine.state());
+    if (joint.machine.faulted())
+      fail(j, Status::kDriveFault, joint.last.error_code,
+           Message("went to fault while it was armed: ") << error_text(joint.last.error_code));
+    else if (joint.machine.late())
+      fail(j, Status::kDriveFault, joint.last.error_code,
+           Message("stays in '") << state << "' for longer than [cia402] step_ms or reset_ms");
+  }
+}
+
+bool Drives::all_reached() const {
+  for (const Joint& joint : joints_)
+    if (!joint.machine.reached()) return false;
+  return true;
+}
+
+/// Goes to the next phase when all drives have done the present one.
+void Drives::advance(std::int64_t now_ns) {
+  constexpr std::int64_t kMillisecond_ns = 1'000'000;
+  switch (phase_) {
+    case Phase::kSwitchingOn:
+      if (all_reached()) enter(Phase::kEnabling, now_ns);
+      break;
+    case Phase::kEnabling:
+      if (all_reached()) enter(Phase::kReleasing, now_ns);
+      break;
+    case Phase::kReleasing:
+      if (now_ns - since_ns_ >= settings_->brake_ms * kMillisecond_ns) enter(Phase::kArmed, now_ns);
+      break;
+    case Phase::kStopping:
+      if (all_reached()) enter(Phase::kOff, now_ns);
+      break;
+    case Phase::kOff:
+    case Phase::kArmed:
+    case Phase::kFailed: break;
+  }
+}
+
+void Drives::enter(Phase phase, std::int64_t now_ns) {
+  phase_ = phase;
+  since_ns_ = now_ns;
+  if (phase == Phase::kOff)
+    for (Joint& joint : joints_) joint.reason = Status::kOk;
+  if (phase != Phase::kEnabling) return;
+  for (int j = 0; j < kDof; ++j) held_[j] = joints_[static_cast<std::size_t>(j)].q;
+  hold_.start(held_);
+}
+
+/// False, and a fault, for a command that the drives cannot take.
+bool Drives::follows(const RobotCommand& command) {
+  const bool same = command.mode == mode_;
+  if (!same) fail(0, Status::kNotOffered, 0, "a command of another mode than that of connecting");
+  for (int j = 0; j < kDof && same; ++j) {
+    const double sum = command.value[j] + command.dq_ff[j] + command.tau_ff[j];
+    if (!(sum - sum == 0.0)) fail(j, Status::kCommandNotFinite, 0, "its command is not finite");
+  }
+  return phase_ == Phase::kArmed;
+}
+
+/// Before the drives are enabled the targets are those that move nothing: where the joints are, and
+/// no torque. The same after a stop.
+void Drives::set_target(const RobotCommand& command, bool follow, DriveCommands& out) {
+  const bool holds = goal() == Goal::kOperationEnabled;
+  JointVector q, dq;
+  for (int j = 0; j < kDof; ++j) {
+    q[j] = joints_[static_cast<std::size_t>(j)].q;
+    dq[j] = joints_[static_cast<std::size_t>(j)].dq;
+  }
+  if (!holds || follow) held_ = q;
+  const JointVector tau = holds ? effort(command, follow, q, dq) : JointVector(JointVector::Zero());
+  for (int j = 0; j < kDof; ++j) {
+    const Joint& joint = joints_[static_cast<std::size_t>(j)];
+    DriveCommand to;
+    to.controlword = out[static_cast<std::size_t>(j)].controlword;
+    to.target_torque = joint.units.torque(tau[j]);
+    to.target_position = joint.count_of(follow ? command.value[j] : held_[j]);
+    if (follow) {
+      to.target_velocity = joint.units.velocity(command.value[j]);
+      to.velocity_offset = joint.units.velocity(command.dq_ff[j]);
+      to.torque_offset = joint.units.torque(command.tau_ff[j]);
+    }
+    out[static_cast<std::size_t>(j)] = to;
+  }
+}
+
+/// Of the targets, only those of the mode are sent (the bus's layout); torque is the one that moves
+/// an arm by itself.
+JointVector Drives::effort(const RobotCommand& command, bool follow, const JointVector& q,
+                           const JointVector& dq) {
+  if (mode_ != CommandMode::kEffort) return JointVector::Zero();
+  if (!follow) return hold_.step(q, dq);
+  hold_.track(q, command.value);
+  return command.value;
+}
+
+}  // namespace tactus::cia402

@@ -1,0 +1,85 @@
+// JointUnits: converts between the numbers of a drive and SI units at the joint.
+//
+//   q   = direction * 2 pi * increments / (encoder * gear) + offset
+//   dq  = direction * 2 pi * increments per second / (encoder * gear)
+//   tau = direction * permille / 1000 * rated * gear
+//
+// Torque is a 16-bit number of thousandths of the rated torque, 6076h (CiA 402): the smaller the
+// rated torque, the finer the step, and the smaller the largest torque, 32.767 times the rated one.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace tactus::cia402 {
+
+struct JointUnits {
+  double encoder = 16777216.0;  ///< increments per revolution of the motor, 608Fh
+  double gear = 1.0;            ///< revolutions of the motor per revolution of the joint
+  double rated_Nm = 1.0;        ///< rated torque of the motor, 6076h
+  double direction = 1.0;       ///< +1 or -1
+  double offset_rad = 0.0;      ///< q where the drive counts zero
+
+  /// Angle of an increment at the joint, rad. [any]
+  double step_rad() const { return kTurn_rad / (encoder * gear); }
+  /// Torque of a permille at the joint, N m. [any]
+  double step_Nm() const { return 1e-3 * rated_Nm * gear; }
+
+  double q(std::int64_t increments) const {
+    return direction * static_cast<double>(increments) * step_rad() + offset_rad;
+  }
+  double dq(std::int64_t increments_s) const {
+    return direction * static_cast<double>(increments_s) * step_rad();
+  }
+  double tau(std::int16_t permille) const { return direction * permille * step_Nm(); }
+
+  /// The nearest number of the drive, kept within its range; 0 for NaN. A position beyond the range
+  /// wraps, as the counter of the drive does. [cyclic]
+  std::int32_t position(double q_rad) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(
+        nearest<std::int64_t>(direction * (q_rad - offset_rad) / step_rad())));
+  }
+  std::int32_t velocity(double dq_rad_s) const {
+    return nearest<std::int32_t>(direction * dq_rad_s / step_rad());
+  }
+  std::int16_t torque(double tau_Nm) const {
+    return nearest<std::int16_t>(direction * tau_Nm / step_Nm());
+  }
+
+ private:
+  static constexpr double kTurn_rad = 6.283185307179586;
+
+  template <class Int>
+  static Int nearest(double value) {
+    // Of the 64-bit numbers the largest double below the end of the range.
+    constexpr double kMost =
+        sizeof(Int) == 8 ? 9.2e18 : static_cast<double>(std::numeric_limits<Int>::max());
+    if (!(value < kMost)) return value >= kMost ? static_cast<Int>(kMost) : Int{0};
+    return value > -kMost ? static_cast<Int>(std::floor(value + 0.5)) : static_cast<Int>(-kMost);
+  }
+};
+
+/// A drive's 32-bit position counter, followed beyond its end.
+class PositionCounter {
+ public:
+  /// Begins at a count; `turn` increments are added to every later one. [init]
+  void start(std::int32_t count, std::int64_t turn) {
+    last_ = count;
+    total_ = count + turn;
+  }
+  /// Takes a new count, less than half the counter's range away from the last. [cyclic]
+  std::int64_t follow(std::int32_t count) {
+    const auto change = static_cast<std::uint32_t>(count) - static_cast<std::uint32_t>(last_);
+    total_ += static_cast<std::int32_t>(change);
+    last_ = count;
+    return total_;
+  }
+  std::int64_t total() const { return total_; }
+
+ private:
+  std::int32_t last_ = 0;
+  std::int64_t total_ = 0;
+};
+
+}  // namespace tactus::cia402

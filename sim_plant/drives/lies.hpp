@@ -1,0 +1,49 @@
+// Lies: while one exists, objects of the dictionary read what injected faults make them read.
+#pragma once
+
+#include "sim_plant/drives/node.hpp"
+
+namespace tactus::drives {
+
+class Lies {
+ public:
+  explicit Lies(Node& node) : node_(node) {
+    tell(FaultKind::kWrongMode, slot_of(0x6061));
+    tell(FaultKind::kWrongIdentity, slot_of(can::kIdentity, 2));
+    if (const Fault* fault = find(FaultKind::kNonsenseStatus))
+      set(slot_of(0x6041), node.dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
+    if (find(FaultKind::kSaturatedTorque) != nullptr) set(slot_of(0x6077), 32767);
+    if (const Fault* fault = find(FaultKind::kWrongMapping))
+      for (std::uint16_t i = 0; i < kPdos; ++i)
+        for (const std::uint16_t base : {can::kRpdoMapping, can::kTpdoMapping})
+          set(drives::find(static_cast<std::uint16_t>(base + i), 1).slot, fault->value);
+  }
+  ~Lies() {
+    while (count_ > 0) {
+      --count_;
+      node_.dictionary_.set(slots_[count_], truths_[count_]);
+    }
+  }
+  Lies(const Lies&) = delete;
+  Lies& operator=(const Lies&) = delete;
+
+ private:
+  const Fault* find(FaultKind kind) { return node_.faults_.active(kind, node_.syncs_); }
+  void tell(FaultKind kind, Slot slot) {
+    if (const Fault* fault = find(kind)) set(slot, fault->value);
+  }
+  void set(Slot slot, std::int64_t value) {
+    slots_[count_] = slot;
+    truths_[count_++] = node_.dictionary_.get(slot);
+    node_.dictionary_.set(slot, value);
+  }
+
+  static constexpr std::size_t kMost = 4 + 2 * kPdos;
+
+  Node& node_;
+  std::array<Slot, kMost> slots_{};
+  std::array<std::int64_t, kMost> truths_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace tactus::drives

@@ -1,0 +1,198 @@
+#include "sim_plant/drives/node.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim_plant/drives/lies.hpp"
+
+namespace tactus::drives {
+
+using can::CanFrame;
+using can::NmtCommand;
+using can::NmtState;
+
+namespace {
+
+constexpr Slot kControlword = slot_of(0x6040), kSyncCob = slot_of(can::kSyncIdObject),
+               kHeartbeat = slot_of(can::kHeartbeatProducer);
+
+}  // namespace
+
+void Node::load(const NodeSettings& settings, FrameQueue& queue, std::int64_t now_ns) {
+  settings_ = settings;
+  queue_ = &queue;
+  device_.pdo_bytes = settings.fd ? can::kMaxData : can::kClassicData;
+  syncs_ = 0;
+  reset(NmtCommand::kResetNode, now_ns);
+}
+
+/// The boot-up message follows boot_ns later.
+void Node::reset(NmtCommand command, std::int64_t now_ns) {
+  if (command == NmtCommand::kResetNode) {
+    const AxisSettings& axis = settings_.axis;
+    dictionary_.reset(settings_.node);
+    dictionary_.set(slot_of(0x6076), axis.rated_mNm);
+    const double permille = axis.max_torque_Nm * 1e6 / axis.rated_mNm;
+    dictionary_.set(slot_of(0x6072), std::llround(std::min(permille, 65535.0)));
+    dictionary_.set(slot_of(0x6080), std::llround(axis.max_speed_rad_s * 9.5492966));  // rpm
+    errors_.reset();
+    axis_.power_on(axis);
+  } else {
+    if (axis_.powered()) lose_master();
+    dictionary_.reset_communication(settings_.node);
+    for (const std::uint16_t code :
+         {kHeartbeatLost, kPdoTooShort, kPdoTooLong, kSyncLength, kRpdoTimeout, kSyncMissing})
+      clear(code);
+  }
+  sdo_.reset();
+  watched_ = {};
+  holds_ = {};
+  guard_toggle_ = false;
+  load_pdos();
+  device_.nmt = NmtState::kBootUp;
+  boot_ns_ = now_ns + settings_.boot_ns;
+}
+
+void Node::receive(const CanFrame& frame, std::int64_t now_ns) {
+  if (device_.nmt == NmtState::kBootUp) return;
+  if (frame.remote) return answer_remote(frame.id, now_ns);
+  if (frame.id == can::kNmtId) return take_nmt(frame, now_ns);
+  if (frame.id == can::kSdoRequestBase + settings_.node) return take_sdo(frame, now_ns);
+  if (frame.id > can::kHeartbeatBase && frame.id <= can::kHeartbeatBase + can::kMaxNode)
+    return take_heartbeat(frame, now_ns);
+  take_rpdo(frame, now_ns);
+}
+
+void Node::take_nmt(const CanFrame& frame, std::int64_t now_ns) {
+  if (frame.size != 2 || (frame.data[1] != 0 && frame.data[1] != settings_.node)) return;
+  switch (static_cast<NmtCommand>(frame.data[0])) {
+    case NmtCommand::kStart: return enter(NmtState::kOperational, now_ns);
+    case NmtCommand::kStop: return enter(NmtState::kStopped, now_ns);
+    case NmtCommand::kPreOperational: return enter(NmtState::kPreOperational, now_ns);
+    case NmtCommand::kResetNode:
+    case NmtCommand::kResetCommunication:
+      return reset(static_cast<NmtCommand>(frame.data[0]), now_ns);
+  }
+}
+
+void Node::enter(NmtState state, std::int64_t now_ns) {
+  if (state == device_.nmt) return;
+  const bool was_operational = operational();
+  device_.nmt = state;
+  if (state == NmtState::kStopped) {
+    sdo_.reset();
+    if (axis_.powered()) lose_master();
+  }
+  if (state == NmtState::kOperational) return begin_operation(now_ns);
+  if (!was_operational) return;
+  sync_deadline_ns_ = 0;
+  for (Rpdo& rpdo : rpdos_) rpdo.deadline_ns = 0;
+}
+
+void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
+  if (device_.nmt == NmtState::kStopped) return;
+  const auto index = can::load<std::uint16_t>(frame.data, 1);
+  const Fault* silence = faults_.active(FaultKind::kSdoSilence, syncs_);
+  if (silence != nullptr && (silence->value == 0 || silence->value == index)) return;
+  const Fault* refusal = faults_.active(FaultKind::kSdoAbort, syncs_);
+  if (refusal != nullptr && (refusal->value == 0 || refusal->value == index)) {
+    sdo_.reset();
+    return queue_->push(
+        SdoServer::abort_frame(settings_.node, index, frame.data[3], can::SdoAbort::kGeneral));
+  }
+  device_.powered = axis_.powered();
+  SdoAnswer answer;
+  if ((frame.data[0] & can::kSpecifier) == can::kUpload) {
+    const Lies lies(*this);
+    answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
+  } else {
+    answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
+  }
+  if (answer.sent) queue_->push(answer.frame);
+  if (answer.written) note_written(answer.index, now_ns);
+}
+
+/// Objects whose new value has an effect beyond being stored.
+void Node::note_written(std::uint16_t index, std::int64_t now_ns) {
+  if (index >= can::kRpdoCommunication && index < 0x1C00) load_pdos();
+  if (index == can::kErrorHistory)
+    for (std::uint8_t i = 1; i <= kErrorsKept; ++i)
+      dictionary_.set(find(can::kErrorHistory, i).slot, 0);
+  if (index == can::kHeartbeatConsumer) watched_ = {};
+  if (index == can::kHeartbeatProducer)
+    heartbeat_ns_ = now_ns + dictionary_.get(kHeartbeat) * 1'000'000;
+  if (index == 0x6060) axis_.follow_mode();
+  if (index == 0x6040) apply_controlword();
+  dictionary_.set(slot_of(0x6041), axis_.statusword());
+}
+
+void Node::apply_controlword() {
+  const bool gone = !errors_.present(kHeartbeatLost) && !errors_.present(kRpdoTimeout) &&
+                    !errors_.present(kSyncMissing);
+  if (!axis_.command(static_cast<std::uint16_t>(dictionary_.get(kControlword)), gone)) return;
+  while (const std::uint16_t code = errors_.first_latched()) clear(code);
+}
+
+void Node::send_heartbeat(std::int64_t now_ns) {
+  const std::int64_t period_ns = dictionary_.get(kHeartbeat) * 1'000'000;
+  if (period_ns == 0 || now_ns < heartbeat_ns_) return;
+  heartbeat_ns_ = std::max(heartbeat_ns_ + period_ns, now_ns);  // a stall is not caught up
+  if (faults_.active(FaultKind::kStopHeartbeat, syncs_) == nullptr)
+    queue_->push(can::heartbeat_frame(settings_.node, device_.nmt));
+}
+
+/// Node guarding, and TPDOs on request.
+void Node::answer_remote(std::uint16_t id, std::int64_t now_ns) {
+  if (id == can::kHeartbeatBase + settings_.node && dictionary_.get(kHeartbeat) == 0) {
+    CanFrame answer = can::heartbeat_frame(settings_.node, device_.nmt);
+    if (guard_toggle_) answer.data[0] |= 0x80;
+    guard_toggle_ = !guard_toggle_;
+    queue_->push(answer);
+  }
+  if (!operational()) return;
+  for (Tpdo& tpdo : tpdos_)
+    if (tpdo.settings.valid && tpdo.settings.remote && tpdo.settings.id == id)
+      send_tpdo(tpdo, now_ns);
+}
+
+void Node::advance(std::int64_t now_ns) {
+  if (device_.nmt == NmtState::kBootUp) {
+    if (now_ns < boot_ns_) return;
+    device_.nmt = NmtState::kPreOperational;
+    queue_->push(can::heartbeat_frame(settings_.node, NmtState::kBootUp));
+    heartbeat_ns_ = now_ns + dictionary_.get(kHeartbeat) * 1'000'000;
+  }
+  send_heartbeat(now_ns);
+  const SdoAnswer late = sdo_.advance(now_ns, settings_.node);
+  if (late.sent) queue_->push(late.frame);
+  watch(now_ns);
+  inject(now_ns);
+  if (operational()) send_events(now_ns);
+}
+
+void Node::begin_period(const JointSample& sample, double period_s, std::int64_t now_ns) {
+  bool mapped = false;  // the master's own feed-forward
+  for (const Rpdo& rpdo : rpdos_)
+    for (int i = 0; i < rpdo.settings.count && rpdo.settings.valid; ++i)
+      mapped = mapped || rpdo.settings.entries[static_cast<std::size_t>(i)].slot == slot_of(0x60B1);
+  axis_.stick_brake(faults_.active(FaultKind::kBrakeStuck, syncs_) != nullptr);
+  const std::uint16_t code = axis_.begin_period(sample, period_s, !mapped);
+  if (code != 0) raise(code, true);
+  inject(now_ns);
+}
+
+void Node::measure(const JointSample& sample) {
+  axis_.report(sample);
+}
+
+std::uint16_t Node::sync_id() const {
+  return static_cast<std::uint16_t>(dictionary_.get(kSyncCob) & 0x7FF);
+}
+
+double Node::period_s() const {
+  const double value = static_cast<double>(dictionary_.get(slot_of(0x60C2, 1)));
+  const double exponent = static_cast<double>(dictionary_.get(slot_of(0x60C2, 2)));
+  return std::clamp(value * std::pow(10.0, exponent), 1e-4, 0.1);
+}
+
+}  // namespace tactus::drives

@@ -1,0 +1,258 @@
+// Seven drives as one robot: armed together or not at all, stopped together, by any of them.
+#include "tests/cia402/arm_of_drives.hpp"
+
+namespace tactus::cia402 {
+namespace {
+
+bool any_torque(const ArmOfDrives& arm) {
+  for (const DriveCommand& command : arm.commands)
+    if (command.target_torque != 0) return true;
+  return false;
+}
+
+void no_drive_is_enabled_before_all_are_switched_on(void**) {
+  ArmOfDrives arm;
+  arm.fake(3).stays = true;
+  for (int i = 0; i < 100; ++i) {
+    arm.cycle(DriveRequest::kArm);
+    for (const FakeDrive& fake : arm.fakes) assert_int_not_equal(fake.word, 0x1237);
+    assert_false(any_torque(arm));
+  }
+  arm.fake(3).stays = false;
+  arm.cycles(4, DriveRequest::kArm);
+  for (const FakeDrive& fake : arm.fakes) assert_int_equal(fake.word, 0x1237);
+}
+
+void arming_holds_the_arm_with_its_weight_before_it_is_told(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  assert_int_equal(arm.drives.phase(), Phase::kArmed);
+  const JointVector g = gravity<Robot>(joint_trig<Robot>(arm.state.q), Tool{});
+  for (int j = 0; j < kDof; ++j) {
+    const double step = j < 4 ? 3e-3 : 0.5e-3;
+    ASSERT_NEAR(arm.commands[static_cast<std::size_t>(j)].target_torque * step, g[j], step);
+  }
+}
+
+/// The torque comes with the robot's torque rate, while the brakes are closed.
+void the_torque_of_the_hold_has_no_step(void**) {
+  ArmOfDrives arm;
+  DriveCommands before{};
+  for (int i = 0; i < 100; ++i) {
+    arm.cycle(DriveRequest::kArm);
+    for (std::size_t j = 0; j < kDof; ++j)
+      assert_in_range(arm.commands[j].target_torque - before[j].target_torque + 2001, 0,
+                      j < 4 ? 2001 + 335 : 4002);
+    before = arm.commands;
+  }
+}
+
+void commands_are_followed_only_when_armed(void**) {
+  ArmOfDrives arm;
+  arm.command.value.setConstant(6.0);
+  arm.cycles(3, DriveRequest::kFollow);
+  assert_false(any_torque(arm));
+  arm.arm();
+  arm.cycle(DriveRequest::kFollow);
+  assert_int_equal(arm.commands[0].target_torque, 2000);
+  assert_int_equal(arm.commands[6].target_torque, 12000);
+}
+
+/// Every way in which one drive can leave "operation enabled".
+void one_drive_that_stops_stops_all_of_them_in_the_same_cycle(void**) {
+  for (const int word : {0x0218, 0x0250, 0x0231, 0x0233, 0x0217, 0x021F, 0x0000, 0x0004, 0xFFFF}) {
+    ArmOfDrives arm;
+    arm.arm();
+    arm.command.value.setConstant(1.0);
+    arm.cycle(DriveRequest::kFollow);
+    arm.fake(4).word = static_cast<std::uint16_t>(word);
+    arm.fake(4).stays = true;
+    arm.feedbacks[4].error_code = 0x7305;
+    arm.cycle(DriveRequest::kFollow);
+    assert_false(any_torque(arm));
+    for (std::size_t j = 0; j < kDof; ++j)
+      if (j != 4) assert_int_equal(arm.commands[j].controlword, 0x0002);
+    assert_int_equal(arm.joint(4).state, DriveState::kFault);
+    ASSERT_STATUS(arm.joint(4).reason, Status::kDriveFault);
+    assert_int_equal(arm.joint(4).code, 0x7305);
+    for (int i = 0; i < 50; ++i) {
+      arm.cycle(DriveRequest::kFollow);
+      assert_false(any_torque(arm));
+      for (const DriveCommand& command : arm.commands)
+        assert_int_equal(command.controlword & 0x0008, 0);
+    }
+  }
+}
+
+void after_a_fault_only_a_new_arming_leads_up(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  arm.fake(0).word = 0x0218;
+  arm.cycles(50, DriveRequest::kFollow);
+  arm.cycles(50, DriveRequest::kArm);
+  assert_int_equal(arm.drives.phase(), Phase::kFailed);
+  arm.cycles(5, DriveRequest::kDisable);
+  assert_true(arm.joint(0).state == DriveState::kFault);
+  assert_true(arm.joint(1).state == DriveState::kDisabled);
+  arm.arm();
+}
+
+void a_drive_that_is_silent_is_bridged_and_then_lost(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  arm.told = false;
+  for (int i = 0; i < arm.settings.max_missed; ++i) {
+    arm.cycle(DriveRequest::kFollow);
+    assert_true(arm.all(DriveState::kEnabled));
+    assert_true(arm.joint(0).valid);
+  }
+  arm.cycle(DriveRequest::kFollow);
+  assert_int_equal(arm.joint(0).state, DriveState::kFault);
+  ASSERT_STATUS(arm.joint(0).reason, Status::kBusTimeout);
+  assert_false(arm.joint(0).valid);
+}
+
+void the_age_of_the_state_is_that_of_the_oldest_joint(void**) {
+  ArmOfDrives arm;
+  arm.cycle(DriveRequest::kDisable);
+  const std::int64_t heard_ns = arm.state.stamp_ns;
+  Feedbacks some = arm.feedbacks;
+  for (DriveFeedback& feedback : some) feedback.fresh = true;
+  some[5].fresh = false;
+  arm.drives.watch(some, heard_ns + 1'000'000);
+  arm.drives.show(arm.state);
+  assert_true(arm.state.stamp_ns == heard_ns);
+}
+
+/// Without a velocity from the drive, also over cycles without feedback.
+void positions_are_differentiated_over_the_time_between_them(void**) {
+  ArmOfDrives arm;
+  Feedbacks told = arm.feedbacks;
+  const auto tell = [&](bool fresh, std::int32_t moved) {
+    for (DriveFeedback& feedback : told) {
+      feedback.fresh = fresh;
+      feedback.position += moved;
+    }
+    arm.drives.watch(told, 0);
+    arm.drives.show(arm.state);
+  };
+  const double step_rad = 6.283185307179586 / 16777216.0;
+  tell(true, 0);
+  tell(true, 1000);
+  ASSERT_NEAR(arm.state.dq[2], 1000 * step_rad / 1e-3, 1e-9);
+  tell(false, 0);
+  tell(false, 0);
+  tell(true, 3000);
+  ASSERT_NEAR(arm.state.dq[2], 1000 * step_rad / 1e-3, 1e-9);
+}
+
+void a_torque_at_the_end_of_its_numbers_is_no_measurement(void**) {
+  for (const std::int16_t torque : {std::int16_t{32767}, std::int16_t{-32768}}) {
+    ArmOfDrives arm;
+    arm.arm();
+    arm.feedbacks[1].torque = torque;
+    arm.cycle(DriveRequest::kFollow);
+    assert_false(arm.joint(1).valid);
+    assert_true(arm.joint(2).valid);
+  }
+}
+
+void a_command_that_is_not_finite_stops_the_drives(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  arm.command.value.setConstant(1.0);
+  arm.command.value[2] = std::nan("");
+  arm.cycle(DriveRequest::kFollow);
+  assert_false(any_torque(arm));
+  arm.cycle(DriveRequest::kFollow);
+  ASSERT_STATUS(arm.joint(2).reason, Status::kCommandNotFinite);
+}
+
+void an_error_message_of_an_enabled_drive_stops_all(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  arm.feedbacks[6].emergency = true;
+  arm.feedbacks[6].error_code = 0x4310;
+  arm.cycle(DriveRequest::kFollow);
+  assert_int_equal(arm.joint(6).code, 0x4310);
+  assert_non_null(
+      std::strstr(arm.drives.why().c_str(), "joint 7: excess temperature of the drive"));
+  assert_non_null(std::strstr(arm.drives.why().c_str(), "4310h"));
+}
+
+void a_drive_without_its_reference_is_refused(void**) {
+  ArmOfDrives arm;
+  arm.settings.referenced_bit = 14;
+  arm.cycle(DriveRequest::kArm);
+  arm.cycle(DriveRequest::kArm);
+  ASSERT_STATUS(arm.joint(0).reason, Status::kNotReferenced);
+  assert_int_equal(arm.joint(0).state, DriveState::kFault);
+}
+
+void a_position_outside_the_range_is_refused_with_its_joint(void**) {
+  ArmOfDrives arm;
+  arm.feedbacks[3].position = 16777216;  // a turn, where the joint has -3.07 to -0.07 rad
+  Message why;
+  ASSERT_STATUS(arm.drives.attach(CommandMode::kEffort, arm.feedbacks, why),
+                Status::kNotReferenced);
+  assert_non_null(std::strstr(why.c_str(), "joint 4: its drive counts 16777216 increments"));
+}
+
+void a_single_turn_encoder_is_placed_in_the_joints_range(void**) {
+  ArmOfDrives arm;
+  arm.settings.encoder = Encoder::kSingleTurn;
+  const double q = -1.5;
+  const double turn = 6.283185307179586;
+  arm.feedbacks[3].position = static_cast<std::int32_t>((q + turn) / turn * 16777216.0);
+  Message why;
+  ASSERT_OK(arm.drives.attach(CommandMode::kPosition, arm.feedbacks, why));
+  arm.command.mode = CommandMode::kPosition;
+  arm.arm();
+  ASSERT_NEAR(arm.state.q[3], q, 1e-6);
+  assert_int_equal(arm.commands[3].target_position, arm.feedbacks[3].position);
+}
+
+/// The first target of an enabled drive is where it is.
+void positions_are_attached_without_a_step(void**) {
+  ArmOfDrives arm(CommandMode::kPosition);
+  for (int i = 0; i < 60; ++i) {
+    arm.cycle(DriveRequest::kArm);
+    for (std::size_t j = 0; j < kDof; ++j)
+      assert_int_equal(arm.commands[j].target_position, arm.feedbacks[j].position);
+  }
+}
+
+void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
+  ArmOfDrives arm;
+  arm.settings.rated_torque[1] = 2.0;
+  Message why;
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  assert_non_null(std::strstr(why.c_str(), "joint 2: its torque limit of 87 N m is beyond 65.534"));
+}
+
+}  // namespace
+}  // namespace tactus::cia402
+
+int main() {
+  using namespace tactus::cia402;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(no_drive_is_enabled_before_all_are_switched_on),
+      cmocka_unit_test(arming_holds_the_arm_with_its_weight_before_it_is_told),
+      cmocka_unit_test(the_torque_of_the_hold_has_no_step),
+      cmocka_unit_test(commands_are_followed_only_when_armed),
+      cmocka_unit_test(one_drive_that_stops_stops_all_of_them_in_the_same_cycle),
+      cmocka_unit_test(after_a_fault_only_a_new_arming_leads_up),
+      cmocka_unit_test(a_drive_that_is_silent_is_bridged_and_then_lost),
+      cmocka_unit_test(the_age_of_the_state_is_that_of_the_oldest_joint),
+      cmocka_unit_test(positions_are_differentiated_over_the_time_between_them),
+      cmocka_unit_test(a_torque_at_the_end_of_its_numbers_is_no_measurement),
+      cmocka_unit_test(a_command_that_is_not_finite_stops_the_drives),
+      cmocka_unit_test(an_error_message_of_an_enabled_drive_stops_all),
+      cmocka_unit_test(a_drive_without_its_reference_is_refused),
+      cmocka_unit_test(a_position_outside_the_range_is_refused_with_its_joint),
+      cmocka_unit_test(a_single_turn_encoder_is_placed_in_the_joints_range),
+      cmocka_unit_test(positions_are_attached_without_a_step),
+      cmocka_unit_test(a_torque_limit_beyond_the_drives_numbers_is_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,230 @@
+// The whole loop of the FER on CAN without sockets and without a clock: executive, pipeline and
+// master here, the emulated drives and their arm there, and between them a wire that a test can
+// disturb and that watches what is commanded.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "gateway/reference_client.hpp"
+#include "hal/can/can_master.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "kernel/load/loader.hpp"
+#include "sim_plant/drives/drive_arm.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus::can {
+
+/// What a disturbed wire does to one frame on its way.
+enum class Wire : std::uint8_t { kCarries, kLoses, kDoubles, kDelays, kCuts };
+
+struct Disturbance {
+  Wire wire = Wire::kCarries;
+  bool to_drive = false;     ///< of commands, not of feedback
+  std::uint16_t id = 0;      ///< of the frames
+  int first = 0, last = -1;  ///< cycles after the first command, both included
+
+  bool concerns(bool down, const CanFrame& frame, int cycle) const {
+    return down == to_drive && frame.id == id && cycle >= first && cycle <= last;
+  }
+};
+
+/// The master between the executive and the emulated drives.
+class WiredHal final : public Hal {
+ public:
+  CanMaster master;
+  drives::DriveArm arm;
+  std::int64_t period_ns = 1'000'000;
+  Disturbance disturbance;
+  bool down = false;              ///< the interface
+  int cycle = 0;                  ///< of the exchange
+  std::vector<CanFrame> strange;  ///< frames of somebody else, which come with the next cycle
+  std::vector<CanFrame> sent;     ///< in this cycle
+  std::vector<CanFrame> log;      ///< of all frames, if `logs`
+  bool logs = false;
+
+  Capabilities capabilities() const override {
+    Capabilities offered;
+    offered.position = offered.velocity = offered.effort = true;
+    offered.velocity_feed_forward = offered.effort_feed_forward = true;
+    offered.min_period_us = 500;
+    offered.max_period_us = 20000;
+    return offered;
+  }
+  Status connect(CommandMode) override {
+    constexpr std::int64_t kStep_ns = 100'000, kMost_ns = 20'000'000'000;
+    const std::int64_t began_ns = time_ns_;
+    master.connect(0);
+    Status status = Status::kArming;
+    while (status == Status::kArming && time_ns_ - began_ns < kMost_ns) {
+      time_ns_ += kStep_ns;
+      exchange(time_ns_ - began_ns);
+      status = master.connecting(time_ns_ - began_ns);
+    }
+    deliver();
+    begin_ns_ = time_ns_ += period_ns;
+    cycle = 0;
+    return status;
+  }
+  Status read(const CycleTime& now, RobotState& state) override {
+    if (down) return Status::kConnectionLost;
+    time_ns_ = begin_ns_ + now.stamp_ns;
+    collect(now.stamp_ns);
+    return master.read(now, state);
+  }
+  Status write(const RobotCommand& command) override {
+    master.write(command);
+    if (down) return Status::kConnectionLost;
+    deliver();
+    ++cycle;
+    return Status::kOk;
+  }
+  void disconnect() override {
+    master.leave();
+    deliver();
+  }
+  Message trouble() override { return master.trouble(); }
+
+  /// The targets of joint `j` in the commands of this cycle; 0 if there were none. [any]
+  std::int16_t torque_sent(int j) const {
+    for (const CanFrame& frame : sent) {
+      if (frame.size == 32 && frame.id == kRpdoBase[0] + 1)
+        return can::load<std::int16_t>(frame.data, static_cast<std::size_t>(4 * j + 2));
+      if (frame.size == 4 && frame.id == kRpdoBase[0] + j + 1)
+        return can::load<std::int16_t>(frame.data, 2);
+    }
+    return 0;
+  }
+
+ private:
+  void exchange(std::int64_t now_ns) {
+    deliver();
+    collect(now_ns);
+  }
+  /// Master to drives.
+  void deliver() {
+    sent.clear();
+    for (int bus = 0; bus < master.buses(); ++bus) {
+      Outbox& outbox = master.outbox(bus);
+      std::vector<CanFrame> frames(outbox.frames(), outbox.frames() + outbox.count());
+      outbox.clear();
+      for (const CanFrame& frame : frames) {
+        sent.push_back(frame);
+        carry(frame, true, held_down_,
+              [&](const CanFrame& f) { arm.receive(static_cast<std::size_t>(bus), f, time_ns_); });
+      }
+    }
+    arm.advance(time_ns_);
+  }
+  /// Drives to master.
+  void collect(std::int64_t now_ns) {
+    arm.advance(time_ns_);
+    for (const CanFrame& frame : strange) master.receive(0, frame, now_ns);
+    strange.clear();
+    for (int bus = 0; bus < master.buses(); ++bus) {
+      const std::vector<CanFrame> late = std::move(held_up_[static_cast<std::size_t>(bus)]);
+      held_up_[static_cast<std::size_t>(bus)].clear();
+      for (const CanFrame& frame : late) master.receive(bus, frame, now_ns);
+      CanFrame frame;
+      while (arm.take(static_cast<std::size_t>(bus), frame))
+        carry(frame, false, held_up_[static_cast<std::size_t>(bus)],
+              [&](const CanFrame& f) { master.receive(bus, f, now_ns); });
+    }
+  }
+  template <class Give>
+  void carry(const CanFrame& frame, bool to_drive, std::vector<CanFrame>& held, Give give) {
+    if (logs) log.push_back(frame);
+    CanFrame cut = frame;
+    switch (disturbance.concerns(to_drive, frame, cycle) ? disturbance.wire : Wire::kCarries) {
+      case Wire::kLoses: return;
+      case Wire::kDelays: held.push_back(frame); return;
+      case Wire::kDoubles: give(frame); break;
+      case Wire::kCuts: cut.size = static_cast<std::uint8_t>(frame.size / 2); break;
+      case Wire::kCarries: break;
+    }
+    give(cut);
+  }
+
+  std::int64_t time_ns_ = 0, begin_ns_ = 0;
+  std::vector<CanFrame> held_down_;
+  std::array<std::vector<CanFrame>, kMaxBuses> held_up_;
+};
+
+inline constexpr const char* kHoldingPipeline =
+    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+
+struct MasterBench {
+  CanSettings can;
+  cia402::Cia402Settings drive;
+  drives::DriveArmSettings plant;
+  WiredHal hal;
+  ChannelMemory<JointSpace> channel;
+  std::array<Waypoint<JointSpace>, 16> waypoints;
+  ReferenceClient<JointSpace> client{channel};
+  RoomyPipeline pipeline;
+  Executive executive{hal, pipeline};
+  std::int64_t now_ns = -1'000'000;
+
+  /// The seven drives on one CAN FD bus, unless the settings are changed before load().
+  MasterBench() {
+    can.interfaces = Value("vcan0");
+    can.frames = Frames::kFd;
+    can.commands = Commands::kPacked;
+    drive.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
+    plant.plant.rotor_inertia.setConstant(0.1);
+  }
+  /// Builds drives and arm, and loads the pipeline.
+  Status load(const char* text = kHoldingPipeline) {
+    channel.stores[0].waypoints = waypoints.data();
+    channel.stores[0].capacity = static_cast<int>(waypoints.size());
+    Loader loader({&channel}, hal.capabilities());
+    LoadError error;
+    const Status status = loader.load(text, pipeline, error);
+    if (status != Status::kOk) print_error("%s\n", error.message().c_str());
+    TRY(status);
+    TRY(hal.master.configure(can, drive, Tool{}, pipeline.robot.mode(), pipeline.robot.period_us));
+    plant.fd = can.frames == Frames::kFd;
+    for (int j = 0; j < kDof; ++j)
+      plant.joints[static_cast<std::size_t>(j)] = {static_cast<int>(can.bus[j]) - 1,
+                                                   static_cast<int>(can.node[j])};
+    hal.period_ns = std::int64_t{1000} * pipeline.robot.period_us;
+    return hal.arm.load(plant, 0);
+  }
+  Status cycle() { return executive.cycle({now_ns += hal.period_ns}); }
+  Status cycles(int count) {
+    Status status = Status::kOk;
+    for (int i = 0; i < count && status == Status::kOk; ++i) status = cycle();
+    return status;
+  }
+  /// Asks for the drives and runs cycles until they are taken over or refused.
+  Status arm() {
+    Status status = executive.arm();
+    while (status == Status::kArming) {
+      status = cycle();
+      if (status == Status::kArming) status = executive.arm();
+    }
+    return status;
+  }
+  Status start() {
+    TRY(executive.start());
+    now_ns = -hal.period_ns;
+    return arm();
+  }
+  /// Cycles until the drives are disabled, or at most `most`; returns their number.
+  int settle(int most = 3000) {
+    int count = 0;
+    while (count < most && executive.busy()) {
+      (void)cycle();
+      ++count;
+    }
+    return count;
+  }
+};
+
+}  // namespace tactus::can
