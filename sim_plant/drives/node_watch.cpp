@@ -56,14 +56,29 @@ void Node::take_heartbeat(const can::CanFrame& frame, std::int64_t now_ns) {
     const std::int64_t entry = dictionary_.get(static_cast<Slot>(kConsumer + 1 + i));
     if ((entry >> 16 & 0x7F) != node || (entry & 0xFFFF) == 0) continue;
     watched_[i].deadline_ns = now_ns + (entry & 0xFFFF) * 1'000'000;
-    clear(kHeartbeatLost);
+    find_heartbeat_again(watched_[i]);
   }
+}
+
+/// An entry of 1016h has been written: it waits for its next heartbeat.
+void Node::watch_anew(std::uint8_t entry) {
+  Watched& watched = watched_[static_cast<std::size_t>(entry - 1)];
+  watched.deadline_ns = 0;
+  find_heartbeat_again(watched);
+}
+
+void Node::find_heartbeat_again(Watched& watched) {
+  watched.lost = false;
+  for (const Watched& each : watched_)
+    if (each.lost) return;
+  clear(kHeartbeatLost);
 }
 
 void Node::watch(std::int64_t now_ns) {
   for (Watched& watched : watched_) {
     if (watched.deadline_ns == 0 || now_ns < watched.deadline_ns) continue;
     watched.deadline_ns = 0;  // until the next heartbeat
+    watched.lost = true;
     raise(kHeartbeatLost, false);
     if (axis_.abort_connection()) axis_.trip();
     const std::int64_t behaviour = dictionary_.get(kBehaviour);
