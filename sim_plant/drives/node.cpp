@@ -133,6 +133,10 @@ void Node::apply_controlword() {
   const auto word = static_cast<std::uint16_t>(dictionary_.get(kControlword));
   if (axis_.command(word, gone))
     while (const std::uint16_t code = errors_.first_latched()) clear(code);
+  show_state();
+}
+
+void Node::show_state() {
   dictionary_.set(kStatus, axis_.statusword());
 }
 

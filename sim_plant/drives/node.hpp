@@ -64,6 +64,7 @@ class Node {
   void take_sdo(const can::CanFrame& frame, std::int64_t now_ns);
   void note_written(std::uint16_t index, std::uint8_t sub, std::int64_t now_ns);
   void apply_controlword();
+  void show_state();
   void send_heartbeat(std::int64_t now_ns);
   void answer_remote(std::uint16_t id, std::int64_t now_ns);
 

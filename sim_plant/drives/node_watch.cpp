@@ -35,6 +35,7 @@ void Node::raise(std::uint16_t code, bool faults) {
     send(emergency);
   }
   if (faults) axis_.trip();
+  show_state();
 }
 
 void Node::clear(std::uint16_t code) {
@@ -47,6 +48,7 @@ void Node::clear(std::uint16_t code) {
 /// NMT has taken the drive from its master: reaction of 6007h.
 void Node::lose_master() {
   if (axis_.abort_connection()) raise(kCommunicationLost, true);
+  show_state();
 }
 
 void Node::take_heartbeat(const can::CanFrame& frame, std::int64_t now_ns) {
@@ -81,6 +83,7 @@ void Node::watch(std::int64_t now_ns) {
     watched.lost = true;
     raise(kHeartbeatLost, false);
     if (axis_.abort_connection()) axis_.trip();
+    show_state();
     const std::int64_t behaviour = dictionary_.get(kBehaviour);
     if (behaviour == 0 && operational()) enter(NmtState::kPreOperational, now_ns);
     if (behaviour == 2) enter(NmtState::kStopped, now_ns);
