@@ -185,14 +185,7 @@ class DrivesBench {
     }
   }
 
-  can::CanFrame frame;
-  std::uint32_t value = 0;
-
- private:
-  std::uint32_t answer(int node) {
-    if (!take(0x580U + static_cast<unsigned>(node))) return 0xFFFFFFFF;
-    return frame.data[0] == 0x80 ? can::load<std::uint32_t>(frame.data, 4) : 0;
-  }
+  /// Keeps the feedback in `frame`.
   void note_feedback() {
     if (frame.id < 0x181 || frame.id > 0x180 + kDof || frame.size < 8) return;
     Feedback& f = feedback[frame.id - 0x181U];
@@ -200,6 +193,15 @@ class DrivesBench {
     f.position = can::load<std::int32_t>(frame.data, 2);
     f.torque = can::load<std::int16_t>(frame.data, 6);
     ++f.count;
+  }
+
+  can::CanFrame frame;
+  std::uint32_t value = 0;
+
+ private:
+  std::uint32_t answer(int node) {
+    if (!take(0x580U + static_cast<unsigned>(node))) return 0xFFFFFFFF;
+    return frame.data[0] == 0x80 ? can::load<std::uint32_t>(frame.data, 4) : 0;
   }
   void mix(unsigned byte) { checksum = (checksum ^ byte) * 1099511628211ULL; }
 

@@ -1,9 +1,10 @@
 # Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
 FUZZ_BUILD := BOARD=ur10_emulator $(SANITIZED)
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
-# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm replaces MuJoCo's.
+# The whole kernel, both ends of the UR's protocols, and emulated drives. A tape replaces the sockets, and a light arm replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp) $(KERNEL) \
+              $(wildcard sim_plant/drives/*.cpp) \
               tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 
 .PHONY: fuzz fuzz-short fuzz-built
