@@ -3,4 +3,4 @@ ROBOT  := Fer
 SRCS   += boards/fer_can/board.cpp
 PARTS  := $(wildcard hal/cia402/*.cpp hal/can/*.cpp)
 
-TESTS  := $(filter tests/can/% tests/cia402/%,$(TESTS))
+TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/%,$(TESTS))
