@@ -74,7 +74,7 @@ def run(kernel, folder, buses, longest_s):
     if late:
         raise Broken(f"not at its end after {longest_s} s; --timeout sets more", OUT_OF_TIME)
     if not (code := EXIT.search(text)):
-        raise Broken((folder / "qemu").read_text(errors="replace") + text, BROKEN)
+        raise Broken(f"the machine failed:\n{(folder / 'qemu').read_text(errors='replace')}{text}", BROKEN)
     return int(code[1]), dict(TIMES.findall(text))
 
 
