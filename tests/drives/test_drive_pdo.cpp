@@ -109,13 +109,14 @@ void a_command_that_is_too_short_is_ignored_and_one_too_long_is_taken(void**) {
   start(bench);
   bench.send(0x201, {0x06, 0x00, 0x01});
   bench.expect(0x081, {0x10, 0x82, 0x11, 0, 0, 0, 0, 0});
-  assert_int_equal(bench.get(1, 0x6041, 0), 0x0250);
+  assert_int_equal(bench.get(1, 0x6041, 0), 0x02D0);  // with a warning
   bench.send(0x201, {0x06, 0x00, 0x01, 0x00, 0xFF});
   bench.expect(0x081, {0x00, 0x00, 0x00, 0, 0, 0, 0, 0});  // no longer too short
   bench.expect(0x081, {0x20, 0x82, 0x11, 0, 0, 0, 0, 0});
-  assert_int_equal(bench.get(1, 0x6041, 0), 0x0231);
+  assert_int_equal(bench.get(1, 0x6041, 0), 0x02B1);
   bench.send(0x201, {0x06, 0x00, 0x01, 0x00});
   bench.expect(0x081, {0x00, 0x00, 0x00, 0, 0, 0, 0, 0});
+  assert_int_equal(bench.get(1, 0x6041, 0), 0x0231);
 }
 
 void a_command_that_stays_away_is_a_fault(void**) {
