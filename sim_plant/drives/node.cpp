@@ -137,7 +137,11 @@ void Node::apply_controlword() {
 }
 
 void Node::show_state() {
-  dictionary_.set(kStatus, axis_.statusword());
+  unsigned word = axis_.statusword();
+  const bool fault = axis_.state() == cia402::State::kFault ||
+                     axis_.state() == cia402::State::kFaultReactionActive;
+  if (errors_.any() && !fault) word |= cia402::kWarning;
+  dictionary_.set(kStatus, word);
 }
 
 void Node::send_heartbeat(std::int64_t now_ns) {
@@ -190,6 +194,7 @@ void Node::begin_period(const JointSample& sample, double period_s, std::int64_t
 
 void Node::measure(const JointSample& sample) {
   axis_.report(sample);
+  show_state();
 }
 
 std::uint16_t Node::sync_id() const {

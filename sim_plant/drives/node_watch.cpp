@@ -43,6 +43,7 @@ void Node::clear(std::uint16_t code) {
   if (!errors_.clear(code, dictionary_, emergency)) return;
   dictionary_.set(kErrorCode, errors_.first());
   send(emergency);
+  show_state();
 }
 
 /// NMT has taken the drive from its master: reaction of 6007h.

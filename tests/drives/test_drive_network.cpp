@@ -148,6 +148,7 @@ void the_reaction_to_a_lost_heartbeat_is_that_of_the_options(void**) {
 void stopping_a_node_that_moves_is_the_loss_of_its_master(void**) {
   DrivesBench& bench = watching(1, 1);
   bench.send(0x000, {0x02, 0x01});
+  assert_int_equal(bench.arm.node(0).axis().statusword() & 0x4F, 0x0F);
   bench.run_ms(300);
   assert_int_equal(bench.arm.node(0).axis().statusword() & 0x4F, 0x08);
 }
