@@ -55,6 +55,7 @@ class WiredHal final : public Hal {
   }
   Status connect(CommandMode) override {
     constexpr std::int64_t kStep_ns = 100'000, kMost_ns = 20'000'000'000;
+    disconnect();
     const std::int64_t began_ns = time_ns_;
     master.connect(0);
     Status status = Status::kArming;
@@ -66,24 +67,30 @@ class WiredHal final : public Hal {
     deliver();
     begin_ns_ = time_ns_ += period_ns;
     cycle = 0;
-    return status;
+    fault_ = down ? Status::kConnectionLost : status;
+    return fault_;
   }
   Status read(const CycleTime& now, RobotState& state) override {
-    if (down) return Status::kConnectionLost;
     time_ns_ = begin_ns_ + now.stamp_ns;
+    if (fault_ == Status::kOk && down) fault_ = Status::kConnectionLost;
     collect(now.stamp_ns);
-    return master.read(now, state);
+    const Status status = master.read(now, state);
+    if (fault_ == Status::kOk) fault_ = status;
+    return fault_;
   }
+  /// As CanHal: without a wire that works, the drives are still told to stop.
   Status write(const RobotCommand& command) override {
-    master.write(command);
-    if (down) return Status::kConnectionLost;
+    RobotCommand to_send = command;
+    if (fault_ != Status::kOk) to_send.request = DriveRequest::kDisable;
+    master.write(to_send);
     deliver();
     ++cycle;
-    return Status::kOk;
+    return fault_;
   }
   void disconnect() override {
     master.leave();
     deliver();
+    fault_ = Status::kNotStarted;
   }
   Message trouble() override { return master.trouble(); }
 
@@ -112,6 +119,7 @@ class WiredHal final : public Hal {
       outbox.clear();
       for (const CanFrame& frame : frames) {
         sent.push_back(frame);
+        if (down) continue;
         carry(frame, true, held_down_,
               [&](const CanFrame& f) { arm.receive(static_cast<std::size_t>(bus), f, time_ns_); });
       }
@@ -129,8 +137,9 @@ class WiredHal final : public Hal {
       for (const CanFrame& frame : late) master.receive(bus, frame, now_ns);
       CanFrame frame;
       while (arm.take(static_cast<std::size_t>(bus), frame))
-        carry(frame, false, held_up_[static_cast<std::size_t>(bus)],
-              [&](const CanFrame& f) { master.receive(bus, f, now_ns); });
+        if (!down)
+          carry(frame, false, held_up_[static_cast<std::size_t>(bus)],
+                [&](const CanFrame& f) { master.receive(bus, f, now_ns); });
     }
   }
   template <class Give>
@@ -148,6 +157,7 @@ class WiredHal final : public Hal {
   }
 
   std::int64_t time_ns_ = 0, begin_ns_ = 0;
+  Status fault_ = Status::kNotStarted;  // of the wire, until the next connect()
   std::vector<CanFrame> held_down_;
   std::array<std::vector<CanFrame>, kMaxBuses> held_up_;
 };
