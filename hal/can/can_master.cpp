@@ -11,8 +11,11 @@ using cia402::Phase;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kLostHeartbeats = 3;  // after which a node is lost
-constexpr int kMostFeedback =
-    2;  // frames of a node in a cycle: the last one, delayed, and this one
+// A bus can delay a frame into the next cycle and, now and then, repeat one. More come from a
+// second node with the same identifier.
+constexpr int kMostFeedback = 2;  // frames of a node in a cycle
+constexpr int kMostSurplus = 10;  // frames of a node, more than cycles, in a window
+constexpr int kWindow = 100;      // cycles
 
 }  // namespace
 
@@ -23,9 +26,10 @@ void CanMaster::connect(std::int64_t now_ns) {
   for (Outbox& outbox : out_) outbox.clear();
   for (Node& node : nodes_) {
     node.feedback = {};
-    node.frames = 0;
+    node.frames = node.surplus = 0;
     node.last_size = -1;
   }
+  window_ = 0;
   startup_.begin(*can_, *drive_, layout_, mode_, period_us_, buses_, now_ns);
 }
 
@@ -91,6 +95,7 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
     for (Node& node : nodes_) node.heart.start(node.id(), limit_ns, now_ns_);
   }
   cia402::Feedbacks feedbacks;
+  window_ = (window_ + 1) % kWindow;
   for (std::size_t j = 0; j < kDof; ++j) {
     judge(nodes_[j]);
     nodes_[j].feedback.fresh = nodes_[j].frames > 0;
@@ -119,7 +124,9 @@ void CanMaster::judge(Node& node) {
   const bool left = node.heart.known() && node.heart.state() != NmtState::kOperational;
   if (node.heart.boot_ups() > 0 || left) lost = Status::kConnectionLost;
   if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
-  if (node.frames > kMostFeedback) conflict_ = kTpdoBase[0] + node.id();
+  node.surplus = window_ == 0 ? 0 : node.surplus + node.frames - 1;
+  if (node.frames > kMostFeedback || node.surplus > kMostSurplus)
+    conflict_ = kTpdoBase[0] + node.id();
 }
 
 /// While the brakes open, every drive is asked for the mode that it is in.

@@ -19,6 +19,7 @@ struct Node {
   Slot slot;
   HeartbeatWatch heart;
   int frames = 0;      ///< of feedback since the last cycle
+  int surplus = 0;     ///< of feedback, more than cycles, in this window
   int last_size = -1;  ///< bytes of the last feedback that had a wrong size; -1: none had
   cia402::DriveFeedback feedback;
 

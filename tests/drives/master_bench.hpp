@@ -18,13 +18,14 @@
 namespace tactus::can {
 
 /// What a disturbed wire does to one frame on its way.
-enum class Wire : std::uint8_t { kCarries, kLoses, kDoubles, kDelays, kCuts };
+enum class Wire : std::uint8_t { kCarries, kLoses, kDoubles, kDelays, kCuts, kRewords };
 
 struct Disturbance {
   Wire wire = Wire::kCarries;
   bool to_drive = false;     ///< of commands, not of feedback
   std::uint16_t id = 0;      ///< of the frames
   int first = 0, last = -1;  ///< cycles after the first command, both included
+  std::uint16_t word = 0;    ///< kRewords: the first two bytes
 
   bool concerns(bool down, const CanFrame& frame, int cycle) const {
     return down == to_drive && frame.id == id && cycle >= first && cycle <= last;
@@ -151,6 +152,7 @@ class WiredHal final : public Hal {
       case Wire::kDelays: held.push_back(frame); return;
       case Wire::kDoubles: give(frame); break;
       case Wire::kCuts: cut.size = static_cast<std::uint8_t>(frame.size / 2); break;
+      case Wire::kRewords: can::store(cut.data, 0, disturbance.word); break;
       case Wire::kCarries: break;
     }
     give(cut);
