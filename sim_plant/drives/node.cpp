@@ -99,8 +99,8 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
   const Fault* refusal = faults_.active(FaultKind::kSdoAbort, syncs_);
   if (refusal != nullptr && (refusal->value == 0 || refusal->value == index)) {
     sdo_.reset();
-    return queue_->push(
-        SdoServer::abort_frame(settings_.node, index, frame.data[3], can::SdoAbort::kGeneral));
+    return queue_->push(SdoServer::abort_frame(settings_.node, index, frame.data[3],
+                                               static_cast<can::SdoAbort>(refusal->abort)));
   }
   device_.powered = axis_.powered();
   SdoAnswer answer;
