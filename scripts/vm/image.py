@@ -12,7 +12,7 @@ from vm.kernel import MODULES, Missing
 HOME = "/tactus"  # the project in the guest: a fixed place, so that every checkout gives the same bytes
 INIT = pathlib.Path(__file__).with_name("init")
 FOLDERS = ["bin", "dev", "out", "proc", "sys", "tmp"]
-TOOLS = ["ip", "candump", "cansend", "cangen", "canplayer"]
+TOOLS = ["ip", "chrt", "candump", "cansend", "cangen", "canplayer"]
 DATA = ["pipelines", "build/trajectories"]
 WORD = re.compile(r"[\w./+-]+")
 

@@ -3,12 +3,14 @@ FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 # The parsers of CAN are built for fer_can, all others for ur10_emulator.
 FUZZ_CAN   := $(filter fuzz_can_%,$(FUZZ))
 FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CAN),$(FUZZ)))
-# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm replaces MuJoCo's.
+# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm
+# replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp) $(KERNEL) \
               tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 ifeq ($(BOARD),fer_can)
-FUZZED     := $(wildcard hal/can/*.cpp kernel/core/*.cpp)
+FUZZED     := $(wildcard hal/can/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp) $(KERNEL) \
+              tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 endif
 
 .PHONY: fuzz fuzz-short fuzz-built
