@@ -75,7 +75,7 @@ void print_nmt(std::FILE* out, const NodeReport& report) {
 
 void print_mode(std::FILE* out, const NodeReport& report) {
   if (report.has(Item::kModeDisplay)) {
-    const int mode = static_cast<std::int8_t>(report.get(Item::kModeDisplay));
+    const int mode = static_cast<int>(static_cast<cia402::Mode>(report.get(Item::kModeDisplay)));
     std::fprintf(out, ", mode %d", mode);
     if (mode >= 1 && mode <= kModeCount) std::fprintf(out, " %s", kModes[mode - 1]);
   }

@@ -14,6 +14,7 @@ struct Bus {
   NodeScan scan;
   std::vector<FakeNode> nodes;
   std::vector<CanFrame> sent, heartbeats;  ///< heartbeats come every 100 ms
+  std::vector<std::int64_t> sent_ns;
   std::int64_t now_ns = 0;
   std::int64_t delay_ns = 0;  ///< of every answer
   std::int64_t deaf_ns = 0;   ///< no node answers before this time
@@ -29,6 +30,7 @@ struct Bus {
       CanFrame request, reply;
       while (scan.take(request)) {
         sent.push_back(request);
+        sent_ns.push_back(now_ns);
         for (FakeNode& node : nodes)
           if (now_ns >= deaf_ns && node.answer(request, reply)) give(reply);
       }
@@ -36,7 +38,7 @@ struct Bus {
         late_ns = -1;
         scan.receive(late, now_ns);
       }
-      now_ns += kMs_ns;
+      now_ns += kMs_ns / 2;
       if (now_ns % (100 * kMs_ns) != 0) continue;
       for (const CanFrame& frame : heartbeats) scan.receive(frame, now_ns);
     }
@@ -45,7 +47,7 @@ struct Bus {
     late = reply;
     late_ns = now_ns + delay_ns;
     // While all nodes are asked, answers overlap.
-    if (delay_ns == 0 || sent.size() <= 127) scan.receive(reply, now_ns);
+    if (delay_ns == 0 || (nodes.size() > 1 && sent.size() <= 127)) scan.receive(reply, now_ns);
   }
   int requests(int node, std::uint16_t index) const {
     int count = 0;
@@ -73,8 +75,9 @@ FakeNode drive(int number) {
                   {0x1018, 4, 77},         {0x6041, 0, 0x0637},     {0x6061, 0, 10},
                   {0x6502, 0, 0x380},      {0x608F, 1, 16777216},   {0x1400, 1, 0x201},
                   {0x1400, 2, 1},          {0x1600, 0, 2},          {0x1600, 1, 0x60400010},
-                  {0x1600, 2, 0x60710010}, {0x1401, 1, 0x80000301}, {0x1801, 1, 0x40000281},
-                  {0x1801, 2, 255},        {0x1A01, 0, 1},          {0x1A01, 1, 0x60640020}};
+                  {0x1600, 2, 0x60710010}, {0x1401, 1, 0x80000301}, {0x1401, 2, 1},
+                  {0x1801, 1, 0x40000281}, {0x1801, 2, 255},        {0x1A01, 0, 1},
+                  {0x1A01, 1, 0x60640020}};
   return node;
 }
 
@@ -82,7 +85,10 @@ void every_node_is_asked_once_a_millisecond(void**) {
   Bus& bus = fresh();
   bus.run();
   assert_int_equal(bus.sent.size(), 127);
-  for (std::size_t i = 0; i < bus.sent.size(); ++i) assert_int_equal(bus.sent[i].id, 0x601 + i);
+  for (std::size_t i = 0; i < bus.sent.size(); ++i) {
+    assert_int_equal(bus.sent[i].id, 0x601 + i);
+    assert_int_equal(bus.sent_ns[i], static_cast<std::int64_t>(i) * kMs_ns);
+  }
   assert_int_equal(bus.scan.count(), 0);
   assert_true(bus.now_ns >= 1000 * kMs_ns && bus.now_ns <= 1002 * kMs_ns);
 }
@@ -177,6 +183,26 @@ void a_node_that_boots_while_others_are_asked_is_read_too(void**) {
                       "node 2: object 1000h:0: no answer within 100 ms (05040000h)");
 }
 
+void the_last_node_has_its_time_to_answer(void**) {
+  Bus& bus = fresh();
+  bus.nodes = {drive(127)};
+  bus.delay_ns = 90 * kMs_ns;
+  bus.run();
+  assert_true(bus.scan.report(127).answers);
+  assert_true(bus.scan.report(127).tpdos[1].valid());
+}
+
+void a_node_that_sends_pdos_is_known_by_them(void**) {
+  Bus& bus = fresh();
+  bus.nodes = {drive(2), drive(3)};
+  CanFrame feedback;
+  feedback.id = 0x282;
+  bus.heartbeats = {feedback};
+  bus.run();
+  assert_true(bus.scan.report(2).sends_pdos);
+  assert_false(bus.scan.report(3).sends_pdos);
+}
+
 void a_stopped_node_is_heard(void**) {
   Bus& bus = fresh();
   bus.heartbeats = {heartbeat(3, 0x04), heartbeat(4, 0x33)};
@@ -259,6 +285,8 @@ int main() {
       cmocka_unit_test(a_device_that_is_no_drive_is_not_asked_for_a_drives_objects),
       cmocka_unit_test(a_node_that_falls_silent_does_not_hide_the_next),
       cmocka_unit_test(a_node_that_boots_while_others_are_asked_is_read_too),
+      cmocka_unit_test(the_last_node_has_its_time_to_answer),
+      cmocka_unit_test(a_node_that_sends_pdos_is_known_by_them),
       cmocka_unit_test(a_stopped_node_is_heard),
       cmocka_unit_test(lists_longer_than_the_report_are_cut),
       cmocka_unit_test(a_missing_entry_ends_its_list_and_no_other),
