@@ -27,7 +27,10 @@ void held_joints_accelerate_as_told_and_the_others_keep_their_torque(void**) {
   std::array<bool, kDof> held{};
   held[0] = held[3] = held[5] = true;
   JointVector ddq, tau;
-  for (int i = 0; i < kDof; ++i) ddq[i] = 3.0 - i, tau[i] = 0.3 * i - 1.0;
+  for (int i = 0; i < kDof; ++i) {
+    ddq[i] = 3.0 - i;
+    tau[i] = 0.3 * i - 1.0;
+  }
   const JointVector torque = arm.torque_holding(held, ddq, tau);
   const JointVector before = arm.dq();
   constexpr double kStep_s = 1e-6;

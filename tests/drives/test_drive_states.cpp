@@ -25,11 +25,17 @@ void trip(DrivesBench& bench) {
 /// From a drive that has just booted.
 void bring(DrivesBench& bench, const char* words) {
   for (const char* at = words; *at != '\0'; ++at) {
-    if (*at == 'f') trip(bench), bench.run_ms(1);
+    if (*at == 'f') {
+      trip(bench);
+      bench.run_ms(1);
+    }
     if (*at == '6') control(bench, 0x0006);
     if (*at == '7') control(bench, 0x0007);
     if (*at == 'F') control(bench, 0x000F);
-    if (*at == 'q') bench.put(kNode, 0x605A, 0, 6, 2), control(bench, 0x0002);
+    if (*at == 'q') {
+      bench.put(kNode, 0x605A, 0, 6, 2);
+      control(bench, 0x0002);
+    }
   }
 }
 
