@@ -15,7 +15,7 @@ constexpr int kThreadWait_ms = 2, kLoopWait_ms = 100;
 }  // namespace
 
 bool TrajectoryFeed::start() {
-  if (!input_.longer()) return true;
+  if (!input_.given()) return true;
   const int error = start_ordinary_thread(thread_, run, this);
   if (error != 0)
     std::fprintf(stderr, "cannot start the thread that reads the trajectory: %s\n",

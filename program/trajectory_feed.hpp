@@ -1,6 +1,7 @@
 // TrajectoryFeed: sends the trajectory of a run and, of a file longer than the store, one part
 // after the other. In lock-step the loop feeds between two cycles. In real time a thread without
-// priority reads, judges and sends, so that no cycle waits for a file.
+// priority reads, judges and sends, so that no cycle waits for a file or for the admission of 20
+// 000 waypoints, which takes many periods.
 #pragma once
 
 #include <pthread.h>
@@ -19,7 +20,7 @@ class TrajectoryFeed {
   TrajectoryFeed(const TrajectoryFeed&) = delete;
   TrajectoryFeed& operator=(const TrajectoryFeed&) = delete;
 
-  /// Starts the thread if the file is longer than the store. Call it before the calling thread is
+  /// Starts the thread if there is a trajectory. Call it before the calling thread is
   /// bound to a CPU. False: prints the reason to stderr. [init]
   bool start();
   /// Sends the trajectory, or has the thread send it. False: refused; prints the reason to stderr.

@@ -3,4 +3,8 @@ ROBOT  := Fer
 SRCS   += boards/fer_can/board.cpp
 PARTS  := $(wildcard hal/cia402/*.cpp hal/can/*.cpp)
 
-TESTS  := $(filter tests/can/% tests/cia402/%,$(TESTS))
+# The pipelines that `make run` runs, with emulated drives on buses of a virtual machine.
+RUNS   += fer_jrg_pdgc_real
+RUNNER := scripts/beside_drives
+
+TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/%,$(TESTS))

@@ -28,7 +28,7 @@ struct FrameBits {
 constexpr FrameBits frame_bits(std::size_t size, bool fd) {
   if (!fd) {
     // 34 bits from the start to the checksum, with the data, are stuffed after five equal ones.
-    const int bits = 8 * static_cast<int>(size < kClassicData ? size : kClassicData);
+    const int bits = 8 * static_cast<int>(size);
     return {47 + bits, 0, (34 + bits - 1) / 4, 0};
   }
   const std::size_t padded = fd_size(size);

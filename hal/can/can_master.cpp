@@ -10,12 +10,9 @@ using cia402::hex;
 using cia402::Phase;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kLostHeartbeats = 3;  // after which a node is lost
-// A bus can delay a frame into the next cycle and, now and then, repeat one. More come from a
-// second node with the same identifier.
-constexpr int kMostFeedback = 2;  // frames of a node in a cycle
-constexpr int kMostSurplus = 10;  // frames of a node, more than cycles, in a window
-constexpr int kWindow = 100;      // cycles
+constexpr int kLostHeartbeats = 3;   // after which a node is lost
+constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
+constexpr int kMostSurplus = 10;     // cycles in a row with a frame of feedback too many
 
 }  // namespace
 
@@ -26,10 +23,10 @@ void CanMaster::connect(std::int64_t now_ns) {
   for (Outbox& outbox : out_) outbox.clear();
   for (Node& node : nodes_) {
     node.feedback = {};
-    node.frames = node.surplus = 0;
+    node.frames = 0;
     node.last_size = -1;
+    node.unanswered = node.surplus = 0;
   }
-  window_ = 0;
   startup_.begin(*can_, *drive_, layout_, mode_, period_us_, buses_, now_ns);
 }
 
@@ -95,9 +92,9 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
     for (Node& node : nodes_) node.heart.start(node.id(), limit_ns, now_ns_);
   }
   cia402::Feedbacks feedbacks;
-  window_ = (window_ + 1) % kWindow;
   for (std::size_t j = 0; j < kDof; ++j) {
     judge(nodes_[j]);
+    if (!first) count_feedback(nodes_[j]);
     nodes_[j].feedback.fresh = nodes_[j].frames > 0;
     feedbacks[j] = nodes_[j].feedback;
     nodes_[j].feedback.emergency = false;
@@ -124,9 +121,15 @@ void CanMaster::judge(Node& node) {
   const bool left = node.heart.known() && node.heart.state() != NmtState::kOperational;
   if (node.heart.boot_ups() > 0 || left) lost = Status::kConnectionLost;
   if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
-  node.surplus = window_ == 0 ? 0 : node.surplus + node.frames - 1;
-  if (node.frames > kMostFeedback || node.surplus > kMostSurplus)
-    conflict_ = kTpdoBase[0] + node.id();
+}
+
+/// A drive answers every SYNC once. Late answers come together; a bus may double one now and then.
+/// More than that has another sender.
+void CanMaster::count_feedback(Node& node) {
+  const int surplus = node.frames - node.unanswered;
+  node.surplus = surplus > 0 ? node.surplus + 1 : 0;
+  if (surplus > 1 || node.surplus > kMostSurplus) conflict_ = kTpdoBase[0] + node.id();
+  node.unanswered = surplus < 0 ? -surplus : 0;
 }
 
 /// While the brakes open, every drive is asked for the mode that it is in.
@@ -167,6 +170,8 @@ void CanMaster::write(const RobotCommand& command) {
   const int bus = nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
   if (sdo_.take(request)) outbox(bus).add(request);
   for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  for (Node& node : nodes_)
+    if (node.unanswered < kMostUnanswered) ++node.unanswered;
   sampled_ns_ = now_ns_;
 }
 

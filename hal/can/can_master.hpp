@@ -63,6 +63,7 @@ class CanMaster {
   void take_feedback(Node& node, const CanFrame& frame);
   void take_emergency(Node& node, const CanFrame& frame);
   void judge(Node& node);
+  void count_feedback(Node& node);
   void check_modes();
   void send_commands();
   void send_heartbeat();
@@ -87,7 +88,6 @@ class CanMaster {
   std::int64_t sampled_ns_ = 0;    // begin of the cycle that sent the last SYNC
   std::int64_t heartbeat_ns_ = 0;  // of our last heartbeat
   int since_refresh_ = 0;          // cycles since the controlwords were sent
-  int window_ = 0;                 // cycles in which surplus feedback is counted
   int checked_ = 0;                // joints whose display of the mode was checked in this arming
   bool asked_ = false;
   int conflict_ = -1;  // identifier that somebody else sent

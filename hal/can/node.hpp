@@ -19,7 +19,8 @@ struct Node {
   Slot slot;
   HeartbeatWatch heart;
   int frames = 0;      ///< of feedback since the last cycle
-  int surplus = 0;     ///< of feedback, more than cycles, in this window
+  int unanswered = 0;  ///< SYNCs whose feedback may still come
+  int surplus = 0;     ///< cycles in a row with more feedback than SYNCs
   int last_size = -1;  ///< bytes of the last feedback that had a wrong size; -1: none had
   cia402::DriveFeedback feedback;
 

@@ -211,11 +211,9 @@ void SdoClient::give_up(SdoAbort why, Cause cause) {
 Message SdoClient::describe() const {
   Message text;
   text << "node " << int{node_} << ": object " << cia402::hex(index_) << ":" << int{sub_} << ": ";
-  switch (progress_) {
-    case Progress::kIdle: return text << "no transfer", text;
-    case Progress::kBusy: return text << "under way", text;
-    case Progress::kDone: return text << "done", text;
-    case Progress::kAborted: break;
+  if (progress_ != Progress::kAborted) {
+    text << name(progress_);
+    return text;
   }
   const auto ms = [](std::int64_t time_ns) { return static_cast<int>(time_ns / kMillisecond_ns); };
   switch (cause_) {
@@ -225,7 +223,8 @@ Message SdoClient::describe() const {
     case Cause::kTime: text << "not complete within " << ms(times_.transfer_ns) << " ms"; break;
     case Cause::kValue: text << "the value to write is " << meaning(abort_); break;
   }
-  return text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")", text;
+  text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")";
+  return text;
 }
 
 }  // namespace tactus::can

@@ -16,6 +16,16 @@ namespace tactus::can {
 /// kDone and kAborted last until the next transfer begins.
 enum class Progress : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
+constexpr const char* name(Progress progress) {
+  switch (progress) {
+    case Progress::kIdle: return "no transfer";
+    case Progress::kBusy: return "under way";
+    case Progress::kDone: return "done";
+    case Progress::kAborted: return "aborted";
+  }
+  return nullptr;
+}
+
 struct SdoTimes {
   std::int64_t answer_ns = 500'000'000;      ///< for each answer
   std::int64_t transfer_ns = 5'000'000'000;  ///< for all answers of a transfer together

@@ -59,9 +59,11 @@ def kind(run):
 
 
 def kind_of(summary, path):
-    """Returns the same from a summary and the path of the pipeline file; an emulated controller is on this machine."""
+    """Returns the same from a summary and the path of the pipeline file; an emulated robot is on this machine."""
     if summary["board"].endswith("_sim"):
         return "simulated"
+    if (Settings(path).given("can", "interfaces") or "").startswith("vcan"):
+        return "emulated"
     address = Settings(path).given("ur", "address")
     try:
         return "emulated" if address and ipaddress.ip_address(address).is_loopback else "real"

@@ -84,7 +84,6 @@ void SdoServer::begin_download(const CanFrame& request, Context& context) {
   transfer_ = Transfer::kDownload;
   toggle_ = false;
   done_ = 0;
-  announced_ = size;
   context.answer.sent = true;
   context.answer.frame = answer_frame(context.node, can::kDownloaded, index_, sub_);
 }
@@ -116,13 +115,11 @@ void SdoServer::take_segment(const CanFrame& request, Context& context) {
   if (!follows(request, Transfer::kDownload, context)) return;
   const std::uint8_t command = request.data[0];
   const std::size_t size = can::kSegmentBytes - (command >> can::kSegmentUnusedShift & 7U);
-  if (done_ + size > bytes_.data.size() || (announced_ != 0 && done_ + size > announced_))
-    return abort(context, SdoAbort::kTooLong);
+  if (done_ + size > bytes_.data.size()) return abort(context, SdoAbort::kTooLong);
   std::memcpy(bytes_.data.data() + done_, request.data.data() + 1, size);
   done_ += size;
   if ((command & can::kLastSegment) != 0) {
     transfer_ = Transfer::kNone;
-    if (done_ < announced_) return abort(context, SdoAbort::kTooShort);
     finish_download(bytes_.data.data(), done_, context);
     if (!context.answer.written) return;
   }

@@ -1,4 +1,5 @@
 // How a CanSocket is opened and refused, and what error frames of the controller mean.
+#include <fcntl.h>
 #include <linux/can/error.h>
 
 #include <cstdio>
@@ -36,6 +37,7 @@ void the_state_of_the_controller_follows_its_reports(void**) {
   assert_true(after({CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING}).warning);
   assert_false(after({CAN_ERR_CRTL, CAN_ERR_CRTL_RX_WARNING}).error_passive);
   assert_true(after({CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE}).error_passive);
+  assert_true(g_pair->can.health().warning);
   assert_false(after({CAN_ERR_CRTL, CAN_ERR_CRTL_RX_WARNING}).error_passive);
   assert_true(g_pair->can.health().warning);
   assert_true(after({CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE}).error_passive);
@@ -122,6 +124,8 @@ void an_inherited_packet_socket_is_opened_by_its_number(void**) {
   std::snprintf(name, sizeof name, "fd:%d", ends[0]);
   constexpr CanFilter kOnly = {0x181, 0x7FF};
   ASSERT_OK(can.open(name, false, &kOnly, 1, why));
+  assert_true((fcntl(ends[0], F_GETFL) & O_NONBLOCK) != 0);
+  assert_true((fcntl(ends[0], F_GETFD) & FD_CLOEXEC) != 0);
   can_frame raw{};
   raw.can_id = 0x182;
   assert_int_equal(::send(ends[1], &raw, sizeof raw, 0), 16);

@@ -1,9 +1,7 @@
 // Frames through a CanSocket at one end of a packet socket pair.
-#include <fcntl.h>
-
 #include <array>
+#include <ctime>
 #include <memory>
-#include <string_view>
 
 #include "tests/can/can_pair.hpp"
 #include "tests/support/testing.hpp"
@@ -80,6 +78,20 @@ void bytes_beyond_the_data_are_zero(void**) {
   for (std::size_t i = 3; i < kMaxData; ++i) assert_int_equal(g_frames[0].data[i], 0);
 }
 
+std::int64_t real_time_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+void each_frame_has_the_stamp_of_the_kernel(void**) {
+  CanPair& pair = fresh();
+  const std::int64_t before_ns = real_time_ns();
+  assert_true(pair.put_frame(0x181, 8));
+  assert_int_equal(receive(pair), 1);
+  assert_true(g_frames[0].stamp_ns >= before_ns);
+  assert_true(g_frames[0].stamp_ns <= real_time_ns());
+}
+
 void a_remote_request_has_no_data(void**) {
   CanPair& pair = fresh();
   assert_true(pair.put_frame(0x701 | CAN_RTR_FLAG, 8));
@@ -147,8 +159,10 @@ void a_peer_that_closes_is_a_lost_link(void**) {
   assert_int_equal(receive(pair), 1);
   assert_true(pair.can.health().lost);
   assert_int_equal(pair.can.health().malformed, 0);
+  const int calls = pair.can.system_calls();
   const CanFrame frame = frame_of(0x201, 4);
   assert_int_equal(static_cast<int>(pair.can.send(&frame, 1)), static_cast<int>(Sent::kLost));
+  assert_int_equal(pair.can.system_calls(), calls);
 }
 
 void sending_to_a_closed_peer_loses_the_link(void**) {
@@ -187,6 +201,7 @@ int main() {
       cmocka_unit_test(data_of_a_long_frame_is_padded_to_a_length_that_exists),
       cmocka_unit_test(frames_come_in_order_with_their_data),
       cmocka_unit_test(bytes_beyond_the_data_are_zero),
+      cmocka_unit_test(each_frame_has_the_stamp_of_the_kernel),
       cmocka_unit_test(a_remote_request_has_no_data),
       cmocka_unit_test(frames_that_no_filter_names_are_not_received),
       cmocka_unit_test(a_burst_longer_than_a_batch_comes_in_two_calls),

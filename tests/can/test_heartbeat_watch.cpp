@@ -23,7 +23,8 @@ HeartbeatWatch watch_of(std::uint8_t node) {
 void each_heartbeat_tells_the_state(void**) {
   HeartbeatWatch watch = watch_of(5);
   assert_false(watch.known());
-  for (const std::uint8_t byte : {0x00, 0x7F, 0x05, 0x04}) {
+  constexpr std::uint8_t kStates[] = {0x00, 0x7F, 0x05, 0x04};
+  for (const std::uint8_t byte : kStates) {
     assert_true(watch.receive(message(0x705, byte), 1001 * kMs_ns));
     assert_true(watch.known());
     assert_int_equal(static_cast<std::uint8_t>(watch.state()), byte);
@@ -71,7 +72,8 @@ void a_state_that_does_not_exist_proves_nothing(void**) {
 
 void a_node_that_restarts_by_itself_shows_by_a_boot_up(void**) {
   HeartbeatWatch watch = watch_of(5);
-  for (const std::uint8_t byte : {0x00, 0x05, 0x00, 0x7F})
+  constexpr std::uint8_t kStates[] = {0x00, 0x05, 0x00, 0x7F};
+  for (const std::uint8_t byte : kStates)
     assert_true(watch.receive(message(0x705, byte), 1001 * kMs_ns));
   assert_int_equal(watch.boot_ups(), 2);
 }

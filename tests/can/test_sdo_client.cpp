@@ -52,7 +52,8 @@ void one_to_four_bytes_are_read_from_one_frame(void**) {
        {Row{"583 4F 41 60 00 11 22 33 44", 1, 0x11}, Row{"583 4B 41 60 00 11 22 33 44", 2, 0x2211},
         Row{"583 47 41 60 00 11 22 33 44", 3, 0x332211},
         Row{"583 43 41 60 00 11 22 33 44", 4, 0x44332211},
-        Row{"583 42 41 60 00 11 22 33 44", 4, 0x44332211}}) {
+        Row{"583 42 41 60 00 11 22 33 44", 4, 0x44332211},
+        Row{"583 4E 41 60 00 11 22 33 44", 4, 0x44332211}}) {
     SdoBench bench;
     bench.client.upload(3, 0x6041, 0, 0);
     bench.expect("603 40 41 60 00 00 00 00 00");
@@ -61,6 +62,17 @@ void one_to_four_bytes_are_read_from_one_frame(void**) {
     assert_int_equal(bench.client.size(), row.size);
     assert_int_equal(bench.client.value(), row.value);
   }
+}
+
+void bytes_of_an_earlier_object_are_forgotten(void**) {
+  SdoBench bench;
+  bench.client.upload(3, 0x6041, 0, 0);
+  bench.expect("603 40 41 60 00 00 00 00 00");
+  bench.answer("583 43 41 60 00 11 22 33 44");
+  bench.client.upload(3, 0x6061, 0, 0);
+  bench.expect("603 40 61 60 00 00 00 00 00");
+  bench.answer("583 4F 61 60 00 0A 00 00 00");
+  assert_int_equal(bench.client.value(), 10);
 }
 
 void a_text_is_read_in_segments(void**) {
@@ -178,6 +190,7 @@ int main() {
       cmocka_unit_test(writing_the_mode_is_the_known_trace),
       cmocka_unit_test(one_to_four_bytes_are_written_in_one_frame),
       cmocka_unit_test(one_to_four_bytes_are_read_from_one_frame),
+      cmocka_unit_test(bytes_of_an_earlier_object_are_forgotten),
       cmocka_unit_test(a_text_is_read_in_segments),
       cmocka_unit_test(a_text_is_read_without_its_size_too),
       cmocka_unit_test(more_than_four_bytes_are_written_in_segments),
