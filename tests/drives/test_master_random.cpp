@@ -108,7 +108,7 @@ class RandomRun {
     if (random_.below(1000) == 0) bench_.executive.stop();
     if (random_.below(20) == 0) {
       JointSpace::Point point;
-      point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.1, 0.1));
+      point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.02, 0.02));
       std::uint32_t id = 0;
       static_cast<void>(bench_.client.send(point, id));
     }
