@@ -75,6 +75,8 @@ KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 TESTS    := $(TESTS:%.cpp=$(B)/%)
+# These run together in a virtual machine that has CAN buses.
+VM_TESTS := $(filter $(B)/tests/vm/%,$(TESTS))
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
 # The drives on CAN at both ends, without sockets and arm: for benches and bounds.
@@ -95,6 +97,7 @@ run: setup                                    ## run what has changed; ONLY="run
 	$(Q)$(call each,-j2 all trajectories)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board
+	$(Q)scripts/setup vm
 	$(Q)$(call each,-j2 tests)
 	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
 test-long: setup                              ## run the long random tests at full count
@@ -132,7 +135,7 @@ each-board:
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-tests:
-	@echo $(TESTS)
+	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat)
 kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
 trajectories: build/trajectories/fer_excitation.csv
@@ -147,7 +150,7 @@ run-thread-tests: $(addprefix $(B)/tests/,core/test_mailbox core/test_histogram 
 tests: trajectories $(B)/$(NAME) $(TESTS)
 	@:
 run-tests: tests
-	$(Q)$(if $(TESTS),scripts/run_tests $(TESTS))
+	$(Q)$(if $(filter-out $(VM_TESTS),$(TESTS)),scripts/run_tests $(filter-out $(VM_TESTS),$(TESTS)))
 
 # Where flash is short it is compiled for size.
 $(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os

@@ -28,6 +28,7 @@ struct Board {
   bool real;              ///< it has no virtual time
   /// Hands the settings of a loaded file to the Hal.
   Status (*configure)(const Sections& sections, const Pipeline& pipeline, const Options& options);
+  int (*scan)(const Options& options) = nullptr;  ///< the verb `scan`, on a board with a bus
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -36,10 +37,12 @@ template <class Sections>
 int run_board(int argc, char** argv, const Board<Sections>& board) {
   Options options;
   int exit_code = kSucceeded;
-  if (!parse_options(argc, argv, board.name, options, exit_code)) return exit_code;
+  if (!parse_options(argc, argv, board.name, board.scan != nullptr, options, exit_code))
+    return exit_code;
   options.realtime = options.realtime || board.real;
   if (options.verb == Verb::kDoctor) return doctor(options);
   if (options.verb == Verb::kJitter) return jitter(options);
+  if (options.verb == Verb::kScan) return board.scan(options);
 
   static BoardMemory memory;
   static Sections sections;

@@ -2,6 +2,7 @@
 #include "boards/fer_can/can_sections.hpp"
 #include "hal/can/can_hal.hpp"
 #include "program/run_board.hpp"
+#include "program/scan/scan.hpp"
 
 namespace tactus {
 namespace {
@@ -20,5 +21,5 @@ Status configure(const CanSections& sections, const Pipeline& pipeline, const Op
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<CanSections>(argc, argv, {"fer_can", hal, sizeof hal, true, configure});
+  return run_board<CanSections>(argc, argv, {"fer_can", hal, sizeof hal, true, configure, scan});
 }

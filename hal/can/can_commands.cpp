@@ -4,8 +4,12 @@
 
 namespace tactus::can {
 
+/// On the way up or down the controlwords go out in every cycle: a frame that was lost must not let
+/// a drive wait.
 void CanMaster::send_commands() {
-  bool changed = ++since_refresh_ >= PdoLayout::kRefresh;
+  const cia402::Phase phase = drives_.phase();
+  const bool on_its_way = phase != cia402::Phase::kOff && phase != cia402::Phase::kArmed;
+  bool changed = ++since_refresh_ >= PdoLayout::kRefresh || on_its_way;
   for (std::size_t j = 0; j < kDof; ++j)
     changed = changed || commands_[j].controlword != sent_[j].controlword;
   const bool split = layout_.packed() && !layout_.fd();  // the controlwords have their own frame

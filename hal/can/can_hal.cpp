@@ -90,12 +90,15 @@ Status CanHal::judge_link(int bus) {
   return Status::kConnectionLost;
 }
 
+/// The master is told the time even if a bus has failed: it takes the drives on the others to a
+/// stop.
 Status CanHal::read(const CycleTime& now, RobotState& state) {
-  for (int bus = 0; bus < master_.buses() && fault_ == Status::kOk; ++bus) {
+  for (int bus = 0; bus < master_.buses(); ++bus) {
     receive(bus, now.stamp_ns);
-    fault_ = judge_link(bus);
+    if (fault_ == Status::kOk) fault_ = judge_link(bus);
   }
-  if (fault_ == Status::kOk) fault_ = master_.read(now, state);
+  const Status status = master_.read(now, state);
+  if (fault_ == Status::kOk) fault_ = status;
   return fault_;
 }
 

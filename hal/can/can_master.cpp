@@ -13,7 +13,7 @@ using cia402::Phase;
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kLostHeartbeats = 3;   // after which a node is lost
 constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
-constexpr int kMostSurplus = 3;      // cycles in a row with a frame of feedback too many
+constexpr int kMostSurplus = 10;     // cycles in a row with a frame of feedback too many
 
 }  // namespace
 

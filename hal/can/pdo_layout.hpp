@@ -6,7 +6,8 @@
 //   packed     all drives of a bus in common frames, in which each skips the others' bytes: with
 //   CAN
 //              FD (controlword, torque) of each; with classic CAN the torques in RPDO 2, and the
-//              controlwords in RPDO 1, which is sent when one changes and every kRefresh cycles
+//              controlwords in RPDO 1, which is sent when one changes, while drives are armed
+//              or stopped, and every kRefresh cycles
 #pragma once
 
 #include "hal/can/can_settings.hpp"

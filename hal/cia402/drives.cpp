@@ -166,10 +166,12 @@ void Drives::show(RobotState& state) const {
   }
 }
 
-/// A measured torque at the end of its numbers may be any larger one.
+/// A measured torque at the end of its numbers may be any larger one. In the cycle in which a fault
+/// is found the other drives are still enabled: only the one at fault is to be named.
 Drive Drives::drive_of(const Joint& joint) const {
   Drive drive;
   const bool saturated = joint.last.torque == kLargest || joint.last.torque == kSmallest;
+  const State shown = state_of(joint.last.statusword);
   drive.valid = joint.missed <= settings_->max_missed && !saturated;
   drive.code = joint.last.error_code;
   if (phase_ == Phase::kArmed) {
@@ -180,9 +182,11 @@ Drive Drives::drive_of(const Joint& joint) const {
     drive = {DriveState::kFault, drive.valid, joint.reason, joint.code};
   } else if (joint.missed > settings_->max_missed) {
     drive.state = DriveState::kUnknown;
-  } else if (state_of(joint.last.statusword) == State::kFault) {
+  } else if (shown == State::kFault) {
     drive.state = DriveState::kFault;
     drive.reason = Status::kDriveFault;
+  } else if (phase_ == Phase::kFailed && shown == State::kOperationEnabled) {
+    drive.state = DriveState::kEnabled;
   } else {
     const bool off = phase_ == Phase::kOff || joint.machine.reached();
     drive.state = off ? DriveState::kDisabled : DriveState::kStopping;

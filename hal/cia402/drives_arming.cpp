@@ -70,9 +70,12 @@ void Drives::judge_rise() {
   }
 }
 
+/// A drive that was lost cannot say that it has stopped; its own watchdogs stop it.
 bool Drives::all_reached() const {
-  for (const Joint& joint : joints_)
-    if (!joint.machine.reached()) return false;
+  for (const Joint& joint : joints_) {
+    const bool gone = phase_ == Phase::kStopping && joint.last.lost != Status::kOk;
+    if (!joint.machine.reached() && !gone) return false;
+  }
   return true;
 }
 
@@ -102,7 +105,8 @@ void Drives::enter(Phase phase, std::int64_t now_ns) {
   phase_ = phase;
   since_ns_ = now_ns;
   if (phase == Phase::kOff)
-    for (Joint& joint : joints_) joint.reason = Status::kOk;
+    for (Joint& joint : joints_)
+      if (joint.last.lost == Status::kOk) joint.reason = Status::kOk;
   if (phase != Phase::kEnabling) return;
   for (int j = 0; j < kDof; ++j) held_[j] = joints_[static_cast<std::size_t>(j)].q;
   hold_.start(held_);

@@ -83,11 +83,22 @@ void add_jitter_options(CLI::App& jitter, std::vector<std::string>& load, Option
       ->check(decimal(100, 100000, "a whole number from 100 to 100000"));
 }
 
+void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& options) {
+  scan.add_option("interfaces", buses, "the buses, can0 for example")
+      ->required()
+      ->expected(-1)
+      ->check(interface_name());
+  scan.add_option("--answer-ms", options.answer_ms,
+                  "longest time for an answer of a node, ms (default 100)")
+      ->check(decimal(1, 10000, "a whole number from 1 to 10000"));
+}
+
 }  // namespace
 
-bool parse_options(int argc, char** argv, const char* board, Options& options, int& exit_code) {
+bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
+                   int& exit_code) {
   std::string pipeline, trajectory, out, root, interface;
-  std::vector<std::string> load;
+  std::vector<std::string> load, buses;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
@@ -118,6 +129,11 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
   CLI::App* jitter = app.add_subcommand("jitter", "measure how late this host wakes a cycle");
   for (CLI::App* verb : {doctor, jitter}) add_host_options(*verb, options);
   add_jitter_options(*jitter, load, options);
+  CLI::App* scan = nullptr;
+  if (has_bus) {
+    scan = app.add_subcommand("scan", "list the nodes of CAN buses, without changing them");
+    add_scan_options(*scan, buses, options);
+  }
 
   try {
     app.parse(argc, argv);
@@ -126,7 +142,13 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
     return false;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr, "tactus: a verb is required: run, check, ports, doctor or jitter\n");
+    std::fprintf(stderr, "tactus: a verb is required: run, check, ports, doctor%s\n",
+                 has_bus ? ", jitter or scan" : " or jitter");
+    exit_code = kRefused;
+    return false;
+  }
+  if (buses.size() > Options::kMostBuses) {
+    std::fprintf(stderr, "tactus: %zu interfaces, at most %d\n", buses.size(), Options::kMostBuses);
     exit_code = kRefused;
     return false;
   }
@@ -140,11 +162,13 @@ bool parse_options(int argc, char** argv, const char* board, Options& options, i
     options.load.memory |= kind == "memory";
     options.load.disk |= kind == "disk";
   }
-  options.verb = *ports    ? Verb::kPorts
-                 : *check  ? Verb::kCheck
-                 : *doctor ? Verb::kDoctor
-                 : *jitter ? Verb::kJitter
-                           : Verb::kRun;
+  for (const std::string& bus : buses) copy(bus, options.buses[options.bus_count++]);
+  options.verb = has_bus && *scan ? Verb::kScan
+                 : *ports         ? Verb::kPorts
+                 : *check         ? Verb::kCheck
+                 : *doctor        ? Verb::kDoctor
+                 : *jitter        ? Verb::kJitter
+                                  : Verb::kRun;
   return true;
 }
 

@@ -6,7 +6,7 @@
 
 namespace tactus {
 
-enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter };
+enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter, kScan };
 
 /// Exit codes of every program.
 enum ExitCode : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2 };
@@ -26,17 +26,22 @@ struct Options {
   double duration_s = 0.0;    ///< 0: the default of the verb
   std::uint64_t seed = 1;
   bool figure = true;
-  bool realtime = false;    ///< cycles by the wall clock
-  char root[512] = "";      ///< of `doctor`: the folder that contains proc and sys
-  int cpu = -1;             ///< of `doctor` and `jitter`; -1: any
-  int priority = 80;        ///< of `doctor` and `jitter`
-  int period_us = 1000;     ///< of `jitter`
-  Load load;                ///< of `jitter`
+  bool realtime = false;  ///< cycles by the wall clock
+  char root[512] = "";    ///< of `doctor`: the folder that contains proc and sys
+  int cpu = -1;           ///< of `doctor` and `jitter`; -1: any
+  int priority = 80;      ///< of `doctor` and `jitter`
+  int period_us = 1000;   ///< of `jitter`
+  Load load;              ///< of `jitter`
+  static constexpr int kMostBuses = 8;
+  char buses[kMostBuses][16] = {};  ///< of `scan`: the interfaces
+  int bus_count = 0;                ///< of `scan`
+  int answer_ms = 100;              ///< of `scan`: longest time for an answer
   char interface[16] = "";  ///< of `doctor`: the network interface of the robot; empty: none
 };
 
 /// Reads the command line. False: the program must end with `exit_code`, because help was requested
-/// or an option is wrong.
-bool parse_options(int argc, char** argv, const char* board, Options& options, int& exit_code);
+/// or an option is wrong. `has_bus`: the board has the verb `scan`.
+bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
+                   int& exit_code);
 
 }  // namespace tactus

@@ -18,7 +18,10 @@ MODULES = {
     "controllers": ["kvaser_pci"],
     "results": ["virtio_pci", "virtio_console"],
 }
+FD = "fd"  # the group that scripts/vm/ctucanfd compiles
 LONGEST_DOWNLOAD_S = 600
+# As root, because apt's own user cannot write into the folder.
+HOW = ["-q", "-o", "Acquire::Retries=1", "-o", "APT::Sandbox::User=root"]
 
 
 class Missing(Exception):
@@ -57,20 +60,19 @@ def package():
             if found := re.search(r"Depends: (linux-image-\d[^ :\n]*)", depends):
                 return found[1]
         if not attempt and os.geteuid() == 0:
-            told("apt-get", "update", "-q")
+            told("apt-get", "update", *HOW)
     raise Missing(f"apt-cache knows no {NEWEST}; as root: apt-get update")
 
 
 def download(folder):
     """Downloads the package into the folder and returns its file."""
-    as_user = ("-o", "APT::Sandbox::User=root")  # else apt warns that its own user cannot write here
     try:
-        told("apt-get", *as_user, "download", package(), cwd=folder)
+        told("apt-get", "download", *HOW, package(), cwd=folder)
     except Missing:
         if os.geteuid():
             raise
-        told("apt-get", "update", "-q")  # an old kernel vanishes from the mirror once there is a newer one
-        told("apt-get", *as_user, "download", package(), cwd=folder)
+        told("apt-get", "update", *HOW)  # an old kernel vanishes from the mirror once there is a newer one
+        told("apt-get", "download", *HOW, package(), cwd=folder)
     return next(folder.glob("linux-image-*.deb"))
 
 

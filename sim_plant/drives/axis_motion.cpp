@@ -23,8 +23,7 @@ constexpr Slot kDisplay = slot_of(0x6061), kPosition = slot_of(0x6064), kWindow 
                kGearMotor = slot_of(0x6091, 1), kGearShaft = slot_of(0x6091, 2),
                kPositionOffset = slot_of(0x60B0), kVelocityOffset = slot_of(0x60B1),
                kTorqueOffset = slot_of(0x60B2), kError = slot_of(0x60F4),
-               kOutputs = slot_of(0x60FE, 1), kTargetVelocity = slot_of(0x60FF),
-               kStatus = slot_of(0x6041);
+               kOutputs = slot_of(0x60FE, 1), kTargetVelocity = slot_of(0x60FF);
 
 /// Rounds and keeps within the integers of `bits` bits.
 std::int64_t rounded(double value, int bits) {
@@ -155,7 +154,6 @@ void Axis::report(const JointSample& sample) {
   dictionary_.set(kCurrent, rounded(tau_Nm_ / permille_Nm(), 16));
   dictionary_.set(kDemand, rounded(demand_Nm_ / permille_Nm(), 16));
   dictionary_.set(kError, rounded(real(dictionary_.get(kTargetPosition) - position), 32));
-  dictionary_.set(kStatus, statusword());
   const std::int64_t outputs = dictionary_.get(kOutputs);
   dictionary_.set(kOutputs, brake_ ? outputs | 1 : outputs & ~std::int64_t{1});
 }

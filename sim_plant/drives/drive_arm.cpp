@@ -8,7 +8,7 @@ namespace {
 
 // The velocity loop of a drive takes 3 ms or less on the inertia that its joint has at least.
 constexpr double kServoGains[] = {400.0, 400.0, 200.0, 200.0, 40.0, 40.0, 25.0};
-// Above the limits that the FER's own controller keeps, by a fifth.
+// Above the top speed of the robot's data sheet, by a fifth.
 constexpr double kSpeedMargin = 1.2;
 constexpr double kRatedShare_mNm[] = {3000.0, 500.0};  // of strong and of light joints
 constexpr double kStrong_Nm = 30.0;

@@ -18,7 +18,7 @@ enum class FaultKind : std::uint8_t {
   kSwitchOnDisabled,  ///< drops into "switch on disabled"; once
   kWrongMode,         ///< 6061h shows `value`
   kBrakeStuck,        ///< the brake does not open: after 500 ms fault 7121h
-  kSdoAbort,          ///< requests for index `value` are aborted with 08000000h; 0: all requests
+  kSdoAbort,          ///< requests for index `value` are aborted with `abort`; 0: all requests
   kSdoSilence,        ///< requests for index `value` are not answered; 0: all requests
   kWrongIdentity,     ///< 1018h:2 reads `value`
   kWrongMapping,      ///< the first entry of every mapping reads `value`
@@ -41,6 +41,7 @@ struct Fault {
   std::int64_t until = std::numeric_limits<std::int64_t>::max();  ///< and before this one
   double probability = 1.0;                                       ///< at each occasion
   std::uint32_t value = 0;
+  std::uint32_t abort = 0x08000000;
 };
 
 /// The faults of one drive. The same seed gives the same faults.
@@ -58,6 +59,11 @@ class Faults {
     if (count_ == kMost) return false;
     faults_[count_++] = fault;
     return true;
+  }
+  /// Ends all faults. [any]
+  void clear() {
+    count_ = 0;
+    done_.fill(false);
   }
   /// Returns the fault of a kind that is active now, or null. Each call is an occasion. [any]
   const Fault* active(FaultKind kind, std::int64_t syncs) {

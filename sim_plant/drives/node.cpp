@@ -14,7 +14,9 @@ using can::NmtState;
 namespace {
 
 constexpr Slot kControlword = slot_of(0x6040), kSyncCob = slot_of(can::kSyncIdObject),
-               kHeartbeat = slot_of(can::kHeartbeatProducer);
+               kHeartbeat = slot_of(can::kHeartbeatProducer), kStatus = slot_of(0x6041),
+               kVelocityOffset = slot_of(0x60B1), kPeriodValue = slot_of(0x60C2, 1),
+               kPeriodIndex = slot_of(0x60C2, 2);
 
 }  // namespace
 
@@ -97,8 +99,8 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
   const Fault* refusal = faults_.active(FaultKind::kSdoAbort, syncs_);
   if (refusal != nullptr && (refusal->value == 0 || refusal->value == index)) {
     sdo_.reset();
-    return queue_->push(
-        SdoServer::abort_frame(settings_.node, index, frame.data[3], can::SdoAbort::kGeneral));
+    return queue_->push(SdoServer::abort_frame(settings_.node, index, frame.data[3],
+                                               static_cast<can::SdoAbort>(refusal->abort)));
   }
   device_.powered = axis_.powered();
   SdoAnswer answer;
@@ -109,28 +111,37 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
   }
   if (answer.sent) queue_->push(answer.frame);
-  if (answer.written) note_written(answer.index, now_ns);
+  if (answer.written) note_written(answer.index, answer.sub, now_ns);
 }
 
 /// Objects whose new value has an effect beyond being stored.
-void Node::note_written(std::uint16_t index, std::int64_t now_ns) {
+void Node::note_written(std::uint16_t index, std::uint8_t sub, std::int64_t now_ns) {
   if (index >= can::kRpdoCommunication && index < 0x1C00) load_pdos();
   if (index == can::kErrorHistory)
     for (std::uint8_t i = 1; i <= kErrorsKept; ++i)
       dictionary_.set(find(can::kErrorHistory, i).slot, 0);
-  if (index == can::kHeartbeatConsumer) watched_ = {};
+  if (index == can::kHeartbeatConsumer) watch_anew(sub);
   if (index == can::kHeartbeatProducer)
     heartbeat_ns_ = now_ns + dictionary_.get(kHeartbeat) * 1'000'000;
   if (index == 0x6060) axis_.follow_mode();
   if (index == 0x6040) apply_controlword();
-  dictionary_.set(slot_of(0x6041), axis_.statusword());
 }
 
 void Node::apply_controlword() {
   const bool gone = !errors_.present(kHeartbeatLost) && !errors_.present(kRpdoTimeout) &&
                     !errors_.present(kSyncMissing);
-  if (!axis_.command(static_cast<std::uint16_t>(dictionary_.get(kControlword)), gone)) return;
-  while (const std::uint16_t code = errors_.first_latched()) clear(code);
+  const auto word = static_cast<std::uint16_t>(dictionary_.get(kControlword));
+  if (axis_.command(word, gone))
+    while (const std::uint16_t code = errors_.first_latched()) clear(code);
+  show_state();
+}
+
+void Node::show_state() {
+  unsigned word = axis_.statusword();
+  const bool fault = axis_.state() == cia402::State::kFault ||
+                     axis_.state() == cia402::State::kFaultReactionActive;
+  if (errors_.any() && !fault) word |= cia402::kWarning;
+  dictionary_.set(kStatus, word);
 }
 
 void Node::send_heartbeat(std::int64_t now_ns) {
@@ -174,7 +185,7 @@ void Node::begin_period(const JointSample& sample, double period_s, std::int64_t
   bool mapped = false;  // the master's own feed-forward
   for (const Rpdo& rpdo : rpdos_)
     for (int i = 0; i < rpdo.settings.count && rpdo.settings.valid; ++i)
-      mapped = mapped || rpdo.settings.entries[static_cast<std::size_t>(i)].slot == slot_of(0x60B1);
+      mapped = mapped || rpdo.settings.entries[static_cast<std::size_t>(i)].slot == kVelocityOffset;
   axis_.stick_brake(faults_.active(FaultKind::kBrakeStuck, syncs_) != nullptr);
   const std::uint16_t code = axis_.begin_period(sample, period_s, !mapped);
   if (code != 0) raise(code, true);
@@ -183,6 +194,7 @@ void Node::begin_period(const JointSample& sample, double period_s, std::int64_t
 
 void Node::measure(const JointSample& sample) {
   axis_.report(sample);
+  show_state();
 }
 
 std::uint16_t Node::sync_id() const {
@@ -190,8 +202,8 @@ std::uint16_t Node::sync_id() const {
 }
 
 double Node::period_s() const {
-  const double value = static_cast<double>(dictionary_.get(slot_of(0x60C2, 1)));
-  const double exponent = static_cast<double>(dictionary_.get(slot_of(0x60C2, 2)));
+  const double value = static_cast<double>(dictionary_.get(kPeriodValue));
+  const double exponent = static_cast<double>(dictionary_.get(kPeriodIndex));
   return std::clamp(value * std::pow(10.0, exponent), 1e-4, 0.1);
 }
 

@@ -54,6 +54,7 @@ class Node {
   friend class Lies;
   struct Watched {
     std::int64_t deadline_ns = 0;  // 0: no heartbeat has come yet
+    bool lost = false;
   };
 
   // node.cpp
@@ -61,8 +62,9 @@ class Node {
   void take_nmt(const can::CanFrame& frame, std::int64_t now_ns);
   void enter(can::NmtState state, std::int64_t now_ns);
   void take_sdo(const can::CanFrame& frame, std::int64_t now_ns);
-  void note_written(std::uint16_t index, std::int64_t now_ns);
+  void note_written(std::uint16_t index, std::uint8_t sub, std::int64_t now_ns);
   void apply_controlword();
+  void show_state();
   void send_heartbeat(std::int64_t now_ns);
   void answer_remote(std::uint16_t id, std::int64_t now_ns);
 
@@ -72,6 +74,8 @@ class Node {
   void send(const can::Emergency& emergency);
   void lose_master();
   void take_heartbeat(const can::CanFrame& frame, std::int64_t now_ns);
+  void watch_anew(std::uint8_t entry);
+  void find_heartbeat_again(Watched& watched);
   void watch(std::int64_t now_ns);
   void inject(std::int64_t now_ns);
 

@@ -35,6 +35,7 @@ void Node::raise(std::uint16_t code, bool faults) {
     send(emergency);
   }
   if (faults) axis_.trip();
+  show_state();
 }
 
 void Node::clear(std::uint16_t code) {
@@ -42,11 +43,13 @@ void Node::clear(std::uint16_t code) {
   if (!errors_.clear(code, dictionary_, emergency)) return;
   dictionary_.set(kErrorCode, errors_.first());
   send(emergency);
+  show_state();
 }
 
 /// NMT has taken the drive from its master: reaction of 6007h.
 void Node::lose_master() {
   if (axis_.abort_connection()) raise(kCommunicationLost, true);
+  show_state();
 }
 
 void Node::take_heartbeat(const can::CanFrame& frame, std::int64_t now_ns) {
@@ -56,16 +59,32 @@ void Node::take_heartbeat(const can::CanFrame& frame, std::int64_t now_ns) {
     const std::int64_t entry = dictionary_.get(static_cast<Slot>(kConsumer + 1 + i));
     if ((entry >> 16 & 0x7F) != node || (entry & 0xFFFF) == 0) continue;
     watched_[i].deadline_ns = now_ns + (entry & 0xFFFF) * 1'000'000;
-    clear(kHeartbeatLost);
+    find_heartbeat_again(watched_[i]);
   }
+}
+
+/// An entry of 1016h has been written: it waits for its next heartbeat.
+void Node::watch_anew(std::uint8_t entry) {
+  Watched& watched = watched_[static_cast<std::size_t>(entry - 1)];
+  watched.deadline_ns = 0;
+  find_heartbeat_again(watched);
+}
+
+void Node::find_heartbeat_again(Watched& watched) {
+  watched.lost = false;
+  for (const Watched& each : watched_)
+    if (each.lost) return;
+  clear(kHeartbeatLost);
 }
 
 void Node::watch(std::int64_t now_ns) {
   for (Watched& watched : watched_) {
     if (watched.deadline_ns == 0 || now_ns < watched.deadline_ns) continue;
     watched.deadline_ns = 0;  // until the next heartbeat
+    watched.lost = true;
     raise(kHeartbeatLost, false);
     if (axis_.abort_connection()) axis_.trip();
+    show_state();
     const std::int64_t behaviour = dictionary_.get(kBehaviour);
     if (behaviour == 0 && operational()) enter(NmtState::kPreOperational, now_ns);
     if (behaviour == 2) enter(NmtState::kStopped, now_ns);

@@ -10,7 +10,6 @@ void PdoSettings::load(const Dictionary& dictionary, std::uint16_t communication
   };
   const bool receives = communication < can::kTpdoCommunication;
   const std::int64_t cob = read(communication, can::kPdoId);
-  valid = (cob & kInvalid) == 0;
   remote = !receives && (cob & kNoRemote) == 0;
   id = static_cast<std::uint16_t>(cob & 0x7FF);
   type = static_cast<std::uint8_t>(read(communication, can::kPdoType));
@@ -18,6 +17,7 @@ void PdoSettings::load(const Dictionary& dictionary, std::uint16_t communication
   inhibit_ns = read(communication, can::kPdoInhibitTime) * 100'000;
   event_ns = read(communication, can::kPdoEventTimer) * 1'000'000;
   count = static_cast<int>(read(mapping, 0));
+  valid = (cob & kInvalid) == 0 && count > 0;
   bytes = 0;
   const Slot first = find(mapping, 0).slot;
   for (int i = 0; i < count; ++i) {

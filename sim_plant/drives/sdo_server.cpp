@@ -84,7 +84,6 @@ void SdoServer::begin_download(const CanFrame& request, Context& context) {
   transfer_ = Transfer::kDownload;
   toggle_ = false;
   done_ = 0;
-  announced_ = size;
   context.answer.sent = true;
   context.answer.frame = answer_frame(context.node, can::kDownloaded, index_, sub_);
 }
@@ -103,7 +102,10 @@ void SdoServer::finish_download(const std::uint8_t* data, std::size_t size, Cont
 /// True if the segment belongs to the transfer; else aborts it.
 bool SdoServer::follows(const CanFrame& request, Transfer transfer, Context& context) {
   if (transfer_ != transfer) {
-    if (transfer_ == Transfer::kNone) index_ = 0, sub_ = 0;
+    if (transfer_ == Transfer::kNone) {
+      index_ = 0;
+      sub_ = 0;
+    }
     abort(context, SdoAbort::kCommand);
     return false;
   }
@@ -116,13 +118,11 @@ void SdoServer::take_segment(const CanFrame& request, Context& context) {
   if (!follows(request, Transfer::kDownload, context)) return;
   const std::uint8_t command = request.data[0];
   const std::size_t size = can::kSegmentBytes - (command >> can::kSegmentUnusedShift & 7U);
-  if (done_ + size > bytes_.data.size() || (announced_ != 0 && done_ + size > announced_))
-    return abort(context, SdoAbort::kTooLong);
+  if (done_ + size > bytes_.data.size()) return abort(context, SdoAbort::kTooLong);
   std::memcpy(bytes_.data.data() + done_, request.data.data() + 1, size);
   done_ += size;
   if ((command & can::kLastSegment) != 0) {
     transfer_ = Transfer::kNone;
-    if (done_ < announced_) return abort(context, SdoAbort::kTooShort);
     finish_download(bytes_.data.data(), done_, context);
     if (!context.answer.written) return;
   }

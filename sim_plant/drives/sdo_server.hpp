@@ -56,9 +56,8 @@ class SdoServer {
   std::uint8_t sub_ = 0;
   bool toggle_ = false;
   std::int64_t deadline_ns_ = 0;
-  ObjectBytes bytes_;          // of the transfer
-  std::size_t done_ = 0;       // bytes transferred
-  std::size_t announced_ = 0;  // size of a download; 0: not given
+  ObjectBytes bytes_;     // of the transfer
+  std::size_t done_ = 0;  // bytes transferred
 };
 
 }  // namespace tactus::drives

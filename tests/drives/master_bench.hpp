@@ -18,13 +18,14 @@
 namespace tactus::can {
 
 /// What a disturbed wire does to one frame on its way.
-enum class Wire : std::uint8_t { kCarries, kLoses, kDoubles, kDelays, kCuts };
+enum class Wire : std::uint8_t { kCarries, kLoses, kDoubles, kDelays, kCuts, kRewords };
 
 struct Disturbance {
   Wire wire = Wire::kCarries;
   bool to_drive = false;     ///< of commands, not of feedback
   std::uint16_t id = 0;      ///< of the frames
   int first = 0, last = -1;  ///< cycles after the first command, both included
+  std::uint16_t word = 0;    ///< kRewords: the first two bytes
 
   bool concerns(bool down, const CanFrame& frame, int cycle) const {
     return down == to_drive && frame.id == id && cycle >= first && cycle <= last;
@@ -55,6 +56,7 @@ class WiredHal final : public Hal {
   }
   Status connect(CommandMode) override {
     constexpr std::int64_t kStep_ns = 100'000, kMost_ns = 20'000'000'000;
+    disconnect();
     const std::int64_t began_ns = time_ns_;
     master.connect(0);
     Status status = Status::kArming;
@@ -66,24 +68,30 @@ class WiredHal final : public Hal {
     deliver();
     begin_ns_ = time_ns_ += period_ns;
     cycle = 0;
-    return status;
+    fault_ = down ? Status::kConnectionLost : status;
+    return fault_;
   }
   Status read(const CycleTime& now, RobotState& state) override {
-    if (down) return Status::kConnectionLost;
     time_ns_ = begin_ns_ + now.stamp_ns;
+    if (fault_ == Status::kOk && down) fault_ = Status::kConnectionLost;
     collect(now.stamp_ns);
-    return master.read(now, state);
+    const Status status = master.read(now, state);
+    if (fault_ == Status::kOk) fault_ = status;
+    return fault_;
   }
+  /// As CanHal: without a wire that works, the drives are still told to stop.
   Status write(const RobotCommand& command) override {
-    master.write(command);
-    if (down) return Status::kConnectionLost;
+    RobotCommand to_send = command;
+    if (fault_ != Status::kOk) to_send.request = DriveRequest::kDisable;
+    master.write(to_send);
     deliver();
     ++cycle;
-    return Status::kOk;
+    return fault_;
   }
   void disconnect() override {
     master.leave();
     deliver();
+    fault_ = Status::kNotStarted;
   }
   Message trouble() override { return master.trouble(); }
 
@@ -112,6 +120,7 @@ class WiredHal final : public Hal {
       outbox.clear();
       for (const CanFrame& frame : frames) {
         sent.push_back(frame);
+        if (down) continue;
         carry(frame, true, held_down_,
               [&](const CanFrame& f) { arm.receive(static_cast<std::size_t>(bus), f, time_ns_); });
       }
@@ -129,8 +138,9 @@ class WiredHal final : public Hal {
       for (const CanFrame& frame : late) master.receive(bus, frame, now_ns);
       CanFrame frame;
       while (arm.take(static_cast<std::size_t>(bus), frame))
-        carry(frame, false, held_up_[static_cast<std::size_t>(bus)],
-              [&](const CanFrame& f) { master.receive(bus, f, now_ns); });
+        if (!down)
+          carry(frame, false, held_up_[static_cast<std::size_t>(bus)],
+                [&](const CanFrame& f) { master.receive(bus, f, now_ns); });
     }
   }
   template <class Give>
@@ -142,12 +152,14 @@ class WiredHal final : public Hal {
       case Wire::kDelays: held.push_back(frame); return;
       case Wire::kDoubles: give(frame); break;
       case Wire::kCuts: cut.size = static_cast<std::uint8_t>(frame.size / 2); break;
+      case Wire::kRewords: can::store(cut.data, 0, disturbance.word); break;
       case Wire::kCarries: break;
     }
     give(cut);
   }
 
   std::int64_t time_ns_ = 0, begin_ns_ = 0;
+  Status fault_ = Status::kNotStarted;  // of the wire, until the next connect()
   std::vector<CanFrame> held_down_;
   std::array<std::vector<CanFrame>, kMaxBuses> held_up_;
 };

@@ -1,10 +1,17 @@
 # Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
-FUZZ_BUILD := BOARD=ur10_emulator $(SANITIZED)
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
-# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm replaces MuJoCo's.
+# The parsers of CAN are built for fer_can, all others for ur10_emulator.
+FUZZ_CAN   := $(filter fuzz_can_%,$(FUZZ))
+FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CAN),$(FUZZ)))
+# The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm
+# replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp) $(KERNEL) \
               tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
+ifeq ($(BOARD),fer_can)
+FUZZED     := $(wildcard hal/can/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp) $(KERNEL) \
+              tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
+endif
 
 .PHONY: fuzz fuzz-short fuzz-built
 fuzz: fuzz-built                              ## fuzz every parser for SECONDS each (default 600)
@@ -12,15 +19,16 @@ fuzz: fuzz-built                              ## fuzz every parser for SECONDS e
 fuzz-short: fuzz-built                        ## fuzz every parser briefly and reproducibly
 	$(Q)scripts/fuzz $(FUZZ)
 fuzz-built: wcet-setup
-	$(Q)$(MAKE) --no-print-directory -j2 $(FUZZ_BUILD) fuzz-targets
+	$(Q)for board in ur10_emulator fer_can; do \
+	  $(MAKE) --no-print-directory -j2 BOARD=$$board $(SANITIZED) fuzz-targets || exit 1; done
 
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
 CXXFLAGS += -fsanitize-ignorelist=tests/fuzz/eigen.ignore \
             -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
-fuzz-targets: $(addprefix $(B)/,$(FUZZ))
+fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
 $(O)/libfuzzed.a: $(call obj,$(FUZZED))
-$(addprefix $(B)/,$(FUZZ)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
+$(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^
 endif

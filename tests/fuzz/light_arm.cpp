@@ -10,6 +10,9 @@ JointVector g_q, g_dq;
 }  // namespace
 
 Arm::~Arm() = default;
+Status Arm::load(const PlantParams& params) {
+  return load(params, Scene());
+}
 Status Arm::load(const PlantParams& params, const Scene&) {
   g_q = params.initial_q;
   g_dq.setZero();
@@ -25,6 +28,16 @@ void Arm::step(const JointVector& tau, double dt_s) {
 }
 JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   return ddq;
+}
+JointVector Arm::gravity() {
+  return JointVector::Zero();
+}
+JointVector Arm::torque_holding(const std::array<bool, kDof>& held, const JointVector& ddq,
+                                const JointVector& tau) {
+  JointVector torque = tau;
+  for (int i = 0; i < kDof; ++i)
+    if (held[static_cast<std::size_t>(i)]) torque[i] = ddq[i];
+  return torque;
 }
 JointVector Arm::contact_torque() const {
   return JointVector::Zero();

@@ -1,0 +1,163 @@
+// What the tests of faults share: the layouts of the buses, the commands of a cycle as the frames
+// have them, what must hold in every cycle, and one fault from its beginning to the rearm.
+#pragma once
+
+#include "tests/drives/master_bench.hpp"
+
+namespace tactus::can {
+
+enum class Buses : std::uint8_t { kFdPacked, kFdPlain, kClassicPlain, kClassicPacked };
+
+/// One bus, two, three and two of them.
+inline void lay_out(MasterBench& bench, Buses buses) {
+  const bool fd = buses == Buses::kFdPacked || buses == Buses::kFdPlain;
+  const bool packed = buses == Buses::kFdPacked || buses == Buses::kClassicPacked;
+  bench.can.frames = fd ? Frames::kFd : Frames::kClassic;
+  bench.can.commands = packed ? Commands::kPacked : Commands::kPlain;
+  bench.can.load_share = 0.9;
+  if (buses == Buses::kClassicPlain) {
+    bench.can.interfaces = Value("vcan0 vcan1 vcan2");
+    bench.can.bus << 1, 1, 1, 2, 2, 3, 3;
+  }
+  if (buses == Buses::kClassicPacked || buses == Buses::kFdPlain) {
+    bench.can.interfaces = Value("vcan0 vcan1");
+    bench.can.bus << 1, 1, 1, 1, 2, 2, 2;
+  }
+}
+
+/// The command of joint `j`, from 0, in the frames of a cycle, by the layouts of the bus.
+struct CommandSeen {
+  bool has_word = false, has_torque = false;
+  std::uint16_t word = 0;
+  std::int16_t torque = 0;
+};
+inline CommandSeen command_seen(const MasterBench& bench, int j) {
+  const bool fd = bench.can.frames == Frames::kFd, plain = bench.can.commands == Commands::kPlain;
+  const int first = plain ? j : fd || j < 4 ? 0 : 4;  // joint, with node j + 1
+  const auto place = static_cast<std::size_t>(j - first);
+  CommandSeen seen;
+  for (const CanFrame& frame : bench.hal.sent) {
+    const bool split = !fd && !plain;
+    if (frame.id == 0x201 + first) {
+      seen.has_word = true;
+      seen.has_torque = seen.has_torque || !split;
+      seen.word = can::load<std::uint16_t>(frame.data, split ? 2 * place : 4 * place);
+      if (!split) seen.torque = can::load<std::int16_t>(frame.data, 4 * place + 2);
+    }
+    if (split && frame.id == 0x301 + first) {
+      seen.has_torque = true;
+      seen.torque = can::load<std::int16_t>(frame.data, 2 * place);
+    }
+  }
+  return seen;
+}
+
+/// Identifier of the frame with the torque of joint `j`, or with its controlword.
+inline std::uint16_t command_id(const MasterBench& bench, int j, bool word = false) {
+  const bool fd = bench.can.frames == Frames::kFd;
+  if (bench.can.commands == Commands::kPlain) return static_cast<std::uint16_t>(0x201 + j);
+  if (fd) return 0x201;
+  return static_cast<std::uint16_t>((word ? 0x201 : 0x301) + (j < 4 ? 0 : 4));
+}
+
+/// Whether the frames of this cycle enable a drive or make it exert a torque.
+inline bool enables(const MasterBench& bench) {
+  constexpr std::uint16_t kEnableBit = 0x0008;
+  bool any = false;
+  for (int j = 0; j < kDof; ++j) any = any || (command_seen(bench, j).word & kEnableBit) != 0;
+  return any;
+}
+inline bool pushes(const MasterBench& bench) {
+  bool any = false;
+  if (bench.pipeline.robot.mode() != CommandMode::kEffort) return false;  // the drives' own matter
+  for (int j = 0; j < kDof; ++j) any = any || command_seen(bench, j).torque != 0;
+  return any;
+}
+/// Whether a drive exerts a torque, by its own account and not by what it tells.
+inline bool powered(MasterBench& bench) {
+  bool any = false;
+  for (int j = 0; j < kDof; ++j) any = any || bench.hal.arm.node(j).axis().powered();
+  return any;
+}
+
+/// Ends what disturbs wire and drives.
+inline void heal(MasterBench& bench) {
+  bench.hal.disturbance = {};
+  bench.hal.down = false;
+  for (int j = 0; j < kDof; ++j) bench.hal.arm.node(j).faults().clear();
+}
+
+/// Disturbs the frames with identifier `id` in the next `count` cycles.
+inline void disturb(MasterBench& bench, Wire wire, bool to_drive, int id, int count) {
+  const int now = bench.hal.cycle;
+  bench.hal.disturbance = {wire, to_drive, static_cast<std::uint16_t>(id), now, now + count - 1};
+}
+inline void inject(MasterBench& bench, int joint, drives::FaultKind kind, std::uint32_t value = 0) {
+  drives::Fault fault;
+  fault.kind = kind;
+  fault.value = value;
+  assert_true(bench.hal.arm.node(joint).faults().add(fault));
+}
+inline CanFrame foreign(int id, std::initializer_list<int> bytes) {
+  CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(id);
+  for (const int byte : bytes) frame.data[frame.size++] = static_cast<std::uint8_t>(byte);
+  return frame;
+}
+
+/// What must hold after every cycle.
+class SafetyWatch {
+ public:
+  explicit SafetyWatch(MasterBench& bench) : bench_(bench) {}
+
+  /// Runs a cycle and judges it: frames that enable or push only while the drives are armed or
+  /// follow, finite values, and no joint faster than its limit.
+  Status cycle() {
+    const Rung before = bench_.executive.rung();
+    const Status status = bench_.cycle();
+    const Rung after = bench_.executive.rung();
+    // A brake that ends, and an arming that takes too long, are found after the frames were sent.
+    Event last;
+    const EventLog& events = bench_.executive.events();
+    const bool late = before != Rung::kDisabled && after == Rung::kDisabled &&
+                      events.read(events.count() - 1, last) &&
+                      (last.cause == Cause::kAtRest || last.cause == Cause::kStopTime ||
+                       last.cause == Cause::kArmTime);
+    if (after == Rung::kDisabled && !late) {
+      assert_false(enables(bench_));
+      assert_false(pushes(bench_));
+    }
+    const JointVector q = bench_.hal.arm.arm().q(), dq = bench_.hal.arm.arm().dq();
+    assert_true(q.allFinite() && dq.allFinite());
+    for (int j = 0; j < kDof; ++j) {
+      const double share = std::abs(dq[j]) / limits_.dq_max[j];
+      if (share > fastest_) fastest_ = share;
+      assert_true(share <= 1.0);
+    }
+    off_ = powered(bench_) ? off_ : 0;
+    if (after == Rung::kDisabled && powered(bench_)) ++off_;
+    if (off_ > longest_off_) longest_off_ = off_;
+    return status;
+  }
+  /// Cycles on "disabled" until no drive had power, at most until now.
+  int longest_off() const { return longest_off_; }
+  /// The fastest joint until now, as a share of its limit.
+  double fastest() const { return fastest_; }
+
+ private:
+  MasterBench& bench_;
+  JointLimits limits_;
+  int off_ = 0, longest_off_ = 0;
+  double fastest_ = 0.0;
+};
+
+/// A bench of its own for a run; the last one is deleted, so that a failed test leaves nothing.
+inline MasterBench& fresh_bench(Buses buses = Buses::kFdPacked) {
+  static MasterBench* bench = nullptr;
+  delete bench;
+  bench = new MasterBench;
+  lay_out(*bench, buses);
+  return *bench;
+}
+
+}  // namespace tactus::can

@@ -1,0 +1,209 @@
+// Faults while connecting: the start-up is refused with the node and the object, never wrongly
+// accepted, and the next start() succeeds once the cause has gone.
+#include <string_view>
+
+#include "hal/can/node_setup.hpp"
+#include "hal/cia402/hex.hpp"
+#include "tests/drives/fault_bench.hpp"
+
+namespace tactus::can {
+namespace {
+
+using drives::FaultKind;
+constexpr int kJoints[] = {0, 3, 6};
+constexpr std::uint32_t kNoObject = 0x06020000, kGeneralError = 0x08000000;
+
+bool says(const MasterBench& bench, const char* part) {
+  const Message message = bench.hal.master.trouble();
+  const std::string_view text = message;
+  if (text.find(part) != std::string_view::npos) return true;
+  print_error("'%s' is not in: %s\n", part, message.c_str());
+  return false;
+}
+
+/// What is written and read at the start-up of a drive.
+NodeSetup steps_of(const MasterBench& bench, int joint) {
+  const PdoLayout layout(CommandMode::kEffort, bench.can.frames, bench.can.commands);
+  Slot slot;
+  slot.index = joint;
+  slot.count = kDof;
+  slot.node = static_cast<std::uint8_t>(joint + 1);
+  NodeSetup setup;
+  setup.begin(bench.can, bench.drive, layout, slot, joint, CommandMode::kEffort, 1000);
+  return setup;
+}
+
+void refuse_object(MasterBench& bench, int joint, FaultKind kind, std::uint32_t index,
+                   std::uint32_t abort) {
+  drives::Fault fault;
+  fault.kind = kind;
+  fault.value = index;
+  fault.abort = abort;
+  assert_true(bench.hal.arm.node(joint).faults().add(fault));
+}
+
+void assert_refused(MasterBench& bench, int joint, Status expected) {
+  ASSERT_STATUS(bench.executive.start(), expected);
+  const Text<15> node = Text<15>("(node ") << joint + 1 << ")";
+  assert_true(says(bench, node.c_str()));
+  for (const CanFrame& frame : bench.hal.log)
+    if (frame.id == 0x201) assert_int_equal(load<std::uint16_t>(frame.data, 0) & 0x0008, 0);
+  assert_false(powered(bench));
+  heal(bench);
+}
+
+void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
+  MasterBench& bench = fresh_bench();
+  bench.hal.logs = true;
+  ASSERT_OK(bench.load());
+  for (const int joint : kJoints) {
+    const NodeSetup setup = steps_of(bench, joint);
+    std::uint32_t last = 0;
+    for (int i = 0; i < setup.count(); ++i) {
+      const std::uint32_t index = setup.step(i).index;
+      if (index == last) continue;
+      last = index;
+      bench.hal.log.clear();
+      refuse_object(bench, joint, FaultKind::kSdoAbort, index, kGeneralError);
+      assert_refused(bench, joint, Status::kRefusedByRobot);
+      assert_true(says(bench, cia402::hex(index).c_str()));
+    }
+  }
+  ASSERT_OK(bench.start());
+}
+
+void a_drive_that_answers_no_request_is_a_time_out(void**) {
+  MasterBench& bench = fresh_bench();
+  bench.hal.logs = true;
+  ASSERT_OK(bench.load());
+  for (const int joint : kJoints) {
+    const NodeSetup setup = steps_of(bench, joint);
+    std::uint32_t last = 0;
+    for (int i = 0; i < setup.count(); ++i) {
+      const std::uint32_t index = setup.step(i).index;
+      if (index == last) continue;
+      last = index;
+      bench.hal.log.clear();
+      refuse_object(bench, joint, FaultKind::kSdoSilence, index, 0);
+      assert_refused(bench, joint, Status::kBusTimeout);
+      assert_true(says(bench, cia402::hex(index).c_str()));
+    }
+  }
+  ASSERT_OK(bench.start());
+}
+
+// Those that only add a time-out or a reaction: what a drive does without them is its own.
+void objects_that_a_drive_need_not_have_may_be_absent(void**) {
+  constexpr std::uint32_t kOptional[] = {0x1016, 0x6007, 0x605A, 0x605E, 0x1005, 0x1006,
+                                         0x60C2, 0x1401, 0x1402, 0x1403, 0x1801, 0x1802};
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  for (const std::uint32_t index : kOptional)
+    refuse_object(bench, 2, FaultKind::kSdoAbort, index, kNoObject);
+  ASSERT_OK(bench.start());
+  ASSERT_OK(bench.cycles(100));
+}
+
+void objects_that_a_drive_must_have_may_not_be_absent(void**) {
+  constexpr std::uint32_t kNeeded[] = {0x1000, 0x6502, 0x6076, 0x608F, 0x1017, 0x1400,
+                                       0x1600, 0x1800, 0x1A00, 0x6060, 0x6061};
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  for (const std::uint32_t index : kNeeded) {
+    refuse_object(bench, 2, FaultKind::kSdoAbort, index, kNoObject);
+    assert_refused(bench, 2, Status::kRefusedByRobot);
+  }
+}
+
+struct Lie {
+  FaultKind kind;
+  std::uint32_t value;
+  const char* says;
+};
+
+void a_drive_that_is_not_the_one_of_the_settings_is_refused(void**) {
+  constexpr Lie kLies[] = {{FaultKind::kWrongIdentity, 403, "product (1018h:2) is 403"},
+                           {FaultKind::kWrongMapping, 0x60770010, "mapped object"},
+                           {FaultKind::kWrongMode, 8, "6061h:0) is 8"}};
+  for (const Lie& lie : kLies)
+    for (const int joint : kJoints) {
+      MasterBench& bench = fresh_bench();
+      bench.can.product = 402;
+      ASSERT_OK(bench.load());
+      inject(bench, joint, lie.kind, lie.value);
+      assert_refused(bench, joint, Status::kRefusedByRobot);
+      assert_true(says(bench, lie.says));
+      ASSERT_OK(bench.start());
+    }
+}
+
+// Another number of the rated torque would be a torque that is wrong by its factor.
+void a_scaling_that_differs_from_the_settings_is_refused(void**) {
+  MasterBench& bench = fresh_bench();
+  bench.drive.rated_torque[4] = 0.501;
+  ASSERT_OK(bench.load());
+  assert_refused(bench, 4, Status::kRefusedByRobot);
+  assert_true(says(bench, "rated torque in mN m (6076h:0) is 500, expected 501"));
+}
+
+void a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out(void**) {
+  for (const int joint : kJoints) {
+    MasterBench& bench = fresh_bench();
+    ASSERT_OK(bench.load());
+    const int ids[] = {0x701 + joint, 0x181 + joint};
+    const char* const kSays[] = {"no boot-up message", "no steady feedback"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      disturb(bench, Wire::kLoses, false, ids[i], 1 << 30);
+      assert_refused(bench, joint, Status::kBusTimeout);
+      assert_true(says(bench, kSays[i]));
+    }
+    inject(bench, joint, FaultKind::kStopHeartbeat);
+    assert_refused(bench, joint, Status::kBusTimeout);
+    assert_true(says(bench, "no heartbeat"));
+    ASSERT_OK(bench.start());
+  }
+}
+
+// A drive that restarts has lost what was written to it.
+void a_drive_that_restarts_between_connecting_and_arming_is_not_armed(void**) {
+  for (const int joint : kJoints) {
+    MasterBench& bench = fresh_bench();
+    ASSERT_OK(bench.load());
+    ASSERT_OK(bench.executive.start());
+    bench.now_ns = -bench.hal.period_ns;
+    inject(bench, joint, FaultKind::kReboot);
+    (void)bench.cycles(1);
+    for (int i = 0; i < 50; ++i) (void)bench.cycle();
+    ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
+    assert_true(says(bench, "connect again"));
+    ASSERT_OK(bench.start());
+  }
+}
+
+void a_bus_that_is_down_is_refused_until_it_is_up(void**) {
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  bench.hal.down = true;
+  ASSERT_STATUS(bench.executive.start(), Status::kConnectionLost);
+  heal(bench);
+  ASSERT_OK(bench.start());
+}
+
+}  // namespace
+}  // namespace tactus::can
+
+int main() {
+  using namespace tactus::can;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(an_abort_of_any_step_refuses_the_start_and_names_the_object),
+      cmocka_unit_test(a_drive_that_answers_no_request_is_a_time_out),
+      cmocka_unit_test(objects_that_a_drive_need_not_have_may_be_absent),
+      cmocka_unit_test(objects_that_a_drive_must_have_may_not_be_absent),
+      cmocka_unit_test(a_drive_that_is_not_the_one_of_the_settings_is_refused),
+      cmocka_unit_test(a_scaling_that_differs_from_the_settings_is_refused),
+      cmocka_unit_test(a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out),
+      cmocka_unit_test(a_drive_that_restarts_between_connecting_and_arming_is_not_armed),
+      cmocka_unit_test(a_bus_that_is_down_is_refused_until_it_is_up),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
