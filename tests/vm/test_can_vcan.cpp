@@ -5,8 +5,8 @@
 #include <ctime>
 #include <memory>
 
-#include "tests/vm/can_bus.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/vm/can_bus.hpp"
 
 namespace tactus::can {
 namespace {
