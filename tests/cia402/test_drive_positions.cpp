@@ -4,6 +4,7 @@
 namespace tactus::cia402 {
 namespace {
 
+// Proves CAN-2.
 void a_position_outside_the_range_is_refused_with_its_joint(void**) {
   ArmOfDrives arm;
   arm.feedbacks[3].position = 16777216;  // a turn, where the joint has -3.07 to -0.07 rad

@@ -10,6 +10,7 @@ bool any_torque(const ArmOfDrives& arm) {
   return false;
 }
 
+// Proves CAN-3.
 void no_drive_is_enabled_before_all_are_switched_on(void**) {
   ArmOfDrives arm;
   arm.fake(3).stays = true;

@@ -44,6 +44,7 @@ void costs_two_system_calls_per_bus_and_no_heap(int buses) {
   assert_int_equal(heap_calls, 0);
   assert_int_equal(bench.hal.system_calls() - before, 2 * buses * kCycles);
 }
+// Proves CAN-15.
 void a_cycle_on_one_fd_bus_takes_two_system_calls_and_no_heap(void**) {
   costs_two_system_calls_per_bus_and_no_heap(1);
 }

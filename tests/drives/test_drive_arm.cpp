@@ -13,6 +13,7 @@ Arm& falling() {
   return arm;
 }
 
+// Proves DRV-5.
 void gravity_is_what_holds_the_arm_and_changes_nothing(void**) {
   Arm& arm = falling();
   const JointVector q = arm.q(), dq = arm.dq();

@@ -30,6 +30,7 @@ bool parse(const char* const (&words)[N], DrivesOptions& options) {
   return good;
 }
 
+// Proves DRV-7.
 void buses_and_nodes_are_read(void**) {
   DrivesOptions options;
   const char* const words[] = {"fer_drives", "--bus", "vcan0:1,2,3",  "--bus",

@@ -42,6 +42,7 @@ void bring(DrivesBench& bench, const char* words) {
 constexpr unsigned kDisabled = 0x0250, kReady = 0x0231, kOn = 0x0233, kEnabled = 0x0237,
                    kQuick = 0x0217, kFaulty = 0x0218;
 
+// Proves DRV-2.
 void every_state_has_its_statusword(void**) {
   struct Row {
     const char* way;

@@ -87,6 +87,7 @@ double bound(const cia402::Cia402Settings& drive, int j) {
   return 0.5 * step_Nm / kStiffness_Nm_rad[j] + 6.2832 / drive.increments[j];
 }
 
+// Proves CAN-14.
 void the_bus_changes_a_motion_by_no_more_than_it_rounds(void**) {
   static Log bus, process;
   static MasterBench settings;

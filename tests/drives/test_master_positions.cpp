@@ -72,6 +72,7 @@ double moved_by_takeover(const char* pipeline, Buses buses) {
   return worst;
 }
 
+// Proves CAN-13.
 // A torque beside the target begins at zero and reaches the weight of the arm within 20 ms, which
 // the loops of the drives have carried until then and give up more slowly; a loop of velocities
 // does not go back.

@@ -132,6 +132,7 @@ class RandomRun {
   Account& account_;
 };
 
+// Proves CAN-12.
 void no_fault_leads_to_a_command_that_is_not_allowed(void**) {
   const auto runs = static_cast<int>(number("TACTUS_TRIALS", 100));
   const std::uint64_t seed = number("TACTUS_SEED", 20270101);

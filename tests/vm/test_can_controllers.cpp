@@ -30,6 +30,7 @@ CanBus& fresh() {
   return *g_bus;
 }
 
+// Proves CAN-8.
 void frames_of_a_batch_reach_the_other_controller_in_order(void**) {
   CanBus& bus = fresh();
   assert_int_equal(static_cast<int>(bus.can.send(g_batch.data(), CanSocket::kBatch)), 0);
