@@ -79,6 +79,11 @@ TESTS    := $(TESTS:%.cpp=$(B)/%)
 VM_TESTS := $(filter $(B)/tests/vm/%,$(TESTS))
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
+# The drives on CAN at both ends, without sockets and arm: for benches and bounds.
+CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp \
+               node_setup.cpp pdo_layout.cpp sdo_client.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
+               $(filter-out %/drive_arm.cpp %/drive_arm_motion.cpp,$(wildcard sim_plant/drives/*.cpp))
+CAN_LINK  := $(addprefix hal/can/,can_socket.cpp can_socket_open.cpp link_health.cpp)
 PCH      := $(O)/precompiled.hpp
 QUICK    := $(filter-out $(SEAMS),$(ORACLES) $(TESTS:$(B)/%=%.cpp))
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
@@ -92,6 +97,7 @@ run: setup                                    ## run what has changed; ONLY="run
 	$(Q)$(call each,-j2 all trajectories)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board
+	$(Q)scripts/setup vm
 	$(Q)$(call each,-j2 tests)
 	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
 test-long: setup                              ## run the long random tests at full count
@@ -174,7 +180,7 @@ $(TESTS): | build/libfcl_oracle.so
 $(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
-$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp)) $(O)/libkernel.a
+$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
 $(O)/%.o: %.cpp Makefile | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch
@@ -190,6 +196,7 @@ include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
+include tests/wcet/can/can.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

@@ -1,5 +1,6 @@
 // CanMaster: the frames that it sends in a cycle.
 #include "hal/can/can_master.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::can {
 
@@ -12,7 +13,9 @@ void CanMaster::send_commands() {
   for (std::size_t j = 0; j < kDof; ++j)
     changed = changed || commands_[j].controlword != sent_[j].controlword;
   const bool split = layout_.packed() && !layout_.fd();  // the controlwords have their own frame
+  LoopBound<2> frames;
   for (int number = 1; number <= layout_.command_frames(); ++number) {
+    frames.tick();
     if (split && number == 1 && !changed) continue;
     std::array<CanFrame, kMaxBuses> common;
     for (std::size_t j = 0; j < kDof; ++j) {
@@ -36,7 +39,12 @@ void CanMaster::send_heartbeat() {
   if (now_ns_ - heartbeat_ns_ < can_->heartbeat_ms * kMillisecond_ns) return;
   heartbeat_ns_ = now_ns_;
   const auto node = static_cast<std::uint8_t>(can_->master_node);
-  for (int i = 0; i < buses_; ++i) outbox(i).add(heartbeat_frame(node, NmtState::kOperational));
+  const CanFrame heartbeat = heartbeat_frame(node, NmtState::kOperational);
+  LoopBound<4> buses;
+  for (int i = 0; i < buses_; ++i) {
+    buses.tick();
+    outbox(i).add(heartbeat);
+  }
 }
 
 }  // namespace tactus::can

@@ -2,6 +2,7 @@
 #include "hal/can/can_master.hpp"
 
 #include "hal/cia402/hex.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::can {
 namespace {
@@ -12,7 +13,7 @@ using cia402::Phase;
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kLostHeartbeats = 3;   // after which a node is lost
 constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
-constexpr int kMostSurplus = 3;      // cycles in a row with a frame of feedback too many
+constexpr int kMostSurplus = 10;     // cycles in a row with a frame of feedback too many
 
 }  // namespace
 
@@ -44,30 +45,36 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   return Status::kOk;
 }
 
-/// True for an identifier that only a master sends.
-bool CanMaster::is_ours(int bus, std::uint16_t id) const {
+/// The drive whose number is in an identifier, null if there is none on the bus.
+Node* CanMaster::drive_of(int bus, std::uint16_t id) {
+  Node* found = nullptr;
+  for (Node& node : nodes_)
+    if (node.bus == bus && node.id() == (id & kMaxNode)) found = &node;
+  return found;
+}
+
+/// Identifiers that only a master sends: `node` is the drive whose number is in it.
+bool CanMaster::is_ours(const Node* node, std::uint16_t id) const {
   if (id == kNmtId || id == kSyncId || id == kHeartbeatBase + can_->master_node) return true;
-  for (const Node& node : nodes_)
-    for (int number = 1; number <= layout_.command_frames() && node.bus == bus; ++number)
-      if (id == layout_.frame_id(number, node.slot)) return true;
-  return false;
+  return node != nullptr && layout_.is_command(id, node->slot);
 }
 
 void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
-  if (is_ours(bus, frame.id)) conflict_ = frame.id;
-  for (Node& node : nodes_) {
-    if (node.bus != bus || frame.remote) continue;
-    if (frame.id == kTpdoBase[0] + node.id()) take_feedback(node, frame);
-    if (frame.id == kEmcyBase + node.id()) take_emergency(node, frame);
-    node.heart.receive(frame, now_ns);
-    if (frame.id == kSdoAnswerBase + node.id()) sdo_.receive(frame, now_ns);
+  Node* const node = drive_of(bus, frame.id);
+  if (is_ours(node, frame.id)) conflict_ = frame.id;
+  if (node == nullptr || frame.remote) return;
+  switch (frame.id - node->id()) {
+    case kTpdoBase[0]: return take_feedback(*node, frame);
+    case kEmcyBase: return take_emergency(*node, frame);
+    case kHeartbeatBase: node->heart.receive(frame, now_ns); return;
+    case kSdoAnswerBase: return sdo_.receive(frame, now_ns);
+    default: return;
   }
 }
 
 /// Feedback of another size was sent by somebody else, or by a drive that lost its mapping.
 void CanMaster::take_feedback(Node& node, const CanFrame& frame) {
-  const std::size_t size = layout_.feedback(node.slot).size;
-  if (frame.size != size || frame.fd != layout_.fd()) {
+  if (frame.size != layout_.feedback_size() || frame.fd != layout_.fd()) {
     node.last_size = frame.size;
     return;
   }
@@ -92,7 +99,9 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
     for (Node& node : nodes_) node.heart.start(node.id(), limit_ns, now_ns_);
   }
   cia402::Feedbacks feedbacks;
+  LoopBound<kDof> nodes;
   for (std::size_t j = 0; j < kDof; ++j) {
+    nodes.tick();
     judge(nodes_[j]);
     if (!first) count_feedback(nodes_[j]);
     nodes_[j].feedback.fresh = nodes_[j].frames > 0;
@@ -105,12 +114,17 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
   drives_.watch(feedbacks, sampled_ns_);
   check_modes();
   drives_.show(state);
-  if (conflict_ < 0) return Status::kOk;
-  why_ = Message("identifier ");
-  why_ << hex(static_cast<std::uint32_t>(conflict_))
+  return conflict_ < 0 ? Status::kOk : Status::kBusConflict;
+}
+
+Message CanMaster::trouble() const {
+  if (!why_.empty()) return why_;
+  if (conflict_ < 0) return drives_.why();
+  Message text("identifier ");
+  text << hex(static_cast<std::uint32_t>(conflict_))
        << " was sent by somebody else on the bus; there must be one master, and every node its own"
           " number";
-  return Status::kBusConflict;
+  return text;
 }
 
 /// A node that was restarted, left "operational" or is silent has lost its settings or will not
@@ -149,13 +163,14 @@ void CanMaster::check_modes() {
   }
   sdo_.advance(now_ns_);
   if (sdo_.progress() == Progress::kBusy) return;
-  const auto mode = static_cast<std::int8_t>(sdo_.value());
-  Message what("display of the mode of operation (6061h) is ");
-  what << static_cast<int>(mode) << ", expected " << static_cast<int>(mode_of(mode_));
+  const auto mode = static_cast<cia402::Mode>(sdo_.value());
+  constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
   if (sdo_.progress() == Progress::kAborted)
-    drives_.fail(checked_, Status::kBusTimeout, 0, sdo_.describe());
-  else if (mode != static_cast<std::int8_t>(mode_of(mode_)))
-    drives_.fail(checked_, Status::kDriveFault, 0, what);
+    drives_.fail(checked_, Status::kBusTimeout, 0, kWhat,
+                 "cannot be read: ", meaning(sdo_.abort()));
+  else if (mode != mode_of(mode_))
+    drives_.fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
+                 name(mode));
   ++checked_;
   asked_ = false;
 }
@@ -169,7 +184,11 @@ void CanMaster::write(const RobotCommand& command) {
   CanFrame request;
   const int bus = nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
   if (sdo_.take(request)) outbox(bus).add(request);
-  for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  LoopBound<4> buses;
+  for (int i = 0; i < buses_; ++i) {
+    buses.tick();
+    outbox(i).add(sync_frame());
+  }
   for (Node& node : nodes_)
     if (node.unanswered < kMostUnanswered) ++node.unanswered;
   sampled_ns_ = now_ns_;

@@ -50,7 +50,7 @@ class CanMaster {
 
   Message& why() { return why_; }
   /// The last Status in words. [between two cycles]
-  Message trouble() const { return why_.empty() ? drives_.why() : why_; }
+  Message trouble() const;
   cia402::Phase phase() const { return drives_.phase(); }
   /// Time on a bus that the frames of a cycle take at most, us. [init]
   double load_us(int bus) const { return load_us_[static_cast<std::size_t>(bus)]; }
@@ -59,7 +59,8 @@ class CanMaster {
   Status read_interfaces();
   Status place_joints();
   Status judge_load();
-  bool is_ours(int bus, std::uint16_t id) const;
+  Node* drive_of(int bus, std::uint16_t id);
+  bool is_ours(const Node* node, std::uint16_t id) const;
   void take_feedback(Node& node, const CanFrame& frame);
   void take_emergency(Node& node, const CanFrame& frame);
   void judge(Node& node);

@@ -123,7 +123,8 @@ Status CanSocket::bind_to(const char* interface, bool fd, Message& why) {
 
 Status CanSocket::inherit(const char* interface, bool fd, const CanFilter* filters, int count,
                           Message& why) {
-  const std::string_view digits = std::string_view(interface).substr(kInherited.size());
+  std::string_view digits = interface;
+  digits.remove_prefix(kInherited.size());
   int descriptor = -1;
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), descriptor);

@@ -1,5 +1,7 @@
 #include "hal/can/pdo_layout.hpp"
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus::can {
 namespace {
 
@@ -98,7 +100,9 @@ void PdoLayout::encode(int number, const Slot& slot, const DriveCommand& command
                        CanFrame& frame) const {
   const Objects& objects = own(number);
   std::size_t at = packed() ? objects.size * static_cast<std::size_t>(slot.index) : 0;
+  LoopBound<4> each;
   for (int i = 0; i < objects.count; ++i) {
+    each.tick();
     const Object& object = objects.list[static_cast<std::size_t>(i)];
     const std::uint32_t value = value_of(object, command);
     if (object.bytes == 2)

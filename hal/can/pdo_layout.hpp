@@ -58,6 +58,8 @@ class PdoLayout {
   int capacity() const;
 
   Pdo feedback(const Slot& slot) const;
+  /// Bytes of a feedback frame. [cyclic]
+  std::size_t feedback_size() const { return feedback_.size; }
   /// Fills in the RPDOs of a drive; returns their number. [init]
   int commands(const Slot& slot, std::array<Pdo, kMaxCommands>& pdos) const;
 
@@ -71,6 +73,11 @@ class PdoLayout {
   std::size_t frame_size(int number, const Slot& slot) const;
   /// Identifier of the frame. [cyclic]
   std::uint16_t frame_id(int number, const Slot& slot) const;
+  /// True if a frame with this identifier commands the drive. [cyclic]
+  bool is_command(std::uint16_t id, const Slot& slot) const {
+    static_assert(kMaxCommands == 2);
+    return id == frame_id(1, slot) || (command_frames() == 2 && id == frame_id(2, slot));
+  }
 
  private:
   static constexpr int kMaxObjects = 4;

@@ -5,6 +5,7 @@
 
 #include "hal/can/protocol_canopen.hpp"
 #include "hal/cia402/hex.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::can {
 namespace {
@@ -128,7 +129,11 @@ void SdoClient::send_segment() {
   request.data[0] = static_cast<std::uint8_t>(kDownloadSegment | (toggle_ ? kToggleBit : 0) |
                                               unused(kSegmentBytes, bytes, kSegmentUnusedShift) |
                                               (sent_ + bytes == size_ ? kLastSegment : 0));
-  for (std::size_t i = 0; i < bytes; ++i) request.data[1 + i] = data_[sent_ + i];
+  LoopBound<7> segment;
+  for (std::size_t i = 0; i < bytes; ++i) {
+    segment.tick();
+    request.data[1 + i] = data_[sent_ + i];
+  }
   sent_ += bytes;
   phase_ = Phase::kWriteSegment;
   ask(request);
@@ -149,7 +154,11 @@ void SdoClient::take_uploaded(const CanFrame& answer) {
   if ((answer.data[0] & kExpedited) != 0) {
     const std::size_t rest = size_known_ ? answer.data[0] >> kUnusedShift & 3U : 0;
     size_ = kExpeditedBytes - rest;
-    for (std::size_t i = 0; i < size_; ++i) data_[i] = answer.data[kDataAt + i];
+    LoopBound<4> expedited;
+    for (std::size_t i = 0; i < size_; ++i) {
+      expedited.tick();
+      data_[i] = answer.data[kDataAt + i];
+    }
     return finish();
   }
   announced_ = size_known_ ? load<std::uint32_t>(answer.data, kDataAt) : 0;
@@ -173,7 +182,11 @@ void SdoClient::take_segment_uploaded(const CanFrame& answer) {
   const std::size_t bytes = kSegmentBytes - (answer.data[0] >> kSegmentUnusedShift & 7U);
   if (size_known_ && size_ + bytes > announced_) return give_up(SdoAbort::kTooLong);
   if (size_ + bytes > kCapacity) return give_up(SdoAbort::kOutOfMemory);
-  for (std::size_t i = 0; i < bytes; ++i) data_[size_ + i] = answer.data[1 + i];
+  LoopBound<7> segment;
+  for (std::size_t i = 0; i < bytes; ++i) {
+    segment.tick();
+    data_[size_ + i] = answer.data[1 + i];
+  }
   size_ += bytes;
   if ((answer.data[0] & kLastSegment) == 0) return ask_for_segment();
   if (size_known_ && size_ < announced_) return give_up(SdoAbort::kTooShort);

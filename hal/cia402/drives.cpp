@@ -5,6 +5,7 @@
 
 #include "hal/cia402/hex.hpp"
 #include "hal/cia402/protocol_errors.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::cia402 {
 namespace {
@@ -57,7 +58,7 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
 Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
   mode_ = mode;
   phase_ = Phase::kOff;
-  why_ = {};
+  failure_ = {};
   for (int j = 0; j < kDof; ++j) TRY(attach_joint(j, feedbacks[static_cast<std::size_t>(j)], why));
   return Status::kOk;
 }
@@ -84,14 +85,16 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   const Range range = {limits.q_min[j], limits.q_max[j]};
   if (range.contains(joint.q)) return Status::kOk;
   why = joint_text(j);
-  why << ": its drive counts " << feedback.position << " increments, which is " << joint.q
-      << " rad, outside of " << range.lo << " to " << range.hi
+  why << ": its drive counts " << static_cast<int>(feedback.position) << " increments, which is "
+      << joint.q << " rad, outside of " << range.lo << " to " << range.hi
       << " rad; reference the drive, or correct [cia402] position_offset, direction or increments";
   return Status::kNotReferenced;
 }
 
 void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
+  LoopBound<kDof> joints;
   for (int j = 0; j < kDof; ++j) {
+    joints.tick();
     measure(joints_[static_cast<std::size_t>(j)], feedbacks[static_cast<std::size_t>(j)],
             sampled_ns);
     judge(j);
@@ -130,21 +133,30 @@ void Drives::judge(int j) {
 }
 
 /// The first fault is the one that is explained.
-void Drives::fail(int joint, Status reason, std::uint32_t code, std::string_view what) {
+void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what,
+                  const char* detail, const char* rest) {
   Joint& failed = joints_[static_cast<std::size_t>(joint)];
   if (failed.reason != Status::kOk) return;
   failed.reason = reason;
   failed.code = code;
   if (phase_ == Phase::kFailed) return;
   phase_ = Phase::kFailed;
-  why_ = joint_text(joint);
-  why_ << ": " << what;
-  if (code != 0) why_ << " (error code " << hex(code) << ")";
+  failure_ = {joint, code, what, detail, rest};
+}
+
+Message Drives::why() const {
+  if (failure_.joint < 0) return {};
+  Message text = joint_text(failure_.joint);
+  text << ": " << failure_.what << failure_.detail << failure_.rest;
+  if (failure_.code != 0) text << " (error code " << hex(failure_.code) << ")";
+  return text;
 }
 
 void Drives::show(RobotState& state) const {
   state.stamp_ns = joints_[0].stamp_ns;
+  LoopBound<kDof> joints;
   for (int j = 0; j < kDof; ++j) {
+    joints.tick();
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     state.q[j] = joint.q;
     state.dq[j] = joint.dq;

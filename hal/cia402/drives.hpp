@@ -40,13 +40,15 @@ class Drives {
   void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
   /// Takes every drive a step towards what is requested. [cyclic]
   void step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns);
-  /// Fails the joint, from 0, as a fault of its drive does. [cyclic]
-  void fail(int joint, Status reason, std::uint32_t code, std::string_view what);
+  /// Fails the joint, from 0, as a fault of its drive does. The texts are constants; why() puts
+  /// them together. [cyclic]
+  void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
+            const char* rest = "");
 
   void show(RobotState& state) const;
   Phase phase() const { return phase_; }
   /// The last fault in words, with its joint. [between two cycles]
-  const Message& why() const { return why_; }
+  Message why() const;
 
  private:
   struct Joint {
@@ -66,6 +68,13 @@ class Drives {
       return static_cast<std::int32_t>(static_cast<std::uint32_t>(units.position(at)) -
                                        static_cast<std::uint32_t>(turn));
     }
+  };
+
+  /// What why() says. A cycle writes no text: this takes longer than all its other work.
+  struct Failure {
+    int joint = -1;  // -1: nothing has failed
+    std::uint32_t code = 0;
+    const char *what = "", *detail = "", *rest = "";
   };
 
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
@@ -96,7 +105,7 @@ class Drives {
   std::array<Joint, kDof> joints_;
   HoldEffort hold_;
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
-  Message why_;
+  Failure failure_;
 };
 
 }  // namespace tactus::cia402

@@ -1,6 +1,7 @@
 // Drives: how the drives are armed, commanded and stopped.
 #include "hal/cia402/drives.hpp"
 #include "hal/cia402/protocol_errors.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::cia402 {
 
@@ -24,7 +25,7 @@ void Drives::take(DriveRequest request) {
     if (phase_ != Phase::kOff) phase_ = Phase::kStopping;
   } else if (phase_ == Phase::kOff) {
     phase_ = Phase::kSwitchingOn;
-    why_ = {};
+    failure_ = {};
     for (Joint& joint : joints_) joint.reason = Status::kOk;
     for (int j = 0; j < kDof; ++j)
       if (!ready(j)) return;
@@ -60,13 +61,12 @@ Goal Drives::goal() const {
 void Drives::judge_rise() {
   for (int j = 0; j < kDof && rising(); ++j) {
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
-    const char* state = name(joint.machine.state());
     if (joint.machine.faulted())
       fail(j, Status::kDriveFault, joint.last.error_code,
-           Message("went to fault while it was armed: ") << error_text(joint.last.error_code));
+           "went to fault while it was armed: ", error_text(joint.last.error_code));
     else if (joint.machine.late())
-      fail(j, Status::kDriveFault, joint.last.error_code,
-           Message("stays in '") << state << "' for longer than [cia402] step_ms or reset_ms");
+      fail(j, Status::kDriveFault, joint.last.error_code, "stays in '", name(joint.machine.state()),
+           "' for longer than [cia402] step_ms or reset_ms");
   }
 }
 
@@ -134,7 +134,9 @@ void Drives::set_target(const RobotCommand& command, bool follow, DriveCommands&
   }
   if (!holds || follow) held_ = q;
   const JointVector tau = holds ? effort(command, follow, q, dq) : JointVector(JointVector::Zero());
+  LoopBound<kDof> joints;
   for (int j = 0; j < kDof; ++j) {
+    joints.tick();
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     DriveCommand to;
     to.controlword = out[static_cast<std::size_t>(j)].controlword;

@@ -84,6 +84,21 @@ enum class Mode : std::int8_t {
   kCyclicTorque = 10,
 };
 
+/// Returns the name of a mode, never null. [any]
+constexpr const char* name(Mode mode) {
+  switch (mode) {
+    case Mode::kNone: return "none";
+    case Mode::kProfilePosition: return "profile position";
+    case Mode::kProfileVelocity: return "profile velocity";
+    case Mode::kProfileTorque: return "profile torque";
+    case Mode::kHoming: return "homing";
+    case Mode::kCyclicPosition: return "cyclic synchronous position";
+    case Mode::kCyclicVelocity: return "cyclic synchronous velocity";
+    case Mode::kCyclicTorque: return "cyclic synchronous torque";
+  }
+  return "a mode that the standard does not have here";
+}
+
 constexpr bool supports(std::uint32_t supported_modes, Mode mode) {
   const int bit = static_cast<int>(mode) - 1;
   return bit >= 0 && bit < 32 && (supported_modes >> bit & 1U) != 0;

@@ -7,7 +7,7 @@ import shutil
 import stat
 import subprocess
 
-from vm.kernel import MODULES, Missing
+from vm.kernel import Missing
 
 HOME = "/tactus"  # the project in the guest: a fixed place, so that every checkout gives the same bytes
 INIT = pathlib.Path(__file__).with_name("init")
@@ -105,7 +105,7 @@ def build(project, kernel, script, files, groups):
     image.link("bin/sh", "/" + image.place(found("dash")))
     for tool in TOOLS:
         image.copy(found(tool))
-    for group in [group for group in MODULES if group in groups]:
+    for group in groups:
         for module in sorted((kernel / group).iterdir()):
             image.put(f"modules/{group}/{module.name}", module.read_bytes())
     for path in files + [project / name for name in DATA if (project / name).is_dir()]:

@@ -18,6 +18,7 @@ MODULES = {
     "controllers": ["kvaser_pci"],
     "results": ["virtio_pci", "virtio_console"],
 }
+FD = "fd"  # the group that scripts/vm/ctucanfd compiles
 LONGEST_DOWNLOAD_S = 600
 # As root, because apt's own user cannot write into the folder.
 HOW = ["-q", "-o", "Acquire::Retries=1", "-o", "APT::Sandbox::User=root"]

@@ -30,7 +30,7 @@ class Broken(Exception):
         self.code = code
 
 
-def arguments(kernel, folder, buses):
+def arguments(kernel, folder, buses, fd):
     """Returns QEMU's command line; files instead of pipes, since a full pipe would stop the guest for a while."""
     line = [found("qemu-system-x86_64"), "-accel", "tcg", "-cpu", "qemu64", "-smp", "1", "-m", str(MEMORY_MB)]
     line += ["-icount", "shift=0,sleep=off", "-rtc", "base=2020-01-01,clock=vm", "-seed", "1"]
@@ -42,7 +42,10 @@ def arguments(kernel, folder, buses):
     line += ["-device", "virtserialport,chardev=results"]
     for bus in range(buses):
         line += ["-object", f"can-bus,id=bus{bus}"]
-        line += ["-device", f"kvaser_pci,canbus=bus{bus}"] * 2
+        if fd:
+            line += ["-device", f"ctucan_pci,canbus0=bus{bus},canbus1=bus{bus}"]
+        else:
+            line += ["-device", f"kvaser_pci,canbus=bus{bus}"] * 2
     return line
 
 
@@ -53,12 +56,12 @@ def passed_on(file):
         sys.stdout.buffer.flush()
 
 
-def run(kernel, folder, buses, longest_s):
+def run(kernel, folder, buses, fd, longest_s):
     """Runs the image in the folder, passes its output on, and returns the exit code of its command and two times."""
     output, console = folder / "output", folder / "console"
     output.touch()
     with open(folder / "qemu", "wb") as said, open(output, "rb") as shown:
-        line = arguments(kernel, folder, buses)
+        line = arguments(kernel, folder, buses, fd)
         qemu = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
         deadline = time.monotonic() + longest_s
         try:

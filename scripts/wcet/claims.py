@@ -8,8 +8,8 @@ ROOT = r"^tactus::Executive::cycle\("  # nothing is claimed outside of it
 FLOW = ("calls", "reaches")
 
 
-def of(analysis):
-    """Returns the claims of an analysis, for JSON."""
+def of(analysis, root=ROOT):
+    """Returns the claims of an analysis of `root`, for JSON."""
     functions = {graph.function.begin: graph.function.written for graph in analysis.graphs.values()}
     sites = {
         address: [callee.begin for callee in analysis.callees(graph, address)]
@@ -21,7 +21,7 @@ def of(analysis):
     functions |= {begin: called[begin].written for begin in assumed}
     matching = lambda pattern: [begin for begin, name in functions.items() if re.search(pattern, name)]
     return {
-        "root": matching(ROOT),
+        "root": matching(root),
         "functions": functions,
         "loops": [
             _loop(analysis, begin, group, often) for begin, found in analysis.loop_claims.items() for group, often in found

@@ -26,7 +26,10 @@ void Node::load_pdos() {
 
 void Node::begin_operation(std::int64_t now_ns) {
   sync_deadline_ns_ = 0;
-  for (Rpdo& rpdo : rpdos_) rpdo.fresh = false, rpdo.deadline_ns = 0;
+  for (Rpdo& rpdo : rpdos_) {
+    rpdo.fresh = false;
+    rpdo.deadline_ns = 0;
+  }
   for (Tpdo& tpdo : tpdos_) {
     tpdo.sent_once = false;
     tpdo.counting = tpdo.settings.start == 0;

@@ -102,7 +102,10 @@ void SdoServer::finish_download(const std::uint8_t* data, std::size_t size, Cont
 /// True if the segment belongs to the transfer; else aborts it.
 bool SdoServer::follows(const CanFrame& request, Transfer transfer, Context& context) {
   if (transfer_ != transfer) {
-    if (transfer_ == Transfer::kNone) index_ = 0, sub_ = 0;
+    if (transfer_ == Transfer::kNone) {
+      index_ = 0;
+      sub_ = 0;
+    }
     abort(context, SdoAbort::kCommand);
     return false;
   }

@@ -18,6 +18,7 @@ void assert_cell(const WireTime& time, const Cell& cell) {
   ASSERT_NEAR(time.worst_us, cell.worst, 0.5001);
 }
 
+// Proves CAN-5.
 void single_frames_last_as_long_as_in_the_table(void**) {
   struct Row {
     std::size_t size;

@@ -20,6 +20,7 @@ int receive(CanPair& pair) {
   return pair.can.receive(g_frames.data(), static_cast<int>(g_frames.size()));
 }
 
+// Proves CAN-6.
 void frames_with_29_bits_are_counted_and_dropped(void**) {
   CanPair& pair = fresh(false);
   assert_true(pair.put_frame(0x181 | CAN_EFF_FLAG, 8));

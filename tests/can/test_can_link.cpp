@@ -32,6 +32,7 @@ const LinkHealth& after(const Report& report) {
   return g_pair->can.health();
 }
 
+// Proves CAN-6.
 void the_state_of_the_controller_follows_its_reports(void**) {
   g_pair = std::make_unique<CanPair>();
   assert_true(after({CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING}).warning);

@@ -29,6 +29,7 @@ CanFrame frame_of(std::uint16_t id, std::uint8_t size, bool fd = false) {
   return frame;
 }
 
+// Proves CAN-6.
 void a_classic_frame_is_the_16_bytes_of_linux(void**) {
   const CanPair& pair = fresh();
   const CanFrame frame = frame_of(0x201, 4);

@@ -20,6 +20,7 @@ HeartbeatWatch watch_of(std::uint8_t node) {
   return watch;
 }
 
+// Proves CAN-7.
 void each_heartbeat_tells_the_state(void**) {
   HeartbeatWatch watch = watch_of(5);
   assert_false(watch.known());

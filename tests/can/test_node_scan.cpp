@@ -81,6 +81,7 @@ FakeNode drive(int number) {
   return node;
 }
 
+// Proves CAN-16.
 void every_node_is_asked_once_a_millisecond(void**) {
   Bus& bus = fresh();
   bus.run();

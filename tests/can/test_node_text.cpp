@@ -45,6 +45,7 @@ NodeReport drive() {
   return report;
 }
 
+// Proves CAN-16.
 void a_drive_is_printed_line_by_line(void**) {
   assert_printed(
       3, drive(),

@@ -6,6 +6,7 @@
 namespace tactus::can {
 namespace {
 
+// Proves CAN-4.
 void an_abort_of_the_node_is_named_with_its_object(void**) {
   SdoBench bench;
   bench.client.download(3, 0x6060, 0, 99, 1, 0);

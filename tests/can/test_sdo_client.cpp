@@ -6,6 +6,7 @@
 namespace tactus::can {
 namespace {
 
+// Proves CAN-4.
 // A trace of other implementations: master and slave of python-canopen.
 void reading_the_device_type_is_the_known_trace(void**) {
   SdoBench bench;

@@ -25,6 +25,7 @@ int stuff(const WireBits& wire) {
   return wire.stuff(0, wire.count);
 }
 
+// Proves CAN-5.
 /// The oracle's checksum is the one of the catalogue of CRCs, "CRC-15/CAN".
 void the_checksum_is_that_of_can(void**) {
   WireBits wire;

@@ -19,6 +19,7 @@ DriveMachine machine() {
   return fresh;
 }
 
+// Proves CAN-1.
 /// Words as drives send them, and the states that they show.
 void every_statusword_of_the_standard_is_its_state(void**) {
   struct Row {

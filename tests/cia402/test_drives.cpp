@@ -10,6 +10,7 @@ bool any_torque(const ArmOfDrives& arm) {
   return false;
 }
 
+// Proves CAN-3.
 void no_drive_is_enabled_before_all_are_switched_on(void**) {
   ArmOfDrives arm;
   arm.fake(3).stays = true;
@@ -124,28 +125,6 @@ void the_age_of_the_state_is_that_of_the_oldest_joint(void**) {
   assert_true(arm.state.stamp_ns == heard_ns);
 }
 
-/// Without a velocity from the drive, also over cycles without feedback.
-void positions_are_differentiated_over_the_time_between_them(void**) {
-  ArmOfDrives arm;
-  Feedbacks told = arm.feedbacks;
-  const auto tell = [&](bool fresh, std::int32_t moved) {
-    for (DriveFeedback& feedback : told) {
-      feedback.fresh = fresh;
-      feedback.position += moved;
-    }
-    arm.drives.watch(told, 0);
-    arm.drives.show(arm.state);
-  };
-  const double step_rad = 6.283185307179586 / 16777216.0;
-  tell(true, 0);
-  tell(true, 1000);
-  ASSERT_NEAR(arm.state.dq[2], 1000 * step_rad / 1e-3, 1e-9);
-  tell(false, 0);
-  tell(false, 0);
-  tell(true, 3000);
-  ASSERT_NEAR(arm.state.dq[2], 1000 * step_rad / 1e-3, 1e-9);
-}
-
 void a_torque_at_the_end_of_its_numbers_is_no_measurement(void**) {
   for (const std::int16_t torque : {std::int16_t{32767}, std::int16_t{-32768}}) {
     ArmOfDrives arm;
@@ -189,39 +168,6 @@ void a_drive_without_its_reference_is_refused(void**) {
   assert_int_equal(arm.joint(0).state, DriveState::kFault);
 }
 
-void a_position_outside_the_range_is_refused_with_its_joint(void**) {
-  ArmOfDrives arm;
-  arm.feedbacks[3].position = 16777216;  // a turn, where the joint has -3.07 to -0.07 rad
-  Message why;
-  ASSERT_STATUS(arm.drives.attach(CommandMode::kEffort, arm.feedbacks, why),
-                Status::kNotReferenced);
-  assert_non_null(std::strstr(why.c_str(), "joint 4: its drive counts 16777216 increments"));
-}
-
-void a_single_turn_encoder_is_placed_in_the_joints_range(void**) {
-  ArmOfDrives arm;
-  arm.settings.encoder = Encoder::kSingleTurn;
-  const double q = -1.5;
-  const double turn = 6.283185307179586;
-  arm.feedbacks[3].position = static_cast<std::int32_t>((q + turn) / turn * 16777216.0);
-  Message why;
-  ASSERT_OK(arm.drives.attach(CommandMode::kPosition, arm.feedbacks, why));
-  arm.command.mode = CommandMode::kPosition;
-  arm.arm();
-  ASSERT_NEAR(arm.state.q[3], q, 1e-6);
-  assert_int_equal(arm.commands[3].target_position, arm.feedbacks[3].position);
-}
-
-/// The first target of an enabled drive is where it is.
-void positions_are_attached_without_a_step(void**) {
-  ArmOfDrives arm(CommandMode::kPosition);
-  for (int i = 0; i < 60; ++i) {
-    arm.cycle(DriveRequest::kArm);
-    for (std::size_t j = 0; j < kDof; ++j)
-      assert_int_equal(arm.commands[j].target_position, arm.feedbacks[j].position);
-  }
-}
-
 void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
   ArmOfDrives arm;
   arm.settings.rated_torque[1] = 2.0;
@@ -244,14 +190,10 @@ int main() {
       cmocka_unit_test(after_a_fault_only_a_new_arming_leads_up),
       cmocka_unit_test(a_drive_that_is_silent_is_bridged_and_then_lost),
       cmocka_unit_test(the_age_of_the_state_is_that_of_the_oldest_joint),
-      cmocka_unit_test(positions_are_differentiated_over_the_time_between_them),
       cmocka_unit_test(a_torque_at_the_end_of_its_numbers_is_no_measurement),
       cmocka_unit_test(a_command_that_is_not_finite_stops_the_drives),
       cmocka_unit_test(an_error_message_of_an_enabled_drive_stops_all),
       cmocka_unit_test(a_drive_without_its_reference_is_refused),
-      cmocka_unit_test(a_position_outside_the_range_is_refused_with_its_joint),
-      cmocka_unit_test(a_single_turn_encoder_is_placed_in_the_joints_range),
-      cmocka_unit_test(positions_are_attached_without_a_step),
       cmocka_unit_test(a_torque_limit_beyond_the_drives_numbers_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 
+// Proves CAN-2.
 void torque_is_in_thousandths_of_the_rated_torque(void**) {
   JointUnits wide{16777216.0, 1.0, 3.0, 1.0, 0.0};
   assert_int_equal(wide.torque(87.0), 29000);

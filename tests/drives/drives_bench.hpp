@@ -86,7 +86,9 @@ class DrivesBench {
     return false;
   }
   void expect(unsigned id, std::initializer_list<unsigned> bytes) {
-    if (!take(id)) print_error("no frame %03X\n", id), assert_true(false);
+    const bool came = take(id);
+    if (!came) print_error("no frame %03X\n", id);
+    assert_true(came);
     assert_int_equal(frame.size, bytes.size());
     std::size_t i = 0;
     for (const unsigned byte : bytes) {

@@ -7,9 +7,8 @@
 namespace tactus::can {
 
 enum class Buses : std::uint8_t { kFdPacked, kFdPlain, kClassicPlain, kClassicPacked };
-inline constexpr const char* kBusesNames[] = {"FD packed", "FD plain", "classic plain, 3 buses",
-                                              "classic packed, 2 buses"};
 
+/// One bus, two, three and two of them.
 inline void lay_out(MasterBench& bench, Buses buses) {
   const bool fd = buses == Buses::kFdPacked || buses == Buses::kFdPlain;
   const bool packed = buses == Buses::kFdPacked || buses == Buses::kClassicPacked;
@@ -20,7 +19,7 @@ inline void lay_out(MasterBench& bench, Buses buses) {
     bench.can.interfaces = Value("vcan0 vcan1 vcan2");
     bench.can.bus << 1, 1, 1, 2, 2, 3, 3;
   }
-  if (buses == Buses::kClassicPacked) {
+  if (buses == Buses::kClassicPacked || buses == Buses::kFdPlain) {
     bench.can.interfaces = Value("vcan0 vcan1");
     bench.can.bus << 1, 1, 1, 1, 2, 2, 2;
   }
@@ -70,6 +69,7 @@ inline bool enables(const MasterBench& bench) {
 }
 inline bool pushes(const MasterBench& bench) {
   bool any = false;
+  if (bench.pipeline.robot.mode() != CommandMode::kEffort) return false;  // the drives' own matter
   for (int j = 0; j < kDof; ++j) any = any || command_seen(bench, j).torque != 0;
   return any;
 }

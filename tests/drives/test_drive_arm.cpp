@@ -13,6 +13,7 @@ Arm& falling() {
   return arm;
 }
 
+// Proves DRV-5.
 void gravity_is_what_holds_the_arm_and_changes_nothing(void**) {
   Arm& arm = falling();
   const JointVector q = arm.q(), dq = arm.dq();
@@ -27,7 +28,10 @@ void held_joints_accelerate_as_told_and_the_others_keep_their_torque(void**) {
   std::array<bool, kDof> held{};
   held[0] = held[3] = held[5] = true;
   JointVector ddq, tau;
-  for (int i = 0; i < kDof; ++i) ddq[i] = 3.0 - i, tau[i] = 0.3 * i - 1.0;
+  for (int i = 0; i < kDof; ++i) {
+    ddq[i] = 3.0 - i;
+    tau[i] = 0.3 * i - 1.0;
+  }
   const JointVector torque = arm.torque_holding(held, ddq, tau);
   const JointVector before = arm.dq();
   constexpr double kStep_s = 1e-6;

@@ -4,6 +4,7 @@
 namespace tactus::drives {
 namespace {
 
+// Proves DRV-3.
 void three_buses_move_the_arm_as_one_does(void**) {
   static std::array<Feedback, kDof> single;
   for (const bool three : {false, true}) {

@@ -25,6 +25,7 @@ std::int64_t tpdos(DrivesBench& bench, int cycles) {
   return bench.feedback[1].count - before;
 }
 
+// Proves DRV-6.
 void feedback_is_dropped_duplicated_delayed_or_cut(void**) {
   assert_int_equal(tpdos(with_fault("node=2 kind=drop_tpdo at=103 until=106"), 10), 7);
   assert_int_equal(tpdos(with_fault("node=2 kind=duplicate_tpdo at=103 until=106"), 10), 13);

@@ -19,6 +19,7 @@ void cycle(DrivesBench& bench) {
   bench.arm.advance(bench.now_ns);
 }
 
+// Proves DRV-1.
 void a_mapping_is_refused_with_the_code_of_the_standard(void**) {
   struct Row {
     unsigned record, entry, abort;

@@ -4,6 +4,7 @@
 namespace tactus::drives {
 namespace {
 
+// Proves DRV-5.
 void enabling_and_disabling_do_not_move_an_arm_whose_gravity_is_held(void**) {
   DrivesBench& bench = fresh();
   bench.configure(10);

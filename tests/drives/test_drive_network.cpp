@@ -10,6 +10,7 @@ DrivesBench& booted() {
   return bench;
 }
 
+// Proves DRV-3.
 void a_drive_says_boot_up_and_is_pre_operational(void**) {
   DrivesBench& bench = fresh();
   bench.run_ms(9);

@@ -19,6 +19,7 @@ void cycle(DrivesBench& bench) {
   bench.arm.advance(bench.now_ns);
 }
 
+// Proves DRV-4.
 void synchronous_commands_act_at_sync_and_others_at_once(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1400, 0x201, 1, {0x60400010});

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "sim_plant/drives/server/bus_socket.hpp"
+#include "sim_plant/drives/server/eds.hpp"
 #include "sim_plant/drives/server/options.hpp"
 #include "tests/support/testing.hpp"
 
@@ -29,6 +30,7 @@ bool parse(const char* const (&words)[N], DrivesOptions& options) {
   return good;
 }
 
+// Proves DRV-7.
 void buses_and_nodes_are_read(void**) {
   DrivesOptions options;
   const char* const words[] = {"fer_drives", "--bus", "vcan0:1,2,3",  "--bus",
@@ -103,6 +105,29 @@ void packets_are_frames(void**) {
   assert_int_equal(socket.descriptor(), -1);
 }
 
+void the_data_sheet_describes_the_objects(void**) {
+  static char text[200000];
+  std::FILE* file = std::tmpfile();
+  assert_non_null(file);
+  assert_true(print_eds(file));
+  std::rewind(file);
+  text[std::fread(text, 1, sizeof text - 1, file)] = '\0';
+  std::fclose(file);
+  for (const char* part :
+       {"\n[6040]\nParameterName=Controlword\nObjectType=0x7\nDataType=0x0006\nAccessType=rw\n"
+        "DefaultValue=0\nPDOMapping=1\n",
+        "\n[1018]\nParameterName=Identity object\nObjectType=0x9\nSubNumber=5\n",
+        "\n[1801sub1]\nParameterName=Sub-index 1\nObjectType=0x7\nDataType=0x0007\n"
+        "AccessType=rw\nDefaultValue=$NODEID+0xC0000280\n",
+        "\n[1008]\nParameterName=Manufacturer device name\nObjectType=0x7\nDataType=0x0009\n"
+        "AccessType=ro\nDefaultValue=Tactus emulated servo drive\n",
+        "\n[60B2]\nParameterName=Torque offset\n",
+        "\n[MandatoryObjects]\nSupportedObjects=3\n1=0x1000\n2=0x1001\n3=0x1018\n"}) {
+    if (std::strstr(text, part) == nullptr) print_error("missing: %s\n", part);
+    assert_non_null(std::strstr(text, part));
+  }
+}
+
 /// Receives packets until one has this identifier.
 bool await(int socket, unsigned id, can_frame& frame) {
   pollfd polled{socket, POLLIN, 0};
@@ -155,6 +180,7 @@ int main(int, char** argv) {
       cmocka_unit_test(buses_and_nodes_are_read),
       cmocka_unit_test(a_wrong_command_line_is_refused),
       cmocka_unit_test(packets_are_frames),
+      cmocka_unit_test(the_data_sheet_describes_the_objects),
       cmocka_unit_test(the_program_answers_and_ends_with_its_bus),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -10,6 +10,7 @@ DrivesBench& booted() {
   return bench;
 }
 
+// Proves DRV-1.
 void the_device_type_reads_as_in_the_worked_trace(void**) {
   DrivesBench& bench = booted();
   bench.send(0x601, {0x40, 0x00, 0x10, 0x00, 0, 0, 0, 0});

@@ -36,6 +36,7 @@ struct Positioning {
   }
 };
 
+// Proves DRV-5.
 void positions_are_held_when_the_brakes_open_and_followed_afterwards(void**) {
   Positioning csp(fresh());
   const JointVector q = csp.bench.arm.arm().q();

@@ -25,17 +25,24 @@ void trip(DrivesBench& bench) {
 /// From a drive that has just booted.
 void bring(DrivesBench& bench, const char* words) {
   for (const char* at = words; *at != '\0'; ++at) {
-    if (*at == 'f') trip(bench), bench.run_ms(1);
+    if (*at == 'f') {
+      trip(bench);
+      bench.run_ms(1);
+    }
     if (*at == '6') control(bench, 0x0006);
     if (*at == '7') control(bench, 0x0007);
     if (*at == 'F') control(bench, 0x000F);
-    if (*at == 'q') bench.put(kNode, 0x605A, 0, 6, 2), control(bench, 0x0002);
+    if (*at == 'q') {
+      bench.put(kNode, 0x605A, 0, 6, 2);
+      control(bench, 0x0002);
+    }
   }
 }
 
 constexpr unsigned kDisabled = 0x0250, kReady = 0x0231, kOn = 0x0233, kEnabled = 0x0237,
                    kQuick = 0x0217, kFaulty = 0x0218;
 
+// Proves DRV-2.
 void every_state_has_its_statusword(void**) {
   struct Row {
     const char* way;

@@ -52,6 +52,7 @@ void assert_refused(MasterBench& bench, int joint, Status expected) {
   heal(bench);
 }
 
+// Proves CAN-9.
 void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
   MasterBench& bench = fresh_bench();
   bench.hal.logs = true;

@@ -15,6 +15,7 @@ void explain(MasterBench& bench, Status status) {
     print_error("%s: %s\n", name(status), bench.hal.master.trouble().c_str());
 }
 
+// Proves CAN-10.
 void the_arm_is_taken_over_and_held_where_it_stands(void**) {
   MasterBench& bench = fresh();
   ASSERT_OK(bench.load());

@@ -115,6 +115,7 @@ void every_fault_stops_all_drives_or_is_bridged(Buses buses) {
     }
 }
 
+// Proves CAN-11.
 void every_fault_on_can_fd_stops_all_drives_or_is_bridged(void**) {
   every_fault_stops_all_drives_or_is_bridged(Buses::kFdPacked);
 }

@@ -108,7 +108,7 @@ class RandomRun {
     if (random_.below(1000) == 0) bench_.executive.stop();
     if (random_.below(20) == 0) {
       JointSpace::Point point;
-      point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.1, 0.1));
+      point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.02, 0.02));
       std::uint32_t id = 0;
       static_cast<void>(bench_.client.send(point, id));
     }
@@ -132,6 +132,7 @@ class RandomRun {
   Account& account_;
 };
 
+// Proves CAN-12.
 void no_fault_leads_to_a_command_that_is_not_allowed(void**) {
   const auto runs = static_cast<int>(number("TACTUS_TRIALS", 100));
   const std::uint64_t seed = number("TACTUS_SEED", 20270101);

@@ -32,6 +32,7 @@ void assert_needs_start(MasterBench& bench, Status reason, int most) {
   assert_true((bench.hal.arm.arm().q() - before).cwiseAbs().maxCoeff() < 1e-3);
 }
 
+// Proves CAN-11.
 void somebody_else_who_commands_the_drives_is_a_conflict(void**) {
   for (const Buses buses : kLayouts) {
     const CanFrame frames[] = {

@@ -196,6 +196,16 @@ void a_pure_archive_is_not_complained_of(void**) {
   assert_true(passes("scripts/no_heap %s/x.a", folder));
 }
 
+/// By its whole name.
+void only_symbols_that_are_named_are_allowed_in_addition(void**) {
+  char folder[64];
+  plant("x.cpp", "#include <unistd.h>\nint f() { return close(3); }\n", folder);
+  assert_true(passes("cd %s && g++ -O3 -c x.cpp && ar rcs x.a x.o", folder));
+  assert_false(passes("scripts/no_heap %s/x.a 2>/dev/null", folder));
+  assert_false(passes("scripts/no_heap %s/x.a nm 'closed|clos' 2>/dev/null", folder));
+  assert_true(passes("scripts/no_heap %s/x.a nm 'poll|close'", folder));
+}
+
 }  // namespace
 
 int main() {
@@ -211,6 +221,7 @@ int main() {
       cmocka_unit_test(a_heap_call_is_found_among_any_number_of_names),
       cmocka_unit_test(an_archive_that_cannot_be_read_is_refused_with_reason_and_remedy),
       cmocka_unit_test(a_pure_archive_is_not_complained_of),
+      cmocka_unit_test(only_symbols_that_are_named_are_allowed_in_addition),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_planted);
 }

@@ -5,8 +5,8 @@
 #include <ctime>
 #include <memory>
 
-#include "tests/vm/can_bus.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/vm/can_bus.hpp"
 
 namespace tactus::can {
 namespace {
@@ -28,6 +28,7 @@ int receive(CanBus& bus) {
   return bus.can.receive(g_frames.data(), CanSocket::kBatch);
 }
 
+// Proves CAN-8.
 void the_kernel_passes_only_frames_that_a_filter_names(void**) {
   constexpr std::array<CanFilter, 2> kFilters = {{{0x180, 0x780}, {0x081, 0x7FF}}};
   CanBus& bus = fresh(false, kFilters.data(), 2);

@@ -9,6 +9,7 @@
 #include "hal/os/cycle_clock.hpp"
 #include "sim_plant/drives/drive_arm.hpp"
 #include "sim_plant/drives/server/bus_socket.hpp"
+#include "sim_plant/drives/server/eds.hpp"
 #include "sim_plant/drives/server/fault_text.hpp"
 #include "sim_plant/drives/server/options.hpp"
 
@@ -141,6 +142,7 @@ int main(int argc, char** argv) {
   DrivesOptions options;
   int exit_code = 0;
   if (!parse_drives_options(argc, argv, options, exit_code)) return exit_code;
+  if (options.eds) return print_eds(stdout) ? 0 : kRefused;
   DriveArmSettings settings = settings_of(options);
   if (const char* wrong = place(options, settings)) return fail(wrong, "");
   static DriveArm arm;

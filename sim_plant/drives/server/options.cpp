@@ -75,7 +75,7 @@ std::string take(const std::vector<std::string>& buses, const std::vector<std::s
   for (const std::string& bus : descriptors)
     if (wrong.empty()) wrong = parse_bus(bus, true, options);
   if (!wrong.empty()) return wrong;
-  if (options.bus_count == 0) return "name at least one bus: --bus can0:1-7";
+  if (options.bus_count == 0 && !options.eds) return "name at least one bus: --bus can0:1-7";
   for (const std::string& fault : faults) {
     if (options.fault_count == DrivesOptions::kFaults) return "there are more than 16 faults";
     if (fault.size() >= sizeof options.faults[0]) return "the text '" + fault + "' is too long";
@@ -96,6 +96,7 @@ bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& ex
   app.add_option("--descriptor", descriptors,
                  "an open socket that carries CAN frames as packets, and its nodes, like 3:1-7")
       ->take_all();
+  app.add_flag("--eds", options.eds, "print the drives' electronic data sheet (CiA 306) and end");
   app.add_flag("--fd", options.fd, "CAN FD: PDOs of up to 64 bytes");
   app.add_option("--joints", q, "initial positions of the seven joints, rad (default: ready pose)")
       ->expected(7)

@@ -16,6 +16,7 @@ struct DrivesOptions {
   Bus buses[kJoints];
   int bus_count = 0;
   bool fd = false;
+  bool eds = false;  ///< print the electronic data sheet and end
   bool gravity_by_drive = false;
   bool joints_given = false;
   double joints[kJoints] = {};  ///< initial positions, rad

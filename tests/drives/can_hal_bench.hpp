@@ -1,0 +1,132 @@
+// The FER on CAN with its sockets and without a clock: executive, pipeline and CanHal at one end of
+// a packet socket pair for every bus, the emulated drives at the other, in lock step. Only while
+// the Hal connects, which waits for answers, the drives run in a thread and in real time.
+#pragma once
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "hal/can/can_hal.hpp"
+#include "hal/net/deadline.hpp"
+#include "kernel/cycle/executive.hpp"
+#include "kernel/load/loader.hpp"
+#include "sim_plant/drives/drive_arm.hpp"
+#include "sim_plant/drives/server/bus_socket.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus::can {
+
+struct CanHalBench {
+  static constexpr std::int64_t kPeriod_ns = 1'000'000;
+
+  CanSettings can;
+  cia402::Cia402Settings drive;
+  drives::DriveArm arm;
+  std::array<std::optional<drives::BusSocket>, kMaxBuses> ends;  ///< of the drives
+  std::array<int, kMaxBuses> descriptors{-1, -1, -1, -1};        ///< of the Hal
+  CanHal hal;
+  ChannelMemory<JointSpace> channel;
+  std::array<Waypoint<JointSpace>, 16> waypoints;
+  RoomyPipeline pipeline;
+  Executive executive{hal, pipeline};
+  std::int64_t now_ns = -kPeriod_ns, drives_ns = 0;
+  std::vector<CanFrame> sent;  ///< by the Hal in the last cycle, of all buses
+
+  CanHalBench(const CanHalBench&) = delete;
+  CanHalBench& operator=(const CanHalBench&) = delete;
+  /// One bus: CAN FD with packed commands; three: classic frames with plain ones.
+  explicit CanHalBench(int buses) {
+    can.frames = buses == 1 ? Frames::kFd : Frames::kClassic;
+    can.commands = buses == 1 ? Commands::kPacked : Commands::kPlain;
+    if (buses == 3) can.bus << 1, 1, 1, 2, 2, 3, 3;
+    drive.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
+    for (int bus = 0; bus < buses; ++bus) open(static_cast<std::size_t>(bus));
+  }
+
+  Status load() {
+    channel.stores[0].waypoints = waypoints.data();
+    channel.stores[0].capacity = static_cast<int>(waypoints.size());
+    Loader loader({&channel}, hal.capabilities());
+    LoadError error;
+    TRY(
+        loader.load("[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+                    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
+                    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+                    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\n"
+                    "g = model.g\nkp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n",
+                    pipeline, error));
+    TRY(hal.configure(can, drive, Tool{}, pipeline.robot.mode(), pipeline.robot.period_us));
+    drives::DriveArmSettings plant;
+    plant.plant.rotor_inertia.setConstant(0.1);
+    plant.fd = can.frames == Frames::kFd;
+    for (int j = 0; j < kDof; ++j)
+      plant.joints[static_cast<std::size_t>(j)] = {static_cast<int>(can.bus[j]) - 1,
+                                                   static_cast<int>(can.node[j])};
+    return arm.load(plant, 0);
+  }
+  /// Connects while the drives answer.
+  Status start() {
+    std::atomic<bool> connected{false};
+    std::thread drives([this, &connected] {
+      constexpr int kLongest_ms = 60'000;
+      const Deadline clock(kLongest_ms);
+      while (!connected && clock.left_ns() > 0) {
+        drives_ns = std::int64_t{1'000'000} * kLongest_ms - clock.left_ns();
+        exchange();
+        usleep(100);
+      }
+    });
+    const Status status = executive.start();
+    connected = true;
+    drives.join();
+    return status;
+  }
+  /// The drives take what has been sent to them and answer it.
+  void exchange() {
+    sent.clear();
+    for (std::size_t bus = 0; bus < ends.size(); ++bus) {
+      CanFrame frame;
+      while (ends[bus] && ends[bus]->descriptor() >= 0 && ends[bus]->receive(frame)) {
+        sent.push_back(frame);
+        arm.receive(bus, frame, drives_ns);
+      }
+    }
+    arm.advance(drives_ns);
+    for (std::size_t bus = 0; bus < ends.size(); ++bus) {
+      CanFrame frame;
+      while (arm.take(bus, frame))
+        if (ends[bus] && ends[bus]->descriptor() >= 0) ends[bus]->send(frame);
+    }
+  }
+  Status cycle() {
+    drives_ns += kPeriod_ns;
+    exchange();
+    return executive.cycle({now_ns += kPeriod_ns});
+  }
+  /// Takes the drives over.
+  Status arm_drives() {
+    Status status = executive.arm();
+    while (status == Status::kArming) {
+      status = cycle();
+      if (status == Status::kArming) status = executive.arm();
+    }
+    return status;
+  }
+
+ private:
+  void open(std::size_t bus) {
+    int pair[2] = {-1, -1};
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET, 0, pair) != 0) return;
+    descriptors[bus] = pair[0];
+    ends[bus].emplace().adopt(pair[1]);
+    Value names = can.interfaces;
+    names << (names.empty() ? "fd:" : " fd:") << pair[0];
+    can.interfaces = names;
+  }
+};
+
+}  // namespace tactus::can
