@@ -1,5 +1,6 @@
 #include "sim_plant/drives/server/fault_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
