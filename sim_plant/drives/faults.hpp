@@ -24,8 +24,11 @@ class Faults {
  public:
   static constexpr std::size_t kMost = 16;
 
+  /// Begins without faults. [init]
   void seed(std::uint64_t seed, int node) {
     node_ = node;
+    count_ = 0;
+    done_ = {};
     random_.seed(seed * 1000 + static_cast<std::uint64_t>(node));
   }
   /// Adds a fault if it concerns this node. False: there is no room. [init]
