@@ -70,8 +70,8 @@ class Axis {
   void stop(std::int64_t option, cia402::State after, bool stays);
   void finish_stop();
   double rad_per_increment() const;
-  double limit_Nm() const;
-  double permille_Nm() const;
+  double torque_limit() const;  // N m
+  double torque_unit() const;   // N m per permille
   double follow(const JointSample& sample, double dt_s);
   std::uint16_t watch(const JointSample& sample, double period_s);
   void update_brake(const JointSample& sample, double period_s);

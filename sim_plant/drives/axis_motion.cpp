@@ -43,12 +43,12 @@ double Axis::rad_per_increment() const {
   return motor_rad * real(dictionary_.get(kGearShaft)) / real(dictionary_.get(kGearMotor));
 }
 
-double Axis::permille_Nm() const {
+double Axis::torque_unit() const {
   return real(dictionary_.get(kRated)) * 1e-6;
 }
 
-double Axis::limit_Nm() const {
-  return std::min(settings_.max_torque_Nm, real(dictionary_.get(kMaxTorque)) * permille_Nm());
+double Axis::torque_limit() const {
+  return std::min(settings_.max_torque_Nm, real(dictionary_.get(kMaxTorque)) * torque_unit());
 }
 
 bool Axis::servoed() const {
@@ -81,7 +81,7 @@ void Axis::update_brake(const JointSample& sample, double period_s) {
   if (mode < kCsp || mode > kCst) return;
   enabled_s_ += period_s;
   // The loop begins with the torque that the brake has held.
-  servo_.start(sample.gravity_Nm - real(dictionary_.get(kTorqueOffset)) * permille_Nm());
+  servo_.start(sample.gravity_Nm - real(dictionary_.get(kTorqueOffset)) * torque_unit());
   if (!brake_stuck_ && enabled_s_ > settings_.brake_release_s) brake_ = false;
 }
 
@@ -118,11 +118,12 @@ double Axis::torque(const JointSample& sample, double dt_s) {
 }
 
 double Axis::follow(const JointSample& sample, double dt_s) {
-  const double limit = limit_Nm(), offset = real(dictionary_.get(kTorqueOffset)) * permille_Nm();
+  const double limit = torque_limit(),
+               offset = real(dictionary_.get(kTorqueOffset)) * torque_unit();
   const std::int64_t mode = dictionary_.get(kDisplay);
   double wanted = 0.0;
   if (mode == kCst) {
-    wanted = real(dictionary_.get(kTarget)) * permille_Nm() + offset;
+    wanted = real(dictionary_.get(kTarget)) * torque_unit() + offset;
   } else if (brake_) {
     wanted = servo_.integral_Nm + offset;
   } else if (mode == kCsv || mode == kCsp) {
@@ -150,9 +151,9 @@ void Axis::report(const JointSample& sample) {
       static_cast<std::uint32_t>(std::llround(std::clamp(sample.q / scale, -9e18, 9e18))));
   dictionary_.set(kPosition, position);
   dictionary_.set(kVelocity, rounded(sample.dq / scale, 32));
-  dictionary_.set(kActual, rounded(tau_Nm_ / permille_Nm(), 16));
-  dictionary_.set(kCurrent, rounded(tau_Nm_ / permille_Nm(), 16));
-  dictionary_.set(kDemand, rounded(demand_Nm_ / permille_Nm(), 16));
+  dictionary_.set(kActual, rounded(tau_Nm_ / torque_unit(), 16));
+  dictionary_.set(kCurrent, rounded(tau_Nm_ / torque_unit(), 16));
+  dictionary_.set(kDemand, rounded(demand_Nm_ / torque_unit(), 16));
   dictionary_.set(kError, rounded(real(dictionary_.get(kTargetPosition) - position), 32));
   const std::int64_t outputs = dictionary_.get(kOutputs);
   dictionary_.set(kOutputs, brake_ ? outputs | 1 : outputs & ~std::int64_t{1});

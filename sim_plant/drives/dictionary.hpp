@@ -90,6 +90,7 @@ class Dictionary {
 /// Returns an integer of the wire as a value of the type. [any]
 constexpr std::int64_t decode(Type type, const std::uint8_t* bytes) {
   const std::size_t size = size_of(type);
+  if (size == 0) return 0;  // a text
   std::uint64_t bits = 0;
   for (std::size_t i = size; i-- > 0;) bits = bits << 8 | bytes[i];
   const std::uint64_t sign = std::uint64_t{1} << (8 * size - 1);

@@ -49,6 +49,8 @@ Status DriveArm::load(const DriveArmSettings& settings, std::int64_t now_ns) {
   }
   plant_ns_ = now_ns;
   sync_ns_ = now_ns - kNoSync_ns;
+  periods_ = 0;
+  synced_.fill(false);
   braked_.fill(true);
   held_q_ = arm_.q();
   measure();

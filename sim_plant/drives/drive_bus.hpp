@@ -10,7 +10,10 @@ class DriveBus {
  public:
   static constexpr std::size_t kMost = kDof;  ///< drives on one bus
 
-  void clear() { count_ = 0; }
+  void clear() {
+    count_ = 0;
+    queue_.clear();
+  }
   void add(Node& node) { nodes_[count_++] = &node; }
   FrameQueue& queue() { return queue_; }
 

@@ -27,6 +27,7 @@ class FrameQueue {
     --count_;
     return true;
   }
+  void clear() { count_ = 0; }
   std::uint64_t lost() const { return lost_; }
 
  private:

@@ -116,7 +116,7 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
 
 /// Objects whose new value has an effect beyond being stored.
 void Node::note_written(std::uint16_t index, std::uint8_t sub, std::int64_t now_ns) {
-  if (index >= can::kRpdoCommunication && index < 0x1C00) load_pdos();
+  if (index >= can::kRpdoCommunication && index < 0x1C00) load_pdo(index);
   if (index == can::kErrorHistory)
     for (std::uint8_t i = 1; i <= kErrorsKept; ++i)
       dictionary_.set(find(can::kErrorHistory, i).slot, 0);

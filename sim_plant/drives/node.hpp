@@ -81,6 +81,7 @@ class Node {
 
   // node_pdo.cpp
   void load_pdos();
+  void load_pdo(std::uint16_t index);
   void begin_operation(std::int64_t now_ns);
   bool take_rpdo(const can::CanFrame& frame, std::int64_t now_ns);
   void apply(const PdoSettings& pdo, const std::array<std::uint8_t, can::kMaxData>& data);

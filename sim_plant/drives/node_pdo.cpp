@@ -18,10 +18,19 @@ constexpr Slot kControlword = slot_of(0x6040), kMode = slot_of(0x6060),
 
 void Node::load_pdos() {
   for (std::uint16_t i = 0; i < kPdos; ++i) {
-    const auto at = [i](std::uint16_t base) { return static_cast<std::uint16_t>(base + i); };
-    rpdos_[i].settings.load(dictionary_, at(can::kRpdoCommunication), at(can::kRpdoMapping));
-    tpdos_[i].settings.load(dictionary_, at(can::kTpdoCommunication), at(can::kTpdoMapping));
+    load_pdo(static_cast<std::uint16_t>(can::kRpdoCommunication + i));
+    load_pdo(static_cast<std::uint16_t>(can::kTpdoCommunication + i));
   }
+}
+
+/// Reads the parameters of a PDO again, of which `index` is one record.
+void Node::load_pdo(std::uint16_t index) {
+  const std::uint16_t i = index & (kPdos - 1);
+  const auto at = [i](std::uint16_t base) { return static_cast<std::uint16_t>(base + i); };
+  if (index < can::kTpdoCommunication)
+    rpdos_[i].settings.load(dictionary_, at(can::kRpdoCommunication), at(can::kRpdoMapping));
+  else
+    tpdos_[i].settings.load(dictionary_, at(can::kTpdoCommunication), at(can::kTpdoMapping));
 }
 
 void Node::begin_operation(std::int64_t now_ns) {

@@ -10,11 +10,12 @@ namespace {
 using namespace tactus;
 using namespace tactus::drives;
 
+constexpr std::size_t kDrives = 2;
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 DriveArmSettings settings_of(bool fd) {
   DriveArmSettings settings;
-  for (std::size_t i = 0; i < kDof; ++i) settings.joints[i] = {0, static_cast<int>(i) + 1};
+  for (std::size_t i = 0; i < kDrives; ++i) settings.joints[i] = {0, static_cast<int>(i) + 1};
   settings.fd = fd;
   settings.brake_release_s = 0.002;
   return settings;
@@ -73,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     arm.advance(now_ns);
     can::CanFrame answer;
     while (arm.take(0, answer)) check_frame(answer, fd);
-    for (int i = 0; i < kDof; ++i) check_drive(arm.node(i));
+    for (std::size_t i = 0; i < kDrives; ++i) check_drive(arm.node(static_cast<int>(i)));
   }
   return 0;
 }

@@ -1,5 +1,6 @@
 #include "sim_plant/drives/server/fault_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -29,7 +30,7 @@ const char* parse_word(std::string_view key, std::string_view text, Fault& fault
   double value = 0.0;
   const char* begin = text.data();
   if (key == "kind")
-    return parse_kind(text, fault.kind) ? nullptr : "unknown kind of fault; see docs";
+    return parse_kind(text, fault.kind) ? nullptr : "unknown kind of fault; --help names them";
   if (key == "node") {
     if (!parse_whole(begin, text.size(), kMaxNode, value)) return "node is not from 0 to 127";
     fault.node = static_cast<int>(value);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sim_plant/drives/fault_kinds.hpp"
+
 namespace tactus::drives {
 namespace {
 
@@ -85,6 +87,14 @@ std::string take(const std::vector<std::string>& buses, const std::vector<std::s
   return "";
 }
 
+std::string describe_faults() {
+  std::string text =
+      "fault to inject, like \"node=3 kind=drop_tpdo at=1000 until=1010 p=0.5 value=1\", active "
+      "from the SYNC `at` until before the SYNC `until`; repeatable. Kinds:";
+  for (const char* name : kFaultNames) text += std::string(" ") + name;
+  return text;
+}
+
 }  // namespace
 
 bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& exit_code) {
@@ -112,9 +122,7 @@ bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& ex
   app.add_option("--brake-release-ms", options.brake_release_ms,
                  "time that a brake takes to open, ms (default 150)")
       ->check(finite(0.0, 10000.0));
-  app.add_option("--fault", faults,
-                 "fault to inject, like \"node=3 kind=drop_tpdo at=1000 until=1010\"; repeatable")
-      ->take_all();
+  app.add_option("--fault", faults, describe_faults())->take_all();
   app.add_option("--seed", options.seed, "seed of faults by probability (default 1)");
   app.add_option("--duration", options.duration_s,
                  "time after which the program ends, s (default: never)")
