@@ -72,11 +72,12 @@ void Drives::judge_rise() {
 
 /// A drive that was lost cannot say that it has stopped; its own watchdogs stop it.
 bool Drives::all_reached() const {
+  bool all = true;
   for (const Joint& joint : joints_) {
     const bool gone = phase_ == Phase::kStopping && joint.last.lost != Status::kOk;
-    if (!joint.machine.reached() && !gone) return false;
+    all &= joint.machine.reached() || gone;
   }
-  return true;
+  return all;
 }
 
 /// Goes to the next phase when all drives have done the present one.

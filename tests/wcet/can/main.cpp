@@ -11,7 +11,7 @@ namespace {
 using namespace tactus;
 using namespace tactus::can;
 
-constexpr int kScenes = 24, kArmingCycles = 600, kHostileCycles = 60;
+constexpr int kScenes = 12, kArmingCycles = 600, kHostileCycles = 60;
 
 struct Random {
   std::uint32_t state;
