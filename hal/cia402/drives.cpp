@@ -164,6 +164,8 @@ void Drives::show(RobotState& state) const {
     if (joint.stamp_ns < state.stamp_ns) state.stamp_ns = joint.stamp_ns;
     state.drives[static_cast<std::size_t>(j)] = drive_of(joint);
   }
+  // The first command goes on from the measured torque, and the drives add the weight to it.
+  if (settings_->gravity == Gravity::kDrive) state.tau -= hold_.weight(state.q);
 }
 
 /// A measured torque at the end of its numbers may be any larger one. In the cycle in which a fault

@@ -36,10 +36,15 @@ class HoldEffort {
   /// Returns the torque of this cycle, N m, within the robot's limits. [cyclic]
   const JointVector& step(const JointVector& q, const JointVector& dq) {
     JointVector wanted = stiffness_.cwiseProduct(held_ - q) - damping_.cwiseProduct(dq);
-    if (carries_) wanted += gravity<Robot>(joint_trig<Robot>(q), tool_);
+    if (carries_) wanted += weight(q);
     wanted = wanted.cwiseMin(limits_.tau_max).cwiseMax(-limits_.tau_max);
     tau_ += (wanted - tau_).cwiseMin(step_Nm_).cwiseMax(-step_Nm_);
     return tau_;
+  }
+
+  /// Returns g(q), N m, of arm and tool. [cyclic]
+  JointVector weight(const JointVector& q) const {
+    return gravity<Robot>(joint_trig<Robot>(q), tool_);
   }
 
  private:

@@ -28,6 +28,24 @@ void the_arm_is_taken_over_and_held_where_it_stands(void**) {
   for (int j = 0; j < kDof; ++j) ASSERT_NEAR(moved[j], 0.0, 1e-3);
 }
 
+/// The first command goes on from the torque of the hold, which is not that of the motors.
+void drives_that_carry_the_weight_are_taken_over_without_a_step(void**) {
+  MasterBench& bench = fresh();
+  bench.plant.gravity_by_drive = true;
+  bench.drive.gravity = cia402::Gravity::kDrive;
+  std::string text = kHoldingPipeline;
+  text.erase(text.find("g = model.g\n"), 12);
+  ASSERT_OK(bench.load(text.c_str()));
+  const JointVector before = bench.hal.arm.arm().q();
+  ASSERT_OK(bench.start());
+  for (int i = 0; i < 500; ++i) {
+    ASSERT_OK(bench.cycle());
+    const JointVector moved = bench.hal.arm.arm().q() - before;
+    for (int j = 0; j < kDof; ++j) ASSERT_NEAR(moved[j], 0.0, 1e-3);
+    for (int j = 0; j < kDof; ++j) assert_true(std::abs(bench.hal.torque_sent(j)) < 1000);
+  }
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -35,6 +53,7 @@ int main() {
   using namespace tactus::can;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_arm_is_taken_over_and_held_where_it_stands),
+      cmocka_unit_test(drives_that_carry_the_weight_are_taken_over_without_a_step),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
