@@ -4,6 +4,7 @@
 namespace tactus::can {
 namespace {
 
+// Proves CAN-16.
 void every_node_is_asked_once_a_millisecond(void**) {
   Bus& bus = fresh();
   bus.run();
