@@ -106,8 +106,7 @@ void Drives::enter(Phase phase, std::int64_t now_ns) {
   phase_ = phase;
   since_ns_ = now_ns;
   if (phase == Phase::kOff)
-    for (Joint& joint : joints_)
-      if (joint.last.lost == Status::kOk) joint.reason = Status::kOk;
+    for (Joint& joint : joints_) joint.reason = Status::kOk;
   if (phase != Phase::kEnabling) return;
   for (int j = 0; j < kDof; ++j) held_[j] = joints_[static_cast<std::size_t>(j)].q;
   hold_.start(held_);

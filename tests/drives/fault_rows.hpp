@@ -6,13 +6,6 @@
 
 namespace tactus::can {
 
-enum class Way : std::uint8_t {
-  kBridged,   ///< nothing happens
-  kArms,      ///< all drives stop; arm() takes the arm over again
-  kConnects,  ///< all drives stop; only a new start() leads back
-};
-inline constexpr const char* kWayNames[] = {"follows", "arm()", "start()"};
-
 enum class When : std::uint8_t { kSwitchingOn, kReleasing, kFollowing };
 inline constexpr const char* kWhenNames[] = {"switching on", "brakes opening", "following"};
 
@@ -22,7 +15,7 @@ struct FaultRow {
   Status status;            ///< that the executive latches
   std::array<int, 3> most;  ///< by When: cycles until the stop is sent; 0: nothing happens
   int off;                  ///< most cycles from there until no drive has power
-  Way way;
+  Status arms;              ///< of the next arm(); if it refuses, only start() leads back
 };
 
 using drives::FaultKind;
@@ -50,28 +43,28 @@ constexpr Status kTimeout = Status::kBusTimeout, kFault = Status::kDriveFault;
 // heartbeat after three times 50 ms; a brake is watched for 500 ms.
 // clang-format off
 inline constexpr FaultRow kFaultRows[] = {
-    {"feedback lost in 1 cycle", wire_fault<kLoses, false, 1>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback lost in 3 cycles", wire_fault<kLoses, false, 3>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback lost", wire_fault<kLoses, false, kForGood>, kTimeout, {4, 4, 4}, 3, Way::kArms},
-    {"feedback doubled in 10 cycles", wire_fault<kDoubles, false, 10>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback doubled", wire_fault<kDoubles, false, kForGood>, Status::kBusConflict, {30, 30, 30}, 3, Way::kConnects},
-    {"feedback one cycle late, once", wire_fault<kDelays, false, 1>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback one cycle late", wire_fault<kDelays, false, kForGood>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback cut in 1 cycle", wire_fault<kCuts, false, 1>, Status::kOk, kNever, 0, Way::kBridged},
-    {"feedback cut", wire_fault<kCuts, false, kForGood>, kTimeout, {4, 4, 4}, 3, Way::kArms},
-    {"command lost in 1 cycle", wire_fault<kLoses, true, 1>, Status::kOk, kNever, 0, Way::kBridged},
-    {"command lost in 8 cycles", wire_fault<kLoses, true, 8>, Status::kOk, kNever, 0, Way::kBridged},
-    {"command lost", wire_fault<kLoses, true, kForGood>, kFault, {11, 11, 11}, 3, Way::kArms},
-    {"command doubled", wire_fault<kDoubles, true, kForGood>, Status::kOk, kNever, 0, Way::kBridged},
-    {"command one cycle late, once", wire_fault<kDelays, true, 1>, Status::kOk, kNever, 0, Way::kBridged},
-    {"command cut", wire_fault<kCuts, true, kForGood>, kFault, {11, 2, 2}, 10, Way::kArms},
-    {"heartbeat missing", drive_fault<FaultKind::kStopHeartbeat>, kTimeout, {151, 151, 151}, 3, Way::kConnects},
-    {"EMCY and fault", drive_fault<FaultKind::kEmergency, 0x4310>, kFault, {2, 2, 2}, 3, Way::kArms},
-    {"switch on disabled by itself", drive_fault<FaultKind::kSwitchOnDisabled>, kFault, {0, 2, 2}, 3, Way::kArms},
-    {"brake does not open", drive_fault<FaultKind::kBrakeStuck>, kFault, {505, 501, 0}, 3, Way::kArms},
-    {"reboot", drive_fault<FaultKind::kReboot>, kTimeout, {5, 5, 5}, 3, Way::kConnects},
-    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {207, 203, 2}, 3, Way::kArms},
-    {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9>, kFault, {20, 16, 0}, 3, Way::kArms},
+    {"feedback lost in 1 cycle", wire_fault<kLoses, false, 1>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback lost in 3 cycles", wire_fault<kLoses, false, 3>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback lost", wire_fault<kLoses, false, kForGood>, kTimeout, {4, 4, 4}, 3, Status::kOk},
+    {"feedback doubled in 10 cycles", wire_fault<kDoubles, false, 10>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback doubled", wire_fault<kDoubles, false, kForGood>, Status::kBusConflict, {30, 30, 30}, 3, Status::kBusConflict},
+    {"feedback one cycle late, once", wire_fault<kDelays, false, 1>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback one cycle late", wire_fault<kDelays, false, kForGood>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback cut in 1 cycle", wire_fault<kCuts, false, 1>, Status::kOk, kNever, 0, Status::kOk},
+    {"feedback cut", wire_fault<kCuts, false, kForGood>, kTimeout, {4, 4, 4}, 3, Status::kOk},
+    {"command lost in 1 cycle", wire_fault<kLoses, true, 1>, Status::kOk, kNever, 0, Status::kOk},
+    {"command lost in 8 cycles", wire_fault<kLoses, true, 8>, Status::kOk, kNever, 0, Status::kOk},
+    {"command lost", wire_fault<kLoses, true, kForGood>, kFault, {11, 11, 11}, 3, Status::kOk},
+    {"command doubled", wire_fault<kDoubles, true, kForGood>, Status::kOk, kNever, 0, Status::kOk},
+    {"command one cycle late, once", wire_fault<kDelays, true, 1>, Status::kOk, kNever, 0, Status::kOk},
+    {"command cut", wire_fault<kCuts, true, kForGood>, kFault, {11, 2, 2}, 10, Status::kOk},
+    {"heartbeat missing", drive_fault<FaultKind::kStopHeartbeat>, kTimeout, {151, 151, 151}, 3, kTimeout},
+    {"EMCY and fault", drive_fault<FaultKind::kEmergency, 0x4310>, kFault, {2, 2, 2}, 3, Status::kOk},
+    {"switch on disabled by itself", drive_fault<FaultKind::kSwitchOnDisabled>, kFault, {0, 2, 2}, 3, Status::kOk},
+    {"brake does not open", drive_fault<FaultKind::kBrakeStuck>, kFault, {505, 501, 0}, 3, Status::kOk},
+    {"reboot", drive_fault<FaultKind::kReboot>, kTimeout, {5, 5, 5}, 3, Status::kConnectionLost},
+    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {207, 203, 2}, 3, Status::kOk},
+    {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9>, kFault, {20, 16, 0}, 3, Status::kOk},
 };
 // clang-format on
 
