@@ -23,6 +23,7 @@ SPRING = ("admittance's spring", "the balance of the admittance's spring, the re
 LAG = ("lag by K_D, friction", "the law damps the measured velocity: it lags by (K_D × velocity + friction) / K_P")
 FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
 FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
+DRIVES_FRICTION = 1.0  # of fer_drives, times the identified friction
 TOUCH_N = {"simulated": 1.0, "emulated": 10.0, "real": 10.0}  # a smaller force is an error of the sensor
 EMULATED_STIFFNESS = 2e4  # N/m, of a surface: kStiffness of sim_plant/ur/motion/surroundings.hpp
 LAG_SHARE = 0.1  # the same of the largest lag; inertia is not in the formula
@@ -140,10 +141,11 @@ def contact(run):
 
 
 def plant_friction(run, velocity):
-    """Returns the friction torque of a simulated robot; that of a real one is not known."""
-    if kind(run) != "simulated":
+    """Returns the friction torque of a simulated arm, behind emulated drives too; that of a real one is not known."""
+    if kind(run) == "real" or run.settings.given("ur", "address"):
         return 0.0
-    return run.settings.number("plant", "friction") * friction.torque(run.summary["robot"], velocity)
+    times = run.settings.number("plant", "friction") if kind(run) == "simulated" else DRIVES_FRICTION
+    return times * friction.torque(run.summary["robot"], velocity)
 
 
 def lag_with_integral(torque, kp, kd, ki, t):
