@@ -7,4 +7,4 @@ PARTS  := $(wildcard hal/cia402/*.cpp hal/can/*.cpp program/scan/*.cpp)
 RUNS   += fer_jrg_pdgc_real
 RUNNER := scripts/beside_drives
 
-TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/%,$(TESTS))
+TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/% tests/program/test_sections.cpp,$(TESTS))

@@ -44,6 +44,10 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
       why << ": [cia402] direction is " << joint.units.direction << "; it must be 1 or -1";
       return Status::kBadValue;
     }
+    if (!(settings.rated_torque[j] > 0.0)) {
+      why << ": [cia402] rated_torque is missing; it is 6076h of its drive, in N m";
+      return Status::kMissingKey;
+    }
     const double most_Nm = kLargest * joint.units.step_Nm();
     if (!(limits.tau_max[j] <= most_Nm)) {
       why << ": its torque limit of " << limits.tau_max[j] << " N m is beyond " << most_Nm

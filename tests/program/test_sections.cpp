@@ -23,7 +23,8 @@ std::string_view refusal(const File& text) {
   std::string_view said = errors();
   assert_true(said.substr(0, place.size()) == place);
   said.remove_prefix(place.size());
-  return said.substr(0, 10) == ": refused:" ? std::string_view() : said;
+  const bool of_robot = said.substr(0, 10) == ": refused:" || said.substr(0, 8) == ": robot:";
+  return of_robot ? std::string_view() : said;
 }
 
 /// The output of `ports`.
@@ -55,6 +56,7 @@ std::string_view cell(std::string_view row, int index) {
 Line setting(std::string_view row) {
   if (row.substr(0, 3) != "| `") return {};
   const std::string_view key = cell(row, 0), what = cell(row, 1), value = cell(row, 3);
+  if (key == "`rated_torque`") return Line("rated_torque = 3\n");  // the only one without default
   if (value.empty() || value == "required" || value == "neutral") return {};
   if (what.substr(0, 5) == "limit") return {};  // rounded, perhaps up
   return Line(key.substr(1, key.size() - 2)) << " = " << value << "\n";
@@ -97,7 +99,7 @@ void every_printed_section_is_read_with_every_printed_setting(void**) {
 void the_section_of_another_kind_of_board_is_refused(void**) {
   const std::string_view printed = ports();
   int refused = 0;
-  for (const char* name : {"plant", "ur"}) {
+  for (const char* name : {"plant", "ur", "can"}) {
     const Line heading(Line("\n## [") << name << "]\n");
     File text = minimal();
     text << "[" << name << "]\n";
@@ -109,20 +111,23 @@ void the_section_of_another_kind_of_board_is_refused(void**) {
     assert_true(has(said, Line(":5: [") << name << "] this board has no such section; it has "));
     ++refused;
   }
-  assert_int_equal(refused, 1);
+  assert_int_equal(refused, 2);
 }
 
 // Proves RT-6.
 
 void a_real_robot_does_not_start_without_real_time_unless_the_file_says_so(void**) {
   constexpr const char* kRefusal = "real time: refused: cpu (Invalid argument: choose a CPU";
-  const bool real = ports().find("\n## [ur]\n") != std::string_view::npos;
+  const bool ur = ports().find("\n## [ur]\n") != std::string_view::npos;
+  const bool can = ports().find("\n## [can]\n") != std::string_view::npos;
+  const bool real = ur || can;
   assert_true(
       has(ports(), real ? "| `required` | word | | refuse |" : "| `required` | word | | warn |"));
   for (const char* required : {"", "required = refuse\n", "required = warn\n"}) {
     File text = minimal();
     text << "[realtime]\ncpu = 1023\n" << required;
-    if (real) text << "[ur]\naddress = 127.0.0.1\nrtde_port = 1\n";  // nobody is there
+    if (ur) text << "[ur]\naddress = 127.0.0.1\nrtde_port = 1\n";  // nobody is there
+    if (can) text << "[can]\ninterfaces = no_bus\n[cia402]\nrated_torque = 3\n";
     const Line path = write("start.ini", {text.c_str()}), out = in_folder("start");
     const int code = tactus_run({"run", path.c_str(), "--realtime", "--duration", "0.1",
                                  "--no-figure", "--out", out.c_str()});
