@@ -59,6 +59,12 @@ bool CanMaster::is_ours(const Node* node, std::uint16_t id) const {
   return node != nullptr && layout_.is_command(id, node->slot);
 }
 
+/// The bus on which a drive is asked by SDO: another may have a drive with the same number.
+int CanMaster::asked_bus() const {
+  if (!connected_) return startup_.bus();
+  return nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
+}
+
 void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
   Node* const node = drive_of(bus, frame.id);
   if (is_ours(node, frame.id)) conflict_ = frame.id;
@@ -67,7 +73,9 @@ void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
     case kTpdoBase[0]: return take_feedback(*node, frame);
     case kEmcyBase: return take_emergency(*node, frame);
     case kHeartbeatBase: node->heart.receive(frame, now_ns); return;
-    case kSdoAnswerBase: return sdo_.receive(frame, now_ns);
+    case kSdoAnswerBase:
+      if (bus == asked_bus()) sdo_.receive(frame, now_ns);
+      return;
     default: return;
   }
 }
@@ -182,8 +190,7 @@ void CanMaster::write(const RobotCommand& command) {
   send_commands();
   send_heartbeat();
   CanFrame request;
-  const int bus = nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
-  if (sdo_.take(request)) outbox(bus).add(request);
+  if (sdo_.take(request)) outbox(asked_bus()).add(request);
   LoopBound<4> buses;
   for (int i = 0; i < buses_; ++i) {
     buses.tick();

@@ -65,6 +65,7 @@ class CanMaster {
   void take_emergency(Node& node, const CanFrame& frame);
   void judge(Node& node);
   void count_feedback(Node& node);
+  int asked_bus() const;
   void check_modes();
   void send_commands();
   void send_heartbeat();

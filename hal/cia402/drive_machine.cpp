@@ -17,6 +17,7 @@ std::uint16_t DriveMachine::step(std::uint16_t statusword, Goal goal, std::int64
   if (state != state_ || goal != goal_) since_ns_ = now_ns;
   if (turns_up) left_fault_ = false;
   state_ = state;
+  known_ = is_standard(statusword);
   goal_ = goal;
   left_fault_ = left_fault_ || !is_fault(state);
   late_ = !reached() && now_ns - since_ns_ > limit_ns();
@@ -29,8 +30,8 @@ bool DriveMachine::reached() const {
     case Goal::kOperationEnabled: return state_ == State::kOperationEnabled;
     case Goal::kDisabled: break;
   }
-  return state_ == State::kSwitchOnDisabled || state_ == State::kFault ||
-         state_ == State::kNotReadyToSwitchOn;
+  return known_ && (state_ == State::kSwitchOnDisabled || state_ == State::kFault ||
+                    state_ == State::kNotReadyToSwitchOn);
 }
 
 bool DriveMachine::faulted() const {

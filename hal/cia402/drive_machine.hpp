@@ -35,7 +35,8 @@ class DriveMachine {
   std::uint16_t step(std::uint16_t statusword, Goal goal, std::int64_t now_ns);
 
   State state() const { return state_; }
-  /// True in the state of the goal, or, for kDisabled, in one without torque. [cyclic]
+  /// True in the state of the goal, or, for kDisabled, in one without torque; a statusword that
+  /// shows no state may hide any. [cyclic]
   bool reached() const;
   /// True after the time of the present state. [cyclic]
   bool late() const { return late_; }
@@ -52,6 +53,7 @@ class DriveMachine {
   Goal goal_ = Goal::kDisabled;
   std::int64_t since_ns_ = 0;  // in this state, with this goal
   bool left_fault_ = false;    // seen without a fault on this way up
+  bool known_ = false;         // the statusword shows a state of the standard
   bool late_ = false;
 };
 

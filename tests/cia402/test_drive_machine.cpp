@@ -47,6 +47,8 @@ void a_word_that_is_not_in_the_standard_is_not_ready(void**) {
     DriveMachine drive = machine();
     assert_int_equal(state_of(status), State::kNotReadyToSwitchOn);
     assert_int_equal(drive.step(status, Goal::kOperationEnabled, 0), 0x0000);
+    assert_int_equal(drive.step(status, Goal::kDisabled, 0), 0x0002);
+    assert_false(drive.reached());
   }
   assert_in_range(strange, 1, 0xFFFF);
 }

@@ -190,6 +190,18 @@ void a_bus_that_is_down_is_refused_until_it_is_up(void**) {
   ASSERT_OK(bench.start());
 }
 
+/// Numbers are those of a bus: another may have them too.
+void drives_of_two_buses_may_have_the_same_numbers(void**) {
+  MasterBench* bench = new MasterBench;
+  bench->can.interfaces = Value("vcan0 vcan1");
+  bench->can.bus << 1, 1, 1, 1, 2, 2, 2;
+  bench->can.node << 1, 2, 3, 4, 1, 2, 3;
+  ASSERT_OK(bench->load());
+  ASSERT_OK(bench->start());
+  ASSERT_OK(bench->cycles(300));
+  delete bench;
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -204,6 +216,7 @@ int main() {
       cmocka_unit_test(a_scaling_that_differs_from_the_settings_is_refused),
       cmocka_unit_test(a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out),
       cmocka_unit_test(a_drive_that_restarts_between_connecting_and_arming_is_not_armed),
+      cmocka_unit_test(drives_of_two_buses_may_have_the_same_numbers),
       cmocka_unit_test(a_bus_that_is_down_is_refused_until_it_is_up),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
