@@ -135,7 +135,7 @@ each-board:
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-tests:
-	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat)
+	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline)
 kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
 trajectories: build/trajectories/fer_excitation.csv
