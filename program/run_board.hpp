@@ -42,7 +42,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   options.realtime = options.realtime || board.real;
   if (options.verb == Verb::kDoctor) return doctor(options);
   if (options.verb == Verb::kJitter) return jitter(options);
-  if (options.verb == Verb::kScan) return board.scan(options);
+  if (options.verb == Verb::kScan && board.scan != nullptr) return board.scan(options);
 
   static BoardMemory memory;
   static Sections sections;

@@ -48,7 +48,7 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
       why << ": [cia402] rated_torque is missing; it is 6076h of its drive, in N m";
       return Status::kMissingKey;
     }
-    const double most_Nm = kLargest * joint.units.step_Nm();
+    const double most_Nm = kLargest * joint.units.torque_step();
     if (!(limits.tau_max[j] <= most_Nm)) {
       why << ": its torque limit of " << limits.tau_max[j] << " N m is beyond " << most_Nm
           << " N m, 32767 permille of [cia402] rated_torque; the drive needs a larger one";
@@ -79,7 +79,7 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
     const double turn = joint.units.encoder * joint.units.gear;
     const double middle = 0.5 * (limits.q_min[j] + limits.q_max[j]);
     const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
-                         (turn * joint.units.step_rad());
+                         (turn * joint.units.angle_step());
     joint.turn = static_cast<std::int64_t>(std::floor(turns + 0.5) * turn);
   }
   joint.counter.start(feedback.position, joint.turn);
@@ -178,21 +178,22 @@ Drive Drives::drive_of(const Joint& joint) const {
   Drive drive;
   const bool saturated = joint.last.torque == kLargest || joint.last.torque == kSmallest;
   const State shown = state_of(joint.last.statusword);
-  drive.valid = joint.missed <= settings_->max_missed && !saturated;
+  const bool heard = joint.missed <= settings_->max_missed;
+  const bool unharmed = phase_ == Phase::kFailed && joint.reason == Status::kOk && heard &&
+                        shown == State::kOperationEnabled;
+  drive.valid = heard && !saturated;
   drive.code = joint.last.error_code;
-  if (phase_ == Phase::kArmed) {
+  if (phase_ == Phase::kArmed || unharmed) {
     drive.state = DriveState::kEnabled;
   } else if (enabled() || rising()) {
     drive.state = DriveState::kArming;
   } else if (joint.reason != Status::kOk) {
     drive = {DriveState::kFault, drive.valid, joint.reason, joint.code};
-  } else if (joint.missed > settings_->max_missed) {
+  } else if (!heard) {
     drive.state = DriveState::kUnknown;
   } else if (shown == State::kFault) {
     drive.state = DriveState::kFault;
     drive.reason = Status::kDriveFault;
-  } else if (phase_ == Phase::kFailed && shown == State::kOperationEnabled) {
-    drive.state = DriveState::kEnabled;
   } else {
     const bool off = phase_ == Phase::kOff || joint.machine.reached();
     drive.state = off ? DriveState::kDisabled : DriveState::kStopping;

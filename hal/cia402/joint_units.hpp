@@ -22,29 +22,29 @@ struct JointUnits {
   double offset_rad = 0.0;      ///< q where the drive counts zero
 
   /// Angle of an increment at the joint, rad. [any]
-  double step_rad() const { return kTurn_rad / (encoder * gear); }
+  double angle_step() const { return kTurn_rad / (encoder * gear); }
   /// Torque of a permille at the joint, N m. [any]
-  double step_Nm() const { return 1e-3 * rated_Nm * gear; }
+  double torque_step() const { return 1e-3 * rated_Nm * gear; }
 
   double q(std::int64_t increments) const {
-    return direction * static_cast<double>(increments) * step_rad() + offset_rad;
+    return direction * static_cast<double>(increments) * angle_step() + offset_rad;
   }
   double dq(std::int64_t increments_s) const {
-    return direction * static_cast<double>(increments_s) * step_rad();
+    return direction * static_cast<double>(increments_s) * angle_step();
   }
-  double tau(std::int16_t permille) const { return direction * permille * step_Nm(); }
+  double tau(std::int16_t permille) const { return direction * permille * torque_step(); }
 
   /// The nearest number of the drive, kept within its range; 0 for NaN. A position beyond the range
   /// wraps, as the counter of the drive does. [cyclic]
   std::int32_t position(double q_rad) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(
-        nearest<std::int64_t>(direction * (q_rad - offset_rad) / step_rad())));
+        nearest<std::int64_t>(direction * (q_rad - offset_rad) / angle_step())));
   }
   std::int32_t velocity(double dq_rad_s) const {
-    return nearest<std::int32_t>(direction * dq_rad_s / step_rad());
+    return nearest<std::int32_t>(direction * dq_rad_s / angle_step());
   }
   std::int16_t torque(double tau_Nm) const {
-    return nearest<std::int16_t>(direction * tau_Nm / step_Nm());
+    return nearest<std::int16_t>(direction * tau_Nm / torque_step());
   }
 
  private:

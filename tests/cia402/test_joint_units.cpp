@@ -15,7 +15,7 @@ void torque_is_in_thousandths_of_the_rated_torque(void**) {
   ASSERT_NEAR(wide.tau(29000), 87.0, 1e-12);
   JointUnits fine{16777216.0, 1.0, 0.5, 1.0, 0.0};
   assert_int_equal(fine.torque(-12.0), -24000);
-  ASSERT_NEAR(fine.step_Nm(), 0.5e-3, 1e-18);
+  ASSERT_NEAR(fine.torque_step(), 0.5e-3, 1e-18);
 }
 
 void gear_and_direction_are_those_of_the_joint(void**) {
