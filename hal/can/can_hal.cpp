@@ -8,6 +8,7 @@ namespace tactus::can {
 namespace {
 
 constexpr std::int64_t kAnswer_ns = 1'000'000;  // between two looks at the bus while connecting
+constexpr int kConfirming = 20;                 // cycles beyond the longest quick stop
 constexpr int kMostUnsent = 3;  // cycles in a row whose frames a full queue may refuse
 
 }  // namespace
@@ -93,6 +94,7 @@ Status CanHal::judge_link(int bus) {
 /// The master is told the time even if a bus has failed: it takes the drives on the others to a
 /// stop.
 Status CanHal::read(const CycleTime& now, RobotState& state) {
+  now_ns_ = now.stamp_ns;
   for (int bus = 0; bus < master_.buses(); ++bus) {
     receive(bus, now.stamp_ns);
     if (fault_ == Status::kOk) fault_ = judge_link(bus);
@@ -132,11 +134,28 @@ Status CanHal::send() {
   return status;
 }
 
+/// Goes on with the exchange until every drive has confirmed that it is disabled.
+void CanHal::stop_drives() {
+  const int period_us = master_.period_us();
+  const int cycles = master_.stop_ms() * 1000 / period_us + kConfirming;
+  const timespec period = {0, period_us * 1000};
+  RobotCommand stop;
+  stop.mode = mode_;
+  RobotState state;
+  for (int i = 0; i < cycles && !master_.off() && fault_ == Status::kOk; ++i) {
+    (void)write(stop);
+    nanosleep(&period, nullptr);
+    (void)read({now_ns_ + std::int64_t{1000} * period_us}, state);
+  }
+}
+
 void CanHal::disconnect() {
+  if (master_.connected() && now_ns_ >= 0) stop_drives();
   master_.leave();
   (void)send();
   for (CanSocket& socket : sockets_) socket.close();
   fault_ = Status::kNotStarted;
+  now_ns_ = -1;
 }
 
 int CanHal::system_calls() const {

@@ -26,6 +26,8 @@ class CanHal final : public Hal {
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
+  /// As the interface says, but waits until the drives confirm that they are disabled, at most for
+  /// `stop_ms`: drives that do not keep their watch over this program.
   void disconnect() override;
   Message trouble() override { return master_.trouble(); }
 
@@ -42,6 +44,7 @@ class CanHal final : public Hal {
   void receive(int bus, std::int64_t now_ns);
   Status judge_link(int bus);
   Status send();
+  void stop_drives();
 
   const CanSettings* can_ = nullptr;
   CommandMode mode_ = CommandMode::kEffort;
@@ -50,6 +53,7 @@ class CanHal final : public Hal {
   std::array<CanFrame, CanSocket::kBatch> frames_;
   std::array<int, kMaxBuses> unsent_{};  // cycles in a row in which a bus did not take all frames
   Status fault_ = Status::kNotStarted;   // of the wire
+  std::int64_t now_ns_ = -1;             // of the last cycle; -1: there was none
 };
 
 }  // namespace tactus::can

@@ -11,9 +11,9 @@ using cia402::hex;
 using cia402::Phase;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kLostHeartbeats = 3;   // after which a node is lost
-constexpr int kMostUnanswered = 10;  // SYNCs whose feedback may come late, all at once
-constexpr int kMostSurplus = 10;     // cycles in a row with a frame of feedback too many
+constexpr int kLostHeartbeats = 3;    // after which a node is lost
+constexpr int kMostUnanswered = 100;  // SYNCs whose feedback may come late, all at once
+constexpr int kMostSurplus = 10;      // cycles in a row with a frame of feedback too many
 
 }  // namespace
 
@@ -185,6 +185,7 @@ void CanMaster::check_modes() {
 
 void CanMaster::write(const RobotCommand& command) {
   if (!connected_) return;
+  drives_.hold_back(checked_ < kDof);
   drives_.step(command, commands_, now_ns_);
   for (Outbox& outbox : out_) outbox.clear();
   send_commands();
@@ -211,6 +212,7 @@ void CanMaster::leave() {
   since_refresh_ = PdoLayout::kRefresh;
   send_commands();
   for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+  if (!drives_.off()) return;  // its own watchdogs stop a drive that has not confirmed
   for (const Node& node : nodes_) {
     SdoClient farewell;  // no heartbeat of ours is to be missed
     farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);

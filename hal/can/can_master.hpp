@@ -44,7 +44,12 @@ class CanMaster {
   Status read(const CycleTime& now, RobotState& state);
   /// Leaves the frames of this cycle in the outboxes. [cyclic]
   void write(const RobotCommand& command);
-  /// Leaves frames that stop the drives and end our heartbeat. [any]
+  /// True from connecting to leave(), and true once all drives are disabled. [any]
+  bool connected() const { return connected_; }
+  bool off() const { return drives_.off(); }
+  int period_us() const { return period_us_; }
+  int stop_ms() const { return drive_->stop_ms; }
+  /// Leaves frames that stop the drives and, if these are disabled, end their watch over us. [any]
   void leave();
   Outbox& outbox(int bus) { return out_[static_cast<std::size_t>(bus)]; }
 

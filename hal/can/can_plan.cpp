@@ -21,6 +21,13 @@ Status CanMaster::configure(const CanSettings& can, const cia402::Cia402Settings
     why_ << period_us << "; drives take multiples of 100 us (60C2h), at most 100 ms";
     return Status::kNotOffered;
   }
+  if (1000 * can.timeout_ms(period_us) <= 2 * period_us || 1000 * can.heartbeat_ms < period_us) {
+    why_ = Message("[can] command_timeout_ms is ");
+    why_ << can.command_timeout_ms << ", heartbeat_ms " << can.heartbeat_ms
+         << "; the first must be more than two periods, the second one: [robot] period_us is "
+         << period_us;
+    return Status::kBadValue;
+  }
   TRY(read_interfaces());
   TRY(place_joints());
   TRY(judge_load());
@@ -42,6 +49,12 @@ Status CanMaster::read_interfaces() {
            << word << "'";
       return Status::kTooLarge;
     }
+    for (int bus = 0; bus < buses_; ++bus)
+      if (std::string_view(interfaces_[static_cast<std::size_t>(bus)]) == word) {
+        why_ = Message("[can] interfaces has '");
+        why_ << word << "' twice; every bus has an interface of its own";
+        return Status::kBadValue;
+      }
     interfaces_[static_cast<std::size_t>(buses_++)] = Name(word);
   }
   if (buses_ > 0) return Status::kOk;

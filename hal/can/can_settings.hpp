@@ -41,13 +41,19 @@ struct CanSettings {
   Frames frames = Frames::kClassic;
   Commands commands = Commands::kPlain;
   int bitrate_kbit = 1000, data_bitrate_kbit = 5000;
-  double load_share = 0.8;      ///< most of the period that the frames of a cycle may take
-  int boot_ms = 3000;           ///< longest time from a reset to the boot-up message
-  int sdo_ms = 500;             ///< longest time for an answer to an SDO request
-  int connect_ms = 20000;       ///< longest time of the whole start-up
-  int heartbeat_ms = 50;        ///< of the drives and of ours; missing for three of them: lost
-  int command_timeout_ms = 10;  ///< after which a drive without commands goes to fault
+  double load_share = 0.8;  ///< most of the period that the frames of a cycle may take
+  int boot_ms = 3000;       ///< longest time from a reset to the boot-up message
+  int sdo_ms = 500;         ///< longest time for an answer to an SDO request
+  int connect_ms = 20000;   ///< longest time of the whole start-up
+  int heartbeat_ms = 50;    ///< of the drives and of ours; missing for three of them: lost
+  /// After which a drive without commands goes to fault; 0: ten periods.
+  int command_timeout_ms = 0;
   int vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any
+
+  /// Time-out of the commands, ms. [init]
+  int timeout_ms(int period_us) const {
+    return command_timeout_ms > 0 ? command_timeout_ms : (10 * period_us + 999) / 1000;
+  }
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -64,7 +70,7 @@ struct CanSettings {
     visit.param("sdo_ms", sdo_ms, Range{1.0, 10000.0}, "ms");
     visit.param("connect_ms", connect_ms, Range{10.0, 120000.0}, "ms");
     visit.param("heartbeat_ms", heartbeat_ms, Range{1.0, 10000.0}, "ms");
-    visit.param("command_timeout_ms", command_timeout_ms, Range{1.0, 10000.0}, "ms");
+    visit.param("command_timeout_ms", command_timeout_ms, Range{0.0, 10000.0}, "ms");
     visit.param("vendor", vendor, Range{0.0, 2147483647.0}, "1");
     visit.param("product", product, Range{0.0, 2147483647.0}, "1");
   }

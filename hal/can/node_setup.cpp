@@ -23,7 +23,7 @@ void NodeSetup::begin(const CanSettings& can, const cia402::Cia402Settings& driv
   identity(can, mode);
   scaling(drive, joint);
   watchdogs(can, period_us);
-  pdos(can, layout, slot);
+  pdos(can, layout, slot, period_us);
   const auto code = static_cast<std::uint8_t>(mode_of(mode));
   write(Kind::kWrite, cia402::kModeOfOperation, code, "mode of operation");
   write(Kind::kAwait, cia402::kModeDisplay, code, "display of the mode of operation");
@@ -60,6 +60,7 @@ void NodeSetup::watchdogs(const CanSettings& can, int period_us) {
       static_cast<std::uint32_t>(can.master_node) << 16 | millis(3 * can.heartbeat_ms);
   write(Kind::kWrite, kHeartbeatProducer, 0, 2, millis(can.heartbeat_ms), "heartbeat time");
   write(Kind::kMayWrite, kHeartbeatConsumer, 1, 4, consumer, "consumer of our heartbeat");
+  steps_[static_cast<std::size_t>(count_ - 1)].watches = true;
   write(Kind::kMayWrite, cia402::kAbortConnectionOption, kStopOnLostMaster,
         "abort connection option");
   write(Kind::kMayWrite, cia402::kQuickStopOption, kRampThenOff, "quick stop option");
@@ -77,7 +78,8 @@ void NodeSetup::watchdogs(const CanSettings& can, int period_us) {
         "interpolation time index");
 }
 
-void NodeSetup::pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot) {
+void NodeSetup::pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot,
+                     int period_us) {
   std::array<Pdo, PdoLayout::kMaxCommands> commands;
   const int count = layout.commands(slot, commands);
   for (int i = 0; i < kPdos; ++i) {
@@ -86,7 +88,7 @@ void NodeSetup::pdos(const CanSettings& can, const PdoLayout& layout, const Slot
     const auto send = static_cast<std::uint16_t>(kTpdoCommunication + offset);
     if (i < count) {
       // A frame that is sent on change has no time-out of its own.
-      const int timeout_ms = i + 1 == count ? can.command_timeout_ms : 0;
+      const int timeout_ms = i + 1 == count ? can.timeout_ms(period_us) : 0;
       pdo(receive, static_cast<std::uint16_t>(kRpdoMapping + offset),
           commands[static_cast<std::size_t>(i)], timeout_ms);
     } else {
@@ -110,9 +112,11 @@ void NodeSetup::pdo(std::uint16_t communication, std::uint16_t mapping, const Pd
   const auto count = static_cast<std::uint8_t>(pdo.count);
   write(Kind::kWrite, mapping, 0, 1, count, "number of mapped objects");
   write(Kind::kWrite, communication, kPdoType, 1, kEverySync, "transmission type of a PDO");
-  if (timeout_ms > 0)
+  if (timeout_ms > 0) {
     write(Kind::kMayWrite, communication, kPdoEventTimer, 2, millis(timeout_ms),
           "time-out of the commands");
+    steps_[static_cast<std::size_t>(count_ - 1)].watches = true;
+  }
   write(Kind::kWrite, communication, kPdoId, 4, id, "identifier of a PDO");
 
   const char* remedy = "the drive did not keep what was written; power it off and on";

@@ -24,6 +24,8 @@ struct SetupStep {
   const char* what = "";    ///< the object in words
   const char* remedy = "";  ///< for a value that is not the expected one
 
+  bool watches = false;  ///< it stops the drive if this program ends
+
   bool reads() const { return kind == Kind::kExpect || kind == Kind::kAwait; }
 };
 
@@ -44,7 +46,7 @@ class NodeSetup {
   void identity(const CanSettings& can, CommandMode mode);
   void scaling(const cia402::Cia402Settings& drive, int joint);
   void watchdogs(const CanSettings& can, int period_us);
-  void pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot);
+  void pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot, int period_us);
   void pdo(std::uint16_t communication, std::uint16_t mapping, const Pdo& pdo, int timeout_ms);
   void unused(std::uint16_t communication, std::uint16_t id);
   void expect(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value,

@@ -28,7 +28,7 @@ void Startup::begin(const CanSettings& can, const cia402::Cia402Settings& drive,
 void Startup::enter(Stage stage, std::int64_t now_ns) {
   stage_ = stage;
   since_ns_ = now_ns;
-  joint_ = steady_ = 0;
+  joint_ = steady_ = boot_ups_ = 0;
   if (stage == Stage::kSetup) {
     list_steps();
     ask(now_ns);
@@ -68,7 +68,12 @@ Status Startup::reset(std::int64_t now_ns) {
     const bool over = node.heart.is_lost(now_ns);
     return over ? silent(j, "no boot-up message after its reset", can_->boot_ms) : Status::kArming;
   }
-  enter(Stage::kSetup, now_ns);
+  // One from before the reset, or of a boot loader, is followed by that of the drive.
+  int boot_ups = 0;
+  for (const Node& node : nodes_) boot_ups += node.heart.boot_ups();
+  if (boot_ups != boot_ups_) booted_ns_ = now_ns;
+  boot_ups_ = boot_ups;
+  if (now_ns - booted_ns_ >= kSettled_ns) enter(Stage::kSetup, now_ns);
   return Status::kArming;
 }
 
@@ -121,6 +126,7 @@ void Startup::list_steps() {
   const Node& node = nodes_[static_cast<std::size_t>(joint_)];
   bus_ = node.bus;
   step_ = 0;
+  watched_ = false;
   steps_.begin(*can_, *drive_, *layout_, node.slot, joint_, mode_, period_us_);
 }
 
@@ -147,18 +153,29 @@ void Startup::next_step(std::int64_t now_ns) {
 Status Startup::finish_step(std::int64_t now_ns) {
   const SetupStep& step = steps_.step(step_);
   if (sdo_.progress() == Progress::kAborted) {
-    const bool absent =
-        sdo_.abort() == SdoAbort::kNoObject || sdo_.abort() == SdoAbort::kNoSubIndex;
-    if (!(absent && step.kind == SetupStep::Kind::kMayWrite)) {
+    const bool fixed = sdo_.abort() == SdoAbort::kNoObject ||
+                       sdo_.abort() == SdoAbort::kNoSubIndex || sdo_.abort() == SdoAbort::kReadOnly;
+    if (!(fixed && step.kind == SetupStep::Kind::kMayWrite)) {
       why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
       why_ << ": " << step.what << ": " << sdo_.describe();
       return sdo_.abort() == SdoAbort::kTimeout ? Status::kBusTimeout : Status::kRefusedByRobot;
     }
   } else if (step.reads()) {
     return judge_value(step, now_ns);
+  } else {
+    watched_ = watched_ || step.watches;
   }
+  if (step_ + 1 == steps_.count() && !watched_) return unwatched();
   next_step(now_ns);
   return Status::kArming;
+}
+
+/// A drive that nothing stops if this program ends must not be enabled by it.
+Status Startup::unwatched() {
+  why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
+  why_ << ": it takes neither a consumer of our heartbeat (1016h:1) nor a time-out of its commands"
+          " (1400h:5), so that it would go on without this program; it cannot be used";
+  return Status::kRefusedByRobot;
 }
 
 Status Startup::judge_value(const SetupStep& step, std::int64_t now_ns) {
@@ -166,12 +183,14 @@ Status Startup::judge_value(const SetupStep& step, std::int64_t now_ns) {
   const bool right = (value & step.mask) == (step.value & step.mask);
   const bool waits =
       step.kind == SetupStep::Kind::kAwait && now_ns - step_ns_ <= can_->sdo_ms * kMillisecond_ns;
+  if (right && step_ + 1 == steps_.count() && !watched_) return unwatched();
   if (right) next_step(now_ns);
   if (!right && waits) ask(now_ns);
   if (right || waits) return Status::kArming;
   why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
   why_ << ": " << step.what << " (" << cia402::hex(step.index) << ":" << static_cast<int>(step.sub)
-       << ") is " << static_cast<double>(value) << ", expected " << static_cast<double>(step.value);
+       << ") is " << static_cast<std::size_t>(value) << ", expected "
+       << static_cast<std::size_t>(step.value);
   if (step.remedy[0] != '\0') why_ << "; " << step.remedy;
   return Status::kRefusedByRobot;
 }

@@ -17,7 +17,8 @@ namespace tactus::can {
 
 class Startup {
  public:
-  static constexpr int kSteady = 5;  ///< cycles
+  static constexpr int kSteady = 5;                         ///< cycles
+  static constexpr std::int64_t kSettled_ns = 100'000'000;  ///< without a further boot-up message
 
   Startup(Nodes& nodes, Outboxes& out, SdoClient& sdo, Message& why)
       : nodes_(nodes), out_(out), sdo_(sdo), why_(why) {}
@@ -44,6 +45,7 @@ class Startup {
   void next_step(std::int64_t now_ns);
   Status finish_step(std::int64_t now_ns);
   Status judge_value(const SetupStep& step, std::int64_t now_ns);
+  Status unwatched();
   Status silent(int joint, const char* what, int limit_ms);
 
   Nodes& nodes_;
@@ -60,7 +62,10 @@ class Startup {
   std::int64_t since_ns_ = 0;  // in this stage
   int joint_ = 0;              // that is being set up
   int step_ = 0;
-  std::int64_t step_ns_ = 0;  // when the step began
+  std::int64_t step_ns_ = 0;    // when the step began
+  bool watched_ = false;        // the drive has a watchdog of its own
+  int boot_ups_ = 0;            // of all nodes since the reset
+  std::int64_t booted_ns_ = 0;  // when the last of them came
   NodeSetup steps_;
   std::int64_t sync_ns_ = 0;  // of the last SYNC
   int steady_ = 0;            // cycles in a row with feedback of all

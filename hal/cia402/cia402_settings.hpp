@@ -48,6 +48,7 @@ struct Cia402Settings {
   /// The hold between enabling and the first command, in effort mode.
   JointVector hold_stiffness = JointVector::Constant(200.0);  ///< N m/rad
   JointVector hold_damping = JointVector::Constant(10.0);     ///< N m s/rad
+  double hold_tolerance = 0.05;                               ///< rad: farther, and the drives stop
   int step_ms = 500;    ///< longest time in a state on the way up
   int reset_ms = 1000;  ///< longest time until a fault is reset
   int stop_ms = 2000;   ///< longest quick stop, before the voltage is cut
@@ -66,6 +67,7 @@ struct Cia402Settings {
     visit.choice("gravity", gravity);
     visit.param("hold_stiffness", hold_stiffness, Range{0.0, 1e5}, "N m/rad");
     visit.param("hold_damping", hold_damping, Range{0.0, 1e4}, "N m s/rad");
+    visit.param("hold_tolerance", hold_tolerance, Range{1e-4, 1.0}, "rad");
     visit.param("step_ms", step_ms, Range{1.0, 60000.0}, "ms");
     visit.param("reset_ms", reset_ms, Range{1.0, 60000.0}, "ms");
     visit.param("stop_ms", stop_ms, Range{1.0, 60000.0}, "ms");

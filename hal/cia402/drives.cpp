@@ -11,6 +11,7 @@ namespace tactus::cia402 {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
 constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
 constexpr auto kSmallest = std::numeric_limits<std::int16_t>::min();
 
@@ -34,7 +35,6 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
   hold_.configure(settings, tool, period_s_);
   const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
                             settings.stop_ms * kMillisecond_ns};
-  const JointLimits limits;
   for (int j = 0; j < kDof; ++j) {
     Joint& joint = joints_[static_cast<std::size_t>(j)];
     joint.units = units_of(settings, j);
@@ -48,9 +48,14 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
       why << ": [cia402] rated_torque is missing; it is 6076h of its drive, in N m";
       return Status::kMissingKey;
     }
+    const int bit = settings.referenced_bit;
+    if (bit >= 0 && bit < kFirstFreeBit) {
+      why << ": [cia402] referenced_bit is " << bit << ", which is of the state; 7 to 15 or -1";
+      return Status::kBadValue;
+    }
     const double most_Nm = kLargest * joint.units.torque_step();
-    if (!(limits.tau_max[j] <= most_Nm)) {
-      why << ": its torque limit of " << limits.tau_max[j] << " N m is beyond " << most_Nm
+    if (!(limits_.tau_max[j] <= most_Nm)) {
+      why << ": its torque limit of " << limits_.tau_max[j] << " N m is beyond " << most_Nm
           << " N m, 32767 permille of [cia402] rated_torque; the drive needs a larger one";
       return Status::kBadValue;
     }
@@ -74,10 +79,9 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   joint.code = 0;
   joint.missed = 0;
   joint.turn = 0;
-  const JointLimits limits;
   if (settings_->encoder == Encoder::kSingleTurn) {
     const double turn = joint.units.encoder * joint.units.gear;
-    const double middle = 0.5 * (limits.q_min[j] + limits.q_max[j]);
+    const double middle = 0.5 * (limits_.q_min[j] + limits_.q_max[j]);
     const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
                          (turn * joint.units.angle_step());
     joint.turn = static_cast<std::int64_t>(std::floor(turns + 0.5) * turn);
@@ -86,7 +90,7 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   joint.q = joint.units.q(joint.counter.total());
   joint.dq = joint.tau = 0.0;
   joint.last = feedback;
-  const Range range = {limits.q_min[j], limits.q_max[j]};
+  const Range range = {limits_.q_min[j], limits_.q_max[j]};
   if (range.contains(joint.q)) return Status::kOk;
   why = joint_text(j);
   why << ": its drive counts " << static_cast<int>(feedback.position) << " increments, which is "
@@ -96,22 +100,38 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
 }
 
 void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
+  if (steady_ < kSteady) ++steady_;
   LoopBound<kDof> joints;
   for (int j = 0; j < kDof; ++j) {
     joints.tick();
     measure(joints_[static_cast<std::size_t>(j)], feedbacks[static_cast<std::size_t>(j)],
             sampled_ns);
     judge(j);
+    judge_hold(j);
   }
 }
 
-void Drives::measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) const {
+/// Until it is commanded, an enabled arm stays where it was held; a wrong sign or a wrong torque
+/// must not drive it away.
+void Drives::judge_hold(int j) {
+  const Joint& joint = joints_[static_cast<std::size_t>(j)];
+  if (following_ || goal() != Goal::kOperationEnabled) return;
+  if (std::abs(joint.q - held_[j]) <= settings_->hold_tolerance) return;
+  fail(
+      j, Status::kMoved, joint.last.error_code,
+      "moved by more than [cia402] hold_tolerance while it was held; check direction, rated_torque,"
+      " hold_stiffness and the encoder");
+}
+
+void Drives::measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) {
   const int periods = joint.missed + 1;
   joint.missed = feedback.fresh ? 0 : joint.missed + (joint.missed <= settings_->max_missed);
   joint.last = feedback;
   if (!feedback.fresh) return;
   const double before = joint.q;
   joint.q = joint.units.q(joint.counter.follow(feedback.position));
+  const auto j = static_cast<int>(&joint - joints_.data());
+  if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) steady_ = -1;
   joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
                                    : (joint.q - before) / (periods * period_s_);
   joint.tau = joint.units.tau(feedback.torque);

@@ -29,6 +29,9 @@ enum class Phase : std::uint8_t {
 
 class Drives {
  public:
+  /// Cycles in a row in which the positions must agree before the drives are enabled.
+  static constexpr int kSteady = 5;
+
   /// Takes the settings, which must outlive the use of the drives. kBadValue, with `why`: a
   /// direction that is not 1 or -1, a torque limit that is beyond the drive's numbers. [init]
   Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
@@ -40,6 +43,10 @@ class Drives {
   void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
   /// Takes every drive a step towards what is requested. [cyclic]
   void step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns);
+  /// While it is true, arming does not end: the bus has still to ask its drives. [cyclic]
+  void hold_back(bool waits) { held_back_ = waits; }
+  /// True if no drive has power any more, as far as is known. [cyclic]
+  bool off() const { return phase_ == Phase::kOff; }
   /// Fails the joint, from 0, as a fault of its drive does. The texts are constants; why() puts
   /// them together. [cyclic]
   void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
@@ -78,8 +85,9 @@ class Drives {
   };
 
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
-  void measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) const;
+  void measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns);
   void judge(int j);
+  void judge_hold(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
   bool rising() const { return phase_ == Phase::kSwitchingOn || phase_ == Phase::kEnabling; }
   Drive drive_of(const Joint& joint) const;
@@ -104,6 +112,10 @@ class Drives {
   std::int64_t since_ns_ = 0;  // in this phase
   std::array<Joint, kDof> joints_;
   HoldEffort hold_;
+  JointLimits limits_;
+  int steady_ = 0;          // cycles in a row in which no joint moved faster than it can
+  bool following_ = false;  // commands, in the last cycle
+  bool held_back_ = false;
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
   Failure failure_;
 };

@@ -15,7 +15,8 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   if (phase_ == Phase::kFailed)
     for (std::size_t j = 0; j < kDof; ++j)
       out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
-  set_target(command, follow && phase_ == Phase::kArmed, out);
+  following_ = follow && phase_ == Phase::kArmed;
+  set_target(command, following_, out);
   advance(now_ns);
 }
 
@@ -85,13 +86,14 @@ void Drives::advance(std::int64_t now_ns) {
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   switch (phase_) {
     case Phase::kSwitchingOn:
-      if (all_reached()) enter(Phase::kEnabling, now_ns);
+      if (all_reached() && steady_ >= kSteady) enter(Phase::kEnabling, now_ns);
       break;
     case Phase::kEnabling:
       if (all_reached()) enter(Phase::kReleasing, now_ns);
       break;
     case Phase::kReleasing:
-      if (now_ns - since_ns_ >= settings_->brake_ms * kMillisecond_ns) enter(Phase::kArmed, now_ns);
+      if (now_ns - since_ns_ >= settings_->brake_ms * kMillisecond_ns && !held_back_)
+        enter(Phase::kArmed, now_ns);
       break;
     case Phase::kStopping:
       if (all_reached()) enter(Phase::kOff, now_ns);

@@ -70,8 +70,8 @@ class Hal {
   /// read() on, a drive that is requested to arm is kFault only if arming has failed; while an old
   /// fault is being cleared it is kArming. Bounded; never blocks. [cyclic]
   virtual Status write(const RobotCommand& command) = 0;
-  /// Disables the drives without waiting for them, and closes the wire; may be called in any state,
-  /// more than once. [any]
+  /// Disables the drives and closes the wire; waits for them no longer than the board's settings
+  /// say, if at all. May be called in any state, more than once. [any]
   virtual void disconnect() = 0;
 
   /// Returns the wire's clock if it begins the cycles; null: the host's does. [init]

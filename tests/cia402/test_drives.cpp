@@ -176,6 +176,44 @@ void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
   assert_non_null(std::strstr(why.c_str(), "joint 2: its torque limit of 87 N m is beyond 65.534"));
 }
 
+/// A motor with the wrong sign drives its joint away from where it is held.
+void a_joint_that_moves_while_it_is_held_stops_all_drives(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  arm.feedbacks[1].position += 120000;  // 0.045 rad: within the tolerance of 0.05 rad
+  arm.cycle(DriveRequest::kArm);
+  assert_true(arm.all(DriveState::kEnabled));
+  arm.feedbacks[1].position += 20000;
+  arm.cycle(DriveRequest::kArm);
+  assert_false(any_torque(arm));
+  ASSERT_STATUS(arm.joint(1).reason, Status::kMoved);
+  for (const DriveCommand& command : arm.commands) assert_int_equal(command.controlword, 0x0002);
+}
+
+/// One wrong sample must not become the place where the arm is held.
+void drives_are_not_enabled_from_a_position_that_jumps(void**) {
+  ArmOfDrives arm;
+  arm.cycles(4, DriveRequest::kArm);
+  arm.feedbacks[2].position += 1 << 20;
+  arm.cycle(DriveRequest::kArm);
+  arm.feedbacks[2].position -= 1 << 20;
+  for (int i = 0; i < Drives::kSteady; ++i) {
+    arm.cycle(DriveRequest::kArm);
+    assert_int_not_equal(arm.commands[0].controlword, 0x000F);
+  }
+  arm.arm();
+}
+
+void arming_does_not_end_while_the_bus_asks_its_drives(void**) {
+  ArmOfDrives arm;
+  arm.drives.hold_back(true);
+  arm.cycles(200, DriveRequest::kArm);
+  assert_true(arm.all(DriveState::kArming));
+  arm.drives.hold_back(false);
+  arm.cycles(2, DriveRequest::kArm);
+  assert_true(arm.all(DriveState::kEnabled));
+}
+
 }  // namespace
 }  // namespace tactus::cia402
 
@@ -194,6 +232,9 @@ int main() {
       cmocka_unit_test(a_command_that_is_not_finite_stops_the_drives),
       cmocka_unit_test(an_error_message_of_an_enabled_drive_stops_all),
       cmocka_unit_test(a_drive_without_its_reference_is_refused),
+      cmocka_unit_test(a_joint_that_moves_while_it_is_held_stops_all_drives),
+      cmocka_unit_test(drives_are_not_enabled_from_a_position_that_jumps),
+      cmocka_unit_test(arming_does_not_end_while_the_bus_asks_its_drives),
       cmocka_unit_test(a_torque_limit_beyond_the_drives_numbers_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -70,20 +70,27 @@ struct CanHalBench {
   }
   /// Connects while the drives answer.
   Status start() {
-    std::atomic<bool> connected{false};
-    std::thread drives([this, &connected] {
+    Status status = Status::kOk;
+    while_drives_answer([&] { status = executive.start(); });
+    return status;
+  }
+  /// Runs what waits for the drives, which answer in a thread of their own by the wall clock.
+  template <class Waits>
+  void while_drives_answer(Waits waits) {
+    std::atomic<bool> over{false};
+    const std::int64_t began_ns = drives_ns;
+    std::thread drives([&] {
       constexpr int kLongest_ms = 60'000;
       const Deadline clock(kLongest_ms);
-      while (!connected && clock.left_ns() > 0) {
-        drives_ns = std::int64_t{1'000'000} * kLongest_ms - clock.left_ns();
+      while (!over && clock.left_ns() > 0) {
+        drives_ns = began_ns + std::int64_t{1'000'000} * kLongest_ms - clock.left_ns();
         exchange();
         usleep(100);
       }
     });
-    const Status status = executive.start();
-    connected = true;
+    waits();
+    over = true;
     drives.join();
-    return status;
   }
   /// The drives take what has been sent to them and answer it.
   void exchange() {

@@ -61,9 +61,9 @@ inline constexpr FaultRow kFaultRows[] = {
     {"heartbeat missing", drive_fault<FaultKind::kStopHeartbeat>, kTimeout, {151, 151, 151}, 3, kTimeout},
     {"EMCY and fault", drive_fault<FaultKind::kEmergency, 0x4310>, kFault, {2, 2, 2}, 3, Status::kOk},
     {"switch on disabled by itself", drive_fault<FaultKind::kSwitchOnDisabled>, kFault, {0, 2, 2}, 3, Status::kOk},
-    {"brake does not open", drive_fault<FaultKind::kBrakeStuck>, kFault, {505, 501, 0}, 3, Status::kOk},
+    {"brake does not open", drive_fault<FaultKind::kBrakeStuck>, kFault, {508, 501, 0}, 3, Status::kOk},
     {"reboot", drive_fault<FaultKind::kReboot>, kTimeout, {5, 5, 5}, 3, Status::kConnectionLost},
-    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {207, 203, 2}, 3, Status::kOk},
+    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {210, 203, 2}, 3, Status::kOk},
     {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9>, kFault, {20, 16, 0}, 3, Status::kOk},
 };
 // clang-format on
