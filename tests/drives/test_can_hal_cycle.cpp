@@ -1,5 +1,9 @@
 // Tests the cycle of CanHal with its sockets: what it costs in system calls and heap, and how it
 // ends.
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <unistd.h>
+
 #include <cstring>
 
 #include "program/heap_count.hpp"
@@ -168,6 +172,35 @@ void disconnecting_is_safe_when_connected_armed_or_lost(void**) {
   }
 }
 
+/// A report of the controller, as its driver puts it among the frames.
+void report(CanHalBench& bench, std::uint32_t what, std::uint8_t detail) {
+  can_frame frame{};
+  frame.can_id = CAN_ERR_FLAG | what;
+  frame.can_dlc = CAN_ERR_DLC;
+  frame.data[1] = detail;
+  assert_true(write(bench.ends[0]->descriptor(), &frame, sizeof frame) == sizeof frame);
+}
+
+void a_controller_that_is_error_passive_goes_on_and_one_off_the_bus_ends_the_motion(void**) {
+  CanHalBench& bench = fresh(1);
+  start(bench);
+  report(bench, CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE);
+  for (int i = 0; i < 10; ++i) ASSERT_OK(bench.cycle());
+  assert_true(bench.hal.health(0).error_passive);
+  report(bench, CAN_ERR_BUSOFF, 0);
+  ASSERT_STATUS(bench.cycle(), Status::kConnectionLost);
+  assert_non_null(std::strstr(bench.hal.trouble().c_str(), "bus-off"));
+}
+
+/// A controller that restarted by itself between two cycles was off the bus.
+void a_controller_that_came_back_by_itself_ends_the_motion(void**) {
+  CanHalBench& bench = fresh(1);
+  start(bench);
+  report(bench, CAN_ERR_BUSOFF, 0);
+  report(bench, CAN_ERR_RESTARTED, 0);
+  ASSERT_STATUS(bench.cycle(), Status::kConnectionLost);
+}
+
 /// No drive stops by a fault of its own, and none is left before it has confirmed.
 void disconnecting_waits_until_drives_that_follow_are_disabled(void**) {
   CanHalBench& bench = fresh(1);
@@ -196,6 +229,9 @@ int main() {
       cmocka_unit_test(a_peer_that_closes_its_end_while_connecting_is_named),
       cmocka_unit_test(disconnecting_is_safe_before_anything_else),
       cmocka_unit_test(disconnecting_is_safe_when_connected_armed_or_lost),
+      cmocka_unit_test(
+          a_controller_that_is_error_passive_goes_on_and_one_off_the_bus_ends_the_motion),
+      cmocka_unit_test(a_controller_that_came_back_by_itself_ends_the_motion),
       cmocka_unit_test(disconnecting_waits_until_drives_that_follow_are_disabled),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
