@@ -11,8 +11,8 @@ int rounded(double value) {
 
 }  // namespace
 
-Status BusLoad::judge(const char* interface, int joints, double period_us, Message& why,
-                      double most) const {
+Status BusLoad::judge(const char* interface, int joints, double period_us, double most,
+                      Message& why) const {
   const double limit_us = most * period_us;
   if (worst_us() <= limit_us) return Status::kOk;  // NaN is not
   why = Message();

@@ -52,9 +52,6 @@ constexpr WireTime wire_time(std::size_t size, bool fd, const BitRates& rates) {
       (bits.nominal + bits.nominal_stuff) * nominal_us + (bits.data + bits.data_stuff) * data_us};
 }
 
-/// The part of a period that frames may occupy; the rest is for the computation, SDO and errors.
-inline constexpr double kMostLoad = 0.8;
-
 class BusLoad {
  public:
   /// `rates.data_hz` > 0: frames are CAN FD frames if not said otherwise. [any]
@@ -75,10 +72,10 @@ class BusLoad {
   constexpr double best_us() const { return sum_.best_us; }
   constexpr double worst_us() const { return sum_.worst_us; }
 
-  /// kOverBudget: the worst time is above `most` x `period_us`, or is not finite; `why` names bus,
-  /// times, joints, bit rate and what helps. [init]
-  Status judge(const char* interface, int joints, double period_us, Message& why,
-               double most = kMostLoad) const;
+  /// kOverBudget: the worst time is above the share `most` of `period_us`, or is not finite; `why`
+  /// names bus, times, joints, bit rate and what helps. [init]
+  Status judge(const char* interface, int joints, double period_us, double most,
+               Message& why) const;
 
  private:
   BitRates rates_;

@@ -46,9 +46,22 @@ Status CanHal::open() {
     const bool fd = can_->frames == Frames::kFd;
     TRY(sockets_[static_cast<std::size_t>(bus)].open(master_.interface(bus), fd, filters.data(),
                                                      count, master_.why()));
+    TRY(judge_queue(bus));
     unsent_[static_cast<std::size_t>(bus)] = 0;
   }
   return Status::kOk;
+}
+
+/// A queue that does not hold the frames of a cycle loses some in every cycle.
+Status CanHal::judge_queue(int bus) {
+  const int queue = sockets_[static_cast<std::size_t>(bus)].queue_frames();
+  const int frames = master_.cycle_frames(bus);
+  if (queue == 0 || queue >= frames) return Status::kOk;  // 0: not known
+  master_.why() = Message("bus ");
+  master_.why() << master_.interface(bus) << ": its queue holds " << queue
+                << " frames, a cycle sends up to " << frames << "; ip link set "
+                << master_.interface(bus) << " txqueuelen 64";
+  return Status::kTooLarge;
 }
 
 /// Every round looks at all buses, so the start-up is as fast as the drives answer.
@@ -65,7 +78,11 @@ Status CanHal::start_up() {
     const Status status = master_.connecting(now_ns);
     TRY(send());
     if (status != Status::kArming) return status;
-    sockets_[static_cast<std::size_t>(master_.awaited_bus())].wait(kAnswer_ns);
+    const CanSocket& awaited = sockets_[static_cast<std::size_t>(master_.awaited_bus())];
+    if (awaited.wait(kAnswer_ns) == Waited::kInterrupted) {
+      master_.why() = Message("a signal ended the start-up; no drive was enabled");
+      return Status::kHalted;
+    }
   }
   master_.why() = Message("the drives are not ready after [can] connect_ms, ");
   master_.why() << can_->connect_ms << " ms";

@@ -40,6 +40,7 @@ class CanHal final : public Hal {
 
  private:
   Status open();
+  Status judge_queue(int bus);
   Status start_up();
   void receive(int bus, std::int64_t now_ns);
   Status judge_link(int bus);

@@ -24,9 +24,7 @@ void CanMaster::connect(std::int64_t now_ns) {
   for (Outbox& outbox : out_) outbox.clear();
   for (Node& node : nodes_) {
     node.feedback = {};
-    node.frames = 0;
-    node.last_size = -1;
-    node.unanswered = node.surplus = 0;
+    node.frames = node.unanswered = node.surplus = 0;
   }
   startup_.begin(*can_, *drive_, layout_, mode_, period_us_, buses_, now_ns);
 }
@@ -34,9 +32,7 @@ void CanMaster::connect(std::int64_t now_ns) {
 Status CanMaster::connecting(std::int64_t now_ns) {
   TRY(startup_.advance(now_ns));
   cia402::Feedbacks feedbacks;
-  for (std::size_t j = 0; j < kDof; ++j) {
-    feedbacks[j] = nodes_[j].feedback;
-  }
+  for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = nodes_[j].feedback;
   TRY(drives_.attach(mode_, feedbacks, why_));
   sent_ = {};
   since_refresh_ = PdoLayout::kRefresh;
@@ -82,10 +78,7 @@ void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
 
 /// Feedback of another size was sent by somebody else, or by a drive that lost its mapping.
 void CanMaster::take_feedback(Node& node, const CanFrame& frame) {
-  if (frame.size != layout_.feedback_size() || frame.fd != layout_.fd()) {
-    node.last_size = frame.size;
-    return;
-  }
+  if (frame.size != layout_.feedback_size() || frame.fd != layout_.fd()) return;
   layout_.decode(frame, node.feedback);
   ++node.frames;
 }
@@ -214,6 +207,7 @@ void CanMaster::leave() {
   for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
   if (!drives_.off()) return;  // its own watchdogs stop a drive that has not confirmed
   for (const Node& node : nodes_) {
+    if (node.feedback.lost != Status::kOk) continue;  // nor has one that was lost
     SdoClient farewell;  // no heartbeat of ours is to be missed
     farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);
     CanFrame request;

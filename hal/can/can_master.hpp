@@ -57,8 +57,8 @@ class CanMaster {
   /// The last Status in words. [between two cycles]
   Message trouble() const;
   cia402::Phase phase() const { return drives_.phase(); }
-  /// Time on a bus that the frames of a cycle take at most, us. [init]
-  double load_us(int bus) const { return load_us_[static_cast<std::size_t>(bus)]; }
+  /// Frames that a cycle sends on a bus at most. [init]
+  int cycle_frames(int bus) const;
 
  private:
   Status read_interfaces();
@@ -80,7 +80,6 @@ class CanMaster {
   CommandMode mode_ = CommandMode::kEffort;
   int period_us_ = 1, buses_ = 0;
   std::array<Name, kMaxBuses> interfaces_;
-  std::array<double, kMaxBuses> load_us_{};
   PdoLayout layout_;
   Nodes nodes_;
   Outboxes out_;

@@ -30,7 +30,6 @@ bool is_full(int error) {
 
 int CanSocket::receive(CanFrame* frames, int capacity) {
   const int most = std::min(capacity, kBatch);
-  may_have_more_ = false;
   if (socket_ < 0 || most <= 0) return 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(most); ++i) {
     batch_.pieces[i] = {batch_.packets[i].data(), kPacket};
@@ -45,14 +44,12 @@ int CanSocket::receive(CanFrame* frames, int capacity) {
   const int got =
       recvmmsg(socket_, batch_.headers.data(), static_cast<unsigned>(most), MSG_DONTWAIT, nullptr);
   if (got < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) health_.lost = true;
-  may_have_more_ = got == most;
   int count = 0;
   for (int i = 0; i < got; ++i) {
     const mmsghdr& header = batch_.headers[static_cast<std::size_t>(i)];
     // A closed packet socket gives packets without bytes, and so does a peer that sends them.
     if (header.msg_len == 0 && hung_up()) {
       health_.lost = true;
-      may_have_more_ = false;
       break;
     }
     if (take_packet(header, frames[count])) ++count;

@@ -20,6 +20,8 @@ namespace tactus::can {
 /// kQueueFull: at least one frame was not sent.
 enum class Sent : std::uint8_t { kAll, kQueueFull, kLost };
 
+enum class Waited : std::uint8_t { kSomething, kNothing, kInterrupted };
+
 class CanSocket {
  public:
   static constexpr int kBatch = 64;        ///< packets of one system call
@@ -38,8 +40,9 @@ class CanSocket {
   /// Takes over an open packet socket that carries struct can_frame and, if `fd`, struct
   /// canfd_frame; it is closed with this object. [init]
   void adopt(int descriptor, bool fd, const CanFilter* filters = nullptr, int count = 0);
-  /// Waits until a frame, or the end of the link, can be received. [init]
-  bool wait(std::int64_t timeout_ns) const;
+  /// Waits until a frame, or the end of the link, can be received. kInterrupted: a signal came.
+  /// [init]
+  Waited wait(std::int64_t timeout_ns) const;
   /// [any]
   void close();
   bool is_open() const { return socket_ >= 0; }
@@ -48,8 +51,6 @@ class CanSocket {
   /// their number. Error frames, malformed packets and frames with 29-bit identifiers are only
   /// counted in health(). [cyclic]
   int receive(CanFrame* frames, int capacity);
-  /// Whether the last receive() took as many packets as it could, so that more may wait. [cyclic]
-  bool may_have_more() const { return may_have_more_; }
 
   /// Sends frames in this order, at most kBatch; what the socket does not take is counted as unsent
   /// and is not sent later. The data of a CAN FD frame is padded with zeros to a length that
@@ -86,7 +87,6 @@ class CanSocket {
 
   int socket_ = -1;
   bool fd_ = false;
-  bool may_have_more_ = false;
   int system_calls_ = 0;
   int queue_frames_ = 0;
   LinkHealth health_;

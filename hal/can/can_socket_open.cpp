@@ -144,7 +144,6 @@ void CanSocket::adopt(int descriptor, bool fd, const CanFilter* filters, int cou
 void CanSocket::begin(int descriptor, bool fd, const CanFilter* filters, int count) {
   socket_ = descriptor;
   fd_ = fd;
-  may_have_more_ = false;
   system_calls_ = queue_frames_ = 0;
   health_ = LinkHealth();
   want(filters, count);
@@ -158,10 +157,12 @@ void CanSocket::want(const CanFilter* filters, int count) {
       if (((id ^ filters[i].id) & filters[i].mask) == 0) wanted_[id / 32] |= 1U << id % 32;
 }
 
-bool CanSocket::wait(std::int64_t timeout_ns) const {
+Waited CanSocket::wait(std::int64_t timeout_ns) const {
   pollfd polled = {socket_, POLLIN, 0};
   const timespec timeout = {timeout_ns / kSecond_ns, timeout_ns % kSecond_ns};
-  return ppoll(&polled, 1, &timeout, nullptr) > 0;
+  const int ready = ppoll(&polled, 1, &timeout, nullptr);
+  if (ready < 0 && errno == EINTR) return Waited::kInterrupted;
+  return ready > 0 ? Waited::kSomething : Waited::kNothing;
 }
 
 void CanSocket::close() {

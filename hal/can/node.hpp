@@ -21,7 +21,6 @@ struct Node {
   int frames = 0;      ///< of feedback since the last cycle
   int unanswered = 0;  ///< SYNCs whose feedback may still come
   int surplus = 0;     ///< cycles in a row with more feedback than SYNCs
-  int last_size = -1;  ///< bytes of the last feedback that had a wrong size; -1: none had
   cia402::DriveFeedback feedback;
 
   std::uint8_t id() const { return slot.node; }

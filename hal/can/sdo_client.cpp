@@ -98,9 +98,17 @@ void SdoClient::receive(const CanFrame& answer, std::int64_t now_ns) {
       answer.size != kSdoSize)
     return;
   if (has_request_) return;  // the answer to a request of before
+  if (is_repeated(answer)) return;
+  heard_ns_ = now_ns;
+  take_answer(answer);
+  if (progress_ == Progress::kBusy) return;
+  last_id_ = answer.id;
+  last_answer_ = load<std::uint64_t>(answer.data, 0);
+}
+
+void SdoClient::take_answer(const CanFrame& answer) {
   if (specifier(answer) == kAbort)
     return end(static_cast<SdoAbort>(load<std::uint32_t>(answer.data, kDataAt)), Cause::kNode);
-  heard_ns_ = now_ns;
   switch (phase_) {
     case Phase::kNone: break;
     case Phase::kWrite: return take_downloaded(answer);
@@ -108,6 +116,13 @@ void SdoClient::receive(const CanFrame& answer, std::int64_t now_ns) {
     case Phase::kRead: return take_uploaded(answer);
     case Phase::kReadSegment: return take_segment_uploaded(answer);
   }
+}
+
+/// A bus may repeat a frame: here the last answer of the transfer before, on another object.
+bool SdoClient::is_repeated(const CanFrame& answer) const {
+  const bool first = phase_ == Phase::kRead || phase_ == Phase::kWrite;
+  return first && answer.id == last_id_ && load<std::uint64_t>(answer.data, 0) == last_answer_ &&
+         !is_for_object(answer);
 }
 
 bool SdoClient::is_for_object(const CanFrame& answer) const {

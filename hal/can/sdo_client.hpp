@@ -50,7 +50,8 @@ class SdoClient {
 
   /// Copies the next frame to send; false: there is none. [any]
   bool take(CanFrame& request);
-  /// Takes any frame of the bus; one that is no SDO answer of the node is ignored. An answer that
+  /// Takes any frame of the bus; one that is no SDO answer of the node is ignored, and so is the
+  /// last answer of the transfer before if the bus repeats it. An answer that
   /// breaks the protocol ends the transfer, and the node gets an abort. [any]
   void receive(const CanFrame& frame, std::int64_t now_ns);
   /// Ends the transfer with kTimeout when its time is over. [any]
@@ -83,6 +84,8 @@ class SdoClient {
   void take_segment_downloaded(const CanFrame& answer);
   void take_uploaded(const CanFrame& answer);
   void take_segment_uploaded(const CanFrame& answer);
+  void take_answer(const CanFrame& answer);
+  bool is_repeated(const CanFrame& answer) const;
   bool is_for_object(const CanFrame& answer) const;
   void finish();
   void give_up(SdoAbort why, Cause cause = Cause::kAnswer);
@@ -104,6 +107,8 @@ class SdoClient {
   bool toggle_ = false;
   bool has_request_ = false, has_abort_ = false;
   CanFrame request_, abort_frame_;
+  std::uint16_t last_id_ = 0;  ///< of the answer that ended the transfer before
+  std::uint64_t last_answer_ = 0;
 };
 
 }  // namespace tactus::can

@@ -141,13 +141,17 @@ void Startup::ask(std::int64_t now_ns) {
 }
 
 /// Goes on with the next step, the next node, or the next stage.
-void Startup::next_step(std::int64_t now_ns) {
+Status Startup::next_step(std::int64_t now_ns) {
   step_ns_ = now_ns;
-  if (++step_ == steps_.count()) {
-    if (++joint_ == kDof) return enter(Stage::kStart, now_ns);
-    list_steps();
+  const bool last = ++step_ == steps_.count();
+  if (last && !watched_) return unwatched();
+  if (last && ++joint_ == kDof) {
+    enter(Stage::kStart, now_ns);
+    return Status::kArming;
   }
+  if (last) list_steps();
   ask(now_ns);
+  return Status::kArming;
 }
 
 Status Startup::finish_step(std::int64_t now_ns) {
@@ -165,9 +169,7 @@ Status Startup::finish_step(std::int64_t now_ns) {
   } else {
     watched_ = watched_ || step.watches;
   }
-  if (step_ + 1 == steps_.count() && !watched_) return unwatched();
-  next_step(now_ns);
-  return Status::kArming;
+  return next_step(now_ns);
 }
 
 /// A drive that nothing stops if this program ends must not be enabled by it.
@@ -183,10 +185,11 @@ Status Startup::judge_value(const SetupStep& step, std::int64_t now_ns) {
   const bool right = (value & step.mask) == (step.value & step.mask);
   const bool waits =
       step.kind == SetupStep::Kind::kAwait && now_ns - step_ns_ <= can_->sdo_ms * kMillisecond_ns;
-  if (right && step_ + 1 == steps_.count() && !watched_) return unwatched();
-  if (right) next_step(now_ns);
-  if (!right && waits) ask(now_ns);
-  if (right || waits) return Status::kArming;
+  if (right) return next_step(now_ns);
+  if (waits) {
+    ask(now_ns);
+    return Status::kArming;
+  }
   why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
   why_ << ": " << step.what << " (" << cia402::hex(step.index) << ":" << static_cast<int>(step.sub)
        << ") is " << static_cast<std::size_t>(value) << ", expected "

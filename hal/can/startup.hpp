@@ -42,7 +42,7 @@ class Startup {
   void enter(Stage stage, std::int64_t now_ns);
   void list_steps();
   void ask(std::int64_t now_ns);
-  void next_step(std::int64_t now_ns);
+  Status next_step(std::int64_t now_ns);
   Status finish_step(std::int64_t now_ns);
   Status judge_value(const SetupStep& step, std::int64_t now_ns);
   Status unwatched();

@@ -104,8 +104,7 @@ void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
   LoopBound<kDof> joints;
   for (int j = 0; j < kDof; ++j) {
     joints.tick();
-    measure(joints_[static_cast<std::size_t>(j)], feedbacks[static_cast<std::size_t>(j)],
-            sampled_ns);
+    measure(j, feedbacks[static_cast<std::size_t>(j)], sampled_ns);
     judge(j);
     judge_hold(j);
   }
@@ -123,14 +122,14 @@ void Drives::judge_hold(int j) {
       " hold_stiffness and the encoder");
 }
 
-void Drives::measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns) {
+void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns) {
+  Joint& joint = joints_[static_cast<std::size_t>(j)];
   const int periods = joint.missed + 1;
   joint.missed = feedback.fresh ? 0 : joint.missed + (joint.missed <= settings_->max_missed);
   joint.last = feedback;
   if (!feedback.fresh) return;
   const double before = joint.q;
   joint.q = joint.units.q(joint.counter.follow(feedback.position));
-  const auto j = static_cast<int>(&joint - joints_.data());
   if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) steady_ = -1;
   joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
                                    : (joint.q - before) / (periods * period_s_);

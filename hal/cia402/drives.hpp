@@ -32,8 +32,9 @@ class Drives {
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
 
-  /// Takes the settings, which must outlive the use of the drives. kBadValue, with `why`: a
-  /// direction that is not 1 or -1, a torque limit that is beyond the drive's numbers. [init]
+  /// Takes the settings, which must outlive the use of the drives. kMissingKey,
+  /// kBadValue, with `why`: a rated torque, direction or bit that cannot be, a torque limit that is
+  /// beyond the drive's numbers. [init]
   Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
   /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
   /// for a position outside the joint's range. [init]
@@ -52,6 +53,7 @@ class Drives {
   void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
             const char* rest = "");
 
+  /// Fills in positions, velocities, torques, their stamp and the drives. [cyclic]
   void show(RobotState& state) const;
   Phase phase() const { return phase_; }
   /// The last fault in words, with its joint. [between two cycles]
@@ -85,7 +87,7 @@ class Drives {
   };
 
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
-  void measure(Joint& joint, const DriveFeedback& feedback, std::int64_t sampled_ns);
+  void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
   void judge(int j);
   void judge_hold(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
@@ -95,6 +97,7 @@ class Drives {
 
   // Steps of arming and stopping: drives_arming.cpp.
   void take(DriveRequest request);
+  void set_controlwords(DriveCommands& out, std::int64_t now_ns);
   void advance(std::int64_t now_ns);
   bool ready(int j);
   Goal goal() const;

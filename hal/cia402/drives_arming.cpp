@@ -9,15 +9,17 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   take(command.request);
   const bool follow = phase_ == Phase::kArmed && command.request == DriveRequest::kFollow;
   if (follow && !follows(command)) take(DriveRequest::kArm);  // failed: stops now
-  for (std::size_t j = 0; j < kDof; ++j)
-    out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
+  set_controlwords(out, now_ns);
   judge_rise();
-  if (phase_ == Phase::kFailed)
-    for (std::size_t j = 0; j < kDof; ++j)
-      out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
+  if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
   following_ = follow && phase_ == Phase::kArmed;
   set_target(command, following_, out);
   advance(now_ns);
+}
+
+void Drives::set_controlwords(DriveCommands& out, std::int64_t now_ns) {
+  for (std::size_t j = 0; j < kDof; ++j)
+    out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
 }
 
 /// A fault stays until the drives are requested to be disabled; only then they can be armed again.

@@ -104,7 +104,7 @@ void assert_judged(const BusLoad& load, int joints, double period_us, double mos
                    const char* expected) {
   static Message why;
   why = Message();
-  const Status status = load.judge("can0", joints, period_us, why, most);
+  const Status status = load.judge("can0", joints, period_us, most, why);
   ASSERT_STATUS(status, expected[0] == '\0' ? Status::kOk : Status::kOverBudget);
   assert_string_equal(why.c_str(), expected);
 }
@@ -129,9 +129,9 @@ void the_limit_itself_fits_and_nan_does_not(void**) {
                 "bus can0: 55 us of frames in a cycle of 110 us, at most 55 us (1 joint, classic "
                 "1000 kbit/s); use more buses, packed commands or CAN FD");
   static Message why;
-  ASSERT_STATUS(load.judge("can0", 1, std::nan(""), why), Status::kOverBudget);
+  ASSERT_STATUS(load.judge("can0", 1, std::nan(""), 0.8, why), Status::kOverBudget);
   load.add(0, std::nan(""));
-  ASSERT_STATUS(load.judge("can0", 1, 1000.0, why), Status::kOverBudget);
+  ASSERT_STATUS(load.judge("can0", 1, 1000.0, 0.8, why), Status::kOverBudget);
 }
 
 }  // namespace

@@ -181,6 +181,21 @@ void frames_that_are_not_for_the_client_are_ignored(void**) {
   bench.assert_progress(Progress::kDone);
 }
 
+/// A frame whose end one node did not see as the others did is sent again (ISO 11898-1).
+void an_answer_that_the_bus_repeats_belongs_to_no_later_transfer(void**) {
+  SdoBench bench;
+  bench.client.upload(1, 0x1000, 0, 0);
+  bench.expect("601 40 00 10 00 00 00 00 00");
+  bench.answer("581 43 00 10 00 92 01 02 00");
+  bench.assert_progress(Progress::kDone);
+  bench.client.download(1, 0x6060, 0, 10, 1, 0);
+  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  bench.answer("581 43 00 10 00 92 01 02 00");
+  bench.assert_progress(Progress::kBusy);
+  bench.answer("581 60 60 60 00 00 00 00 00");
+  bench.assert_progress(Progress::kDone);
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -198,6 +213,7 @@ int main() {
       cmocka_unit_test(fourteen_bytes_are_two_whole_segments),
       cmocka_unit_test(an_empty_text_is_written_as_one_empty_segment),
       cmocka_unit_test(an_object_as_long_as_the_buffer_is_read),
+      cmocka_unit_test(an_answer_that_the_bus_repeats_belongs_to_no_later_transfer),
       cmocka_unit_test(frames_that_are_not_for_the_client_are_ignored),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -35,7 +35,8 @@ void judge(const std::uint8_t* packet, std::size_t size, bool fd, Expected& sum)
 
 void receive(CanSocket& can, Expected& got) {
   static CanFrame frames[CanSocket::kBatch];
-  do {
+  constexpr int kMostCalls = 4096 / CanSocket::kBatch + 1;  // an input has as many packets at most
+  for (int call = 0; call < kMostCalls; ++call) {
     const int count = can.receive(frames, CanSocket::kBatch);
     for (int i = 0; i < count; ++i) {
       const CanFrame& frame = frames[i];
@@ -44,7 +45,7 @@ void receive(CanSocket& can, Expected& got) {
       for (std::size_t at = frame.size; at < kMaxData; ++at) MUST(frame.data[at] == 0);
     }
     got.frames += static_cast<std::uint32_t>(count);
-  } while (can.may_have_more());
+  }
 }
 
 }  // namespace
