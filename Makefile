@@ -22,6 +22,7 @@ RUNNER  = $(B)/$(NAME)
 PARTS  :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
+PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
 TESTS  := $(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp)
 include tests/any_robot.mk
 robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
@@ -197,6 +198,7 @@ include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 include tests/wcet/can/can.mk
+include boards/m7/m7.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

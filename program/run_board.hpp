@@ -29,6 +29,7 @@ struct Board {
   /// Hands the settings of a loaded file to the Hal.
   Status (*configure)(const Sections& sections, const Pipeline& pipeline, const Options& options);
   int (*scan)(const Options& options) = nullptr;  ///< the verb `scan`, on a board with a bus
+  Follower* follower = nullptr;  ///< a second machine that runs the same, if there is one
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -69,7 +70,8 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
                                    sizeof task_client + sizeof(TrajectoryInput);
   Session session{board.name,        static_bytes,   text,   board.hal,   pipeline,
                   executive,         recorder,       client, task_client, sections.gateway,
-                  sections.realtime, sections.expect};
+                  sections.realtime, sections.expect, board.follower};
+  if (board.follower != nullptr) board.follower->prepare(session);
   return options.verb == Verb::kCheck ? check(session, options) : run(session, options);
 }
 

@@ -103,7 +103,13 @@ bool RunLoop::arm() {
   }
   armed_ = true;
   pending_ = input_.given();
-  return feed_.begin();
+  const bool begun = session_.follower == nullptr || session_.follower->begin(input_);
+  return begun && feed_.begin();
+}
+
+void RunLoop::halt() {
+  session_.executive.halt();
+  if (session_.follower != nullptr) session_.follower->halt();
 }
 
 bool RunLoop::cycle(const CycleTime& now) {
@@ -115,7 +121,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   }
   watchdog_.cycle_completed();
   halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
-  if (halted_ && session_.executive.rung() != Rung::kDisabled) session_.executive.halt();
+  if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
   if (status == Status::kArming && !halted_) return arm();
   commanded_ += commanded ? 1 : 0;
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
@@ -153,7 +159,7 @@ bool RunLoop::over(Status status) {
   planned_end_ = true;
   ended_s_ = time_s();
   if (session_.executive.at_rest()) return true;
-  session_.executive.halt();
+  halt();
   return false;
 }
 

@@ -68,6 +68,7 @@ class RunLoop {
   /// the run is over, the arm is at rest, and drives that were disabled are.
   bool cycle(const CycleTime& now);
   bool arm();
+  void halt();
   bool follow();
   void count_starving();
   void feed();

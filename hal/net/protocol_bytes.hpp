@@ -1,4 +1,4 @@
-// Reads and writes the bytes of the UR ports: big-endian, unpadded, unaligned, IEEE-754.
+// Reads and writes the bytes of a protocol: big-endian, unpadded, unaligned, IEEE-754.
 // Reader and writer never leave their bounds: the first step that would do so sets a flag; after it
 // reads give zero and writes do nothing. A parser checks ok() once, at the end.
 #pragma once
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace tactus::ur {
+namespace tactus {
 
 class ByteReader {
  public:
@@ -125,4 +125,4 @@ class ByteWriter {
   bool ok_ = true;
 };
 
-}  // namespace tactus::ur
+}  // namespace tactus

@@ -9,6 +9,7 @@
 #include "kernel/cycle/executive.hpp"
 #include "kernel/pipeline/channels.hpp"
 #include "program/session/expect_section.hpp"
+#include "program/session/follower.hpp"
 #include "program/session/options.hpp"
 
 namespace tactus {
@@ -26,6 +27,7 @@ struct Session {
   const GatewaySection& gateway;
   const RealtimeSettings& realtime;
   const ExpectSection& expect;
+  Follower* follower = nullptr;  ///< null: there is none
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

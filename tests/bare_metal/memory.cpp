@@ -35,7 +35,7 @@ extern "C" {
   while (text[size] != '\0') ++size;
   return size;
 }
-[[noreturn]] void abort() {
+[[noreturn, gnu::weak]] void abort() {
   for (;;) {
   }
 }

@@ -1,0 +1,14 @@
+# A Cortex-M7 without an operating system for a Franka FER: its image by ARCH=m7; for the host the program that has the
+# plant and runs the image in an emulator.
+ROBOT  := Fer
+SRCS   += boards/fer_m7/board.cpp
+PARTS  := $(SIM) $(PIL)
+LDLIBS += -lmujoco
+
+# All simulated pipelines of the robot.
+RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
+
+TESTS  := $(filter tests/serial/%,$(TESTS))
+
+# The pipeline that the image has when it is switched on.
+PIPELINE ?= fer_jrg_pdgc

@@ -1,0 +1,105 @@
+// Faults: the handlers, and the record that survives the reset.
+#include "boards/m7/fault_record.hpp"
+#include "boards/m7/registers.hpp"
+
+extern "C" {
+extern std::uint32_t fault_stack_top, cycle_stack_limit, cycle_stack_top, work_stack_limit,
+    work_stack_top;
+void on_fault();
+[[noreturn]] void keep_fault(const std::uint32_t* frame, std::uint32_t number);
+}
+
+namespace m7 {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x7AC7C0DE;
+
+/// As memory is when the board is switched on, the check sum is wrong.
+struct Kept {
+  std::uint32_t magic;
+  FaultRecord record;
+  std::uint32_t sum;
+};
+[[gnu::section(".noinit")]] Kept kept;
+
+std::uint32_t sum_of(const FaultRecord& record) {
+  return kMagic ^ static_cast<std::uint32_t>(record.cause) ^ record.count ^ record.cycle << 1 ^
+         record.pc << 2 ^ record.lr << 3 ^ record.sp << 4 ^ record.cfsr << 5 ^ record.hfsr << 6 ^
+         record.address << 7;
+}
+
+bool within(std::uint32_t address, const std::uint32_t& begin, const std::uint32_t& end) {
+  return address >= reinterpret_cast<std::uintptr_t>(&begin) &&
+         address < reinterpret_cast<std::uintptr_t>(&end);
+}
+
+}  // namespace
+
+const FaultRecord& fault_record() {
+  if (kept.magic != kMagic || kept.sum != sum_of(kept.record)) {
+    kept.magic = kMagic;
+    kept.record = FaultRecord();
+    kept.sum = sum_of(kept.record);
+  }
+  return kept.record;
+}
+
+void forget_fault() {
+  const std::uint32_t count = fault_record().count;
+  kept.record = FaultRecord();
+  kept.record.count = count;
+  kept.sum = sum_of(kept.record);
+}
+
+void end_with(const FaultRecord& record) {
+  asm volatile("cpsid i");
+  const std::uint32_t count = fault_record().count + 1;
+  kept.record = record;
+  kept.record.count = count;
+  kept.record.cycle = cycle_number();
+  kept.sum = sum_of(kept.record);
+  last_words();
+  asm volatile("dsb");
+  at(kAircr) = kSystemReset;
+  for (;;) {
+  }
+}
+
+}  // namespace m7
+
+/// The stack of the program may be what failed: the handlers have one of their own.
+extern "C" [[gnu::naked, gnu::used]] void on_fault() {
+  asm volatile(
+      "tst lr, #4\n ite eq\n mrseq r0, msp\n mrsne r0, psp\n mrs r1, ipsr\n"
+      "ldr r2, =fault_stack_top\n mov sp, r2\n b keep_fault\n");
+}
+
+extern "C" [[gnu::used]] void keep_fault(const std::uint32_t* frame, std::uint32_t number) {
+  using namespace m7;
+  constexpr std::uint32_t kNmi = 2, kStackingFailed = 1U << 4, kAddressKnown = 1U << 7;
+  constexpr std::uint32_t kMpuViolation = 1U << 1;
+  FaultRecord record;
+  record.cfsr = at(kCfsr);
+  record.hfsr = at(kHfsr);
+  record.address = at((record.cfsr & kAddressKnown) != 0 ? kMmfar : kBfar);
+  record.sp = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(frame));
+  const bool stacked = within(record.sp, cycle_stack_limit, cycle_stack_top) ||
+                       within(record.sp, work_stack_limit, work_stack_top);
+  const bool full = (record.cfsr & (kStackingFailed | kMpuViolation)) != 0;
+  if (stacked && (record.cfsr & kStackingFailed) == 0) {
+    record.lr = frame[5];
+    record.pc = frame[6];
+  }
+  record.cause = number == kNmi ? FaultCause::kWatchdog
+                 : full         ? FaultCause::kStack
+                                : FaultCause::kFault;
+  end_with(record);
+}
+
+extern "C" [[noreturn]] void abort() {
+  m7::FaultRecord record;
+  record.cause = m7::FaultCause::kAbort;
+  record.pc =
+      static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(__builtin_return_address(0)));
+  m7::end_with(record);
+}

@@ -1,0 +1,27 @@
+# The image of a board with a Cortex-M7 and nothing else: docs/bare_metal.md. The Makefile includes this file.
+BARE_BOARDS := fer_m7 ur10_m7
+BARE_SRCS   := $(filter-out boards/m7/provoke_%.cpp,$(wildcard boards/m7/*.cpp)) tests/bare_metal/memory.cpp \
+               $(wildcard hal/serial/*.cpp) $(addprefix gateway/reference_,client.cpp frames.cpp server.cpp) \
+               sim_plant/arm/$(robot)_mjcf.cpp
+
+.PHONY: image
+ifeq ($(ARCH),m7)
+image: $(B)/image.elf $(B)/image-faults.elf   ## build the image of a board with a Cortex-M7: BOARD=fer_m7 ARCH=m7
+$(B)/image.elf: $(O)/boards/m7/provoke_nothing.o
+$(B)/image-faults.elf: $(O)/boards/m7/provoke_faults.o
+$(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(O)/libkernel.a boards/m7/mps2-an500.ld
+	$(call say,LD    $@)
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T boards/m7/mps2-an500.ld -o $@ \
+	  -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc
+	$(Q)$(CROSS_m7)size $@
+$(call obj,$(filter boards/m7/startup.cpp,$(BARE_SRCS))): CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+$(O)/boards/m7/embedded_text.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(PIPELINE).ini"'
+$(O)/boards/m7/embedded_text.o: pipelines/$(PIPELINE).ini
+endif
+ifeq ($(ARCH),host)
+ifneq ($(filter $(BOARD),$(BARE_BOARDS)),)
+all tests: image
+image:
+	$(Q)$(MAKE) --no-print-directory ARCH=m7 image
+endif
+endif

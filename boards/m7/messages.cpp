@@ -1,0 +1,126 @@
+#include "boards/m7/messages.hpp"
+
+#include <algorithm>
+#include <new>
+
+#include "boards/m7/embedded_text.hpp"
+#include "boards/m7/fault_record.hpp"
+#include "boards/m7/provoke.hpp"
+#include "boards/m7/timer.hpp"
+#include "gateway/fnv1a.hpp"
+
+namespace m7 {
+
+using namespace tactus;
+using serial::Frame;
+using serial::Kind;
+
+namespace {
+
+alignas(Machine) unsigned char machine_bytes[sizeof(Machine)];
+LoadError load_error;
+
+}  // namespace
+
+bool Messages::work() {
+  Frame frame;
+  const bool polled = machine_ != nullptr && machine_->poll();
+  reports_ = static_cast<std::uint8_t>(machine_ != nullptr ? machine_->reports() : 0);
+  if (!link_.message(frame)) return polled;
+  execute(frame);
+  link_.answered();
+  return true;
+}
+
+void Messages::execute(const Frame& frame) {
+  const ByteReader payload(frame.payload, frame.size);
+  switch (frame.kind) {
+    case Kind::kHello: return hello();
+    case Kind::kText: return take_text(payload);
+    case Kind::kLoad: return load(payload);
+    case Kind::kStart: return start(payload);
+    case Kind::kStop: return stop();
+    case Kind::kFault: return give_fault();
+    case Kind::kForget: forget_fault(); return answer(Status::kOk);
+    case Kind::kProvoke: return answer(provoke(payload));
+    default: break;
+  }
+  machine_ != nullptr ? execute_reference(frame) : answer(Status::kNotStarted);
+}
+
+void Messages::hello() {
+  ByteWriter& to = link_.answer(Status::kOk);
+  to.u8(serial::kVersion);
+  to.u8(static_cast<std::uint8_t>(kDof));
+  to.short_text(Robot::kName);
+  to.u64(fnv1a(text()));
+  to.u8(static_cast<std::uint8_t>(fault_record().cause));
+}
+
+std::string_view Messages::text() const {
+  return text_size_ > 0 ? std::string_view(text_.data(), text_size_) : embedded_text();
+}
+
+/// A text comes in parts, in any order, while no cycle runs: the one in use is overwritten.
+void Messages::take_text(ByteReader payload) {
+  const std::size_t offset = payload.u32();
+  const std::string_view part = payload.rest();
+  if (running() != nullptr) return answer(Status::kNotAtRest);
+  if (!payload.ok() || offset > kMaxText || part.size() > kMaxText - offset)
+    return answer(Status::kTooLarge);
+  machine_ = nullptr;
+  std::copy(part.begin(), part.end(), text_.begin() + static_cast<std::ptrdiff_t>(offset));
+  answer(Status::kOk);
+}
+
+/// Loads what has come, or the embedded text. If it is refused, the answer says why, and the
+/// embedded one is there again.
+void Messages::load(ByteReader payload) {
+  const std::size_t size = payload.u32();
+  const std::uint64_t hash = payload.u64();
+  if (running() != nullptr) return answer(Status::kNotAtRest);
+  if (!payload.done() || size > kMaxText) return answer(Status::kTooLarge);
+  if (size > 0 && fnv1a({text_.data(), size}) != hash) return answer(Status::kWireFormat);
+  text_size_ = size;
+  load_error = LoadError();
+  machine_ = new (machine_bytes) Machine(hal_);
+  const Status status = machine_->load(text(), load_error);
+  if (status != Status::kOk) {
+    machine_ = nullptr;
+    text_size_ = 0;
+  }
+  link_.answer(status).short_text(load_error.message());
+}
+
+void Messages::start(ByteReader payload) {
+  const auto pace = static_cast<serial::Pace>(payload.u8());
+  if (!payload.done() || pace > serial::Pace::kLockStep) return answer(Status::kWireFormat);
+  if (machine_ == nullptr) return answer(Status::kNotStarted);
+  if (running() != nullptr) return answer(Status::kNotAtRest);
+  const Status status = machine_->start();
+  if (status == Status::kOk) {
+    pace_ = pace;
+    set_period(machine_->period_us());
+    running_.store(machine_, std::memory_order_release);
+  }
+  answer(status);
+}
+
+/// A machine that was stopped is not started again, since its telemetry would be that of both runs.
+void Messages::stop() {
+  Machine* const running = running_.exchange(nullptr, std::memory_order_acq_rel);
+  if (running != nullptr) running->stop();
+  machine_ = nullptr;
+  answer(Status::kOk);
+}
+
+void Messages::give_fault() {
+  const FaultRecord& record = fault_record();
+  ByteWriter& to = link_.answer(Status::kOk);
+  to.u8(static_cast<std::uint8_t>(record.cause));
+  for (const std::uint32_t number : {record.count, record.cycle, record.pc, record.lr, record.sp,
+                                     record.cfsr, record.hfsr, record.address})
+    to.u32(number);
+}
+
+}  // namespace m7

@@ -1,0 +1,85 @@
+// The program of a board with a Cortex-M7 and nothing else: the timer begins the cycles, messages
+// are executed in what they leave of the time, and whatever hangs or faults ends with disabled
+// drives, a record and a new start.
+#include "boards/m7/fault_record.hpp"
+#include "boards/m7/messages.hpp"
+#include "boards/m7/provoke.hpp"
+#include "boards/m7/semihosting.hpp"
+#include "boards/m7/semihosting_link.hpp"
+#include "boards/m7/timer.hpp"
+
+namespace m7 {
+namespace {
+
+using namespace tactus;
+
+constexpr std::uint32_t kIdlePeriod_us = 1000;  // of the exchange, before a pipeline is loaded
+/// Longest time for one message: a pipeline is loaded and a full store admitted in less.
+constexpr std::uint32_t kLongestWork_us = 2'000'000;
+
+SemihostingLink bytes;
+serial::BoardLink board_link(bytes);
+serial::SerialHal hal;
+Messages messages(board_link, hal);
+serial::CycleResult result;
+std::atomic<std::uint32_t> pieces{0};  // of background work that ended
+std::uint32_t seen_pieces = 0, unmoved_us = 0;
+
+/// Background work that does not come to an end is a fault as a cycle is that does not.
+void watch_background(std::uint32_t period_us) {
+  const std::uint32_t now = pieces.load(std::memory_order_relaxed);
+  unmoved_us = now == seen_pieces ? unmoved_us + period_us : 0;
+  seen_pieces = now;
+  if (unmoved_us < kLongestWork_us) return;
+  FaultRecord record;
+  record.cause = FaultCause::kBackground;
+  end_with(record);
+}
+
+void run_cycle(Machine& machine) {
+  CycleTime now = {now_ns()};
+  if (messages.pace() == serial::Pace::kLockStep && !board_link.tick(now)) return;
+  const ByteReader state = board_link.state();
+  if (state.left() > 0 && !hal.take(state)) result.status = Status::kWireFormat;
+  provoked_cycle();
+  machine.cycle(now, result);
+  result.reports = messages.reports();
+  board_link.send(result);
+}
+
+}  // namespace
+
+std::uint32_t cycle_number() {
+  return result.cycle;
+}
+
+void last_words() {
+  std::uint8_t nothing[1];
+  result.command.request = DriveRequest::kDisable;
+  board_link.send(result);
+  bytes.receive(nothing, 0);
+}
+
+}  // namespace m7
+
+extern "C" [[gnu::used]] void on_timer() {
+  using namespace m7;
+  board_link.poll();
+  Machine* const machine = messages.running();
+  if (machine != nullptr) run_cycle(*machine);
+  board_link.send_answer();
+  watch_background(machine != nullptr ? machine->period_us() : kIdlePeriod_us);
+  feed_watchdog();
+}
+
+extern "C" void program() {
+  using namespace m7;
+  if (!bytes.open()) semihosting::exit(2);
+  start_watchdog();
+  start_timer(kIdlePeriod_us);
+  for (;;) {
+    const bool worked = messages.work();
+    pieces.fetch_add(1, std::memory_order_relaxed);
+    if (!worked) asm volatile("wfi");
+  }
+}

@@ -1,0 +1,36 @@
+// SerialHal: a robot at the other end of a link: its states come in frames, and every cycle answers
+// with a command. The board's loop takes the frames off the link and sends what the cycle gave.
+#pragma once
+
+#include "hal/serial/cycle_frames.hpp"
+
+namespace tactus::serial {
+
+class SerialHal final : public Hal {
+ public:
+  /// What the plant of a computer takes; whether it is the one of the pipeline is judged there.
+  /// [any]
+  Capabilities capabilities() const override;
+  /// Forgets what came before; the wire is the board's. [init]
+  Status connect(CommandMode mode) override;
+  /// Repeats the newest state. Before the first one all drives are kUnknown. [cyclic]
+  Status read(const CycleTime& now, RobotState& state) override;
+  /// Keeps the command for the board's loop. [cyclic]
+  Status write(const RobotCommand& command) override;
+  /// The command is to disable the drives, from now on. [any]
+  void disconnect() override;
+
+  /// Takes the payload of a kState; false: it is malformed, or older than the last. [cyclic]
+  bool take(ByteReader payload);
+  /// The order of the newest state. [any]
+  Order order() const { return order_; }
+  /// The command of the last cycle. [cyclic]
+  const RobotCommand& command() const { return command_; }
+
+ private:
+  RobotState state_;
+  RobotCommand command_;
+  Order order_ = Order::kDisabled;
+};
+
+}  // namespace tactus::serial

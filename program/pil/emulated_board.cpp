@@ -1,0 +1,126 @@
+#include "program/pil/emulated_board.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+extern char** environ;
+
+namespace tactus::pil {
+namespace {
+
+constexpr int kPatience_ms = 10'000;
+using Path = Text<64>;
+
+Path in_folder(const char* folder, const char* name) {
+  Path path(folder);
+  return path << "/" << name;
+}
+
+}  // namespace
+
+bool EmulatedBoard::make_pipes(Message& why) {
+  std::strcpy(folder_.data(), "/tmp/tactus-board-XXXXXX");
+  const bool made = mkdtemp(folder_.data()) != nullptr;
+  const Path to = in_folder(folder_.data(), "to_board"),
+             from = in_folder(folder_.data(), "from_board");
+  if (made && mkfifo(to.c_str(), 0600) == 0 && mkfifo(from.c_str(), 0600) == 0) {
+    out_ = open(to.c_str(), O_RDWR | O_CLOEXEC);  // to be able to open it before the board does
+    in_ = open(from.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  }
+  if (in_ >= 0 && out_ >= 0) return true;
+  why = Message("no pipes for the board: ");
+  why << std::strerror(errno);
+  return false;
+}
+
+/// The clock of the board counts its instructions, 1 ns each, so that two runs are the same.
+bool EmulatedBoard::spawn(const char* image, Message& why) {
+  Text<128> semihosting("enable=on,target=native,arg=board,arg=");
+  semihosting << folder_.data();
+  const char* const arguments[] = {"qemu-system-arm",
+                                   "-M",
+                                   "mps2-an500",
+                                   "-nographic",
+                                   "-monitor",
+                                   "none",
+                                   "-serial",
+                                   "none",
+                                   "-icount",
+                                   "shift=0,sleep=off",
+                                   "-semihosting-config",
+                                   semihosting.c_str(),
+                                   "-kernel",
+                                   image,
+                                   nullptr};
+  const int error = posix_spawnp(&process_, arguments[0], nullptr, nullptr,
+                                 const_cast<char* const*>(arguments), environ);
+  if (error == 0) return true;
+  process_ = 0;
+  why = Message("qemu-system-arm: ");
+  why << std::strerror(error) << "; as root: scripts/setup wcet";
+  return false;
+}
+
+bool EmulatedBoard::start(const char* image, Message& why) {
+  stop();
+  if (access(image, R_OK) != 0) {
+    why = Message(image);
+    why << ": " << std::strerror(errno) << "; make builds it with the program of this board";
+    return false;
+  }
+  return make_pipes(why) && spawn(image, why);
+}
+
+void EmulatedBoard::stop() {
+  if (process_ > 0) {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  process_ = 0;
+  if (in_ >= 0) close(in_);
+  if (out_ >= 0) close(out_);
+  in_ = out_ = -1;
+  if (folder_[0] == '\0') return;
+  unlink(in_folder(folder_.data(), "to_board").c_str());
+  unlink(in_folder(folder_.data(), "from_board").c_str());
+  rmdir(folder_.data());
+  folder_[0] = '\0';
+}
+
+bool EmulatedBoard::read_all(std::uint8_t* to, std::size_t size) {
+  for (std::size_t got = 0; got < size;) {
+    pollfd ready = {in_, POLLIN, 0};
+    if (poll(&ready, 1, kPatience_ms) <= 0) return false;
+    const ssize_t part = read(in_, to + got, size - got);
+    if (part <= 0) return false;
+    got += static_cast<std::size_t>(part);
+  }
+  return true;
+}
+
+int EmulatedBoard::receive(std::uint8_t* to) {
+  std::uint8_t head[2];
+  if (!running() || !read_all(head, sizeof head)) return -1;
+  const std::size_t size = static_cast<std::size_t>(head[0] << 8 | head[1]);
+  return size <= kMost && read_all(to, size) ? static_cast<int>(size) : -1;
+}
+
+bool EmulatedBoard::send(const std::uint8_t* bytes, std::size_t size) {
+  if (!running() || size > kMost) return false;
+  std::array<std::uint8_t, 2 + kMost> part;
+  part[0] = static_cast<std::uint8_t>(size >> 8);
+  part[1] = static_cast<std::uint8_t>(size);
+  std::memcpy(part.data() + 2, bytes, size);
+  return write(out_, part.data(), 2 + size) == static_cast<ssize_t>(2 + size);
+}
+
+}  // namespace tactus::pil

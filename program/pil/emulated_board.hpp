@@ -1,0 +1,42 @@
+// EmulatedBoard: a board in an emulator of this computer, at the other end of two pipes. Board and
+// computer exchange their bytes once in every period of the board's timer (semihosting_link.hpp).
+#pragma once
+
+#include <sys/types.h>
+
+#include <array>
+
+#include "hal/serial/frame.hpp"
+#include "kernel/core/text.hpp"
+
+namespace tactus::pil {
+
+class EmulatedBoard {
+ public:
+  static constexpr std::size_t kMost = 2 * serial::kMaxFrame;  ///< bytes of one exchange
+
+  ~EmulatedBoard() { stop(); }
+
+  /// Starts the emulator with an image. False: `why` says what is missing. [init]
+  bool start(const char* image, Message& why);
+  /// Ends it. [any]
+  void stop();
+  bool running() const { return process_ > 0; }
+
+  /// Waits for the board's part of an exchange; returns its size in `to`, which holds kMost, or -1:
+  /// the board is gone, or nothing came for 10 s. [any]
+  int receive(std::uint8_t* to);
+  /// Ends the exchange with at most kMost bytes. False: the board is gone. [any]
+  bool send(const std::uint8_t* bytes, std::size_t size);
+
+ private:
+  bool make_pipes(Message& why);
+  bool spawn(const char* image, Message& why);
+  bool read_all(std::uint8_t* to, std::size_t size);
+
+  std::array<char, 32> folder_{};
+  pid_t process_ = 0;
+  int in_ = -1, out_ = -1;
+};
+
+}  // namespace tactus::pil

@@ -1,0 +1,149 @@
+#include "program/pil/pil_hal.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+
+#include "gateway/fnv1a.hpp"
+#include "program/pil/fault_text.hpp"
+#include "program/pil/row_hash.hpp"
+#include "program/session/trajectory_input.hpp"
+
+namespace tactus::pil {
+
+using serial::Kind;
+
+namespace {
+
+constexpr std::size_t kTextPart = 960;
+
+}  // namespace
+
+Status PilHal::refuse(Status status, const char* what) {
+  why_ = Message("the board ");
+  why_ << what << ": " << meaning(status);
+  return status;
+}
+
+Status PilHal::connect(CommandMode mode) {
+  TRY(plant_.connect(mode));
+  if (!emulator_.start(image_, why_)) return Status::kConnectionLost;
+  board_.begin();
+  order_ = serial::Order::kDisabled;
+  stepped_ = false;
+  Greeting greeting;
+  const Status status = board_.greet(greeting);
+  if (status != Status::kOk) return refuse(status, "does not answer");
+  if (greeting.version != serial::kVersion || greeting.joints != kDof ||
+      std::string_view(greeting.robot) != Robot::kName) {
+    why_ = Message("the board is one of ");
+    why_ << greeting.robot << ", " << int{greeting.joints} << " joints, protocol "
+         << int{greeting.version} << "; expected " << Robot::kName << ", " << kDof << " joints, "
+         << int{serial::kVersion};
+    return Status::kRefusedByRobot;
+  }
+  TRY(load());
+  std::uint8_t pace[1];
+  ByteWriter writer(pace, sizeof pace);
+  writer.u8(static_cast<std::uint8_t>(serial::Pace::kLockStep));
+  const Status started = board_.request(Kind::kStart, writer);
+  return started == Status::kOk ? started : refuse(started, "does not start");
+}
+
+/// The board reads the text itself, as if it were the embedded one.
+Status PilHal::load() {
+  const std::string_view text = session_->text;
+  std::uint8_t payload[serial::kMaxPayload];
+  for (std::size_t at = 0; at < text.size(); at += kTextPart) {
+    ByteWriter writer(payload, sizeof payload);
+    writer.u32(static_cast<std::uint32_t>(at));
+    writer.text(text.substr(at, kTextPart));
+    const Status status = board_.request(Kind::kText, writer);
+    if (status != Status::kOk) return refuse(status, "does not take the pipeline");
+  }
+  ByteWriter writer(payload, sizeof payload);
+  writer.u32(static_cast<std::uint32_t>(text.size()));
+  writer.u64(fnv1a(text));
+  const Status status = board_.request(Kind::kLoad, writer);
+  if (status == Status::kOk) return status;
+  ByteReader from = board_.answer();
+  const std::string_view reason = from.text(from.u8());
+  why_ = Message("the board refuses the pipeline: ");
+  why_ << reason;
+  return status;
+}
+
+/// The outputs are still those of the last cycle.
+Status PilHal::read(const CycleTime& now, RobotState& state) {
+  if (stepped_ && board_.result().row != row_hash(session_->pipeline.recording)) {
+    why_ = Message("cycle ");
+    why_ << std::size_t{board_.result().cycle}
+         << ": the board has recorded other values than this computer";
+    return Status::kBusConflict;
+  }
+  TRY(plant_.read(now, state));
+  state_ = state;
+  now_ns_ = now.stamp_ns;
+  return Status::kOk;
+}
+
+Status PilHal::write(const RobotCommand& command) {
+  if (order_ == serial::Order::kDisabled && command.request == DriveRequest::kArm)
+    order_ = serial::Order::kArmed;
+  if (!feed_.feed(board_, why_)) return Status::kRefusedByRobot;
+  if (board_.step(order_, state_, now_ns_) != Status::kOk) return silent();
+  stepped_ = true;
+  TRY(plant_.write(board_.result().command));
+  return compare(command);
+}
+
+Status PilHal::compare(const RobotCommand& command) {
+  const RobotCommand& other = board_.result().command;
+  const bool same_request = other.mode == command.mode && other.request == command.request;
+  const bool same =
+      std::memcmp(other.value.data(), command.value.data(), sizeof command.value) == 0 &&
+      std::memcmp(other.dq_ff.data(), command.dq_ff.data(), sizeof command.value) == 0 &&
+      std::memcmp(other.tau_ff.data(), command.tau_ff.data(), sizeof command.value) == 0;
+  if (same && same_request) return Status::kOk;
+  why_ = Message("cycle ");
+  why_ << std::size_t{board_.result().cycle} << ": the board's command is ";
+  if (!same_request) {
+    why_ << "request " << static_cast<int>(other.request) << ", this computer's "
+         << static_cast<int>(command.request) << "; the board says "
+         << meaning(board_.result().status);
+    return Status::kBusConflict;
+  }
+  int joint = 0;
+  for (int j = kDof; j-- > 0;)
+    if (std::memcmp(&other.value[j], &command.value[j], sizeof(double)) != 0) joint = j;
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, "%a of joint %d, this computer's %a", other.value[joint],
+                joint + 1, command.value[joint]);
+  why_ << numbers;
+  return Status::kBusConflict;
+}
+
+/// No result came: the board has started again after a fault, or it is gone.
+Status PilHal::silent() {
+  Greeting greeting;
+  why_ = Message("the board does not answer any more");
+  if (board_.greet(greeting) == Status::kOk && greeting.fault != 0) why_ = fault_text(board_);
+  return Status::kConnectionLost;
+}
+
+bool PilHal::begin(const TrajectoryInput& input) {
+  if (!input.given()) return true;
+  if (feed_.begin(input.takes_poses(), board_, input.path.c_str(), session_->gateway, why_))
+    return true;
+  std::fprintf(stderr, "%s: %s\n", input.path.c_str(), why_.c_str());
+  return false;
+}
+
+void PilHal::disconnect() {
+  if (emulator_.running()) static_cast<void>(board_.request(Kind::kStop));
+  emulator_.stop();
+  plant_.disconnect();
+}
+
+}  // namespace tactus::pil

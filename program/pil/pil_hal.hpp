@@ -1,0 +1,51 @@
+// PilHal: the simulated robot of a pipeline under the control of a board: processor in the loop.
+// This computer runs the same text beside it. In every cycle the plant gets the board's command,
+// and the two machines compare, bit by bit, the command and all that is recorded.
+#pragma once
+
+#include "program/pil/board_feed.hpp"
+#include "program/session/follower.hpp"
+#include "program/session/session.hpp"
+#include "sim_plant/arm/sim_hal.hpp"
+
+namespace tactus::pil {
+
+class PilHal final : public Hal, public Follower {
+ public:
+  /// `image` is the board's program. [init]
+  PilHal(SimHal& plant, const char* image) : plant_(plant), image_(image) {}
+
+  Capabilities capabilities() const override { return plant_.capabilities(); }
+  /// Starts the board, hands it the text, which it judges, and connects. [init]
+  Status connect(CommandMode mode) override;
+  /// kBusConflict: the board has recorded something else in the last cycle. [cyclic]
+  Status read(const CycleTime& now, RobotState& state) override;
+  /// Takes the board through the same cycle; the plant gets its command. [cyclic]
+  Status write(const RobotCommand& command) override;
+  void disconnect() override;
+  Message trouble() override { return why_; }
+
+  void prepare(const Session& session) override { session_ = &session; }
+  bool begin(const TrajectoryInput& input) override;
+  void halt() override { order_ = serial::Order::kHalted; }
+
+ private:
+  Status load();
+  Status refuse(Status status, const char* what);
+  Status compare(const RobotCommand& command);
+  Status silent();
+
+  SimHal& plant_;
+  const char* image_;
+  const Session* session_ = nullptr;
+  EmulatedBoard emulator_;
+  BoardClient board_{emulator_};
+  BoardFeed feed_;
+  Message why_;
+  RobotState state_;
+  std::int64_t now_ns_ = 0;
+  serial::Order order_ = serial::Order::kDisabled;
+  bool stepped_ = false;  // the board has run a cycle whose row was not compared
+};
+
+}  // namespace tactus::pil
