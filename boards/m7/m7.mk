@@ -22,6 +22,6 @@ ifeq ($(ARCH),host)
 ifneq ($(filter $(BOARD),$(BARE_BOARDS)),)
 all tests: image
 image:
-	$(Q)$(MAKE) --no-print-directory ARCH=m7 image
+	$(Q)$(MAKE) --no-print-directory ARCH=m7 SANITIZE= CXX=$(CROSS_m7)g++ image
 endif
 endif

@@ -4,14 +4,12 @@
 #include <cassert>
 
 #include "hal/can/protocol_canopen.hpp"
-#include "hal/cia402/hex.hpp"
 #include "kernel/core/loop_bound.hpp"
 
 namespace tactus::can {
 namespace {
 
 constexpr std::size_t kIndexAt = 1, kSubAt = 3, kDataAt = 4;
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 std::uint8_t specifier(const CanFrame& answer) {
   return static_cast<std::uint8_t>(answer.data[0] & kSpecifier);
@@ -234,25 +232,6 @@ void SdoClient::give_up(SdoAbort why, Cause cause) {
   abort_frame_ = frame(kAbort);
   store(abort_frame_.data, kDataAt, static_cast<std::uint32_t>(why));
   has_abort_ = true;
-}
-
-Message SdoClient::describe() const {
-  Message text;
-  text << "node " << int{node_} << ": object " << cia402::hex(index_) << ":" << int{sub_} << ": ";
-  if (progress_ != Progress::kAborted) {
-    text << name(progress_);
-    return text;
-  }
-  const auto ms = [](std::int64_t time_ns) { return static_cast<int>(time_ns / kMillisecond_ns); };
-  switch (cause_) {
-    case Cause::kNode: text << meaning(abort_); break;
-    case Cause::kAnswer: text << "the answer is wrong: " << meaning(abort_); break;
-    case Cause::kSilence: text << "no answer within " << ms(times_.answer_ns) << " ms"; break;
-    case Cause::kTime: text << "not complete within " << ms(times_.transfer_ns) << " ms"; break;
-    case Cause::kValue: text << "the value to write is " << meaning(abort_); break;
-  }
-  text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")";
-  return text;
 }
 
 }  // namespace tactus::can

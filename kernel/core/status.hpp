@@ -85,6 +85,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kRefusedByRobot = 106,
     kNotReferenced = 107,
     kBusConflict = 108,
+    kMismatch = 109,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]

@@ -80,7 +80,7 @@ Status PilHal::read(const CycleTime& now, RobotState& state) {
     why_ = Message("cycle ");
     why_ << std::size_t{board_.result().cycle}
          << ": the board has recorded other values than this computer";
-    return Status::kBusConflict;
+    return Status::kMismatch;
   }
   TRY(plant_.read(now, state));
   state_ = state;
@@ -112,7 +112,7 @@ Status PilHal::compare(const RobotCommand& command) {
     why_ << "request " << static_cast<int>(other.request) << ", this computer's "
          << static_cast<int>(command.request) << "; the board says "
          << meaning(board_.result().status);
-    return Status::kBusConflict;
+    return Status::kMismatch;
   }
   int joint = 0;
   for (int j = kDof; j-- > 0;)
@@ -121,7 +121,7 @@ Status PilHal::compare(const RobotCommand& command) {
   std::snprintf(numbers, sizeof numbers, "%a of joint %d, this computer's %a", other.value[joint],
                 joint + 1, command.value[joint]);
   why_ << numbers;
-  return Status::kBusConflict;
+  return Status::kMismatch;
 }
 
 /// No result came: the board has started again after a fault, or it is gone.

@@ -18,7 +18,7 @@ class PilHal final : public Hal, public Follower {
   Capabilities capabilities() const override { return plant_.capabilities(); }
   /// Starts the board, hands it the text, which it judges, and connects. [init]
   Status connect(CommandMode mode) override;
-  /// kBusConflict: the board has recorded something else in the last cycle. [cyclic]
+  /// kMismatch: the board has recorded something else in the last cycle. [cyclic]
   Status read(const CycleTime& now, RobotState& state) override;
   /// Takes the board through the same cycle; the plant gets its command. [cyclic]
   Status write(const RobotCommand& command) override;
