@@ -2,7 +2,19 @@
 #include "boards/m7/fault_record.hpp"
 #include "boards/m7/registers.hpp"
 
+namespace m7 {
+
+/// As memory is when the board is switched on, the check sum is wrong.
+struct Kept {
+  std::uint32_t magic;
+  FaultRecord record;
+  std::uint32_t sum;
+};
+
+}  // namespace m7
+
 extern "C" {
+extern m7::Kept kept_fault;  // placed by the linker script, where no start-up touches it
 extern std::uint32_t fault_stack_top, cycle_stack_limit, cycle_stack_top, work_stack_limit,
     work_stack_top;
 void on_fault();
@@ -13,14 +25,6 @@ namespace m7 {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x7AC7C0DE;
-
-/// As memory is when the board is switched on, the check sum is wrong.
-struct Kept {
-  std::uint32_t magic;
-  FaultRecord record;
-  std::uint32_t sum;
-};
-[[gnu::section(".noinit")]] Kept kept;
 
 std::uint32_t sum_of(const FaultRecord& record) {
   return kMagic ^ static_cast<std::uint32_t>(record.cause) ^ record.count ^ record.cycle << 1 ^
@@ -36,28 +40,28 @@ bool within(std::uint32_t address, const std::uint32_t& begin, const std::uint32
 }  // namespace
 
 const FaultRecord& fault_record() {
-  if (kept.magic != kMagic || kept.sum != sum_of(kept.record)) {
-    kept.magic = kMagic;
-    kept.record = FaultRecord();
-    kept.sum = sum_of(kept.record);
+  if (kept_fault.magic != kMagic || kept_fault.sum != sum_of(kept_fault.record)) {
+    kept_fault.magic = kMagic;
+    kept_fault.record = FaultRecord();
+    kept_fault.sum = sum_of(kept_fault.record);
   }
-  return kept.record;
+  return kept_fault.record;
 }
 
 void forget_fault() {
   const std::uint32_t count = fault_record().count;
-  kept.record = FaultRecord();
-  kept.record.count = count;
-  kept.sum = sum_of(kept.record);
+  kept_fault.record = FaultRecord();
+  kept_fault.record.count = count;
+  kept_fault.sum = sum_of(kept_fault.record);
 }
 
 void end_with(const FaultRecord& record) {
   asm volatile("cpsid i");
   const std::uint32_t count = fault_record().count + 1;
-  kept.record = record;
-  kept.record.count = count;
-  kept.record.cycle = cycle_number();
-  kept.sum = sum_of(kept.record);
+  kept_fault.record = record;
+  kept_fault.record.count = count;
+  kept_fault.record.cycle = cycle_number();
+  kept_fault.sum = sum_of(kept_fault.record);
   last_words();
   asm volatile("dsb");
   at(kAircr) = kSystemReset;

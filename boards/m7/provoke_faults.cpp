@@ -33,7 +33,7 @@ tactus::Status provoke(tactus::ByteReader payload) {
     case Provocation::kStackOverflow: zero = fill_stack(1); break;
     case Provocation::kStuckBackground: hang();
     case Provocation::kStuckCycle: cycle_hangs = true; break;
-    case Provocation::kDivision: zero = 1 / zero; break;
+    case Provocation::kDivision: zero = 1000 / zero; break;
     default: return tactus::Status::kBadValue;
   }
   return tactus::Status::kOk;

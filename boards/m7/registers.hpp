@@ -23,15 +23,17 @@ constexpr std::uint32_t kFaultsEnabled = 7U << 16;  // memory, bus, usage
 constexpr std::uintptr_t kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98, kMpuRbar = 0xE000ED9C;
 constexpr std::uintptr_t kMpuRasr = 0xE000EDA0;
 
-// System timer.
-constexpr std::uintptr_t kSystCsr = 0xE000E010, kSystRvr = 0xE000E014, kSystCvr = 0xE000E018;
+// Interrupt controller.
+constexpr std::uintptr_t kNvicIser = 0xE000E100, kNvicIspr = 0xE000E200;
 
 // The clock of core and peripherals.
 constexpr std::uint32_t kClockHz = 25'000'000;
 
-// APB timer 0: counts down.
-constexpr std::uintptr_t kTimerCtrl = 0x40000000, kTimerValue = 0x40000004;
-constexpr std::uintptr_t kTimerReload = 0x40000008;
+// APB timers, which count down: 0 begins the cycles, 1 tells the time.
+constexpr std::uintptr_t kTimer = 0x40000000, kClock = 0x40001000;
+constexpr std::uintptr_t kCtrl = 0x0, kValue = 0x4, kReload = 0x8, kIntClear = 0xC;  // offsets
+constexpr std::uint32_t kEnabled = 1, kInterrupts = 8;
+constexpr std::uint32_t kTimerIrq = 8;
 
 // APB watchdog: an interrupt, which is the NMI, at the first end of its time, a reset at the next.
 constexpr std::uintptr_t kWatchdogLoad = 0x40008000, kWatchdogControl = 0x40008008;

@@ -25,23 +25,26 @@ void SemihostingLink::send(const std::uint8_t* bytes, std::size_t size) {
   size_ += size;
 }
 
-/// Without an exchange there is no computer any more, and an emulator without one has no purpose.
-std::size_t SemihostingLink::receive(std::uint8_t* to, std::size_t capacity) {
-  waiting_[0] = static_cast<std::uint8_t>(size_ >> 8);
-  waiting_[1] = static_cast<std::uint8_t>(size_);
-  std::uint8_t head[kHead];
-  if (!semihosting::write(out_, waiting_.data(), kHead + size_)) semihosting::exit(1);
-  size_ = 0;
-  for (std::size_t got = 0, part = 0; got < kHead; got += part) {
-    part = semihosting::read(in_, head + got, kHead - got);
-    if (part == 0) semihosting::exit(0);
-  }
-  const std::size_t size = std::min<std::size_t>(head[0] << 8 | head[1], capacity);
+/// Reads all bytes. Without a computer an emulated board has no purpose.
+void SemihostingLink::read(std::uint8_t* to, std::size_t size) {
   for (std::size_t got = 0, part = 0; got < size; got += part) {
     part = semihosting::read(in_, to + got, size - got);
     if (part == 0) semihosting::exit(0);
   }
-  return size;
+}
+
+std::size_t SemihostingLink::receive(std::uint8_t* to, std::size_t capacity) {
+  waiting_[0] = static_cast<std::uint8_t>(size_ >> 8);
+  waiting_[1] = static_cast<std::uint8_t>(size_);
+  std::uint8_t head[kHead], dropped;
+  if (!semihosting::write(out_, waiting_.data(), kHead + size_)) semihosting::exit(1);
+  size_ = 0;
+  read(head, kHead);
+  const std::size_t size = static_cast<std::size_t>(head[0] << 8 | head[1]);
+  read(to, std::min(size, capacity));
+  for (std::size_t i = capacity; i < size; ++i)
+    read(&dropped, 1);  // or the next size would be lost
+  return std::min(size, capacity);
 }
 
 }  // namespace m7

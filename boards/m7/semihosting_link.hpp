@@ -23,6 +23,8 @@ class SemihostingLink final : public tactus::serial::ByteLink {
  private:
   static constexpr std::size_t kHead = 2, kMost = 2 * tactus::serial::kMaxFrame;
 
+  void read(std::uint8_t* to, std::size_t size);
+
   int in_ = -1, out_ = -1;
   std::array<std::uint8_t, kHead + kMost> waiting_;  // to be sent, behind its size
   std::size_t size_ = 0;

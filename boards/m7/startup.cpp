@@ -49,7 +49,7 @@ extern "C" [[gnu::used]] void run_program() {
   program();
 }
 
-[[gnu::section(".vectors"), gnu::used]] static const void* const vectors[16] = {
+[[gnu::section(".vectors"), gnu::used]] static const void* const vectors[16 + 9] = {
     &cycle_stack_top,
     reinterpret_cast<void*>(on_reset),
     reinterpret_cast<void*>(on_fault),  // NMI: the watchdog
@@ -65,4 +65,13 @@ extern "C" [[gnu::used]] void run_program() {
     reinterpret_cast<void*>(on_fault),
     nullptr,
     reinterpret_cast<void*>(on_fault),
-    reinterpret_cast<void*>(on_timer)};
+    reinterpret_cast<void*>(on_fault),
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    reinterpret_cast<void*>(on_timer)};  // interrupt 8

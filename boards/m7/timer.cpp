@@ -13,20 +13,29 @@ std::int64_t time_ns;
 }  // namespace
 
 void set_period(std::uint32_t period_us) {
-  at(kSystRvr) = kTicksPerUs * period_us - 1;
-  at(kSystCvr) = 0;
+  at(kTimer + kReload) = at(kTimer + kValue) = kTicksPerUs * period_us - 1;
 }
 
 void start_timer(std::uint32_t period_us) {
-  at(kTimerReload) = at(kTimerValue) = last_value = 0xFFFFFFFF;
-  at(kTimerCtrl) = 1;
+  at(kClock + kReload) = at(kClock + kValue) = last_value = 0xFFFFFFFF;
+  at(kClock + kCtrl) = kEnabled;
   time_ns = 0;
   set_period(period_us);
-  at(kSystCsr) = 7;  // the core's clock, an interrupt, on
+  at(kTimer + kCtrl) = kEnabled | kInterrupts;
+  at(kNvicIser) = 1U << kTimerIrq;
+}
+
+void call_timer() {
+  at(kNvicIspr) = 1U << kTimerIrq;
+  asm volatile("dsb\n isb");
+}
+
+void clear_timer() {
+  at(kTimer + kIntClear) = 1;
 }
 
 std::int64_t now_ns() {
-  const std::uint32_t value = at(kTimerValue);
+  const std::uint32_t value = at(kClock + kValue);
   time_ns += std::int64_t{kNsPerTick} * static_cast<std::uint32_t>(last_value - value);
   last_value = value;
   return time_ns;

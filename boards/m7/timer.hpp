@@ -10,6 +10,10 @@ namespace m7 {
 void start_timer(std::uint32_t period_us);
 /// Changes the period. [init, not cyclic]
 void set_period(std::uint32_t period_us);
+/// Has on_timer() called at once. [background]
+void call_timer();
+/// The interrupt that called on_timer() was heard. [cyclic]
+void clear_timer();
 /// The time since the start, ns; asked at least every 100 s. [cyclic]
 std::int64_t now_ns();
 

@@ -93,13 +93,20 @@ struct BoardBench {
     return board.result().status;
   }
 
+  /// Some periods of a board with its own timer, whatever they end with.
+  void turns(int count, Order order) {
+    for (int i = 0; i < count; ++i) static_cast<void>(turn(order));
+  }
+
   Rung rung() const { return static_cast<Rung>(board.result().rung); }
   bool disabled() const { return board.result().command.request == DriveRequest::kDisable; }
 
   /// Runs until the arm is commanded.
   void arm(Pace pace) {
-    for (int i = 0; i < 3000 && rung() != Rung::kNominal; ++i)
-      pace == Pace::kLockStep ? step(Order::kArmed) : turn(Order::kArmed);
+    Status status = Status::kArming;
+    for (int i = 0; i < 3000 && status != Status::kOk; ++i)
+      status = pace == Pace::kLockStep ? step(Order::kArmed) : turn(Order::kArmed);
+    ASSERT_OK(status);
     assert_true(rung() == Rung::kNominal);
   }
 };

@@ -92,13 +92,13 @@ void a_plant_that_is_not_heard_stops_the_arm_and_it_can_be_armed_again(void**) {
       const Status now = bench.turn(Order::kArmed, row.fate);
       if (status == Status::kOk) status = now;
     }
-    for (int i = 0; i < 100; ++i) bench.turn(Order::kArmed);
+    bench.turns(100, Order::kArmed);
     print_message("  %s: %s after %d cycles\n", row.name, name(status), cycles);
     assert_true(bench.disabled() != row.tolerated);
     if (row.tolerated) continue;
     ASSERT_STATUS(status, Status::kStateStale);
     ASSERT_STATUS(bench.board.result().status, Status::kStateStale);  // it is latched
-    for (int i = 0; i < 10; ++i) bench.turn(Order::kDisabled);
+    bench.turns(10, Order::kDisabled);
     assert_true(bench.disabled());
     bench.arm(Pace::kTimer);
   }
@@ -109,10 +109,10 @@ void a_halt_brakes_and_disables_and_only_a_new_order_arms(void**) {
   BoardBench& bench = fresh();
   bench.start(Pace::kTimer);
   bench.arm(Pace::kTimer);
-  for (int i = 0; i < 2000 && !bench.disabled(); ++i) bench.turn(Order::kHalted);
+  for (int i = 0; i < 2000 && !bench.disabled(); ++i) bench.turns(1, Order::kHalted);
   assert_true(bench.disabled());
   for (int i = 0; i < 200; ++i) {
-    bench.turn(Order::kHalted);
+    bench.turns(1, Order::kHalted);
     assert_true(bench.disabled());
   }
   bench.arm(Pace::kTimer);
