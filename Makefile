@@ -20,6 +20,7 @@ RUNS   :=
 NAME   := tactus
 RUNNER  = $(B)/$(NAME)
 PARTS  :=
+SCRIPTED :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
 PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
@@ -65,6 +66,9 @@ AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
 
+# `make run` runs the pipelines of every board that is this computer; with BOARD=... those of that board.
+BARE_BOARDS := fer_m7 ur10_m7
+RUN_BOARDS  := $(if $(filter command,$(origin BOARD)),$(BOARD),$(filter-out $(BARE_BOARDS),$(BOARDS)))
 # `make run ONLY="fer_trg_cpc ur10_trg_cpc"` runs these, and ALWAYS=1 also what has not changed.
 RUN_OPTIONS := $(if $(strip $(ONLY)),--only '$(ONLY)') $(if $(ALWAYS),--always)
 
@@ -94,11 +98,14 @@ each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOAR
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
 all: $(B)/$(NAME)                             ## build the program of BOARD
 
+run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
+	$(Q)$(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),scripts/setup m7)
 	$(Q)$(call each,-j2 all trajectories)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board
 	$(Q)scripts/setup vm
+	$(Q)scripts/setup m7
 	$(Q)$(call each,-j2 tests)
 	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
 test-long: setup                              ## run the long random tests at full count
@@ -136,7 +143,7 @@ each-board:
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-tests:
-	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline)
+	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline) $(SCRIPTED)
 kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
 trajectories: build/trajectories/fer_excitation.csv

@@ -9,6 +9,12 @@ LDLIBS += -lmujoco
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
 
 TESTS  := $(filter tests/serial/%,$(TESTS))
+# Beside those of one board: runs of all boards with a Cortex-M7 against this computer's.
+SCRIPTED := tests/serial/pipelines
 
 # The pipeline that the image has when it is switched on.
 PIPELINE ?= fer_jrg_pdgc
+
+# Limits in bytes that `make certificate` checks of the image: static memory without stacks, and flash.
+RAM_BUDGET   := 458752
+IMAGE_BUDGET := 294912

@@ -31,8 +31,13 @@ void watch_background(std::uint32_t period_us) {
   unmoved_us = now == seen_pieces ? unmoved_us + period_us : 0;
   seen_pieces = now;
   if (unmoved_us < kLongestWork_us) return;
+  const std::uint32_t* frame;  // what the timer's interrupt has put on the stack of that work
+  asm volatile("mrs %0, psp" : "=r"(frame));
   FaultRecord record;
   record.cause = FaultCause::kBackground;
+  record.sp = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(frame));
+  record.lr = frame[5];
+  record.pc = frame[6];
   end_with(record);
 }
 

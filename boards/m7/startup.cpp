@@ -3,7 +3,7 @@
 #include "boards/m7/registers.hpp"
 
 extern "C" {
-extern std::uint32_t cycle_stack_top, cycle_stack_limit, work_stack_limit, data_start, data_end,
+extern std::uint32_t cycle_stack_top, cycle_stack_guard, work_stack_guard, data_start, data_end,
     data_load, bss_start, bss_end;
 using Constructor = void (*)();
 extern Constructor constructors_start[], constructors_end[];
@@ -18,11 +18,12 @@ namespace {
 
 using namespace m7;
 
-/// The 32 bytes below a stack are protected: an overflow is a fault.
-void guard_stack(std::uint32_t region, const std::uint32_t& limit) {
+/// The 4 KiB below a stack are protected: an overflow is a fault. They are more than the frame of
+/// any function has, so none can step over them.
+void guard_stack(std::uint32_t region, const std::uint32_t& guard) {
   at(kMpuRnr) = region;
-  at(kMpuRbar) = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&limit));
-  at(kMpuRasr) = 1U << 28 | 4U << 1 | 1U;  // execute never, no access, 2^(4+1) bytes, on
+  at(kMpuRbar) = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&guard));
+  at(kMpuRasr) = 1U << 28 | 11U << 1 | 1U;  // execute never, no access, 2^(11+1) bytes, on
 }
 
 }  // namespace
@@ -40,8 +41,8 @@ extern "C" [[gnu::used]] void run_program() {
   const std::uint32_t* from = &data_load;
   for (std::uint32_t* to = &data_start; to < &data_end; ++to) *to = *from++;
   for (std::uint32_t* to = &bss_start; to < &bss_end; ++to) *to = 0;
-  guard_stack(0, cycle_stack_limit);
-  guard_stack(1, work_stack_limit);
+  guard_stack(0, cycle_stack_guard);
+  guard_stack(1, work_stack_guard);
   at(kMpuCtrl) = 5U;  // on; elsewhere the default map
   at(kShcsr) = at(kShcsr) | kFaultsEnabled;
   at(kCcr) = at(kCcr) | kDivisionTraps;
