@@ -64,7 +64,7 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
+CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
 
 # `make run` runs the pipelines of every board that is this computer; with BOARD=... those of that board.
 BARE_BOARDS := fer_m7 ur10_m7

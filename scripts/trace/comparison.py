@@ -12,29 +12,30 @@ import time
 from runs import write_job
 
 STEP = 256  # cycles between two hashes
-FILLS = (0x00, 0xFF)  # bytes that the memory of the player holds before
+FILLS = (0x00, 0xFF, 0xAA)  # bytes that the memory of the player holds before: of the first machine, and of every other
 PATIENCE_S = 1800
 SHOWN = 8  # values that differ
 
 
 @dataclasses.dataclass
 class Played:
-    """What a machine has printed: lines, the last of them as words, and the seconds it took."""
+    """What a machine has printed: lines, the last of them as words; the seconds it took, and over which bytes it played."""
 
     lines: list
     end: list
-    seconds: float = 0.0
+    seconds: float
+    fill: int
 
     @property
     def hash(self):
         return self.end[2] if len(self.end) == 5 else "none"
 
 
-def play(machine, run, **window):
+def play(machine, run, fill, **window):
     """Plays a run once."""
     with tempfile.TemporaryDirectory() as folder:
         job = pathlib.Path(folder) / "job"
-        write_job(run, job, **window)
+        write_job(run, job, fill=fill, **window)
         began = time.monotonic()
         try:
             done = subprocess.run(machine.command(run.robot, job), stdin=subprocess.DEVNULL, capture_output=True,
@@ -44,7 +45,7 @@ def play(machine, run, **window):
             said, failed = "", f"not done after {PATIENCE_S} s"
     lines = said.splitlines()
     end = lines.pop().split() if lines and lines[-1].startswith("end ") and not failed else [failed or "no end", *lines[-1:]]
-    return Played(lines, end, time.monotonic() - began)
+    return Played(lines, end, time.monotonic() - began, fill)
 
 
 def first_difference(left, right):
@@ -65,7 +66,7 @@ def differing_cycle(reference, machine, run, played):
     if block is None:
         block = min(len(each.lines) for each in played)
     window = {"first": max(0, (block - 1) * STEP), "last": block * STEP, "step": 1}
-    each = [play(one, run, **window).lines for one in (reference, machine)]
+    each = [play(one, run, before.fill, **window).lines for one, before in zip((reference, machine), played)]
     index = first_difference(*each)
     return None if index is None else window["first"] + index
 
@@ -77,7 +78,7 @@ def explain(reference, machine, run, played, whole_row):
     cycle = differing_cycle(reference, machine, run, played)
     if cycle is None:
         return "differs", [f"{one.name}: {' '.join(each.end)}" for one, each in zip((reference, machine), played)]
-    rows = [play(one, run, first=cycle, last=cycle).lines for one in (reference, machine)]
+    rows = [play(one, run, before.fill, first=cycle, last=cycle).lines for one, before in zip((reference, machine), played)]
     index = first_difference(*rows)
     if index is None:
         return f"cycle {cycle}", ["the values of this cycle do not differ"]
@@ -91,37 +92,39 @@ def explain(reference, machine, run, played, whole_row):
     return f"cycle {cycle}, {name}[{number}]", texts if whole_row else texts[:SHOWN]
 
 
-def judge(reference, machine, run, first, both, whole_row):
+def judge(reference, machine, run, first, plays, whole_row):
     """Returns the cell of a machine in the table and the lines that explain it; "=" if there is nothing to explain."""
-    if both[0].end != both[1].end or both[0].lines != both[1].lines:
-        return "two runs differ", [" ".join(each.end) for each in both]
-    if both[0].end != first.end or both[0].lines != first.lines:
-        return explain(reference, machine, run, (first, both[0]), whole_row)
-    if first.end[3:4] != ["kOk"] or first.end[4] == "0":
+    for again in plays[1:]:
+        if again.end != plays[0].end or again.lines != plays[0].lines:
+            return "two runs differ", [" ".join(each.end) for each in plays]
+    if plays[0].end != first.end or plays[0].lines != first.lines:
+        return explain(reference, machine, run, (first, plays[0]), whole_row)
+    if run.recorded and (first.end[3:4] != ["kOk"] or first.end[4] == "0"):
         return "not the whole run", [" ".join(first.end)]
     return "=", []
 
 
-def compare(runs, machines, built_s, whole_row):
-    """Prints the table; returns whether every machine plays every run alike, to its end."""
+def compare(runs, machines, built_s, whole_row, twice):
+    """Prints the table; returns whether every machine plays every run alike, to its end. The others play it `twice` too."""
+    fills = {machine: FILLS[:2] if machine is machines[0] else FILLS[2:] + FILLS[: 1 if twice else 0] for machine in machines}
     print(f"{'run':40} {'cycles':>6} {'hash':16} " + " ".join(f"{machine.name:>11}" for machine in machines))
     seconds, equal = dict.fromkeys(built_s, 0.0), True
     with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        futures = {(run, machine.name, fill): pool.submit(play, machine, run, step=STEP, fill=fill)
-                   for run in runs for machine in machines for fill in FILLS}
+        futures = {(run, machine.name, fill): pool.submit(play, machine, run, fill, step=STEP)
+                   for run in runs for machine in machines for fill in fills[machine]}
         for run in runs:
-            each = {machine: [futures[run, machine.name, fill].result() for fill in FILLS] for machine in machines}
+            each = {machine: [futures[run, machine.name, fill].result() for fill in fills[machine]] for machine in machines}
             first = each[machines[0]][0]
             cells, texts = [], []
-            for machine, both in each.items():
-                cell, why = judge(machines[0], machine, run, first, both, whole_row)
+            for machine, plays in each.items():
+                cell, why = judge(machines[0], machine, run, first, plays, whole_row)
                 cells.append(cell)
                 texts += [f"    {machine.name}: {line}" for line in why]
-                seconds[machine.name] += sum(played.seconds for played in both)
+                seconds[machine.name] += sum(played.seconds for played in plays)
                 equal = equal and cell == "="
             cycles = first.end[1] if len(first.end) == 5 else "?"
             print(f"{run.name:40} {cycles:>6} {first.hash:16} " + " ".join(f"{cell:>11}" for cell in cells), flush=True)
             print("".join(f"{text}\n" for text in texts), end="")
-    for what, by_machine in (("built", built_s), ("played twice", seconds)):
+    for what, by_machine in (("built", built_s), ("played", seconds)):
         print(f"{what + ', s':64} " + " ".join(f"{by_machine[machine.name]:11.0f}" for machine in machines))
     return equal

@@ -46,7 +46,7 @@ class Machine:
     def build(self, robot, launcher):
         """Builds the program of a robot; raises BuildError."""
         words = [f"BOARD={robot}_sim", f"ARCH={self.arch}", f"VARIANT={self.variant()}"]
-        words += [f"CXX={launcher} {self.compiler}".replace("= ", "="), f"OPTIMISED={self.level or '-O3'} {self.flags}".strip()]
+        words += [f"CXX={launcher} {self.compiler}".replace("= ", "="), f"OPTIMISED={self.level or '-O3'}", f"VARIANT_FLAGS={self.flags}"]
         make(*words, *(["WARNINGS="] if self.compiler.startswith("clang") else []), "trace")
 
     def command(self, robot, job):

@@ -1,19 +1,25 @@
 """The runs of all shipped pipelines, recorded as tapes, and the jobs that play them."""
 
 import dataclasses
+import functools
 import importlib.machinery
 import importlib.util
 import pathlib
 import re
 import struct
 import subprocess
+import sys
 
-from machines import make
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "wcet"))
+
+import inputs  # noqa: E402
+from machines import make  # noqa: E402
 
 BUILD = pathlib.Path("build/trace")
 PIPELINES = pathlib.Path("pipelines")
 # Sections of a board's wire. The kernel does not see them, and the player has no wire.
 WIRE = ("can", "cia402", "ur")
+HOSTILE = "hostile"
 TO_THE_END = 0xFFFFFFFF
 
 
@@ -23,7 +29,7 @@ class RunError(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """A pipeline and its trajectory; none: the one that the pipeline names."""
+    """A pipeline and its trajectory; none: the one that the pipeline names; HOSTILE: the tapes made for the worst case."""
 
     pipeline: str
     trajectory: str
@@ -37,6 +43,21 @@ class Run:
     def folder(self):
         return BUILD / self.name.replace(":", "-")
 
+    @property
+    def recorded(self):
+        return self.trajectory != HOSTILE
+
+    def tapes(self):
+        if self.recorded:
+            return [(self.folder / "run.tape").read_bytes()]
+        return hostile_tapes(self.pipeline)
+
+
+@functools.lru_cache
+def hostile_tapes(pipeline):
+    """Returns the tapes that seek the worst case of a pipeline: stops, refusals, late cycles, whatever a client can send."""
+    return list((inputs.hostile_tapes(pipeline) | inputs.found_tapes(pipeline)).values())
+
 
 def all_runs():
     """Returns the runs of every board, sorted; raises RunError if a pipeline is in none."""
@@ -47,6 +68,7 @@ def all_runs():
     left_out = {path.stem for path in PIPELINES.glob("*.ini")} - {pipeline for pipeline, _ in runs}
     if left_out:
         raise RunError(f"{', '.join(sorted(left_out))}: in no RUNS of boards/*/board.mk")
+    runs |= {(pipeline, HOSTILE) for pipeline, _ in runs if (inputs.CORPUS / pipeline).is_dir()}
     return [Run(pipeline, trajectory, pipeline.split("_")[0]) for pipeline, trajectory in sorted(runs)]
 
 
@@ -76,12 +98,14 @@ def trajectory_of(run, text):
 
 def record(run, launcher):
     """Records a run on the simulated plant, if its files or its recorder have changed; raises RunError."""
+    text, copy = text_of(run.pipeline), run.folder / "pipeline.ini"
+    run.folder.mkdir(parents=True, exist_ok=True)
+    if not run.recorded:
+        copy.write_text(text, encoding="utf-8")
+        return
     recorder = pathlib.Path(f"build/{run.robot}_sim/wcet-record")
     make(f"BOARD={run.robot}_sim", f"CXX={launcher} g++".replace("= ", "="), "ARCH=host", "VARIANT=", str(recorder), "trajectories")
-    text = text_of(run.pipeline)
-    trajectory = trajectory_of(run, text)
-    tape, copy = run.folder / "run.tape", run.folder / "pipeline.ini"
-    run.folder.mkdir(parents=True, exist_ok=True)
+    trajectory, tape = trajectory_of(run, text), run.folder / "run.tape"
     inputs = max(path.stat().st_mtime for path in (recorder, trajectory))
     if tape.exists() and tape.stat().st_mtime > inputs and copy.exists() and copy.read_text(encoding="utf-8") == text:
         return
@@ -92,8 +116,8 @@ def record(run, launcher):
         raise RunError(f"{run.name}: {' '.join(command)} has failed")
 
 
-def write_job(run, path, first=0, last=TO_THE_END, step=0, fill=0):
+def write_job(run, path, fill, first=0, last=TO_THE_END, step=0):
     """Writes the job that plays a run: tests/trace/traced_player.hpp."""
-    parts = [(run.folder / name).read_bytes() for name in ("pipeline.ini", "run.tape")]
+    parts = [(run.folder / "pipeline.ini").read_bytes(), *run.tapes()]
     head = struct.pack("<IIIB", first, last, step, fill)
     path.write_bytes(head + b"".join(struct.pack("<I", len(part)) + part for part in parts))

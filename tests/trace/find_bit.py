@@ -63,7 +63,7 @@ def main():
     other = Player("other", program, folder, tape_with(int(cycle), 0 if fill else 1), int(fill[0]) if fill else 0)
     machines = [Player("first", program, folder, tape_with(int(cycle), 0), 0), other]
     comparison.os.sched_getaffinity = lambda _: [0]  # one at a time: a machine has one job
-    return 0 if comparison.compare([run], machines, {"first": 0, "other": 0}, False) else 1
+    return 0 if comparison.compare([run], machines, {"first": 0, "other": 0}, False, True) else 1
 
 
 if __name__ == "__main__":

@@ -12,13 +12,6 @@ constexpr int kMostNumbers = 7;  // of a port that is recorded: a pose, or joint
 
 using Line = Text<128>;
 
-Line hexadecimal(std::uint64_t bits) {
-  Line digits;
-  for (int shift = 60; shift >= 0; shift -= 4)
-    digits << std::string_view("0123456789abcdef" + ((bits >> shift) & 15U), 1);
-  return digits;
-}
-
 std::uint64_t bits_of(double value) {
   std::uint64_t bits = 0;
   static_assert(sizeof bits == sizeof value);
@@ -27,6 +20,14 @@ std::uint64_t bits_of(double value) {
 }
 
 }  // namespace
+
+Text<16> hexadecimal(std::uint64_t bits) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  Text<16> text;
+  for (int shift = 60; shift >= 0; shift -= 4)
+    text << std::string_view(&kDigits[bits >> shift & 15U], 1);
+  return text;
+}
 
 void Trace::add(const char* name, double value) {
   add_bits(name, 0, bits_of(value));
@@ -48,8 +49,8 @@ void Trace::add(const char* name, const Pose& pose) {
 
 void Trace::add(const PortEntry& port) {
   static_assert(kDof <= kMostNumbers);
-  Line name = std::string_view(port.block);
-  name << "." << port.port;
+  Line name;
+  if (prints_values()) name << std::string_view(port.block) << "." << port.port;
   if (port.quantity == Quantity::kJacobian) {
     const auto& jacobian = *static_cast<const Jacobian*>(port.value);
     return add(name.c_str(), jacobian.data(), 6 * kDof);
@@ -62,7 +63,7 @@ void Trace::add_bits(const char* name, int index, std::uint64_t bits) {
   char bytes[8];
   for (int i = 0; i < 8; ++i) bytes[i] = static_cast<char>(bits >> 8 * i & 255U);
   hash_ = fnv1a({bytes, sizeof bytes}, hash_);
-  if (window_.step != 0 || !in_window()) return;
+  if (!prints_values()) return;
   Line line;
   line << static_cast<std::size_t>(cycles_) << " " << name << " " << index << " "
        << std::string_view(hexadecimal(bits)) << "\n";

@@ -17,6 +17,9 @@ struct TraceWindow {
   std::uint32_t first = 0, last = 0xffffffff, step = 0;
 };
 
+/// Sixteen digits.
+Text<16> hexadecimal(std::uint64_t bits);
+
 class Trace {
  public:
   using Print = void (*)(const char* line);
@@ -42,6 +45,7 @@ class Trace {
 
  private:
   bool in_window() const { return cycles_ >= window_.first && cycles_ <= window_.last; }
+  bool prints_values() const { return window_.step == 0 && in_window(); }
   void add_bits(const char* name, int index, std::uint64_t bits);
 
   TraceWindow window_;

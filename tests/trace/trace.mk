@@ -5,7 +5,7 @@ TRACE := tests/trace/trace.cpp tests/trace/traced_player.cpp $(PLAYER)
 trace: $(B)/trace
 same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and Cortex-M7
 	$(Q)scripts/setup check
-	$(Q)scripts/same_bits --matrix
+	$(Q)scripts/same_bits --matrix --twice
 ifeq ($(ARCH),m7)
 $(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) tests/bare_metal/memory.cpp $(wildcard tests/wcet/m7/s*.cpp)) $(O)/libkernel.a
 	$(call say,LD    $@)

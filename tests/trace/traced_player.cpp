@@ -96,9 +96,12 @@ void add_events(const EventLog& events, std::uint32_t& seen, Trace& trace) {
   for (; seen < events.count(); ++seen) {
     if (!events.read(seen, event)) continue;
     trace.add("event.stamp", static_cast<std::uint64_t>(event.stamp_ns));
+    trace.add("event.cycle", std::uint64_t{event.cycle});
+    trace.add("event.code", std::uint64_t{event.code});
     trace.add("event.value", static_cast<double>(event.value));
     trace.add("event.status", static_cast<std::uint64_t>(event.status));
     trace.add("event.cause", static_cast<std::uint64_t>(event.cause));
+    trace.add("event.from", static_cast<std::uint64_t>(event.from));
     trace.add("event.to", static_cast<std::uint64_t>(event.to));
     trace.add("event.joint", number_of(event.joint));
   }
@@ -121,12 +124,26 @@ void add_cycle(const Player& player, Status status, TracedHal& outside, std::uin
   add_events(executive.events(), seen, trace);
 }
 
-Text<160> end_line(const Trace& trace, const Player& player) {
-  Text<160> line("end ");
-  line << static_cast<std::size_t>(trace.cycles()) << " ";
-  for (int shift = 60; shift >= 0; shift -= 4)
-    line << std::string_view("0123456789abcdef" + ((trace.hash() >> shift) & 15U), 1);
-  return line << " " << name(player.executive().latched()) << " " << player.accepted() << "\n";
+struct Played {
+  Status status = Status::kOk;  ///< of the last tape
+  int accepted = 0;             ///< requests of all tapes
+};
+
+void play(Player& player, TracedHal& outside, Trace& trace, Played& played) {
+  std::uint32_t seen = 0;
+  while (player.prepare()) {
+    const Status status = player.cycle();
+    add_cycle(player, status, outside, seen, trace);
+    trace.end_cycle();
+  }
+  played.status = player.executive().latched();
+  played.accepted += player.accepted();
+}
+
+Text<512> refusal(const LoadError& error) {
+  Text<512> line("refused: line ");
+  return line << error.line << ": [" << std::string_view(error.section) << "] "
+              << std::string_view(error.key) << ": " << std::string_view(error.reason) << "\n";
 }
 
 }  // namespace
@@ -137,28 +154,28 @@ int play_job(Bytes job, Waypoint<JointSpace>* store, Trace::Print print) {
   TraceWindow window;
   for (std::uint32_t* number : {&window.first, &window.last, &window.step})
     *number = job.take<std::uint32_t>();
-  std::memset(bytes, job.take<std::uint8_t>(), sizeof bytes);
-  Trace trace(window, print);
-  TracedHal outside(trace);
-  Player& player = *new (bytes) Player(outside);
-  player.widen(store, kLongestTape);
+  const auto fill = job.take<std::uint8_t>();
   const Bytes text = next_tape(job);
-  if (player.load({reinterpret_cast<const char*>(text.data()), text.size()}, error) !=
-      Status::kOk) {
-    Text<400> line("refused: line ");
-    line << error.line << ": [" << std::string_view(error.section) << "] "
-         << std::string_view(error.key) << ": " << std::string_view(error.reason) << "\n";
-    print(line.c_str());
-    return 2;
-  }
-  player.insert(next_tape(job));
-  std::uint32_t seen = 0;
-  while (player.prepare()) {
-    const Status status = player.cycle();
-    add_cycle(player, status, outside, seen, trace);
-    trace.end_cycle();
-  }
-  print(end_line(trace, player).c_str());
+  Trace trace(window, print);
+  Played played;
+  do {
+    std::memset(bytes, fill, sizeof bytes);
+    TracedHal outside(trace);
+    Player& player = *new (bytes) Player(outside);
+    player.widen(store, kLongestTape);
+    const std::string_view file(reinterpret_cast<const char*>(text.data()), text.size());
+    if (player.load(file, error) != Status::kOk) {
+      print(refusal(error).c_str());
+      return 2;
+    }
+    player.insert(next_tape(job));
+    play(player, outside, trace, played);
+  } while (!job.empty());
+  Text<128> end("end ");
+  end << static_cast<std::size_t>(trace.cycles()) << " "
+      << std::string_view(hexadecimal(trace.hash())) << " " << name(played.status) << " "
+      << played.accepted << "\n";
+  print(end.c_str());
   return 0;
 }
 
