@@ -63,7 +63,7 @@ def all_runs():
     """Returns the runs of every board, sorted; raises RunError if a pipeline is in none."""
     runs = set()
     for board in pathlib.Path("boards").glob("*/board.mk"):
-        for line in re.findall(r"^RUNS\s*\+?=\s*(.*)$", board.read_text(encoding="utf-8"), re.MULTILINE):
+        for line in re.findall(r"^RUNS\s*[+:]?=\s*(.*)$", board.read_text(encoding="utf-8"), re.MULTILINE):
             runs |= {(*word.split(":"), "")[:2] for word in line.split()}
     left_out = {path.stem for path in PIPELINES.glob("*.ini")} - {pipeline for pipeline, _ in runs}
     if left_out:

@@ -160,6 +160,7 @@ int play_job(Bytes job, Waypoint<JointSpace>* store, Trace::Print print) {
   Played played;
   do {
     std::memset(bytes, fill, sizeof bytes);
+    asm volatile("" : : "r"(bytes) : "memory");  // or the compiler leaves it out
     TracedHal outside(trace);
     Player& player = *new (bytes) Player(outside);
     player.widen(store, kLongestTape);
