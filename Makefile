@@ -3,7 +3,7 @@ BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
 ARCH  ?= host
-HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))
+HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)
 B     := build/$(BOARD)$(HOW)
 
 # Of the files named after a robot, only those of the board's robot are compiled.
@@ -64,7 +64,7 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
 CXX      := $(CROSS_$(ARCH))g++
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH)) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE),,-fstack-usage -fcallgraph-info=su)
+CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
 
 # `make run` runs the pipelines of every board that is this computer; with BOARD=... those of that board.
 BARE_BOARDS := fer_m7 ur10_m7
@@ -204,6 +204,7 @@ include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
+include tests/trace/trace.mk
 include tests/wcet/can/can.mk
 include boards/m7/m7.mk
 

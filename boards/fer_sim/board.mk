@@ -17,8 +17,8 @@ FLASH_BUDGET      := 196608
 STACK_BUDGET      := 12288
 HOST_STACK_BUDGET := 32768
 
-# All tests except those of wires.
-TESTS  := $(filter-out tests/ur/% tests/can/% tests/cia402/% tests/drives/% tests/vm/%,$(TESTS))
+# All tests except those of wires, and the one of gen3_sim.
+TESTS  := $(filter-out tests/ur/% tests/can/% tests/cia402/% tests/drives/% tests/vm/% tests/trace/test_same_bits.cpp,$(TESTS))
 
 # The core on which `make wcet` judges the bound of a cycle with its rows, with code and data in tightly coupled memory:
 # its clock, and the longest time that such a cycle may take.

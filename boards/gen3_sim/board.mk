@@ -7,4 +7,5 @@ LDLIBS += -lmujoco
 # What `make run` runs: pipeline, or pipeline:trajectory.
 RUNS   += gen3_jrg_pdgc
 
-TESTS  := $(ANY_ROBOT)
+# Its run is the shortest to compare between machines.
+TESTS  := $(ANY_ROBOT) $(if $(SANITIZE),,tests/trace/test_same_bits.cpp)

@@ -12,13 +12,11 @@ TapeClient<Space>::TapeClient() {
 }
 
 template <class Space>
-void TapeClient<Space>::poll() {
+void TapeClient<Space>::poll(TapeHal& outside) {
   Report report;
-  while (client.poll(report)) {
-  }
+  while (client.poll(report)) outside.told(report);
   Feedback<Space> feedback;
-  while (client.poll_feedback(feedback)) {
-  }
+  while (client.poll_feedback(feedback)) outside.told(feedback);
 }
 
 template struct TapeClient<JointSpace>;
@@ -35,12 +33,22 @@ Status Player::load(std::string_view text, LoadError& error) {
   return Status::kOk;
 }
 
+void Player::widen(Waypoint<JointSpace>* waypoints, int capacity) {
+  joints_.channel.stores[0].waypoints = waypoints;
+  joints_.channel.stores[0].capacity = capacity;
+}
+
+void Player::note(const Verdict& verdict) {
+  accepted_ += verdict.ok() ? 1 : 0;
+  hal_.told(verdict);
+}
+
 bool Player::prepare() {
   if (deaf_ > 0) {
     --deaf_;
   } else {
-    joints_.poll();
-    poses_.poll();
+    joints_.poll(hal_);
+    poses_.poll(hal_);
   }
   if (repeats_ > 0) {
     --repeats_;

@@ -13,8 +13,9 @@
 
 namespace tactus {
 
-/// A robot that measures what the tape says and ignores every command.
-class TapeHal final : public Hal {
+/// The outside of a player: a robot that measures what the tape says and ignores every command, and
+/// a client that ignores what it is told. A test that looks at either overrides it.
+class TapeHal : public Hal {
  public:
   RobotState state;
 
@@ -28,6 +29,14 @@ class TapeHal final : public Hal {
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
   void disconnect() override {}
+
+  virtual void told(const Verdict&) {}
+  virtual void told(const Report&) {}
+  virtual void told(const Feedback<JointSpace>&) {}
+  virtual void told(const Feedback<TaskSpace>&) {}
+
+ protected:
+  ~TapeHal() = default;
 };
 
 /// A client's path into a generator of one space.
@@ -36,7 +45,7 @@ struct TapeClient {
   static constexpr int kCapacity = 64;  // waypoints of a store
 
   TapeClient();
-  void poll();
+  void poll(TapeHal& outside);
 
   ChannelMemory<Space> channel;
   ReferenceClient<Space> client{channel};
@@ -46,12 +55,16 @@ struct TapeClient {
 
 class Player {
  public:
-  explicit Player(const Timing& timing = {}) : executive_(hal_, pipeline_, timing) {}
+  explicit Player(const Timing& timing = {}) : Player(ignorant_, timing) {}
+  explicit Player(TapeHal& outside, const Timing& timing = {})
+      : hal_(outside), executive_(hal_, pipeline_, timing) {}
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
 
   /// Loads a pipeline as a simulated board does, without the board's own sections; once.
   Status load(std::string_view text, LoadError& error);
+  /// Gives the first store of joint trajectories this place for its waypoints; before load().
+  void widen(Waypoint<JointSpace>* waypoints, int capacity);
   /// Begins a tape; once for every Player.
   void insert(const Bytes& tape) { tape_ = tape; }
 
@@ -78,10 +91,13 @@ class Player {
   template <class Space>
   void send_waypoints(TapeClient<Space>& to);
   void take_append();
-  void note(const Verdict& verdict) { accepted_ += verdict.ok() ? 1 : 0; }
+  void note(const Verdict& verdict);
+
+  struct Ignorant final : TapeHal {};
 
   Bytes tape_;
-  TapeHal hal_;
+  Ignorant ignorant_;
+  TapeHal& hal_;
   TapeClient<JointSpace> joints_;
   TapeClient<TaskSpace> poses_;
   RoomyPipeline pipeline_;

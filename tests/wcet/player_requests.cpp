@@ -103,13 +103,14 @@ void Player::take_trajectory() {
   note(verdict);
 }
 
-/// u8 frames, u8 fields, u8 interpolation, u8 waypoints, f64 start; for each f64 time and its
-/// values.
+/// u8 frames, in joint space 256 waypoints each, u8 fields, u8 interpolation, u8 further waypoints,
+/// f64 start; for each f64 time and its values.
 template <class Space>
 void Player::send_waypoints(TapeClient<Space>& to) {
   Trajectory<Space>* const trajectory = to.client.acquire();
   const auto frames = tape_.take<std::uint8_t>(), fields = tape_.take<std::uint8_t>(),
-             how = tape_.take<std::uint8_t>(), count = tape_.take<std::uint8_t>();
+             how = tape_.take<std::uint8_t>(), rest = tape_.take<std::uint8_t>();
+  const int count = rest + (std::is_same_v<Space, JointSpace> ? 256 * frames : 0);
   const auto start_s = tape_.take<double>();
   if constexpr (std::is_same_v<Space, TaskSpace>) {
     if (trajectory != nullptr) trajectory->header = take_terms(frames);

@@ -1,5 +1,6 @@
-// wcet-record PIPELINE TAPE: runs a pipeline on the simulated plant and writes the robot's
-// measurements and the client's requests to a tape. Exit code 1 with a message on the error stream.
+// wcet-record PIPELINE TAPE [TRAJECTORY]: runs a pipeline, with its own trajectory or another, on
+// the simulated plant and writes the robot's measurements and the client's requests to a tape. Exit
+// code 1 with a message on the error stream.
 #include <cstdio>
 #include <cstdlib>
 
@@ -97,7 +98,7 @@ int put_terms(const Board&, JointSpace::Header&) {
 /// Stores, client and trajectory of one space.
 template <class Space>
 struct Way {
-  static constexpr int kCapacity = 64;  // as in the player
+  static constexpr int kCapacity = std::is_same_v<Space, JointSpace> ? kLongestTape : 64;
   Way() {
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i];
@@ -114,8 +115,8 @@ struct Way {
     trajectory.interpolation = board.gateway.interpolation;
     if (board.gateway.start_s > 0.0) trajectory.start_s = board.gateway.start_s;
     put(TapeOp::kWaypoints);
-    for (const int byte : {frames, int{trajectory.fields},
-                           static_cast<int>(trajectory.interpolation), trajectory.count})
+    for (const int byte : {frames + trajectory.count / 256, int{trajectory.fields},
+                           static_cast<int>(trajectory.interpolation), trajectory.count % 256})
       put(static_cast<std::uint8_t>(byte));
     put(trajectory.start_s);
     for (int i = 0; i < trajectory.count; ++i) {
@@ -137,7 +138,7 @@ struct Way {
   Waypoint<Space> waypoints[kStores][kCapacity];
 };
 
-int record(const char* path) {
+int record(const char* path, const char* trajectory) {
   static Board board;
   static SimHal robot;
   static Way<JointSpace> joints;
@@ -154,7 +155,8 @@ int record(const char* path) {
   std::int64_t now_ns = 0;
   if (start_armed(executive, period_ns, now_ns) != Status::kOk) return 1;
   hal.begin();
-  const FilePath file = relative_to(path, board.gateway.trajectory);
+  const FilePath file =
+      trajectory != nullptr ? FilePath(trajectory) : relative_to(path, board.gateway.trajectory);
   const double end_s = board.pipeline.takes_poses ? poses.send(file.c_str(), board)
                                                   : joints.send(file.c_str(), board);
   if (end_s < 0.0) {
@@ -177,8 +179,8 @@ int record(const char* path) {
 }  // namespace tactus
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: wcet-record PIPELINE TAPE\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: wcet-record PIPELINE TAPE [TRAJECTORY]\n");
     return 1;
   }
   tactus::tape = std::fopen(argv[2], "wb");
@@ -186,6 +188,6 @@ int main(int argc, char** argv) {
     std::perror(argv[2]);
     return 1;
   }
-  const int code = tactus::record(argv[1]);
+  const int code = tactus::record(argv[1], argv[3]);  // null without one
   return std::fclose(tactus::tape) == 0 ? code : 1;
 }

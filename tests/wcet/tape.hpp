@@ -32,6 +32,9 @@ enum class TapeOp : std::uint8_t {
   kCount,
 };
 
+/// Waypoints of the longest joint trajectory that is recorded: 20 s at 1 kHz.
+inline constexpr int kLongestTape = 20480;
+
 /// Bytes that are read once, front to back.
 class Bytes {
  public:

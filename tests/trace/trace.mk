@@ -1,0 +1,20 @@
+# The same bits on every machine: docs/same_bits.md. The Makefile includes this file after wcet.mk.
+TRACE := tests/trace/trace.cpp tests/trace/traced_player.cpp $(PLAYER)
+
+.PHONY: trace same-bits
+trace: $(B)/trace
+same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and Cortex-M7
+	$(Q)scripts/setup check
+	$(Q)scripts/same_bits --matrix --twice
+ifeq ($(ARCH),m7)
+$(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) tests/bare_metal/memory.cpp $(wildcard tests/wcet/m7/s*.cpp)) $(O)/libkernel.a
+	$(call say,LD    $@)
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
+else
+# Linked statically where that is possible, so that an emulator needs no libraries of the machine.
+$(B)/trace: $(call obj,tests/trace/main.cpp $(TRACE)) $(O)/libkernel.a
+	$(call say,LD    $@)
+	$(Q)$(CXX) $(or $(SANITIZER),-static) -o $@ $^
+$(B)/tests/trace/test_trace: $(O)/tests/trace/trace.o | $(B)/trace
+$(B)/tests/trace/test_trace: private TESTLIBS := $(O)/libkernel.a $(TESTLIBS)
+endif
