@@ -17,8 +17,9 @@ FLASH_BUDGET      := 196608
 STACK_BUDGET      := 12288
 HOST_STACK_BUDGET := 32768
 
-# All tests except those of wires, and the one of gen3_sim.
-TESTS  := $(filter-out tests/ur/% tests/can/% tests/cia402/% tests/drives/% tests/vm/% tests/trace/test_same_bits.cpp,$(TESTS))
+# All tests except those of wires and of the Cortex-M7.
+OTHERS := $(addprefix tests/,ur/% can/% cia402/% drives/% vm/% serial/% trace/test_same_bits.cpp)
+TESTS  := $(filter-out $(OTHERS),$(TESTS))
 
 # The core on which `make wcet` judges the bound of a cycle with its rows, with code and data in tightly coupled memory:
 # its clock, and the longest time that such a cycle may take.
