@@ -1,6 +1,6 @@
 # The image of a board with a Cortex-M7 and nothing else: docs/bare_metal.md. The Makefile includes this file.
 BARE_SRCS := $(filter-out boards/m7/provoke_%.cpp,$(wildcard boards/m7/*.cpp)) \
-             tests/bare_metal/memory.cpp $(wildcard hal/serial/*.cpp) $(addprefix gateway/reference_,client.cpp frames.cpp server.cpp) \
+             $(wildcard hal/serial/*.cpp) $(addprefix gateway/reference_,client.cpp frames.cpp server.cpp) \
              sim_plant/arm/$(robot)_mjcf.cpp
 
 .PHONY: image image-certificate
@@ -13,7 +13,6 @@ $(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(O)/libkernel.a 
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T boards/m7/mps2-an500.ld -o $@ \
 	  -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
-$(call obj,$(filter boards/m7/startup.cpp,$(BARE_SRCS))): CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 $(O)/boards/m7/embedded_text.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(PIPELINE).ini"'
 $(O)/boards/m7/embedded_text.o: pipelines/$(PIPELINE).ini
 # The stacks of cycles, of background work and of a fault, as the linker script has them.

@@ -6,7 +6,7 @@
 #include "kernel/cycle/executive.hpp"
 #include "kernel/load/loader.hpp"
 #include "program/sim/sim_sections.hpp"
-#include "tests/wcet/m7/semihosting.hpp"
+#include "tests/wcet/m7/console.hpp"
 #include "tests/wcet/pipeline_text.hpp"
 
 namespace {
@@ -92,7 +92,7 @@ int say(const char* what, const char* why) {
 
 }  // namespace
 
-extern "C" int program() {
+extern "C" int measure() {
   for (std::size_t i = 0; i < kStores; ++i) {
     channel.stores[i].waypoints = waypoints[i];
     channel.stores[i].capacity = kWholeWaypoints;

@@ -7,7 +7,7 @@ same-bits:                                    ## compare the bits of all runs on
 	$(Q)scripts/setup check
 	$(Q)scripts/same_bits --matrix --twice
 ifeq ($(ARCH),m7)
-$(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) tests/bare_metal/memory.cpp $(wildcard tests/wcet/m7/s*.cpp)) $(O)/libkernel.a
+$(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) $(M7_START)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
 else

@@ -6,7 +6,9 @@ WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(robot)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp \
                   sim_plant/arm/$(robot)_mjcf.cpp
-BARE           := $(wildcard tests/wcet/m7/s*.cpp) tests/bare_metal/memory.cpp $(PLAYER)
+# What an image for measurements on a bare Cortex-M7 is linked with.
+M7_START       := $(addprefix boards/m7/,startup.cpp semihosting.cpp memory.cpp) $(addprefix tests/wcet/m7/,console.cpp handlers.cpp)
+BARE           := $(M7_START) $(PLAYER)
 
 .PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## measure, count and bound the worst case of every stage; build/wcet
@@ -30,7 +32,7 @@ wcet-setup:
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
-$(O)/tests/wcet/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+$(O)/boards/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 $(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc

@@ -1,7 +1,7 @@
 // Plays a job on a bare Cortex-M7. The job's path is the emulator's last argument. Job and
 // waypoints are in the board's PSRAM.
 #include "tests/trace/traced_player.hpp"
-#include "tests/wcet/m7/semihosting.hpp"
+#include "tests/wcet/m7/console.hpp"
 
 namespace {
 
@@ -15,7 +15,7 @@ using Stored = Waypoint<JointSpace>;
 
 }  // namespace
 
-extern "C" int program() {
+extern "C" int measure() {
   static char line[512];
   const char* const path = semihosting::last_argument(line, sizeof line);
   const Bytes job(job_bytes, semihosting::read_file(path, job_bytes, sizeof job_bytes));

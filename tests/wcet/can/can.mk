@@ -2,8 +2,7 @@
 CAN_SYSTEM := socket|bind|ioctl|[gs]etsockopt|fcntl|close|p?poll|(recv|send)mmsg|clock_gettime|nanosleep|strerror|__errno_location|strncpy|memchr|floor|lround
 
 # The CAN part of a cycle, counted and bounded on the Cortex-M7: docs/timing.md. The Makefile includes this file.
-CAN_IMAGE := $(CAN_BENCH) tests/wcet/can/library.cpp tests/wcet/can/main.cpp $(wildcard tests/wcet/m7/s*.cpp) \
-             tests/bare_metal/memory.cpp
+CAN_IMAGE := $(CAN_BENCH) tests/wcet/can/library.cpp tests/wcet/can/main.cpp $(M7_START)
 
 .PHONY: can-symbols wcet-can wcet-can-image
 can-symbols: $(B)/libcan.a                    ## check that the wire to drives on CAN has no heap, exceptions or locks

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "tests/wcet/can/can_bench.hpp"
-#include "tests/wcet/m7/semihosting.hpp"
+#include "tests/wcet/m7/console.hpp"
 
 namespace {
 
@@ -74,7 +74,7 @@ std::uint32_t play(std::uint32_t scene, bool fd) {
 
 }  // namespace
 
-extern "C" int program() {
+extern "C" int measure() {
   static char line[512];
   const char* const configuration = semihosting::last_argument(line, sizeof line);
   for (std::uint32_t scene = 0; scene < kScenes; ++scene) {

@@ -2,7 +2,7 @@
 // path is the emulator's last argument. The emulator counts the instructions of the cycles.
 #include <new>
 
-#include "tests/wcet/m7/semihosting.hpp"
+#include "tests/wcet/m7/console.hpp"
 #include "tests/wcet/pipeline_text.hpp"
 #include "tests/wcet/player.hpp"
 
@@ -30,7 +30,7 @@ Status play(const Bytes& tape, std::uint32_t& cycles) {
 
 }  // namespace
 
-extern "C" int program() {
+extern "C" int measure() {
   static char line[512];
   const char* const path = semihosting::last_argument(line, sizeof line);
   Bytes reel(reel_bytes, semihosting::read_file(path, reel_bytes, sizeof reel_bytes));
