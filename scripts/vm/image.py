@@ -5,7 +5,6 @@ import pathlib
 import re
 import shlex
 import stat
-import subprocess
 
 from vm import tools
 
@@ -80,11 +79,6 @@ def build(project, machine, kernel, root, script, files, groups):
         image.copy(path, pathlib.Path("/bin", name))
         if name == "busybox" and image.libraries.of(path):
             raise tools.Missing(f"{path} is not static; as root: scripts/setup vm")
-    # The applets that the guest needs have the same names on every architecture.
-    applets = subprocess.run([tools.found("busybox"), "--list"], capture_output=True, text=True, check=True).stdout
-    for applet in applets.split():
-        if f"bin/{applet}" not in image.entries:
-            image.link(f"bin/{applet}", "busybox")
     image.link("bin/sh", "dash")  # busybox' own shell prefers its applets to programs, such as its ip
     for group in [*groups, machine.results_modules]:
         for module in sorted((kernel / group).iterdir()):
