@@ -32,7 +32,7 @@ def arguments(machine, kernel, folder, buses, fd):
     line += ["-icount", "shift=0,sleep=off", "-rtc", "base=2020-01-01,clock=vm", "-seed", "1"]
     line += ["-nodefaults", "-no-user-config", "-display", "none", "-no-reboot"]
     line += ["-kernel", kernel / "vmlinux", "-initrd", folder / "image"]
-    line += ["-append", f"{machine.append} {KERNEL_OPTIONS}"]
+    line += ["-append", f"{KERNEL_OPTIONS} {machine.append}"]
     line += [word.format(folder=folder) for word in machine.ports.split()]
     for bus in range(buses):
         line += ["-object", f"can-bus,id=bus{bus}"]
