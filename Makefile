@@ -52,7 +52,8 @@ SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -
              -DTACTUS_ROBOT=$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
-# The kernel is built for these machines: host, arm64, m7 (bare metal, linked without a C library).
+# The kernel is built for these machines: host, arm64, m7 (bare metal, linked without a C library); programs for the
+# first two.
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_m7    := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
@@ -62,6 +63,8 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
                -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
                $(INLINING)
 CXX      := $(CROSS_$(ARCH))g++
+# A program without libraries of its own needs the C library and no other.
+LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
@@ -96,7 +99,7 @@ say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
-all: $(B)/$(NAME)                             ## build the program of BOARD
+all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
 
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
@@ -128,6 +131,8 @@ bench: $(B)/bench                             ## measure the time per call, and 
 	$(Q)$(B)/bench
 setup:                                        ## install missing Debian packages
 	$(Q)scripts/setup
+setup-%:
+	$(Q)scripts/setup $*
 format:                                       ## clang-format every source
 	$(Q)clang-format -i $$(git ls-files -co --exclude-standard '*.[ch]pp' '*.[ch]')
 compile_commands.json:                        ## for editors and clang-tidy
@@ -179,7 +184,7 @@ build/%.a:
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 $(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LDLIBS)
+	$(Q)$(CXX) $(SANITIZER) $(LDFLAGS) -o $@ $^ $(LDLIBS)
 # Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
 build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
@@ -200,6 +205,7 @@ $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefil
 	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
 
 include program/install.mk
+include program/package/package.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk

@@ -7,6 +7,9 @@ ROOT    := $(call quote,$(DESTDIR)$(PREFIX))
 LIB     := $(ROOT)/lib/tactus
 SHARE   := $(ROOT)/share
 COMMAND := $(NAME)-$(BOARD)
+# The man page and the completion are what the program itself says.
+RUN_arm64 := qemu-aarch64 -L /usr/aarch64-linux-gnu
+RUN       := $(RUN_$(ARCH))
 
 # The program finds scripts/figure three folders above itself, as in this tree.
 .PHONY: install
@@ -22,8 +25,8 @@ install: setup $(B)/$(NAME) trajectories                       ## install the pr
 	$(Q)install -m 644 NOTICE $(LIB)/NOTICE
 	$(Q)cp -r pipelines $(SHARE)/tactus/
 	$(Q)install -D -m 644 -t $(SHARE)/tactus/build/trajectories build/trajectories/*
-	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) > $(SHARE)/man/man1/$(COMMAND).1
-	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) > $(SHARE)/bash-completion/completions/$(COMMAND)
+	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) $(RUN) > $(SHARE)/man/man1/$(COMMAND).1
+	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) $(RUN) > $(SHARE)/bash-completion/completions/$(COMMAND)
 
 OPTIONS := $(call obj,program/session/options.cpp)
 $(OPTIONS): private CXXFLAGS += -DTACTUS_VERSION='"$(VERSION)"'

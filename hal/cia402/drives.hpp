@@ -107,6 +107,7 @@ class Drives {
                      const JointVector& dq);
   void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
   void enter(Phase phase, std::int64_t now_ns);
+  std::int64_t half_period_ns() const { return static_cast<std::int64_t>(0.5e9 * period_s_); }
 
   const Cia402Settings* settings_ = nullptr;
   double period_s_ = 1.0;

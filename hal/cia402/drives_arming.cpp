@@ -94,7 +94,9 @@ void Drives::advance(std::int64_t now_ns) {
       if (all_reached()) enter(Phase::kReleasing, now_ns);
       break;
     case Phase::kReleasing:
-      if (now_ns - since_ns_ >= settings_->brake_ms * kMillisecond_ns && !held_back_)
+      // To the nearest cycle: a wake-up some microseconds early must not cost a whole one.
+      if (now_ns - since_ns_ + half_period_ns() >= settings_->brake_ms * kMillisecond_ns &&
+          !held_back_)
         enter(Phase::kArmed, now_ns);
       break;
     case Phase::kStopping:

@@ -3,44 +3,24 @@
 import os
 import pathlib
 import re
-import shutil
+import shlex
 import stat
-import subprocess
 
-from vm.kernel import Missing
+from vm import tools
 
 HOME = "/tactus"  # the project in the guest: a fixed place, so that every checkout gives the same bytes
 INIT = pathlib.Path(__file__).with_name("init")
 FOLDERS = ["bin", "dev", "out", "proc", "sys", "tmp"]
-TOOLS = ["ip", "chrt", "candump", "cansend", "cangen", "canplayer"]
 DATA = ["pipelines", "build/trajectories"]
 WORD = re.compile(r"[\w./+-]+")
-
-
-def found(tool):
-    """Returns the path of a program of the host."""
-    path = shutil.which(tool, path="/bin:/usr/bin:/sbin:/usr/sbin")
-    if not path:
-        raise Missing(f"{tool} is not installed; as root: scripts/setup vm")
-    return pathlib.Path(path).resolve()
-
-
-def libraries(program):
-    """Returns the shared libraries that a program needs, none for a static one or a script."""
-    with open(program, "rb") as file:
-        if file.read(4) != b"\x7fELF":
-            return []
-    said = subprocess.run(["ldd", program], capture_output=True, text=True).stdout
-    if absent := re.findall(r"(\S+) => not found", said):
-        raise ValueError(f"{program} needs {', '.join(absent)}, which are not installed")
-    return [pathlib.Path(path) for path in re.findall(r"(?:=>|^)\s*(/\S+) \(", said, re.MULTILINE)]
 
 
 class Image:
     """Files and links by their path in the guest."""
 
-    def __init__(self, project):
+    def __init__(self, project, libraries):
         self.project = project
+        self.libraries = libraries
         self.entries = {folder: (stat.S_IFDIR | 0o755, b"") for folder in FOLDERS}
 
     def put(self, path, data, executable=False):
@@ -59,15 +39,15 @@ class Image:
         inside = path.is_relative_to(self.project)
         return str(pathlib.Path(HOME, path.relative_to(self.project)) if inside else path).lstrip("/")
 
-    def copy(self, path):
-        """Adds a file of the host with the libraries that it needs, or all files of a folder."""
+    def copy(self, path, to=None):
+        """Adds a file of the host with the libraries that it needs, at its place or to another, or a folder's files."""
         if path.is_dir():
             for each in sorted(path.rglob("*")):
                 if each.is_file():
                     self.copy(each)
             return
-        for file in [path, *libraries(path)]:
-            self.put(self.place(file), file.read_bytes(), os.access(file, os.X_OK))
+        for place, file in [(to or path, path), *self.libraries.of(path)]:
+            self.put(self.place(place), file.read_bytes(), os.access(file, os.X_OK))
 
     def bytes(self):
         """Returns the archive, a cpio of the kind that the kernel reads."""
@@ -91,25 +71,23 @@ def named(command, project):
     return sorted(path for word in words if (path := project / word).is_file() and path.is_relative_to(project))
 
 
-def build(project, kernel, script, files, groups):
-    """Returns the archive: busybox, tools, modules of the groups, the files, and the script that the guest runs."""
-    image = Image(project)
-    busybox = found("busybox")
-    if libraries(busybox):
-        raise Missing(f"{busybox} is not static; as root: scripts/setup vm")
-    image.put("bin/busybox", busybox.read_bytes(), executable=True)
-    for applet in subprocess.run([busybox, "--list"], capture_output=True, text=True, check=True).stdout.split():
-        if applet != "busybox":
-            image.link(f"bin/{applet}", "busybox")
-    image.copy(found("dash"))  # busybox' own shell prefers its applets to programs, such as its ip
-    image.link("bin/sh", "/" + image.place(found("dash")))
-    for tool in TOOLS:
-        image.copy(found(tool))
-    for group in groups:
+def build(project, machine, kernel, root, script, files, groups):
+    """Returns the archive: the tools below root, modules of the groups, the files, and the script that the guest runs."""
+    image = Image(project, tools.Libraries(machine.architecture, root, [project / "build"]))
+    for name in tools.NAMES:
+        path = tools.found(name, root)
+        image.copy(path, pathlib.Path("/bin", name))
+        if name == "busybox" and image.libraries.of(path):
+            raise tools.Missing(f"{path} is not static; as root: scripts/setup vm")
+    image.link("bin/sh", "dash")  # busybox' own shell prefers its applets to programs, such as its ip
+    for group in [*groups, machine.results_modules]:
         for module in sorted((kernel / group).iterdir()):
             image.put(f"modules/{group}/{module.name}", module.read_bytes())
     for path in files + [project / name for name in DATA if (project / name).is_dir()]:
         image.copy(path)
+    said = {"output": machine.output, "clock": machine.clock, "groups": " ".join(groups),
+            "results": machine.results, "results_modules": machine.results_modules}  # fmt: skip
+    image.put("machine", "".join(f"{name}={shlex.quote(value)}\n" for name, value in said.items()).encode())
     image.put("command", script.encode())
     image.put("init", INIT.read_bytes(), executable=True)
     return image.bytes()

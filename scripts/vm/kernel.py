@@ -1,4 +1,4 @@
-"""The kernel of the virtual machine: Debian's own with PREEMPT_RT, downloaded once and never installed."""
+"""The kernel of a virtual machine: Debian's own with PREEMPT_RT, downloaded once and never installed."""
 
 import contextlib
 import fcntl
@@ -11,13 +11,8 @@ import struct
 import subprocess
 import tempfile
 
-NEWEST = "linux-image-rt-amd64"  # depends on the package of the newest kernel
-# What is loaded: always, with emulated controllers, and only after the command, to bring out its results.
-MODULES = {
-    "bus": ["can-raw", "can-bcm", "can-gw", "vcan", "vxcan"],
-    "controllers": ["kvaser_pci"],
-    "results": ["virtio_pci", "virtio_console"],
-}
+from vm.machines import KERNELS, MACHINES, MODULES
+
 FD = "fd"  # the group that scripts/vm/ctucanfd compiles
 LONGEST_DOWNLOAD_S = 600
 # As root, because apt's own user cannot write into the folder.
@@ -52,32 +47,38 @@ def locked(folder):
         yield
 
 
-def package():
-    """Returns the name of the package with the newest kernel; asks the mirror if the lists are not there."""
+def newest(architecture):
+    """Returns the package of the newest kernel; asks the mirror if the lists are not there."""
+    what = f"{KERNELS[architecture]}:{architecture}"
     for attempt in range(2):
         with contextlib.suppress(Missing):
-            depends = told("apt-cache", "depends", NEWEST).decode()
+            depends = told("apt-cache", "depends", what).decode()
             if found := re.search(r"Depends: (linux-image-\d[^ :\n]*)", depends):
-                return found[1]
+                return f"{found[1]}:{architecture}"
         if not attempt and os.geteuid() == 0:
             told("apt-get", "update", *HOW)
-    raise Missing(f"apt-cache knows no {NEWEST}; as root: apt-get update")
+    raise Missing(f"apt-cache knows no {what}; as root: dpkg --add-architecture {architecture}; apt-get update")
 
 
-def download(folder):
-    """Downloads the package into the folder and returns its file."""
+def download(folder, find):
+    """Downloads the packages that find() names into the folder and unpacks them there, into tree."""
     try:
-        told("apt-get", "download", *HOW, package(), cwd=folder)
+        told("apt-get", "download", *HOW, *find(), cwd=folder)
     except Missing:
         if os.geteuid():
             raise
         told("apt-get", "update", *HOW)  # an old kernel vanishes from the mirror once there is a newer one
-        told("apt-get", "download", *HOW, package(), cwd=folder)
-    return next(folder.glob("linux-image-*.deb"))
+        told("apt-get", "download", *HOW, *find(), cwd=folder)
+    tree = folder / "tree"
+    for archive in folder.glob("*.deb"):
+        told("dpkg-deb", "-x", str(archive), str(tree))
+    return tree
 
 
 def unpacked(image):
-    """Returns the ELF file inside a bzImage, so that the guest need not unpack it, which takes it seconds."""
+    """Returns the kernel without compression, which would take the guest seconds."""
+    if image[0x38:0x3C] == b"ARM\x64":
+        return image
     offset, length = struct.unpack_from("<II", image, 0x248)
     begin = ((image[0x1F1] or 4) + 1) * 512 + offset
     elf = lzma.LZMADecompressor().decompress(image[begin : begin + length])
@@ -93,28 +94,42 @@ def collect_modules(tree, version, to):
     for group, names in MODULES.items():
         (to / group).mkdir()
         for name in names:
-            shown = told("/sbin/modprobe", "-d", str(tree), "-S", version, "--show-depends", name).decode()
+            try:
+                shown = told("/sbin/modprobe", "-d", str(tree), "-S", version, "--show-depends", name).decode()
+            except Missing:
+                continue  # of another architecture's board; without one that it needs, a machine says what failed
             for path in re.findall(r"^insmod (\S+)", shown, re.MULTILINE):
                 if path not in seen:
                     shutil.copyfile(path, to / group / f"{len(seen):02}-{pathlib.Path(path).name}")
                     seen.add(path)
 
 
-def fetch(cache):
-    """Returns the folder with the files version, vmlinux and, per group of MODULES, a folder with its modules."""
-    kernel = cache / "kernel"
+def collect_trees(architecture, tree, to):
+    """Copies the device trees of the machines, without what QEMU does not emulate."""
+    for name, machine in MACHINES.items():
+        if machine.architecture == architecture and machine.tree:
+            blob = to / f"{name}.dtb"
+            shutil.copyfile(next(tree.glob(f"usr/lib/linux-image-*/{machine.tree}")), blob)
+            for node in machine.absent:
+                told("fdtput", "-t", "s", str(blob), node, "status", "disabled")
+
+
+def fetch(cache, architecture):
+    """Returns the folder with the files version, vmlinux, device trees and, per group of MODULES, a folder of modules."""
+    kernel = cache / architecture / "kernel"
     with locked(cache):
         if kernel.is_dir():
             return kernel
+        kernel.parent.mkdir(exist_ok=True)
         with tempfile.TemporaryDirectory(dir=cache) as name:
             work = pathlib.Path(name)
-            archive = download(work)
-            tree, ready = work / "tree", work / "kernel"
+            tree = download(work, lambda: [newest(architecture)])
+            ready = work / "kernel"
             ready.mkdir()
-            told("dpkg-deb", "-x", str(archive), str(tree))
             version = next((tree / "lib/modules").iterdir()).name
             (ready / "vmlinux").write_bytes(unpacked((tree / f"boot/vmlinuz-{version}").read_bytes()))
             collect_modules(tree, version, ready)
+            collect_trees(architecture, tree, ready)
             (ready / "version").write_text(version + "\n")
             ready.rename(kernel)
     return kernel

@@ -7,18 +7,13 @@ import sys
 import tarfile
 import time
 
-from vm.image import found
+from vm.tools import found
 
 EXIT = re.compile(r"^can-vm: exit code (\d+)\r?$", re.MULTILINE)
 TIMES = re.compile(r"^can-vm: (command|ended) after ([\d.]+) s\r?$", re.MULTILINE)
 LOOK_S = 0.02  # the interval at which output is passed on
-MEMORY_MB = 512
-KERNEL_OPTIONS = [
-    "console=ttyS0", "quiet", "panic=-1", "oops=panic",
-    # Calibrations and self-tests, which take a kernel under emulation twice as long as all the rest. A counter that
-    # counts instructions needs none: 1 GHz. The timer in the processor would be measured, that of the board need not.
-    "cryptomgr.notests", "tsc_early_khz=1000000", "nolapic_timer", "initcall_blacklist=hpet_init",
-]  # fmt: skip
+CARD_BYTES = 1 << 28  # a power of 2, as a card has; only what is written takes room on the disk
+KERNEL_OPTIONS = "quiet panic=-1 oops=panic cryptomgr.notests"
 OUT_OF_TIME, BROKEN = 124, 125
 
 
@@ -30,16 +25,15 @@ class Broken(Exception):
         self.code = code
 
 
-def arguments(kernel, folder, buses, fd):
+def arguments(machine, kernel, folder, buses, fd):
     """Returns QEMU's command line; files instead of pipes, since a full pipe would stop the guest for a while."""
-    line = [found("qemu-system-x86_64"), "-accel", "tcg", "-cpu", "qemu64", "-smp", "1", "-m", str(MEMORY_MB)]
+    emulator, *board = machine.qemu.format(kernel=kernel).split()
+    line = [found(emulator), *board, "-accel", "tcg"]
     line += ["-icount", "shift=0,sleep=off", "-rtc", "base=2020-01-01,clock=vm", "-seed", "1"]
     line += ["-nodefaults", "-no-user-config", "-display", "none", "-no-reboot"]
     line += ["-kernel", kernel / "vmlinux", "-initrd", folder / "image"]
-    line += ["-append", " ".join(KERNEL_OPTIONS)]
-    line += ["-serial", f"file:{folder / 'console'}", "-serial", f"file:{folder / 'output'}"]
-    line += ["-device", "virtio-serial", "-chardev", f"file,id=results,path={folder / 'results'}"]
-    line += ["-device", "virtserialport,chardev=results"]
+    line += ["-append", f"{KERNEL_OPTIONS} {machine.append}"]
+    line += [word.format(folder=folder) for word in machine.ports.split()]
     for bus in range(buses):
         line += ["-object", f"can-bus,id=bus{bus}"]
         if fd:
@@ -56,12 +50,14 @@ def passed_on(file):
         sys.stdout.buffer.flush()
 
 
-def run(kernel, folder, buses, fd, longest_s):
+def run(machine, kernel, folder, buses, fd, longest_s):
     """Runs the image in the folder, passes its output on, and returns the exit code of its command and two times."""
     output, console = folder / "output", folder / "console"
     output.touch()
+    with open(folder / "results", "wb") as results:
+        results.truncate(CARD_BYTES)
     with open(folder / "qemu", "wb") as said, open(output, "rb") as shown:
-        line = arguments(kernel, folder, buses, fd)
+        line = arguments(machine, kernel, folder, buses, fd)
         qemu = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
         deadline = time.monotonic() + longest_s
         try:
