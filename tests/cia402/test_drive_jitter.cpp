@@ -19,6 +19,7 @@ int cycles_to_arm(std::int64_t shift_ns) {
   return cycles;
 }
 
+// Proves CAN-3.
 void arming_takes_as_many_cycles_whatever_the_jitter_of_their_beginnings(void**) {
   const int cycles = cycles_to_arm(0);
   assert_in_range(cycles, 10, 40);

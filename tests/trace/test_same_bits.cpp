@@ -1,5 +1,5 @@
-// The same bits on the Cortex-M7 and on this computer, for one run; scripts/check compares all runs,
-// and aarch64 too.
+// The same bits on the Cortex-M7 and on this computer, for one run; scripts/check compares all
+// runs, and aarch64 too.
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {
