@@ -208,7 +208,7 @@ void CanMaster::leave() {
   if (!drives_.off()) return;  // its own watchdogs stop a drive that has not confirmed
   for (const Node& node : nodes_) {
     if (node.feedback.lost != Status::kOk) continue;  // nor has one that was lost
-    SdoClient farewell;  // no heartbeat of ours is to be missed
+    SdoClient farewell;                               // no heartbeat of ours is to be missed
     farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);
     CanFrame request;
     if (farewell.take(request)) outbox(node.bus).add(request);

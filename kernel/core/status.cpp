@@ -89,7 +89,8 @@ constexpr StatusWords words_of(Status status) {
     case Status::kBusConflict:
       return {"kBusConflict", "somebody else on the bus uses our identifiers"};
     case Status::kMismatch:
-      return {"kMismatch", "two machines that run the same pipeline have computed different values"};
+      return {"kMismatch",
+              "two machines that run the same pipeline have computed different values"};
   }
   return {"unknown", "unknown status"};
 }

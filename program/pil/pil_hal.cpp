@@ -1,7 +1,5 @@
 #include "program/pil/pil_hal.hpp"
 
-#include <algorithm>
-#include <cinttypes>
 #include <cstdio>
 #include <cstring>
 
@@ -17,6 +15,19 @@ using serial::Kind;
 namespace {
 
 constexpr std::size_t kTextPart = 960;
+
+std::uint64_t bits_of(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/// The first joint whose numbers are not the same to the last bit; -1: there is none.
+int first_difference(const JointVector& a, const JointVector& b) {
+  for (int j = 0; j < kDof; ++j)
+    if (bits_of(a[j]) != bits_of(b[j])) return j;
+  return -1;
+}
 
 }  // namespace
 
@@ -100,28 +111,31 @@ Status PilHal::write(const RobotCommand& command) {
 
 Status PilHal::compare(const RobotCommand& command) {
   const RobotCommand& other = board_.result().command;
-  const bool same_request = other.mode == command.mode && other.request == command.request;
-  const bool same =
-      std::memcmp(other.value.data(), command.value.data(), sizeof command.value) == 0 &&
-      std::memcmp(other.dq_ff.data(), command.dq_ff.data(), sizeof command.value) == 0 &&
-      std::memcmp(other.tau_ff.data(), command.tau_ff.data(), sizeof command.value) == 0;
-  if (same && same_request) return Status::kOk;
   why_ = Message("cycle ");
-  why_ << std::size_t{board_.result().cycle} << ": the board's command is ";
-  if (!same_request) {
-    why_ << "request " << static_cast<int>(other.request) << ", this computer's "
+  why_ << std::size_t{board_.result().cycle} << ": the board's ";
+  if (other.mode != command.mode || other.request != command.request) {
+    why_ << "request is " << static_cast<int>(other.request) << ", this computer's "
          << static_cast<int>(command.request) << "; the board says "
          << meaning(board_.result().status);
     return Status::kMismatch;
   }
-  int joint = 0;
-  for (int j = kDof; j-- > 0;)
-    if (std::memcmp(&other.value[j], &command.value[j], sizeof(double)) != 0) joint = j;
-  char numbers[96];
-  std::snprintf(numbers, sizeof numbers, "%a of joint %d, this computer's %a", other.value[joint],
-                joint + 1, command.value[joint]);
-  why_ << numbers;
-  return Status::kMismatch;
+  const struct {
+    const char* name;
+    const JointVector &theirs, &ours;
+  } parts[] = {{"command", other.value, command.value},
+               {"velocity feed-forward", other.dq_ff, command.dq_ff},
+               {"torque feed-forward", other.tau_ff, command.tau_ff}};
+  for (const auto& part : parts) {
+    const int joint = first_difference(part.theirs, part.ours);
+    if (joint < 0) continue;
+    char numbers[96];
+    std::snprintf(numbers, sizeof numbers, " of joint %d is %a, this computer's %a", joint + 1,
+                  part.theirs[joint], part.ours[joint]);
+    why_ << part.name << numbers;
+    return Status::kMismatch;
+  }
+  why_ = Message();
+  return Status::kOk;
 }
 
 /// No result came: the board has started again after a fault, or it is gone.
