@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 
 extern char** environ;
 
@@ -80,15 +81,24 @@ bool EmulatedBoard::start(const char* image, Message& why) {
   return make_pipes(why) && spawn(image, why);
 }
 
-void EmulatedBoard::stop() {
-  if (process_ > 0) {
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
+/// Without the other end of its pipes the board ends the emulator; one that hangs is ended.
+void EmulatedBoard::end_process() {
+  constexpr timespec kLook = {0, 10'000'000};
+  for (int i = 0; i < 100 && process_ > 0; ++i) {
+    if (waitpid(process_, nullptr, WNOHANG) != 0) process_ = 0;
+    if (process_ > 0) nanosleep(&kLook, nullptr);
   }
+  if (process_ <= 0) return;
+  kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
   process_ = 0;
+}
+
+void EmulatedBoard::stop() {
   if (in_ >= 0) close(in_);
   if (out_ >= 0) close(out_);
   in_ = out_ = -1;
+  end_process();
   if (folder_[0] == '\0') return;
   unlink(in_folder(folder_.data(), "to_board").c_str());
   unlink(in_folder(folder_.data(), "from_board").c_str());

@@ -30,6 +30,7 @@ class EmulatedBoard {
   bool send(const std::uint8_t* bytes, std::size_t size);
 
  private:
+  void end_process();
   bool make_pipes(Message& why);
   bool spawn(const char* image, Message& why);
   bool read_all(std::uint8_t* to, std::size_t size);
