@@ -10,59 +10,10 @@
 namespace tactus::cia402 {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
 constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
 constexpr auto kSmallest = std::numeric_limits<std::int16_t>::min();
 
-JointUnits units_of(const Cia402Settings& settings, int j) {
-  return {settings.increments[j], settings.gear_ratio[j], settings.rated_torque[j],
-          settings.direction[j], settings.position_offset[j]};
-}
-
-Message joint_text(int j) {
-  Message text("joint ");
-  text << j + 1;
-  return text;
-}
-
 }  // namespace
-
-Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
-                         Message& why) {
-  settings_ = &settings;
-  period_s_ = 1e-6 * period_us;
-  hold_.configure(settings, tool, period_s_);
-  const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
-                            settings.stop_ms * kMillisecond_ns};
-  for (int j = 0; j < kDof; ++j) {
-    Joint& joint = joints_[static_cast<std::size_t>(j)];
-    joint.units = units_of(settings, j);
-    joint.machine.configure(times);
-    why = joint_text(j);
-    if (std::abs(joint.units.direction) != 1.0) {
-      why << ": [cia402] direction is " << joint.units.direction << "; it must be 1 or -1";
-      return Status::kBadValue;
-    }
-    if (!(settings.rated_torque[j] > 0.0)) {
-      why << ": [cia402] rated_torque is missing; it is 6076h of its drive, in N m";
-      return Status::kMissingKey;
-    }
-    const int bit = settings.referenced_bit;
-    if (bit >= 0 && bit < kFirstFreeBit) {
-      why << ": [cia402] referenced_bit is " << bit << ", which is of the state; 7 to 15 or -1";
-      return Status::kBadValue;
-    }
-    const double most_Nm = kLargest * joint.units.torque_step();
-    if (!(limits_.tau_max[j] <= most_Nm)) {
-      why << ": its torque limit of " << limits_.tau_max[j] << " N m is beyond " << most_Nm
-          << " N m, 32767 permille of [cia402] rated_torque; the drive needs a larger one";
-      return Status::kBadValue;
-    }
-  }
-  why = {};
-  return Status::kOk;
-}
 
 Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
   mode_ = mode;
@@ -72,21 +23,23 @@ Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why
   return Status::kOk;
 }
 
-/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range.
+/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range, and
+/// follows one that counts from 0 again in the midst of a motion.
 Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
   joint.missed = 0;
-  joint.turn = 0;
+  joint.counter.start(feedback.position);
   if (settings_->encoder == Encoder::kSingleTurn) {
-    const double turn = joint.units.encoder * joint.units.gear;
+    const double turn = joint.units.encoder;
     const double middle = 0.5 * (limits_.q_min[j] + limits_.q_max[j]);
     const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
                          (turn * joint.units.angle_step());
-    joint.turn = static_cast<std::int64_t>(std::floor(turns + 0.5) * turn);
+    joint.counter.start(feedback.position,
+                        static_cast<std::int64_t>(std::floor(turns + 0.5) * turn),
+                        static_cast<std::int64_t>(turn));
   }
-  joint.counter.start(feedback.position, joint.turn);
   joint.q = joint.units.q(joint.counter.total());
   joint.dq = joint.tau = 0.0;
   joint.last = feedback;

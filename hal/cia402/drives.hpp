@@ -17,6 +17,13 @@
 
 namespace tactus::cia402 {
 
+/// "joint 3": how messages name a drive. [any]
+inline Message joint_text(int joint) {
+  Message text("joint ");
+  text << joint + 1;
+  return text;
+}
+
 enum class Phase : std::uint8_t {
   kOff,
   kSwitchingOn,  ///< faults are cleared; no torque
@@ -33,8 +40,8 @@ class Drives {
   static constexpr int kSteady = 5;
 
   /// Takes the settings, which must outlive the use of the drives. kMissingKey,
-  /// kBadValue, with `why`: a rated torque, direction or bit that cannot be, a torque limit that is
-  /// beyond the drive's numbers. [init]
+  /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
+  /// limit that is beyond the drive's numbers. [init]
   Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
   /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
   /// for a position outside the joint's range. [init]
@@ -63,7 +70,6 @@ class Drives {
   struct Joint {
     JointUnits units;
     PositionCounter counter;
-    std::int64_t turn = 0;  // increments added to the drive's count
     DriveMachine machine;
     DriveFeedback last;
     double q = 0.0, dq = 0.0, tau = 0.0;
@@ -75,7 +81,7 @@ class Drives {
     /// The drive's own count at q, rad.
     std::int32_t count_of(double at) const {
       return static_cast<std::int32_t>(static_cast<std::uint32_t>(units.position(at)) -
-                                       static_cast<std::uint32_t>(turn));
+                                       static_cast<std::uint32_t>(counter.added()));
     }
   };
 
@@ -86,6 +92,10 @@ class Drives {
     const char *what = "", *detail = "", *rest = "";
   };
 
+  /// Judge what the file says of a joint; `why` begins with the joint and goes on with key, value,
+  /// limit and remedy.
+  Status judge_torque(int j, Message& why) const;
+  Status judge_position(int j, Message& why) const;
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
   void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
   void judge(int j);

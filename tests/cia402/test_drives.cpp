@@ -173,7 +173,9 @@ void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
   arm.settings.rated_torque[1] = 2.0;
   Message why;
   ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
-  assert_non_null(std::strstr(why.c_str(), "joint 2: its torque limit of 87 N m is beyond 65.534"));
+  assert_non_null(std::strstr(why.c_str(),
+                              "joint 2: [cia402] rated_torque is 2 N m, of which 32767 permille are"
+                              " 65.534 N m, less than the joint's torque limit of 87 N m"));
 }
 
 /// A motor with the wrong sign drives its joint away from where it is held.
