@@ -110,6 +110,7 @@ Status CanMaster::place_joints() {
 Status CanMaster::judge_load() {
   const BitRates rates = {can_->bitrate_kbit * 1e3,
                           layout_.fd() ? can_->data_bitrate_kbit * 1e3 : 0.0};
+  const bool packs = mode_ == CommandMode::kEffort && !layout_.packed();
   for (int bus = 0; bus < buses_; ++bus) {
     BusLoad load(rates);
     load.add(0, 1.0, false);  // SYNC
@@ -121,7 +122,7 @@ Status CanMaster::judge_load() {
       if (!layout_.packed() || first)
         load.add(layout_.frame_size(layout_.command_frames(), node.slot));
     }
-    TRY(load.judge(interface(bus), joints, period_us_, can_->load_share, why_));
+    TRY(load.judge(interface(bus), joints, period_us_, can_->load_share, packs, why_));
   }
   return Status::kOk;
 }

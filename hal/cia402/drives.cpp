@@ -29,7 +29,7 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
-  joint.missed = 0;
+  joint.missed = joint.confirmed = 0;
   joint.counter.start(feedback.position);
   if (settings_->encoder == Encoder::kSingleTurn) {
     const double turn = joint.units.encoder;

@@ -38,6 +38,7 @@ class Drives {
  public:
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
+  static constexpr int kConfirming = 3;
 
   /// Takes the settings, which must outlive the use of the drives. kMissingKey,
   /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
@@ -55,6 +56,11 @@ class Drives {
   void hold_back(bool waits) { held_back_ = waits; }
   /// True if no drive has power any more, as far as is known. [cyclic]
   bool off() const { return phase_ == Phase::kOff; }
+  /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
+  /// disabled, as it was told: one statusword may be anybody's. [cyclic]
+  bool confirmed(int joint) const {
+    return joints_[static_cast<std::size_t>(joint)].confirmed == kConfirming;
+  }
   /// Fails the joint, from 0, as a fault of its drive does. The texts are constants; why() puts
   /// them together. [cyclic]
   void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
@@ -75,6 +81,7 @@ class Drives {
     double q = 0.0, dq = 0.0, tau = 0.0;
     std::int64_t stamp_ns = 0;
     int missed = 0;
+    int confirmed = 0;            // samples in a row that show it disabled
     Status reason = Status::kOk;  // of its failure
     std::uint32_t code = 0;
 
@@ -108,6 +115,7 @@ class Drives {
   // Steps of arming and stopping: drives_arming.cpp.
   void take(DriveRequest request);
   void set_controlwords(DriveCommands& out, std::int64_t now_ns);
+  void count_confirmations();
   void advance(std::int64_t now_ns);
   bool ready(int j);
   Goal goal() const;

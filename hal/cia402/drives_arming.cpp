@@ -14,7 +14,16 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
   following_ = follow && phase_ == Phase::kArmed;
   set_target(command, following_, out);
+  count_confirmations();
   advance(now_ns);
+}
+
+void Drives::count_confirmations() {
+  for (Joint& joint : joints_) {
+    const bool off = goal() == Goal::kDisabled && joint.machine.reached();
+    if (!off) joint.confirmed = 0;
+    if (off && joint.last.fresh && joint.confirmed < kConfirming) ++joint.confirmed;
+  }
 }
 
 void Drives::set_controlwords(DriveCommands& out, std::int64_t now_ns) {
