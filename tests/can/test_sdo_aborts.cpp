@@ -100,12 +100,6 @@ void an_answer_that_breaks_the_protocol_is_aborted(void**) {
        "unknown command (05040001h)"},
       {"582 C3 08 10 00 00 00 00 00", nullptr, SdoAbort::kCommand, "602 80 08 10 00 01 00 04 05",
        "unknown command (05040001h)"},
-      {"582 43 09 10 00 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
-      {"582 43 08 11 00 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
-      {"582 43 08 10 01 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
       {"582 41 08 10 00 81 00 00 00", nullptr, SdoAbort::kOutOfMemory,
        "602 80 08 10 00 05 00 04 05", "out of memory (05040005h)"},
       {"582 41 08 10 00 FF FF FF FF", nullptr, SdoAbort::kOutOfMemory,
@@ -138,8 +132,8 @@ void answers_to_a_write_are_checked_likewise(void**) {
   SdoBench bench;
   bench.client.download(1, 0x6060, 0, 10, 1, 0);
   bench.expect("601 2F 60 60 00 0A 00 00 00");
-  bench.answer("581 60 61 60 00 00 00 00 00");
-  bench.expect("601 80 60 60 00 43 00 04 06");
+  bench.answer("581 40 60 60 00 00 00 00 00");
+  bench.expect("601 80 60 60 00 01 00 04 05");
   bench.assert_progress(Progress::kAborted);
   bench.client.download(1, 0x6060, 0, 10, 1, 0);
   bench.expect("601 2F 60 60 00 0A 00 00 00");
