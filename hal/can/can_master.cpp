@@ -1,6 +1,8 @@
 // CanMaster: its cycle.
 #include "hal/can/can_master.hpp"
 
+#include <algorithm>
+
 #include "hal/cia402/hex.hpp"
 #include "kernel/core/loop_bound.hpp"
 
@@ -144,6 +146,7 @@ void CanMaster::judge(Node& node) {
 void CanMaster::count_feedback(Node& node) {
   const int surplus = node.frames - node.unanswered;
   node.surplus = surplus > 0 ? node.surplus + 1 : 0;
+  node.feedback.made_up = std::max(0, std::min(node.frames, node.unanswered) - 1);
   if (surplus > 1 || node.surplus > kMostSurplus) conflict_ = kTpdoBase[0] + node.id();
   node.unanswered = surplus < 0 ? -surplus : 0;
 }

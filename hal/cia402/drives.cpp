@@ -1,6 +1,7 @@
 // Drives: what the drives of the arm say, and what it means.
 #include "hal/cia402/drives.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "hal/cia402/hex.hpp"
@@ -29,7 +30,7 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
-  joint.missed = joint.confirmed = 0;
+  joint.missed = joint.owed = joint.confirmed = 0;
   joint.counter.start(feedback.position);
   if (settings_->encoder == Encoder::kSingleTurn) {
     const double turn = joint.units.encoder;
@@ -78,7 +79,7 @@ void Drives::judge_hold(int j) {
 void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   const int periods = joint.missed + 1;
-  joint.missed = feedback.fresh ? 0 : joint.missed + (joint.missed <= settings_->max_missed);
+  count_missed(joint, feedback);
   joint.last = feedback;
   if (!feedback.fresh) return;
   const double before = joint.q;
@@ -90,6 +91,17 @@ void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_
   joint.stamp_ns = sampled_ns;
 }
 
+/// Feedback that was late, and is so from then on, cannot be told from feedback that was lost: so a
+/// later frame does not make up for a cycle without one, but two frames in one cycle do.
+void Drives::count_missed(Joint& joint, const DriveFeedback& feedback) {
+  const int missing = feedback.fresh ? 0 : 1;
+  joint.missed = missing * (joint.missed + (joint.missed <= settings_->max_missed));
+  const int forgotten = ++joint.since_owed >= kForgotten ? 1 : 0;
+  if (forgotten == 1 || joint.owed == 0) joint.since_owed = 0;
+  const int owed = joint.owed + missing - feedback.made_up - forgotten;
+  joint.owed = std::min(std::max(owed, 0), settings_->max_missed + 1);
+}
+
 /// A drive that holds or follows must stay enabled, be heard and report no error. One that was lost
 /// fails in every phase in which it is used.
 void Drives::judge(int j) {
@@ -98,8 +110,10 @@ void Drives::judge(int j) {
   const std::uint32_t code = joint.last.error_code;
   if (joint.last.lost != Status::kOk) {
     fail(j, joint.last.lost, code, "the drive was lost; connect again");
-  } else if (joint.missed > settings_->max_missed) {
-    fail(j, Status::kBusTimeout, code, "no feedback in more cycles than [cia402] max_missed");
+  } else if (joint.missed > settings_->max_missed || joint.owed > settings_->max_missed) {
+    fail(j, Status::kBusTimeout, code,
+         "no feedback in more cycles than [cia402] max_missed, of which one is forgotten after 1000"
+         " cycles; check load and cabling of its bus");
   } else if (enabled() && joint.last.emergency) {
     fail(j, Status::kDriveFault, code, error_text(joint.last.error_code));
   } else if (enabled() && state_of(joint.last.statusword) != State::kOperationEnabled) {

@@ -39,6 +39,8 @@ class Drives {
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
   static constexpr int kConfirming = 3;
+  /// Cycles after which one without feedback is forgotten. What comes after it may be older by one.
+  static constexpr int kForgotten = 1000;
 
   /// Takes the settings, which must outlive the use of the drives. kMissingKey,
   /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
@@ -80,9 +82,10 @@ class Drives {
     DriveFeedback last;
     double q = 0.0, dq = 0.0, tau = 0.0;
     std::int64_t stamp_ns = 0;
-    int missed = 0;
-    int confirmed = 0;            // samples in a row that show it disabled
-    Status reason = Status::kOk;  // of its failure
+    int missed = 0;                // cycles in a row
+    int owed = 0, since_owed = 0;  // cycles without feedback that are not forgotten, cycles since
+    int confirmed = 0;             // samples in a row that show it disabled
+    Status reason = Status::kOk;   // of its failure
     std::uint32_t code = 0;
 
     /// The drive's own count at q, rad.
@@ -105,6 +108,7 @@ class Drives {
   Status judge_position(int j, Message& why) const;
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
   void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
+  void count_missed(Joint& joint, const DriveFeedback& feedback);
   void judge(int j);
   void judge_hold(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }

@@ -38,7 +38,10 @@ void Drives::take(DriveRequest request) {
   } else if (phase_ == Phase::kOff) {
     phase_ = Phase::kSwitchingOn;
     failure_ = {};
-    for (Joint& joint : joints_) joint.reason = Status::kOk;
+    for (Joint& joint : joints_) {
+      joint.reason = Status::kOk;
+      joint.owed = 0;
+    }
     for (int j = 0; j < kDof; ++j)
       if (!ready(j)) return;
   }
