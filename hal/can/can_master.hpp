@@ -68,7 +68,9 @@ class CanMaster {
   int cycle_frames(int bus) const;
 
  private:
+  Status judge_identity();
   Status read_interfaces();
+  Status judge_interface(std::string_view word);
   Status place_joints();
   Status judge_load();
   Node* drive_of(int bus, std::uint16_t id);
@@ -93,7 +95,7 @@ class CanMaster {
   Outboxes out_;
   Message why_;
   SdoClient sdo_;
-  Startup startup_{nodes_, out_, sdo_, why_};
+  Startup startup_{nodes_, out_, sdo_, interfaces_, why_};
   cia402::Drives drives_;
   cia402::DriveCommands commands_, sent_;
 

@@ -28,38 +28,11 @@ Status CanMaster::configure(const CanSettings& can, const cia402::Cia402Settings
          << period_us;
     return Status::kBadValue;
   }
+  TRY(judge_identity());
   TRY(read_interfaces());
   TRY(place_joints());
   TRY(judge_load());
   return drives_.configure(drive, tool, period_us, why_);
-}
-
-/// Splits "can0 can1" at blanks.
-Status CanMaster::read_interfaces() {
-  std::string_view text = can_->interfaces;
-  buses_ = 0;
-  for (std::size_t rest = text.size(); rest > 0; rest = text.size()) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(word.size());
-    if (word.empty()) break;
-    if (buses_ == kMaxBuses || word.size() > Name::capacity()) {
-      why_ = Message("[can] interfaces: at most ");
-      why_ << kMaxBuses << " names of at most " << Name::capacity() << " characters; refused at '"
-           << word << "'";
-      return Status::kTooLarge;
-    }
-    for (int bus = 0; bus < buses_; ++bus)
-      if (std::string_view(interfaces_[static_cast<std::size_t>(bus)]) == word) {
-        why_ = Message("[can] interfaces has '");
-        why_ << word << "' twice; every bus has an interface of its own";
-        return Status::kBadValue;
-      }
-    interfaces_[static_cast<std::size_t>(buses_++)] = Name(word);
-  }
-  if (buses_ > 0) return Status::kOk;
-  why_ = Message("[can] interfaces is missing; name the buses, for example: can0 can1 can2");
-  return Status::kMissingKey;
 }
 
 /// Gives every joint its bus, node and place. Whole numbers, and no node twice on a bus.

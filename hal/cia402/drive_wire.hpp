@@ -24,6 +24,13 @@ struct DriveFeedback {
   Status lost = Status::kOk;
 };
 
+/// Returns what `lost` means, and what helps. [any]
+constexpr const char* lost_text(Status lost) {
+  return lost == Status::kBusTimeout
+             ? "its heartbeat is missing; check power and cabling, then connect again"
+             : "it restarted, or left operation; connect again";
+}
+
 struct DriveCommand {
   std::uint16_t controlword = 0;
   std::int16_t target_torque = 0, torque_offset = 0;      ///< permille of the rated torque

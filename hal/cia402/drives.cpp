@@ -70,10 +70,10 @@ void Drives::judge_hold(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (following_ || goal() != Goal::kOperationEnabled) return;
   if (std::abs(joint.q - held_[j]) <= settings_->hold_tolerance) return;
-  fail(
-      j, Status::kMoved, joint.last.error_code,
-      "moved by more than [cia402] hold_tolerance while it was held; check direction, rated_torque,"
-      " hold_stiffness and the encoder");
+  const Figures figures = {joint.q - held_[j], settings_->hold_tolerance};
+  fail(j, Status::kMoved, joint.last.error_code, "moved by ",
+       " rad while it was held, more than [cia402] hold_tolerance, ",
+       " rad; check direction, rated_torque, hold_stiffness and the encoder", &figures);
 }
 
 void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns) {
@@ -84,7 +84,11 @@ void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_
   if (!feedback.fresh) return;
   const double before = joint.q;
   joint.q = joint.units.q(joint.counter.follow(feedback.position));
-  if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) steady_ = -1;
+  if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) {
+    steady_ = -1;
+    unsteady_ = j;
+    jump_ = (joint.q - before) / periods;
+  }
   joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
                                    : (joint.q - before) / (periods * period_s_);
   joint.tau = joint.units.tau(feedback.torque);
@@ -109,7 +113,7 @@ void Drives::judge(int j) {
   if (!enabled() && !rising()) return;
   const std::uint32_t code = joint.last.error_code;
   if (joint.last.lost != Status::kOk) {
-    fail(j, joint.last.lost, code, "the drive was lost; connect again");
+    fail(j, joint.last.lost, code, lost_text(joint.last.lost));
   } else if (joint.missed > settings_->max_missed || joint.owed > settings_->max_missed) {
     fail(j, Status::kBusTimeout, code,
          "no feedback in more cycles than [cia402] max_missed, of which one is forgotten after 1000"
@@ -124,20 +128,25 @@ void Drives::judge(int j) {
 
 /// The first fault is the one that is explained.
 void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what,
-                  const char* detail, const char* rest) {
+                  const char* detail, const char* rest, const Figures* figures) {
   Joint& failed = joints_[static_cast<std::size_t>(joint)];
   if (failed.reason != Status::kOk) return;
   failed.reason = reason;
   failed.code = code;
   if (phase_ == Phase::kFailed) return;
   phase_ = Phase::kFailed;
-  failure_ = {joint, code, what, detail, rest};
+  failure_ = {joint, code, what, detail, rest, figures != nullptr, {}};
+  if (figures != nullptr) failure_.figures = *figures;
 }
 
 Message Drives::why() const {
   if (failure_.joint < 0) return {};
   Message text = joint_text(failure_.joint);
-  text << ": " << failure_.what << failure_.detail << failure_.rest;
+  text << ": " << failure_.what;
+  if (failure_.has_figures) text << failure_.figures.value;
+  text << failure_.detail;
+  if (failure_.has_figures) text << failure_.figures.limit;
+  text << failure_.rest;
   if (failure_.code != 0) text << " (error code " << hex(failure_.code) << ")";
   return text;
 }

@@ -63,10 +63,15 @@ class Drives {
   bool confirmed(int joint) const {
     return joints_[static_cast<std::size_t>(joint)].confirmed == kConfirming;
   }
+  /// A value and its limit, for the words of a fault.
+  struct Figures {
+    double value = 0.0, limit = 0.0;
+  };
   /// Fails the joint, from 0, as a fault of its drive does. The texts are constants; why() puts
-  /// them together. [cyclic]
+  /// them together: with figures, the value between the first two, the limit before the last.
+  /// [cyclic]
   void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
-            const char* rest = "");
+            const char* rest = "", const Figures* figures = nullptr);
 
   /// Fills in positions, velocities, torques, their stamp and the drives. [cyclic]
   void show(RobotState& state) const;
@@ -100,6 +105,8 @@ class Drives {
     int joint = -1;  // -1: nothing has failed
     std::uint32_t code = 0;
     const char *what = "", *detail = "", *rest = "";
+    bool has_figures = false;
+    Figures figures;
   };
 
   /// Judge what the file says of a joint; `why` begins with the joint and goes on with key, value,
@@ -125,6 +132,7 @@ class Drives {
   Goal goal() const;
   bool all_reached() const;
   void judge_rise();
+  void judge_steadiness();
   JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
                      const JointVector& dq);
   void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
@@ -135,11 +143,13 @@ class Drives {
   double period_s_ = 1.0;
   CommandMode mode_ = CommandMode::kEffort;
   Phase phase_ = Phase::kOff;
-  std::int64_t since_ns_ = 0;  // in this phase
+  std::int64_t since_ns_ = 0;  // in this phase; in kSwitchingOn, with all drives switched on
   std::array<Joint, kDof> joints_;
   HoldEffort hold_;
   JointLimits limits_;
   int steady_ = 0;          // cycles in a row in which no joint moved faster than it can
+  int unsteady_ = 0;        // the last joint that did
+  double jump_ = 0.0;       // how far from a cycle to the next, rad
   bool following_ = false;  // commands, in the last cycle
   bool held_back_ = false;
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions

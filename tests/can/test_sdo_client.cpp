@@ -181,38 +181,6 @@ void frames_that_are_not_for_the_client_are_ignored(void**) {
   bench.assert_progress(Progress::kDone);
 }
 
-/// Whatever it says: late answers, and those to another master, are no answers.
-void answers_on_other_objects_are_ignored_until_the_time_is_over_which_names_them(void**) {
-  constexpr const char* kOthers[] = {"581 43 18 10 01 92 01 02 00", "581 43 00 10 01 92 01 02 00",
-                                     "581 60 00 10 02 00 00 00 00", "581 80 18 10 00 00 00 02 06",
-                                     "581 00 54 69 6E 79 20 4E 6F", "581 20 00 00 00 00 00 00 00",
-                                     "581 80 60 60 00 00 00 02 06"};
-  SdoBench bench;
-  bench.client.upload(1, 0x1000, 0, 0);
-  bench.expect("601 40 00 10 00 00 00 00 00");
-  for (const char* other : kOthers) bench.answer(other);
-  bench.assert_progress(Progress::kBusy);
-  bench.expect_silence();
-  bench.answer("581 41 00 10 00 09 00 00 00");
-  bench.expect("601 60 00 00 00 00 00 00 00");
-  bench.answer("581 80 60 60 00 00 00 02 06");  // while segments travel
-  bench.answer("581 43 60 60 00 00 00 02 06");
-  bench.assert_progress(Progress::kBusy);
-  bench.now_ns += 500 * SdoBench::kMs_ns;
-  bench.answer("581 43 61 60 07 00 00 02 06");
-  bench.assert_aborted(SdoAbort::kTimeout,
-                       "node 1: object 1000h:0: no answer within 500 ms, but one on 6061h:7 "
-                       "(05040000h)");
-  bench.expect("601 80 00 10 00 00 00 04 05");
-  bench.client.download(1, 0x6060, 0, 10, 1, bench.now_ns);
-  bench.expect("601 2F 60 60 00 0A 00 00 00");
-  for (const char* other : {"581 60 61 60 00 00 00 00 00", "581 80 00 10 00 00 00 02 06"})
-    bench.answer(other);
-  bench.assert_progress(Progress::kBusy);
-  bench.answer("581 80 60 60 00 30 00 09 06");
-  bench.assert_aborted(SdoAbort::kRange, "node 1: object 6060h:0: value out of range (06090030h)");
-}
-
 /// A frame whose end one node did not see as the others did is sent again (ISO 11898-1).
 void an_answer_that_the_bus_repeats_belongs_to_no_later_transfer(void**) {
   SdoBench bench;
@@ -246,8 +214,6 @@ int main() {
       cmocka_unit_test(an_empty_text_is_written_as_one_empty_segment),
       cmocka_unit_test(an_object_as_long_as_the_buffer_is_read),
       cmocka_unit_test(an_answer_that_the_bus_repeats_belongs_to_no_later_transfer),
-      cmocka_unit_test(
-          answers_on_other_objects_are_ignored_until_the_time_is_over_which_names_them),
       cmocka_unit_test(frames_that_are_not_for_the_client_are_ignored),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

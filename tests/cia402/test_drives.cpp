@@ -178,43 +178,6 @@ void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
                               " 65.534 N m, less than the joint's torque limit of 87 N m"));
 }
 
-/// Drive 2 says nothing in `silent` cycles, and then something in `heard` ones, with what was late.
-Status hears(ArmOfDrives& arm, int silent, int heard, int late = 0) {
-  for (int i = 0; i < silent + heard; ++i) {
-    arm.silent = i < silent ? 1 : -1;
-    arm.feedbacks[1].made_up = i == silent ? late : 0;
-    arm.cycle(DriveRequest::kArm);
-    if (arm.all(DriveState::kEnabled)) continue;
-    arm.cycle(DriveRequest::kArm);
-    return arm.joint(1).reason;
-  }
-  return Status::kOk;
-}
-
-/// Each gap may make what comes after it older; nothing in a frame says how old it is.
-void feedback_that_is_missing_again_and_again_stops_the_arm_as_a_long_gap_does(void**) {
-  static ArmOfDrives arm;
-  arm.arm();
-  ASSERT_OK(hears(arm, 3, 50));
-  ASSERT_STATUS(hears(arm, 1, 0), Status::kBusTimeout);
-  assert_non_null(
-      std::strstr(arm.drives.why().c_str(), "joint 2: no feedback in more cycles than"));
-
-  static ArmOfDrives slow;  // one is forgotten in 1000 cycles
-  slow.arm();
-  ASSERT_OK(hears(slow, 3, 1000));
-  ASSERT_OK(hears(slow, 1, 1000));
-  ASSERT_OK(hears(slow, 1, 900));
-  ASSERT_STATUS(hears(slow, 1, 0), Status::kBusTimeout);
-
-  static ArmOfDrives late;  // frames that come together are as old as ever
-  late.arm();
-  for (int i = 0; i < 20; ++i) ASSERT_OK(hears(late, 3, 10, 3));
-  ASSERT_OK(hears(late, 3, 10, 2));
-  ASSERT_OK(hears(late, 2, 10));
-  ASSERT_STATUS(hears(late, 1, 0), Status::kBusTimeout);
-}
-
 /// A motor with the wrong sign drives its joint away from where it is held.
 void a_joint_that_moves_while_it_is_held_stops_all_drives(void**) {
   ArmOfDrives arm;
@@ -226,21 +189,10 @@ void a_joint_that_moves_while_it_is_held_stops_all_drives(void**) {
   arm.cycle(DriveRequest::kArm);
   assert_false(any_torque(arm));
   ASSERT_STATUS(arm.joint(1).reason, Status::kMoved);
+  const Message why = arm.drives.why();
+  assert_non_null(std::strstr(why.c_str(), "joint 2: moved by 0.05243"));
+  assert_non_null(std::strstr(why.c_str(), "more than [cia402] hold_tolerance, 0.05 rad; check"));
   for (const DriveCommand& command : arm.commands) assert_int_equal(command.controlword, 0x0002);
-}
-
-/// One wrong sample must not become the place where the arm is held.
-void drives_are_not_enabled_from_a_position_that_jumps(void**) {
-  ArmOfDrives arm;
-  arm.cycles(4, DriveRequest::kArm);
-  arm.feedbacks[2].position += 1 << 20;
-  arm.cycle(DriveRequest::kArm);
-  arm.feedbacks[2].position -= 1 << 20;
-  for (int i = 0; i < Drives::kSteady; ++i) {
-    arm.cycle(DriveRequest::kArm);
-    assert_int_not_equal(arm.commands[0].controlword, 0x000F);
-  }
-  arm.arm();
 }
 
 void arming_does_not_end_while_the_bus_asks_its_drives(void**) {
@@ -272,9 +224,7 @@ int main() {
       cmocka_unit_test(an_error_message_of_an_enabled_drive_stops_all),
       cmocka_unit_test(a_drive_without_its_reference_is_refused),
       cmocka_unit_test(a_joint_that_moves_while_it_is_held_stops_all_drives),
-      cmocka_unit_test(drives_are_not_enabled_from_a_position_that_jumps),
       cmocka_unit_test(arming_does_not_end_while_the_bus_asks_its_drives),
-      cmocka_unit_test(feedback_that_is_missing_again_and_again_stops_the_arm_as_a_long_gap_does),
       cmocka_unit_test(a_torque_limit_beyond_the_drives_numbers_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
