@@ -47,6 +47,17 @@ void CanMaster::send_heartbeat() {
   }
 }
 
+/// An SDO that writes 0 to 1016h:1: no heartbeat of ours is to be missed. Nobody awaits the answer.
+CanFrame CanMaster::unwatched_frame(std::uint8_t node) {
+  CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(kSdoRequestBase + node);
+  frame.size = kSdoSize;
+  frame.data[0] = kDownload | kSizeGiven | kExpedited;
+  store(frame.data, 1, kHeartbeatConsumer);
+  frame.data[3] = 1;
+  return frame;
+}
+
 /// One frame in a cycle, in the place of a request: the queue that holds the frames of a cycle
 /// holds it too. A drive that is lost, or has not confirmed that it is disabled, keeps its watch.
 void CanMaster::send_farewell() {
@@ -57,13 +68,8 @@ void CanMaster::send_farewell() {
     const bool ends_watch = farewells_-- % 2 == 0;
     const Node& node = nodes_[static_cast<std::size_t>(joint)];
     if (!drives_.confirmed(joint) || lost(joint)) continue;
-    CanFrame frame = nmt_frame(NmtCommand::kPreOperational, node.id());
-    if (ends_watch) {
-      SdoClient farewell;  // no heartbeat of ours is to be missed
-      farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);
-      farewell.take(frame);
-    }
-    return outbox(node.bus).add(frame);
+    return outbox(node.bus).add(ends_watch ? unwatched_frame(node.id())
+                                           : nmt_frame(NmtCommand::kPreOperational, node.id()));
   }
 }
 

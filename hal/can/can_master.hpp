@@ -84,6 +84,7 @@ class CanMaster {
   void send_commands();
   void send_heartbeat();
   void send_farewell();
+  static CanFrame unwatched_frame(std::uint8_t node);
 
   const CanSettings* can_ = nullptr;
   const cia402::Cia402Settings* drive_ = nullptr;

@@ -19,7 +19,9 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
 }
 
 void Drives::count_confirmations() {
+  LoopBound<kDof> joints;
   for (Joint& joint : joints_) {
+    joints.tick();
     const bool off = goal() == Goal::kDisabled && joint.machine.reached();
     if (!off) joint.confirmed = 0;
     if (off && joint.last.fresh && joint.confirmed < kConfirming) ++joint.confirmed;
