@@ -88,7 +88,7 @@ VM_TESTS := $(filter $(B)/tests/vm/%,$(TESTS))
 LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
 TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
 # The drives on CAN at both ends, without sockets and arm: for benches and bounds.
-CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp \
+CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp can_plan_names.cpp \
                node_setup.cpp pdo_layout.cpp sdo_client.cpp sdo_client_text.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
                $(filter-out %/drive_arm.cpp %/drive_arm_motion.cpp,$(wildcard sim_plant/drives/*.cpp))
 CAN_LINK  := $(addprefix hal/can/,can_socket.cpp can_socket_open.cpp link_health.cpp)

@@ -15,7 +15,7 @@ namespace {
 Status look(Hal& hal, CommandMode mode, RobotState& state) {
   Status status = hal.connect(mode);
   if (status == Status::kOk) status = hal.read({}, state);
-  hal.disconnect();
+  static_cast<void>(hal.disconnect());
   return status;
 }
 

@@ -37,6 +37,18 @@ std::int64_t cycles_of(double duration_s, double period_s) {
   return std::max<std::int64_t>(1, std::llround(std::ceil(duration_s / period_s - kRounding)));
 }
 
+/// Says why the robot was not commanded to the end.
+void explain(const Session& session, const Options& options, const RunLoop& loop) {
+  const Status latched = loop.latched();
+  if (latched == Status::kOk) return;
+  if (loop.cut_short())
+    std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
+  else
+    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
+               session.executive.guard().telemetry(), loop.trouble());
+  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
+}
+
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
@@ -59,12 +71,10 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
       loop.in_real_time(writer, progress);
     else
       loop.in_lock_step(log, progress);
+  } else {
+    loop.stop();
   }
   feed.end();
-  const Status latched = session.executive.latched();
-  const Message trouble = latched != Status::kOk ? session.hal.trouble() : Message();
-  result.rung = session.executive.rung();
-  session.executive.stop();
   watchdog.disarm();
   result.wall_s = wall_s() - begin_s;
   result.simulated_s = loop.time_s();
@@ -74,13 +84,10 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   progress.end();
   if (!result.why.empty())
     std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), result.name, result.why.c_str());
-  if (latched == Status::kOk || loop.ended_as_planned() || (started && !guarded)) return;
-  if (loop.cut_short())
-    std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
-  else
-    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
-               session.executive.guard().telemetry(), trouble);
-  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
+  if (!loop.ended_as_planned() && (guarded || !started)) explain(session, options, loop);
+  if (loop.left() == Status::kOk) return;
+  print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
+  if (result.code == 0) end_with(result, kEndedOtherwise, "drives not disabled");
 }
 
 RunInputs inputs_of(const Options& options, const TrajectoryInput& input) {

@@ -112,6 +112,14 @@ void RunLoop::halt() {
   if (session_.follower != nullptr) session_.follower->halt();
 }
 
+void RunLoop::stop() {
+  latched_ = session_.executive.latched();
+  if (latched_ != Status::kOk) trouble_ = session_.hal.trouble();
+  result_.rung = session_.executive.rung();
+  left_ = session_.executive.stop();
+  if (left_ != Status::kOk) left_trouble_ = session_.hal.trouble();
+}
+
 bool RunLoop::cycle(const CycleTime& now) {
   const bool commanded = commands(session_.executive.rung());
   Status status = Status::kOk;
@@ -176,6 +184,7 @@ void RunLoop::in_lock_step(RunLog& log, Progress& progress) {
     log.drain(session_.recorder);
     progress.update(time_s());
   }
+  stop();
 }
 
 void RunLoop::in_real_time(LogWriter& writer, Progress& progress) {
@@ -195,6 +204,7 @@ void RunLoop::in_real_time(LogWriter& writer, Progress& progress) {
     }
   }
   realtime.page_faults = page_faults() - faults;
+  stop();
   writer.end();
   if (status != Status::kOk) end_with(result_, status);
 }
@@ -213,6 +223,7 @@ void RunLoop::at_robots_pace(Clock& clock, LogWriter& writer, Progress& progress
     }
   }
   result_.realtime.page_faults = page_faults() - faults;
+  stop();
   writer.end();
   if (status != Status::kOk) end_with(result_, status);
 }

@@ -43,6 +43,15 @@ class RunLoop {
 
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
+  /// Takes what the robot says of a fault, disables its drives and closes the wire. The loops do so
+  /// at once after their last cycle: drives watch for the commands of every cycle.
+  void stop();
+  /// The fault that ended the cycles, and the robot's words on it.
+  Status latched() const { return latched_; }
+  const Message& trouble() const { return trouble_; }
+  /// kOk, or why the drives may not be disabled, and the robot's words on it.
+  Status left() const { return left_; }
+  const Message& left_trouble() const { return left_trouble_; }
   /// True once the arm has been commanded.
   bool armed() const { return armed_; }
   /// True if a signal came while the robot was being connected to.
@@ -88,6 +97,8 @@ class RunLoop {
   double ended_s_ = 0.0;  // when the time of the run had passed
   bool pending_ = false;  // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
+  Status latched_ = Status::kOk, left_ = Status::kOk;
+  Message trouble_, left_trouble_;
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
   bool refused_ = false;     // the trajectory was refused

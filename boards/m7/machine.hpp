@@ -40,7 +40,7 @@ class Machine {
   /// Runs a cycle as the newest order says. [cyclic]
   void cycle(const tactus::CycleTime& now, tactus::serial::CycleResult& result);
   /// Disables the drives at once. [between two cycles]
-  void stop() { executive_.stop(); }
+  void stop() { static_cast<void>(executive_.stop()); }
 
   /// Calls `act` with the references of a space. [background]
   template <class Act>

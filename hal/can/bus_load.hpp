@@ -73,13 +73,17 @@ class BusLoad {
   constexpr double worst_us() const { return sum_.worst_us; }
 
   /// kOverBudget: the worst time is above the share `most` of `period_us`, or is not finite; `why`
-  /// names bus, times, joints, bit rate and what helps. [init]
-  Status judge(const char* interface, int joints, double period_us, double most,
+  /// names bus, times, joints, bit rate and what helps; `packs`: packed commands may. [init]
+  Status judge(const char* interface, int joints, double period_us, double most, bool packs,
                Message& why) const;
 
  private:
   BitRates rates_;
   WireTime sum_;
 };
+
+/// Judges the frames that an interface queues for sending, -1: not known. kTooLarge for a queue
+/// that does not hold the `frames` of a cycle, and loses some in every cycle. [init]
+Status judge_queue(const char* interface, int queue, int frames, Message& why);
 
 }  // namespace tactus::can

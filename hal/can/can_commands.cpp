@@ -47,4 +47,42 @@ void CanMaster::send_heartbeat() {
   }
 }
 
+/// An SDO that writes 0 to 1016h:1: no heartbeat of ours is to be missed. Nobody awaits the answer.
+CanFrame CanMaster::unwatched_frame(std::uint8_t node) {
+  CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(kSdoRequestBase + node);
+  frame.size = kSdoSize;
+  frame.data[0] = kDownload | kSizeGiven | kExpedited;
+  store(frame.data, 1, kHeartbeatConsumer);
+  frame.data[3] = 1;
+  return frame;
+}
+
+/// One frame in a cycle, in the place of a request: the queue that holds the frames of a cycle
+/// holds it too. A drive that is lost, or has not confirmed that it is disabled, keeps its watch.
+void CanMaster::send_farewell() {
+  LoopBound<2 * kDof> left;
+  while (farewells_ > 0) {
+    left.tick();
+    const int joint = (farewells_ - 1) / 2;
+    const bool ends_watch = farewells_-- % 2 == 0;
+    const Node& node = nodes_[static_cast<std::size_t>(joint)];
+    if (!drives_.confirmed(joint) || lost(joint)) continue;
+    return outbox(node.bus).add(ends_watch ? unwatched_frame(node.id())
+                                           : nmt_frame(NmtCommand::kPreOperational, node.id()));
+  }
+}
+
+void CanMaster::leave() {
+  if (!connected_) return;
+  connected_ = false;
+  RobotCommand stop;
+  stop.mode = mode_;
+  drives_.step(stop, commands_, now_ns_);
+  for (Outbox& outbox : out_) outbox.clear();
+  since_refresh_ = PdoLayout::kRefresh;
+  send_commands();
+  for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
+}
+
 }  // namespace tactus::can

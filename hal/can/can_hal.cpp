@@ -1,14 +1,11 @@
 #include "hal/can/can_hal.hpp"
 
-#include <ctime>
-
 #include "hal/net/deadline.hpp"
 
 namespace tactus::can {
 namespace {
 
 constexpr std::int64_t kAnswer_ns = 1'000'000;  // between two looks at the bus while connecting
-constexpr int kConfirming = 20;                 // cycles beyond the longest quick stop
 constexpr int kMostUnsent = 3;  // cycles in a row whose frames a full queue may refuse
 
 }  // namespace
@@ -30,7 +27,7 @@ Capabilities CanHal::capabilities() const {
 }
 
 Status CanHal::connect(CommandMode mode) {
-  disconnect();
+  static_cast<void>(disconnect());
   if (can_ == nullptr || mode != mode_) return fault_ = Status::kNotStarted;
   fault_ = open();
   if (fault_ == Status::kOk) fault_ = start_up();
@@ -46,22 +43,11 @@ Status CanHal::open() {
     const bool fd = can_->frames == Frames::kFd;
     TRY(sockets_[static_cast<std::size_t>(bus)].open(master_.interface(bus), fd, filters.data(),
                                                      count, master_.why()));
-    TRY(judge_queue(bus));
+    TRY(judge_queue(master_.interface(bus), sockets_[static_cast<std::size_t>(bus)].queue_frames(),
+                    master_.cycle_frames(bus), master_.why()));
     unsent_[static_cast<std::size_t>(bus)] = 0;
   }
   return Status::kOk;
-}
-
-/// A queue that does not hold the frames of a cycle loses some in every cycle.
-Status CanHal::judge_queue(int bus) {
-  const int queue = sockets_[static_cast<std::size_t>(bus)].queue_frames();
-  const int frames = master_.cycle_frames(bus);
-  if (queue == 0 || queue >= frames) return Status::kOk;  // 0: not known
-  master_.why() = Message("bus ");
-  master_.why() << master_.interface(bus) << ": its queue holds " << queue
-                << " frames, a cycle sends up to " << frames << "; ip link set "
-                << master_.interface(bus) << " txqueuelen 64";
-  return Status::kTooLarge;
 }
 
 /// Every round looks at all buses, so the start-up is as fast as the drives answer.
@@ -149,30 +135,6 @@ Status CanHal::send() {
     status = Status::kBusTimeout;
   }
   return status;
-}
-
-/// Goes on with the exchange until every drive has confirmed that it is disabled.
-void CanHal::stop_drives() {
-  const int period_us = master_.period_us();
-  const int cycles = master_.stop_ms() * 1000 / period_us + kConfirming;
-  const timespec period = {0, period_us * 1000};
-  RobotCommand stop;
-  stop.mode = mode_;
-  RobotState state;
-  for (int i = 0; i < cycles && !master_.off() && fault_ == Status::kOk; ++i) {
-    (void)write(stop);
-    nanosleep(&period, nullptr);
-    (void)read({now_ns_ + std::int64_t{1000} * period_us}, state);
-  }
-}
-
-void CanHal::disconnect() {
-  if (master_.connected() && now_ns_ >= 0) stop_drives();
-  master_.leave();
-  (void)send();
-  for (CanSocket& socket : sockets_) socket.close();
-  fault_ = Status::kNotStarted;
-  now_ns_ = -1;
 }
 
 int CanHal::system_calls() const {

@@ -26,9 +26,11 @@ class CanHal final : public Hal {
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
-  /// As the interface says, but waits until the drives confirm that they are disabled, at most for
-  /// `stop_ms`: drives that do not keep their watch over this program.
-  void disconnect() override;
+  /// As the interface says, and waits until the drives confirm that they are disabled, at most for
+  /// `stop_ms`: drives that do not keep their watch over this program. A bus that has failed does
+  /// not end the exchange on the others. kBusTimeout: trouble() names the joints that did not
+  /// confirm.
+  Status disconnect() override;
   Message trouble() override { return master_.trouble(); }
 
   const CanMaster& master() const { return master_; }
@@ -40,12 +42,14 @@ class CanHal final : public Hal {
 
  private:
   Status open();
-  Status judge_queue(int bus);
   Status start_up();
   void receive(int bus, std::int64_t now_ns);
   Status judge_link(int bus);
   Status send();
-  void stop_drives();
+  void exchange(std::int64_t& slept_ns);
+  bool awaits(int joint) const;
+  Status stop_drives(Message& left);
+  Status judge_stop(int waited_ms, Message& left) const;
 
   const CanSettings* can_ = nullptr;
   CommandMode mode_ = CommandMode::kEffort;

@@ -1,6 +1,8 @@
 // CanMaster: its cycle.
 #include "hal/can/can_master.hpp"
 
+#include <algorithm>
+
 #include "hal/cia402/hex.hpp"
 #include "kernel/core/loop_bound.hpp"
 
@@ -37,6 +39,7 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   sent_ = {};
   since_refresh_ = PdoLayout::kRefresh;
   now_ns_ = -1;
+  farewells_ = 0;
   connected_ = true;
   return Status::kOk;
 }
@@ -143,6 +146,7 @@ void CanMaster::judge(Node& node) {
 void CanMaster::count_feedback(Node& node) {
   const int surplus = node.frames - node.unanswered;
   node.surplus = surplus > 0 ? node.surplus + 1 : 0;
+  node.feedback.made_up = std::max(0, std::min(node.frames, node.unanswered) - 1);
   if (surplus > 1 || node.surplus > kMostSurplus) conflict_ = kTpdoBase[0] + node.id();
   node.unanswered = surplus < 0 ? -surplus : 0;
 }
@@ -184,7 +188,10 @@ void CanMaster::write(const RobotCommand& command) {
   send_commands();
   send_heartbeat();
   CanFrame request;
-  if (sdo_.take(request)) outbox(asked_bus()).add(request);
+  if (farewells_ > 0)
+    send_farewell();
+  else if (sdo_.take(request))
+    outbox(asked_bus()).add(request);
   LoopBound<4> buses;
   for (int i = 0; i < buses_; ++i) {
     buses.tick();
@@ -193,27 +200,6 @@ void CanMaster::write(const RobotCommand& command) {
   for (Node& node : nodes_)
     if (node.unanswered < kMostUnanswered) ++node.unanswered;
   sampled_ns_ = now_ns_;
-}
-
-void CanMaster::leave() {
-  if (!connected_) return;
-  connected_ = false;
-  RobotCommand stop;
-  stop.mode = mode_;
-  drives_.step(stop, commands_, now_ns_);
-  for (Outbox& outbox : out_) outbox.clear();
-  since_refresh_ = PdoLayout::kRefresh;
-  send_commands();
-  for (int i = 0; i < buses_; ++i) outbox(i).add(sync_frame());
-  if (!drives_.off()) return;  // its own watchdogs stop a drive that has not confirmed
-  for (const Node& node : nodes_) {
-    if (node.feedback.lost != Status::kOk) continue;  // nor has one that was lost
-    SdoClient farewell;                               // no heartbeat of ours is to be missed
-    farewell.download(node.id(), kHeartbeatConsumer, 1, 0, 4, now_ns_);
-    CanFrame request;
-    if (farewell.take(request)) outbox(node.bus).add(request);
-    outbox(node.bus).add(nmt_frame(NmtCommand::kPreOperational, node.id()));
-  }
 }
 
 }  // namespace tactus::can

@@ -44,12 +44,19 @@ class CanMaster {
   Status read(const CycleTime& now, RobotState& state);
   /// Leaves the frames of this cycle in the outboxes. [cyclic]
   void write(const RobotCommand& command);
-  /// True from connecting to leave(), and true once all drives are disabled. [any]
+  /// True from connecting to leave(). [any]
   bool connected() const { return connected_; }
-  bool off() const { return drives_.off(); }
   int period_us() const { return period_us_; }
   int stop_ms() const { return drive_->stop_ms; }
-  /// Leaves frames that stop the drives and, if these are disabled, end their watch over us. [any]
+  /// True if a drive has confirmed that it is disabled, and true if it was lost. [any]
+  bool confirmed(int joint) const { return drives_.confirmed(joint); }
+  bool lost(int joint) const { return node(joint).feedback.lost != Status::kOk; }
+  const Node& node(int joint) const { return nodes_[static_cast<std::size_t>(joint)]; }
+  /// From now on every write() ends the watch of a drive over us, or takes one out of operation,
+  /// until bids_farewell() is false. [any]
+  void bid_farewell() { farewells_ = 2 * kDof; }
+  bool bids_farewell() const { return farewells_ > 0; }
+  /// Leaves frames that stop the drives; the exchange is over. [any]
   void leave();
   Outbox& outbox(int bus) { return out_[static_cast<std::size_t>(bus)]; }
 
@@ -61,7 +68,9 @@ class CanMaster {
   int cycle_frames(int bus) const;
 
  private:
+  Status judge_identity();
   Status read_interfaces();
+  Status judge_interface(std::string_view word);
   Status place_joints();
   Status judge_load();
   Node* drive_of(int bus, std::uint16_t id);
@@ -74,6 +83,8 @@ class CanMaster {
   void check_modes();
   void send_commands();
   void send_heartbeat();
+  void send_farewell();
+  static CanFrame unwatched_frame(std::uint8_t node);
 
   const CanSettings* can_ = nullptr;
   const cia402::Cia402Settings* drive_ = nullptr;
@@ -85,7 +96,7 @@ class CanMaster {
   Outboxes out_;
   Message why_;
   SdoClient sdo_;
-  Startup startup_{nodes_, out_, sdo_, why_};
+  Startup startup_{nodes_, out_, sdo_, interfaces_, why_};
   cia402::Drives drives_;
   cia402::DriveCommands commands_, sent_;
 
@@ -96,6 +107,7 @@ class CanMaster {
   int since_refresh_ = 0;          // cycles since the controlwords were sent
   int checked_ = 0;                // joints whose display of the mode was checked in this arming
   bool asked_ = false;
+  int farewells_ = 0;  // frames of farewell that are left, two for every joint
   int conflict_ = -1;  // identifier that somebody else sent
 };
 

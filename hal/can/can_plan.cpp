@@ -28,38 +28,11 @@ Status CanMaster::configure(const CanSettings& can, const cia402::Cia402Settings
          << period_us;
     return Status::kBadValue;
   }
+  TRY(judge_identity());
   TRY(read_interfaces());
   TRY(place_joints());
   TRY(judge_load());
   return drives_.configure(drive, tool, period_us, why_);
-}
-
-/// Splits "can0 can1" at blanks.
-Status CanMaster::read_interfaces() {
-  std::string_view text = can_->interfaces;
-  buses_ = 0;
-  for (std::size_t rest = text.size(); rest > 0; rest = text.size()) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(word.size());
-    if (word.empty()) break;
-    if (buses_ == kMaxBuses || word.size() > Name::capacity()) {
-      why_ = Message("[can] interfaces: at most ");
-      why_ << kMaxBuses << " names of at most " << Name::capacity() << " characters; refused at '"
-           << word << "'";
-      return Status::kTooLarge;
-    }
-    for (int bus = 0; bus < buses_; ++bus)
-      if (std::string_view(interfaces_[static_cast<std::size_t>(bus)]) == word) {
-        why_ = Message("[can] interfaces has '");
-        why_ << word << "' twice; every bus has an interface of its own";
-        return Status::kBadValue;
-      }
-    interfaces_[static_cast<std::size_t>(buses_++)] = Name(word);
-  }
-  if (buses_ > 0) return Status::kOk;
-  why_ = Message("[can] interfaces is missing; name the buses, for example: can0 can1 can2");
-  return Status::kMissingKey;
 }
 
 /// Gives every joint its bus, node and place. Whole numbers, and no node twice on a bus.
@@ -110,6 +83,7 @@ Status CanMaster::place_joints() {
 Status CanMaster::judge_load() {
   const BitRates rates = {can_->bitrate_kbit * 1e3,
                           layout_.fd() ? can_->data_bitrate_kbit * 1e3 : 0.0};
+  const bool packs = mode_ == CommandMode::kEffort && !layout_.packed();
   for (int bus = 0; bus < buses_; ++bus) {
     BusLoad load(rates);
     load.add(0, 1.0, false);  // SYNC
@@ -121,7 +95,7 @@ Status CanMaster::judge_load() {
       if (!layout_.packed() || first)
         load.add(layout_.frame_size(layout_.command_frames(), node.slot));
     }
-    TRY(load.judge(interface(bus), joints, period_us_, can_->load_share, why_));
+    TRY(load.judge(interface(bus), joints, period_us_, can_->load_share, packs, why_));
   }
   return Status::kOk;
 }

@@ -48,7 +48,7 @@ struct CanSettings {
   int heartbeat_ms = 50;    ///< of the drives and of ours; missing for three of them: lost
   /// After which a drive without commands goes to fault; 0: ten periods.
   int command_timeout_ms = 0;
-  int vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any
+  double vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any
 
   /// Time-out of the commands, ms. [init]
   int timeout_ms(int period_us) const {
@@ -71,8 +71,8 @@ struct CanSettings {
     visit.param("connect_ms", connect_ms, Range{10.0, 120000.0}, "ms");
     visit.param("heartbeat_ms", heartbeat_ms, Range{1.0, 10000.0}, "ms");
     visit.param("command_timeout_ms", command_timeout_ms, Range{0.0, 10000.0}, "ms");
-    visit.param("vendor", vendor, Range{0.0, 2147483647.0}, "1");
-    visit.param("product", product, Range{0.0, 2147483647.0}, "1");
+    visit.param("vendor", vendor, Range{0.0, 4294967295.0}, "1");
+    visit.param("product", product, Range{0.0, 4294967295.0}, "1");
   }
 };
 

@@ -60,7 +60,7 @@ class CanSocket {
   const LinkHealth& health() const { return health_; }
   /// System calls of receive() and send() since the link was opened. [any]
   int system_calls() const { return system_calls_; }
-  /// Frames that the interface queues for sending; 0: unknown. [any]
+  /// Frames that the interface queues for sending; -1: unknown. [any]
   int queue_frames() const { return queue_frames_; }
 
  private:
@@ -88,7 +88,7 @@ class CanSocket {
   int socket_ = -1;
   bool fd_ = false;
   int system_calls_ = 0;
-  int queue_frames_ = 0;
+  int queue_frames_ = -1;
   LinkHealth health_;
   std::array<std::uint32_t, kIdentifiers / 32> wanted_{};  ///< a bit for every identifier
   Batch batch_{};

@@ -144,7 +144,8 @@ void CanSocket::adopt(int descriptor, bool fd, const CanFilter* filters, int cou
 void CanSocket::begin(int descriptor, bool fd, const CanFilter* filters, int count) {
   socket_ = descriptor;
   fd_ = fd;
-  system_calls_ = queue_frames_ = 0;
+  system_calls_ = 0;
+  queue_frames_ = -1;
   health_ = LinkHealth();
   want(filters, count);
   prepare(socket_);

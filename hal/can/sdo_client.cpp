@@ -32,7 +32,7 @@ void SdoClient::begin(std::uint8_t node, std::uint16_t index, std::uint8_t sub,
   began_ns_ = heard_ns_ = now_ns;
   data_.fill(0);
   size_ = sent_ = announced_ = 0;
-  size_known_ = toggle_ = false;
+  size_known_ = toggle_ = heard_other_ = false;
 }
 
 CanFrame SdoClient::frame(std::uint8_t command) const {
@@ -96,12 +96,14 @@ void SdoClient::receive(const CanFrame& answer, std::int64_t now_ns) {
       answer.size != kSdoSize)
     return;
   if (has_request_) return;  // the answer to a request of before
-  if (is_repeated(answer)) return;
+  if (names_object(answer) && !is_for_object(answer)) {
+    heard_other_ = true;
+    other_index_ = load<std::uint16_t>(answer.data, kIndexAt);
+    other_sub_ = answer.data[kSubAt];
+    return;
+  }
   heard_ns_ = now_ns;
   take_answer(answer);
-  if (progress_ == Progress::kBusy) return;
-  last_id_ = answer.id;
-  last_answer_ = load<std::uint64_t>(answer.data, 0);
 }
 
 void SdoClient::take_answer(const CanFrame& answer) {
@@ -116,11 +118,13 @@ void SdoClient::take_answer(const CanFrame& answer) {
   }
 }
 
-/// A bus may repeat a frame: here the last answer of the transfer before, on another object.
-bool SdoClient::is_repeated(const CanFrame& answer) const {
-  const bool first = phase_ == Phase::kRead || phase_ == Phase::kWrite;
-  return first && answer.id == last_id_ && load<std::uint64_t>(answer.data, 0) == last_answer_ &&
-         !is_for_object(answer);
+/// Every answer but a segment names its object. One on another object is late, or repeated by the
+/// bus, or the answer to somebody else.
+bool SdoClient::names_object(const CanFrame& answer) const {
+  const bool segments = phase_ == Phase::kReadSegment || phase_ == Phase::kWriteSegment;
+  const bool segment =
+      specifier(answer) == kSegmentUploaded || specifier(answer) == kSegmentDownloaded;
+  return !(segments && segment);
 }
 
 bool SdoClient::is_for_object(const CanFrame& answer) const {
@@ -129,7 +133,6 @@ bool SdoClient::is_for_object(const CanFrame& answer) const {
 
 void SdoClient::take_downloaded(const CanFrame& answer) {
   if (specifier(answer) != kDownloaded) return give_up(SdoAbort::kCommand);
-  if (!is_for_object(answer)) return give_up(SdoAbort::kIncompatible);
   if (sent_ == size_ && size_ > 0) return finish();
   send_segment();
 }
@@ -162,7 +165,6 @@ void SdoClient::take_segment_downloaded(const CanFrame& answer) {
 
 void SdoClient::take_uploaded(const CanFrame& answer) {
   if (specifier(answer) != kUploaded) return give_up(SdoAbort::kCommand);
-  if (!is_for_object(answer)) return give_up(SdoAbort::kIncompatible);
   size_known_ = (answer.data[0] & kSizeGiven) != 0;
   if ((answer.data[0] & kExpedited) != 0) {
     const std::size_t rest = size_known_ ? answer.data[0] >> kUnusedShift & 3U : 0;

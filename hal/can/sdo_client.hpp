@@ -50,9 +50,9 @@ class SdoClient {
 
   /// Copies the next frame to send; false: there is none. [any]
   bool take(CanFrame& request);
-  /// Takes any frame of the bus; one that is no SDO answer of the node is ignored, and so is the
-  /// last answer of the transfer before if the bus repeats it. An answer that
-  /// breaks the protocol ends the transfer, and the node gets an abort. [any]
+  /// Takes any frame of the bus; one that is no SDO answer of the node is ignored, and so is an
+  /// answer or an abort on another object. An answer that breaks the protocol ends the transfer,
+  /// and the node gets an abort. [any]
   void receive(const CanFrame& frame, std::int64_t now_ns);
   /// Ends the transfer with kTimeout when its time is over. [any]
   void advance(std::int64_t now_ns);
@@ -85,7 +85,7 @@ class SdoClient {
   void take_uploaded(const CanFrame& answer);
   void take_segment_uploaded(const CanFrame& answer);
   void take_answer(const CanFrame& answer);
-  bool is_repeated(const CanFrame& answer) const;
+  bool names_object(const CanFrame& answer) const;
   bool is_for_object(const CanFrame& answer) const;
   void finish();
   void give_up(SdoAbort why, Cause cause = Cause::kAnswer);
@@ -107,8 +107,9 @@ class SdoClient {
   bool toggle_ = false;
   bool has_request_ = false, has_abort_ = false;
   CanFrame request_, abort_frame_;
-  std::uint16_t last_id_ = 0;  ///< of the answer that ended the transfer before
-  std::uint64_t last_answer_ = 0;
+  bool heard_other_ = false;  ///< an answer of the node on another object
+  std::uint16_t other_index_ = 0;
+  std::uint8_t other_sub_ = 0;
 };
 
 }  // namespace tactus::can

@@ -18,6 +18,8 @@ Message SdoClient::describe() const {
     case Cause::kTime: text << "not complete within " << ms(times_.transfer_ns) << " ms"; break;
     case Cause::kValue: text << "the value to write is " << meaning(abort_); break;
   }
+  if (heard_other_ && (cause_ == Cause::kSilence || cause_ == Cause::kTime))
+    text << ", but one on " << cia402::hex(other_index_) << ":" << int{other_sub_};
   text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")";
   return text;
 }

@@ -7,6 +7,8 @@ namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr const char* kCheck = "; check power, cabling, bit rate and [can] node and bus";
+constexpr const char* kCheckBus =
+    "; check power of the drives, cabling, termination, bit rate and [can] interfaces";
 
 }  // namespace
 
@@ -55,8 +57,13 @@ Status Startup::advance(std::int64_t now_ns) {
 }
 
 Status Startup::silent(int joint, const char* what, int limit_ms) {
-  why_ = label(joint, nodes_[static_cast<std::size_t>(joint)]);
-  why_ << ": " << what << " within " << limit_ms << " ms" << kCheck;
+  const Node& node = nodes_[static_cast<std::size_t>(joint)];
+  bool heard = false;  // any drive of the bus
+  for (const Node& other : nodes_) heard = heard || (other.bus == node.bus && other.heart.known());
+  why_ = Message("bus ");
+  why_ << std::string_view(interfaces_[static_cast<std::size_t>(node.bus)]) << ": "
+       << (heard ? "" : "no drive is heard: ") << label(joint, node) << ": " << what << " within "
+       << limit_ms << " ms" << (heard ? kCheck : kCheckBus);
   return Status::kBusTimeout;
 }
 

@@ -20,8 +20,9 @@ class Startup {
   static constexpr int kSteady = 5;                         ///< cycles
   static constexpr std::int64_t kSettled_ns = 100'000'000;  ///< without a further boot-up message
 
-  Startup(Nodes& nodes, Outboxes& out, SdoClient& sdo, Message& why)
-      : nodes_(nodes), out_(out), sdo_(sdo), why_(why) {}
+  Startup(Nodes& nodes, Outboxes& out, SdoClient& sdo,
+          const std::array<Name, kMaxBuses>& interfaces, Message& why)
+      : nodes_(nodes), out_(out), sdo_(sdo), interfaces_(interfaces), why_(why) {}
 
   /// Begins with the reset. The settings must outlive the start-up. [init]
   void begin(const CanSettings& can, const cia402::Cia402Settings& drive, const PdoLayout& layout,
@@ -51,6 +52,7 @@ class Startup {
   Nodes& nodes_;
   Outboxes& out_;
   SdoClient& sdo_;
+  const std::array<Name, kMaxBuses>& interfaces_;
   Message& why_;
   const CanSettings* can_ = nullptr;
   const cia402::Cia402Settings* drive_ = nullptr;

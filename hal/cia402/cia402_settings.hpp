@@ -24,7 +24,7 @@ constexpr const char* name(Gravity gravity) {
 /// What the drives' encoders know after they are switched on.
 enum class Encoder : std::uint8_t {
   kMultiTurn,   ///< the position
-  kSingleTurn,  ///< the position within a turn of the joint; the joint's range says which turn
+  kSingleTurn,  ///< the position within a turn of the encoder; the joint's range says which
 };
 
 constexpr const char* name(Encoder encoder) {

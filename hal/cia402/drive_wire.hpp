@@ -13,6 +13,7 @@ namespace tactus::cia402 {
 /// The newest process data of one drive.
 struct DriveFeedback {
   bool fresh = false;         ///< came since the last cycle
+  int made_up = 0;            ///< samples of earlier cycles that came with it, late
   bool has_velocity = false;  ///< 606Ch is mapped; otherwise the positions are differentiated
   std::uint16_t statusword = 0;
   std::int32_t position = 0, velocity = 0;  ///< increments, increments/s
@@ -22,6 +23,13 @@ struct DriveFeedback {
   /// kOk, or why the drive cannot be used until the next connect(): restarted, silent ...
   Status lost = Status::kOk;
 };
+
+/// Returns what `lost` means, and what helps. [any]
+constexpr const char* lost_text(Status lost) {
+  return lost == Status::kBusTimeout
+             ? "its heartbeat is missing; check power and cabling, then connect again"
+             : "it restarted, or left operation; connect again";
+}
 
 struct DriveCommand {
   std::uint16_t controlword = 0;

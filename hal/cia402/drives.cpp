@@ -1,6 +1,7 @@
 // Drives: what the drives of the arm say, and what it means.
 #include "hal/cia402/drives.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "hal/cia402/hex.hpp"
@@ -10,59 +11,10 @@
 namespace tactus::cia402 {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
 constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
 constexpr auto kSmallest = std::numeric_limits<std::int16_t>::min();
 
-JointUnits units_of(const Cia402Settings& settings, int j) {
-  return {settings.increments[j], settings.gear_ratio[j], settings.rated_torque[j],
-          settings.direction[j], settings.position_offset[j]};
-}
-
-Message joint_text(int j) {
-  Message text("joint ");
-  text << j + 1;
-  return text;
-}
-
 }  // namespace
-
-Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
-                         Message& why) {
-  settings_ = &settings;
-  period_s_ = 1e-6 * period_us;
-  hold_.configure(settings, tool, period_s_);
-  const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
-                            settings.stop_ms * kMillisecond_ns};
-  for (int j = 0; j < kDof; ++j) {
-    Joint& joint = joints_[static_cast<std::size_t>(j)];
-    joint.units = units_of(settings, j);
-    joint.machine.configure(times);
-    why = joint_text(j);
-    if (std::abs(joint.units.direction) != 1.0) {
-      why << ": [cia402] direction is " << joint.units.direction << "; it must be 1 or -1";
-      return Status::kBadValue;
-    }
-    if (!(settings.rated_torque[j] > 0.0)) {
-      why << ": [cia402] rated_torque is missing; it is 6076h of its drive, in N m";
-      return Status::kMissingKey;
-    }
-    const int bit = settings.referenced_bit;
-    if (bit >= 0 && bit < kFirstFreeBit) {
-      why << ": [cia402] referenced_bit is " << bit << ", which is of the state; 7 to 15 or -1";
-      return Status::kBadValue;
-    }
-    const double most_Nm = kLargest * joint.units.torque_step();
-    if (!(limits_.tau_max[j] <= most_Nm)) {
-      why << ": its torque limit of " << limits_.tau_max[j] << " N m is beyond " << most_Nm
-          << " N m, 32767 permille of [cia402] rated_torque; the drive needs a larger one";
-      return Status::kBadValue;
-    }
-  }
-  why = {};
-  return Status::kOk;
-}
 
 Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
   mode_ = mode;
@@ -72,21 +24,23 @@ Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why
   return Status::kOk;
 }
 
-/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range.
+/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range, and
+/// follows one that counts from 0 again in the midst of a motion.
 Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
-  joint.missed = 0;
-  joint.turn = 0;
+  joint.missed = joint.owed = joint.confirmed = 0;
+  joint.counter.start(feedback.position);
   if (settings_->encoder == Encoder::kSingleTurn) {
-    const double turn = joint.units.encoder * joint.units.gear;
+    const double turn = joint.units.encoder;
     const double middle = 0.5 * (limits_.q_min[j] + limits_.q_max[j]);
     const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
                          (turn * joint.units.angle_step());
-    joint.turn = static_cast<std::int64_t>(std::floor(turns + 0.5) * turn);
+    joint.counter.start(feedback.position,
+                        static_cast<std::int64_t>(std::floor(turns + 0.5) * turn),
+                        static_cast<std::int64_t>(turn));
   }
-  joint.counter.start(feedback.position, joint.turn);
   joint.q = joint.units.q(joint.counter.total());
   joint.dq = joint.tau = 0.0;
   joint.last = feedback;
@@ -116,25 +70,40 @@ void Drives::judge_hold(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (following_ || goal() != Goal::kOperationEnabled) return;
   if (std::abs(joint.q - held_[j]) <= settings_->hold_tolerance) return;
-  fail(
-      j, Status::kMoved, joint.last.error_code,
-      "moved by more than [cia402] hold_tolerance while it was held; check direction, rated_torque,"
-      " hold_stiffness and the encoder");
+  const Figures figures = {joint.q - held_[j], settings_->hold_tolerance};
+  fail(j, Status::kMoved, joint.last.error_code, "moved by ",
+       " rad while it was held, more than [cia402] hold_tolerance, ",
+       " rad; check direction, rated_torque, hold_stiffness and the encoder", &figures);
 }
 
 void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   const int periods = joint.missed + 1;
-  joint.missed = feedback.fresh ? 0 : joint.missed + (joint.missed <= settings_->max_missed);
+  count_missed(joint, feedback);
   joint.last = feedback;
   if (!feedback.fresh) return;
   const double before = joint.q;
   joint.q = joint.units.q(joint.counter.follow(feedback.position));
-  if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) steady_ = -1;
+  if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) {
+    steady_ = -1;
+    unsteady_ = j;
+    jump_ = (joint.q - before) / periods;
+  }
   joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
                                    : (joint.q - before) / (periods * period_s_);
   joint.tau = joint.units.tau(feedback.torque);
   joint.stamp_ns = sampled_ns;
+}
+
+/// Feedback that was late, and is so from then on, cannot be told from feedback that was lost: so a
+/// later frame does not make up for a cycle without one, but two frames in one cycle do.
+void Drives::count_missed(Joint& joint, const DriveFeedback& feedback) {
+  const int missing = feedback.fresh ? 0 : 1;
+  joint.missed = missing * (joint.missed + (joint.missed <= settings_->max_missed));
+  const int forgotten = ++joint.since_owed >= kForgotten ? 1 : 0;
+  if (forgotten == 1 || joint.owed == 0) joint.since_owed = 0;
+  const int owed = joint.owed + missing - feedback.made_up - forgotten;
+  joint.owed = std::min(std::max(owed, 0), settings_->max_missed + 1);
 }
 
 /// A drive that holds or follows must stay enabled, be heard and report no error. One that was lost
@@ -144,9 +113,11 @@ void Drives::judge(int j) {
   if (!enabled() && !rising()) return;
   const std::uint32_t code = joint.last.error_code;
   if (joint.last.lost != Status::kOk) {
-    fail(j, joint.last.lost, code, "the drive was lost; connect again");
-  } else if (joint.missed > settings_->max_missed) {
-    fail(j, Status::kBusTimeout, code, "no feedback in more cycles than [cia402] max_missed");
+    fail(j, joint.last.lost, code, lost_text(joint.last.lost));
+  } else if (joint.missed > settings_->max_missed || joint.owed > settings_->max_missed) {
+    fail(j, Status::kBusTimeout, code,
+         "no feedback in more cycles than [cia402] max_missed, of which one is forgotten after 1000"
+         " cycles; check load and cabling of its bus");
   } else if (enabled() && joint.last.emergency) {
     fail(j, Status::kDriveFault, code, error_text(joint.last.error_code));
   } else if (enabled() && state_of(joint.last.statusword) != State::kOperationEnabled) {
@@ -157,20 +128,25 @@ void Drives::judge(int j) {
 
 /// The first fault is the one that is explained.
 void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what,
-                  const char* detail, const char* rest) {
+                  const char* detail, const char* rest, const Figures* figures) {
   Joint& failed = joints_[static_cast<std::size_t>(joint)];
   if (failed.reason != Status::kOk) return;
   failed.reason = reason;
   failed.code = code;
   if (phase_ == Phase::kFailed) return;
   phase_ = Phase::kFailed;
-  failure_ = {joint, code, what, detail, rest};
+  failure_ = {joint, code, what, detail, rest, figures != nullptr, {}};
+  if (figures != nullptr) failure_.figures = *figures;
 }
 
 Message Drives::why() const {
   if (failure_.joint < 0) return {};
   Message text = joint_text(failure_.joint);
-  text << ": " << failure_.what << failure_.detail << failure_.rest;
+  text << ": " << failure_.what;
+  if (failure_.has_figures) text << failure_.figures.value;
+  text << failure_.detail;
+  if (failure_.has_figures) text << failure_.figures.limit;
+  text << failure_.rest;
   if (failure_.code != 0) text << " (error code " << hex(failure_.code) << ")";
   return text;
 }

@@ -17,6 +17,13 @@
 
 namespace tactus::cia402 {
 
+/// "joint 3": how messages name a drive. [any]
+inline Message joint_text(int joint) {
+  Message text("joint ");
+  text << joint + 1;
+  return text;
+}
+
 enum class Phase : std::uint8_t {
   kOff,
   kSwitchingOn,  ///< faults are cleared; no torque
@@ -31,10 +38,13 @@ class Drives {
  public:
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
+  static constexpr int kConfirming = 3;
+  /// Cycles after which one without feedback is forgotten. What comes after it may be older by one.
+  static constexpr int kForgotten = 1000;
 
   /// Takes the settings, which must outlive the use of the drives. kMissingKey,
-  /// kBadValue, with `why`: a rated torque, direction or bit that cannot be, a torque limit that is
-  /// beyond the drive's numbers. [init]
+  /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
+  /// limit that is beyond the drive's numbers. [init]
   Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
   /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
   /// for a position outside the joint's range. [init]
@@ -48,10 +58,20 @@ class Drives {
   void hold_back(bool waits) { held_back_ = waits; }
   /// True if no drive has power any more, as far as is known. [cyclic]
   bool off() const { return phase_ == Phase::kOff; }
+  /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
+  /// disabled, as it was told: one statusword may be anybody's. [cyclic]
+  bool confirmed(int joint) const {
+    return joints_[static_cast<std::size_t>(joint)].confirmed == kConfirming;
+  }
+  /// A value and its limit, for the words of a fault.
+  struct Figures {
+    double value = 0.0, limit = 0.0;
+  };
   /// Fails the joint, from 0, as a fault of its drive does. The texts are constants; why() puts
-  /// them together. [cyclic]
+  /// them together: with figures, the value between the first two, the limit before the last.
+  /// [cyclic]
   void fail(int joint, Status reason, std::uint32_t code, const char* what, const char* detail = "",
-            const char* rest = "");
+            const char* rest = "", const Figures* figures = nullptr);
 
   /// Fills in positions, velocities, torques, their stamp and the drives. [cyclic]
   void show(RobotState& state) const;
@@ -63,19 +83,20 @@ class Drives {
   struct Joint {
     JointUnits units;
     PositionCounter counter;
-    std::int64_t turn = 0;  // increments added to the drive's count
     DriveMachine machine;
     DriveFeedback last;
     double q = 0.0, dq = 0.0, tau = 0.0;
     std::int64_t stamp_ns = 0;
-    int missed = 0;
-    Status reason = Status::kOk;  // of its failure
+    int missed = 0;                // cycles in a row
+    int owed = 0, since_owed = 0;  // cycles without feedback that are not forgotten, cycles since
+    int confirmed = 0;             // samples in a row that show it disabled
+    Status reason = Status::kOk;   // of its failure
     std::uint32_t code = 0;
 
     /// The drive's own count at q, rad.
     std::int32_t count_of(double at) const {
       return static_cast<std::int32_t>(static_cast<std::uint32_t>(units.position(at)) -
-                                       static_cast<std::uint32_t>(turn));
+                                       static_cast<std::uint32_t>(counter.added()));
     }
   };
 
@@ -84,10 +105,17 @@ class Drives {
     int joint = -1;  // -1: nothing has failed
     std::uint32_t code = 0;
     const char *what = "", *detail = "", *rest = "";
+    bool has_figures = false;
+    Figures figures;
   };
 
+  /// Judge what the file says of a joint; `why` begins with the joint and goes on with key, value,
+  /// limit and remedy.
+  Status judge_torque(int j, Message& why) const;
+  Status judge_position(int j, Message& why) const;
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
   void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
+  void count_missed(Joint& joint, const DriveFeedback& feedback);
   void judge(int j);
   void judge_hold(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
@@ -98,11 +126,13 @@ class Drives {
   // Steps of arming and stopping: drives_arming.cpp.
   void take(DriveRequest request);
   void set_controlwords(DriveCommands& out, std::int64_t now_ns);
+  void count_confirmations();
   void advance(std::int64_t now_ns);
   bool ready(int j);
   Goal goal() const;
   bool all_reached() const;
   void judge_rise();
+  void judge_steadiness();
   JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
                      const JointVector& dq);
   void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
@@ -113,11 +143,13 @@ class Drives {
   double period_s_ = 1.0;
   CommandMode mode_ = CommandMode::kEffort;
   Phase phase_ = Phase::kOff;
-  std::int64_t since_ns_ = 0;  // in this phase
+  std::int64_t since_ns_ = 0;  // in this phase; in kSwitchingOn, with all drives switched on
   std::array<Joint, kDof> joints_;
   HoldEffort hold_;
   JointLimits limits_;
   int steady_ = 0;          // cycles in a row in which no joint moved faster than it can
+  int unsteady_ = 0;        // the last joint that did
+  double jump_ = 0.0;       // how far from a cycle to the next, rad
   bool following_ = false;  // commands, in the last cycle
   bool held_back_ = false;
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions

@@ -14,7 +14,18 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
   following_ = follow && phase_ == Phase::kArmed;
   set_target(command, following_, out);
+  count_confirmations();
   advance(now_ns);
+}
+
+void Drives::count_confirmations() {
+  LoopBound<kDof> joints;
+  for (Joint& joint : joints_) {
+    joints.tick();
+    const bool off = goal() == Goal::kDisabled && joint.machine.reached();
+    if (!off) joint.confirmed = 0;
+    if (off && joint.last.fresh && joint.confirmed < kConfirming) ++joint.confirmed;
+  }
 }
 
 void Drives::set_controlwords(DriveCommands& out, std::int64_t now_ns) {
@@ -28,8 +39,12 @@ void Drives::take(DriveRequest request) {
     if (phase_ != Phase::kOff) phase_ = Phase::kStopping;
   } else if (phase_ == Phase::kOff) {
     phase_ = Phase::kSwitchingOn;
+    since_ns_ = -1;
     failure_ = {};
-    for (Joint& joint : joints_) joint.reason = Status::kOk;
+    for (Joint& joint : joints_) {
+      joint.reason = Status::kOk;
+      joint.owed = 0;
+    }
     for (int j = 0; j < kDof; ++j)
       if (!ready(j)) return;
   }
@@ -40,7 +55,7 @@ bool Drives::ready(int j) {
   const DriveFeedback& last = joints_[static_cast<std::size_t>(j)].last;
   const int bit = settings_->referenced_bit;
   if (last.lost != Status::kOk) {
-    fail(j, last.lost, last.error_code, "the drive was lost; connect again");
+    fail(j, last.lost, last.error_code, lost_text(last.lost));
   } else if (bit >= 0 && (last.statusword >> bit & 1U) == 0) {
     fail(j, Status::kNotReferenced, last.error_code, "the drive is not referenced; home it");
   }
@@ -83,12 +98,24 @@ bool Drives::all_reached() const {
   return all;
 }
 
+/// The arm is not enabled where its positions cannot be.
+void Drives::judge_steadiness() {
+  const Figures figures = {jump_, limits_.dq_max[unsteady_] * period_s_};
+  fail(unsteady_, Status::kStateInvalid,
+       joints_[static_cast<std::size_t>(unsteady_)].last.error_code, "its position jumps by ",
+       " rad in a period, more than it can move, ",
+       " rad, for longer than [cia402] step_ms; check encoder, increments and gear_ratio",
+       &figures);
+}
+
 /// Goes to the next phase when all drives have done the present one.
 void Drives::advance(std::int64_t now_ns) {
   constexpr std::int64_t kMillisecond_ns = 1'000'000;
   switch (phase_) {
     case Phase::kSwitchingOn:
+      if (!all_reached() || since_ns_ < 0) since_ns_ = now_ns;
       if (all_reached() && steady_ >= kSteady) enter(Phase::kEnabling, now_ns);
+      if (now_ns - since_ns_ > settings_->step_ms * kMillisecond_ns && rising()) judge_steadiness();
       break;
     case Phase::kEnabling:
       if (all_reached()) enter(Phase::kReleasing, now_ns);

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 namespace tactus::cia402 {
@@ -63,23 +64,32 @@ struct JointUnits {
 /// A drive's 32-bit position counter, followed beyond its end.
 class PositionCounter {
  public:
-  /// Begins at a count; `turn` increments are added to every later one. [init]
-  void start(std::int32_t count, std::int64_t turn) {
+  /// Begins at a count; `added` increments are added to it. `turn`: after as many increments the
+  /// drive may count from the beginning again, as it does after 2^32. [init]
+  void start(std::int32_t count, std::int64_t added = 0, std::int64_t turn = kNever) {
     last_ = count;
-    total_ = count + turn;
+    total_ = count + added;
+    turn_ = turn;
   }
-  /// Takes a new count, less than half the counter's range away from the last. [cyclic]
+  /// Takes a new count, less than half a turn, and half the counter's range, away from the last.
+  /// [cyclic]
   std::int64_t follow(std::int32_t count) {
-    const auto change = static_cast<std::uint32_t>(count) - static_cast<std::uint32_t>(last_);
-    total_ += static_cast<std::int32_t>(change);
+    const auto wrapped = static_cast<std::uint32_t>(count) - static_cast<std::uint32_t>(last_);
+    const std::int64_t change = static_cast<std::int32_t>(wrapped);
+    total_ += change;
+    if (std::abs(change) > turn_ / 2) total_ += change > 0 ? -turn_ : turn_;
     last_ = count;
     return total_;
   }
   std::int64_t total() const { return total_; }
+  /// What is added to the drive's count now. [cyclic]
+  std::int64_t added() const { return total_ - last_; }
 
  private:
+  static constexpr std::int64_t kNever = std::int64_t{1} << 33;
+
   std::int32_t last_ = 0;
-  std::int64_t total_ = 0;
+  std::int64_t total_ = 0, turn_ = kNever;
 };
 
 }  // namespace tactus::cia402

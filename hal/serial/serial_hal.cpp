@@ -29,8 +29,9 @@ Status SerialHal::write(const RobotCommand& command) {
   return Status::kOk;
 }
 
-void SerialHal::disconnect() {
+Status SerialHal::disconnect() {
   command_.request = DriveRequest::kDisable;
+  return Status::kOk;
 }
 
 bool SerialHal::take(ByteReader payload) {

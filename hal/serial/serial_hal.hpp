@@ -18,7 +18,7 @@ class SerialHal final : public Hal {
   /// Keeps the command for the board's loop. [cyclic]
   Status write(const RobotCommand& command) override;
   /// The command is to disable the drives, from now on. [any]
-  void disconnect() override;
+  Status disconnect() override;
 
   /// Takes the payload of a kState; false: it is malformed, or older than the last. [cyclic]
   bool take(ByteReader payload);

@@ -11,7 +11,7 @@ void UrHal::configure(const UrSettings& settings, const Tool& tool, int period_u
 }
 
 Status UrHal::connect(CommandMode mode) {
-  disconnect();
+  static_cast<void>(disconnect());
   why_ = Message();
   listened_ = false;
   fault_ = open(mode);
@@ -63,10 +63,11 @@ Status UrHal::await_state(const Deadline& deadline) {
 }
 
 /// If the negative count does not arrive, the program brakes because no set-points come.
-void UrHal::disconnect() {
+Status UrHal::disconnect() {
   drives_.end_program();
   close();
   if (fault_ == Status::kOk) fault_ = Status::kNotStarted;
+  return Status::kOk;
 }
 
 void UrHal::close() {

@@ -30,7 +30,7 @@ class UrHal final : public Hal, public Clock {
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
-  void disconnect() override;
+  Status disconnect() override;
 
   Clock* clock() override { return this; }
   /// Waits for the packet that begins the next cycle, or until it is bridged, and gives the time by

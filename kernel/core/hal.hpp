@@ -71,8 +71,9 @@ class Hal {
   /// fault is being cleared it is kArming. Bounded; never blocks. [cyclic]
   virtual Status write(const RobotCommand& command) = 0;
   /// Disables the drives and closes the wire; waits for them no longer than the board's settings
-  /// say, if at all. May be called in any state, more than once. [any]
-  virtual void disconnect() = 0;
+  /// say, if at all. kOk, or why the drives are not known to be disabled; trouble() says more. May
+  /// be called in any state, more than once. [any]
+  virtual Status disconnect() = 0;
 
   /// Returns the wire's clock if it begins the cycles; null: the host's does. [init]
   virtual Clock* clock() { return nullptr; }

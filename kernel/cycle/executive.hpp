@@ -69,8 +69,9 @@ class Executive {
   /// Brakes on the path, then disables the drives; cycle() returns kHalted, or a fault latched
   /// before. [between two cycles]
   void halt() { walk(Cause::kHalt, Status::kHalted); }
-  /// Disables the drives at once and closes the wire. [between two cycles]
-  void stop();
+  /// Disables the drives at once and closes the wire. Returns what Hal::disconnect() does. [between
+  /// two cycles]
+  Status stop();
 
   Rung rung() const { return static_cast<Rung>(static_cast<std::uint8_t>(rung_)); }
   /// True while the arm is being brought to rest, or its drives are being disabled: cycles must go

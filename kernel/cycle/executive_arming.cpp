@@ -13,7 +13,7 @@ Status Executive::add(const Row& row) {
 }
 
 Status Executive::start() {
-  if (rung() != Rung::kDisabled) stop();
+  if (rung() != Rung::kDisabled) static_cast<void>(stop());
   period_ns_ = std::int64_t{1000} * pipeline_.robot.period_us;
   now_ = {-1};  // before any clock
   clock_.start(period_ns_, pipeline_.executive);
@@ -109,11 +109,11 @@ void Executive::watch_anew() {
                                             pipeline_.robot.period_us);
 }
 
-void Executive::stop() {
+Status Executive::stop() {
   if (rung() != Rung::kDisabled) walk(Cause::kOff, Status::kNotStarted);
   disabling_ = 0;
   wire_ = Status::kNotStarted;
-  hal_.disconnect();
+  return hal_.disconnect();
 }
 
 }  // namespace tactus

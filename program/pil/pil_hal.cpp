@@ -154,10 +154,10 @@ bool PilHal::begin(const TrajectoryInput& input) {
   return false;
 }
 
-void PilHal::disconnect() {
+Status PilHal::disconnect() {
   if (emulator_.running()) static_cast<void>(board_.request(Kind::kStop));
   emulator_.stop();
-  plant_.disconnect();
+  return plant_.disconnect();
 }
 
 }  // namespace tactus::pil

@@ -22,7 +22,7 @@ class PilHal final : public Hal, public Follower {
   Status read(const CycleTime& now, RobotState& state) override;
   /// Takes the board through the same cycle; the plant gets its command. [cyclic]
   Status write(const RobotCommand& command) override;
-  void disconnect() override;
+  Status disconnect() override;
   Message trouble() override { return why_; }
 
   void prepare(const Session& session) override { session_ = &session; }

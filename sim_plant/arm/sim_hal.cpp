@@ -35,7 +35,7 @@ Status SimHal::connect(CommandMode mode) {
                             static_cast<double>(offered.max_period_us)};
   if (!periods_us.contains(std::round(period_s_ * 1e6))) return Status::kNotOffered;
   if (!arm_.loaded()) return Status::kNotStarted;
-  disconnect();
+  static_cast<void>(disconnect());
   mode_ = mode;
   drives_.start(arming_cycles_);
   connected_ = true;
@@ -86,9 +86,10 @@ Status SimHal::drive(const RobotCommand& command) {
   return Status::kOk;
 }
 
-void SimHal::disconnect() {
+Status SimHal::disconnect() {
   if (connected_) close_brakes();
   connected_ = false;
+  return Status::kOk;
 }
 
 /// Stops the arm at once.

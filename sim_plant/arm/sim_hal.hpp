@@ -42,7 +42,7 @@ class SimHal final : public Hal {
   /// brakes. kNotStarted before connect(). [cyclic]
   Status write(const RobotCommand& command) override;
   /// Closes the brakes; the arm stops at once. [any]
-  void disconnect() override;
+  Status disconnect() override;
 
   /// The arm itself, with the true state without noise and delay. [any]
   const Arm& arm() const { return arm_; }

@@ -60,8 +60,8 @@ void disabled_drives_let_the_arm_stand_and_time_goes_on(void**) {
   assert_int_equal(b.hal.time_ns() - start_ns, 104 * 1000 * 1000);
   ASSERT_OK(follow(b.hal, kEffort, b.state.tau));
   ASSERT_NEAR((b.hal.arm().q() - q).norm(), 0.0, 1e-12);
-  b.hal.disconnect();
-  b.hal.disconnect();
+  static_cast<void>(b.hal.disconnect());
+  static_cast<void>(b.hal.disconnect());
   ASSERT_STATUS(measure(b.hal, b.state), Status::kNotStarted);
 }
 

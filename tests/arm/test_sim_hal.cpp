@@ -28,7 +28,7 @@ void without_a_connection_nothing_is_measured_and_nothing_is_taken(void**) {
   static SimHal hal;
   RobotState state;
   hal.set_period(kPeriod_s);
-  hal.disconnect();
+  static_cast<void>(hal.disconnect());
   ASSERT_STATUS(hal.connect(kEffort), Status::kNotStarted);
   ASSERT_OK(hal.load(PlantParams(), 1));
   ASSERT_STATUS(measure(hal, state), Status::kNotStarted);

@@ -28,7 +28,7 @@ class StandingHal final : public Hal {
     return Status::kOk;
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
-  void disconnect() override {}
+  Status disconnect() override { return Status::kOk; }
 };
 
 // A store is 70 whole waypoints of 264 bytes, which are 256 of 72 bytes with positions only.

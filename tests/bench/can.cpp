@@ -118,7 +118,7 @@ class StandingHal final : public Hal {
     return Status::kOk;
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
-  void disconnect() override {}
+  Status disconnect() override { return Status::kOk; }
 };
 
 /// Joint positions are held by a PD controller with gravity, without a robot's wire.

@@ -101,10 +101,10 @@ void classic_frames_on_a_can_fd_bus_last_as_long_as_on_a_classic_one(void**) {
 }
 
 void assert_judged(const BusLoad& load, int joints, double period_us, double most,
-                   const char* expected) {
+                   const char* expected, bool packs = true) {
   static Message why;
   why = Message();
-  const Status status = load.judge("can0", joints, period_us, most, why);
+  const Status status = load.judge("can0", joints, period_us, most, packs, why);
   ASSERT_STATUS(status, expected[0] == '\0' ? Status::kOk : Status::kOverBudget);
   assert_string_equal(why.c_str(), expected);
 }
@@ -118,6 +118,10 @@ void a_cycle_that_does_not_fit_is_refused_with_what_helps(void**) {
                 "CAN FD 1000/5000 kbit/s); use more buses, packed commands or a higher data bit "
                 "rate");
   assert_judged(load_of(kSchemes[8]), 7, 1000.0, 0.85, "");
+  assert_judged(load_of(kSchemes[0]), 7, 1000.0, 0.8,
+                "bus can0: 1665 us of frames in a cycle of 1000 us, at most 800 us (7 joints, "
+                "classic 1000 kbit/s); use more buses or CAN FD",
+                false);
   assert_judged(load_of(kSchemes[2]), 3, 1000.0, 0.8, "");
 }
 
@@ -129,9 +133,23 @@ void the_limit_itself_fits_and_nan_does_not(void**) {
                 "bus can0: 55 us of frames in a cycle of 110 us, at most 55 us (1 joint, classic "
                 "1000 kbit/s); use more buses, packed commands or CAN FD");
   static Message why;
-  ASSERT_STATUS(load.judge("can0", 1, std::nan(""), 0.8, why), Status::kOverBudget);
+  ASSERT_STATUS(load.judge("can0", 1, std::nan(""), 0.8, true, why), Status::kOverBudget);
   load.add(0, std::nan(""));
-  ASSERT_STATUS(load.judge("can0", 1, 1000.0, 0.8, why), Status::kOverBudget);
+  ASSERT_STATUS(load.judge("can0", 1, 1000.0, 0.8, true, why), Status::kOverBudget);
+}
+
+/// A queue that is known to hold nothing is none.
+void a_queue_shorter_than_a_cycle_is_refused(void**) {
+  static Message why;
+  ASSERT_OK(judge_queue("can0", 10, 10, why));
+  ASSERT_OK(judge_queue("can0", -1, 10, why));
+  for (const int queue : {0, 1, 9}) {
+    ASSERT_STATUS(judge_queue("can0", queue, 10, why), Status::kTooLarge);
+    static Message expected;
+    expected = Message("bus can0: its queue holds ");
+    expected << queue << " frames, a cycle sends up to 10; ip link set can0 txqueuelen 64";
+    assert_string_equal(why.c_str(), expected.c_str());
+  }
 }
 
 }  // namespace
@@ -146,6 +164,7 @@ int main() {
       cmocka_unit_test(classic_frames_on_a_can_fd_bus_last_as_long_as_on_a_classic_one),
       cmocka_unit_test(a_cycle_that_does_not_fit_is_refused_with_what_helps),
       cmocka_unit_test(the_limit_itself_fits_and_nan_does_not),
+      cmocka_unit_test(a_queue_shorter_than_a_cycle_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -100,12 +100,6 @@ void an_answer_that_breaks_the_protocol_is_aborted(void**) {
        "unknown command (05040001h)"},
       {"582 C3 08 10 00 00 00 00 00", nullptr, SdoAbort::kCommand, "602 80 08 10 00 01 00 04 05",
        "unknown command (05040001h)"},
-      {"582 43 09 10 00 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
-      {"582 43 08 11 00 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
-      {"582 43 08 10 01 00 00 00 00", nullptr, SdoAbort::kIncompatible,
-       "602 80 08 10 00 43 00 04 06", "parameters are incompatible (06040043h)"},
       {"582 41 08 10 00 81 00 00 00", nullptr, SdoAbort::kOutOfMemory,
        "602 80 08 10 00 05 00 04 05", "out of memory (05040005h)"},
       {"582 41 08 10 00 FF FF FF FF", nullptr, SdoAbort::kOutOfMemory,
@@ -138,8 +132,8 @@ void answers_to_a_write_are_checked_likewise(void**) {
   SdoBench bench;
   bench.client.download(1, 0x6060, 0, 10, 1, 0);
   bench.expect("601 2F 60 60 00 0A 00 00 00");
-  bench.answer("581 60 61 60 00 00 00 00 00");
-  bench.expect("601 80 60 60 00 43 00 04 06");
+  bench.answer("581 40 60 60 00 00 00 00 00");
+  bench.expect("601 80 60 60 00 01 00 04 05");
   bench.assert_progress(Progress::kAborted);
   bench.client.download(1, 0x6060, 0, 10, 1, 0);
   bench.expect("601 2F 60 60 00 0A 00 00 00");
@@ -183,6 +177,38 @@ void a_transfer_that_is_given_up_is_aborted_before_the_next_begins(void**) {
   bench.assert_progress(Progress::kDone);
 }
 
+/// Whatever it says: late answers, and those to another master, are no answers.
+void answers_on_other_objects_are_ignored_until_the_time_is_over_which_names_them(void**) {
+  constexpr const char* kOthers[] = {"581 43 18 10 01 92 01 02 00", "581 43 00 10 01 92 01 02 00",
+                                     "581 60 00 10 02 00 00 00 00", "581 80 18 10 00 00 00 02 06",
+                                     "581 00 54 69 6E 79 20 4E 6F", "581 20 00 00 00 00 00 00 00",
+                                     "581 80 60 60 00 00 00 02 06"};
+  SdoBench bench;
+  bench.client.upload(1, 0x1000, 0, 0);
+  bench.expect("601 40 00 10 00 00 00 00 00");
+  for (const char* other : kOthers) bench.answer(other);
+  bench.assert_progress(Progress::kBusy);
+  bench.expect_silence();
+  bench.answer("581 41 00 10 00 09 00 00 00");
+  bench.expect("601 60 00 00 00 00 00 00 00");
+  bench.answer("581 80 60 60 00 00 00 02 06");  // while segments travel
+  bench.answer("581 43 60 60 00 00 00 02 06");
+  bench.assert_progress(Progress::kBusy);
+  bench.now_ns += 500 * SdoBench::kMs_ns;
+  bench.answer("581 43 61 60 07 00 00 02 06");
+  bench.assert_aborted(SdoAbort::kTimeout,
+                       "node 1: object 1000h:0: no answer within 500 ms, but one on 6061h:7 "
+                       "(05040000h)");
+  bench.expect("601 80 00 10 00 00 00 04 05");
+  bench.client.download(1, 0x6060, 0, 10, 1, bench.now_ns);
+  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  for (const char* other : {"581 60 61 60 00 00 00 00 00", "581 80 00 10 00 00 00 02 06"})
+    bench.answer(other);
+  bench.assert_progress(Progress::kBusy);
+  bench.answer("581 80 60 60 00 30 00 09 06");
+  bench.assert_aborted(SdoAbort::kRange, "node 1: object 6060h:0: value out of range (06090030h)");
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -200,6 +226,8 @@ int main() {
       cmocka_unit_test(acknowledged_segments_must_alternate),
       cmocka_unit_test(what_does_not_fit_is_not_written),
       cmocka_unit_test(a_transfer_that_is_given_up_is_aborted_before_the_next_begins),
+      cmocka_unit_test(
+          answers_on_other_objects_are_ignored_until_the_time_is_over_which_names_them),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

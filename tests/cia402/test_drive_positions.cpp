@@ -28,6 +28,54 @@ void a_single_turn_encoder_is_placed_in_the_joints_range(void**) {
   assert_int_equal(arm.commands[3].target_position, arm.feedbacks[3].position);
 }
 
+/// A drive that counts from 0 to a turn, in a motion over that edge, there and back.
+void a_single_turn_encoder_may_begin_anew_in_a_motion(void**) {
+  constexpr std::int32_t kTurn = 16777216, kStep = 3000;
+  constexpr double kStep_rad = 6.283185307179586 * kStep / kTurn;
+  ArmOfDrives arm(CommandMode::kPosition);
+  arm.settings.encoder = Encoder::kSingleTurn;
+  std::int32_t& count = arm.feedbacks[0].position;
+  count = kTurn - 50 * kStep;
+  Message why;
+  ASSERT_OK(arm.drives.attach(CommandMode::kPosition, arm.feedbacks, why));
+  arm.arm();
+  for (int i = 0; i < 400; ++i) {
+    const double at = -50 * kStep_rad + kStep_rad * (i < 200 ? i : 400 - i);
+    arm.command.value[0] = at;
+    for (int j = 1; j < kDof; ++j) arm.command.value[j] = arm.state.q[j];
+    arm.cycle(DriveRequest::kFollow);
+    ASSERT_NEAR(arm.state.q[0], at, 1e-9);
+    assert_true(arm.all(DriveState::kEnabled));
+    assert_int_equal(arm.commands[0].target_position, count);
+    count = ((count + (i < 200 ? kStep : -kStep)) % kTurn + kTurn) % kTurn;
+  }
+}
+
+/// The joint's range must say which turn it is.
+void more_than_a_turn_of_the_encoder_in_the_range_is_refused(void**) {
+  ArmOfDrives arm;
+  Message why;
+  arm.settings.encoder = Encoder::kSingleTurn;
+  arm.settings.gear_ratio[2] = 10.0;
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  assert_string_equal(
+      why.c_str(),
+      "joint 3: [cia402] encoder = single_turn knows its place within a turn, 0.628"
+      "319 rad with gear_ratio 10, less than the range of the joint, 5.7946 rad; use"
+      " multi_turn, or an encoder at the joint (gear_ratio 1)");
+  arm.settings.encoder = Encoder::kMultiTurn;
+  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, why));
+}
+
+void increments_are_whole(void**) {
+  ArmOfDrives arm;
+  Message why;
+  arm.settings.increments[6] = 1.5;
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  assert_string_equal(
+      why.c_str(), "joint 7: [cia402] increments is 1.5; 608Fh:1 of its drive is a whole number");
+}
+
 /// The first target of an enabled drive is where it is.
 void positions_are_attached_without_a_step(void**) {
   ArmOfDrives arm(CommandMode::kPosition);
@@ -68,6 +116,9 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_position_outside_the_range_is_refused_with_its_joint),
       cmocka_unit_test(a_single_turn_encoder_is_placed_in_the_joints_range),
+      cmocka_unit_test(a_single_turn_encoder_may_begin_anew_in_a_motion),
+      cmocka_unit_test(more_than_a_turn_of_the_encoder_in_the_range_is_refused),
+      cmocka_unit_test(increments_are_whole),
       cmocka_unit_test(positions_are_attached_without_a_step),
       cmocka_unit_test(positions_are_differentiated_over_the_time_between_them),
   };

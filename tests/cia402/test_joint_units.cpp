@@ -72,6 +72,31 @@ void a_counter_is_followed_beyond_its_end(void**) {
   assert_int_equal(units.position(units.q(3000000000)), -1294967296);
 }
 
+/// The numbers of a turn of an encoder, in every way in which a drive may write them.
+void a_counter_that_begins_anew_at_a_turn_is_followed(void**) {
+  constexpr std::int64_t kSize = 1000;
+  constexpr std::int64_t kTurns[] = {16777216, 4096, 100003, 2147483648};
+  for (const std::int64_t turn : kTurns)
+    for (const std::int64_t first : {std::int64_t{0}, -turn / 2}) {
+      Random random{11};
+      std::int64_t truth = first;
+      PositionCounter counter;
+      const auto shown = [&](std::int64_t value) {
+        const std::int64_t within = ((value - first) % turn + turn) % turn + first;
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(within));
+      };
+      const auto added = truth - shown(truth);
+      counter.start(shown(truth), added, turn);
+      for (int i = 0; i < 4 * kSize; ++i) {
+        truth += static_cast<std::int64_t>(
+            random.uniform(i < 2 * kSize ? -0.4 : -0.49, i < 2 * kSize ? 0.49 : 0.4) *
+            static_cast<double>(turn));
+        assert_true(counter.follow(shown(truth)) == truth);
+        assert_true(counter.added() == truth - shown(truth));
+      }
+    }
+}
+
 }  // namespace
 }  // namespace tactus::cia402
 
@@ -84,6 +109,7 @@ int main() {
       cmocka_unit_test(every_number_survives_the_way_there_and_back),
       cmocka_unit_test(what_a_drive_cannot_say_is_its_largest_number),
       cmocka_unit_test(a_counter_is_followed_beyond_its_end),
+      cmocka_unit_test(a_counter_that_begins_anew_at_a_turn_is_followed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

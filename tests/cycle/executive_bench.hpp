@@ -28,6 +28,7 @@ class FakeHal final : public Hal {
   RobotState state;      // what is measured
   RobotCommand command;  // what the drives followed last
   Status connect_status = Status::kOk, read_status = Status::kOk, write_status = Status::kOk;
+  Status disconnect_status = Status::kOk;
   std::uint64_t read_ns = 0, write_ns = 0;  // how long reading and writing take
   int reads = 0, writes = 0, stops = 0;     // writes: to drives that follow
   std::int64_t delay_ns = 0;                // age of the state
@@ -61,7 +62,10 @@ class FakeHal final : public Hal {
     if (follow) command = sent;
     return write_status;
   }
-  void disconnect() override { all(DriveState::kDisabled); }
+  Status disconnect() override {
+    all(DriveState::kDisabled);
+    return disconnect_status;
+  }
 
   bool enabled() const { return state.drives[0].state == DriveState::kEnabled; }
   void all(DriveState drives) { state.drives.fill({drives, true}); }

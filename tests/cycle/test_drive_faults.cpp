@@ -59,7 +59,10 @@ class FaultyHal final : public Hal {
     take_step(command.request);
     return random_.below(2000) == 0 ? Status::kConnectionLost : Status::kOk;
   }
-  void disconnect() override { set(DriveState::kDisabled); }
+  Status disconnect() override {
+    set(DriveState::kDisabled);
+    return Status::kOk;
+  }
   bool followed() const { return followed_; }
 
  private:

@@ -72,7 +72,7 @@ class WatchedHal final : public Hal {
   Status connect(CommandMode mode) override { return inner.connect(mode); }
   Status read(const CycleTime& now, RobotState& state) override { return inner.read(now, state); }
   Status write(const RobotCommand& command) override { return inner.write(sent = command); }
-  void disconnect() override { inner.disconnect(); }
+  Status disconnect() override { return inner.disconnect(); }
 };
 
 void drives_that_do_not_follow_get_none(void**) {

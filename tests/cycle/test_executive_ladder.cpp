@@ -186,7 +186,7 @@ void a_halt_brakes_then_disables_and_an_off_disables_at_once(void**) {
 
   Bench& off = started();
   ASSERT_OK(off.cycle());
-  off.executive.stop();
+  static_cast<void>(off.executive.stop());
   assert_event(off, Cause::kOff, Status::kNotStarted, Rung::kNominal, Rung::kDisabled);
 }
 

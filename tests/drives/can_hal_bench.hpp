@@ -35,6 +35,9 @@ struct CanHalBench {
   Executive executive{hal, pipeline};
   std::int64_t now_ns = -kPeriod_ns, drives_ns = 0;
   std::vector<CanFrame> sent;  ///< by the Hal in the last cycle, of all buses
+  std::vector<CanFrame> log;   ///< by the Hal since the test emptied it
+  std::array<int, kMaxBuses> syncs{};
+  bool (*passes)(CanFrame& answer) = nullptr;  ///< what the wire does to a frame of a drive
 
   CanHalBench(const CanHalBench&) = delete;
   CanHalBench& operator=(const CanHalBench&) = delete;
@@ -99,6 +102,8 @@ struct CanHalBench {
       CanFrame frame;
       while (ends[bus] && ends[bus]->descriptor() >= 0 && ends[bus]->receive(frame)) {
         sent.push_back(frame);
+        log.push_back(frame);
+        syncs[bus] += frame.id == kSyncId ? 1 : 0;
         arm.receive(bus, frame, drives_ns);
       }
     }
@@ -106,7 +111,8 @@ struct CanHalBench {
     for (std::size_t bus = 0; bus < ends.size(); ++bus) {
       CanFrame frame;
       while (arm.take(bus, frame))
-        if (ends[bus] && ends[bus]->descriptor() >= 0) ends[bus]->send(frame);
+        if ((passes == nullptr || passes(frame)) && ends[bus] && ends[bus]->descriptor() >= 0)
+          ends[bus]->send(frame);
     }
   }
   Status cycle() {

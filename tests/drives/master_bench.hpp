@@ -56,7 +56,7 @@ class WiredHal final : public Hal {
   }
   Status connect(CommandMode) override {
     constexpr std::int64_t kStep_ns = 100'000, kMost_ns = 20'000'000'000;
-    disconnect();
+    static_cast<void>(disconnect());
     const std::int64_t began_ns = time_ns_;
     master.connect(0);
     Status status = Status::kArming;
@@ -88,10 +88,11 @@ class WiredHal final : public Hal {
     ++cycle;
     return fault_;
   }
-  void disconnect() override {
+  Status disconnect() override {
     master.leave();
     deliver();
     fault_ = Status::kNotStarted;
+    return Status::kOk;
   }
   Message trouble() override { return master.trouble(); }
 

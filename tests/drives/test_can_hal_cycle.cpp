@@ -142,14 +142,14 @@ void is_closed(CanHalBench& bench) {
 
 void disconnecting_is_safe_before_anything_else(void**) {
   CanHalBench& bench = fresh(1);
-  bench.hal.disconnect();
-  bench.hal.disconnect();
+  static_cast<void>(bench.hal.disconnect());
+  static_cast<void>(bench.hal.disconnect());
   RobotState state;
   ASSERT_STATUS(bench.hal.read({0}, state), Status::kNotStarted);
   ASSERT_STATUS(bench.hal.write(RobotCommand()), Status::kNotStarted);
   ASSERT_OK(bench.load());
-  bench.hal.disconnect();
-  bench.hal.disconnect();
+  static_cast<void>(bench.hal.disconnect());
+  static_cast<void>(bench.hal.disconnect());
   ASSERT_STATUS(bench.hal.read({0}, state), Status::kNotStarted);
 }
 
@@ -166,8 +166,8 @@ void disconnecting_is_safe_when_connected_armed_or_lost(void**) {
       bench.ends[0].reset();
       ASSERT_STATUS(bench.cycle(), Status::kConnectionLost);
     }
-    bench.hal.disconnect();
-    bench.hal.disconnect();
+    static_cast<void>(bench.hal.disconnect());
+    static_cast<void>(bench.hal.disconnect());
     is_closed(bench);
   }
 }
@@ -206,7 +206,7 @@ void disconnecting_waits_until_drives_that_follow_are_disabled(void**) {
   CanHalBench& bench = fresh(1);
   start(bench);
   for (int i = 0; i < 10; ++i) ASSERT_OK(bench.cycle());
-  bench.while_drives_answer([&] { bench.hal.disconnect(); });
+  bench.while_drives_answer([&] { static_cast<void>(bench.hal.disconnect()); });
   for (int j = 0; j < kDof; ++j) {
     assert_false(bench.arm.node(j).axis().powered());
     assert_true(bench.arm.node(j).axis().braked());

@@ -165,6 +165,20 @@ void a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out(void**) {
   }
 }
 
+void a_bus_on_which_nobody_is_heard_is_named_with_its_remedy(void**) {
+  MasterBench& bench = fresh_bench();
+  bench.can.interfaces = Value("vcan0 vcan1");
+  bench.can.bus[6] = 2;
+  ASSERT_OK(bench.load());
+  disturb(bench, Wire::kLoses, false, 0x707, 1 << 30);
+  assert_refused(bench, 6, Status::kBusTimeout);
+  assert_true(says(bench, "bus vcan1: no drive is heard: joint 7 (node 7): no boot-up message"));
+  assert_true(says(bench, "cabling, termination, bit rate and [can] interfaces"));
+  disturb(bench, Wire::kLoses, false, 0x703, 1 << 30);
+  assert_refused(bench, 2, Status::kBusTimeout);
+  assert_true(says(bench, "bus vcan0: joint 3 (node 3): no boot-up message"));
+}
+
 // A drive that restarts has lost what was written to it.
 void a_drive_that_restarts_between_connecting_and_arming_is_not_armed(void**) {
   for (const int joint : kJoints) {
@@ -215,6 +229,7 @@ int main() {
       cmocka_unit_test(a_drive_that_is_not_the_one_of_the_settings_is_refused),
       cmocka_unit_test(a_scaling_that_differs_from_the_settings_is_refused),
       cmocka_unit_test(a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out),
+      cmocka_unit_test(a_bus_on_which_nobody_is_heard_is_named_with_its_remedy),
       cmocka_unit_test(a_drive_that_restarts_between_connecting_and_arming_is_not_armed),
       cmocka_unit_test(drives_of_two_buses_may_have_the_same_numbers),
       cmocka_unit_test(a_bus_that_is_down_is_refused_until_it_is_up),

@@ -1,5 +1,5 @@
 // The master against the emulated drives: armed, commanded and stopped through an executive.
-#include "tests/drives/master_bench.hpp"
+#include "tests/drives/fault_bench.hpp"
 
 namespace tactus::can {
 namespace {
@@ -46,6 +46,34 @@ void drives_that_carry_the_weight_are_taken_over_without_a_step(void**) {
   }
 }
 
+constexpr int kFeedbackOf2 = 0x182;
+
+/// The first late frame comes with the next one, and nothing is older than before.
+void feedback_that_is_late_again_and_again_and_comes_with_the_next_goes_on(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  for (int i = 0; i < 30; ++i) {
+    disturb(bench, Wire::kDelays, false, kFeedbackOf2, 1);
+    ASSERT_OK(bench.cycles(10));
+  }
+}
+
+/// Whatever has been lost, or is later by so many cycles from now on.
+void feedback_that_is_lost_again_and_again_stops_the_arm(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  for (int i = 0; i < 3; ++i) {
+    disturb(bench, Wire::kLoses, false, kFeedbackOf2, 1);
+    ASSERT_OK(bench.cycles(100));
+  }
+  disturb(bench, Wire::kLoses, false, kFeedbackOf2, 1);
+  ASSERT_STATUS(bench.cycles(100), Status::kBusTimeout);
+  const Message trouble = bench.hal.trouble();
+  assert_non_null(std::strstr(trouble.c_str(), "joint 2: no feedback in more cycles than"));
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -54,6 +82,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_arm_is_taken_over_and_held_where_it_stands),
       cmocka_unit_test(drives_that_carry_the_weight_are_taken_over_without_a_step),
+      cmocka_unit_test(feedback_that_is_late_again_and_again_and_comes_with_the_next_goes_on),
+      cmocka_unit_test(feedback_that_is_lost_again_and_again_stops_the_arm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -105,7 +105,7 @@ class RandomRun {
         connect();
     }
     if (random_.below(200) == 0) bench_.executive.halt();
-    if (random_.below(1000) == 0) bench_.executive.stop();
+    if (random_.below(1000) == 0) static_cast<void>(bench_.executive.stop());
     if (random_.below(20) == 0) {
       JointSpace::Point point;
       point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.02, 0.02));

@@ -46,7 +46,10 @@ class GuardedHal final : public Hal {
     MUST((limits_.q_min - state_.q).maxCoeff() <= kBeyond);
     return Status::kOk;
   }
-  void disconnect() override { enabled_ = false; }
+  Status disconnect() override {
+    enabled_ = false;
+    return Status::kOk;
+  }
 
  private:
   static constexpr double kBeyond = 1e-6;  // the guard's allowances and rounding, in every unit

@@ -65,7 +65,7 @@ void the_tool_of_the_file_compensates_the_same_payload(void**) {
   loop.plant.payload_kg = 1.0;
   loop.plant.payload_com = Vector3(0.02, 0.0, 0.08);
   ASSERT_OK(loop.start(1000, 1));
-  loop.executive.stop();
+  static_cast<void>(loop.executive.stop());
   loop.pipeline.robot.tool_mass = 1.0;
   loop.pipeline.robot.tool_com = loop.plant.payload_com;
   ASSERT_OK(loop.attach());

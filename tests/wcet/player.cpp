@@ -69,7 +69,7 @@ bool Player::prepare() {
 
 /// The arm is taken over at rest, and then moves as the tape says.
 void Player::start() {
-  executive_.stop();
+  static_cast<void>(executive_.stop());
   const JointVector dq = hal_.state.dq;
   hal_.state.dq.setZero();
   stamp_ns_ = 0;

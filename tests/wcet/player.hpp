@@ -28,7 +28,7 @@ class TapeHal : public Hal {
     return Status::kOk;
   }
   Status write(const RobotCommand&) override { return Status::kOk; }
-  void disconnect() override {}
+  Status disconnect() override { return Status::kOk; }
 
   virtual void told(const Verdict&) {}
   virtual void told(const Report&) {}

@@ -39,7 +39,7 @@ class RecordingHal final : public Hal {
     return Status::kOk;
   }
   Status write(const RobotCommand& command) override { return robot_.write(command); }
-  void disconnect() override { robot_.disconnect(); }
+  Status disconnect() override { return robot_.disconnect(); }
   /// Begins the tape with the state in which the arm was taken over.
   void begin() {
     put_state(state_, TapeOp::kStart);

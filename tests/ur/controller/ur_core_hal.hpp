@@ -46,7 +46,7 @@ class CoreHal final : public Hal {
     machine.io.input.ints[kServoRegister] = ++count_;
     return Status::kOk;
   }
-  void disconnect() override {}
+  Status disconnect() override { return Status::kOk; }
 
   void tick() { bench_.ticks(1); }
   void set_slider(double fraction) { bench_.controller().machine().io.speed_fraction = fraction; }

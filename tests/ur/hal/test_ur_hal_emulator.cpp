@@ -154,7 +154,7 @@ void a_controller_that_goes_away_is_seen_at_once(void**) {
 // Proves URH-20.
 void a_cycle_loop_that_ends_leaves_an_arm_at_rest(void**) {
   UrArmBench& bench = moving();
-  bench.executive.stop();
+  static_cast<void>(bench.executive.stop());
   g_robot->pass(200);
   RobotState state;
   ASSERT_OK(bench.hal.connect(CommandMode::kPosition));

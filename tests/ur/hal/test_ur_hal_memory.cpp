@@ -47,7 +47,7 @@ void a_start_allocates_nothing(void**) {
   UrHalBench& bench = g_bench.emplace();
   bench.settings.on_power_off = OnPowerOff::kPowerOn;
   ASSERT_OK(bench.start());
-  bench.executive.stop();
+  static_cast<void>(bench.executive.stop());
   bench.robot.change([](FakeImage& image) {
     image.robot_mode = 3;
     image.runtime_state = 1;

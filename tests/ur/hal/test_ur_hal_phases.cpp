@@ -95,7 +95,7 @@ void a_port_that_is_closed_is_named_when_it_is_needed(void**) {
   ASSERT_OK(bench.connect());
   bench.robot.drop_dashboard();
   ASSERT_OK(bench.arm());
-  bench.executive.stop();
+  static_cast<void>(bench.executive.stop());
   bench.robot.change([](FakeImage& image) { image = FakeImage(); });
   ASSERT_OK(bench.connect());
   bench.robot.change([](FakeImage& image) { image.robot_mode = 3; });
@@ -106,7 +106,7 @@ void a_port_that_is_closed_is_named_when_it_is_needed(void**) {
   assert_arms_now(bench, true);
   bench.robot.drop_primary();
   ASSERT_OK(bench.cycles(5));  // motion does not need it
-  bench.executive.stop();
+  static_cast<void>(bench.executive.stop());
   bench.robot.change([](FakeImage& image) {
     image.runtime_state = 1;
     image.robot_mode = 3;

@@ -165,9 +165,9 @@ void a_wire_that_is_closed_leaves_a_program_that_was_told_to_end(void**) {
   UrExchange& bench = g_exchange.emplace();
   bench.open();
   bench.exchange_until(DriveRequest::kArm, DriveState::kEnabled);
-  bench.hal.disconnect();
+  static_cast<void>(bench.hal.disconnect());
   bench.robot.set_point(kServoEnded);
-  bench.hal.disconnect();
+  static_cast<void>(bench.hal.disconnect());
   ASSERT_STATUS(bench.hal.read(bench.now, bench.state), Status::kNotStarted);
   ASSERT_STATUS(bench.hal.write({}), Status::kNotStarted);
   const std::int64_t before_ns = bench.now.stamp_ns;

@@ -1,0 +1,72 @@
+// Drives: their settings, and which of them cannot be.
+#include "hal/cia402/drives.hpp"
+
+namespace tactus::cia402 {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
+constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
+
+}  // namespace
+
+Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
+                         Message& why) {
+  settings_ = &settings;
+  period_s_ = 1e-6 * period_us;
+  hold_.configure(settings, tool, period_s_);
+  const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
+                            settings.stop_ms * kMillisecond_ns};
+  for (int j = 0; j < kDof; ++j) {
+    Joint& joint = joints_[static_cast<std::size_t>(j)];
+    joint.units = {settings.increments[j], settings.gear_ratio[j], settings.rated_torque[j],
+                   settings.direction[j], settings.position_offset[j]};
+    joint.machine.configure(times);
+    why = joint_text(j);
+    why << ": [cia402] ";
+    TRY(judge_torque(j, why));
+    TRY(judge_position(j, why));
+  }
+  why = {};
+  return Status::kOk;
+}
+
+Status Drives::judge_torque(int j, Message& why) const {
+  const JointUnits& units = joints_[static_cast<std::size_t>(j)].units;
+  if (!(units.rated_Nm > 0.0)) {
+    why << "rated_torque is missing; it is 6076h of its drive, in N m";
+    return Status::kMissingKey;
+  }
+  const int bit = settings_->referenced_bit;
+  if (bit >= 0 && bit < kFirstFreeBit) {
+    why << "referenced_bit is " << bit << ", which is of the state; 7 to 15 or -1";
+    return Status::kBadValue;
+  }
+  const double most_Nm = kLargest * units.torque_step();
+  if (limits_.tau_max[j] <= most_Nm) return Status::kOk;
+  why << "rated_torque is " << units.rated_Nm << " N m, of which 32767 permille are " << most_Nm
+      << " N m, less than the joint's torque limit of " << limits_.tau_max[j]
+      << " N m; the drive needs a larger one";
+  return Status::kBadValue;
+}
+
+Status Drives::judge_position(int j, Message& why) const {
+  const JointUnits& units = joints_[static_cast<std::size_t>(j)].units;
+  if (std::abs(units.direction) != 1.0) {
+    why << "direction is " << units.direction << "; it must be 1 or -1";
+    return Status::kBadValue;
+  }
+  if (std::floor(units.encoder) != units.encoder) {
+    why << "increments is " << units.encoder << "; 608Fh:1 of its drive is a whole number";
+    return Status::kBadValue;
+  }
+  const double turn_rad = units.encoder * units.angle_step();
+  const double range_rad = limits_.q_max[j] - limits_.q_min[j];
+  if (settings_->encoder != Encoder::kSingleTurn || range_rad < turn_rad) return Status::kOk;
+  why << "encoder = single_turn knows its place within a turn, " << turn_rad
+      << " rad with gear_ratio " << units.gear << ", less than the range of the joint, "
+      << range_rad << " rad; use multi_turn, or an encoder at the joint (gear_ratio 1)";
+  return Status::kBadValue;
+}
+
+}  // namespace tactus::cia402
