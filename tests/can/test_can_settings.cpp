@@ -36,6 +36,7 @@ void assert_refused(const char* interfaces, Status status, const char* why) {
   assert_string_equal(plan.master.why().c_str(), why);
 }
 
+// Proves CAN-9.
 void names_that_no_interface_can_have_are_refused(void**) {
   ASSERT_OK(fresh().judge());
   assert_refused("can0 abcdefghijklmnop", Status::kTooLarge,

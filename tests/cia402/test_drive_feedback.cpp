@@ -17,6 +17,7 @@ Status hears(ArmOfDrives& arm, int silent, int heard, int late = 0) {
   return Status::kOk;
 }
 
+// Proves CAN-3.
 /// Each gap may make what comes after it older; nothing in a frame says how old it is.
 void feedback_that_is_missing_again_and_again_stops_the_arm_as_a_long_gap_does(void**) {
   static ArmOfDrives arm;

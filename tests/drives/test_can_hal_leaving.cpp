@@ -47,6 +47,7 @@ bool says(const CanHalBench& bench, const char* text) {
   return false;
 }
 
+// Proves CAN-15.
 void every_drive_that_has_confirmed_is_released(void**) {
   CanHalBench& bench = following(3, 2000);
   ASSERT_OK(leave(bench));

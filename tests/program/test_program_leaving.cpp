@@ -44,6 +44,7 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
   return doubtful().robot.load(sections.plant, options.seed);
 }
 
+// Proves CAN-15.
 /// The threads of log and trajectory still run when the wire is closed: drives that watch for
 /// commands do not wait until they have ended.
 void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_1(void**) {
