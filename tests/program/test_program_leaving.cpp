@@ -54,10 +54,13 @@ void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_
                          "0.1",    "--no-figure", "--out",      out.c_str()};
   char* arguments[16] = {};
   for (std::size_t i = 0; i < std::size(words); ++i) arguments[i] = const_cast<char*>(words[i]);
+  const int kept = dup(STDERR_FILENO);
   assert_non_null(std::freopen(in_folder("err").c_str(), "w", stderr));
   const int code = run_board<SimSections>(static_cast<int>(std::size(words)), arguments,
                                           {"doubtful", doubtful(), 0, false, configure});
   std::fflush(stderr);
+  assert_int_equal(dup2(kept, STDERR_FILENO), STDERR_FILENO);
+  close(kept);
   assert_int_equal(code, 1);
   assert_true(has(errors(), "rt.ini: not disabled: "));
   assert_true(has(errors(), ": joint 3: it has not confirmed\n"));
