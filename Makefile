@@ -74,6 +74,8 @@ BARE_BOARDS := fer_m7 ur10_m7
 RUN_BOARDS  := $(if $(filter command,$(origin BOARD)),$(BOARD),$(filter-out $(BARE_BOARDS),$(BOARDS)))
 # `make run ONLY="fer_trg_cpc ur10_trg_cpc"` runs these, and ALWAYS=1 also what has not changed.
 RUN_OPTIONS := $(if $(strip $(ONLY)),--only '$(ONLY)') $(if $(ALWAYS),--always)
+# Those of a board with its processor in the loop always, because its image is no file that a run is known by.
+RUN_OPTIONS += $(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),--always --out out/$(RUN_BOARDS))
 
 # What runs at load and what a client runs, outside the cycle.
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
