@@ -23,7 +23,8 @@ void write_terms(ByteWriter& to, const TrajectoryTerms& terms) {
 }
 
 bool read_terms(ByteReader& from, TrajectoryTerms& terms) {
-  terms.poses = from.u8() != 0;
+  const std::uint8_t space = from.u8();
+  terms.poses = space == 1;
   terms.fields = from.u8();
   terms.interpolation = static_cast<Interpolation>(from.u8());
   terms.exact = from.u8() != 0;
@@ -31,7 +32,8 @@ bool read_terms(ByteReader& from, TrajectoryTerms& terms) {
   terms.held = from.u32();
   terms.motion = read_short_text(from);
   terms.wrench = read_short_text(from);
-  return from.done() && terms.fields <= kAllFields && name(terms.interpolation) != nullptr;
+  return from.done() && space <= 1 && terms.fields <= kAllFields &&
+         name(terms.interpolation) != nullptr;
 }
 
 template <class Space>

@@ -48,9 +48,12 @@ Verdict ReferenceServer<Space>::begin(const TrajectoryTerms& terms) {
 template <class Space>
 Verdict ReferenceServer<Space>::take(ByteReader& waypoints, int count, int& taken) {
   if (trajectory_ == nullptr) return {Status::kNothingToExtend};
+  const int numbers = 1 + Space::numbers(trajectory_->fields);
+  if (!waypoints.ok() ||
+      waypoints.left() != sizeof(double) * static_cast<std::size_t>(count * numbers))
+    return {Status::kWireFormat};
   for (taken = 0; taken < count; ++taken) {
     const auto waypoint = read_waypoint<Space>(waypoints, trajectory_->fields);
-    if (!waypoints.ok()) return {Status::kWireFormat};
     if (!sent_ && trajectory_->count < trajectory_->capacity) {
       trajectory_->set(trajectory_->count++, waypoint);
       continue;
@@ -60,7 +63,7 @@ Verdict ReferenceServer<Space>::take(ByteReader& waypoints, int count, int& take
     if (verdict.status == Status::kWindowFull) return {};
     if (!verdict.ok()) return verdict;
   }
-  return waypoints.done() ? Verdict() : Verdict{Status::kWireFormat};
+  return {};
 }
 
 template <class Space>

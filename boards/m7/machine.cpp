@@ -19,8 +19,10 @@ Status Machine::start() {
 void Machine::follow(serial::Order order) {
   if (order == order_) return;
   order_ = order;
-  if (order == serial::Order::kArmed) static_cast<void>(executive_.arm());  // the log says why not
-  if (order == serial::Order::kHalted) executive_.halt();
+  if (order == serial::Order::kArmed)
+    static_cast<void>(executive_.arm());  // the log says why not
+  else
+    executive_.halt();
 }
 
 void Machine::cycle(const CycleTime& now, serial::CycleResult& result) {

@@ -42,7 +42,9 @@ class Machine {
   /// Disables the drives at once. [between two cycles]
   void stop() { static_cast<void>(executive_.stop()); }
 
-  /// Calls `act` with the references of a space. [background]
+  /// Whether the pipeline has a generator of that space. [background]
+  bool takes(bool poses) const { return poses ? pipeline_.takes_poses : pipeline_.takes_joints; }
+  /// Calls `act` with the references of a space that it takes. [background]
   template <class Act>
   auto with_references(bool poses, Act act) {
     return poses ? act(poses_.server) : act(joints_.server);

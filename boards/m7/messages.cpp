@@ -73,6 +73,16 @@ void Messages::take_text(ByteReader payload) {
   answer(Status::kOk);
 }
 
+/// Has a machine that has never run load the text, unless there is one.
+Status Messages::prepare() {
+  if (machine_ != nullptr) return Status::kOk;
+  load_error = LoadError();
+  Machine* const machine = new (machine_bytes) Machine(hal_);
+  const Status status = machine->load(text(), load_error);
+  if (status == Status::kOk) machine_ = machine;
+  return status;
+}
+
 /// Loads what has come, or the embedded text. If it is refused, the answer says why, and the
 /// embedded one is there again.
 void Messages::load(ByteReader payload) {
@@ -82,22 +92,18 @@ void Messages::load(ByteReader payload) {
   if (!payload.done() || size > kMaxText) return answer(Status::kTooLarge);
   if (size > 0 && fnv1a({text_.data(), size}) != hash) return answer(Status::kWireFormat);
   text_size_ = size;
-  load_error = LoadError();
-  machine_ = new (machine_bytes) Machine(hal_);
-  const Status status = machine_->load(text(), load_error);
-  if (status != Status::kOk) {
-    machine_ = nullptr;
-    text_size_ = 0;
-  }
+  machine_ = nullptr;
+  const Status status = prepare();
+  if (status != Status::kOk) text_size_ = 0;
   link_.answer(status).short_text(load_error.message());
 }
 
 void Messages::start(ByteReader payload) {
   const auto pace = static_cast<serial::Pace>(payload.u8());
   if (!payload.done() || pace > serial::Pace::kLockStep) return answer(Status::kWireFormat);
-  if (machine_ == nullptr) return answer(Status::kNotStarted);
   if (running() != nullptr) return answer(Status::kNotAtRest);
-  const Status status = machine_->start();
+  Status status = prepare();
+  if (status == Status::kOk) status = machine_->start();
   if (status == Status::kOk) {
     pace_ = pace;
     set_period(machine_->period_us());
@@ -106,7 +112,7 @@ void Messages::start(ByteReader payload) {
   answer(status);
 }
 
-/// A machine that was stopped is not started again, since its telemetry would be that of both runs.
+/// A machine that was stopped is not started again: the next start loads the text anew.
 void Messages::stop() {
   Machine* const running = running_.exchange(nullptr, std::memory_order_acq_rel);
   if (running != nullptr) running->stop();

@@ -29,6 +29,7 @@ class Messages {
 
   void execute(const tactus::serial::Frame& frame);
   void execute_reference(const tactus::serial::Frame& frame);
+  tactus::Status prepare();
   void hello();
   void take_text(tactus::ByteReader payload);
   void load(tactus::ByteReader payload);
@@ -39,6 +40,11 @@ class Messages {
   void control(tactus::ByteReader payload);
   void give_reports();
   void give_fault();
+  template <class Act>
+  tactus::Verdict with_references(bool poses, Act act) {
+    if (!machine_->takes(poses)) return {tactus::Status::kNotOffered};
+    return machine_->with_references(poses, act);
+  }
   void answer(tactus::Status status) { link_.answer(status); }
   void answer(const tactus::Verdict& verdict, std::uint32_t id);
   std::string_view text() const;

@@ -24,6 +24,8 @@ Messages messages(board_link, hal);
 serial::CycleResult result;
 std::atomic<std::uint32_t> pieces{0};  // of background work that ended
 std::uint32_t seen_pieces = 0, unmoved_us = 0;
+const Machine* last_machine = nullptr;  // whose cycles ran in the last period
+int goodbyes = 0;                       // disabling frames that are still to be sent
 
 /// Background work that does not come to an end is a fault as a cycle is that does not.
 void watch_background(std::uint32_t period_us) {
@@ -45,16 +47,29 @@ void run_cycle(Machine& machine) {
   CycleTime now = {now_ns()};
   if (messages.pace() == serial::Pace::kLockStep && !board_link.tick(now)) return;
   const ByteReader state = board_link.state();
-  if (state.left() > 0 && !hal.take(state)) result.status = Status::kWireFormat;
+  if (state.left() > 0) hal.take(state, now);
   provoked_cycle();
   machine.cycle(now, result);
   result.reports = messages.reports();
   board_link.send(result);
 }
 
+/// After the last cycle: a frame may be lost, so it is said more than once.
+void disable_drives() {
+  constexpr int kTimes = 10;
+  if (last_machine != nullptr) goodbyes = kTimes;
+  if (goodbyes == 0) return;
+  --goodbyes;
+  result.command.request = DriveRequest::kDisable;
+  board_link.send(result);
+}
+
 /// What a period has to have time for. A function of its own, since its instructions are counted.
 [[gnu::noinline]] void tick(Machine* machine) {
   board_link.poll();
+  if (machine == nullptr) disable_drives();
+  if (machine != last_machine) board_link.forget();  // what came before the start
+  last_machine = machine;
   if (machine != nullptr) run_cycle(*machine);
   board_link.send_answer();
 }

@@ -19,12 +19,10 @@ void Messages::execute_reference(const serial::Frame& frame) {
     case Kind::kTrajectory:
       if (!read_terms(payload, terms)) return answer(Status::kWireFormat);
       poses_ = terms.poses;
-      return answer(machine_->with_references(poses_, [&](auto& to) { return to.begin(terms); }),
-                    0);
+      return answer(with_references(poses_, [&](auto& to) { return to.begin(terms); }), 0);
     case Kind::kWaypoints: return take_waypoints(payload);
     case Kind::kEnd: {
-      const Verdict verdict =
-          machine_->with_references(poses_, [&](auto& to) { return to.end(id); });
+      const Verdict verdict = with_references(poses_, [&](auto& to) { return to.end(id); });
       return answer(verdict, id);
     }
     case Kind::kPoint: return send_point(payload);
@@ -38,7 +36,7 @@ void Messages::take_waypoints(ByteReader payload) {
   const int count = payload.u8();
   int taken = 0;
   const Verdict verdict =
-      machine_->with_references(poses_, [&](auto& to) { return to.take(payload, count, taken); });
+      with_references(poses_, [&](auto& to) { return to.take(payload, count, taken); });
   answer(verdict, static_cast<std::uint32_t>(taken));
 }
 
@@ -48,19 +46,19 @@ void Messages::send_point(ByteReader payload) {
   const std::size_t size = payload.u8();
   ByteReader head(reinterpret_cast<const std::uint8_t*>(payload.text(size).data()), size);
   if (!payload.ok() || !read_terms(head, terms)) return answer(Status::kWireFormat);
-  const Verdict verdict = machine_->with_references(
-      terms.poses, [&](auto& to) { return to.point(terms, payload, id); });
+  const Verdict verdict =
+      with_references(terms.poses, [&](auto& to) { return to.point(terms, payload, id); });
   answer(verdict, id);
 }
 
 void Messages::control(ByteReader payload) {
-  const bool poses = payload.u8() != 0;
+  const std::uint8_t space = payload.u8();
   const auto kind = static_cast<ControlKind>(payload.u8());
   const double rate = payload.f64();
   std::uint32_t id = 0;
-  if (!payload.done()) return answer(Status::kWireFormat);
+  if (!payload.done() || space > 1) return answer(Status::kWireFormat);
   const Verdict verdict =
-      machine_->with_references(poses, [&](auto& to) { return to.control(kind, rate, id); });
+      with_references(space == 1, [&](auto& to) { return to.control(kind, rate, id); });
   answer(verdict, id);
 }
 

@@ -35,6 +35,11 @@ class BoardLink {
   ByteReader state();
   /// True once for every kTick that came; `now` is its stamp. [cyclic]
   bool tick(CycleTime& now);
+  /// Forgets states and ticks that have come. [cyclic]
+  void forget() {
+    state_size_ = 0;
+    ticked_ = false;
+  }
   /// Sends the result of a cycle, and an answer of the background. [cyclic]
   void send(const CycleResult& result);
   void send_answer();

@@ -52,7 +52,7 @@ void write_state(ByteWriter& to, Order order, const RobotState& state) {
 bool read_state(ByteReader& from, Order& order, RobotState& state) {
   RobotState read;
   Order wanted;
-  bool known = get(from, wanted, Order::kHalted);
+  bool known = get(from, wanted, Order::kArmed);
   read.stamp_ns = static_cast<std::int64_t>(from.u64());
   get(from, read.q);
   get(from, read.dq);

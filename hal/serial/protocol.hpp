@@ -34,7 +34,7 @@ enum class Kind : std::uint8_t {
   kText = 17,        ///< offset u32, bytes of a pipeline's text
   kLoad = 18,        ///< size u32, hash u64 of the text that was sent; 0: the embedded one
   kStart = 19,       ///< Pace u8: connects; cycles begin
-  kStop = 20,        ///< disables the drives at once; cycles end
+  kStop = 20,        ///< disables the drives, without braking; cycles end
   kTrajectory = 21,  ///< begins a trajectory: reference_frames.hpp
   kWaypoints = 22,   ///< its next waypoints -> how many were taken u16
   kEnd = 23,         ///< none follow
@@ -51,9 +51,8 @@ enum class Kind : std::uint8_t {
 
 /// What the computer wants of the arm; it is in every state, so a lost one does no harm.
 enum class Order : std::uint8_t {
-  kDisabled,  ///< nothing: the drives are as the last order left them
+  kDisabled,  ///< brake on the path, then disable the drives; at the start: leave them disabled
   kArmed,     ///< arm, and follow references
-  kHalted,    ///< brake on the path, then disable the drives
 };
 
 enum class Pace : std::uint8_t {

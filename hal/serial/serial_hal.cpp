@@ -34,13 +34,13 @@ Status SerialHal::disconnect() {
   return Status::kOk;
 }
 
-bool SerialHal::take(ByteReader payload) {
+void SerialHal::take(ByteReader payload, const CycleTime& now) {
   RobotState state;
   Order order;
-  if (!read_state(payload, order, state) || state.stamp_ns < state_.stamp_ns) return false;
+  if (!read_state(payload, order, state)) return;
+  if (state.stamp_ns < state_.stamp_ns || state.stamp_ns - kAhead_ns > now.stamp_ns) return;
   state_ = state;
   order_ = order;
-  return true;
 }
 
 }  // namespace tactus::serial

@@ -8,6 +8,8 @@ namespace tactus::serial {
 
 class SerialHal final : public Hal {
  public:
+  static constexpr std::int64_t kAhead_ns = 10'000'000;  ///< most by which a state may be
+
   /// What the plant of a computer takes; whether it is the one of the pipeline is judged there.
   /// [any]
   Capabilities capabilities() const override;
@@ -20,8 +22,9 @@ class SerialHal final : public Hal {
   /// The command is to disable the drives, from now on. [any]
   Status disconnect() override;
 
-  /// Takes the payload of a kState; false: it is malformed, or older than the last. [cyclic]
-  bool take(ByteReader payload);
+  /// Takes the payload of a kState, unless it is malformed, older than the last, or so far ahead
+  /// of the cycle that it would make all others old. [cyclic]
+  void take(ByteReader payload, const CycleTime& now);
   /// The order of the newest state. [any]
   Order order() const { return order_; }
   /// The command of the last cycle. [cyclic]

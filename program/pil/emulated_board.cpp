@@ -18,7 +18,7 @@ extern char** environ;
 namespace tactus::pil {
 namespace {
 
-constexpr int kPatience_ms = 10'000;
+constexpr int kLook_ms = 100, kLooks = 100;  // in all the longest silence
 using Path = Text<64>;
 
 Path in_folder(const char* folder, const char* name) {
@@ -62,8 +62,12 @@ bool EmulatedBoard::spawn(const char* image, Message& why) {
                                    "-kernel",
                                    image,
                                    nullptr};
-  const int error = posix_spawnp(&process_, arguments[0], nullptr, nullptr,
+  posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for this program, which ends it
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int error = posix_spawnp(&process_, arguments[0], nullptr, &attributes,
                                  const_cast<char* const*>(arguments), environ);
+  posix_spawnattr_destroy(&attributes);
   if (error == 0) return true;
   process_ = 0;
   why = Message("qemu-system-arm: ");
@@ -106,13 +110,23 @@ void EmulatedBoard::stop() {
   folder_[0] = '\0';
 }
 
+/// True if the emulator has ended by itself.
+bool EmulatedBoard::has_ended() {
+  if (process_ > 0 && waitpid(process_, nullptr, WNOHANG) == process_) process_ = 0;
+  return process_ == 0;
+}
+
+/// A signal ends no wait: the arm is to be braked first.
 bool EmulatedBoard::read_all(std::uint8_t* to, std::size_t size) {
+  int looks = 0;
   for (std::size_t got = 0; got < size;) {
     pollfd ready = {in_, POLLIN, 0};
-    if (poll(&ready, 1, kPatience_ms) <= 0) return false;
+    const int found = poll(&ready, 1, kLook_ms);
+    if (found == 0 && (has_ended() || ++looks == kLooks)) return false;
+    if (found <= 0) continue;
     const ssize_t part = read(in_, to + got, size - got);
-    if (part <= 0) return false;
-    got += static_cast<std::size_t>(part);
+    if (part == 0 || (part < 0 && errno != EINTR && errno != EAGAIN)) return false;
+    if (part > 0) got += static_cast<std::size_t>(part);
   }
   return true;
 }
@@ -130,7 +144,11 @@ bool EmulatedBoard::send(const std::uint8_t* bytes, std::size_t size) {
   part[0] = static_cast<std::uint8_t>(size >> 8);
   part[1] = static_cast<std::uint8_t>(size);
   std::memcpy(part.data() + 2, bytes, size);
-  return write(out_, part.data(), 2 + size) == static_cast<ssize_t>(2 + size);
+  ssize_t written = 0;
+  do {
+    written = write(out_, part.data(), 2 + size);  // whole: a pipe holds more
+  } while (written < 0 && errno == EINTR);
+  return written == static_cast<ssize_t>(2 + size);
 }
 
 }  // namespace tactus::pil

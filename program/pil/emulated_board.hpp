@@ -33,6 +33,7 @@ class EmulatedBoard {
   void end_process();
   bool make_pipes(Message& why);
   bool spawn(const char* image, Message& why);
+  bool has_ended();
   bool read_all(std::uint8_t* to, std::size_t size);
 
   std::array<char, 32> folder_{};

@@ -1,5 +1,7 @@
 #include "program/pil/pil_board.hpp"
 
+#include <unistd.h>
+
 #include "program/pil/pil_hal.hpp"
 #include "program/run_board.hpp"
 #include "program/sim/sim_sections.hpp"
@@ -17,21 +19,20 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
   return plant().load(sections.plant, options.seed);
 }
 
-std::string_view folder_of(std::string_view path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string_view::npos ? "." : path.substr(0, slash);
-}
-
 /// The image lies beside the folder of the program: build/BOARD/tactus, build/BOARD-m7/image.elf.
-FilePath image_of(std::string_view board, std::string_view program) {
-  FilePath path(folder_of(program));
-  return path << "/../" << board << "-m7/image.elf";
+FilePath image_of(std::string_view board) {
+  char program[512];
+  const ssize_t size = readlink("/proc/self/exe", program, sizeof program);
+  std::string_view folder(program, size > 0 ? static_cast<std::size_t>(size) : 0);
+  folder = folder.substr(0, folder.rfind('/'));
+  FilePath path(folder.substr(0, folder.rfind('/')));
+  return path << "/" << board << "-m7/image.elf";
 }
 
 }  // namespace
 
 int run_pil_board(int argc, char** argv, const char* board) {
-  static const FilePath image = image_of(board, argv[0]);
+  static const FilePath image = image_of(board);
   static pil::PilHal hal(plant(), image.c_str());
   return run_board<SimSections>(argc, argv,
                                 {board, hal, sizeof hal, false, configure, nullptr, &hal});

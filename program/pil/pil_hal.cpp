@@ -42,10 +42,15 @@ Status PilHal::connect(CommandMode mode) {
   if (!emulator_.start(image_, why_)) return Status::kConnectionLost;
   board_.begin();
   order_ = serial::Order::kDisabled;
-  stepped_ = false;
+  stepped_ = parted_ = false;
   Greeting greeting;
   const Status status = board_.greet(greeting);
-  if (status != Status::kOk) return refuse(status, "does not answer");
+  if (status != Status::kOk) {
+    why_ = Message(image_);
+    why_ << (emulator_.running() ? ": the board does not answer" : ": the emulator has ended")
+         << "; make builds the image anew";
+    return status;
+  }
   if (greeting.version != serial::kVersion || greeting.joints != kDof ||
       std::string_view(greeting.robot) != Robot::kName) {
     why_ = Message("the board is one of ");
@@ -87,12 +92,13 @@ Status PilHal::load() {
 
 /// The outputs are still those of the last cycle.
 Status PilHal::read(const CycleTime& now, RobotState& state) {
-  if (stepped_ && board_.result().row != row_hash(session_->pipeline.recording)) {
+  if (!parted_ && stepped_ && board_.result().row != row_hash(session_->pipeline.recording)) {
     why_ = Message("cycle ");
     why_ << std::size_t{board_.result().cycle}
          << ": the board has recorded other values than this computer";
-    return Status::kMismatch;
+    parted_ = true;
   }
+  if (parted_) return Status::kMismatch;
   TRY(plant_.read(now, state));
   state_ = state;
   now_ns_ = now.stamp_ns;
@@ -100,13 +106,15 @@ Status PilHal::read(const CycleTime& now, RobotState& state) {
 }
 
 Status PilHal::write(const RobotCommand& command) {
-  if (order_ == serial::Order::kDisabled && command.request == DriveRequest::kArm)
-    order_ = serial::Order::kArmed;
+  if (parted_) return plant_.write(command);  // which disables the drives
+  if (command.request == DriveRequest::kArm) order_ = serial::Order::kArmed;
   if (!feed_.feed(board_, why_)) return Status::kRefusedByRobot;
   if (board_.step(order_, state_, now_ns_) != Status::kOk) return silent();
   stepped_ = true;
   TRY(plant_.write(board_.result().command));
-  return compare(command);
+  const Status status = compare(command);
+  parted_ = status != Status::kOk;
+  return status;
 }
 
 Status PilHal::compare(const RobotCommand& command) {

@@ -27,7 +27,7 @@ class PilHal final : public Hal, public Follower {
 
   void prepare(const Session& session) override { session_ = &session; }
   bool begin(const TrajectoryInput& input) override;
-  void halt() override { order_ = serial::Order::kHalted; }
+  void halt() override { order_ = serial::Order::kDisabled; }
 
  private:
   Status load();
@@ -45,7 +45,8 @@ class PilHal final : public Hal, public Follower {
   RobotState state_;
   std::int64_t now_ns_ = 0;
   serial::Order order_ = serial::Order::kDisabled;
-  bool stepped_ = false;  // the board has run a cycle whose row was not compared
+  bool stepped_ = false;  // the board has run a cycle
+  bool parted_ = false;   // the two machines have computed different values
 };
 
 }  // namespace tactus::pil

@@ -109,13 +109,56 @@ void a_halt_brakes_and_disables_and_only_a_new_order_arms(void**) {
   BoardBench& bench = fresh();
   bench.start(Pace::kTimer);
   bench.arm(Pace::kTimer);
-  for (int i = 0; i < 2000 && !bench.disabled(); ++i) bench.turns(1, Order::kHalted);
+  for (int i = 0; i < 2000 && !bench.disabled(); ++i) bench.turns(1, Order::kDisabled);
   assert_true(bench.disabled());
   for (int i = 0; i < 200; ++i) {
-    bench.turns(1, Order::kHalted);
+    bench.turns(1, Order::kDisabled);
     assert_true(bench.disabled());
   }
   bench.arm(Pace::kTimer);
+}
+
+void a_stop_disables_the_drives_at_once(void**) {
+  for (const Pace pace : {Pace::kTimer, Pace::kLockStep}) {
+    BoardBench& bench = fresh();
+    bench.start(pace);
+    bench.arm(pace);
+    assert_false(bench.disabled());
+    ASSERT_OK(bench.board.request(Kind::kStop));
+    for (int i = 0; i < 3; ++i) ASSERT_OK(bench.board.turn(nullptr, 0));
+    assert_true(bench.disabled());
+    bench.start(pace);  // the same text again
+    bench.arm(pace);
+  }
+}
+
+void an_order_from_before_the_start_arms_nothing(void**) {
+  BoardBench& bench = fresh();
+  std::uint8_t bytes[2 * serial::kMaxFrame];
+  RobotState old;
+  old.stamp_ns = 5'000'000'000;
+  std::size_t size = bench.board.put_state(Order::kArmed, old, bytes);
+  const std::uint8_t stamp[8] = {0, 0, 0, 1, 42, 5, 242, 0};
+  size += serial::write_frame({Kind::kTick, 0, stamp, 8}, bytes + size);
+  ASSERT_OK(bench.board.turn(bytes, size));
+  bench.start(Pace::kTimer);
+  for (int i = 0; i < 50; ++i) {
+    bench.turns(1, Order::kDisabled);
+    assert_true(bench.disabled());
+  }
+  bench.arm(Pace::kTimer);
+}
+
+void a_state_far_ahead_of_the_cycles_is_not_taken(void**) {
+  BoardBench& bench = fresh();
+  bench.start(Pace::kTimer);
+  bench.arm(Pace::kTimer);
+  std::uint8_t bytes[serial::kMaxFrame];
+  RobotState ahead = bench.state;
+  ahead.stamp_ns = INT64_MAX;
+  const std::size_t size = bench.board.put_state(Order::kArmed, ahead, bytes);
+  ASSERT_OK(bench.board.turn(bytes, size));
+  for (int i = 0; i < 50; ++i) ASSERT_OK(bench.turn(Order::kArmed));
 }
 
 }  // namespace
@@ -127,6 +170,9 @@ int main() {
       cmocka_unit_test(a_fault_disables_the_drives_is_recorded_and_the_arm_can_be_armed_again),
       cmocka_unit_test(a_plant_that_is_not_heard_stops_the_arm_and_it_can_be_armed_again),
       cmocka_unit_test(a_halt_brakes_and_disables_and_only_a_new_order_arms),
+      cmocka_unit_test(a_stop_disables_the_drives_at_once),
+      cmocka_unit_test(an_order_from_before_the_start_arms_nothing),
+      cmocka_unit_test(a_state_far_ahead_of_the_cycles_is_not_taken),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -164,7 +164,6 @@ void what_comes_too_early_too_late_or_malformed_is_refused(void**) {
   std::uint8_t bytes[100] = {};
   const ByteWriter nothing(bytes, 0);
   ASSERT_STATUS(bench.board.request(Kind::kEnd), Status::kNotStarted);
-  ASSERT_STATUS(bench.request(Kind::kStart, 0), Status::kNotStarted);
   bench.start(Pace::kLockStep);
   ASSERT_STATUS(bench.request(Kind::kStart, 1), Status::kNotAtRest);  // it runs
   ASSERT_STATUS(bench.load({}), Status::kNotAtRest);
@@ -177,10 +176,37 @@ void what_comes_too_early_too_late_or_malformed_is_refused(void**) {
   ASSERT_STATUS(control(bench, static_cast<ControlKind>(17)).verdict.status, Status::kWireFormat);
   begin(bench, {});
   ASSERT_STATUS(sent(bench, Kind::kWaypoints, nothing).verdict.status, Status::kWireFormat);
+  std::uint8_t half_bytes[80];
+  ByteWriter half(half_bytes, sizeof half_bytes);
+  half.u8(2);  // waypoints, of which there is one
+  write_waypoint(half, JointWaypoint(), 0);
+  const Sent none = sent(bench, Kind::kWaypoints, half);
+  ASSERT_STATUS(none.verdict.status, Status::kWireFormat);
+  assert_int_equal(none.id, 0);  // was taken
   bench.arm(Pace::kLockStep);
 }
 
+void references_to_a_space_that_the_pipeline_lacks_are_refused(void**) {
+  BoardBench& bench = armed();
+  std::uint8_t bytes[128];
+  TrajectoryTerms terms;
+  terms.poses = true;
+  ByteWriter trajectory(bytes, sizeof bytes);
+  write_terms(trajectory, terms);
+  ASSERT_STATUS(sent(bench, Kind::kTrajectory, trajectory).verdict.status, Status::kNotOffered);
+  ByteWriter cancel(bytes, sizeof bytes);
+  cancel.u8(1);
+  cancel.u8(static_cast<std::uint8_t>(ControlKind::kCancel));
+  cancel.f64(1.0);
+  ASSERT_STATUS(sent(bench, Kind::kControl, cancel).verdict.status, Status::kNotOffered);
+}
+
 // Proves BRD-7.
+void the_embedded_text_is_there_without_a_load(void**) {
+  BoardBench& bench = fresh();
+  ASSERT_OK(bench.request(Kind::kStart, static_cast<std::uint8_t>(Pace::kLockStep)));
+}
+
 void a_text_is_checked_before_it_takes_effect(void**) {
   BoardBench& bench = fresh();
   ASSERT_STATUS(bench.load("[robot]\nname = fer\nperiod_us = 0\n"), Status::kBadValue);
@@ -219,6 +245,8 @@ int main() {
       cmocka_unit_test(a_point_is_executed),
       cmocka_unit_test(a_waypoint_beyond_a_limit_is_refused_with_value_and_limit),
       cmocka_unit_test(what_comes_too_early_too_late_or_malformed_is_refused),
+      cmocka_unit_test(references_to_a_space_that_the_pipeline_lacks_are_refused),
+      cmocka_unit_test(the_embedded_text_is_there_without_a_load),
       cmocka_unit_test(a_text_is_checked_before_it_takes_effect),
       cmocka_unit_test(a_text_that_is_too_long_or_another_than_was_sent_is_refused),
   };

@@ -53,12 +53,12 @@ void every_bit_of_a_state_arrives(void**) {
   for (int trial = 0; trial < 500; ++trial) {
     const RobotState state = any_state();
     ByteWriter writer(g_bytes, sizeof g_bytes);
-    write_state(writer, Order::kHalted, state);
+    write_state(writer, Order::kArmed, state);
     ByteReader reader(g_bytes, writer.size());
     RobotState read;
     Order order = Order::kDisabled;
     assert_true(read_state(reader, order, read));
-    assert_true(order == Order::kHalted);
+    assert_true(order == Order::kArmed);
     assert_same_bits(read.q, state.q);
     assert_same_bits(read.dq, state.dq);
     assert_same_bits(read.tau, state.tau);
@@ -125,7 +125,7 @@ void a_drive_state_or_an_order_that_does_not_exist_is_refused(void**) {
   const std::size_t size = writer.size(), last_drive = size - 7;
   for (const std::size_t at : {std::size_t{0}, last_drive}) {
     const std::uint8_t before = g_bytes[at];
-    for (const int value : {at == 0 ? 3 : 6, 200, 255}) {
+    for (const int value : {at == 0 ? 2 : 6, 200, 255}) {
       g_bytes[at] = static_cast<std::uint8_t>(value);
       ByteReader reader(g_bytes, size);
       RobotState read;
