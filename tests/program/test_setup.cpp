@@ -4,7 +4,9 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kDpkg = "#!/bin/sh\ngrep -qx \"$4\" $S/missing && exit 1\nprintf installed\n";
+constexpr const char* kDpkg =
+    "#!/bin/sh\ngrep -qx \"$4\" $S/missing && exit 1\n"
+    "echo \"$(dpkg --print-architecture) installed\"\n";
 constexpr const char* kApt =
     "#!/bin/sh\necho \"$*\" >>$S/words\n"
     "case \"$*\" in\n"
@@ -34,7 +36,7 @@ int setup(const char* words, const char* missing, const char* user = "0") {
 // Proves RUN-13.
 
 void where_nothing_is_missing_nothing_is_said_and_nothing_called(void**) {
-  for (const char* words : {"", "check", "wcet", "report"}) {
+  for (const char* words : {"", "check", "wcet", "report", "m7"}) {
     assert_int_equal(setup(words, "\n"), 0);
     assert_true(output().empty() && errors().empty() && file_of("words").empty());
   }
@@ -86,7 +88,7 @@ void help_lists_the_words_and_any_other_is_refused(void**) {
   for (const char* part : {"setup check ", "setup wcet ", "setup report ", "`make film`"})
     assert_true(has(output(), part));
   assert_int_equal(setup("everything", "make\n"), 2);
-  assert_true(has(errors(), "setup: 'everything' is none of check, wcet, report, vm; "));
+  assert_true(has(errors(), "setup: 'everything' is none of check, wcet, report, vm, m7, arm64; "));
   assert_true(file_of("words").empty());
 }
 

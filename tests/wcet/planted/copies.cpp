@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "tests/bare_metal/memory.cpp"
+#include "boards/m7/memory.cpp"
 
 struct Large {
   unsigned char bytes[3200];
