@@ -13,7 +13,7 @@ $(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(O)/libkernel.a 
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T boards/m7/mps2-an500.ld -o $@ \
 	  -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
-$(O)/boards/m7/embedded_text.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(PIPELINE).ini"'
+$(O)/boards/m7/embedded_text.o: private CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(PIPELINE).ini"'
 $(O)/boards/m7/embedded_text.o: pipelines/$(PIPELINE).ini
 # The stacks of cycles, of background work and of a fault, as the linker script has them.
 image-certificate: $(B)/image.elf             ## check RAM, flash and stacks of that image: BOARD=fer_m7 ARCH=m7

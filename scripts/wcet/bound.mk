@@ -30,5 +30,5 @@ certificate-host: $(O)/libkernel.a $(B)/stack_painter
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^
-$(O)/tests/wcet/stack_painter.o: CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
+$(O)/tests/wcet/stack_painter.o: private CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
 $(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=pipelines/%.ini)

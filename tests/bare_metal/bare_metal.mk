@@ -8,6 +8,6 @@ $(B)/board.elf: $(BARE_BOARD) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
 	$(Q)$(CROSS_m7)size $@
-$(O)/tests/bare_metal/board.o: CXXFLAGS += -DPIPELINE_FILE='"$(BARE_PIPELINE)"'
+$(O)/tests/bare_metal/board.o: private CXXFLAGS += -DPIPELINE_FILE='"$(BARE_PIPELINE)"'
 $(O)/tests/bare_metal/board.o: $(BARE_PIPELINE)
 endif

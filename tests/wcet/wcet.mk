@@ -32,7 +32,7 @@ wcet-setup:
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
-$(O)/boards/m7/startup.o: CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+$(O)/boards/m7/startup.o: private CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 $(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
@@ -50,7 +50,7 @@ build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
 $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
-$(O)/tests/wcet/replay.o: CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
+$(O)/tests/wcet/replay.o: private CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
 $(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^

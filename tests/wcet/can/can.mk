@@ -15,7 +15,7 @@ wcet-can:                                     ## count and bound the CAN part of
 ifeq ($(ARCH),m7)
 # What the analyser reads: a copy of a few bytes stays a loop, whose LoopBound says how many they are, and a switch is
 # comparisons.
-$(call obj,$(wildcard hal/can/*.cpp hal/cia402/*.cpp)): CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-jump-tables
+$(call obj,$(wildcard hal/can/*.cpp hal/cia402/*.cpp)): private CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-jump-tables
 wcet-can-image: $(B)/wcet-can.elf
 $(B)/wcet-can.elf: $(call obj,$(CAN_IMAGE)) $(O)/libkernel.a
 	$(call say,LD    $@)
