@@ -10,7 +10,7 @@ PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/r
 M7_START       := $(addprefix boards/m7/,startup.cpp semihosting.cpp memory.cpp) $(addprefix tests/wcet/m7/,console.cpp handlers.cpp)
 BARE           := $(M7_START) $(PLAYER)
 
-.PHONY: wcet wcet-count wcet-search wcet-setup wcet-built
+.PHONY: wcet wcet-boards wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## measure, count and bound the worst case of every stage; build/wcet
 	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
 	$(Q)$(call each,-j2 wcet-bound) > /dev/null
@@ -18,6 +18,11 @@ wcet: wcet-built                              ## measure, count and bound the wo
 	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
 	$(Q)nice scripts/wcet/search $(WCET_ALL)
 	$(Q)scripts/wcet/table $(WCET_ALL)
+	$(Q)$(MAKE) --no-print-directory wcet-boards
+wcet-boards:                                  ## count the instructions of every period of boards with a bare Cortex-M7
+	$(Q)$(MAKE) --no-print-directory BOARD=fer_sim build/wcet/count_plugin.so
+	$(Q)set -e; for board in $(BARE_BOARDS); do $(MAKE) --no-print-directory BOARD=$$board all; \
+	  scripts/wcet/board $$board $$($(MAKE) --no-print-directory BOARD=$$board list-runs | sed 's/^-- [^ ]*//'); done
 wcet-count: wcet-built                        ## count the instructions of every stage
 	$(Q)scripts/wcet/count $(WCET_ALL)
 wcet-search: wcet-built                       ## search SECONDS for cycles longer than the known worst, and keep them
