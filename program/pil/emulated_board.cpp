@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -143,7 +144,7 @@ bool EmulatedBoard::send(const std::uint8_t* bytes, std::size_t size) {
   std::array<std::uint8_t, 2 + kMost> part;
   part[0] = static_cast<std::uint8_t>(size >> 8);
   part[1] = static_cast<std::uint8_t>(size);
-  std::memcpy(part.data() + 2, bytes, size);
+  std::copy(bytes, bytes + size, part.begin() + 2);
   ssize_t written = 0;
   do {
     written = write(out_, part.data(), 2 + size);  // whole: a pipe holds more
