@@ -1,6 +1,7 @@
 // Faults: the handlers, and the record that survives the reset.
 #include "boards/m7/fault_record.hpp"
 #include "boards/m7/registers.hpp"
+#include "hal/serial/crc32.hpp"
 
 namespace m7 {
 
@@ -26,10 +27,10 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x7AC7C0DE;
 
-std::uint32_t sum_of(const FaultRecord& record) {
-  return kMagic ^ static_cast<std::uint32_t>(record.cause) ^ record.count ^ record.cycle << 1 ^
-         record.pc << 2 ^ record.lr << 3 ^ record.sp << 4 ^ record.cfsr << 5 ^ record.hfsr << 6 ^
-         record.address << 7;
+/// Of the record as it lies there.
+std::uint32_t sum() {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&kept_fault.record);
+  return tactus::serial::crc32<sizeof(FaultRecord)>(bytes, sizeof(FaultRecord));
 }
 
 bool within(std::uint32_t address, const std::uint32_t& begin, const std::uint32_t& end) {
@@ -40,10 +41,10 @@ bool within(std::uint32_t address, const std::uint32_t& begin, const std::uint32
 }  // namespace
 
 const FaultRecord& fault_record() {
-  if (kept_fault.magic != kMagic || kept_fault.sum != sum_of(kept_fault.record)) {
+  if (kept_fault.magic != kMagic || kept_fault.sum != sum()) {
     kept_fault.magic = kMagic;
     kept_fault.record = FaultRecord();
-    kept_fault.sum = sum_of(kept_fault.record);
+    kept_fault.sum = sum();
   }
   return kept_fault.record;
 }
@@ -52,7 +53,7 @@ void forget_fault() {
   const std::uint32_t count = fault_record().count;
   kept_fault.record = FaultRecord();
   kept_fault.record.count = count;
-  kept_fault.sum = sum_of(kept_fault.record);
+  kept_fault.sum = sum();
 }
 
 void end_with(const FaultRecord& record) {
@@ -61,7 +62,7 @@ void end_with(const FaultRecord& record) {
   kept_fault.record = record;
   kept_fault.record.count = count;
   kept_fault.record.cycle = cycle_number();
-  kept_fault.sum = sum_of(kept_fault.record);
+  kept_fault.sum = sum();
   last_words();
   asm volatile("dsb");
   at(kAircr) = kSystemReset;

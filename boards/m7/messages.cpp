@@ -49,19 +49,20 @@ void Messages::execute(const Frame& frame) {
 }
 
 void Messages::hello() {
-  ByteWriter& to = link_.answer(Status::kOk);
-  to.u8(serial::kVersion);
-  to.u8(static_cast<std::uint8_t>(kDof));
-  to.short_text(Robot::kName);
-  to.u64(fnv1a(text()));
-  to.u8(static_cast<std::uint8_t>(fault_record().cause));
+  serial::Greeting greeting;
+  greeting.joints = static_cast<std::uint8_t>(kDof);
+  greeting.robot = Text<31>(Robot::kName);
+  greeting.text = fnv1a(text());
+  greeting.fault = fault_record().cause;
+  write(link_.answer(Status::kOk), greeting);
 }
 
 std::string_view Messages::text() const {
   return text_size_ > 0 ? std::string_view(text_.data(), text_size_) : embedded_text();
 }
 
-/// A text comes in parts, in any order, while no cycle runs: the one in use is overwritten.
+/// A text comes in parts, in any order, while no cycle runs. It overwrites the one before, so until
+/// it is loaded the embedded one is there.
 void Messages::take_text(ByteReader payload) {
   const std::size_t offset = payload.u32();
   const std::string_view part = payload.rest();
@@ -69,6 +70,7 @@ void Messages::take_text(ByteReader payload) {
   if (!payload.ok() || offset > kMaxText || part.size() > kMaxText - offset)
     return answer(Status::kTooLarge);
   machine_ = nullptr;
+  text_size_ = 0;
   std::copy(part.begin(), part.end(), text_.begin() + static_cast<std::ptrdiff_t>(offset));
   answer(Status::kOk);
 }
@@ -121,12 +123,7 @@ void Messages::stop() {
 }
 
 void Messages::give_fault() {
-  const FaultRecord& record = fault_record();
-  ByteWriter& to = link_.answer(Status::kOk);
-  to.u8(static_cast<std::uint8_t>(record.cause));
-  for (const std::uint32_t number : {record.count, record.cycle, record.pc, record.lr, record.sp,
-                                     record.cfsr, record.hfsr, record.address})
-    to.u32(number);
+  write(link_.answer(Status::kOk), fault_record());
 }
 
 }  // namespace m7

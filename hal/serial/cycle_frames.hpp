@@ -13,7 +13,7 @@ struct CycleResult {
   std::int64_t stamp_ns = 0;  ///< when it began
   RobotCommand command;
   Status status = Status::kNotStarted;  ///< of the cycle
-  std::uint8_t rung = 0;                ///< of the degrade ladder
+  std::uint8_t rung = 0xFF;             ///< of the degrade ladder; 0xFF: there was no cycle
   std::uint8_t reports = 0;             ///< that wait for a message that takes them
   std::uint64_t row = 0;                ///< hash of the row of recorded outputs, 0: none
 };

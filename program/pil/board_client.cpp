@@ -73,15 +73,10 @@ Status BoardClient::request(Kind kind, const ByteWriter& payload) {
   return Status::kBusTimeout;
 }
 
-Status BoardClient::greet(Greeting& greeting) {
+Status BoardClient::greet(serial::Greeting& greeting) {
   TRY(request(Kind::kHello));
   ByteReader from = answer();
-  greeting.version = from.u8();
-  greeting.joints = from.u8();
-  greeting.robot = Text<31>(from.text(from.u8()));
-  greeting.text = from.u64();
-  greeting.fault = from.u8();
-  return from.done() ? Status::kOk : Status::kWireFormat;
+  return read(from, greeting) ? Status::kOk : Status::kWireFormat;
 }
 
 std::size_t BoardClient::put_state(serial::Order order, const RobotState& state, std::uint8_t* to) {

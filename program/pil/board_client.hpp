@@ -2,19 +2,12 @@
 // answer, and takes it through one cycle after the other.
 #pragma once
 
+#include "hal/serial/board_frames.hpp"
 #include "hal/serial/cycle_frames.hpp"
 #include "hal/serial/frame.hpp"
 #include "program/pil/emulated_board.hpp"
 
 namespace tactus::pil {
-
-/// What a board says of itself.
-struct Greeting {
-  std::uint8_t version = 0, joints = 0;
-  Text<31> robot;
-  std::uint64_t text = 0;  ///< hash of its pipeline
-  std::uint8_t fault = 0;  ///< m7::FaultCause of the record that it keeps
-};
 
 class BoardClient {
  public:
@@ -31,7 +24,7 @@ class BoardClient {
     return {answer_.data() + 1, answer_size_ > 0 ? answer_size_ - 1 : 0};
   }
   /// [any]
-  Status greet(Greeting& greeting);
+  Status greet(serial::Greeting& greeting);
 
   /// Hands the board a state and begins a cycle in lock-step; waits for its result. kBusTimeout:
   /// none came. [any]

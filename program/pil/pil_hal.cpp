@@ -43,7 +43,7 @@ Status PilHal::connect(CommandMode mode) {
   board_.begin();
   order_ = serial::Order::kDisabled;
   stepped_ = parted_ = false;
-  Greeting greeting;
+  serial::Greeting greeting;
   const Status status = board_.greet(greeting);
   if (status != Status::kOk) {
     why_ = Message(image_);
@@ -148,9 +148,10 @@ Status PilHal::compare(const RobotCommand& command) {
 
 /// No result came: the board has started again after a fault, or it is gone.
 Status PilHal::silent() {
-  Greeting greeting;
+  serial::Greeting greeting;
   why_ = Message("the board does not answer any more");
-  if (board_.greet(greeting) == Status::kOk && greeting.fault != 0) why_ = fault_text(board_);
+  if (board_.greet(greeting) == Status::kOk && greeting.fault != serial::FaultCause::kNone)
+    why_ = fault_text(board_);
   return Status::kConnectionLost;
 }
 

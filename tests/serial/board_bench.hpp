@@ -4,6 +4,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "gateway/fnv1a.hpp"
@@ -110,6 +112,12 @@ struct BoardBench {
     assert_true(rung() == Rung::kNominal);
   }
 };
+
+/// The text that the image has.
+inline std::string pipeline_text() {
+  std::ifstream file(std::string("pipelines/") + Robot::kName + "_jrg_pdgc.ini");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 /// A bench that has never run; the last one's emulator is ended.
 inline BoardBench& fresh() {

@@ -5,23 +5,22 @@
 namespace tactus::pil {
 namespace {
 
+using serial::FaultCause;
 using serial::Provocation;
-
-enum Cause : std::uint8_t { kFault = 1, kStack, kWatchdog, kBackground };  // as the record has them
 
 struct Row {
   const char* name;
   Provocation provocation;
-  std::uint8_t cause;
+  FaultCause cause;
   std::uint32_t cfsr;  ///< bits that are set [DDI 0403E, B3.2.15]
 };
 
 constexpr Row kRows[] = {
-    {"an access to nowhere", Provocation::kHardFault, kFault, 0x8000},   // BFARVALID
-    {"a division by zero", Provocation::kDivision, kFault, 0x02000000},  // DIVBYZERO
-    {"a full stack", Provocation::kStackOverflow, kStack, 0x02},         // DACCVIOL
-    {"background work that hangs", Provocation::kStuckBackground, kBackground, 0},
-    {"a cycle that hangs", Provocation::kStuckCycle, kWatchdog, 0},
+    {"an access to nowhere", Provocation::kHardFault, FaultCause::kFault, 0x8000},   // BFARVALID
+    {"a division by zero", Provocation::kDivision, FaultCause::kFault, 0x02000000},  // DIVBYZERO
+    {"a full stack", Provocation::kStackOverflow, FaultCause::kStack, 0x02},         // DACCVIOL
+    {"background work that hangs", Provocation::kStuckBackground, FaultCause::kBackground, 0},
+    {"a cycle that hangs", Provocation::kStuckCycle, FaultCause::kWatchdog, 0},
 };
 
 /// Lets the board run until it has answered for its fault and started again, and counts the cycles
@@ -38,14 +37,14 @@ void run_into_fault(BoardBench& bench, const Row& row) {
 }
 
 void assert_recorded(BoardBench& bench, const Row& row, std::uint32_t count) {
-  BoardFault fault;
+  serial::FaultRecord fault;
   ASSERT_OK(ask_fault(bench.board, fault));
   print_message("    %s\n", fault_text(bench.board).c_str());
-  assert_int_equal(fault.cause, row.cause);
+  assert_true(fault.cause == row.cause);
   assert_int_equal(fault.count, count);
   assert_int_equal(fault.cfsr & row.cfsr, row.cfsr);
   assert_true(fault.cycle > 0);
-  if (row.cause != kStack) assert_true(fault.pc != 0);
+  if (row.cause != FaultCause::kStack) assert_true(fault.pc != 0);
 }
 
 // Proves BRD-1, BRD-2.
@@ -58,9 +57,9 @@ void a_fault_disables_the_drives_is_recorded_and_the_arm_can_be_armed_again(void
     run_into_fault(bench, row);
     assert_recorded(bench, row, ++count);
     ASSERT_OK(bench.board.request(Kind::kForget));
-    BoardFault fault;
+    serial::FaultRecord fault;
     ASSERT_OK(ask_fault(bench.board, fault));
-    assert_int_equal(fault.cause, 0);
+    assert_true(fault.cause == FaultCause::kNone);
   }
   bench.start(Pace::kTimer);
   bench.arm(Pace::kTimer);

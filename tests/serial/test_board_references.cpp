@@ -201,34 +201,6 @@ void references_to_a_space_that_the_pipeline_lacks_are_refused(void**) {
   ASSERT_STATUS(sent(bench, Kind::kControl, cancel).verdict.status, Status::kNotOffered);
 }
 
-// Proves BRD-7.
-void the_embedded_text_is_there_without_a_load(void**) {
-  BoardBench& bench = fresh();
-  ASSERT_OK(bench.request(Kind::kStart, static_cast<std::uint8_t>(Pace::kLockStep)));
-}
-
-void a_text_is_checked_before_it_takes_effect(void**) {
-  BoardBench& bench = fresh();
-  ASSERT_STATUS(bench.load("[robot]\nname = fer\nperiod_us = 0\n"), Status::kBadValue);
-  ByteReader from = bench.board.answer();
-  const std::string_view why = from.text(from.u8());
-  assert_true(why.find("3: [robot] period_us") == 0);
-  assert_true(why.find("[100, 100000]") != std::string_view::npos);
-  bench.start(Pace::kLockStep);  // the embedded one is there again
-}
-
-void a_text_that_is_too_long_or_another_than_was_sent_is_refused(void**) {
-  BoardBench& bench = fresh();
-  static char text[9000];
-  std::fill_n(text, sizeof text, '#');
-  ASSERT_STATUS(bench.load({text, sizeof text}), Status::kTooLarge);
-  std::uint8_t bytes[12];
-  ByteWriter whole(bytes, sizeof bytes);
-  whole.u32(4);
-  whole.u64(1);
-  ASSERT_STATUS(bench.board.request(Kind::kLoad, whole), Status::kWireFormat);
-}
-
 }  // namespace
 }  // namespace tactus::pil
 
@@ -242,9 +214,6 @@ int main() {
       cmocka_unit_test(a_waypoint_beyond_a_limit_is_refused_with_value_and_limit),
       cmocka_unit_test(what_comes_too_early_too_late_or_malformed_is_refused),
       cmocka_unit_test(references_to_a_space_that_the_pipeline_lacks_are_refused),
-      cmocka_unit_test(the_embedded_text_is_there_without_a_load),
-      cmocka_unit_test(a_text_is_checked_before_it_takes_effect),
-      cmocka_unit_test(a_text_that_is_too_long_or_another_than_was_sent_is_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
