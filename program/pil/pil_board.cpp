@@ -9,14 +9,13 @@
 namespace tactus {
 namespace {
 
-SimHal& plant() {
-  static SimHal hal;
+pil::PilHal& robot() {
+  static pil::PilHal hal;
   return hal;
 }
 
 Status configure(const SimSections& sections, const Pipeline& pipeline, const Options& options) {
-  plant().set_period(pipeline.robot.period_s());
-  return plant().load(sections.plant, options.seed);
+  return robot().load(sections.plant, pipeline.robot.period_s(), options);
 }
 
 /// The image lies beside the folder of the program: build/BOARD/tactus, build/BOARD-m7/image.elf.
@@ -33,9 +32,9 @@ FilePath image_of(std::string_view board) {
 
 int run_pil_board(int argc, char** argv, const char* board) {
   static const FilePath image = image_of(board);
-  static pil::PilHal hal(plant(), image.c_str());
-  return run_board<SimSections>(argc, argv,
-                                {board, hal, sizeof hal, false, configure, nullptr, &hal});
+  robot().set_image(image.c_str());
+  return run_board<SimSections>(
+      argc, argv, {board, robot(), sizeof(pil::PilHal), false, configure, nullptr, &robot()});
 }
 
 }  // namespace tactus

@@ -37,6 +37,17 @@ Status PilHal::refuse(Status status, const char* what) {
   return status;
 }
 
+Status PilHal::load(const PlantParams& params, double period_s, const Options& options) {
+  if (options.realtime) {
+    why_ = Message(
+        "the clock of an emulated board counts instructions, so it has no real time; leave out"
+        " --realtime");
+    return Status::kNotOffered;
+  }
+  plant_.set_period(period_s);
+  return plant_.load(params, options.seed);
+}
+
 Status PilHal::connect(CommandMode mode) {
   TRY(plant_.connect(mode));
   if (!emulator_.start(image_, why_)) return Status::kConnectionLost;
@@ -59,7 +70,7 @@ Status PilHal::connect(CommandMode mode) {
          << int{serial::kVersion};
     return Status::kRefusedByRobot;
   }
-  TRY(load());
+  TRY(send_text());
   std::uint8_t pace[1];
   ByteWriter writer(pace, sizeof pace);
   writer.u8(static_cast<std::uint8_t>(serial::Pace::kLockStep));
@@ -68,7 +79,7 @@ Status PilHal::connect(CommandMode mode) {
 }
 
 /// The board reads the text itself, as if it were the embedded one.
-Status PilHal::load() {
+Status PilHal::send_text() {
   const std::string_view text = session_->text;
   std::uint8_t payload[serial::kMaxPayload];
   for (std::size_t at = 0; at < text.size(); at += kTextPart) {

@@ -12,8 +12,11 @@ namespace tactus::pil {
 
 class PilHal final : public Hal, public Follower {
  public:
-  /// `image` is the board's program. [init]
-  PilHal(SimHal& plant, const char* image) : plant_(plant), image_(image) {}
+  /// The file with the board's program, which outlives this. [init]
+  void set_image(const char* image) { image_ = image; }
+  /// Builds the plant for cycles of `period_s`. kNotOffered for cycles by the wall clock; as
+  /// SimHal::load(). [init]
+  Status load(const PlantParams& params, double period_s, const Options& options);
 
   Capabilities capabilities() const override { return plant_.capabilities(); }
   /// Starts the board, hands it the text, which it judges, and connects. [init]
@@ -30,13 +33,13 @@ class PilHal final : public Hal, public Follower {
   void halt() override { order_ = serial::Order::kDisabled; }
 
  private:
-  Status load();
+  Status send_text();
   Status refuse(Status status, const char* what);
   Status compare(const RobotCommand& command);
   Status silent();
 
-  SimHal& plant_;
-  const char* image_;
+  SimHal plant_;
+  const char* image_ = nullptr;
   const Session* session_ = nullptr;
   EmulatedBoard emulator_;
   BoardClient board_{emulator_};
