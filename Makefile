@@ -63,6 +63,12 @@ FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-thre
                -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
                $(INLINING)
 CXX      := $(CROSS_$(ARCH))g++
+# A compiler of the command line may be one for another machine.
+MACHINE_arm64 := aarch64
+MACHINE_m7    := arm-none-eabi
+ifneq ($(and $(MACHINE_$(ARCH)),$(filter command line,$(origin CXX))),)
+$(if $(findstring $(MACHINE_$(ARCH)),$(shell $(CXX) -dumpmachine)),,$(error CXX=$(CXX) does not compile for ARCH=$(ARCH); name a $(CROSS_$(ARCH))g++))
+endif
 # A program without libraries of its own needs the C library and no other.
 LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
 AR       := $(CROSS_$(ARCH))ar
