@@ -33,6 +33,8 @@ std::uint32_t sum() {
   return tactus::serial::crc32<sizeof(FaultRecord)>(bytes, sizeof(FaultRecord));
 }
 
+/// A core with a stack limit that found no room for a frame has left the stack pointer at the
+/// limit.
 bool above(const std::uint32_t& limit, std::uint32_t address, const std::uint32_t& top) {
   return address > reinterpret_cast<std::uintptr_t>(&limit) &&
          address < reinterpret_cast<std::uintptr_t>(&top);
@@ -83,6 +85,7 @@ extern "C" [[gnu::used]] void keep_fault(const std::uint32_t* frame, std::uint32
   using namespace bare;
   constexpr std::uint32_t kNmi = 2, kStackingFailed = 1U << 4, kAddressKnown = 1U << 7;
   constexpr std::uint32_t kMpuViolation = 1U << 1;
+  constexpr std::uint32_t kBelowLimit = 1U << 20;  // of a stack, from Armv8-M on
   FaultRecord record;
   record.cfsr = at(kCfsr);
   record.hfsr = at(kHfsr);
@@ -90,7 +93,7 @@ extern "C" [[gnu::used]] void keep_fault(const std::uint32_t* frame, std::uint32
   record.sp = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(frame));
   const bool stacked = above(cycle_stack_limit, record.sp, cycle_stack_top) ||
                        above(work_stack_limit, record.sp, work_stack_top);
-  const bool full = (record.cfsr & (kStackingFailed | kMpuViolation)) != 0;
+  const bool full = (record.cfsr & (kStackingFailed | kMpuViolation | kBelowLimit)) != 0;
   if (stacked && (record.cfsr & kStackingFailed) == 0) {
     record.lr = frame[5];
     record.pc = frame[6];

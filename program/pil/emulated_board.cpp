@@ -26,7 +26,7 @@ struct CoreMachine {
   std::string_view core;
   const char* machine;
 };
-constexpr CoreMachine kMachines[] = {{"m7", "mps2-an500"}};
+constexpr CoreMachine kMachines[] = {{"m7", "mps2-an500"}, {"m55", "mps3-an547"}};
 
 Path in_folder(const char* folder, const char* name) {
   Path path(folder);
