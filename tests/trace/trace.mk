@@ -3,7 +3,7 @@ TRACE := tests/trace/trace.cpp tests/trace/traced_player.cpp $(PLAYER)
 
 .PHONY: trace same-bits
 trace: $(B)/trace
-same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and Cortex-M7
+same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and bare cores
 	$(Q)scripts/setup check
 	$(Q)scripts/same_bits --matrix --twice
 ifneq ($(BARE),)
