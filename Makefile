@@ -72,10 +72,8 @@ FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
 FLAGS_m55  := -mcpu=cortex-m55+nomve $(BARE_FLAGS)
 CXX      := $(CROSS_$(ARCH))g++
 # A compiler of the command line may be one for another machine.
-MACHINE_arm64 := aarch64
-MACHINE_m7    := arm-none-eabi
-ifneq ($(and $(MACHINE_$(ARCH)),$(filter command line,$(origin CXX))),)
-$(if $(findstring $(MACHINE_$(ARCH)),$(shell $(CXX) -dumpmachine)),,$(error CXX=$(CXX) does not compile for ARCH=$(ARCH); name a $(CROSS_$(ARCH))g++))
+ifneq ($(and $(CROSS_$(ARCH)),$(filter command line,$(origin CXX))),)
+$(if $(findstring $(firstword $(subst -, ,$(CROSS_$(ARCH)))),$(shell $(CXX) -dumpmachine)),,$(error CXX=$(CXX) does not compile for ARCH=$(ARCH); name a $(CROSS_$(ARCH))g++))
 endif
 # A program without libraries of its own needs the C library and no other.
 LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
