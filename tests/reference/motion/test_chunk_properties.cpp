@@ -237,6 +237,7 @@ void check() {
   print_message("%d messages: %d executed, %d superseded, %d refused; %d starved; %d runs failed\n",
                 all.sent, all.executed, all.superseded, all.refused, all.starved, failed);
   assert_int_equal(failed, 0);
+  if (all.sent < 1000) return;
   assert_true(all.executed > all.sent / 2 && all.superseded > 0 && all.starved > 0);
 }
 
