@@ -111,7 +111,7 @@ class Run {
   }
   void drive() {
     Velocity<Space> velocity;
-    velocity.rates = 0.55 * MotionCases<Space>::direction(dice_, bench_.channel.settings.limits);
+    velocity.rates = MotionCases<Space>::direction(dice_, bench_.channel.settings.limits);
     velocity.timeout_s = dice_.uniform(0.02, 0.5);
     velocity.in_tool = dice_.chance(0.5);
     if (dice_.chance(0.5)) velocity.acceleration = dice_.uniform(0.2, 1.0);
