@@ -141,6 +141,8 @@ const char* remedy(Status status) {
     case Status::kStartTolerance: return "; begin there, or later than at t = 0";
     case Status::kEffortLimit: return "; ask for less";
     case Status::kQuaternion: return "; write qw, qx, qy, qz of length 1";
+    case Status::kChunkLate: return "; send sooner, or targets farther ahead";
+    case Status::kEpochVoid: return "; look at the robot, then begin a newer epoch";
     default: return "";
   }
 }
