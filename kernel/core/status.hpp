@@ -47,6 +47,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNotStreamable = 55,
     kLeftPath = 57,
     kGoalVelocity = 58,
+    kChunkLate = 59,
+    kEpochVoid = 60,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,
