@@ -215,6 +215,7 @@ include scripts/wcet/bound.mk
 include tests/trace/trace.mk
 include tests/wcet/can/can.mk
 include boards/m7/m7.mk
+include gateway/python/python.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

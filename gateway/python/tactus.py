@@ -1,0 +1,1226 @@
+"""tactus: moves a robot arm through the gateway of a Tactus server.
+
+    import numpy as np
+    import tactus
+
+    with tactus.connect("unix:/run/tactus/socket") as arm:
+        here = arm.state().q
+        t = np.linspace(0.5, 3.0, 6)
+        path = here + np.outer(1 - np.cos(np.linspace(0, np.pi, 6)), 0.1 * np.ones(arm.robot.dof))
+        for feedback in arm.start(q=path, t=t):
+            print(feedback.time_s, feedback.desired.q - feedback.actual.q)
+
+Units are SI: rad, m, s, N, N m. Joints come in the order of `arm.robot.joints`. A pose is seven numbers
+(x, y, z, qw, qx, qy, qz), a twist six (vx, vy, vz, wx, wy, wz), a wrench six (fx, fy, fz, mx, my, mz), all of the tool
+tip in the axes of the base; a wrench is what the environment exerts on the tool. An array of n of them has one row each.
+Times named *_ns are nanoseconds of this process's `time.monotonic_ns()`; the library converts them to the clock of the
+server and follows its drift.
+
+Errors are subclasses of `tactus.Error`. A mistake of the caller that can be seen without the server (the shape of an
+array, two kinds of target at once) is a ValueError. No call waits without end: a server that is silent for
+`timeout_s` has failed (Lost). The arm never depends on this process: if it dies, the server brings the arm to rest.
+
+All methods may be called from any thread. The library needs numpy and protobuf; `make python` writes it with the module
+tactus_pb2 into build/python.
+"""
+
+from __future__ import annotations
+
+import collections
+import contextlib
+import dataclasses
+import enum
+import os
+import pathlib
+import select
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+try:
+    import google.protobuf.message
+    import tactus_pb2 as pb
+except ImportError as error:
+    raise ImportError(f"{error}; run `make python` and add build/python to PYTHONPATH") from error
+
+__all__ = [
+    "Aborted", "Arm", "Chunks", "Error", "Event", "Feedback", "Joint", "Lost", "Motion", "Outcome", "Refused",
+    "Result", "Robot", "Sample", "State", "Stopped", "Stream", "connect", "serve", "sim",
+]  # fmt: skip
+
+Array = NDArray[np.float64]
+
+_LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
+_PING_S = 0.1  # between two measurements of the clock, which also renew the lease
+_UNREPORTED = 64  # references of a stream that wait for their reports; more wait for the server
+_REFERENCE_TIME = 35  # the Status of a chunk that is late as a whole
+_REPORTED = {"point", "velocity", "chunk", "begin", "cancel", "override", "pause", "resume", "stop", "rearm"}
+
+
+# --- errors ---
+
+
+class Error(Exception):
+    """Every error of this library that is not a mistake of the caller."""
+
+
+class Lost(Error):
+    """There is no connection, it has ended, or the server does not keep to the protocol. The text says which."""
+
+
+class Refused(Error):
+    """The server refused a request; nothing has changed. The text names place, value, limit and remedy.
+
+    status -- number of the reason, as in docs/reference-generators.md
+    """
+
+    def __init__(self, text: str, status: int):
+        super().__init__(f"{text} ({status})" if f"({status})" not in text else text)
+        self.status = status
+
+
+class Aborted(Error):
+    """A trajectory was given up by the robot: a tolerance was violated, or a fault brakes the arm. `result` has it."""
+
+    def __init__(self, result: Result):
+        super().__init__(result.text or f"aborted ({result.status})")
+        self.result = result
+
+
+class Stopped(Error):
+    """A stop has made the stream void that this reference belongs to; open a new stream to go on."""
+
+
+# --- what the server says ---
+
+
+class Outcome(enum.IntEnum):
+    """How a reference is doing (up to STARVED) or has ended."""
+
+    UNKNOWN = 0
+    SCHEDULED = 1
+    STARTED = 2
+    STARVED = 3
+    SUCCEEDED = 10
+    PREEMPTED = 11
+    ABORTED = 12
+    CANCELED = 13
+    EXECUTED = 14
+    SUPERSEDED = 15
+    REFUSED = 16
+
+    @property
+    def final(self) -> bool:
+        return self >= Outcome.SUCCEEDED
+
+
+@dataclasses.dataclass(frozen=True)
+class Joint:
+    """A joint and its limits: rad, rad/s, rad/s^2, rad/s^3, N m."""
+
+    name: str
+    min_rad: float
+    max_rad: float
+    velocity: float
+    acceleration: float
+    jerk: float
+    effort: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Robot:
+    """What the server said when the connection was made."""
+
+    board: str
+    name: str
+    pipeline: str
+    configuration: int  # hash of the pipeline file
+    period_s: float
+    joints: tuple[Joint, ...]
+    takes_joints: bool
+    takes_poses: bool
+    longest_chunk: int  # targets
+    window: int  # waypoints that the server holds at once
+    longest_part: int  # waypoints of a message
+
+    @property
+    def dof(self) -> int:
+        """The number of joints."""
+        return len(self.joints)
+
+
+@dataclasses.dataclass(frozen=True)
+class Sample:
+    """A reference or a measurement; a field that was not given is None."""
+
+    q: Optional[Array] = None
+    dq: Optional[Array] = None
+    ddq: Optional[Array] = None
+    tau: Optional[Array] = None
+    pose: Optional[Array] = None
+    twist: Optional[Array] = None
+    acceleration: Optional[Array] = None
+    wrench: Optional[Array] = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Feedback:
+    """Reference and measurement of one cycle while a trajectory is executed. `lost` messages before it were dropped."""
+
+    time_s: float
+    desired: Sample
+    actual: Sample
+    lost: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Result:
+    """How a trajectory has ended. `stretch` is the fraction by which it was slowed down to keep the limits."""
+
+    outcome: Outcome
+    status: int
+    text: str
+    time_s: float
+    stretch: float
+
+    @property
+    def succeeded(self) -> bool:
+        return self.outcome == Outcome.SUCCEEDED
+
+
+@dataclasses.dataclass(frozen=True)
+class Event:
+    """An entry of the server's event log."""
+
+    stamp_ns: int
+    name: str
+    status: int
+    text: str
+
+
+@dataclasses.dataclass(frozen=True)
+class State:
+    """The arm in one cycle. `stamp_ns` is the begin of the cycle by this process's time.monotonic_ns()."""
+
+    stamp_ns: int
+    server_ns: int  # the same by the server's clock
+    cycle: int
+    rung: int  # of the ladder; 0 is nominal
+    status: int  # why it is not nominal
+    phase: int  # of the motion
+    epoch: int
+    owner: str  # the client that holds the lease; "" if nobody does
+    override: float
+    speed_scaling: float
+    q: Array
+    dq: Array
+    tau: Array
+    q_d: Optional[Array]
+    dq_d: Optional[Array]
+    pose: Optional[Array]
+    pose_d: Optional[Array]
+    wrench: Optional[Array]
+    margin_s: float  # until a stream starves
+    slips: int
+    overruns: int
+    lost: int  # States that were not sent since the connection was made
+    chunks_taken: int
+    chunks_late: int
+    chunks_dropped: int
+    targets_trimmed: int
+    seam: float  # largest difference at the latest seam, rad, or m and rad
+
+
+def _array(numbers: Sequence[float]) -> Optional[Array]:
+    return np.array(numbers, dtype=float) if len(numbers) else None
+
+
+def _sample(joint: Any, task: Any) -> Sample:
+    return Sample(
+        *map(_array, (joint.q, joint.dq, joint.ddq, joint.tau, task.pose, task.twist, task.acceleration, task.wrench))
+    )
+
+
+# --- the clock of the server ---
+
+
+class _Clock:
+    """Estimates the server's clock from request and answer: the offset by the shortest round trips, and its drift.
+
+    A round trip that took `trip` ns bounds the offset to half of it. Of each tenth of a second the shortest is kept; a
+    line is fitted to the offsets of the last 13 s, in which a trip counts the less the longer it took.
+    """
+
+    KEPT = 128
+    BETWEEN_NS = 100_000_000
+    FLOOR_NS = 20_000.0  # by which round trips vary on an idle machine
+
+    def __init__(self) -> None:
+        self._kept: collections.deque[tuple[int, int, int]] = collections.deque(maxlen=self.KEPT)  # local, offset, trip
+        self._line = (0, 0.0, 0.0)  # at a local time: offset, drift
+        self.uncertainty_ns = float("inf")
+
+    def add(self, sent: int, came: int, left: int, received: int) -> None:
+        """Takes one exchange: sent and received by the local clock, came and left by the server's. [ns]"""
+        trip = max(0, (received - sent) - (left - came))
+        if self._kept and received - self._kept[-1][0] < self.BETWEEN_NS:
+            if trip >= self._kept[-1][2]:
+                return
+            self._kept.pop()
+        self._kept.append((received, (came + left - sent - received) // 2, trip))
+        self._fit()
+
+    def _fit(self) -> None:
+        last, first_offset, _ = self._kept[-1][0], *self._kept[0][1:]
+        at, offsets, trips = np.array([(t - last, o - first_offset, trip) for t, o, trip in self._kept], dtype=float).T
+        weights = (trips - trips.min() + self.FLOOR_NS) ** -2
+        weights /= weights.sum()
+        at_mean, mean = weights @ at, weights @ offsets
+        drift = 0.0
+        if -at[0] > 5 * self.BETWEEN_NS:
+            drift = weights @ ((at - at_mean) * (offsets - mean)) / (weights @ (at - at_mean) ** 2)
+        self._line = (last, first_offset + mean - drift * at_mean, float(drift))
+        self.uncertainty_ns = trips.min() / 2
+
+    def to_server(self, local_ns: int) -> int:
+        at, offset, drift = self._line
+        return int(local_ns + offset + drift * (local_ns - at))
+
+    def to_local(self, server_ns: int) -> int:
+        at, offset, drift = self._line
+        return int(at + (server_ns - offset - at) / (1.0 + drift))
+
+
+# --- bytes ---
+
+
+class _Link:
+    """Messages over a stream socket: a length of four bytes, least significant first, and the message."""
+
+    def __init__(self, address: str, timeout_s: float):
+        self.address = address
+        self._bytes = bytearray()
+        kind, _, place = address.partition(":")
+        host, _, port = place.rpartition(":")
+        if kind == "unix" and place:
+            self._socket, target = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM), place
+        elif kind == "tcp" and host and port.isdigit():
+            family = socket.AF_INET6 if ":" in host else socket.AF_INET
+            self._socket, target = socket.socket(family, socket.SOCK_STREAM), (host.strip("[]"), int(port))
+            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        else:
+            raise ValueError(f"address {address!r}: write unix:/path/of/the/socket or tcp:HOST:PORT")
+        self._socket.settimeout(timeout_s)
+        try:
+            self._socket.connect(target)
+        except OSError as error:
+            self._socket.close()
+            raise Lost(f"{address}: {error.strerror or error}; is a tactus server running there?") from error
+
+    def send(self, message: Any) -> None:
+        body = message.SerializeToString()
+        if len(body) > _LONGEST_MESSAGE:
+            raise ValueError(f"a message of {len(body)} bytes; at most {_LONGEST_MESSAGE} are taken")
+        try:
+            self._socket.sendall(len(body).to_bytes(4, "little") + body)
+        except OSError as error:
+            raise Lost(f"{self.address}: the server takes no more: {error}") from error
+
+    def can_send(self) -> bool:
+        return bool(select.select([], [self._socket], [], 0)[1])
+
+    def receive(self, wait_s: float) -> Iterator[Any]:
+        """Yields the messages that are complete after at most `wait_s`."""
+        if not select.select([self._socket], [], [], max(0.0, wait_s))[0]:
+            return
+        try:
+            piece = self._socket.recv(1 << 16)
+        except OSError as error:
+            raise Lost(f"{self.address}: {error}") from error
+        if not piece:
+            rest = " within a message" if self._bytes else ""
+            raise Lost(f"{self.address}: the server has ended the connection{rest}")
+        self._bytes += piece
+        while len(self._bytes) >= 4:
+            length = int.from_bytes(self._bytes[:4], "little")
+            if length > _LONGEST_MESSAGE:
+                raise Lost(f"{self.address}: a message of {length} bytes; this is no tactus server")
+            if len(self._bytes) < 4 + length:
+                return
+            body = bytes(self._bytes[4 : 4 + length])
+            del self._bytes[: 4 + length]
+            message = pb.ToClient()
+            try:
+                read = message.ParseFromString(body)
+            except google.protobuf.message.DecodeError:
+                read = -1
+            if read != length:
+                raise Lost(f"{self.address}: a message of {length} bytes cannot be read; this is no tactus server")
+            yield message
+
+    def close(self) -> None:
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)
+        self._socket.close()
+
+
+class _Call:
+    """A request on its way: its Answer, and its latest Report if it is of a kind that has one."""
+
+    def __init__(self, kind: str):
+        self.kind = kind
+        self.answer: Any = None
+        self.report: Any = None
+        self.feedback: collections.deque[Feedback] = collections.deque(maxlen=1024)
+
+    @property
+    def final(self) -> bool:
+        """Nothing more is to come."""
+        if self.answer is None:
+            return False
+        if self.answer.status or self.kind not in _REPORTED:
+            return True
+        return self.report is not None and Outcome(self.report.outcome).final
+
+    def refusal(self) -> Optional[Refused]:
+        for told in (self.answer, self.report):
+            refused = told is not None and told.status and getattr(told, "outcome", Outcome.REFUSED) == Outcome.REFUSED
+            if refused:
+                return Refused(told.text or f"the server refused {self.kind}", told.status)
+        return None
+
+
+class _Session:
+    """One connection: numbers, answers, states, and the thread that reads them and keeps the lease alive."""
+
+    def __init__(self, address: str, name: str, timeout_s: float):
+        self.address = address
+        self.timeout_s = timeout_s
+        self.clock = _Clock()
+        self.news = threading.Condition()  # guards all below
+        self.state: Any = None
+        self.welcome: Any = None
+        self.events: collections.deque[Event] = collections.deque(maxlen=1024)
+        self.credit = 0
+        self.sequence = 0
+        self.broken: Optional[Error] = None
+        self._calls: dict[int, _Call] = {}
+        self._number = 0
+        self._sending = threading.Lock()
+        self._heard = time.monotonic()
+        self._link = _Link(address, timeout_s)
+        self._thread = threading.Thread(target=self._run, name="tactus", daemon=True)
+        self._thread.start()
+        try:
+            self._greet(name)
+        except BaseException:
+            self.close()
+            raise
+
+    def _greet(self, name: str) -> None:
+        hello = self.send("hello", pb.Hello(version=pb.VERSION_PRESENT, client=name[:31]))
+        self.wait(lambda: self.welcome or (hello.answer and hello.answer.status), "welcome")
+        if refusal := hello.refusal():
+            raise refusal
+        if self.welcome.version != pb.VERSION_PRESENT:
+            raise Lost(
+                f"{self.address}: the server speaks version {self.welcome.version} of the protocol, this library"
+                f" version {pb.VERSION_PRESENT}; install the same release of both"
+            )
+
+    def send(self, kind: str, request: Any) -> _Call:
+        """Sends a request and returns its call, which is answered later."""
+        with self._sending:
+            return self._send(kind, request)
+
+    def _send(self, kind: str, request: Any) -> _Call:
+        call = _Call(kind)
+        with self.news:
+            if self.broken:
+                raise self.broken
+            self._number += 1
+            number = self._number
+            self._calls[number] = call
+            if len(self._calls) > 16384:
+                self._fail(Lost(f"{self.address}: the server has left 16384 requests unanswered"))
+        message = pb.ToServer(number=number, client_ns=time.monotonic_ns())
+        getattr(message, kind).CopyFrom(request)
+        try:
+            self._link.send(message)
+        except Lost as error:
+            with self.news:
+                self._fail(error)
+            raise
+        except ValueError:
+            with self.news:
+                del self._calls[number]
+            raise
+        return call
+
+    def ask(self, kind: str, request: Any) -> Any:
+        """Sends a request and waits until it is answered and in force; raises Refused if it was not taken."""
+        call = self.send(kind, request)
+        self.wait(lambda: call.final, f"answer to {kind}")
+        if refusal := call.refusal():
+            raise refusal
+        return call.answer
+
+    def wait(self, predicate: Callable[[], Any], what: str) -> None:
+        """Waits until the predicate holds; a server that does not make it hold within `timeout_s` has failed."""
+        try:
+            self.wait_long(predicate, what, self.timeout_s)
+        except TimeoutError as error:
+            with self.news:
+                self._fail(Lost(f"{self.address}: {error}"))
+            raise self.broken or Lost() from None
+
+    def wait_long(self, predicate: Callable[[], Any], what: str, timeout_s: Optional[float]) -> None:
+        """Waits until the predicate holds, without end if `timeout_s` is None."""
+        with self.news:
+            if not self.news.wait_for(lambda: predicate() or self.broken, timeout_s):
+                raise TimeoutError(f"no {what} within {timeout_s} s")
+            if self.broken and not predicate():
+                raise self.broken
+
+    def close(self) -> None:
+        with self.news:
+            self.broken = self.broken or Lost("the connection is closed")
+            self.news.notify_all()
+        self._link.close()
+        if threading.current_thread() is not self._thread:
+            self._thread.join(self.timeout_s)
+
+    def _fail(self, error: Error) -> None:
+        self.broken = self.broken or error
+        self.news.notify_all()
+
+    def _run(self) -> None:
+        ping = time.monotonic()
+        try:
+            while not self.broken:
+                if time.monotonic() >= ping and self.welcome:
+                    ping = time.monotonic() + _PING_S
+                    self._ping()
+                for message in self._link.receive(ping - time.monotonic() if self.welcome else _PING_S):
+                    self._heard = time.monotonic()
+                    with self.news:
+                        self._take(message)
+                        self.news.notify_all()
+                if self.welcome and time.monotonic() - self._heard > self.timeout_s:
+                    raise Lost(f"{self.address}: the server has been silent for {self.timeout_s} s")
+        except (Error, OSError, ValueError) as error:  # ValueError: select() of a socket that was closed meanwhile
+            with self.news:
+                self._fail(error if isinstance(error, Error) else Lost(f"{self.address}: {error}"))
+        finally:
+            self._link.close()
+
+    def _ping(self) -> None:
+        """Sends a Ping, or nothing if another message is being sent, which renews the lease as well. Never blocks."""
+        if self._link.can_send() and self._sending.acquire(blocking=False):
+            try:
+                self._send("ping", pb.Ping())
+            finally:
+                self._sending.release()
+
+    def _take(self, message: Any) -> None:
+        kind = message.WhichOneof("message")
+        if kind == "welcome":
+            if self.welcome:
+                raise Lost("the server has welcomed this client twice")
+            self.welcome = message.welcome
+            self._calls.pop(message.welcome.number, None)
+        elif kind == "answer":
+            self._take_answer(message.answer)
+        elif kind == "report":
+            self._take_report(message.report)
+        elif kind == "state":
+            self.state = message.state
+        elif kind == "feedback":
+            told = message.feedback
+            if call := self._calls.get(told.number):
+                desired, actual = (_sample(*pair) for pair in (
+                    (told.joint_desired, told.task_desired), (told.joint_actual, told.task_actual)))  # fmt: skip
+                call.feedback.append(Feedback(told.time_s, desired, actual, told.lost))
+        elif kind == "event":
+            told = message.event
+            self.events.append(Event(self.clock.to_local(told.server_ns), told.name, told.status, told.text))
+        elif kind == "credit":
+            self.credit += message.credit.waypoints
+
+    def _take_answer(self, answer: Any) -> None:
+        call = self._calls.get(answer.number)
+        if call is None or call.answer is not None:
+            why = "twice" if answer.number <= self._number else "that was never sent"
+            raise Lost(f"the server has answered request {answer.number} {why}; it does not keep to the protocol")
+        call.answer = answer
+        if answer.received_ns:
+            self.clock.add(answer.client_ns, answer.received_ns, answer.server_ns, time.monotonic_ns())
+        if call.kind == "begin":
+            self.credit = 0  # Credits of an older trajectory end here
+        if call.final:
+            del self._calls[answer.number]
+
+    def _take_report(self, report: Any) -> None:
+        call = self._calls.get(report.number)
+        if call is None:
+            raise Lost(f"the server has reported on request {report.number}, which has ended or was never sent")
+        call.report = report
+        if call.final:
+            del self._calls[report.number]
+
+
+# --- what a program moves the arm with ---
+
+
+def connect(
+    address: str,
+    *,
+    name: Optional[str] = None,
+    priority: int = 0,
+    lease_s: float = 1.0,
+    state_s: float = 0.01,
+    feedback_s: float = 0.02,
+    timeout_s: float = 2.0,
+) -> Arm:
+    """Connects to a server and returns its arm; use it in a `with` statement.
+
+    address    -- "unix:/path/of/the/socket" or "tcp:HOST:PORT"
+    name       -- by which others see who moves the arm; without it, program and process number
+    priority   -- of the lease, 0 to 255: who has a higher one takes the arm away
+    lease_s    -- the arm stops on its path when nothing has come from this process for as long; 0.02 to 60
+    state_s    -- between two States, whole milliseconds
+    feedback_s -- between two Feedbacks of a trajectory, whole milliseconds
+    timeout_s  -- a server that does not answer or is silent for as long has failed
+
+    Nothing moves and no lease is asked for before the first motion. Raises Lost if there is no such server, Refused if
+    it does not take this client.
+    """
+    if name is None:
+        name = f"{pathlib.Path(sys.argv[0]).name or 'python'}.{os.getpid()}"
+    return Arm(_Session(address, name, timeout_s), priority, lease_s, state_s, feedback_s)
+
+
+class Arm:
+    """The arm behind a server. The first motion takes the lease; leaving the `with` block gives it back.
+
+    Leaving it by an exception, Ctrl-C among them, cancels what runs: the arm comes to rest on its path. Leaving it
+    otherwise lets a trajectory that was begun by `start` run to its end.
+    """
+
+    def __init__(self, session: _Session, priority: int, lease_s: float, state_s: float, feedback_s: float):
+        self._session = session
+        self._lease = pb.Lease(wish=pb.Lease.TAKE, priority=priority, timeout_ms=round(lease_s * 1000))
+        self._leased = False
+        self._upload = threading.Lock()  # one trajectory at a time is under way to the server
+        self._uploading: Optional[Motion] = None
+        self.address = session.address
+        self.robot = _robot(session.welcome)
+        try:
+            session.ask("subscribe", pb.Subscribe(
+                state_ms=round(state_s * 1000), feedback_ms=round(feedback_s * 1000), events=True))  # fmt: skip
+        except BaseException:
+            session.close()
+            raise
+
+    def __enter__(self) -> Arm:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        try:
+            if kind is not None and self._leased:
+                self._cancel()
+            if self._leased:
+                with contextlib.suppress(Error):
+                    self._session.ask("lease", pb.Lease(wish=pb.Lease.RELEASE))
+        finally:
+            self._session.close()
+
+    def close(self) -> None:
+        """Gives the lease back and ends the connection, as leaving the `with` block does."""
+        self.__exit__(None, None, None)
+
+    # What it does
+
+    def state(self) -> State:
+        """Returns the latest State, at most about `state_s` old."""
+        self._session.wait(lambda: self._session.state, "State")
+        return _state(self._session.state, self._session.clock)
+
+    def watch(self) -> Iterator[State]:
+        """Yields States as they come, until the connection ends; who is too slow sees the latest only."""
+        seen = None
+        while True:
+            self._session.wait(lambda: self._session.state is not seen, "State")
+            seen = self._session.state
+            yield _state(seen, self._session.clock)
+
+    def events(self) -> list[Event]:
+        """Returns the events since the last call, the latest 1024 at most."""
+        with self._session.news:
+            events = list(self._session.events)
+            self._session.events.clear()
+        return events
+
+    @property
+    def clock_uncertainty_ns(self) -> float:
+        """By how much a stamp may be wrong: half of the shortest round trip."""
+        return self._session.clock.uncertainty_ns
+
+    # Motion
+
+    def move(self, **trajectory: Any) -> Result:
+        """Executes a trajectory and returns when it has ended. Takes what `start` takes, raises what `Motion.wait` does."""
+        return self.start(**trajectory).wait()
+
+    def start(
+        self,
+        *,
+        t: ArrayLike,
+        q: Optional[ArrayLike] = None,
+        dq: Optional[ArrayLike] = None,
+        ddq: Optional[ArrayLike] = None,
+        tau: Optional[ArrayLike] = None,
+        pose: Optional[ArrayLike] = None,
+        twist: Optional[ArrayLike] = None,
+        acceleration: Optional[ArrayLike] = None,
+        wrench: Optional[ArrayLike] = None,
+        joints: Optional[Sequence[str]] = None,
+        interpolation: str = "by_fields",
+        exact: bool = False,
+        start_ns: Optional[int] = None,
+        motion_frame: str = "",
+        wrench_frame: str = "",
+        check: bool = False,
+    ) -> Motion:
+        """Begins a trajectory of any length and returns it as soon as the server has accepted it.
+
+        t             -- [n] s, increasing, from 0 or later; time 0 is when it begins
+        q, dq, ddq, tau -- [n, joints] of the joints, or
+        pose, twist, acceleration, wrench -- [n, 7], [n, 6], [n, 6], [n, 6] of the tip; all but q or pose are optional
+        joints        -- names of the joints that the columns are of; the others hold. None: all
+        interpolation -- by_fields, linear, cubic, quintic, monotone (docs/reference-generators.md)
+        exact         -- refuse what is too fast instead of slowing it down
+        start_ns      -- when it begins, by time.monotonic_ns(); None: at once
+        motion_frame, wrench_frame -- an output of the pipeline, "block.port"; "": the base
+        check         -- judge it and move nothing
+
+        What the server can hold at once (robot.window) is judged before the arm moves; the rest is sent while it moves.
+        Raises Refused with waypoint, joint, value and limit if the server does not accept it.
+        """
+        terms, columns = self._columns((q, dq, ddq, tau), (pose, twist, acceleration, wrench), joints)
+        times = np.asarray(t, dtype=float)
+        if times.ndim != 1 or len(times) != len(columns[0]):
+            raise ValueError(f"t has the shape {times.shape}; give one time for each of the {len(columns[0])} waypoints")
+        terms.motion_frame, terms.wrench_frame = motion_frame, wrench_frame
+        kinds = pb.Begin.Interpolation
+        if interpolation.upper() not in kinds.keys():
+            raise ValueError(f"interpolation {interpolation!r}; expected one of {', '.join(kinds.keys()).lower()}")
+        begin = pb.Begin(
+            terms=terms,
+            interpolation=kinds.Value(interpolation.upper()),
+            exact=exact,
+            start_ns=0 if start_ns is None else self._session.clock.to_server(start_ns),
+            poses=pose is not None,
+            velocities=dq is not None or twist is not None,
+            accelerations=ddq is not None or acceleration is not None,
+            efforts=tau is not None or wrench is not None,
+            check=check,
+        )
+        if not check:
+            self._own()
+        return Motion(self, begin, times, np.hstack([column for column in columns if column is not None]))
+
+    def check(self, **trajectory: Any) -> Result:
+        """Has the server judge a trajectory as `start` would, and moves nothing. Raises Refused with the reason."""
+        return self.start(check=True, **trajectory).wait()
+
+    def point(self, **target: Any) -> None:
+        """Sends one point (what `Stream.send` takes) and returns when it is in force. A trajectory that runs is aborted."""
+        with self.stream() as stream:
+            stream.send(**target)
+
+    def velocity(self, **target: Any) -> None:
+        """Sends one velocity (what `Stream.velocity` takes) and returns when it is in force."""
+        with self.stream() as stream:
+            stream.velocity(**target)
+
+    def stream(self, *, motion_frame: str = "", wrench_frame: str = "", joints: Optional[Sequence[str]] = None) -> Stream:
+        """Returns a stream of points or velocities at any rate; use it in a `with` statement."""
+        self._own()
+        return Stream(self, motion_frame, wrench_frame, joints)
+
+    def chunks(
+        self,
+        *,
+        rate_hz: float,
+        relative_to: Optional[str] = None,
+        crossfade_s: float = 0.0,
+        motion_frame: str = "",
+        joints: Optional[Sequence[str]] = None,
+    ) -> Chunks:
+        """Returns a stream of chunks of future targets, as policies give them; use it in a `with` statement.
+
+        rate_hz     -- of the targets within a chunk
+        relative_to -- None: targets are absolute; "commanded": they are added to the reference that the arm had at the
+                       time of the observation; "measured": to where the arm was then
+        crossfade_s -- 0 to 0.3, over which the old plan is faded out
+        """
+        if not rate_hz > 0:
+            raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")
+        if not self.robot.longest_chunk:
+            raise Refused(f"the pipeline {self.robot.pipeline} takes no chunks", 0)
+        self._own()
+        return Chunks(self, rate_hz, relative_to, crossfade_s, motion_frame, joints)
+
+    # Controls
+
+    def cancel(self) -> None:
+        """Ends what runs; the arm brakes on its path and holds. Raises Refused (42) if nothing runs."""
+        self._session.ask("cancel", pb.Cancel())
+
+    def override(self, rate: float) -> None:
+        """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on."""
+        self._session.ask("override", pb.Override(rate=rate))
+
+    def pause(self) -> None:
+        """Brings the arm to rest on its path; the trajectory stays alive until `resume` or `cancel`."""
+        self._session.ask("pause", pb.Pause())
+
+    def resume(self) -> None:
+        """Ends a pause."""
+        self._session.ask("resume", pb.Resume())
+
+    def stop(self) -> None:
+        """Stops the whole chain, whoever moves it; needs no lease. The arm moves again only after `rearm`."""
+        self._session.ask("stop", pb.Stop())
+
+    def rearm(self) -> None:
+        """Takes over the arm after a stop or a fault, where it is. Everything that was sent before is void."""
+        self._own()
+        self._session.ask("rearm", pb.Rearm())
+
+    def parameters(self, values: Mapping[str, Mapping[str, Any]], *, check: bool = False) -> None:
+        """Changes settings of the pipeline, all in one cycle or none: {"pd": {"kp": [100, 100, ...]}}.
+
+        check -- judge them and change nothing. Raises Refused with section, key and reason.
+        """
+        request = pb.Parameters(check=check)
+        for section, keys in values.items():
+            for key, value in keys.items():
+                text = value if isinstance(value, str) else " ".join(f"{v!r}" for v in np.ravel(value).tolist())
+                request.set.add(section=section, key=key, value=text)
+        self._session.ask("parameters", request)
+
+    def release(self) -> None:
+        """Gives the lease back; what runs goes on to its end."""
+        self._session.ask("lease", pb.Lease(wish=pb.Lease.RELEASE))
+        self._leased = False
+
+    # Inner parts
+
+    def _own(self) -> None:
+        self._session.ask("lease", self._lease)
+        self._leased = True
+
+    def _cancel(self) -> None:
+        """Cancels what runs, if anything does and the server is still there."""
+        with contextlib.suppress(Error):
+            self._session.ask("cancel", pb.Cancel())
+
+    def _terms(self, joints: Optional[Sequence[str]]) -> Any:
+        names = [joint.name for joint in self.robot.joints]
+        unknown = [name for name in joints or () if name not in names]
+        if unknown:
+            raise ValueError(f"joint {unknown[0]!r}; the robot has {', '.join(names)}")
+        held = [] if joints is None else [i for i, name in enumerate(names) if name not in joints]
+        return pb.Terms(held_joints=sum(1 << i for i in held))
+
+    def _columns(
+        self, joint: tuple[Any, ...], task: tuple[Any, ...], joints: Optional[Sequence[str]], rows: bool = True
+    ) -> tuple[Any, list[Optional[Array]]]:
+        """Returns terms, and (position, velocity, acceleration, effort) with one row for each target."""
+        if (joint[0] is None) == (task[0] is None):
+            raise ValueError("give either q or pose")
+        if any(given is not None for given in (task if joint[0] is not None else joint)):
+            raise ValueError("fields of joints and of the tip cannot be mixed")
+        terms, columns = self._terms(joints), []
+        names, widths, given = ("pose", "twist", "acceleration", "wrench"), (7, 6, 6, 6), task
+        if joint[0] is not None:
+            names, given = ("q", "dq", "ddq", "tau"), joint
+            widths = (len(joints) if joints is not None else self.robot.dof,) * 4
+        for name, width, values in zip(names, widths, given):
+            if values is None:
+                columns.append(None)
+                continue
+            column = np.asarray(values, dtype=float)
+            shape = (len(columns[0]) if columns else "n", width) if rows else (width,)
+            if column.shape[rows:] != (width,) or column.ndim != len(shape) or (columns and len(column) != shape[0] and rows):
+                raise ValueError(f"{name} has the shape {column.shape}; expected {str(shape).replace(chr(39), '')}")
+            columns.append(self._all_joints(column, joints) if joint[0] is not None else column)
+        return terms, columns
+
+    def _all_joints(self, column: Array, joints: Optional[Sequence[str]]) -> Array:
+        if joints is None:
+            return column
+        names = [joint.name for joint in self.robot.joints]
+        wide = np.zeros((*column.shape[:-1], len(names)))
+        wide[..., [names.index(name) for name in joints]] = column
+        return wide
+
+
+class Motion:
+    """A trajectory that the server has accepted. Iterate over it for feedback, or `wait` for its end.
+
+    Ctrl-C in either cancels it, on its path, and raises KeyboardInterrupt.
+    """
+
+    def __init__(self, arm: Arm, begin: Any, times: Array, numbers: Array):
+        self._arm, self._session = arm, arm._session
+        self._times, self._numbers = times, numbers
+        self._sent = 0
+        with self._on_interrupt():
+            with arm._upload:
+                arm._uploading = self
+                self._call = self._session.send("begin", begin)
+            self._session.wait(lambda: self._call.answer, "answer to begin")
+            if refusal := self._call.refusal():
+                raise refusal
+            self._thread = threading.Thread(target=self._feed, name="tactus waypoints", daemon=True)
+            self._thread.start()
+            self._await_verdict()
+        if refusal := self._call.refusal():
+            raise refusal
+
+    @property
+    def result(self) -> Optional[Result]:
+        """How it has ended; None while it runs."""
+        told = self._call.report
+        if told is None or not Outcome(told.outcome).final:
+            return None
+        return Result(Outcome(told.outcome), told.status, told.text, told.time_s, told.stretch)
+
+    def wait(self, timeout_s: Optional[float] = None) -> Result:
+        """Waits for the end, and returns the Result if it succeeded, was preempted or canceled.
+
+        Raises Aborted if the robot gave it up, Refused if a later waypoint was not accepted, Lost if the connection
+        ends; TimeoutError after `timeout_s`, if given: the trajectory goes on.
+        """
+        with self._on_interrupt():
+            self._session.wait_long(lambda: self.result, "end of the trajectory", timeout_s)
+        if refusal := self._call.refusal():
+            raise refusal
+        result = self.result
+        assert result is not None
+        if result.outcome == Outcome.ABORTED:
+            raise Aborted(result)
+        return result
+
+    def __iter__(self) -> Iterator[Feedback]:
+        """Yields Feedback until the trajectory has ended; then raises what `wait` would raise."""
+        while True:
+            with self._on_interrupt():
+                self._session.wait_long(lambda: self._call.feedback or self.result, "Feedback", None)
+            if not self._call.feedback:
+                self.wait()
+                return
+            yield self._call.feedback.popleft()
+
+    def cancel(self) -> Result:
+        """Ends it on its path and returns its Result, also if it has ended before."""
+        if self.result is None:
+            try:
+                self._arm.cancel()
+            except Refused:
+                if self.result is None:
+                    raise
+        return self.wait()
+
+    @contextlib.contextmanager
+    def _on_interrupt(self) -> Iterator[None]:
+        try:
+            yield
+        except KeyboardInterrupt:
+            self._arm._cancel()
+            raise
+
+    def _await_verdict(self) -> None:
+        """Waits until the server has accepted it or not; as long as waypoints go out, it may take its time."""
+        sent = -1
+        while sent != self._sent:
+            sent = self._sent
+            with contextlib.suppress(TimeoutError):
+                self._session.wait_long(lambda: self._call.report, "verdict", self._session.timeout_s)
+                return
+        raise Lost(f"{self._session.address}: no verdict on a trajectory within {self._session.timeout_s} s")
+
+    def _feed(self) -> None:
+        """Sends the waypoints as there is credit, until they are sent, a newer trajectory is begun, or this one ends."""
+        robot = self._arm.robot
+        part = min(robot.longest_part, (_LONGEST_MESSAGE - 64) // (8 * (self._numbers.shape[1] + 1)))
+        with contextlib.suppress(Error):  # the call that waits for the motion raises it
+            while True:
+                done = self._sent == len(self._times)
+                if not done:
+                    self._session.wait_long(lambda: self._session.credit > 0 or self._call.final, "Credit", None)
+                with self._arm._upload:
+                    if self._arm._uploading is not self or self._call.final:
+                        return
+                    if done:
+                        self._session.send("end", pb.End())
+                        return
+                    with self._session.news:
+                        count = min(part, self._session.credit, len(self._times) - self._sent)
+                        self._session.credit -= count
+                    rows = slice(self._sent, self._sent + count)
+                    self._session.send("part", pb.Part(
+                        time_s=self._times[rows].tolist(), numbers=self._numbers[rows].ravel().tolist()))  # fmt: skip
+                    self._sent += count
+
+
+class Stream:
+    """A stream of points or velocities at any rate. The newest wins; the server keeps the arm within its limits.
+
+    A `send` does not wait for the server; what it refuses is raised by the next `send`, or at the end of the `with`
+    block. Leaving the block by an exception cancels the motion; otherwise the arm goes to the last point.
+    """
+
+    def __init__(self, arm: Arm, motion_frame: str, wrench_frame: str, joints: Optional[Sequence[str]]):
+        self._arm, self._session = arm, arm._session
+        self._frames, self._joints = (motion_frame, wrench_frame), joints
+        self._epoch = arm.state().epoch
+        self._calls: collections.deque[_Call] = collections.deque()
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        if kind is not None:
+            self._arm._cancel()
+            return
+        self._collect(0)
+
+    def send(
+        self,
+        *,
+        q: Optional[ArrayLike] = None,
+        dq: Optional[ArrayLike] = None,
+        ddq: Optional[ArrayLike] = None,
+        tau: Optional[ArrayLike] = None,
+        pose: Optional[ArrayLike] = None,
+        twist: Optional[ArrayLike] = None,
+        acceleration: Optional[ArrayLike] = None,
+        wrench: Optional[ArrayLike] = None,
+    ) -> None:
+        """Sends a point: q and what goes with it, [joints], or pose and what goes with it, [7] and [6].
+
+        With dq or twist the arm passes the point at that velocity and comes to rest if no other follows.
+        """
+        terms, columns = self._arm._columns(
+            (q, dq, ddq, tau), (pose, twist, acceleration, wrench), self._joints, rows=False
+        )
+        point = pb.Point()
+        for name, column in zip(("q", "dq", "ddq", "tau") if q is not None else ("pose", "twist", "acceleration", "wrench"), columns):
+            if column is not None:
+                getattr(point.joint if q is not None else point.task, name).extend(column.tolist())
+        self._send("point", point, terms)
+
+    def velocity(self, *, dq: Optional[ArrayLike] = None, twist: Optional[ArrayLike] = None, timeout_s: float = 0.2) -> None:
+        """Sends velocities of the joints, [joints] rad/s, or of the tip, [6] m/s and rad/s, to keep until the next.
+
+        timeout_s -- 0.001 to 10: if nothing follows for as long, the arm comes to rest
+        """
+        if (dq is None) == (twist is None):
+            raise ValueError("give either dq or twist")
+        given = np.asarray(dq if dq is not None else twist, dtype=float)
+        width = 6 if dq is None else len(self._joints) if self._joints is not None else self._arm.robot.dof
+        if given.shape != (width,):
+            raise ValueError(f"{'twist' if dq is None else 'dq'} has the shape {given.shape}; expected ({width},)")
+        request = pb.Velocity(timeout_ms=round(timeout_s * 1000))
+        if dq is not None:
+            request.dq.extend(self._arm._all_joints(given, self._joints).tolist())
+        else:
+            request.twist.extend(given.tolist())
+        self._send("velocity", request, self._arm._terms(self._joints))
+
+    def _send(self, kind: str, request: Any, terms: Any) -> None:
+        self._collect(_UNREPORTED)
+        if self._session.state.epoch != self._epoch:
+            raise Stopped("the arm was stopped since this stream was opened; rearm and open a new stream to go on")
+        terms.motion_frame, terms.wrench_frame = self._frames
+        request.terms.CopyFrom(terms)
+        with self._session.news:
+            self._session.sequence += 1
+            request.place.epoch, request.place.sequence = self._epoch, self._session.sequence
+        self._calls.append(self._session.send(kind, request))
+
+    def _collect(self, most: int) -> None:
+        """Takes the reports that have come, waits until at most `most` are missing, and raises the first refusal."""
+        while self._calls and (self._calls[0].final or len(self._calls) > most):
+            call = self._calls.popleft()
+            self._session.wait(lambda: call.final, f"report on {call.kind}")
+            self._judge(call)
+
+    def _judge(self, call: _Call) -> None:
+        if refusal := call.refusal():
+            if self._session.state.epoch != self._epoch:
+                raise Stopped(str(refusal)) from refusal
+            raise refusal
+
+
+class Chunks(Stream):
+    """Chunks of future targets. Each replaces the plan from its first target that is still ahead, smoothly.
+
+    A chunk that is late as a whole is no error: `late` counts them, and the old plan goes on. The arm comes to rest when
+    the targets run out, unless a new chunk comes before.
+    """
+
+    def __init__(
+        self,
+        arm: Arm,
+        rate_hz: float,
+        relative_to: Optional[str],
+        crossfade_s: float,
+        motion_frame: str,
+        joints: Optional[Sequence[str]],
+    ):
+        super().__init__(arm, motion_frame, "", joints)
+        bases = {None: pb.Chunk.NONE, "commanded": pb.Chunk.COMMANDED, "measured": pb.Chunk.MEASURED}
+        if relative_to not in bases:
+            raise ValueError(f"relative_to {relative_to!r}; expected None, 'commanded' or 'measured'")
+        self._base, self._rate_hz, self._crossfade_s = bases[relative_to], rate_hz, crossfade_s
+        self.late = 0
+
+    def send(  # type: ignore[override]
+        self,
+        q: Optional[ArrayLike] = None,
+        *,
+        pose: Optional[ArrayLike] = None,
+        dq: Optional[ArrayLike] = None,
+        twist: Optional[ArrayLike] = None,
+        observed_ns: Optional[int] = None,
+        first: int = 0,
+        ends: bool = False,
+    ) -> None:
+        """Sends a chunk; target k is for the time observed_ns + (first + k) / rate_hz.
+
+        q, dq       -- [n, joints] rad and rad/s, or
+        pose, twist -- [n, 7] and [n, 6] of the tip; dq and twist are optional
+        observed_ns -- when the observation was made, by time.monotonic_ns(); of a State, its stamp_ns. None: times count
+                       from the arrival at the server (for devices; a policy loses its latency)
+        first       -- number of the first target; 0: that of the observation itself
+        ends        -- the last target is reached at rest, and no chunk follows
+        """
+        terms, columns = self._arm._columns((q, dq, None, None), (pose, twist, None, None), self._joints)
+        position, velocity = columns[0], columns[1]
+        assert position is not None
+        if len(position) > self._arm.robot.longest_chunk:
+            raise ValueError(f"{len(position)} targets; the server takes {self._arm.robot.longest_chunk} in a chunk")
+        chunk = pb.Chunk(
+            base=self._base,
+            ends=ends,
+            crossfade_s=self._crossfade_s,
+            time_s=((first + np.arange(len(position))) / self._rate_hz).tolist(),
+            time=pb.Chunk.ON_ARRIVAL if observed_ns is None else pb.Chunk.ABSOLUTE,
+        )
+        if observed_ns is not None:
+            chunk.origin_ns = chunk.observed_ns = self._session.clock.to_server(observed_ns)
+        (chunk.q if q is not None else chunk.pose).extend(position.ravel().tolist())
+        if velocity is not None:
+            (chunk.dq if q is not None else chunk.twist).extend(velocity.ravel().tolist())
+        self._send("chunk", chunk, terms)
+
+    def _judge(self, call: _Call) -> None:
+        refusal = call.refusal()
+        if refusal and refusal.status == _REFERENCE_TIME:
+            self.late += 1
+        elif refusal:
+            super()._judge(call)
+
+
+# --- a simulated robot ---
+
+
+@contextlib.contextmanager
+def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.PathLike[str], None] = None,
+          options: Sequence[str] = ()) -> Iterator[str]:  # fmt: skip
+    """Runs a server with a simulated robot on a private socket, and yields its address. The server ends with the block.
+
+    pipeline -- a pipeline file
+    program  -- a program of a simulated board; None: build/<robot>_sim/tactus beside the folder of the pipeline file
+    options  -- further options of `tactus serve`
+    """
+    file = pathlib.Path(pipeline).resolve()
+    if program is None:
+        program = _program_for(file)
+    folder = tempfile.mkdtemp(prefix="tactus-")
+    address = f"unix:{folder}/socket"
+    log = open(f"{folder}/log", "w+", encoding="utf-8", errors="replace")  # not a pipe, which would fill
+    server = subprocess.Popen([program, "serve", file, "--listen", address, *options], cwd=folder,
+                              stdin=subprocess.DEVNULL, stdout=log, stderr=log)  # fmt: skip
+    try:
+        _await_server(server, f"{folder}/socket", log)
+        yield address
+    finally:
+        server.terminate()
+        try:
+            server.wait(10)
+        except subprocess.TimeoutExpired:
+            server.kill()
+            server.wait()
+        log.close()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def sim(pipeline: Union[str, os.PathLike[str]], **settings: Any) -> Iterator[Arm]:
+    """Runs a simulated robot for the `with` block and yields its Arm; takes what `serve` takes."""
+    with serve(pipeline, **settings) as address, connect(address) as arm:
+        yield arm
+
+
+def _program_for(pipeline: pathlib.Path) -> pathlib.Path:
+    """Returns the program of the simulated board for the robot that a pipeline file names."""
+    lines = pipeline.read_text(encoding="utf-8").partition("[robot]")[2].splitlines()
+    robot = next((line.partition("=")[2].split("#")[0].strip() for line in lines if line.split("=")[0].strip() == "name"), "")
+    tried = [folder / f"build/{robot}_sim/tactus" for folder in pipeline.parents]
+    found = next((program for program in tried if robot and program.exists()), None)
+    if found is None:
+        raise Error(f"{pipeline}: no build/{robot}_sim/tactus above it; run `make BOARD={robot}_sim`, or give program=")
+    return found
+
+
+def _await_server(server: subprocess.Popen[bytes], path: str, log: Any) -> None:
+    end = time.monotonic() + 20.0
+    while server.poll() is None and time.monotonic() < end:
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+            if not probe.connect_ex(path):
+                return
+        time.sleep(0.01)
+    log.seek(0)
+    raise Lost(f"the simulated robot did not start: {log.read().strip() or 'it says nothing'}")
+
+
+def _robot(welcome: Any) -> Robot:
+    fields = ("name", "min_rad", "max_rad", "velocity", "acceleration", "jerk", "effort")
+    joints = tuple(Joint(*(getattr(joint, field) for field in fields)) for joint in welcome.joints)
+    return Robot(welcome.board, welcome.robot, welcome.pipeline, welcome.configuration, welcome.period_s, joints,
+                 welcome.takes_joints, welcome.takes_poses, welcome.longest_chunk, welcome.window,
+                 welcome.longest_part)  # fmt: skip
+
+
+def _state(told: Any, clock: _Clock) -> State:
+    copied = {field.name: getattr(told, field.name) for field in dataclasses.fields(State) if hasattr(told, field.name)}
+    for name, value in copied.items():
+        if name in ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench"):
+            copied[name] = _array(value)
+    counts = told.stream
+    return State(stamp_ns=clock.to_local(told.server_ns), chunks_taken=counts.taken, chunks_late=counts.late,
+                 chunks_dropped=counts.dropped, targets_trimmed=counts.trimmed, seam=counts.seam, **copied)  # fmt: skip
