@@ -333,6 +333,9 @@ class _Link:
             self._socket.sendall(len(body).to_bytes(4, "little") + body)
         except OSError as error:
             raise Lost(f"{self.address}: the server takes no more: {error}") from error
+        except BaseException:  # Ctrl-C, perhaps within the message: nothing can follow it
+            self._socket.shutdown(socket.SHUT_RDWR)
+            raise
 
     def can_send(self) -> bool:
         return bool(select.select([], [self._socket], [], 0)[1])
@@ -516,7 +519,7 @@ class _Session:
                         self.news.notify_all()
                 if self.welcome and time.monotonic() - self._heard > self.timeout_s:
                     raise Lost(f"{self.address}: the server has been silent for {self.timeout_s} s")
-        except (Error, OSError, ValueError) as error:  # ValueError: select() of a socket that was closed meanwhile
+        except Exception as error:  # of whatever kind: those who wait must know
             with self.news:
                 self._fail(error if isinstance(error, Error) else Lost(f"{self.address}: {error}"))
         finally:
@@ -612,7 +615,7 @@ class Arm:
     """The arm behind a server. The first motion takes the lease; leaving the `with` block gives it back.
 
     Leaving it by an exception, Ctrl-C among them, cancels what runs: the arm comes to rest on its path. Leaving it
-    otherwise lets a trajectory that was begun by `start` run to its end.
+    otherwise lets a trajectory that was begun by `start` run to its end, and waits until all its waypoints are sent.
     """
 
     def __init__(self, session: _Session, priority: int, lease_s: float, state_s: float, feedback_s: float):
@@ -637,6 +640,8 @@ class Arm:
         try:
             if kind is not None and self._leased:
                 self._cancel()
+            elif self._uploading is not None:
+                self._uploading._thread.join()
             if self._leased:
                 with contextlib.suppress(Error):
                     self._session.ask("lease", pb.Lease(wish=pb.Lease.RELEASE))
@@ -650,8 +655,10 @@ class Arm:
     # What it does
 
     def state(self) -> State:
-        """Returns the latest State, at most about `state_s` old."""
+        """Returns the latest State, at most about `state_s` old. Raises Lost if the connection has ended."""
         self._session.wait(lambda: self._session.state, "State")
+        if self._session.broken:
+            raise self._session.broken
         return _state(self._session.state, self._session.clock)
 
     def watch(self) -> Iterator[State]:
@@ -698,6 +705,7 @@ class Arm:
         start_ns: Optional[int] = None,
         motion_frame: str = "",
         wrench_frame: str = "",
+        window: int = 0,
         check: bool = False,
     ) -> Motion:
         """Begins a trajectory of any length and returns it as soon as the server has accepted it.
@@ -710,9 +718,10 @@ class Arm:
         exact         -- refuse what is too fast instead of slowing it down
         start_ns      -- when it begins, by time.monotonic_ns(); None: at once
         motion_frame, wrench_frame -- an output of the pipeline, "block.port"; "": the base
+        window        -- waypoints that are in the server at once; 0: all that it has space for (robot.window)
         check         -- judge it and move nothing
 
-        What the server can hold at once (robot.window) is judged before the arm moves; the rest is sent while it moves.
+        What the server holds at once is judged before the arm moves; the rest is sent while it moves.
         Raises Refused with waypoint, joint, value and limit if the server does not accept it.
         """
         terms, columns = self._columns((q, dq, ddq, tau), (pose, twist, acceleration, wrench), joints)
@@ -733,6 +742,7 @@ class Arm:
             accelerations=ddq is not None or acceleration is not None,
             efforts=tau is not None or wrench is not None,
             check=check,
+            window=window,
         )
         if not check:
             self._own()
@@ -1073,6 +1083,8 @@ class Stream:
             if self._session.state.epoch != self._epoch:
                 raise Stopped(str(refusal)) from refusal
             raise refusal
+        if call.report is not None and call.report.outcome in (Outcome.ABORTED, Outcome.CANCELED):
+            raise Stopped(call.report.text or "the motion of this stream was canceled; open a new stream to go on")
 
 
 class Chunks(Stream):

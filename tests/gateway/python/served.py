@@ -1,0 +1,45 @@
+"""The server of the board whose program is $P, for the tests that need an arm."""
+
+import os
+import pathlib
+import time
+
+import numpy as np
+import tactus
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+PROGRAM = pathlib.Path(os.environ["P"])
+ROBOT = PROGRAM.parent.name.split("_")[0]
+JOINT_PIPELINE = ROOT / "pipelines" / {"ur10": "ur10_jrg_pid.ini"}.get(ROBOT, f"{ROBOT}_jrg_pdgc.ini")
+TASK_PIPELINE = ROOT / "pipelines" / f"{ROBOT}_trg_cpc.ini"
+
+
+def serve(pipeline=JOINT_PIPELINE):
+    return tactus.serve(pipeline, program=PROGRAM)
+
+
+def swing(begin, way=0.2, duration_s=1.0, rate_hz=100):
+    """Returns t, q, dq of a rest-to-rest quintic of every joint from `begin` on."""
+    t = np.linspace(0, duration_s, round(duration_s * rate_hz) + 1)
+    s = (t / duration_s)[:, None]
+    ones = np.ones_like(begin)
+    return dict(
+        t=t,
+        q=begin + way * (10 * s**3 - 15 * s**4 + 6 * s**5) * ones,
+        dq=way / duration_s * (30 * s**2 - 60 * s**3 + 30 * s**4) * ones,
+        ddq=way / duration_s**2 * (60 * s - 180 * s**2 + 120 * s**3) * ones,
+    )
+
+
+def at_rest(arm, within_s=5.0):
+    """Waits until the reference has rested for 50 ms, and returns the state."""
+    end, since = time.monotonic() + within_s, None
+    for state in arm.watch():
+        if state.q_d is None or np.abs(state.dq_d).max() > 1e-9 or np.abs(state.dq).max() > 0.02:
+            since = None
+        elif since is None:
+            since = state.stamp_ns
+        elif state.stamp_ns - since > 50_000_000:
+            return state
+        if time.monotonic() > end:
+            raise AssertionError(f"the arm moves after {within_s} s: {state}")

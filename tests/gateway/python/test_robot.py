@@ -1,0 +1,182 @@
+"""What a program does with an arm, on the simulated robot of this board."""
+
+import contextlib
+import time
+import unittest
+
+import numpy as np
+import served
+import tactus
+from tactus import Outcome
+
+
+def setUpModule():
+    global address
+    address = unittest.enterModuleContext(served.serve())
+
+
+def connect(**settings):
+    return tactus.connect(address, **settings)
+
+
+class Trajectories(unittest.TestCase):
+    def test_a_trajectory_ends_where_it_should(self):
+        with connect() as arm:
+            path = served.swing(arm.state().q_d)
+            self.assertTrue(arm.move(**path).succeeded)
+            np.testing.assert_allclose(arm.state().q, path["q"][-1], atol=5e-3)
+
+    def test_feedback_comes_while_it_runs(self):
+        with connect() as arm:
+            motion = arm.start(**served.swing(arm.state().q_d, -0.2))
+            times = [told.time_s for told in motion]
+        self.assertGreater(len(times), 5)
+        self.assertEqual(times, sorted(times))
+        self.assertTrue(motion.result.succeeded)
+
+    def test_one_that_is_longer_than_its_window_runs_through(self):
+        with connect() as arm:
+            path = served.swing(arm.state().q_d, 0.2, 2.0, 500)
+            motion = arm.start(**path, window=128)
+            self.assertTrue(motion.wait().succeeded)
+            np.testing.assert_allclose(arm.state().q_d, path["q"][-1], atol=1e-9)
+
+    def test_a_refusal_names_the_limit_and_moves_nothing(self):
+        with connect() as arm:
+            before = served.at_rest(arm).q_d
+            path = served.swing(before, 100.0)
+            with self.assertRaisesRegex(tactus.Refused, "joint 1 .*position") as refused:
+                arm.move(**path)
+            self.assertEqual(refused.exception.status, 34)
+            np.testing.assert_array_equal(arm.state().q_d, before)
+
+    def test_check_moves_nothing(self):
+        with connect() as arm:
+            before = served.at_rest(arm).q_d
+            arm.check(**served.swing(before))
+            with self.assertRaises(tactus.Refused):
+                arm.check(**served.swing(before, 100.0))
+            np.testing.assert_array_equal(arm.state().q_d, before)
+            self.assertEqual(arm.state().owner, "")
+
+    def test_a_cancel_brakes_on_the_path(self):
+        with connect() as arm:
+            path = served.swing(arm.state().q_d, 0.3, 2.0)
+            motion = arm.start(**path)
+            time.sleep(0.8)
+            self.assertEqual(motion.cancel().outcome, Outcome.CANCELED)
+            q = served.at_rest(arm).q_d
+            self.assertLess(np.ptp(q - path["q"][0]), 1e-6)  # all joints are equally far on this path
+            self.assertLess(np.abs(q - path["q"][0]).max(), 0.29)
+            with self.assertRaises(tactus.Refused):
+                arm.cancel()
+
+    def test_a_newer_trajectory_preempts(self):
+        with connect() as arm:
+            first = arm.start(**served.swing(arm.state().q_d, 0.3, 2.0))
+            time.sleep(0.2)
+            second = arm.start(t=[2.0], q=arm.state().q_d[None])
+            self.assertEqual(first.wait().outcome, Outcome.PREEMPTED)
+            self.assertTrue(second.wait().succeeded)
+
+    def test_pause_resume_and_override(self):
+        with connect() as arm:
+            motion = arm.start(**served.swing(arm.state().q_d, -0.2))
+            time.sleep(0.3)
+            arm.pause()
+            paused = served.at_rest(arm).q_d
+            arm.override(0.5)
+            arm.resume()
+            self.assertTrue(motion.wait().succeeded)
+            self.assertGreater(np.abs(arm.state().q_d - paused).max(), 0.01)
+            self.assertEqual(arm.state().override, 0.5)
+            arm.override(1.0)
+
+
+class Streams(unittest.TestCase):
+    def test_points_are_followed(self):
+        with connect() as arm:
+            start = served.at_rest(arm).q_d
+            with arm.stream() as stream:
+                for step in range(1, 31):
+                    stream.send(q=start + 0.002 * step)
+                    time.sleep(0.02)
+            np.testing.assert_allclose(served.at_rest(arm).q_d, start + 0.06, atol=1e-6)
+
+    def test_a_velocity_ends_with_its_time_out(self):
+        with connect() as arm:
+            start = served.at_rest(arm).q_d
+            way = np.zeros(arm.robot.dof)
+            way[0] = -0.2
+            arm.velocity(dq=way, timeout_s=0.3)
+            moved = served.at_rest(arm).q_d - start
+            self.assertTrue(-0.15 < moved[0] < -0.02, moved)
+            np.testing.assert_allclose(moved[1:], 0, atol=1e-9)
+
+    def test_chunks_are_spliced(self):
+        with connect() as arm:
+            start, rate_hz = served.at_rest(arm).q_d, 30
+            zero_ns = time.monotonic_ns()
+            with arm.chunks(rate_hz=rate_hz) as policy:
+                for step in range(6):
+                    observed_ns = time.monotonic_ns()
+                    t = (observed_ns - zero_ns) / 1e9 + np.arange(20) / rate_hz
+                    time.sleep(0.1)
+                    policy.send(np.tile(start, (20, 1)) + 0.05 * np.minimum(t, 1.2)[:, None], observed_ns=observed_ns,
+                                ends=step == 5)  # fmt: skip
+                    time.sleep(0.1)
+            end = served.at_rest(arm)
+            np.testing.assert_allclose(end.q_d, start + 0.06, atol=5e-3)
+            self.assertEqual(policy.late, 0)
+            self.assertGreater(end.targets_trimmed, 0)
+
+
+class Owners(unittest.TestCase):
+    def test_another_one_is_refused_until_the_arm_is_free(self):
+        with connect(name="first") as first, connect(name="second") as second:
+            here = first.state().q_d
+            first.point(q=here)
+            with self.assertRaisesRegex(tactus.Refused, "first"):
+                second.point(q=here)
+            first.release()
+            second.point(q=here)
+
+    def test_a_higher_priority_takes_the_arm(self):
+        with connect(name="low") as low, connect(name="high", priority=9) as high:
+            motion = low.start(**served.swing(low.state().q_d, 0.2, 3.0))
+            time.sleep(0.2)
+            with contextlib.suppress(tactus.Refused):
+                high.velocity(dq=np.zeros(high.robot.dof))
+            with contextlib.suppress(tactus.Aborted):
+                self.assertFalse(motion.wait(5).succeeded)
+            with self.assertRaises(tactus.Refused):
+                low.start(**served.swing(low.state().q_d))
+
+    def test_after_a_stop_only_rearm_moves_the_arm(self):
+        with connect() as arm:
+            motion = arm.start(**served.swing(arm.state().q_d, 0.2, 3.0))
+            time.sleep(0.3)
+            with connect() as somebody:
+                somebody.stop()
+            with self.assertRaises(tactus.Error):
+                motion.wait(5)
+            served.at_rest(arm)
+            with self.assertRaises(tactus.Refused):
+                arm.point(q=arm.state().q)
+            arm.rearm()
+            while arm.state().rung:
+                pass
+            arm.point(q=arm.state().q_d)
+
+    def test_the_stream_of_a_stopped_arm_raises(self):
+        with connect() as arm:
+            with self.assertRaises(tactus.Stopped), arm.stream() as stream:
+                while True:
+                    stream.send(q=arm.state().q_d)
+                    with connect() as somebody:
+                        somebody.stop()
+            arm.rearm()
+
+
+if __name__ == "__main__":
+    unittest.main()
