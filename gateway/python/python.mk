@@ -6,5 +6,5 @@ build/python/tactus.py: gateway/python/tactus.py
 	$(Q)cp $< $@
 build/python/tactus_pb2.py: gateway/tactus.proto
 	$(call say,PY    $@)
-	$(Q)protoc -I$(<D) --python_out=$(@D) $<
+	$(Q)protoc -I$(<D) --python_out=$(@D) --pyi_out=$(@D) $<
 $(filter $(B)/tests/gateway/test_python%,$(TESTS)): | python

@@ -40,7 +40,7 @@ import sys
 import tempfile
 import threading
 import time
-from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,7 +57,10 @@ __all__ = [
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
+Self = TypeVar("Self", bound="_References")
 
+_TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 64  # references of a stream that wait for their reports; more wait for the server
@@ -243,7 +246,7 @@ def _array(numbers: Sequence[float]) -> Optional[Array]:
     return np.array(numbers, dtype=float) if len(numbers) else None
 
 
-def _sample(joint: Any, task: Any) -> Sample:
+def _sample(joint: pb.JointPoint, task: pb.TaskPoint) -> Sample:
     return Sample(
         *map(_array, (joint.q, joint.dq, joint.ddq, joint.tau, task.pose, task.twist, task.acceleration, task.wrench))
     )
@@ -310,6 +313,7 @@ class _Link:
         self._bytes = bytearray()
         kind, _, place = address.partition(":")
         host, _, port = place.rpartition(":")
+        target: Union[str, tuple[str, int]]
         if kind == "unix" and place:
             self._socket, target = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM), place
         elif kind == "tcp" and host and port.isdigit():
@@ -325,7 +329,7 @@ class _Link:
             self._socket.close()
             raise Lost(f"{address}: {error.strerror or error}; is a tactus server running there?") from error
 
-    def send(self, message: Any) -> None:
+    def send(self, message: pb.ToServer) -> None:
         body = message.SerializeToString()
         if len(body) > _LONGEST_MESSAGE:
             raise ValueError(f"a message of {len(body)} bytes; at most {_LONGEST_MESSAGE} are taken")
@@ -340,7 +344,7 @@ class _Link:
     def can_send(self) -> bool:
         return bool(select.select([], [self._socket], [], 0)[1])
 
-    def receive(self, wait_s: float) -> Iterator[Any]:
+    def receive(self, wait_s: float) -> Iterator[pb.ToClient]:
         """Yields the messages that are complete after at most `wait_s`."""
         if not select.select([self._socket], [], [], max(0.0, wait_s))[0]:
             return
@@ -380,8 +384,8 @@ class _Call:
 
     def __init__(self, kind: str):
         self.kind = kind
-        self.answer: Any = None
-        self.report: Any = None
+        self.answer: Optional[pb.Answer] = None
+        self.report: Optional[pb.Report] = None
         self.feedback: collections.deque[Feedback] = collections.deque(maxlen=1024)
 
     @property
@@ -394,10 +398,11 @@ class _Call:
         return self.report is not None and Outcome(self.report.outcome).final
 
     def refusal(self) -> Optional[Refused]:
-        for told in (self.answer, self.report):
-            refused = told is not None and told.status and getattr(told, "outcome", Outcome.REFUSED) == Outcome.REFUSED
-            if refused:
-                return Refused(told.text or f"the server refused {self.kind}", told.status)
+        """What the server has refused it with."""
+        if self.answer is not None and self.answer.status:
+            return Refused(self.answer.text or f"the server refused {self.kind}", self.answer.status)
+        if self.report is not None and Outcome(self.report.outcome) == Outcome.REFUSED:
+            return Refused(self.report.text or f"the server refused {self.kind}", self.report.status)
         return None
 
 
@@ -409,10 +414,11 @@ class _Session:
         self.timeout_s = timeout_s
         self.clock = _Clock()
         self.news = threading.Condition()  # guards all below
-        self.state: Any = None
-        self.welcome: Any = None
+        self.state: Optional[pb.State] = None
+        self.welcome: Optional[pb.Welcome] = None
         self.events: collections.deque[Event] = collections.deque(maxlen=1024)
         self.credit = 0
+        self.epoch = 0
         self.sequence = 0
         self.broken: Optional[Error] = None
         self._calls: dict[int, _Call] = {}
@@ -430,9 +436,10 @@ class _Session:
 
     def _greet(self, name: str) -> None:
         hello = self.send("hello", pb.Hello(version=pb.VERSION_PRESENT, client=name[:31]))
-        self.wait(lambda: self.welcome or (hello.answer and hello.answer.status), "welcome")
+        self.wait(lambda: self.welcome or hello.refusal(), "welcome")
         if refusal := hello.refusal():
             raise refusal
+        assert self.welcome
         if self.welcome.version != pb.VERSION_PRESENT:
             raise Lost(
                 f"{self.address}: the server speaks version {self.welcome.version} of the protocol, this library"
@@ -476,22 +483,24 @@ class _Session:
             raise refusal
         return call.answer
 
-    def wait(self, predicate: Callable[[], Any], what: str) -> None:
-        """Waits until the predicate holds; a server that does not make it hold within `timeout_s` has failed."""
+    def wait(self, predicate: Callable[[], Optional[T]], what: str) -> T:
+        """Returns what the predicate does, once it is true; a server that lets `timeout_s` pass before has failed."""
         try:
-            self.wait_long(predicate, what, self.timeout_s)
+            return self.wait_long(predicate, what, self.timeout_s)
         except TimeoutError as error:
             with self.news:
                 self._fail(Lost(f"{self.address}: {error}"))
             raise self.broken or Lost() from None
 
-    def wait_long(self, predicate: Callable[[], Any], what: str, timeout_s: Optional[float]) -> None:
-        """Waits until the predicate holds, without end if `timeout_s` is None."""
+    def wait_long(self, predicate: Callable[[], Optional[T]], what: str, timeout_s: Optional[float]) -> T:
+        """Returns what the predicate does, once it is true; without end if `timeout_s` is None."""
         with self.news:
             if not self.news.wait_for(lambda: predicate() or self.broken, timeout_s):
                 raise TimeoutError(f"no {what} within {timeout_s} s")
-            if self.broken and not predicate():
-                raise self.broken
+            if value := predicate():
+                return value
+            assert self.broken
+            raise self.broken
 
     def close(self) -> None:
         with self.news:
@@ -533,7 +542,7 @@ class _Session:
             finally:
                 self._sending.release()
 
-    def _take(self, message: Any) -> None:
+    def _take(self, message: pb.ToClient) -> None:
         kind = message.WhichOneof("message")
         if kind == "welcome":
             if self.welcome:
@@ -546,6 +555,7 @@ class _Session:
             self._take_report(message.report)
         elif kind == "state":
             self.state = message.state
+            self.epoch = message.state.epoch
         elif kind == "feedback":
             told = message.feedback
             if call := self._calls.get(told.number):
@@ -558,7 +568,7 @@ class _Session:
         elif kind == "credit":
             self.credit += message.credit.waypoints
 
-    def _take_answer(self, answer: Any) -> None:
+    def _take_answer(self, answer: pb.Answer) -> None:
         call = self._calls.get(answer.number)
         if call is None or call.answer is not None:
             why = "twice" if answer.number <= self._number else "that was never sent"
@@ -571,7 +581,7 @@ class _Session:
         if call.final:
             del self._calls[answer.number]
 
-    def _take_report(self, report: Any) -> None:
+    def _take_report(self, report: pb.Report) -> None:
         call = self._calls.get(report.number)
         if call is None:
             raise Lost(f"the server has reported on request {report.number}, which has ended or was never sent")
@@ -625,6 +635,7 @@ class Arm:
         self._upload = threading.Lock()  # one trajectory at a time is under way to the server
         self._uploading: Optional[Motion] = None
         self.address = session.address
+        assert session.welcome
         self.robot = _robot(session.welcome)
         try:
             session.ask("subscribe", pb.Subscribe(
@@ -640,7 +651,7 @@ class Arm:
         try:
             if kind is not None and self._leased:
                 self._cancel()
-            elif self._uploading is not None:
+            elif self._uploading is not None and self._uploading._thread.ident:
                 self._uploading._thread.join()
             if self._leased:
                 with contextlib.suppress(Error):
@@ -656,17 +667,16 @@ class Arm:
 
     def state(self) -> State:
         """Returns the latest State, at most about `state_s` old. Raises Lost if the connection has ended."""
-        self._session.wait(lambda: self._session.state, "State")
+        told = self._session.wait(lambda: self._session.state, "State")
         if self._session.broken:
             raise self._session.broken
-        return _state(self._session.state, self._session.clock)
+        return _state(told, self._session.clock)
 
     def watch(self) -> Iterator[State]:
         """Yields States as they come, until the connection ends; who is too slow sees the latest only."""
-        seen = None
+        seen: Optional[pb.State] = None
         while True:
-            self._session.wait(lambda: self._session.state is not seen, "State")
-            seen = self._session.state
+            seen = self._session.wait(lambda: self._session.state if self._session.state is not seen else None, "State")
             yield _state(seen, self._session.clock)
 
     def events(self) -> list[Event]:
@@ -724,10 +734,15 @@ class Arm:
         What the server holds at once is judged before the arm moves; the rest is sent while it moves.
         Raises Refused with waypoint, joint, value and limit if the server does not accept it.
         """
-        terms, columns = self._columns((q, dq, ddq, tau), (pose, twist, acceleration, wrench), joints)
-        times = np.asarray(t, dtype=float)
-        if times.ndim != 1 or len(times) != len(columns[0]):
-            raise ValueError(f"t has the shape {times.shape}; give one time for each of the {len(columns[0])} waypoints")
+        terms = self._terms(joints)
+        targets = self._targets(
+            dict(q=q, dq=dq, ddq=ddq, tau=tau),
+            dict(pose=pose, twist=twist, acceleration=acceleration, wrench=wrench),
+            joints,
+        )
+        numbers, times = np.hstack(list(targets.values())), np.asarray(t, dtype=float)
+        if times.shape != numbers.shape[:1]:
+            raise ValueError(f"t has the shape {times.shape}; give one time for each of the {len(numbers)} waypoints")
         terms.motion_frame, terms.wrench_frame = motion_frame, wrench_frame
         kinds = pb.Begin.Interpolation
         if interpolation.upper() not in kinds.keys():
@@ -746,7 +761,7 @@ class Arm:
         )
         if not check:
             self._own()
-        return Motion(self, begin, times, np.hstack([column for column in columns if column is not None]))
+        return Motion(self, begin, times, numbers)
 
     def check(self, **trajectory: Any) -> Result:
         """Has the server judge a trajectory as `start` would, and moves nothing. Raises Refused with the reason."""
@@ -845,7 +860,7 @@ class Arm:
         with contextlib.suppress(Error):
             self._session.ask("cancel", pb.Cancel())
 
-    def _terms(self, joints: Optional[Sequence[str]]) -> Any:
+    def _terms(self, joints: Optional[Sequence[str]]) -> pb.Terms:
         names = [joint.name for joint in self.robot.joints]
         unknown = [name for name in joints or () if name not in names]
         if unknown:
@@ -853,36 +868,39 @@ class Arm:
         held = [] if joints is None else [i for i, name in enumerate(names) if name not in joints]
         return pb.Terms(held_joints=sum(1 << i for i in held))
 
-    def _columns(
-        self, joint: tuple[Any, ...], task: tuple[Any, ...], joints: Optional[Sequence[str]], rows: bool = True
-    ) -> tuple[Any, list[Optional[Array]]]:
-        """Returns terms, and (position, velocity, acceleration, effort) with one row for each target."""
-        if (joint[0] is None) == (task[0] is None):
+    def _targets(
+        self,
+        joint: Mapping[str, Optional[ArrayLike]],
+        task: Mapping[str, Optional[ArrayLike]],
+        joints: Optional[Sequence[str]],
+        rows: tuple[Optional[int], ...] = (None,),
+    ) -> dict[str, Array]:
+        """Returns the fields that are given, of the joints or of the tip; `rows` is the shape in front of their width."""
+        given = {name: values for name, values in {**joint, **task}.items() if values is not None}
+        if ("q" in given) == ("pose" in given):
             raise ValueError("give either q or pose")
-        if any(given is not None for given in (task if joint[0] is not None else joint)):
+        if not (given.keys() <= joint.keys() or given.keys() <= task.keys()):
             raise ValueError("fields of joints and of the tip cannot be mixed")
-        terms, columns = self._terms(joints), []
-        names, widths, given = ("pose", "twist", "acceleration", "wrench"), (7, 6, 6, 6), task
-        if joint[0] is not None:
-            names, given = ("q", "dq", "ddq", "tau"), joint
-            widths = (len(joints) if joints is not None else self.robot.dof,) * 4
-        for name, width, values in zip(names, widths, given):
-            if values is None:
-                columns.append(None)
-                continue
-            column = np.asarray(values, dtype=float)
-            shape = (len(columns[0]) if columns else "n", width) if rows else (width,)
-            if column.shape[rows:] != (width,) or column.ndim != len(shape) or (columns and len(column) != shape[0] and rows):
-                raise ValueError(f"{name} has the shape {column.shape}; expected {str(shape).replace(chr(39), '')}")
-            columns.append(self._all_joints(column, joints) if joint[0] is not None else column)
-        return terms, columns
+        targets: dict[str, Array] = {}
+        for name, values in given.items():
+            targets[name] = self._checked(name, values, joints, rows)
+            rows = targets[name].shape[:-1]  # all have as many as the first
+        return targets
 
-    def _all_joints(self, column: Array, joints: Optional[Sequence[str]]) -> Array:
-        if joints is None:
-            return column
+    def _checked(
+        self, name: str, values: ArrayLike, joints: Optional[Sequence[str]], rows: tuple[Optional[int], ...]
+    ) -> Array:
+        """Returns a field as an array for all joints, or for the tip; ValueError if its shape is wrong."""
+        width = _TASK_WIDTHS.get(name, self.robot.dof if joints is None else len(joints))
+        array, shape = np.asarray(values, dtype=float), (*rows, width)
+        if array.ndim != len(shape) or any(e not in (None, n) for n, e in zip(array.shape, shape)):
+            expected = ", ".join("n" if size is None else str(size) for size in shape)
+            raise ValueError(f"{name} has the shape {array.shape}; expected ({expected})")
+        if name in _TASK_WIDTHS or joints is None:
+            return array
         names = [joint.name for joint in self.robot.joints]
-        wide = np.zeros((*column.shape[:-1], len(names)))
-        wide[..., [names.index(name) for name in joints]] = column
+        wide = np.zeros((*array.shape[:-1], len(names)))
+        wide[..., [names.index(name) for name in joints]] = array
         return wide
 
 
@@ -892,10 +910,11 @@ class Motion:
     Ctrl-C in either cancels it, on its path, and raises KeyboardInterrupt.
     """
 
-    def __init__(self, arm: Arm, begin: Any, times: Array, numbers: Array):
+    def __init__(self, arm: Arm, begin: pb.Begin, times: Array, numbers: Array):
         self._arm, self._session = arm, arm._session
         self._times, self._numbers = times, numbers
         self._sent = 0
+        self._thread = threading.Thread(target=self._feed, name="tactus waypoints", daemon=True)
         with self._on_interrupt():
             with arm._upload:
                 arm._uploading = self
@@ -903,7 +922,6 @@ class Motion:
             self._session.wait(lambda: self._call.answer, "answer to begin")
             if refusal := self._call.refusal():
                 raise refusal
-            self._thread = threading.Thread(target=self._feed, name="tactus waypoints", daemon=True)
             self._thread.start()
             self._await_verdict()
         if refusal := self._call.refusal():
@@ -924,11 +942,9 @@ class Motion:
         ends; TimeoutError after `timeout_s`, if given: the trajectory goes on.
         """
         with self._on_interrupt():
-            self._session.wait_long(lambda: self.result, "end of the trajectory", timeout_s)
+            result = self._session.wait_long(lambda: self.result, "end of the trajectory", timeout_s)
         if refusal := self._call.refusal():
             raise refusal
-        result = self.result
-        assert result is not None
         if result.outcome == Outcome.ABORTED:
             raise Aborted(result)
         return result
@@ -995,20 +1011,17 @@ class Motion:
                     self._sent += count
 
 
-class Stream:
-    """A stream of points or velocities at any rate. The newest wins; the server keeps the arm within its limits.
-
-    A `send` does not wait for the server; what it refuses is raised by the next `send`, or at the end of the `with`
-    block. Leaving the block by an exception cancels the motion; otherwise the arm goes to the last point.
-    """
+class _References:
+    """References that follow each other, each with its place in the stream, and what has become of them."""
 
     def __init__(self, arm: Arm, motion_frame: str, wrench_frame: str, joints: Optional[Sequence[str]]):
         self._arm, self._session = arm, arm._session
-        self._frames, self._joints = (motion_frame, wrench_frame), joints
+        self._terms, self._joints = arm._terms(joints), joints
+        self._terms.motion_frame, self._terms.wrench_frame = motion_frame, wrench_frame
         self._epoch = arm.state().epoch
         self._calls: collections.deque[_Call] = collections.deque()
 
-    def __enter__(self) -> Any:
+    def __enter__(self: Self) -> Self:
         return self
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
@@ -1016,6 +1029,39 @@ class Stream:
             self._arm._cancel()
             return
         self._collect(0)
+
+    def _send(self, kind: str, request: Any) -> None:
+        self._collect(_UNREPORTED)
+        if self._session.epoch != self._epoch:
+            raise Stopped("the arm was stopped since this stream was opened; rearm and open a new stream to go on")
+        request.terms.CopyFrom(self._terms)
+        with self._session.news:
+            self._session.sequence += 1
+            request.place.epoch, request.place.sequence = self._epoch, self._session.sequence
+        self._calls.append(self._session.send(kind, request))
+
+    def _collect(self, most: int) -> None:
+        """Takes the reports that have come, waits until at most `most` are missing, and raises the first refusal."""
+        while self._calls and (self._calls[0].final or len(self._calls) > most):
+            call = self._calls.popleft()
+            self._session.wait(lambda: call.final, f"report on {call.kind}")
+            self._judge(call)
+
+    def _judge(self, call: _Call) -> None:
+        if refusal := call.refusal():
+            if self._session.epoch != self._epoch:
+                raise Stopped(str(refusal)) from refusal
+            raise refusal
+        if call.report is not None and Outcome(call.report.outcome) in (Outcome.ABORTED, Outcome.CANCELED):
+            raise Stopped(call.report.text or "the motion of this stream was canceled; open a new stream to go on")
+
+
+class Stream(_References):
+    """A stream of points or velocities at any rate. The newest wins; the server keeps the arm within its limits.
+
+    A `send` does not wait for the server; what it refuses is raised by the next `send`, or at the end of the `with`
+    block. Leaving the block by an exception cancels the motion; otherwise the arm goes to the last point.
+    """
 
     def send(
         self,
@@ -1033,14 +1079,16 @@ class Stream:
 
         With dq or twist the arm passes the point at that velocity and comes to rest if no other follows.
         """
-        terms, columns = self._arm._columns(
-            (q, dq, ddq, tau), (pose, twist, acceleration, wrench), self._joints, rows=False
+        targets = self._arm._targets(
+            dict(q=q, dq=dq, ddq=ddq, tau=tau),
+            dict(pose=pose, twist=twist, acceleration=acceleration, wrench=wrench),
+            self._joints,
+            rows=(),
         )
         point = pb.Point()
-        for name, column in zip(("q", "dq", "ddq", "tau") if q is not None else ("pose", "twist", "acceleration", "wrench"), columns):
-            if column is not None:
-                getattr(point.joint if q is not None else point.task, name).extend(column.tolist())
-        self._send("point", point, terms)
+        for name, numbers in targets.items():
+            getattr(point.task if name in _TASK_WIDTHS else point.joint, name).extend(numbers.tolist())
+        self._send("point", point)
 
     def velocity(self, *, dq: Optional[ArrayLike] = None, twist: Optional[ArrayLike] = None, timeout_s: float = 0.2) -> None:
         """Sends velocities of the joints, [joints] rad/s, or of the tip, [6] m/s and rad/s, to keep until the next.
@@ -1049,45 +1097,15 @@ class Stream:
         """
         if (dq is None) == (twist is None):
             raise ValueError("give either dq or twist")
-        given = np.asarray(dq if dq is not None else twist, dtype=float)
-        width = 6 if dq is None else len(self._joints) if self._joints is not None else self._arm.robot.dof
-        if given.shape != (width,):
-            raise ValueError(f"{'twist' if dq is None else 'dq'} has the shape {given.shape}; expected ({width},)")
         request = pb.Velocity(timeout_ms=round(timeout_s * 1000))
         if dq is not None:
-            request.dq.extend(self._arm._all_joints(given, self._joints).tolist())
-        else:
-            request.twist.extend(given.tolist())
-        self._send("velocity", request, self._arm._terms(self._joints))
-
-    def _send(self, kind: str, request: Any, terms: Any) -> None:
-        self._collect(_UNREPORTED)
-        if self._session.state.epoch != self._epoch:
-            raise Stopped("the arm was stopped since this stream was opened; rearm and open a new stream to go on")
-        terms.motion_frame, terms.wrench_frame = self._frames
-        request.terms.CopyFrom(terms)
-        with self._session.news:
-            self._session.sequence += 1
-            request.place.epoch, request.place.sequence = self._epoch, self._session.sequence
-        self._calls.append(self._session.send(kind, request))
-
-    def _collect(self, most: int) -> None:
-        """Takes the reports that have come, waits until at most `most` are missing, and raises the first refusal."""
-        while self._calls and (self._calls[0].final or len(self._calls) > most):
-            call = self._calls.popleft()
-            self._session.wait(lambda: call.final, f"report on {call.kind}")
-            self._judge(call)
-
-    def _judge(self, call: _Call) -> None:
-        if refusal := call.refusal():
-            if self._session.state.epoch != self._epoch:
-                raise Stopped(str(refusal)) from refusal
-            raise refusal
-        if call.report is not None and call.report.outcome in (Outcome.ABORTED, Outcome.CANCELED):
-            raise Stopped(call.report.text or "the motion of this stream was canceled; open a new stream to go on")
+            request.dq.extend(self._arm._checked("dq", dq, self._joints, ()).tolist())
+        if twist is not None:
+            request.twist.extend(self._arm._checked("twist", twist, self._joints, ()).tolist())
+        self._send("velocity", request)
 
 
-class Chunks(Stream):
+class Chunks(_References):
     """Chunks of future targets. Each replaces the plan from its first target that is still ahead, smoothly.
 
     A chunk that is late as a whole is no error: `late` counts them, and the old plan goes on. The arm comes to rest when
@@ -1110,7 +1128,7 @@ class Chunks(Stream):
         self._base, self._rate_hz, self._crossfade_s = bases[relative_to], rate_hz, crossfade_s
         self.late = 0
 
-    def send(  # type: ignore[override]
+    def send(
         self,
         q: Optional[ArrayLike] = None,
         *,
@@ -1130,24 +1148,22 @@ class Chunks(Stream):
         first       -- number of the first target; 0: that of the observation itself
         ends        -- the last target is reached at rest, and no chunk follows
         """
-        terms, columns = self._arm._columns((q, dq, None, None), (pose, twist, None, None), self._joints)
-        position, velocity = columns[0], columns[1]
-        assert position is not None
-        if len(position) > self._arm.robot.longest_chunk:
-            raise ValueError(f"{len(position)} targets; the server takes {self._arm.robot.longest_chunk} in a chunk")
+        targets = self._arm._targets(dict(q=q, dq=dq), dict(pose=pose, twist=twist), self._joints)
+        count = len(next(iter(targets.values())))
+        if count > self._arm.robot.longest_chunk:
+            raise ValueError(f"{count} targets; the server takes {self._arm.robot.longest_chunk} in a chunk")
         chunk = pb.Chunk(
             base=self._base,
             ends=ends,
             crossfade_s=self._crossfade_s,
-            time_s=((first + np.arange(len(position))) / self._rate_hz).tolist(),
+            time_s=((first + np.arange(count)) / self._rate_hz).tolist(),
             time=pb.Chunk.ON_ARRIVAL if observed_ns is None else pb.Chunk.ABSOLUTE,
         )
         if observed_ns is not None:
             chunk.origin_ns = chunk.observed_ns = self._session.clock.to_server(observed_ns)
-        (chunk.q if q is not None else chunk.pose).extend(position.ravel().tolist())
-        if velocity is not None:
-            (chunk.dq if q is not None else chunk.twist).extend(velocity.ravel().tolist())
-        self._send("chunk", chunk, terms)
+        for name, numbers in targets.items():
+            getattr(chunk, name).extend(numbers.ravel().tolist())
+        self._send("chunk", chunk)
 
     def _judge(self, call: _Call) -> None:
         refusal = call.refusal()
@@ -1220,7 +1236,7 @@ def _await_server(server: subprocess.Popen[bytes], path: str, log: Any) -> None:
     raise Lost(f"the simulated robot did not start: {log.read().strip() or 'it says nothing'}")
 
 
-def _robot(welcome: Any) -> Robot:
+def _robot(welcome: pb.Welcome) -> Robot:
     fields = ("name", "min_rad", "max_rad", "velocity", "acceleration", "jerk", "effort")
     joints = tuple(Joint(*(getattr(joint, field) for field in fields)) for joint in welcome.joints)
     return Robot(welcome.board, welcome.robot, welcome.pipeline, welcome.configuration, welcome.period_s, joints,
@@ -1228,7 +1244,7 @@ def _robot(welcome: Any) -> Robot:
                  welcome.longest_part)  # fmt: skip
 
 
-def _state(told: Any, clock: _Clock) -> State:
+def _state(told: pb.State, clock: _Clock) -> State:
     copied = {field.name: getattr(told, field.name) for field in dataclasses.fields(State) if hasattr(told, field.name)}
     for name, value in copied.items():
         if name in ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench"):

@@ -103,7 +103,14 @@ class Service(unittest.TestCase):
             until(peer, "subscribe")
             time.sleep(2)
 
-        self.fails("silent for 0.3 s", rests, serve=serve)
+        self.fails("silent for 0.3 s|no State within 0.3 s", rests, serve=serve)
+
+    def test_silence_while_the_arm_moves(self):
+        def take_end(peer, message):
+            peer.report(peer.trajectory, pb.Report.STARTED)
+            time.sleep(2)
+
+        self.fails("silent for 0.3 s", take_end=take_end)
 
     def test_no_state(self):
         self.fails("no State within 0.3 s", lambda arm: arm.state(), state=lambda peer: None)
