@@ -72,6 +72,9 @@ class Greeting(unittest.TestCase):
     def test_a_message_that_cannot_be_read(self):
         self.fails(lambda peer: peer.read() and peer.raw(b"\x03\0\0\0\x0a\xff\xff"), "3 bytes cannot be read")
 
+    def test_a_message_that_is_read_in_part(self):
+        self.fails(lambda peer: peer.read() and peer.raw(b"\x02\0\0\0\x0c\x0c"), "2 bytes cannot be read")
+
     def test_another_version(self):
         self.fails(lambda peer: peer.welcome(peer.read(), version=99), "speaks version 99.*install the same release")
 
@@ -114,6 +117,16 @@ class Service(unittest.TestCase):
 
     def test_no_state(self):
         self.fails("no State within 0.3 s", lambda arm: arm.state(), state=lambda peer: None)
+
+    def test_an_old_state_is_not_told(self):
+        def asks(arm):
+            while True:
+                arm.state()
+
+        def serve(peer):
+            until(peer, "subscribe")
+
+        self.fails("ended the connection", asks, serve=serve)
 
     def test_no_answer_but_states(self):
         def take(peer, message, kind):

@@ -60,6 +60,10 @@ class Messages(unittest.TestCase):
         self.assertEqual(len(sent(peer, "cancel")), 1)
         self.assertEqual(sent(peer, "lease")[-1].wish, pb.Lease.RELEASE)
 
+    def test_states_feedback_and_events_are_subscribed_to(self):
+        with connected(state_s=0.05, feedback_s=0.1) as (_, peer):
+            self.assertEqual(sent(peer, "subscribe"), [pb.Subscribe(state_ms=50, feedback_ms=100, events=True)])
+
     def test_a_quiet_client_pings(self):
         with connected() as (_, peer):
             end = time.monotonic() + 5
@@ -100,20 +104,26 @@ class Trajectories(unittest.TestCase):
     def test_never_more_is_sent_than_there_is_credit_for(self):
         class Mean(Peer):
             window, longest_part = 50, 20
-            most = 0
+            granted, overdrawn = 0, False
+
+            def take_begin(self, message):
+                super().take_begin(message)
+                self.granted = self.window
 
             def take_part(self, message):
                 self.waypoints += len(message.part.time_s)
-                Mean.most = max(Mean.most, self.waypoints)
-                if self.waypoints == self.window:
+                self.overdrawn |= self.waypoints > self.granted
+                if self.waypoints == self.granted:
                     self.report(self.trajectory, pb.Report.STARTED)
-                    self.window += 7
+                    self.granted += 7
                     self.write(credit=pb.Credit(waypoints=7))
 
         with connected(Mean) as (arm, peer):
+            arm.move(t=np.arange(10), q=np.zeros((10, JOINTS)))  # whose credit is not the next one's
             arm.move(t=np.arange(1000) * 0.001, q=np.zeros((1000, JOINTS)))
-        self.assertEqual(sum(len(part.time_s) for part in sent(peer, "part")), 1000)
+        self.assertEqual(sum(len(part.time_s) for part in sent(peer, "part")), 1010)
         self.assertLessEqual(max(len(part.time_s) for part in sent(peer, "part")), 20)
+        self.assertFalse(peer.overdrawn)
 
     def test_feedback_is_yielded_and_the_result_follows(self):
         with connected() as (arm, _):
