@@ -468,19 +468,20 @@ class _Session:
         except Lost as error:
             with self.news:
                 self._fail(error)
-            raise
+                raise self.broken or error
         except ValueError:
             with self.news:
                 del self._calls[number]
             raise
         return call
 
-    def ask(self, kind: str, request: Any) -> Any:
+    def ask(self, kind: str, request: Any) -> pb.Answer:
         """Sends a request and waits until it is answered and in force; raises Refused if it was not taken."""
         call = self.send(kind, request)
         self.wait(lambda: call.final, f"answer to {kind}")
         if refusal := call.refusal():
             raise refusal
+        assert call.answer
         return call.answer
 
     def wait(self, predicate: Callable[[], Optional[T]], what: str) -> T:
@@ -548,6 +549,7 @@ class _Session:
             if self.welcome:
                 raise Lost("the server has welcomed this client twice")
             self.welcome = message.welcome
+            self.epoch = message.welcome.epoch
             self._calls.pop(message.welcome.number, None)
         elif kind == "answer":
             self._take_answer(message.answer)
@@ -555,7 +557,7 @@ class _Session:
             self._take_report(message.report)
         elif kind == "state":
             self.state = message.state
-            self.epoch = message.state.epoch
+            self.epoch = max(self.epoch, message.state.epoch)
         elif kind == "feedback":
             told = message.feedback
             if call := self._calls.get(told.number):
@@ -574,6 +576,7 @@ class _Session:
             why = "twice" if answer.number <= self._number else "that was never sent"
             raise Lost(f"the server has answered request {answer.number} {why}; it does not keep to the protocol")
         call.answer = answer
+        self.epoch = max(self.epoch, answer.epoch)
         if answer.received_ns:
             self.clock.add(answer.client_ns, answer.received_ns, answer.server_ns, time.monotonic_ns())
         if call.kind == "begin":
@@ -594,7 +597,7 @@ class _Session:
 
 
 def connect(
-    address: str,
+    address: Optional[str] = None,
     *,
     name: Optional[str] = None,
     priority: int = 0,
@@ -605,7 +608,8 @@ def connect(
 ) -> Arm:
     """Connects to a server and returns its arm; use it in a `with` statement.
 
-    address    -- "unix:/path/of/the/socket" or "tcp:HOST:PORT"
+    address    -- "unix:/path/of/the/socket" or "tcp:HOST:PORT"; None: the socket on which this user's `tactus serve`
+                  listens
     name       -- by which others see who moves the arm; without it, program and process number
     priority   -- of the lease, 0 to 255: who has a higher one takes the arm away
     lease_s    -- the arm stops on its path when nothing has come from this process for as long; 0.02 to 60
@@ -618,6 +622,9 @@ def connect(
     """
     if name is None:
         name = f"{pathlib.Path(sys.argv[0]).name or 'python'}.{os.getpid()}"
+    if address is None:
+        folder = os.environ.get("XDG_RUNTIME_DIR", "")
+        address = f"unix:{folder}/tactus.sock" if folder.startswith("/") else f"unix:/tmp/tactus-{os.getuid()}.sock"
     return Arm(_Session(address, name, timeout_s), priority, lease_s, state_s, feedback_s)
 
 
@@ -779,7 +786,6 @@ class Arm:
 
     def stream(self, *, motion_frame: str = "", wrench_frame: str = "", joints: Optional[Sequence[str]] = None) -> Stream:
         """Returns a stream of points or velocities at any rate; use it in a `with` statement."""
-        self._own()
         return Stream(self, motion_frame, wrench_frame, joints)
 
     def chunks(
@@ -802,7 +808,6 @@ class Arm:
             raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")
         if not self.robot.longest_chunk:
             raise Refused(f"the pipeline {self.robot.pipeline} takes no chunks", 0)
-        self._own()
         return Chunks(self, rate_hz, relative_to, crossfade_s, motion_frame, joints)
 
     # Controls
@@ -851,9 +856,11 @@ class Arm:
 
     # Inner parts
 
-    def _own(self) -> None:
-        self._session.ask("lease", self._lease)
+    def _own(self) -> int:
+        """Takes or renews the lease, and returns the present epoch."""
+        epoch = self._session.ask("lease", self._lease).epoch
         self._leased = True
+        return epoch
 
     def _cancel(self) -> None:
         """Cancels what runs, if anything does and the server is still there."""
@@ -1018,7 +1025,7 @@ class _References:
         self._arm, self._session = arm, arm._session
         self._terms, self._joints = arm._terms(joints), joints
         self._terms.motion_frame, self._terms.wrench_frame = motion_frame, wrench_frame
-        self._epoch = arm.state().epoch
+        self._epoch = arm._own()
         self._calls: collections.deque[_Call] = collections.deque()
 
     def __enter__(self: Self) -> Self:
