@@ -64,6 +64,8 @@ _TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 64  # references of a stream that wait for their reports; more wait for the server
+_SKIP_OPTIONAL = 1  # the lowest rung of the ladder on which the arm takes references
+_NOT_AT_REST = 39  # the Status of a rearm that comes too early
 _REFERENCE_TIME = 35  # the Status of a chunk that is late as a whole
 _REPORTED = {"point", "velocity", "chunk", "begin", "cancel", "override", "pause", "resume", "stop", "rearm"}
 
@@ -216,7 +218,7 @@ class State:
     stamp_ns: int
     server_ns: int  # the same by the server's clock
     cycle: int
-    rung: int  # of the ladder; 0 is nominal
+    rung: int  # of the ladder; 0 is nominal, from 2 on no references are taken
     status: int  # why it is not nominal
     phase: int  # of the motion
     epoch: int
@@ -351,7 +353,7 @@ class _Link:
         try:
             piece = self._socket.recv(1 << 16)
         except OSError as error:
-            raise Lost(f"{self.address}: {error}") from error
+            raise Lost(f"{self.address}: the server has ended the connection: {error.strerror}") from error
         if not piece:
             rest = " within a message" if self._bytes else ""
             raise Lost(f"{self.address}: the server has ended the connection{rest}")
@@ -435,7 +437,7 @@ class _Session:
             raise
 
     def _greet(self, name: str) -> None:
-        hello = self.send("hello", pb.Hello(version=pb.VERSION_PRESENT, client=name[:31]))
+        hello = self.send("hello", pb.Hello(version=pb.VERSION_PRESENT, client=name.encode()[:31].decode(errors="ignore")))
         self.wait(lambda: self.welcome or hello.refusal(), "welcome")
         if refusal := hello.refusal():
             raise refusal
@@ -814,28 +816,45 @@ class Arm:
 
     def cancel(self) -> None:
         """Ends what runs; the arm brakes on its path and holds. Raises Refused (42) if nothing runs."""
+        self._own()
         self._session.ask("cancel", pb.Cancel())
 
     def override(self, rate: float) -> None:
         """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on."""
+        self._own()
         self._session.ask("override", pb.Override(rate=rate))
 
     def pause(self) -> None:
         """Brings the arm to rest on its path; the trajectory stays alive until `resume` or `cancel`."""
+        self._own()
         self._session.ask("pause", pb.Pause())
 
     def resume(self) -> None:
         """Ends a pause."""
+        self._own()
         self._session.ask("resume", pb.Resume())
 
     def stop(self) -> None:
         """Stops the whole chain, whoever moves it; needs no lease. The arm moves again only after `rearm`."""
         self._session.ask("stop", pb.Stop())
 
-    def rearm(self) -> None:
-        """Takes over the arm after a stop or a fault, where it is. Everything that was sent before is void."""
-        self._own()
-        self._session.ask("rearm", pb.Rearm())
+    def rearm(self, within_s: float = 5.0) -> None:
+        """Takes over the arm after a stop or a fault, where it is, and returns when it can be moved.
+
+        Waits for `within_s` until the arm is at rest; otherwise raises Refused with the reason, at once. Everything that
+        was sent before is void.
+        """
+        end = time.monotonic() + within_s
+        while True:
+            self._own()
+            try:
+                self._session.ask("rearm", pb.Rearm())
+                break
+            except Refused as refusal:
+                if refusal.status != _NOT_AT_REST or time.monotonic() > end:
+                    raise
+            time.sleep(0.02)
+        self._await_nominal(max(1.0, end - time.monotonic()))
 
     def parameters(self, values: Mapping[str, Mapping[str, Any]], *, check: bool = False) -> None:
         """Changes settings of the pipeline, all in one cycle or none: {"pd": {"kp": [100, 100, ...]}}.
@@ -866,6 +885,20 @@ class Arm:
         """Cancels what runs, if anything does and the server is still there."""
         with contextlib.suppress(Error):
             self._session.ask("cancel", pb.Cancel())
+
+    def _await_nominal(self, within_s: float) -> None:
+        """Waits until the arm is armed and can be moved."""
+        session = self._session
+        before = session.state
+
+        def told(state: Optional[pb.State]) -> bool:
+            return state is not None and state is not before and state.rung <= _SKIP_OPTIONAL
+
+        with contextlib.suppress(TimeoutError):
+            session.wait_long(lambda: told(session.state), "armed arm", within_s)
+            return
+        state = self.state()
+        raise Error(f"the arm is not armed within {within_s:.3g} s; rung {state.rung}, status {state.status}")
 
     def _terms(self, joints: Optional[Sequence[str]]) -> pb.Terms:
         names = [joint.name for joint in self.robot.joints]
@@ -1193,15 +1226,14 @@ def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.Path
     options  -- further options of `tactus serve`
     """
     file = pathlib.Path(pipeline).resolve()
-    if program is None:
-        program = _program_for(file)
+    program = _program_for(file) if program is None else pathlib.Path(program).resolve()
     folder = tempfile.mkdtemp(prefix="tactus-")
     address = f"unix:{folder}/socket"
     log = open(f"{folder}/log", "w+", encoding="utf-8", errors="replace")  # not a pipe, which would fill
     server = subprocess.Popen([program, "serve", file, "--listen", address, *options], cwd=folder,
                               stdin=subprocess.DEVNULL, stdout=log, stderr=log)  # fmt: skip
     try:
-        _await_server(server, f"{folder}/socket", log)
+        _await_server(server, address, log)
         yield address
     finally:
         server.terminate()
@@ -1232,12 +1264,13 @@ def _program_for(pipeline: pathlib.Path) -> pathlib.Path:
     return found
 
 
-def _await_server(server: subprocess.Popen[bytes], path: str, log: Any) -> None:
+def _await_server(server: subprocess.Popen[bytes], address: str, log: Any) -> None:
+    """Waits until the server takes clients and its arm is armed."""
     end = time.monotonic() + 20.0
     while server.poll() is None and time.monotonic() < end:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
-            if not probe.connect_ex(path):
-                return
+        with contextlib.suppress(Lost), connect(address) as arm:
+            arm._await_nominal(20.0)
+            return
         time.sleep(0.01)
     log.seek(0)
     raise Lost(f"the simulated robot did not start: {log.read().strip() or 'it says nothing'}")
