@@ -33,6 +33,8 @@ class ReferenceServer {
   /// How much longer the trajectory that was sent last becomes, as a fraction, as far as it was
   /// known then.
   double stretch() const { return stretch_; }
+  /// Finds the joints that terms leave out, or their frames. kUnknownPort.
+  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   /// Sends a point.
   Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point,
                 std::uint32_t& id);
@@ -52,7 +54,6 @@ class ReferenceServer {
  private:
   static constexpr int kKept = 32;  // reports
 
-  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   Verdict send_open();
   Verdict flush_full();
 

@@ -14,6 +14,37 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
   return verdict;
 }
 
+/// The generator's own epochs void what a stop overtakes on its way to the cycle. The order is that
+/// in which messages have come, since the server has judged the clients' places.
+template <class Space>
+Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
+                                      Chunk<Space>& chunk) {
+  if (book_.full()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  chunk.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, chunk.header);
+  if (verdict.ok()) verdict = client_.send(chunk, id);
+  if (!verdict.ok()) return verdict;
+  book_.add({id, from, {}, 0.0});
+  ++chunks_;
+  return {};
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
+                                         Velocity<Space>& velocity) {
+  if (book_.full()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  typename Space::Header header;
+  velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  velocity.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, header);
+  if (verdict.ok()) verdict = client_.send(velocity, id, header);
+  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  return verdict;
+}
+
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate) {
   if (book_.full()) return {Status::kMailboxFull};

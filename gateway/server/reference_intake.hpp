@@ -32,6 +32,14 @@ class ReferenceIntake {
 
   Verdict point(const Origin& from, const TrajectoryTerms& terms,
                 const typename Space::Point& point);
+  /// Sends a chunk, whose header the terms give; it is newer than all before.
+  Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
+  /// Sends a velocity; it is newer than all before.
+  Verdict velocity(const Origin& from, const TrajectoryTerms& terms, Velocity<Space>& velocity);
+  /// Chunks that were sent.
+  std::uint32_t chunks() const { return chunks_; }
+  /// Counters and margins of chunks and velocities.
+  const StreamState& stream() const { return client_.stream(); }
   Verdict control(const Origin& from, ControlKind kind, double rate);
   /// Begins a trajectory; what was begun before and has not ended is given up.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);
@@ -79,6 +87,7 @@ class ReferenceIntake {
   ReferenceClient<Space>& client_;
   ReferenceServer<Space> server_;
   ReportBook book_;
+  std::uint32_t sequence_ = 0, chunks_ = 0;
 
   bool coming_ = false;  // a trajectory comes
   bool ended_ = false;   // all its waypoints have come

@@ -8,15 +8,6 @@
 namespace tactus {
 namespace {
 
-TrajectoryTerms terms_of(bool given, const tactus_Terms& from) {
-  TrajectoryTerms terms;
-  if (!given) return terms;
-  terms.held = from.held_joints;
-  terms.motion = from.motion_frame;
-  terms.wrench = from.wrench_frame;
-  return terms;
-}
-
 Fields fields_of(const tactus_Begin& begin) {
   return static_cast<Fields>((begin.velocities ? kVelocityField : 0) |
                              (begin.accelerations ? kAccelerationField : 0) |
@@ -41,7 +32,8 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
   Connection& connection = at(slot);
   const bool newer = connection.epoch != place.epoch ||
                      static_cast<std::int32_t>(place.sequence - connection.sequence) > 0;
-  if (place.epoch != epoch_ || !newer) return reply({Status::kVoidReference});
+  if (place.epoch != epoch_) return reply({Status::kEpochVoid});
+  if (!newer) return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
   connection.epoch = place.epoch;
   connection.sequence = place.sequence;
   return {};

@@ -32,6 +32,11 @@ bool needs_lease(pb_size_t request) {
   }
 }
 
+bool offered(tactus_Feature feature) {
+  return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
+         feature == tactus_Feature_FEATURE_VELOCITIES;
+}
+
 Reply not_offered(std::string_view what) {
   Message text("this server does not offer ");
   text << what << "; Welcome.features names what it offers";
@@ -42,8 +47,7 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (request_.requires[i] != tactus_Feature_FEATURE_NONE)
-      return not_offered("a feature that the message requires");
+    if (!offered(request_.requires[i])) return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)
@@ -60,8 +64,8 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
     case tactus_ToServer_point_tag: return point(slot, from);
-    case tactus_ToServer_velocity_tag: return not_offered("velocities");
-    case tactus_ToServer_chunk_tag: return not_offered("chunks");
+    case tactus_ToServer_velocity_tag: return velocity(slot, from);
+    case tactus_ToServer_chunk_tag: return chunk(slot, from, now_ns);
     case tactus_ToServer_begin_tag: return begin(from, now_ns);
     case tactus_ToServer_part_tag: return part(from);
     case tactus_ToServer_end_tag: return end(from);
@@ -127,7 +131,7 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
   text << " owns the motion";
   if (taken == LeaseTaken::kTakenOver) {
     with_intake([&](auto& intake) { intake.give_up(at(before).session); });
-    end_motion(now_ns);
+    end_motion();
     text << ", taken over from " << std::string_view(at(before).name);
   }
   if (setup_.log != nullptr) setup_.log(text.c_str());

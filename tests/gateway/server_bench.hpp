@@ -13,8 +13,23 @@ namespace tactus {
 
 namespace ask {  // fields of ToServer
 enum : std::uint32_t {
-  kHello = 10, kLease, kPoint, kVelocity, kChunk, kBegin, kPart, kEnd, kCancel, kOverride, kPause,
-  kResume, kStop, kRearm, kParameters, kSubscribe, kPing,
+  kHello = 10,
+  kLease,
+  kPoint,
+  kVelocity,
+  kChunk,
+  kBegin,
+  kPart,
+  kEnd,
+  kCancel,
+  kOverride,
+  kPause,
+  kResume,
+  kStop,
+  kRearm,
+  kParameters,
+  kSubscribe,
+  kPing,
 };
 }
 
@@ -79,7 +94,8 @@ struct ServerBench {
     OrderMessage order;
     if (mail.orders.take(order)) {
       rung = order.order == CycleOrder::kStop ? Rung::kDisabled : Rung::kNominal;
-      if (rung == Rung::kNominal) ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
+      if (rung == Rung::kNominal)
+        ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
       mail.results.post({order.id, Status::kOk});
     }
     CycleSnapshot told;
@@ -133,7 +149,8 @@ struct TestClient {
   }
   void send_bytes(const RawMessage& message) {
     std::uint8_t length[4];
-    for (std::size_t i = 0; i < 4; ++i) length[i] = static_cast<std::uint8_t>(message.size >> 8 * i);
+    for (std::size_t i = 0; i < 4; ++i)
+      length[i] = static_cast<std::uint8_t>(message.size >> 8 * i);
     push(length, 4);
     push(message.bytes.data(), message.size);
   }
@@ -158,8 +175,9 @@ struct TestClient {
     return send(ask::kLease, RawMessage().number(2, priority).number(3, timeout_ms));
   }
   std::uint32_t point(const JointVector& q) {
-    return send(ask::kPoint,
-                RawMessage().message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof))));
+    return send(
+        ask::kPoint,
+        RawMessage().message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof))));
   }
   /// Takes what the server has to say.
   void read() {
@@ -186,7 +204,11 @@ struct TestClient {
     }
     const std::size_t of = value[1] % kMost;
     switch (whole.field) {
-      case 1: ++welcomes; ++answers[of]; session = value[7]; break;
+      case 1:
+        ++welcomes;
+        ++answers[of];
+        session = value[7];
+        break;
       case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
       case 3:
         if (value[2] == 3) ++starved;
@@ -195,7 +217,10 @@ struct TestClient {
         outcome[of] = static_cast<std::uint8_t>(value[2]);
         std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
         return;
-      case 4: ++states; epoch = static_cast<std::uint32_t>(value[8]); return;
+      case 4:
+        ++states;
+        epoch = static_cast<std::uint32_t>(value[8]);
+        return;
       case 5: ++feedbacks; return;
       case 6:
         ++events;
