@@ -40,7 +40,6 @@ void unwrap(TaskSpace::Difference& now, const TaskSpace::Difference& before) {
   const Vector3 other = (angle - turn) * axis;
   if ((other - last).norm() < (now.x.tail<3>() - last).norm()) now.x.tail<3>() = other;
 }
-void unwrap(JointSpace::Difference&, const JointSpace::Difference&) {}
 
 /// The symmetric matrix R + L Q^T Q of bandwidth two, factorized in place.
 class Band {
@@ -200,8 +199,10 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
     fit.f[i] = Space::difference(chunk.velocities ? target : target.at_rest(), origin);
     fit.f[i].ddx.setZero();
   }
-  for (std::size_t i = n / 2 + 1; i < n; ++i) unwrap(fit.f[i], fit.f[i - 1]);
-  for (std::size_t i = n / 2; i-- > 0;) unwrap(fit.f[i], fit.f[i + 1]);
+  if constexpr (std::is_same_v<Space, TaskSpace>) {
+    for (std::size_t i = n / 2 + 1; i < n; ++i) unwrap(fit.f[i], fit.f[i - 1]);
+    for (std::size_t i = n / 2; i-- > 0;) unwrap(fit.f[i], fit.f[i + 1]);
+  }
   if (chunk.velocities && n > 1) fit_velocities(fit);
   if (!chunk.velocities) fit_spline(fit, chunk.smoothing_s);
   if (chunk.ends) fit.f[n - 1].dx = fit.f[n - 1].ddx = 0.0 * fit.f[n - 1].dx;

@@ -91,6 +91,10 @@ int serve(Session& session, const Options& options) {
   RunLoop loop(session, input, feed, watchdog, result, {});
   CycleDesk desk(mail, session.executive, session.pipeline);
   loop.serve(desk);
+  if (options.virtual_time) {
+    session.executive.in_virtual_time();
+    loop.in_virtual_time();
+  }
   if (!loop.start() || !watchdog.arm(session.realtime)) {
     loop.stop();
     print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());

@@ -63,7 +63,7 @@ Self = TypeVar("Self", bound="_References")
 _TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
-_UNREPORTED = 64  # references of a stream that wait for their reports; more wait for the server
+_UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
 _SKIP_OPTIONAL = 1  # the lowest rung of the ladder on which the arm takes references
 _NOT_AT_REST = 39  # the Status of a rearm that comes too early
 _REFERENCE_TIME = 35  # the Status of a chunk that is late as a whole
@@ -573,6 +573,8 @@ class _Session:
             self.credit += message.credit.waypoints
 
     def _take_answer(self, answer: pb.Answer) -> None:
+        if answer.number == 0:
+            raise Lost(f"{self.address}: the server ends the connection: {answer.text}")
         call = self._calls.get(answer.number)
         if call is None or call.answer is not None:
             why = "twice" if answer.number <= self._number else "that was never sent"
@@ -1221,6 +1223,8 @@ def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.Path
           options: Sequence[str] = ()) -> Iterator[str]:  # fmt: skip
     """Runs a server with a simulated robot on a private socket, and yields its address. The server ends with the block.
 
+    The robot moves at the pace of the wall clock; on a busy machine it waits instead of being braked for late cycles.
+
     pipeline -- a pipeline file
     program  -- a program of a simulated board; None: build/<robot>_sim/tactus beside the folder of the pipeline file
     options  -- further options of `tactus serve`
@@ -1230,7 +1234,7 @@ def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.Path
     folder = tempfile.mkdtemp(prefix="tactus-")
     address = f"unix:{folder}/socket"
     log = open(f"{folder}/log", "w+", encoding="utf-8", errors="replace")  # not a pipe, which would fill
-    server = subprocess.Popen([program, "serve", file, "--listen", address, *options], cwd=folder,
+    server = subprocess.Popen([program, "serve", file, "--virtual-time", "--listen", address, *options], cwd=folder,
                               stdin=subprocess.DEVNULL, stdout=log, stderr=log)  # fmt: skip
     try:
         _await_server(server, address, log)

@@ -128,6 +128,12 @@ class Service(unittest.TestCase):
 
         self.fails("ended the connection", asks, serve=serve)
 
+    def test_a_client_that_is_cut_hears_why(self):
+        def take_subscribe(peer, message):
+            peer.write(answer=pb.Answer(number=0, status=113, text="too many messages; send less often"))
+
+        self.fails("ends the connection: too many messages; send less often", rests, take_subscribe=take_subscribe)
+
     def test_no_answer_but_states(self):
         def take(peer, message, kind):
             if kind in ("hello", "subscribe", "ping"):
