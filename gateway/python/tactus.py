@@ -421,6 +421,7 @@ class _Session:
         self.events: collections.deque[Event] = collections.deque(maxlen=1024)
         self.credit = 0
         self.epoch = 0
+        self.reported_ns = 0  # the latest report, by the server's clock
         self.sequence = 0
         self.broken: Optional[Error] = None
         self._calls: dict[int, _Call] = {}
@@ -504,6 +505,10 @@ class _Session:
                 return value
             assert self.broken
             raise self.broken
+
+    def present_state(self) -> Optional[pb.State]:
+        """The latest State, None if a report is newer."""
+        return self.state if self.state is not None and self.state.server_ns >= self.reported_ns else None
 
     def close(self) -> None:
         with self.news:
@@ -593,6 +598,7 @@ class _Session:
         if call is None:
             raise Lost(f"the server has reported on request {report.number}, which has ended or was never sent")
         call.report = report
+        self.reported_ns = report.server_ns
         if call.final:
             del self._calls[report.number]
 
@@ -677,8 +683,11 @@ class Arm:
     # What it does
 
     def state(self) -> State:
-        """Returns the latest State, at most about `state_s` old. Raises Lost if the connection has ended."""
-        told = self._session.wait(lambda: self._session.state, "State")
+        """Returns the latest State, at most about `state_s` old, and newer than every result and control so far.
+
+        Raises Lost if the connection has ended.
+        """
+        told = self._session.wait(self._session.present_state, "State")
         if self._session.broken:
             raise self._session.broken
         return _state(told, self._session.clock)

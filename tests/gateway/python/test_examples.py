@@ -1,6 +1,7 @@
 """Every example runs against the server of this board, without a terminal."""
 
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -26,10 +27,18 @@ class Examples(unittest.TestCase):
         self.assertRegex(said["chunked_policy.py"], "chunks taken, 0 late")
         self.assertTrue(said["jog.py"].endswith("\n"))
 
+    @unittest.skipIf(served.ROBOT != "ur10", "the examples simulate a UR10")
     def test_without_an_address_they_run_a_simulated_ur10(self):
-        if served.ROBOT != "ur10":
-            self.skipTest("the examples simulate a UR10")
         self.assertIn("succeeded", self.run_example(EXAMPLES[-1]))
+
+    @unittest.skipIf(served.ROBOT != "ur10", "the page simulates a UR10")
+    def test_the_ten_lines_of_the_page_run(self):
+        page = (served.ROOT / "docs/python.md").read_text(encoding="utf-8")
+        program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
+        self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
+        done = subprocess.run([sys.executable, "-c", program], cwd=served.ROOT, capture_output=True, text=True,
+                              timeout=120, check=False)  # fmt: skip
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,9 @@
 """What a program does with an arm, on the simulated robot of this board."""
 
 import contextlib
+import signal
+import subprocess
+import tempfile
 import time
 import unittest
 
@@ -8,6 +11,8 @@ import numpy as np
 import served
 import tactus
 from tactus import Outcome
+
+NOT_OFFERED = 11
 
 
 def setUpModule():
@@ -65,7 +70,12 @@ class Trajectories(OnRobot):
     def test_check_moves_nothing(self):
         with connect() as arm:
             before = served.at_rest(arm).q_d
-            arm.check(**served.swing(before))
+            try:
+                arm.check(**served.swing(before))
+            except tactus.Refused as refusal:
+                if refusal.status == NOT_OFFERED:
+                    self.skipTest("this server does not offer to check")
+                raise
             with self.assertRaises(tactus.Refused):
                 arm.check(**served.swing(before, 100.0))
             np.testing.assert_array_equal(arm.state().q_d, before)
@@ -186,6 +196,30 @@ class Owners(OnRobot):
                     with connect() as somebody:
                         somebody.stop()
             arm.rearm()
+
+
+class VirtualTime(unittest.TestCase):
+    def rung_after_a_pause(self, *options):
+        """Returns the rung of a server that was not run for 0.2 s."""
+        with tempfile.TemporaryFile() as log, tempfile.TemporaryDirectory() as folder:
+            command = [served.PROGRAM, "serve", served.JOINT_PIPELINE, "--listen", f"unix:{folder}/s", *options]
+            with subprocess.Popen(command, stdout=log, stderr=log) as server:
+                try:
+                    tactus._await_server(server, f"unix:{folder}/s", log)
+                    with tactus.connect(f"unix:{folder}/s") as arm:
+                        server.send_signal(signal.SIGSTOP)
+                        time.sleep(0.2)
+                        server.send_signal(signal.SIGCONT)
+                        time.sleep(0.2)
+                        return arm.state().rung
+                finally:
+                    server.terminate()
+
+    def test_a_late_cycle_delays_the_robot_and_does_not_brake_it(self):
+        self.assertEqual(self.rung_after_a_pause("--virtual-time"), 0)
+
+    def test_in_real_time_it_brakes(self):
+        self.assertGreater(self.rung_after_a_pause(), 1)
 
 
 if __name__ == "__main__":
