@@ -117,7 +117,7 @@ void a_lease_that_is_not_renewed_ends_and_the_arm_rests_while_messages_renew_it(
   TwoClients& two = fresh_clients();
   two.a.lease(0, 100);
   JointVector far = ServerBench::home().q;
-  far[0] += 1.0;
+  far[0] += 2.0;
   two.a.point(far);
   for (int i = 0; i < 5; ++i) {
     two.run(90);

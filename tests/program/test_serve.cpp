@@ -6,8 +6,8 @@ namespace {
 
 constexpr const char* kServed =
     "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
-    "[executive]\nmax_slip = 1000\nmax_late = 1000\nlate_window = 1000\nmax_overruns = 1000\n"
-    "overrun_window = 1000\n"
+    "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
+    "overrun_window = 1\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n"
     "goal_tolerance = 0.2\nstopped_velocity = 0\n"
