@@ -12,6 +12,7 @@ PROGRAM = pathlib.Path(os.environ["P"])
 ROBOT = PROGRAM.parent.name.split("_")[0]
 JOINT_PIPELINE = ROOT / "pipelines" / {"ur10": "ur10_jrg_pid.ini"}.get(ROBOT, f"{ROBOT}_jrg_pdgc.ini")
 TASK_PIPELINE = ROOT / "pipelines" / f"{ROBOT}_trg_cpc.ini"
+DISABLED = 5  # rung of the ladder; the reference stands still, whatever velocity it had
 home = np.zeros(0)  # rad; the test module sets it
 
 
@@ -19,11 +20,16 @@ def serve(pipeline=JOINT_PIPELINE):
     return tactus.serve(pipeline, program=PROGRAM)
 
 
+def moved(dof):
+    """The joints that tests move: all but the last, which swings for seconds on the UR10 (ur10_jrg_pdgc.ini)."""
+    return np.r_[np.ones(dof - 1), 0.0]
+
+
 def swing(begin, way=0.2, duration_s=1.0, rate_hz=100):
-    """Returns t, q, dq of a rest-to-rest quintic of every joint from `begin` on."""
+    """Returns t, q, dq, ddq of a rest-to-rest quintic of all joints but the last from `begin` on."""
     t = np.linspace(0, duration_s, round(duration_s * rate_hz) + 1)
     s = (t / duration_s)[:, None]
-    ones = np.ones_like(begin)
+    ones = moved(len(begin))
     return dict(
         t=t,
         q=begin + way * (10 * s**3 - 15 * s**4 + 6 * s**5) * ones,
@@ -33,13 +39,12 @@ def swing(begin, way=0.2, duration_s=1.0, rate_hz=100):
 
 
 def at_rest(arm, within_s=5.0):
-    """Waits until the reference has rested for 50 ms, and returns the state.
-
-    The last joint of the UR10 swings for seconds, at up to 0.1 rad/s (pipelines/ur10_jrg_pdgc.ini).
+    """Waits until the reference has rested for 50 ms, or the drives are disabled, and returns the state.
     """
     end, since = time.monotonic() + within_s, None
     for state in arm.watch():
-        if state.q_d is None or np.abs(state.dq_d).max() > 1e-9 or np.abs(state.dq).max() > 0.2:
+        goes_on = state.rung != DISABLED and np.abs(state.dq_d).max() > 1e-9
+        if goes_on or np.abs(state.dq).max() > 0.05:
             since = None
         elif since is None:
             since = state.stamp_ns

@@ -28,14 +28,14 @@ def points(arm):
     with arm.stream() as stream:
         start = arm.state().q_d
         for step in range(100):
-            stream.send(q=start + 0.05 * np.sin(step / 10))
+            stream.send(q=start + 0.05 * np.sin(step / 10) * served.moved(arm.robot.dof))
             time.sleep(0.01)
 
 
 def velocities(arm):
     with arm.stream() as stream:
         for step in range(50):
-            stream.velocity(dq=np.full(arm.robot.dof, 0.1 * np.sin(step / 8)), timeout_s=0.3)
+            stream.velocity(dq=0.1 * np.sin(step / 8) * served.moved(arm.robot.dof), timeout_s=0.3)
             time.sleep(0.02)
 
 
@@ -44,7 +44,7 @@ def chunks(arm):
         start = arm.state().q_d
         for step in range(10):
             t = step / 10 + np.arange(20) / 30
-            policy.send(start + 0.05 * np.sin(t)[:, None], observed_ns=time.monotonic_ns())
+            policy.send(start + np.outer(0.05 * np.sin(t), served.moved(arm.robot.dof)), observed_ns=time.monotonic_ns())
             time.sleep(0.1)
 
 
