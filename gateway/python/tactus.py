@@ -66,7 +66,7 @@ _PING_S = 0.1  # between two measurements of the clock, which also renew the lea
 _UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
 _SKIP_OPTIONAL = 1  # the lowest rung of the ladder on which the arm takes references
 _NOT_AT_REST = 39  # the Status of a rearm that comes too early
-_REFERENCE_TIME = 35  # the Status of a chunk that is late as a whole
+_CHUNK_LATE = 59  # the Status of a chunk that is late as a whole
 _REPORTED = {"point", "velocity", "chunk", "begin", "cancel", "override", "pause", "resume", "stop", "rearm"}
 
 
@@ -423,6 +423,7 @@ class _Session:
         self.epoch = 0
         self.reported_ns = 0  # the latest report, by the server's clock
         self.sequence = 0
+        self.starved = 0
         self.broken: Optional[Error] = None
         self._calls: dict[int, _Call] = {}
         self._number = 0
@@ -595,6 +596,9 @@ class _Session:
 
     def _take_report(self, report: pb.Report) -> None:
         call = self._calls.get(report.number)
+        if call is None and report.outcome == pb.Report.STARVED:
+            self.starved += 1  # a chunk or a velocity that was in force, and that no other has followed
+            return
         if call is None:
             raise Lost(f"the server has reported on request {report.number}, which has ended or was never sent")
         call.report = report
@@ -705,6 +709,11 @@ class Arm:
             events = list(self._session.events)
             self._session.events.clear()
         return events
+
+    @property
+    def starved(self) -> int:
+        """How often the arm came to rest because no chunk or velocity followed in time."""
+        return self._session.starved
 
     @property
     def clock_uncertainty_ns(self) -> float:
@@ -1218,7 +1227,7 @@ class Chunks(_References):
 
     def _judge(self, call: _Call) -> None:
         refusal = call.refusal()
-        if refusal and refusal.status == _REFERENCE_TIME:
+        if refusal and refusal.status == _CHUNK_LATE:
             self.late += 1
         elif refusal:
             super()._judge(call)

@@ -250,12 +250,26 @@ class Streams(unittest.TestCase):
     def test_late_chunks_are_counted(self):
         class Late(Peer):
             def take_chunk(self, message):
-                self.report(message.number, pb.Report.REFUSED, status=35, text="late (35)")
+                self.report(message.number, pb.Report.REFUSED, status=59, text="late (59)")
 
         with connected(Late) as (arm, _), arm.chunks(rate_hz=20) as policy:
             for _ in range(3):
                 policy.send(np.zeros((2, JOINTS)), observed_ns=0)
         self.assertEqual(policy.late, 3)
+
+    def test_a_chunk_that_nothing_follows_is_counted(self):
+        class Starves(Peer):
+            def take_chunk(self, message):
+                self.report(message.number, pb.Report.EXECUTED)
+                self.report(message.number, pb.Report.STARVED)
+                self.report(message.number, pb.Report.STARVED)
+                self.state()
+
+        with connected(Starves) as (arm, _):
+            with arm.chunks(rate_hz=20) as policy:
+                policy.send(np.zeros((2, JOINTS)))
+            arm.pause()  # answered behind the reports
+            self.assertEqual(arm.starved, 2)
 
     def test_chunks_longer_than_the_server_takes_are_named(self):
         with connected() as (arm, _), arm.chunks(rate_hz=20) as policy:
