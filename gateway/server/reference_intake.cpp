@@ -58,11 +58,13 @@ template <class Space>
 Verdict ReferenceIntake<Space>::begin(const Origin& from, const TrajectoryTerms& terms) {
   // There is space to tell what is given up, and what this one may end as before it is sent.
   if (told_count_ + 2 > static_cast<int>(told_.size())) return {Status::kMailboxFull};
+  if (terms.check && coming_ && !comes(from)) return {Status::kNoFreeStore};
   if (coming_) give_up(origin_.session);
   const Verdict verdict = server_.begin(terms);
   if (!verdict.ok()) return verdict;
   coming_ = true;
   ended_ = false;
+  checks_ = terms.check;
   origin_ = from;
   fields_ = terms.fields;
   id_ = 0;
@@ -141,8 +143,12 @@ void ReferenceIntake<Space>::move_on() {
   const Verdict verdict = server_.end(id);
   if (verdict.status == Status::kWindowFull) return;
   if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
-  if (id_ == 0) book_.add({id, origin_, {}, server_.stretch()});
   coming_ = false;
+  if (checks_)
+    told_[static_cast<std::size_t>(told_count_++)] = {
+        origin_, Outcome::kExecuted, {}, 0.0, server_.stretch()};
+  else if (id_ == 0)
+    book_.add({id, origin_, {}, server_.stretch()});
 }
 
 template <class Space>

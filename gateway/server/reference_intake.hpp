@@ -41,7 +41,8 @@ class ReferenceIntake {
   /// Counters and margins of chunks and velocities.
   const StreamState& stream() const { return client_.stream(); }
   Verdict control(const Origin& from, ControlKind kind, double rate);
-  /// Begins a trajectory; what was begun before and has not ended is given up.
+  /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
+  /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);
   /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
   void take(const Waypoint<Space>& waypoint);
@@ -52,6 +53,8 @@ class ReferenceIntake {
   /// Waypoints of the trajectory that `from` has begun for which it has credit; 0 if it has begun
   /// none, or ended it.
   int credit(const Origin& from) const { return comes(from) && !ended_ ? outstanding_ : 0; }
+  /// True if the trajectory that `from` has begun is only judged.
+  bool checks(const Origin& from) const { return comes(from) && checks_; }
   /// Fields of the trajectory that comes.
   Fields fields() const { return fields_; }
   /// Ends the trajectory that `from` has begun, because something in it is refused.
@@ -91,6 +94,7 @@ class ReferenceIntake {
 
   bool coming_ = false;  // a trajectory comes
   bool ended_ = false;   // all its waypoints have come
+  bool checks_ = false;  // it is only judged
   Origin origin_;        // of its Begin
   Fields fields_ = 0;
   int free_ = 0;          // waypoints that its window takes before it is sent

@@ -66,7 +66,6 @@ Reply Server::begin(const Origin& from, std::int64_t now_ns) {
   if (!takes_references() || given.poses != takes_poses())
     return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: set Begin.poses"
                                                : "the pipeline takes joints, no poses"};
-  if (given.check) return {Status::kNotOffered, "this server does not offer to check"};
   TrajectoryTerms terms = terms_of(given.has_terms, given.terms);
   terms.poses = given.poses;
   terms.fields = fields_of(given);
@@ -74,6 +73,7 @@ Reply Server::begin(const Origin& from, std::int64_t now_ns) {
   if (name(terms.interpolation) == nullptr)
     return {Status::kBadValue, "Begin.interpolation is unknown"};
   terms.exact = given.exact;
+  terms.check = given.check;
   terms.window = static_cast<int>(std::min<std::uint32_t>(given.window, kMostWaypoints));
   if (given.start_ns != 0) {
     const Verdict verdict = clock_.time_of(given.start_ns, now_ns, terms.start_s);

@@ -25,8 +25,6 @@ bool needs_lease(pb_size_t request) {
     case tactus_ToServer_override_tag:
     case tactus_ToServer_pause_tag:
     case tactus_ToServer_resume_tag:
-    case tactus_ToServer_part_tag:
-    case tactus_ToServer_end_tag:
     case tactus_ToServer_rearm_tag: return true;
     default: return false;
   }
@@ -52,8 +50,12 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)
     return {Status::kNotStarted, "the first message of a connection must be Hello"};
-  const bool moves =
-      needs_lease(what) || (what == tactus_ToServer_begin_tag && !request_.request.begin.check);
+  const bool checks = what == tactus_ToServer_begin_tag
+                          ? request_.request.begin.check
+                          : with_intake([&from](auto& intake) { return intake.checks(from); });
+  const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
+                       what == tactus_ToServer_begin_tag;
+  const bool moves = follows ? !checks : needs_lease(what);
   if (moves && lease_.owner() != slot) {
     Message text(describe(Status::kNotOwner));
     if (lease_.owner() != Lease::kNobody)

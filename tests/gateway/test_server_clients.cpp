@@ -1,11 +1,9 @@
-// Tests two clients in random orders, clients that die at any moment, and long trajectories.
-#include "tests/gateway/server_bench.hpp"
+// Tests two clients in random orders, and clients that die at any moment.
+#include "tests/gateway/trajectory_parts.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr auto kJoints = static_cast<std::size_t>(kDof);
 
 bool moves(std::uint32_t kind) {
   return kind == ask::kPoint || kind == ask::kVelocity || kind == ask::kChunk ||
@@ -14,40 +12,6 @@ bool moves(std::uint32_t kind) {
 /// True if a message that is taken is reported besides.
 bool reported(std::uint32_t kind) {
   return moves(kind) ? kind != ask::kPart && kind != ask::kEnd : kind == ask::kStop;
-}
-
-/// A swing of joint 1 about home, at rest at both ends: 0.2 sin^3 (pi t / T).
-JointSpace::Point swing(double t, double duration_s) {
-  const double w = 3.14159265358979323846 / duration_s, s = std::sin(w * t), c = std::cos(w * t);
-  JointSpace::Point point = ServerBench::home();
-  point.q[0] += 0.2 * s * s * s;
-  point.dq[0] = 0.6 * w * s * s * c;
-  point.ddq[0] = 0.6 * w * w * (2.0 * s * c * c - s * s * s);
-  return point;
-}
-
-/// Waypoints `first` to `last` at 1 kHz, of `at(t)`, with velocities and accelerations.
-template <class At>
-RawMessage part(int first, int last, At at) {
-  static std::array<double, 60> times;
-  static std::array<double, 60 * 3 * kJoints> numbers;
-  std::size_t count = 0;
-  for (int i = first; i < last; ++i, ++count) {
-    const JointSpace::Point point = at(1e-3 * i);
-    times[count] = 1e-3 * i;
-    for (std::size_t k = 0; k < kJoints; ++k) {
-      numbers[3 * kJoints * count + k] = point.q[static_cast<int>(k)];
-      numbers[3 * kJoints * count + kJoints + k] = point.dq[static_cast<int>(k)];
-      numbers[3 * kJoints * count + 2 * kJoints + k] = point.ddq[static_cast<int>(k)];
-    }
-  }
-  RawMessage message;
-  message.reals(1, times.data(), count).reals(2, numbers.data(), 3 * kJoints * count);
-  return message;
-}
-
-RawMessage begin(std::uint32_t window = 0) {
-  return RawMessage().number(6, 1).number(7, 1).number(10, window);
 }
 
 RawMessage body_of(std::uint32_t kind, TestClient& client, Random& random) {
@@ -185,94 +149,6 @@ void a_client_that_dies_at_any_moment_leaves_the_arm_at_rest_and_the_lease_free(
   }
 }
 
-// Proves GW-6.
-
-void ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap(void**) {
-  constexpr int kWaypoints = 600'001;
-  const auto at = [](double t) {
-    const double whole_s = 600.0;
-    JointSpace::Point point = swing(std::fmod(t, 3.0), 3.0);
-    return t >= whole_s ? point.at_rest() : point;
-  };
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  const std::uint32_t goal = two.a.send(ask::kBegin, begin(512));
-  two.run(1);
-  int sent = 0, began = -1;
-  double worst = 0.0;
-  for (int cycle = 0; two.a.finals[goal] == 0 && cycle < kWaypoints + 5000; ++cycle) {
-    while (sent < kWaypoints && two.a.credit >= std::min(60, kWaypoints - sent)) {
-      const int count = std::min(60, kWaypoints - sent);
-      two.a.send(ask::kPart, part(sent, sent + count, at));
-      two.a.credit -= count;
-      sent += count;
-      if (sent == kWaypoints) two.a.send(ask::kEnd);
-    }
-    if (cycle % 500 == 0) two.b.send(ask::kPing);
-    two.run(1);
-    const bool follows = two.bench.generator.phase() == Phase::kFollowing;
-    if (began < 0 && follows) began = cycle;
-    if (!follows) continue;
-    const double t = 1e-3 * (cycle - began);
-    const double error = std::abs(two.bench.generator.reference().q[0] - at(t + 1e-3).q[0]);
-    worst = std::max(worst,
-                     std::min(error, std::abs(two.bench.generator.reference().q[0] - at(t).q[0])));
-  }
-  assert_int_equal(sent, kWaypoints);
-  assert_int_equal(two.a.starved, 0);
-  assert_int_equal(two.a.outcome[goal], 10);  // SUCCEEDED
-  assert_true(began >= 0);
-  ASSERT_NEAR(worst, 0.0, 1e-6);
-}
-
-void waypoints_beyond_the_credit_end_their_trajectory(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  const std::uint32_t goal = two.a.send(ask::kBegin, begin(64));
-  two.run(1);
-  assert_int_equal(two.a.credit, 64 + kStagedWaypoints);
-  std::uint32_t last = 0;
-  const auto at = [](double t) { return swing(t, 2.0); };
-  for (int i = 0; i < 6; ++i) last = two.a.send(ask::kPart, part(60 * i, 60 * i + 60, at));
-  two.run(300);
-  assert_int_equal(two.a.status[last], static_cast<int>(Status::kWindowFull));
-  assert_int_equal(two.a.finals[goal], 1);
-  assert_true(two.a.outcome[goal] == 16 || two.a.outcome[goal] == 12);  // REFUSED, ABORTED
-  two.run(1000);
-  assert_true(two.bench.generator.reference().standing());
-}
-
-void a_waypoint_that_is_refused_on_the_way_brings_the_arm_to_rest_and_is_named(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  const std::uint32_t goal = two.a.send(ask::kBegin, begin(64));
-  two.run(1);
-  for (int i = 0; i < 4; ++i)
-    two.a.send(ask::kPart, part(60 * i, 60 * i + 60, [](double t) {
-                 JointSpace::Point point = swing(t, 2.0);
-                 if (t > 0.2) point.q[0] += 10.0;
-                 return point;
-               }));
-  two.run(1500);
-  assert_int_equal(two.a.finals[goal], 1);
-  assert_int_equal(two.a.outcome[goal], 12);  // ABORTED
-  assert_non_null(std::strstr(two.a.text, "waypoint 202"));
-  assert_true(two.bench.generator.reference().standing());
-}
-
-void a_trajectory_is_refused_at_its_end_with_the_waypoint(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  const std::uint32_t goal = two.a.send(ask::kBegin, begin());
-  two.run(1);
-  two.a.send(ask::kPart, part(0, 50, [](double t) { return swing(t, 2.0); }));
-  two.a.send(ask::kEnd);
-  two.run(5);
-  assert_int_equal(two.a.finals[goal], 1);
-  assert_int_equal(two.a.outcome[goal], 16);  // REFUSED
-  assert_non_null(std::strstr(two.a.text, "velocity"));
-}
-
 }  // namespace
 }  // namespace tactus
 
@@ -282,10 +158,6 @@ int main() {
       cmocka_unit_test(
           of_two_clients_in_a_thousand_orders_every_message_is_answered_once_and_only_the_owner_moves),
       cmocka_unit_test(a_client_that_dies_at_any_moment_leaves_the_arm_at_rest_and_the_lease_free),
-      cmocka_unit_test(ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap),
-      cmocka_unit_test(waypoints_beyond_the_credit_end_their_trajectory),
-      cmocka_unit_test(a_waypoint_that_is_refused_on_the_way_brings_the_arm_to_rest_and_is_named),
-      cmocka_unit_test(a_trajectory_is_refused_at_its_end_with_the_waypoint),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
