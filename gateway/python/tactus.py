@@ -28,13 +28,19 @@ from __future__ import annotations
 
 import collections
 import contextlib
+import ctypes
+import ctypes.util
 import dataclasses
 import enum
+import hashlib
 import os
 import pathlib
+import re
 import select
 import shutil
+import secrets
 import socket
+import stat
 import subprocess
 import sys
 import tempfile
@@ -84,12 +90,20 @@ class Lost(Error):
 class Refused(Error):
     """The server refused a request; nothing has changed. The text names place, value, limit and remedy.
 
-    status -- number of the reason, as in docs/reference-generators.md
+    status       -- number of the reason, as in docs/reference-generators.md
+    place        -- "waypoint 13, joint 3 (elbow_joint)", or ""
+    value, limit -- in the unit that the text names, or None
+    remedy       -- what to do, or ""
     """
 
     def __init__(self, text: str, status: int):
         super().__init__(f"{text} ({status})" if f"({status})" not in text else text)
         self.status = status
+        reason, _, self.remedy = text.partition("; ")
+        self.place = reason.partition(": ")[0] if ": " in reason else ""
+        number = r"(-?[\d.]+(?:e[-+]?\d+)?)"
+        numbers = re.search(rf"{number}(?: [^\d ]\S*){{0,2}} (?:exceeds|is below) {number}", reason)
+        self.value, self.limit = (float(number) for number in numbers.groups()) if numbers else (None, None)
 
 
 class Aborted(Error):
@@ -307,12 +321,92 @@ class _Clock:
 # --- bytes ---
 
 
+class _Tunnel:
+    """The client's end of an encrypted connection; gateway/sockets/tunnel.hpp describes the bytes. Needs libsodium."""
+
+    PROTOCOL = b"tactus-1"
+    ANSWER_BYTES = 32 + 24  # X25519 key of the server, header of its stream
+    RECORD_BYTES = 4096  # of plain bytes, at most
+    TAG_BYTES = 17  # by which a record is longer
+
+    def __init__(self, key_file: Union[str, os.PathLike[str]]):
+        self._key = self._read(pathlib.Path(key_file))
+        try:
+            self._sodium = ctypes.CDLL(ctypes.util.find_library("sodium") or "libsodium.so.23")
+        except OSError as error:
+            raise Error(f"{error}; a connection with a key needs the package libsodium23") from error
+        if self._sodium.sodium_init() < 0:
+            raise Error("libsodium cannot be used on this machine")
+        self._stream = "crypto_secretstream_xchacha20poly1305_"
+        self._own, self._public = secrets.token_bytes(32), ctypes.create_string_buffer(32)
+        self._sodium.crypto_scalarmult_base(self._public, self._own)
+        size = self._sodium[self._stream + "statebytes"]()
+        self._out, self._in = (ctypes.create_string_buffer(size) for _ in range(2))
+        self._sealed = bytearray()
+
+    @staticmethod
+    def _read(file: pathlib.Path) -> bytes:
+        found = file.stat()
+        if not stat.S_ISREG(found.st_mode) or found.st_uid != os.geteuid() or found.st_mode & 0o077:
+            raise ValueError(f"{file}: others may read it, or it is no file: make it yours, then chmod 600")
+        digits = file.read_text(encoding="ascii", errors="replace").rstrip("\r\n")
+        if not re.fullmatch("[0-9a-fA-F]{64}", digits):
+            raise ValueError(f"{file}: it does not hold 64 hexadecimal digits; openssl rand -hex 32 makes them")
+        return bytes.fromhex(digits)
+
+    def hello(self) -> bytes:
+        return self.PROTOCOL + self._public.raw
+
+    def answer(self, reply: bytes) -> bytes:
+        """Takes the server's key and header; returns the header of the client's stream."""
+        server, header, secret = reply[:32], reply[32:], ctypes.create_string_buffer(32)
+        if self._sodium.crypto_scalarmult(secret, self._own, server):
+            raise Lost("the server has sent a key that is none")
+        shared = self.PROTOCOL + secret.raw + self._public.raw + server
+        keys = hashlib.blake2b(shared, key=self._key, digest_size=64).digest()
+        own_header = ctypes.create_string_buffer(24)
+        self._sodium[self._stream + "init_push"](self._out, own_header, keys[:32])
+        self._sodium[self._stream + "init_pull"](self._in, header, keys[32:])
+        return own_header.raw
+
+    def seal(self, plain: bytes) -> bytes:
+        records = bytearray()
+        for begin in range(0, len(plain), self.RECORD_BYTES):
+            piece = plain[begin : begin + self.RECORD_BYTES]
+            sealed = ctypes.create_string_buffer(len(piece) + self.TAG_BYTES)
+            self._sodium[self._stream + "push"](
+                self._out, sealed, None, piece, ctypes.c_ulonglong(len(piece)), None, ctypes.c_ulonglong(0), 0
+            )
+            records += len(sealed).to_bytes(2, "little") + sealed.raw
+        return bytes(records)
+
+    def open(self, sealed: bytes) -> bytes:
+        """Returns the plain bytes of the records that are complete; keeps the rest."""
+        self._sealed += sealed
+        plain = bytearray()
+        while len(self._sealed) >= 2:
+            size = int.from_bytes(self._sealed[:2], "little")
+            if len(self._sealed) < 2 + size:
+                break
+            record, piece = bytes(self._sealed[2 : 2 + size]), ctypes.create_string_buffer(max(1, size))
+            del self._sealed[: 2 + size]
+            bad = size < self.TAG_BYTES or self._sodium[self._stream + "pull"](
+                self._in, piece, None, None, record, ctypes.c_ulonglong(size), None, ctypes.c_ulonglong(0)
+            )
+            if bad:
+                raise Lost("a record does not open: the server has another key, or somebody has changed it")
+            plain += piece.raw[: size - self.TAG_BYTES]
+        return bytes(plain)
+
+
 class _Link:
     """Messages over a stream socket: a length of four bytes, least significant first, and the message."""
 
-    def __init__(self, address: str, timeout_s: float):
+    def __init__(self, address: str, timeout_s: float, key: Union[str, os.PathLike[str], None]):
         self.address = address
         self._bytes = bytearray()
+        self._heard = False
+        self._tunnel = None if key is None else _Tunnel(key)
         kind, _, place = address.partition(":")
         host, _, port = place.rpartition(":")
         target: Union[str, tuple[str, int]]
@@ -330,13 +424,27 @@ class _Link:
         except OSError as error:
             self._socket.close()
             raise Lost(f"{address}: {error.strerror or error}; is a tactus server running there?") from error
+        if self._tunnel:
+            self._shake_hands(self._tunnel)
+
+    def _shake_hands(self, tunnel: _Tunnel) -> None:
+        try:
+            self._socket.sendall(tunnel.hello())
+            reply = self._socket.recv(tunnel.ANSWER_BYTES, socket.MSG_WAITALL)
+            if len(reply) < tunnel.ANSWER_BYTES:
+                raise ConnectionError("the server has ended the connection")
+            self._socket.sendall(tunnel.answer(reply))
+        except (OSError, Lost) as error:
+            self._socket.close()
+            raise Lost(f"{self.address}: {error}; does the server have a key?") from error
 
     def send(self, message: pb.ToServer) -> None:
         body = message.SerializeToString()
         if len(body) > _LONGEST_MESSAGE:
             raise ValueError(f"a message of {len(body)} bytes; at most {_LONGEST_MESSAGE} are taken")
+        data = len(body).to_bytes(4, "little") + body
         try:
-            self._socket.sendall(len(body).to_bytes(4, "little") + body)
+            self._socket.sendall(self._tunnel.seal(data) if self._tunnel else data)
         except OSError as error:
             raise Lost(f"{self.address}: the server takes no more: {error}") from error
         except BaseException:  # Ctrl-C, perhaps within the message: nothing can follow it
@@ -355,9 +463,9 @@ class _Link:
         except OSError as error:
             raise Lost(f"{self.address}: the server has ended the connection: {error.strerror}") from error
         if not piece:
-            rest = " within a message" if self._bytes else ""
+            rest = " within a message" if self._bytes else "" if self._heard else "; do both ends have the same key, or none?"
             raise Lost(f"{self.address}: the server has ended the connection{rest}")
-        self._bytes += piece
+        self._bytes += self._tunnel.open(piece) if self._tunnel else piece
         while len(self._bytes) >= 4:
             length = int.from_bytes(self._bytes[:4], "little")
             if length > _LONGEST_MESSAGE:
@@ -366,6 +474,7 @@ class _Link:
                 return
             body = bytes(self._bytes[4 : 4 + length])
             del self._bytes[: 4 + length]
+            self._heard = True
             message = pb.ToClient()
             try:
                 read = message.ParseFromString(body)
@@ -411,7 +520,7 @@ class _Call:
 class _Session:
     """One connection: numbers, answers, states, and the thread that reads them and keeps the lease alive."""
 
-    def __init__(self, address: str, name: str, timeout_s: float):
+    def __init__(self, address: str, name: str, timeout_s: float, key: Union[str, os.PathLike[str], None]):
         self.address = address
         self.timeout_s = timeout_s
         self.clock = _Clock()
@@ -429,7 +538,7 @@ class _Session:
         self._number = 0
         self._sending = threading.Lock()
         self._heard = time.monotonic()
-        self._link = _Link(address, timeout_s)
+        self._link = _Link(address, timeout_s, key)
         self._thread = threading.Thread(target=self._run, name="tactus", daemon=True)
         self._thread.start()
         try:
@@ -613,6 +722,7 @@ class _Session:
 def connect(
     address: Optional[str] = None,
     *,
+    key: Union[str, os.PathLike[str], None] = None,
     name: Optional[str] = None,
     priority: int = 0,
     lease_s: float = 1.0,
@@ -624,6 +734,7 @@ def connect(
 
     address    -- "unix:/path/of/the/socket" or "tcp:HOST:PORT"; None: the socket on which this user's `tactus serve`
                   listens
+    key        -- file with the key of a server on the network, as `openssl rand -hex 32` makes it; encrypts everything
     name       -- by which others see who moves the arm; without it, program and process number
     priority   -- of the lease, 0 to 255: who has a higher one takes the arm away
     lease_s    -- the arm stops on its path when nothing has come from this process for as long; 0.02 to 60
@@ -639,7 +750,7 @@ def connect(
     if address is None:
         folder = os.environ.get("XDG_RUNTIME_DIR", "")
         address = f"unix:{folder}/tactus.sock" if folder.startswith("/") else f"unix:/tmp/tactus-{os.getuid()}.sock"
-    return Arm(_Session(address, name, timeout_s), priority, lease_s, state_s, feedback_s)
+    return Arm(_Session(address, name, timeout_s, key), priority, lease_s, state_s, feedback_s)
 
 
 class Arm:
@@ -793,7 +904,10 @@ class Arm:
         return Motion(self, begin, times, numbers)
 
     def check(self, **trajectory: Any) -> Result:
-        """Has the server judge a trajectory as `start` would, and moves nothing. Raises Refused with the reason."""
+        """Has the server judge the limits of a trajectory, and moves nothing; needs no lease.
+
+        The outcome is EXECUTED, and `stretch` how much it would be slowed down. Raises Refused with the reason.
+        """
         return self.start(check=True, **trajectory).wait()
 
     def point(self, **target: Any) -> None:
@@ -815,7 +929,7 @@ class Arm:
         *,
         rate_hz: float,
         relative_to: Optional[str] = None,
-        crossfade_s: float = 0.0,
+        crossfade_s: float = 0.2,
         motion_frame: str = "",
         joints: Optional[Sequence[str]] = None,
     ) -> Chunks:
@@ -824,7 +938,8 @@ class Arm:
         rate_hz     -- of the targets within a chunk
         relative_to -- None: targets are absolute; "commanded": they are added to the reference that the arm had at the
                        time of the observation; "measured": to where the arm was then
-        crossfade_s -- 0 to 0.3, over which the old plan is faded out
+        crossfade_s -- 0 to 0.3, in which the difference to the old plan fades; longer if limits demand it. 0: as fast as
+                       they allow
         """
         if not rate_hz > 0:
             raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")

@@ -65,6 +65,11 @@ class Trajectories(OnRobot):
             with self.assertRaisesRegex(tactus.Refused, "waypoint [0-9]+, joint [0-9]+ .*position") as refused:
                 arm.move(**path)
             self.assertEqual(refused.exception.status, 34)
+            self.assertRegex(refused.exception.place, "^waypoint [0-9]+.*, joint [0-9]+ ")
+            joint = [joint for joint in arm.robot.joints if f"({joint.name})" in refused.exception.place][0]
+            self.assertAlmostEqual(refused.exception.limit, joint.max_rad, 5)
+            self.assertGreater(refused.exception.value, joint.max_rad)
+            self.assertTrue(refused.exception.remedy)
             np.testing.assert_array_equal(arm.state().q_d, before)
 
     def test_check_moves_nothing(self):
