@@ -12,7 +12,7 @@
 
 Units are SI: rad, m, s, N, N m. Joints come in the order of `arm.robot.joints`. A pose is seven numbers
 (x, y, z, qw, qx, qy, qz), a twist six (vx, vy, vz, wx, wy, wz), a wrench six (fx, fy, fz, mx, my, mz), all of the tool
-tip in the axes of the base; a wrench is what the environment exerts on the tool. An array of n of them has one row each.
+tip in the axes of the base; a wrench is what the environment exerts on the tool. n of them are n rows.
 Times named *_ns are nanoseconds of this process's `time.monotonic_ns()`; the library converts them to the clock of the
 server and follows its drift.
 
@@ -58,9 +58,27 @@ except ImportError as error:
     raise ImportError(f"{error}; run `make python` and add build/python to PYTHONPATH") from error
 
 __all__ = [
-    "Aborted", "Arm", "Chunks", "Error", "Event", "Feedback", "Joint", "Lost", "Motion", "Outcome", "Refused",
-    "Result", "Robot", "Sample", "State", "Stopped", "Stream", "connect", "serve", "sim",
-]  # fmt: skip
+    "Aborted",
+    "Arm",
+    "Chunks",
+    "Error",
+    "Event",
+    "Feedback",
+    "Joint",
+    "Lost",
+    "Motion",
+    "Outcome",
+    "Refused",
+    "Result",
+    "Robot",
+    "Sample",
+    "State",
+    "Stopped",
+    "Stream",
+    "connect",
+    "serve",
+    "sim",
+]
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -430,9 +448,12 @@ class _Link:
     def _shake_hands(self, tunnel: _Tunnel) -> None:
         try:
             self._socket.sendall(tunnel.hello())
-            reply = self._socket.recv(tunnel.ANSWER_BYTES, socket.MSG_WAITALL)
-            if len(reply) < tunnel.ANSWER_BYTES:
-                raise ConnectionError("the server has ended the connection")
+            reply = b""
+            while len(reply) < tunnel.ANSWER_BYTES:
+                piece = self._socket.recv(tunnel.ANSWER_BYTES - len(reply))
+                if not piece:
+                    raise ConnectionError("the server has ended the connection")
+                reply += piece
             self._socket.sendall(tunnel.answer(reply))
         except (OSError, Lost) as error:
             self._socket.close()
@@ -446,7 +467,8 @@ class _Link:
         try:
             self._socket.sendall(self._tunnel.seal(data) if self._tunnel else data)
         except OSError as error:
-            raise Lost(f"{self.address}: the server takes no more: {error}") from error
+            why = "takes no more" if isinstance(error, TimeoutError) else "has ended the connection"
+            raise Lost(f"{self.address}: the server {why}: {error}") from error
         except BaseException:  # Ctrl-C, perhaps within the message: nothing can follow it
             self._socket.shutdown(socket.SHUT_RDWR)
             raise
@@ -463,7 +485,13 @@ class _Link:
         except OSError as error:
             raise Lost(f"{self.address}: the server has ended the connection: {error.strerror}") from error
         if not piece:
-            rest = " within a message" if self._bytes else "" if self._heard else "; do both ends have the same key, or none?"
+            rest = (
+                " within a message"
+                if self._bytes
+                else ""
+                if self._heard
+                else "; do both ends have the same key, or none?"
+            )
             raise Lost(f"{self.address}: the server has ended the connection{rest}")
         self._bytes += self._tunnel.open(piece) if self._tunnel else piece
         while len(self._bytes) >= 4:
@@ -548,7 +576,9 @@ class _Session:
             raise
 
     def _greet(self, name: str) -> None:
-        hello = self.send("hello", pb.Hello(version=pb.VERSION_PRESENT, client=name.encode()[:31].decode(errors="ignore")))
+        hello = self.send(
+            "hello", pb.Hello(version=pb.VERSION_PRESENT, client=name.encode()[:31].decode(errors="ignore"))
+        )
         self.wait(lambda: self.welcome or hello.refusal(), "welcome")
         if refusal := hello.refusal():
             raise refusal
@@ -579,7 +609,10 @@ class _Session:
         try:
             self._link.send(message)
         except Lost as error:
+            if threading.current_thread() is self._thread:
+                return call  # it reads next what the server has said last
             with self.news:
+                self.news.wait_for(lambda: self.broken, _PING_S)
                 self._fail(error)
                 raise self.broken or error
         except ValueError:
@@ -678,8 +711,10 @@ class _Session:
         elif kind == "feedback":
             told = message.feedback
             if call := self._calls.get(told.number):
-                desired, actual = (_sample(*pair) for pair in (
-                    (told.joint_desired, told.task_desired), (told.joint_actual, told.task_actual)))  # fmt: skip
+                desired, actual = (
+                    _sample(*pair)
+                    for pair in ((told.joint_desired, told.task_desired), (told.joint_actual, told.task_actual))
+                )
                 call.feedback.append(Feedback(told.time_s, desired, actual, told.lost))
         elif kind == "event":
             told = message.event
@@ -770,8 +805,10 @@ class Arm:
         assert session.welcome
         self.robot = _robot(session.welcome)
         try:
-            session.ask("subscribe", pb.Subscribe(
-                state_ms=round(state_s * 1000), feedback_ms=round(feedback_s * 1000), events=True))  # fmt: skip
+            session.ask(
+                "subscribe",
+                pb.Subscribe(state_ms=round(state_s * 1000), feedback_ms=round(feedback_s * 1000), events=True),
+            )
         except BaseException:
             session.close()
             raise
@@ -834,7 +871,7 @@ class Arm:
     # Motion
 
     def move(self, **trajectory: Any) -> Result:
-        """Executes a trajectory and returns when it has ended. Takes what `start` takes, raises what `Motion.wait` does."""
+        """Executes a trajectory and returns when it has ended. Takes what `start` takes, raises what `wait` does."""
         return self.start(**trajectory).wait()
 
     def start(
@@ -911,7 +948,7 @@ class Arm:
         return self.start(check=True, **trajectory).wait()
 
     def point(self, **target: Any) -> None:
-        """Sends one point (what `Stream.send` takes) and returns when it is in force. A trajectory that runs is aborted."""
+        """Sends one point (what `Stream.send` takes) and returns when it is in force. A trajectory is aborted."""
         with self.stream() as stream:
             stream.send(**target)
 
@@ -920,7 +957,9 @@ class Arm:
         with self.stream() as stream:
             stream.velocity(**target)
 
-    def stream(self, *, motion_frame: str = "", wrench_frame: str = "", joints: Optional[Sequence[str]] = None) -> Stream:
+    def stream(
+        self, *, motion_frame: str = "", wrench_frame: str = "", joints: Optional[Sequence[str]] = None
+    ) -> Stream:
         """Returns a stream of points or velocities at any rate; use it in a `with` statement."""
         return Stream(self, motion_frame, wrench_frame, joints)
 
@@ -938,8 +977,8 @@ class Arm:
         rate_hz     -- of the targets within a chunk
         relative_to -- None: targets are absolute; "commanded": they are added to the reference that the arm had at the
                        time of the observation; "measured": to where the arm was then
-        crossfade_s -- 0 to 0.3, in which the difference to the old plan fades; longer if limits demand it. 0: as fast as
-                       they allow
+        crossfade_s -- 0 to 0.3, in which the difference to the old plan fades, or longer by the limits. 0: as fast
+                       as they allow
         """
         if not rate_hz > 0:
             raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")
@@ -976,8 +1015,8 @@ class Arm:
     def rearm(self, within_s: float = 5.0) -> None:
         """Takes over the arm after a stop or a fault, where it is, and returns when it can be moved.
 
-        Waits for `within_s` until the arm is at rest; otherwise raises Refused with the reason, at once. Everything that
-        was sent before is void.
+        Waits for `within_s` until the arm is at rest; otherwise raises Refused with the reason, at once. What was sent
+        before is void.
         """
         end = time.monotonic() + within_s
         while True:
@@ -1050,7 +1089,7 @@ class Arm:
         joints: Optional[Sequence[str]],
         rows: tuple[Optional[int], ...] = (None,),
     ) -> dict[str, Array]:
-        """Returns the fields that are given, of the joints or of the tip; `rows` is the shape in front of their width."""
+        """Returns the fields that are given, of the joints or of the tip; `rows` is the shape before their width."""
         given = {name: values for name, values in {**joint, **task}.items() if values is not None}
         if ("q" in given) == ("pose" in given):
             raise ValueError("give either q or pose")
@@ -1163,7 +1202,7 @@ class Motion:
         raise Lost(f"{self._session.address}: no verdict on a trajectory within {self._session.timeout_s} s")
 
     def _feed(self) -> None:
-        """Sends the waypoints as there is credit, until they are sent, a newer trajectory is begun, or this one ends."""
+        """Sends the waypoints as there is credit, until all are, a newer trajectory is begun, or this one ends."""
         robot = self._arm.robot
         part = min(robot.longest_part, (_LONGEST_MESSAGE - 64) // (8 * (self._numbers.shape[1] + 1)))
         with contextlib.suppress(Error):  # the call that waits for the motion raises it
@@ -1181,8 +1220,9 @@ class Motion:
                         count = min(part, self._session.credit, len(self._times) - self._sent)
                         self._session.credit -= count
                     rows = slice(self._sent, self._sent + count)
-                    self._session.send("part", pb.Part(
-                        time_s=self._times[rows].tolist(), numbers=self._numbers[rows].ravel().tolist()))  # fmt: skip
+                    self._session.send(
+                        "part", pb.Part(time_s=self._times[rows].tolist(), numbers=self._numbers[rows].ravel().tolist())
+                    )
                     self._sent += count
 
 
@@ -1265,7 +1305,9 @@ class Stream(_References):
             getattr(point.task if name in _TASK_WIDTHS else point.joint, name).extend(numbers.tolist())
         self._send("point", point)
 
-    def velocity(self, *, dq: Optional[ArrayLike] = None, twist: Optional[ArrayLike] = None, timeout_s: float = 0.2) -> None:
+    def velocity(
+        self, *, dq: Optional[ArrayLike] = None, twist: Optional[ArrayLike] = None, timeout_s: float = 0.2
+    ) -> None:
         """Sends velocities of the joints, [joints] rad/s, or of the tip, [6] m/s and rad/s, to keep until the next.
 
         timeout_s -- 0.001 to 10: if nothing follows for as long, the arm comes to rest
@@ -1283,8 +1325,8 @@ class Stream(_References):
 class Chunks(_References):
     """Chunks of future targets. Each replaces the plan from its first target that is still ahead, smoothly.
 
-    A chunk that is late as a whole is no error: `late` counts them, and the old plan goes on. The arm comes to rest when
-    the targets run out, unless a new chunk comes before.
+    A chunk that is late as a whole is no error: `late` counts them, and the old plan goes on. The arm comes to rest
+    when the targets run out, unless a new chunk comes before.
     """
 
     def __init__(
@@ -1318,8 +1360,8 @@ class Chunks(_References):
 
         q, dq       -- [n, joints] rad and rad/s, or
         pose, twist -- [n, 7] and [n, 6] of the tip; dq and twist are optional
-        observed_ns -- when the observation was made, by time.monotonic_ns(); of a State, its stamp_ns. None: times count
-                       from the arrival at the server (for devices; a policy loses its latency)
+        observed_ns -- when the observation was made, by time.monotonic_ns(); of a State, its stamp_ns. None: times
+                       count from the arrival at the server (for devices; a policy loses its latency)
         first       -- number of the first target; 0: that of the observation itself
         ends        -- the last target is reached at rest, and no chunk follows
         """
@@ -1352,8 +1394,12 @@ class Chunks(_References):
 
 
 @contextlib.contextmanager
-def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.PathLike[str], None] = None,
-          options: Sequence[str] = ()) -> Iterator[str]:  # fmt: skip
+def serve(
+    pipeline: Union[str, os.PathLike[str]],
+    *,
+    program: Union[str, os.PathLike[str], None] = None,
+    options: Sequence[str] = (),
+) -> Iterator[str]:
     """Runs a server with a simulated robot on a private socket, and yields its address. The server ends with the block.
 
     The robot moves at the pace of the wall clock; on a busy machine it waits instead of being braked for late cycles.
@@ -1367,8 +1413,13 @@ def serve(pipeline: Union[str, os.PathLike[str]], *, program: Union[str, os.Path
     folder = tempfile.mkdtemp(prefix="tactus-")
     address = f"unix:{folder}/socket"
     log = open(f"{folder}/log", "w+", encoding="utf-8", errors="replace")  # not a pipe, which would fill
-    server = subprocess.Popen([program, "serve", file, "--virtual-time", "--listen", address, *options], cwd=folder,
-                              stdin=subprocess.DEVNULL, stdout=log, stderr=log)  # fmt: skip
+    server = subprocess.Popen(
+        [program, "serve", file, "--virtual-time", "--listen", address, *options],
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=log,
+        stderr=log,
+    )
     try:
         _await_server(server, address, log)
         yield address
@@ -1393,7 +1444,9 @@ def sim(pipeline: Union[str, os.PathLike[str]], **settings: Any) -> Iterator[Arm
 def _program_for(pipeline: pathlib.Path) -> pathlib.Path:
     """Returns the program of the simulated board for the robot that a pipeline file names."""
     lines = pipeline.read_text(encoding="utf-8").partition("[robot]")[2].splitlines()
-    robot = next((line.partition("=")[2].split("#")[0].strip() for line in lines if line.split("=")[0].strip() == "name"), "")
+    robot = next(
+        (line.partition("=")[2].split("#")[0].strip() for line in lines if line.split("=")[0].strip() == "name"), ""
+    )
     tried = [folder / f"build/{robot}_sim/tactus" for folder in pipeline.parents]
     found = next((program for program in tried if robot and program.exists()), None)
     if found is None:
@@ -1401,11 +1454,13 @@ def _program_for(pipeline: pathlib.Path) -> pathlib.Path:
     return found
 
 
-def _await_server(server: subprocess.Popen[bytes], address: str, log: Any) -> None:
+def _await_server(
+    server: subprocess.Popen[bytes], address: str, log: Any, key: Union[str, os.PathLike[str], None] = None
+) -> None:
     """Waits until the server takes clients and its arm is armed."""
     end = time.monotonic() + 20.0
     while server.poll() is None and time.monotonic() < end:
-        with contextlib.suppress(Lost), connect(address) as arm:
+        with contextlib.suppress(Lost), connect(address, key=key) as arm:
             arm._await_nominal(20.0)
             return
         time.sleep(0.01)
@@ -1416,9 +1471,19 @@ def _await_server(server: subprocess.Popen[bytes], address: str, log: Any) -> No
 def _robot(welcome: pb.Welcome) -> Robot:
     fields = ("name", "min_rad", "max_rad", "velocity", "acceleration", "jerk", "effort")
     joints = tuple(Joint(*(getattr(joint, field) for field in fields)) for joint in welcome.joints)
-    return Robot(welcome.board, welcome.robot, welcome.pipeline, welcome.configuration, welcome.period_s, joints,
-                 welcome.takes_joints, welcome.takes_poses, welcome.longest_chunk, welcome.window,
-                 welcome.longest_part)  # fmt: skip
+    return Robot(
+        welcome.board,
+        welcome.robot,
+        welcome.pipeline,
+        welcome.configuration,
+        welcome.period_s,
+        joints,
+        welcome.takes_joints,
+        welcome.takes_poses,
+        welcome.longest_chunk,
+        welcome.window,
+        welcome.longest_part,
+    )
 
 
 def _state(told: pb.State, clock: _Clock) -> State:
@@ -1427,5 +1492,12 @@ def _state(told: pb.State, clock: _Clock) -> State:
         if name in ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench"):
             copied[name] = _array(value)
     counts = told.stream
-    return State(stamp_ns=clock.to_local(told.server_ns), chunks_taken=counts.taken, chunks_late=counts.late,
-                 chunks_dropped=counts.dropped, targets_trimmed=counts.trimmed, seam=counts.seam, **copied)  # fmt: skip
+    return State(
+        stamp_ns=clock.to_local(told.server_ns),
+        chunks_taken=counts.taken,
+        chunks_late=counts.late,
+        chunks_dropped=counts.dropped,
+        targets_trimmed=counts.trimmed,
+        seam=counts.seam,
+        **copied,
+    )

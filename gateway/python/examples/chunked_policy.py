@@ -37,8 +37,10 @@ def main():
             now = arm.state()
             errors.append(now.q - here - demonstration(np.array([(now.stamp_ns - start_ns) / 1e9])))
         told = arm.state()
-    print(f"{told.chunks_taken} chunks taken, {told.chunks_late} late, {told.targets_trimmed} targets trimmed;"
-          f" off the demonstration by {1000 * np.sqrt(np.mean(np.square(errors))):.0f} mrad rms")  # fmt: skip
+    print(
+        f"{told.chunks_taken} chunks taken, {told.chunks_late} late, {told.targets_trimmed} targets trimmed;"
+        f" off the demonstration by {1000 * np.sqrt(np.mean(np.square(errors))):.0f} mrad rms"
+    )
 
 
 if __name__ == "__main__":

@@ -26,7 +26,9 @@ def keyboard():
     if before:
         tty.setcbreak(fd)
     try:
-        yield lambda: (os.read(fd, 1).decode(errors="replace") or "q") if select.select([fd], [], [], REPEAT_S)[0] else ""
+        yield lambda: (os.read(fd, 1).decode(errors="replace") or "q") if select.select([fd], [], [], REPEAT_S)[
+            0
+        ] else ""
     finally:
         if before:
             termios.tcsetattr(fd, termios.TCSADRAIN, before)

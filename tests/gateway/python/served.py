@@ -39,8 +39,7 @@ def swing(begin, way=0.2, duration_s=1.0, rate_hz=100):
 
 
 def at_rest(arm, within_s=5.0):
-    """Waits until the reference has rested for 50 ms, or the drives are disabled, and returns the state.
-    """
+    """Waits until the reference has rested for 50 ms, or the drives are disabled, and returns the state."""
     end, since = time.monotonic() + within_s, None
     for state in arm.watch():
         goes_on = state.rung != DISABLED and np.abs(state.dq_d).max() > 1e-9

@@ -104,25 +104,57 @@ class Peer:
             for i in range(JOINTS)
         ]
         fields = dict(
-            number=message.number, version=pb.VERSION_PRESENT, board="stand_in", robot="ur10", pipeline="none",
-            configuration=42, session=7, server_ns=self.now(), client_ns=message.client_ns, period_s=0.001,
-            joints=joints, takes_joints=True, takes_poses=True, longest_chunk=128, window=self.window,
-            longest_part=self.longest_part, epoch=self.epoch,
-        )  # fmt: skip
+            number=message.number,
+            version=pb.VERSION_PRESENT,
+            board="stand_in",
+            robot="ur10",
+            pipeline="none",
+            configuration=42,
+            session=7,
+            server_ns=self.now(),
+            client_ns=message.client_ns,
+            period_s=0.001,
+            joints=joints,
+            takes_joints=True,
+            takes_poses=True,
+            longest_chunk=128,
+            window=self.window,
+            longest_part=self.longest_part,
+            epoch=self.epoch,
+        )
         self.write(welcome=pb.Welcome(**{**fields, **changed}))
 
     def answer(self, message, status=0, text=""):
         now = self.now()
-        self.write(answer=pb.Answer(number=message.number, status=status, text=text, client_ns=message.client_ns,
-                                    server_ns=now, received_ns=now, epoch=self.epoch))  # fmt: skip
+        self.write(
+            answer=pb.Answer(
+                number=message.number,
+                status=status,
+                text=text,
+                client_ns=message.client_ns,
+                server_ns=now,
+                received_ns=now,
+                epoch=self.epoch,
+            )
+        )
 
     def report(self, number, outcome, **fields):
         self.write(report=pb.Report(number=number, outcome=outcome, server_ns=self.now(), **fields))
 
     def state(self, **fields):
         self.cycle += 1
-        self.write(state=pb.State(server_ns=self.now(), cycle=self.cycle, epoch=self.epoch, override=1,
-                                  q=[0.5] * JOINTS, dq=[0] * JOINTS, tau=[0] * JOINTS, **fields))  # fmt: skip
+        self.write(
+            state=pb.State(
+                server_ns=self.now(),
+                cycle=self.cycle,
+                epoch=self.epoch,
+                override=1,
+                q=[0.5] * JOINTS,
+                dq=[0] * JOINTS,
+                tau=[0] * JOINTS,
+                **fields,
+            )
+        )
 
     def feedback(self):
         point = pb.JointPoint(q=[1.0] * JOINTS)

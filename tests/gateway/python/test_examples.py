@@ -8,15 +8,23 @@ import unittest
 
 import served
 
-EXAMPLES = sorted(path for path in (served.ROOT / "gateway/python/examples").glob("*.py") if path.stat().st_mode & 0o100)
+EXAMPLES = sorted(
+    path for path in (served.ROOT / "gateway/python/examples").glob("*.py") if path.stat().st_mode & 0o100
+)
 KEYS = {"jog.py": "1+++2--q"}
 
 
 class Examples(unittest.TestCase):
     def run_example(self, path: pathlib.Path, *arguments):
         """Returns what an example prints."""
-        done = subprocess.run([sys.executable, path, *arguments], input=KEYS.get(path.name, ""), capture_output=True,
-                              text=True, timeout=120, check=False)  # fmt: skip
+        done = subprocess.run(
+            [sys.executable, path, *arguments],
+            input=KEYS.get(path.name, ""),
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""), f"{path.name}: {done.stdout}{done.stderr}")
         return done.stdout
 
@@ -36,8 +44,9 @@ class Examples(unittest.TestCase):
         page = (served.ROOT / "docs/python.md").read_text(encoding="utf-8")
         program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
         self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
-        done = subprocess.run([sys.executable, "-c", program], cwd=served.ROOT, capture_output=True, text=True,
-                              timeout=120, check=False)  # fmt: skip
+        done = subprocess.run(
+            [sys.executable, "-c", program], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 

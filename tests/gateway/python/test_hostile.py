@@ -169,8 +169,11 @@ class Service(unittest.TestCase):
         self.fails("reported on request .*, which has ended", points, take_point=take_point)
 
     def test_an_answer_to_nothing(self):
-        self.fails("answered request 99 that was never sent", rests,
-                   take_subscribe=lambda peer, message: peer.write(answer=pb.Answer(number=99)))  # fmt: skip
+        self.fails(
+            "answered request 99 that was never sent",
+            rests,
+            take_subscribe=lambda peer, message: peer.write(answer=pb.Answer(number=99)),
+        )
 
     def test_the_end_while_the_arm_moves(self):
         def take_end(peer, message):

@@ -44,7 +44,9 @@ def chunks(arm):
         start = arm.state().q_d
         for step in range(10):
             t = step / 10 + np.arange(20) / 30
-            policy.send(start + np.outer(0.05 * np.sin(t), served.moved(arm.robot.dof)), observed_ns=time.monotonic_ns())
+            policy.send(
+                start + np.outer(0.05 * np.sin(t), served.moved(arm.robot.dof)), observed_ns=time.monotonic_ns()
+            )
             time.sleep(0.1)
 
 

@@ -152,7 +152,9 @@ class Trajectories(unittest.TestCase):
         self.assertEqual((refusal.value, refusal.limit, refusal.remedy), (-3.30189, -3.141593, "keep off"))
         small = tactus.Refused("waypoint 2, x: velocity 1.5e-07 m/s exceeds 1e-08 m/s (36)", 36)
         self.assertEqual((small.value, small.limit, small.remedy), (1.5e-07, 1e-08, ""))
-        fast = tactus.Refused("joint 1 (a): acceleration 7.25 rad/s^2 exceeds 5 rad/s^2 (37); give this part more time", 37)
+        fast = tactus.Refused(
+            "joint 1 (a): acceleration 7.25 rad/s^2 exceeds 5 rad/s^2 (37); give this part more time", 37
+        )
         self.assertEqual((fast.value, fast.limit), (7.25, 5))
         strong = tactus.Refused("joint 1 (a): effort 400 N m exceeds 330 N m (38)", 38)
         self.assertEqual((strong.value, strong.limit), (400, 330))
@@ -200,7 +202,10 @@ class Trajectories(unittest.TestCase):
                 ("either q or pose", dict(t=[1], q=np.zeros((1, 6)), pose=np.zeros((1, 7)))),
                 ("cannot be mixed", dict(t=[1], q=np.zeros((1, 6)), twist=np.zeros((1, 6)))),
                 ("joint 'elbow'; the robot has joint0", dict(t=[1], q=np.zeros((1, 1)), joints=["elbow"])),
-                ("interpolation 'round'; expected one of by_fields", dict(t=[1], q=np.zeros((1, 6)), interpolation="round")),
+                (
+                    "interpolation 'round'; expected one of by_fields",
+                    dict(t=[1], q=np.zeros((1, 6)), interpolation="round"),
+                ),
             ):
                 with self.subTest(wrong), self.assertRaisesRegex(ValueError, wrong):
                     arm.start(**trajectory)
