@@ -68,6 +68,10 @@ void addresses_of_other_kinds_are_refused(void**) {
 
 // Proves GW-11.
 
+void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
+  try_server("keyed");
+}
+
 void a_network_address_needs_a_key_file_that_is_the_users_alone(void**) {
   write("served.ini", {kServed});
   assert_key_refused(in_folder("none.key").c_str(), "No such file");
@@ -89,6 +93,7 @@ int main(int, char** argv) {
       cmocka_unit_test(clients_that_are_killed_leave_the_arm_at_rest),
       cmocka_unit_test(an_interrupt_brakes_the_arm_and_ends_the_server_well),
       cmocka_unit_test(addresses_of_other_kinds_are_refused),
+      cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
       cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
   };
   return run_program_tests(argv[0], tests);
