@@ -229,6 +229,7 @@ include tests/trace/trace.mk
 include tests/bench/policies/policies.mk
 include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
+include gateway/python/python.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:
