@@ -207,6 +207,7 @@ $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefil
 	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
 
 include program/install.mk
+include gateway/ctl/ctl.mk
 include program/package/package.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk

@@ -6,10 +6,10 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr double kTurnsBack = -0.9;      // cosine between the directions: 2.7 rad
-constexpr double kStraightOn = 1e-9;     // change of direction that no joint notices
-constexpr double kShortest_rad = 1e-9;   // waypoints nearer than this are the same
-constexpr double kPeak = 3.0 / 16.0;     // distance of a blend from its corner, by L |d2 - d1|
+constexpr double kTurnsBack = -0.9;     // cosine between the directions: 2.7 rad
+constexpr double kStraightOn = 1e-9;    // change of direction that no joint notices
+constexpr double kShortest_rad = 1e-9;  // waypoints nearer than this are the same
+constexpr double kPeak = 3.0 / 16.0;    // distance of a blend from its corner, by L |d2 - d1|
 
 struct Line {
   Joints start, direction;

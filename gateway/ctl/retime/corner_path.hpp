@@ -3,7 +3,8 @@
 // (Euclidean length in the space of the joints, rad).
 //
 // A blend leaves the line of direction d1 at a distance L before its corner and joins that of d2 at
-// L behind it. Over its own parameter u in [0, 1], s = 2 L u, the direction changes by a smooth step:
+// L behind it. Over its own parameter u in [0, 1], s = 2 L u, the direction changes by a smooth
+// step:
 //
 //   q'(s) = d1 + (d2 - d1) (3 u^2 - 2 u^3)       q''(s) = (d2 - d1) 3 u (1 - u) / L
 //   q(s)  = corner - L d1 + 2 L (d1 u + (d2 - d1) (u^3 - u^4 / 2))

@@ -5,9 +5,7 @@
 
 namespace tactus::ctl {
 
-inline constexpr int kMostJoints = 16;
-
-using Joints = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostJoints, 1>;
+using Joints = Eigen::ArrayXd;
 
 /// Largest magnitudes: rad/s, rad/s^2, rad/s^3.
 struct MotionBounds {

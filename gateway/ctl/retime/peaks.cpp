@@ -48,7 +48,9 @@ double zero_of_a(const Segment& segment, double from, double to) {
 
 /// The times between which the acceleration is monotone: where the jerk, a parabola, is zero.
 std::array<double, 4> turns_of_a(const Segment& segment) {
-  const auto inside = [&](double t) { return std::isfinite(t) ? std::clamp(t, 0.0, segment.T) : 0.0; };
+  const auto inside = [&](double t) {
+    return std::isfinite(t) ? std::clamp(t, 0.0, segment.T) : 0.0;
+  };
   const double a = 60.0 * segment.c[5], b = 24.0 * segment.c[4], c = 6.0 * segment.c[3];
   const double root = std::sqrt(std::max(0.0, b * b - 4.0 * a * c));
   const double sum = -(b + (b < 0.0 ? -root : root)) / 2.0;

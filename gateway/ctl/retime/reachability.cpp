@@ -47,7 +47,8 @@ std::vector<PathNode> grid(const PathSection& section, int steps) {
 double controllable(const Slopes& here, const Slopes& there, double step, double next_x,
                     const Joints& a) {
   const double x = here.x_max, whole = 2.0 * step;
-  HalfPlanes feasible({{0.0, 0.0}, {next_x / whole, 0.0}, {(next_x - x) / whole, x}, {-x / whole, x}});
+  HalfPlanes feasible(
+      {{0.0, 0.0}, {next_x / whole, 0.0}, {(next_x - x) / whole, x}, {-x / whole, x}});
   for (int k = 0; k < a.size(); ++k) {
     const double slope = there.d1[k] + whole * there.d2[k];
     for (const double sign : {1.0, -1.0}) {
@@ -85,8 +86,8 @@ std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bo
   const std::size_t last = nodes.size() - 1;
   std::vector<double> most(nodes.size(), 0.0);
   for (std::size_t i = last; i-- > 0;)
-    most[i] = controllable(slopes[i], slopes[i + 1], nodes[i + 1].s - nodes[i].s, most[i + 1],
-                           bounds.a);
+    most[i] =
+        controllable(slopes[i], slopes[i + 1], nodes[i + 1].s - nodes[i].s, most[i + 1], bounds.a);
   for (std::size_t i = 0; i < last; ++i) {
     PathNode &node = nodes[i], &next = nodes[i + 1];
     const double step = next.s - node.s;

@@ -28,8 +28,8 @@ struct PathNode {
   double s = 0.0, x = 0.0, u = 0.0, time_s = 0.0;
 };
 
-/// Returns the nodes of the time-optimal motion along a section, from rest to rest. The section must
-/// outlive them. `steps`: least number of intervals. Empty: the path stands somewhere. [any]
+/// Returns the nodes of the time-optimal motion along a section, from rest to rest. The section
+/// must outlive them. `steps`: least number of intervals. Empty: the path stands somewhere. [any]
 std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bounds, int steps);
 
 }  // namespace tactus::ctl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gateway/ctl/retime/peaks.hpp"
 #include "gateway/ctl/retime/time_law.hpp"
@@ -9,9 +10,9 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr double kShortestWindow_s = 0.004;   // four waypoints of 1 ms
+constexpr double kShortestWindow_s = 0.004;  // four waypoints of 1 ms
 constexpr double kWaypointsInWindow = 4.0;
-constexpr double kRounding = 1e-9;            // of a bound
+constexpr double kRounding = 1e-9;  // of a bound
 
 /// True if a node says nothing that its neighbours do not: the acceleration goes on along a line.
 bool passed_over(const std::vector<PathNode>& nodes, std::size_t i) {
@@ -78,8 +79,10 @@ std::vector<TimedPoint> with_jerk(const std::vector<PathNode>& nodes,
 std::vector<TimedPoint> retime(const std::vector<Joints>& waypoints,
                                const RetimeSettings& settings) {
   std::vector<TimedPoint> whole;
+  MotionBounds bounds = settings.bounds;
+  if (!settings.jerk) bounds.j.setConstant(std::numeric_limits<double>::infinity());
   for (const PathSection& section : blend(waypoints, settings.corners)) {
-    const std::vector<PathNode> nodes = fastest(section, settings.bounds, settings.steps);
+    const std::vector<PathNode> nodes = fastest(section, bounds, settings.steps);
     if (nodes.empty()) return {};
     std::vector<TimedPoint> points = settings.jerk ? with_jerk(nodes, settings) : at_nodes(nodes);
     if (!settings.jerk) keep_bounds(points, settings);
