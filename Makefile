@@ -24,7 +24,7 @@ SCRIPTED :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
 PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
-TESTS  := $(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp)
+TESTS  := $(filter-out tests/ctl/%,$(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp))
 include tests/any_robot.mk
 robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
@@ -101,7 +101,7 @@ say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
-all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
+all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME) $(CTL_HERE)   ## build the program of BOARD, ARCH=arm64: for a board
 
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
@@ -192,7 +192,7 @@ build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
 	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
 $(TESTS): | build/libfcl_oracle.so
-$(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
+$(filter-out $(B)/tests/ctl/%,$(TESTS)): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(O)/libkernel.a

@@ -9,6 +9,8 @@ CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/pro
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
 TACTUSCTL    := build/tactusctl$(HOW)
 
+CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS))
+
 $(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lprotobuf
@@ -22,4 +24,8 @@ $(CTL)/%.o: %.cpp Makefile gateway/ctl/ctl.mk | $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(if $(filter $(CTL_SEAM),$<),$(CTL_SEAMFLAGS) -DTACTUS_VERSION='"$(VERSION)"',$(CTLFLAGS)) -c $< -o $@
 $(call ctl_obj,$(CTL_SEAM)): build/version
+# Its tests are compiled as it is.
+$(CTL_TESTS): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a | $(TACTUSCTL)
+	$(call say,LD    $@)
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lcmocka
 -include $(shell find $(CTL) -name '*.d' 2>/dev/null)

@@ -8,7 +8,7 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr int kStepsOfBlend = 32;
+constexpr int kStepsOfBlend = 100;
 
 /// Path derivatives at a node.
 struct Slopes {
