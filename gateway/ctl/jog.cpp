@@ -1,8 +1,6 @@
 // jog: velocities of joints by keys or a joystick. Each velocity holds for --hold-ms at most, so
 // that the arm stops when a key is released, and when a key's release, this program or the network
 // is lost.
-#include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "gateway/ctl/interrupt.hpp"
 #include "gateway/ctl/joystick.hpp"
+#include "gateway/ctl/raw_terminal.hpp"
 #include "gateway/ctl/verbs.hpp"
 
 namespace tactus::ctl {
@@ -22,26 +21,6 @@ constexpr const char* kKeys =
     "1..9 choose a joint; + and - (or arrows) move it while held; [ and ] change the speed; "
     "space stops; q ends";
 
-/// Single keys from a terminal, without echo, until it goes out of scope.
-class RawTerminal {
- public:
-  RawTerminal() : terminal_(tcgetattr(STDIN_FILENO, &before_) == 0) {
-    if (!terminal_) return;
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  }
-  ~RawTerminal() {
-    if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  RawTerminal(const RawTerminal&) = delete;
-  RawTerminal& operator=(const RawTerminal&) = delete;
-
- private:
-  termios before_{};
-  bool terminal_;
-};
-
 class Jogger {
  public:
   explicit Jogger(Session& session) : s_(session), speed_(session.options.speed) {}
@@ -51,7 +30,7 @@ class Jogger {
  private:
   bool by_keys();
   bool by_joystick();
-  bool take_keys(const std::string& keys);
+  bool press(const std::string& keys);
   bool take_key(char key);
   bool move(const std::vector<double>& shares);
   void take(const ToClient& message);
@@ -113,7 +92,7 @@ bool Jogger::take_key(char key) {
   return move(shares);
 }
 
-bool Jogger::take_keys(const std::string& keys) {
+bool Jogger::press(const std::string& keys) {
   for (std::size_t i = 0; i < keys.size() && !ends_; ++i) {
     char key = keys[i];
     if (keys.compare(i, 2, "\x1b[") == 0 && i + 2 < keys.size()) {  // an arrow
@@ -128,14 +107,11 @@ bool Jogger::take_keys(const std::string& keys) {
 bool Jogger::by_keys() {
   const RawTerminal raw;
   s_.output.say(kKeys);
+  std::string keys;
   while (!ends_ && !refused_ && interrupts() == 0) {
     if (!s_.client.wait(kIdle_ms, STDIN_FILENO)) return false;
-    pollfd ready = {STDIN_FILENO, POLLIN, 0};
-    if (poll(&ready, 1, 0) <= 0) continue;
-    char keys[64];
-    const ssize_t count = read(STDIN_FILENO, keys, sizeof keys);
-    if (count == 0) ends_ = true;
-    if (count > 0 && !take_keys(std::string(keys, static_cast<std::size_t>(count)))) return false;
+    ends_ |= !take_keys(keys);
+    if (!press(keys)) return false;
   }
   return true;
 }

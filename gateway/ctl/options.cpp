@@ -189,6 +189,9 @@ void fill(Verb verb, CLI::App& app, Options& o) {
     add_lease(app, o);
   switch (verb) {
     case Verb::kSend:
+      app.add_flag("--detach", o.detach, "leave once it moves and all is sent; it goes on");
+      add_trajectory(app, o);
+      break;
     case Verb::kCheck: add_trajectory(app, o); break;
     case Verb::kPoint: add_point(app, o); break;
     case Verb::kStream: add_stream(app, o); break;

@@ -45,7 +45,7 @@ struct Options {
   // send, check, point, stream, jog
   std::string interpolation = "fields";
   std::string motion_frame, wrench_frame;
-  bool exact = false, partial = false;
+  bool exact = false, partial = false, detach = false;
   std::vector<double> numbers;  ///< of a point: joints, rad, or a pose
   bool pose = false, degrees = false, wait = false;
   double period_ms = 0.0;  ///< of a stream; 0: as the rows come

@@ -1,14 +1,20 @@
 // send and check: a trajectory file, of any length, by the credit that the server gives.
+#include <unistd.h>
+
 #include <algorithm>
+#include <optional>
 
 #include "gateway/ctl/goal_view.hpp"
 #include "gateway/ctl/interrupt.hpp"
+#include "gateway/ctl/raw_terminal.hpp"
 #include "gateway/ctl/row_reader.hpp"
 #include "gateway/ctl/verbs.hpp"
 
 namespace tactus::ctl {
 namespace {
 
+constexpr const char* kKeys =
+    "p pauses, r resumes, + and - change the speed; Ctrl-C cancels on the path";
 constexpr int kWaitForRows_ms = 20;
 constexpr int kRest_ms = 10000;  // longest time that an arm takes to stop on its path
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -34,8 +40,11 @@ class Sender {
   bool feed();
   bool send_part(ToServer& request);
   bool cancel();
+  bool press(const std::string& keys);
   bool follow();
+  bool detaches() const { return s_.options.detach && all_sent_ && view_.moves(); }
   void come_to_rest();
+  int detach();
   int code() const;
 
   Session& s_;
@@ -45,6 +54,7 @@ class Sender {
   bool check_ = s_.options.verb == Verb::kCheck;
   bool all_sent_ = false, canceled_ = false, unreadable_ = false;
   std::int64_t give_up_ns_ = 0;  // after a cancel
+  double rate_ = 1.0;            // override
 };
 
 /// Reads a file that can be read twice to its end, so that a row that cannot be read is found
@@ -133,8 +143,29 @@ bool Sender::cancel() {
   return s_.client.post(request) != 0;
 }
 
+/// Keys while it moves. False: the connection is gone.
+bool Sender::press(const std::string& keys) {
+  for (const char key : keys) {
+    ToServer request;
+    if (key == 'p') request.mutable_pause();
+    if (key == 'r') request.mutable_resume();
+    if (key == '+' || key == '-') {
+      rate_ = std::clamp(rate_ + (key == '+' ? 0.1 : -0.1), 0.0, 1.0);
+      request.mutable_override()->set_rate(rate_);
+    }
+    if (request.request_case() != ToServer::REQUEST_NOT_SET && s_.client.post(request) == 0)
+      return false;
+  }
+  return true;
+}
+
 bool Sender::follow() {
-  while (!view_.ended()) {
+  const bool by_keys = !check_ && s_.options.file != "-" && isatty(STDIN_FILENO) != 0;
+  const std::optional<RawTerminal> raw(by_keys ? std::optional<RawTerminal>(std::in_place)
+                                               : std::nullopt);
+  if (by_keys) s_.output.say(kKeys);
+  std::string keys;
+  while (!view_.ended() && !detaches()) {
     if (interrupts() > 1 || (canceled_ && now_ns() > give_up_ns_)) return false;
     if (interrupts() == 1 && !canceled_) {
       s_.output.say("canceling; Ctrl-C again leaves");
@@ -142,7 +173,9 @@ bool Sender::follow() {
     }
     if (!canceled_ && !feed()) return false;
     const bool waits_for_rows = !all_sent_ && credit_ > 0 && !canceled_;
-    if (!s_.client.wait(waits_for_rows ? kWaitForRows_ms : -1)) return false;
+    if (!s_.client.wait(waits_for_rows ? kWaitForRows_ms : -1, by_keys ? STDIN_FILENO : -1))
+      return false;
+    if (by_keys && (!take_keys(keys) || !press(keys))) return false;
   }
   return true;
 }
@@ -161,6 +194,13 @@ int Sender::code() const {
   return view_.report().outcome() == Report::REFUSED ? kRefused : kEndedOtherwise;
 }
 
+/// Leaves while it moves: without an owner, what runs goes on to its end.
+int Sender::detach() {
+  s_.client.release_lease();
+  s_.output.say("started; it goes on to its end. tactusctl watch shows it, cancel ends it");
+  return s_.client.exit_code();
+}
+
 int Sender::run() {
   if (!read_once()) return s_.client.exit_code();
   if (!check_ && !s_.client.take_lease()) return s_.client.exit_code();
@@ -171,6 +211,7 @@ int Sender::run() {
     return s_.client.exit_code();
   }
   if (follow()) {
+    if (detaches()) return detach();
     if (!check_) come_to_rest();
     view_.print();
     s_.client.release_lease();
