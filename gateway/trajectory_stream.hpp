@@ -4,10 +4,7 @@
 // when its parts are sent.
 #pragma once
 
-#include <algorithm>
-
-#include "gateway/part_account.hpp"
-#include "gateway/reference_client.hpp"
+#include "gateway/part_sender.hpp"
 #include "gateway/trajectory_csv.hpp"
 
 namespace tactus {
@@ -64,8 +61,6 @@ class TrajectoryStream {
   double time_s(int waypoint) const;
 
  private:
-  static constexpr int kParts = 4;  // in a window
-
   bool refuse(const Verdict& verdict);
   bool refuse(std::string_view reason);
   template <class Reason>
@@ -84,15 +79,13 @@ class TrajectoryStream {
   bool in_window(int index) const {
     return index <= newest_ && index > newest_ - window_->capacity;
   }
-  bool part_full(int count) const { return count >= std::max(1, window_->capacity / kParts); }
 
   TrajectoryReader<Space> reader_;
   Trajectory<Space>* window_ = nullptr;
   Waypoint<Space> next_;  // read, but not yet in the window
   bool has_next_ = false, longer_ = false, whole_known_ = false;
-  PartAccount<Space> account_;   // of the judge
-  int appended_ = 0, sent_ = 0;  // waypoints in the window, and those that were sent
-  std::uint32_t awaited_ = 0;    // request of the part that is not yet answered; 0: none
+  PartAccount<Space> account_;  // of the judge
+  PartSender<Space> sender_;
   Fed state_ = Fed::kIdle;
   std::int64_t count_ = 0;
   double first_s_ = 0.0, end_s_ = 0.0, longer_s_ = 0.0;

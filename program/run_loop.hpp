@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "program/cycle_desk.hpp"
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
@@ -41,6 +42,9 @@ class RunLoop {
         length_(length),
         goal_(session, input) {}
 
+  /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
+  /// only a signal does. [init]
+  void serve(CycleDesk& desk) { desk_ = &desk; }
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
   /// Takes what the robot says of a fault, disables its drives and closes the wire. The loops do so
@@ -85,6 +89,7 @@ class RunLoop {
   void take_result(Status status);
   bool time_has_passed() const;
   bool over(Status status);
+  bool served(const CycleTime& now, Status status);
 
   Session& session_;
   TrajectoryInput& input_;
@@ -93,9 +98,10 @@ class RunLoop {
   RunResult& result_;
   RunLength length_;
   GoalWatch goal_;
-  Verdict end_;           // of the goal's final report
-  double ended_s_ = 0.0;  // when the time of the run had passed
-  bool pending_ = false;  // the goal was sent, and its final report has not come
+  CycleDesk* desk_ = nullptr;  // of a server; null: none
+  Verdict end_;                // of the goal's final report
+  double ended_s_ = 0.0;       // when the time of the run had passed
+  bool pending_ = false;       // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
   Status latched_ = Status::kOk, left_ = Status::kOk;
   Message trouble_, left_trouble_;

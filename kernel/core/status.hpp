@@ -86,6 +86,13 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNotReferenced = 107,
     kBusConflict = 108,
     kMismatch = 109,
+    // ... of a client of references
+    kNotOwner = 110,
+    kVoidReference = 111,
+    kStampRange = 112,
+    kTooManyMessages = 113,
+    kClientSilent = 114,
+    kClientSlow = 115,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]

@@ -6,7 +6,7 @@
 
 namespace tactus {
 
-enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter, kScan };
+enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter, kScan, kServe };
 
 /// Exit codes of every program.
 enum ExitCode : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2 };
@@ -27,6 +27,8 @@ struct Options {
   std::uint64_t seed = 1;
   bool figure = true;
   bool realtime = false;  ///< cycles by the wall clock
+  char listen[128] = "";  ///< of `serve`: the address; empty: a Unix socket of the user
+  char key[512] = "";     ///< of `serve`: the key file; empty: none
   char root[512] = "";    ///< of `doctor`: the folder that contains proc and sys
   int cpu = -1;           ///< of `doctor` and `jitter`; -1: any
   int priority = 80;      ///< of `doctor` and `jitter`

@@ -1,0 +1,107 @@
+// `tactus serve`: runs a pipeline in real time for clients that connect to a socket.
+#include <cstdio>
+#include <cstring>
+
+#include "gateway/fnv1a.hpp"
+#include "gateway/sockets/server_thread.hpp"
+#include "gateway/verdict_text.hpp"
+#include "program/run_loop.hpp"
+#include "program/session/session.hpp"
+
+namespace tactus {
+namespace {
+
+void print_line(const char* line) {
+  std::printf("%s\n", line);
+  std::fflush(stdout);
+}
+
+bool refuse(const char* subject, const char* reason) {
+  std::fprintf(stderr, "%s: refused: %s\n", subject, reason);
+  return false;
+}
+
+/// Opens the sockets. Another address than the computer's own needs a key.
+bool listen(const Options& options, Listener& listener, Text<127>& where) {
+  where = options.listen[0] != '\0' ? Text<127>(options.listen) : default_address();
+  Address address;
+  Message why;
+  if (!address.parse(where, why)) return refuse("--listen", why.c_str());
+  if (!address.loopback())
+    return refuse(where.c_str(),
+                  "programs on other computers would reach it, and nothing here can tell who they "
+                  "are; listen at unix:PATH or tcp:127.0.0.1:PORT, and let ssh forward it");
+  return listener.open(address, why) || refuse(where.c_str(), why.c_str());
+}
+
+ServerSetup setup_of(const Session& session, const Options& options) {
+  ServerSetup setup;
+  setup.board = session.board;
+  setup.pipeline = stem(options.pipeline);
+  setup.configuration = fnv1a(session.text);
+  setup.loaded = &session.pipeline;
+  setup.joint_window = session.client.capacity();
+  setup.task_window = session.task_client.capacity();
+  setup.log = print_line;
+  return setup;
+}
+
+void run_cycles(Session& session, RunLoop& loop, LogWriter& writer) {
+  Progress progress({}, kInfinity);
+  if (session.hal.clock() != nullptr)
+    loop.at_robots_pace(*session.hal.clock(), writer, progress);
+  else
+    loop.in_real_time(writer, progress);
+}
+
+/// Says how it ended, and returns the exit code.
+int finish(const Session& session, const Options& options, const RunLoop& loop,
+           const RunResult& result) {
+  if (loop.left() != Status::kOk) {
+    print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
+    return kEndedOtherwise;
+  }
+  if (result.code == 0) return kSucceeded;
+  print_stop(options.pipeline, "stopped", result.fault, session.executive.guard().telemetry(),
+             loop.trouble());
+  return kEndedOtherwise;
+}
+
+}  // namespace
+
+int serve(Session& session, const Options& options) {
+  static CycleMail mail;
+  static Server server(setup_of(session, options), session.client, session.task_client, mail);
+  static RunResult result;
+  static TrajectoryInput input;  // a server follows none
+  Listener listener;
+  Text<127> where;
+  if (!listen(options, listener, where)) return kRefused;
+  ServerThread thread(server, listener);
+  TrajectoryFeed feed(session, input);
+  RunLog log;
+  LogWriter writer(log);
+  WatchdogThread watchdog;
+  Realtime realtime;
+  const int error = thread.start();
+  if (error != 0) refuse("the thread of the server", std::strerror(error));
+  if (error != 0 || !watchdog.start(session.realtime) || !prepare(realtime, session.realtime))
+    return kRefused;
+  catch_interrupts();
+  RunLoop loop(session, input, feed, watchdog, result, {});
+  CycleDesk desk(mail, session.executive, session.pipeline);
+  loop.serve(desk);
+  if (!loop.start() || !watchdog.arm(session.realtime)) {
+    loop.stop();
+    print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
+    return kRefused;
+  }
+  std::printf("%s: serves %s; Ctrl-C ends it\n", options.pipeline, where.c_str());
+  std::fflush(stdout);
+  run_cycles(session, loop, writer);
+  watchdog.disarm();
+  thread.end();
+  return finish(session, options, loop, result);
+}
+
+}  // namespace tactus
