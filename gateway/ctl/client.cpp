@@ -72,11 +72,10 @@ bool Client::take_lease() {
 void Client::release_lease() {
   if (!leased_ || gone()) return;
   leased_ = false;
+  on_message = [](const ToClient&) {};
   ToServer request;
   request.mutable_lease()->set_wish(Lease::RELEASE);
-  const int code = exit_code_;
-  ask(request);
-  exit_code_ = code;
+  exchange(request);  // refused: it had been lost before, which was told
 }
 
 std::uint32_t Client::post(ToServer& request) {
@@ -91,6 +90,10 @@ std::uint32_t Client::post(ToServer& request) {
 }
 
 bool Client::ask(ToServer& request) {
+  return exchange(request) && (answer_.status() == 0 || refuse(answer_.text()));
+}
+
+bool Client::exchange(ToServer& request) {
   answered_ = reported_ = false;
   awaited_ = post(request);
   if (awaited_ == 0) return false;
@@ -102,7 +105,7 @@ bool Client::ask(ToServer& request) {
                   " ms; --timeout-ms waits longer");
     if (!wait(static_cast<int>(left_ms))) return false;
   }
-  return answer_.status() == 0 || refuse(answer_.text());
+  return true;
 }
 
 bool Client::ask_and_wait(ToServer& request) {
@@ -130,7 +133,9 @@ bool Client::keep_alive() {
 }
 
 bool Client::wait(int timeout_ms, int other) {
+  const std::int64_t taken = taken_;
   if (!take_all() || !keep_alive()) return false;
+  if (taken_ != taken) return true;
   pollfd waiting[2] = {{connection_.descriptor(), POLLIN, 0}, {other, POLLIN, 0}};
   if (poll(waiting, 2, next_wait_ms(timeout_ms)) < 0 && errno != EINTR) return lose("poll failed");
   return take_all() && keep_alive();
@@ -143,7 +148,7 @@ bool Client::take_all() {
       case Connection::Got::kNothing: return true;
       case Connection::Got::kGone:
         return lose(connection_.error() + "; if the arm moved, it comes to rest on its path");
-      case Connection::Got::kMessage: handle(message);
+      case Connection::Got::kMessage: ++taken_; handle(message);
     }
   }
 }

@@ -29,8 +29,8 @@ class Client {
   std::uint32_t post(ToServer& request);
   /// Sends a request and waits for its Answer. False: refused, or no connection; said.
   bool ask(ToServer& request);
-  /// Does the same and waits for the final Report, too, at most `timeout_ms`, or for ever if
-  /// negative. False: the report is none that the request succeeded; said.
+  /// Does the same and waits for the final Report, too, and prints it. False: it is none of
+  /// success.
   bool ask_and_wait(ToServer& request);
   /// Waits until something arrives, at most `timeout_ms`, and hands it on. Also returns when a
   /// signal arrives or `other`, a descriptor, is readable. False: the server is gone, said.
@@ -43,6 +43,7 @@ class Client {
   bool refuse(const std::string& text);
 
  private:
+  bool exchange(ToServer& request);
   bool lose(const std::string& reason);
   bool take_all();
   void handle(const ToClient& message);
@@ -56,7 +57,7 @@ class Client {
   Answer answer_;
   Report report_;
   std::uint32_t number_ = 0, awaited_ = 0;
-  std::int64_t sent_ns_ = 0;
+  std::int64_t sent_ns_ = 0, taken_ = 0;
   bool welcomed_ = false, answered_ = false, reported_ = false, leased_ = false;
   int exit_code_ = kSucceeded;
 };

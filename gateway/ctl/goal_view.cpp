@@ -40,7 +40,7 @@ void GoalView::take(const ToClient& message) {
   if (message.has_report() && message.report().number() == number_) take_report(message.report());
   if (message.has_feedback()) take_feedback(message.feedback());
   if (message.has_state()) take_state(message.state());
-  if (message.has_event()) {
+  if (message.has_event() && message.event().status() != 0) {
     output_.object("event", message.event());
     output_.say("event " + printed(message.event().name()) + ": " +
                 printed(message.event().text()));
@@ -74,23 +74,28 @@ void GoalView::take_feedback(const Feedback& feedback) {
   }
   largest_.tip_m = std::max(largest_.tip_m, now_.tip_m);
   largest_.tip_rad = std::max(largest_.tip_rad, now_.tip_rad);
-  elapsed_s_ = feedback.time_s() - start_s_;
+  const double elapsed_s = feedback.time_s() - start_s_;
+  passed_s_ += (elapsed_s - elapsed_s_) * rate_;
+  elapsed_s_ = elapsed_s;
   show();
 }
 
 void GoalView::take_state(const State& state) {
   state_ = state;
+  const bool stands = state.phase() == static_cast<std::uint32_t>(Phase::kPaused) ||
+                      state.phase() == static_cast<std::uint32_t>(Phase::kStarving);
+  rate_ = stands ? 0.0 : state.override() * state.speed_scaling();
   at_rest_ = ended_ && state.phase() == static_cast<std::uint32_t>(Phase::kHolding);
 }
 
 void GoalView::show() {
   std::string line = phase_name(state_.phase());
   if (length_s_ > 0.0) {
-    const double part = std::clamp(elapsed_s_ / length_s_, 0.0, 1.0);
+    const double part = std::clamp(passed_s_ / length_s_, 0.0, 1.0);
     const int filled = static_cast<int>(part * kBar);
     line = "[" + std::string(static_cast<std::size_t>(filled), '=') + ">" +
            std::string(static_cast<std::size_t>(kBar - filled), ' ') + "] " +
-           formatted("%3.0f %%  ", part * 100.0) + formatted("%.1f of ", elapsed_s_) +
+           formatted("%3.0f %%  ", part * 100.0) + formatted("%.1f of ", part * length_s_) +
            formatted("%.1f s  ", length_s_) + line;
   }
   line += "  error " + now_.text();

@@ -13,6 +13,9 @@
 namespace tactus::ctl {
 namespace {
 
+constexpr std::uint32_t kFirstOfCycle = 64;  // statuses of the cycle and of the wire, up to 109
+constexpr std::uint32_t kLastOfWire = 109;
+
 template <class E>
 std::string name_or_number(std::uint32_t value) {
   return value < kNames<E>.size() ? kNames<E>[value] : std::to_string(value);
@@ -61,6 +64,8 @@ void Output::result(const Report& report) {
   if (report.stretch() > 0.0)
     line += formatted("; slowed down by %.2g %% to keep limits", report.stretch() * 100.0);
   if (!report.text().empty()) line += ": " + printed(report.text());
+  if (report.status() >= kFirstOfCycle && report.status() <= kLastOfWire)
+    line += "; tactusctl watch shows the arm, tactusctl rearm takes it over again";
   say(line);
 }
 
