@@ -16,12 +16,6 @@ bool read_setting(const std::string& text, Parameter& parameter) {
   return !parameter.key().empty();
 }
 
-bool offers(const Welcome& welcome, Feature feature) {
-  for (const int offered : welcome.features())
-    if (offered == feature) return true;
-  return false;
-}
-
 bool fill_parameters(Session& session, ToServer& request) {
   Parameters& parameters = *request.mutable_parameters();
   request.add_requires(FEATURE_PARAMETERS);

@@ -31,6 +31,7 @@ class GoalView {
   /// True once a State after the end says that the reference is at rest.
   bool at_rest() const { return at_rest_; }
   const Report& report() const { return report_; }
+  const State& state() const { return state_; }
   /// Prints the result.
   void print() const;
 

@@ -33,6 +33,7 @@ class Jogger {
   bool press(const std::string& keys);
   bool take_key(char key);
   bool move(const std::vector<double>& shares);
+  ToServer velocity_of(const std::vector<double>& shares) const;
   void take(const ToClient& message);
   void show();
   std::size_t joints() const { return static_cast<std::size_t>(s_.client.welcome().joints_size()); }
@@ -66,8 +67,13 @@ void Jogger::show() {
                      formatted("  speed %.3g %%  ", speed_ * 100.0) + phase_name(state_.phase()));
 }
 
-/// Sends velocities as shares of the chosen speed.
+/// Sends velocities, given as shares of the chosen speed.
 bool Jogger::move(const std::vector<double>& shares) {
+  ToServer request = velocity_of(shares);
+  return s_.client.post(request) != 0;
+}
+
+ToServer Jogger::velocity_of(const std::vector<double>& shares) const {
   ToServer request;
   request.add_requires(FEATURE_VELOCITIES);
   Velocity& velocity = *request.mutable_velocity();
@@ -76,7 +82,7 @@ bool Jogger::move(const std::vector<double>& shares) {
     const double limit = s_.client.welcome().joints(static_cast<int>(i)).velocity();
     velocity.add_dq(i < shares.size() ? shares[i] * speed_ * limit : 0.0);
   }
-  return s_.client.post(request) != 0;
+  return request;
 }
 
 bool Jogger::take_key(char key) {
@@ -135,13 +141,16 @@ bool Jogger::by_joystick() {
 }
 
 bool Jogger::run() {
+  if (!offers(s_.client.welcome(), FEATURE_VELOCITIES))
+    return s_.client.refuse("the server takes no velocities; use point or stream");
   ToServer subscription;
   subscription.mutable_subscribe()->set_state_ms(100);
   if (!s_.client.ask(subscription) || !s_.client.take_lease()) return false;
   count_interrupts();
   s_.client.on_message = [this](const ToClient& message) { take(message); };
   const bool ended = s_.options.joystick.empty() ? by_keys() : by_joystick();
-  if (ended && !refused_) move({});
+  ToServer rest = velocity_of({});
+  if (ended && !refused_) s_.client.ask(rest);  // and hear what was said of the others
   s_.output.end_progress();
   s_.client.release_lease();
   return ended && !refused_;

@@ -9,6 +9,12 @@ std::vector<std::string> joint_names(const Welcome& welcome) {
   return names;
 }
 
+bool offers(const Welcome& welcome, Feature feature) {
+  for (const int offered : welcome.features())
+    if (offered == feature) return true;
+  return false;
+}
+
 void fill_terms(const Options& options, std::uint32_t held_joints, Terms& terms) {
   terms.set_held_joints(held_joints);
   terms.set_motion_frame(options.motion_frame);

@@ -35,15 +35,11 @@ void fill_target(const RowForm& form, const std::vector<double>& numbers, Point&
   }
 }
 
-/// Waits until the arm holds the point.
+/// Waits until the arm holds the point, or was stopped.
 void wait_at_rest(Session& session, std::uint32_t number) {
   GoalView view(session.output);
   view.follow(number);
-  int states = 0;
-  session.client.on_message = [&](const ToClient& message) {
-    view.take(message);
-    states += message.has_state() ? 1 : 0;
-  };
+  session.client.on_message = [&](const ToClient& message) { view.take(message); };
   ToServer subscription;
   subscription.mutable_subscribe()->set_state_ms(20);
   if (!session.client.ask(subscription)) return;
@@ -54,6 +50,9 @@ void wait_at_rest(Session& session, std::uint32_t number) {
   view.take(ended);
   while (interrupts() == 0 && (now_ns() < begun_ns || !view.at_rest()))
     if (!session.client.wait(100)) return;
+  if (view.state().status() != 0)
+    session.client.refuse("the arm was stopped on its way: " + status_name(view.state().status()) +
+                          "; tactusctl rearm takes it over again");
 }
 
 class Streamer {

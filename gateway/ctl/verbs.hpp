@@ -26,6 +26,8 @@ int retime_path(const Options& options, Output& output);
 
 /// Fills in what a reference says of joints and frames.
 void fill_terms(const Options& options, std::uint32_t held_joints, Terms& terms);
+/// True if the server offers a feature.
+bool offers(const Welcome& welcome, Feature feature);
 /// Returns the names of the robot's joints.
 std::vector<std::string> joint_names(const Welcome& welcome);
 
