@@ -59,7 +59,7 @@ CROSS_m7    := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
 INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 --param early-inlining-insns=6 \
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
-FLAGS_m7    := -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
+FLAGS_m7    := -DTACTUS_CHUNK_TARGETS=0 -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
                -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
                $(INLINING)
 CXX      := $(CROSS_$(ARCH))g++

@@ -129,6 +129,13 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
   return post(request, id);
 }
 
+template <class Space>
+bool ReferenceClient<Space>::poll_feedback(Feedback<Space>& feedback) {
+  if (!channel_.feedback.take(feedback)) return false;
+  if constexpr (kStreams) history_.push(feedback);
+  return true;
+}
+
 /// Sends a control only if there is space for its report: see kControls.
 template <class Space>
 Verdict ReferenceClient<Space>::control(ControlKind kind, std::uint32_t& id, double rate) {

@@ -4,7 +4,9 @@
 
 #include <array>
 
+#include "gateway/chunk.hpp"
 #include "gateway/part_account.hpp"
+#include "gateway/state_history.hpp"
 #include "kernel/reference/generator/messages.hpp"
 #include "kernel/reference/motion/admission_room.hpp"
 
@@ -48,6 +50,15 @@ class ReferenceClient {
   /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
                const typename Space::Header& header = {});
+  /// Judges, fits and sends a chunk (gateway/chunk.hpp). kReferenceTime also for relative targets
+  /// whose observation is not in the history; kNoFreeStore while all chunks are in use. Its report
+  /// is executed, superseded, or refused: kChunkLate, kEpochVoid.
+  Verdict send(const Chunk<Space>& chunk, std::uint32_t& id);
+  /// Sends a velocity; `header` says which joints it leaves out, or its frame.
+  Verdict send(const Velocity<Space>& velocity, std::uint32_t& id,
+               const typename Space::Header& header = {});
+  /// Counters and margins of chunks and velocities.
+  const StreamState& stream() const;
   /// Gives up everything that was sent before: a trajectory stops on its path, a motion to a point
   /// comes to rest.
   Verdict cancel(std::uint32_t& id) { return control(ControlKind::kCancel, id); }
@@ -69,8 +80,9 @@ class ReferenceClient {
 
   /// Takes the next report; false if there is none. Frees the store that the report returns.
   bool poll(Report& report);
-  /// Takes the oldest message of feedback; false if there is none.
-  bool poll_feedback(Feedback<Space>& feedback) { return channel_.feedback.take(feedback); }
+  /// Takes the oldest message of feedback; false if there is none. Relative chunks need it to be
+  /// called regularly.
+  bool poll_feedback(Feedback<Space>& feedback);
 
  private:
   /// The client's account of an open trajectory; the count in the trajectory belongs to the
@@ -87,12 +99,15 @@ class ReferenceClient {
   Verdict control(ControlKind kind, std::uint32_t& id, double rate = 1.0);
   void settle(std::size_t store);
   Verdict post(Request<Space> request, std::uint32_t& id);
+  Verdict post(const Chunk<Space>& chunk, std::uint32_t& id);
 
   ReferenceChannel<Space>& channel_;
   std::array<bool, kStores> away_{};  // sent and not yet returned by a report
   std::array<Stream, kStores> streams_{};
   std::uint32_t next_id_ = 1;
   std::array<std::uint32_t, kControls> unanswered_{};  // numbers of controls; 0: none
+  OnlyWithStreams<StateHistory<Space>> history_;
+  OnlyWithStreams<Chunk<Space>> resolved_;  // a relative chunk in positions
 };
 
 }  // namespace tactus

@@ -41,6 +41,7 @@ Verdict ReferenceServer<Space>::begin(const TrajectoryTerms& terms) {
   trajectory_->start_s = terms.start_s;
   if (terms.window > 0) trajectory_->capacity = std::min(terms.window, trajectory_->capacity);
   sent_ = false;
+  checks_ = terms.check;
   parts_.begin(0);
   return place(terms, trajectory_->header);
 }
@@ -67,6 +68,7 @@ Verdict ReferenceServer<Space>::take(const Waypoint<Space>& waypoint) {
     trajectory_->set(trajectory_->count++, waypoint);
     return {};
   }
+  if (checks_) return check(waypoint);
   Verdict verdict = sent_ ? flush_full() : send_open();
   if (verdict.ok()) verdict = parts_.append(client_, *trajectory_, waypoint);
   if (verdict.ok()) verdict = flush_full();
@@ -91,9 +93,33 @@ Verdict ReferenceServer<Space>::send_open() {
   return verdict;
 }
 
+/// Judges one more waypoint, and before the first that does not fit into the window those in it.
+template <class Space>
+Verdict ReferenceServer<Space>::check(const Waypoint<Space>& waypoint) {
+  Verdict verdict;
+  if (!trajectory_->open) {
+    trajectory_->open = true;
+    verdict = judge_.begin(*trajectory_, client_.settings());
+  }
+  return verdict.ok() ? judge_.append(*trajectory_, waypoint, client_.settings()) : verdict;
+}
+
+template <class Space>
+Verdict ReferenceServer<Space>::end_check() {
+  const Verdict verdict = trajectory_->open ? judge_.end(*trajectory_, client_.settings())
+                                            : judge_.begin(*trajectory_, client_.settings());
+  trajectory_ = nullptr;
+  stretch_ = judge_.stretch(judge_.end_s());
+  return verdict;
+}
+
 template <class Space>
 Verdict ReferenceServer<Space>::end(std::uint32_t& id) {
   if (trajectory_ == nullptr) return {Status::kNothingToExtend};
+  if (checks_) {
+    id = 0;
+    return end_check();
+  }
   if (parts_.awaiting()) return {Status::kWindowFull};
   const Verdict verdict =
       sent_ ? parts_.flush(client_, *trajectory_, true) : client_.send(*trajectory_, id_);

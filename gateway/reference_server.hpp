@@ -3,7 +3,7 @@
 // trajectory of any length passes through the window of its store. Runs outside the cycle.
 #pragma once
 
-#include "gateway/part_sender.hpp"
+#include "gateway/part_judge.hpp"
 #include "gateway/reference_frames.hpp"
 #include "kernel/pipeline/port_table.hpp"
 
@@ -24,7 +24,7 @@ class ReferenceServer {
   /// Takes waypoints of a frame as long as the window has space; `taken` says how many.
   Verdict take(ByteReader& waypoints, int count, int& taken);
   /// Ends the trajectory; kWindowFull: the generator has not yet answered the last part, ask again.
-  /// `id` is that of the trajectory.
+  /// `id` is that of the trajectory, 0 of one that is only judged.
   Verdict end(std::uint32_t& id);
   /// The number of the trajectory that comes, once the generator has it; 0: not yet, or none comes.
   std::uint32_t sent() const { return trajectory_ != nullptr && sent_ ? id_ : 0; }
@@ -33,6 +33,8 @@ class ReferenceServer {
   /// How much longer the trajectory that was sent last becomes, as a fraction, as far as it was
   /// known then.
   double stretch() const { return stretch_; }
+  /// Finds the joints that terms leave out, or their frames. kUnknownPort.
+  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   /// Sends a point.
   Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point,
                 std::uint32_t& id);
@@ -52,8 +54,9 @@ class ReferenceServer {
  private:
   static constexpr int kKept = 32;  // reports
 
-  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   Verdict send_open();
+  Verdict check(const Waypoint<Space>& waypoint);
+  Verdict end_check();
   Verdict flush_full();
 
   ReferenceClient<Space>& client_;
@@ -62,6 +65,8 @@ class ReferenceServer {
   bool sent_ = false;                        // it is longer than its window, which was sent
   std::uint32_t id_ = 0;                     // of the trajectory
   double stretch_ = 0.0;
+  bool checks_ = false;  // it is judged and not sent
+  PartJudge<Space> judge_;
   PartSender<Space> parts_;
   std::array<Report, kKept> reports_;
   int first_ = 0, count_ = 0;

@@ -44,14 +44,7 @@ RowTaken TrajectoryStream<Space>::take(int wait_ms) {
 
 template <class Space>
 bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings) {
-  Admitted<Space> admitted;
-  const Verdict verdict = admit(*window_, settings, admitted);
-  if (!verdict.ok()) return refuse(verdict);
-  count_ = window_->count;
-  end_s_ = window_->end_s();
-  first_s_ = window_->time_s(0);
-  longer_s_ = window_->stretch * (end_s_ - first_s_);
-  account_.begin(window_->count, admitted);
+  if (!judged(judge_.begin(*window_, settings))) return false;
   if (!longer_ || !reader_.lines().regular()) return true;
   if (!judge_parts(settings)) return false;
   judged_hash_ = hash();
@@ -70,25 +63,19 @@ bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settin
   for (;;) {
     const RowTaken taken = has_next_ ? RowTaken::kWaypoint : take(-1);
     if (taken == RowTaken::kRefused) return false;
-    if (taken != RowTaken::kWaypoint) return judge_part(true, settings);
-    note(account_.count());
-    const Verdict verdict = account_.append(*window_, next_, settings);
-    if (!verdict.ok()) return refuse(verdict);
+    if (taken != RowTaken::kWaypoint) return judged(judge_.end(*window_, settings));
+    note(judge_.next());
+    if (!judged(judge_.append(*window_, next_, settings))) return false;
     has_next_ = false;
-    const bool full = account_.count() - account_.ended() >= PartSender<Space>::part_size(*window_);
-    if (full && !judge_part(false, settings)) return false;
   }
 }
 
+/// Takes what the judge knows of the file up to now.
 template <class Space>
-bool TrajectoryStream<Space>::judge_part(bool last, const AdmissionSettings<Space>& settings) {
-  double longer = 0.0;
-  const Verdict verdict = account_.judge_part(*window_, last, settings, longer);
+bool TrajectoryStream<Space>::judged(const Verdict& verdict) {
   if (!verdict.ok()) return refuse(verdict);
-  count_ = account_.count();
-  end_s_ = window_->time_s(account_.count() - 1);
-  longer_s_ += longer * (end_s_ - window_->time_s(account_.ended() - 1));
-  account_.end_part();
+  count_ = judge_.count();
+  end_s_ = judge_.end_s();
   return true;
 }
 

@@ -143,7 +143,7 @@ const char* remedy(Status status) {
     case Status::kEffortLimit: return "; ask for less";
     case Status::kQuaternion: return "; write qw, qx, qy, qz of length 1";
     case Status::kNotOwner: return "; ask for the lease first";
-    case Status::kVoidReference: return "; take epoch and position from the newest State";
+    case Status::kEpochVoid: return "; take epoch and position from the newest State";
     case Status::kStampRange: return "; name times of the server's clock, State.server_ns";
     default: return "";
   }

@@ -39,11 +39,13 @@ CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, const Pipeline& pipe
 }
 
 void CycleDesk::work(Status status) {
-  if (status == Status::kArming) {
+  const bool begins = waits_ && !executive_.busy();
+  if (begins || status == Status::kArming) {
+    waits_ = false;
     const Status armed = executive_.arm();
     if (armed != Status::kArming) finish(armed);
-  } else if (rearm_ != 0) {
-    finish(status);
+  } else if (rearm_ != 0 && !waits_) {
+    finish(status);  // arming has ended otherwise
   }
   take_order();
 }
@@ -52,9 +54,11 @@ void CycleDesk::work(Status status) {
 void CycleDesk::finish(Status status) {
   if (rearm_ != 0) static_cast<void>(mail_.results.post({rearm_, status}));
   rearm_ = 0;
+  waits_ = false;
 }
 
-/// An order waits until there is space for its result, and that of a rearm.
+/// A rearm begins once the arm rests and its drives are disabled. An order waits until there is
+/// space for its result, and that of a rearm.
 void CycleDesk::take_order() {
   OrderMessage message;
   if (mail_.results.space() < 2 || !mail_.orders.take(message)) return;
@@ -66,8 +70,7 @@ void CycleDesk::take_order() {
   }
   finish(Status::kHalted);  // a rearm that a newer one replaces
   rearm_ = message.id;
-  const Status status = executive_.arm();
-  if (status != Status::kArming) finish(status);
+  waits_ = true;
 }
 
 void CycleDesk::tell(const CycleTime& now) {

@@ -30,6 +30,7 @@ class CycleDesk {
   const Pose *pose_ = nullptr, *pose_d_ = nullptr;
   const Vector6* wrench_ = nullptr;
   std::uint32_t rearm_ = 0;  // number of a rearm that is under way; 0: none
+  bool waits_ = false;       // it has not begun: the arm is still being brought to rest
   std::uint32_t lost_ = 0;   // snapshots
 };
 

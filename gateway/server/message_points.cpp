@@ -43,6 +43,15 @@ void write(const Vector& vector, double (&field)[N], pb_size_t& count) {
 
 }  // namespace
 
+TrajectoryTerms terms_of(bool given, const tactus_Terms& from) {
+  TrajectoryTerms terms;
+  if (!given) return terms;
+  terms.held = from.held_joints;
+  terms.motion = from.motion_frame;
+  terms.wrench = from.wrench_frame;
+  return terms;
+}
+
 template <>
 int numbers_in_message<JointSpace>(Fields fields) {
   return kDof * (1 + fields_in(fields));

@@ -2,6 +2,7 @@
 // quaternions as w, x, y, z, and only the fields that are given.
 #pragma once
 
+#include "gateway/reference_frames.hpp"
 #include "gateway/tactus.pb.h"
 #include "kernel/core/load_error.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
@@ -9,6 +10,9 @@
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
+
+/// Reads the joints that are left out, or the frames; none if they are not given. [any]
+TrajectoryTerms terms_of(bool given, const tactus_Terms& from);
 
 /// Numbers of a waypoint in a Part. [any]
 template <class Space>

@@ -14,6 +14,37 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
   return verdict;
 }
 
+/// The generator's own epochs void what a stop overtakes on its way to the cycle. The order is that
+/// in which messages have come, since the server has judged the clients' places.
+template <class Space>
+Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
+                                      Chunk<Space>& chunk) {
+  if (book_.full()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  chunk.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, chunk.header);
+  if (verdict.ok()) verdict = client_.send(chunk, id);
+  if (!verdict.ok()) return verdict;
+  book_.add({id, from, {}, 0.0});
+  ++chunks_;
+  return {};
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
+                                         Velocity<Space>& velocity) {
+  if (book_.full()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  typename Space::Header header;
+  velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  velocity.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, header);
+  if (verdict.ok()) verdict = client_.send(velocity, id, header);
+  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  return verdict;
+}
+
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate) {
   if (book_.full()) return {Status::kMailboxFull};
@@ -27,11 +58,13 @@ template <class Space>
 Verdict ReferenceIntake<Space>::begin(const Origin& from, const TrajectoryTerms& terms) {
   // There is space to tell what is given up, and what this one may end as before it is sent.
   if (told_count_ + 2 > static_cast<int>(told_.size())) return {Status::kMailboxFull};
+  if (terms.check && coming_ && !comes(from)) return {Status::kNoFreeStore};
   if (coming_) give_up(origin_.session);
   const Verdict verdict = server_.begin(terms);
   if (!verdict.ok()) return verdict;
   coming_ = true;
   ended_ = false;
+  checks_ = terms.check;
   origin_ = from;
   fields_ = terms.fields;
   id_ = 0;
@@ -110,8 +143,12 @@ void ReferenceIntake<Space>::move_on() {
   const Verdict verdict = server_.end(id);
   if (verdict.status == Status::kWindowFull) return;
   if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
-  if (id_ == 0) book_.add({id, origin_, {}, server_.stretch()});
   coming_ = false;
+  if (checks_)
+    told_[static_cast<std::size_t>(told_count_++)] = {
+        origin_, Outcome::kExecuted, {}, 0.0, server_.stretch()};
+  else if (id_ == 0)
+    book_.add({id, origin_, {}, server_.stretch()});
 }
 
 template <class Space>

@@ -32,8 +32,17 @@ class ReferenceIntake {
 
   Verdict point(const Origin& from, const TrajectoryTerms& terms,
                 const typename Space::Point& point);
+  /// Sends a chunk, whose header the terms give; it is newer than all before.
+  Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
+  /// Sends a velocity; it is newer than all before.
+  Verdict velocity(const Origin& from, const TrajectoryTerms& terms, Velocity<Space>& velocity);
+  /// Chunks that were sent.
+  std::uint32_t chunks() const { return chunks_; }
+  /// Counters and margins of chunks and velocities.
+  const StreamState& stream() const { return client_.stream(); }
   Verdict control(const Origin& from, ControlKind kind, double rate);
-  /// Begins a trajectory; what was begun before and has not ended is given up.
+  /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
+  /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);
   /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
   void take(const Waypoint<Space>& waypoint);
@@ -44,6 +53,8 @@ class ReferenceIntake {
   /// Waypoints of the trajectory that `from` has begun for which it has credit; 0 if it has begun
   /// none, or ended it.
   int credit(const Origin& from) const { return comes(from) && !ended_ ? outstanding_ : 0; }
+  /// True if the trajectory that `from` has begun is only judged.
+  bool checks(const Origin& from) const { return comes(from) && checks_; }
   /// Fields of the trajectory that comes.
   Fields fields() const { return fields_; }
   /// Ends the trajectory that `from` has begun, because something in it is refused.
@@ -79,9 +90,11 @@ class ReferenceIntake {
   ReferenceClient<Space>& client_;
   ReferenceServer<Space> server_;
   ReportBook book_;
+  std::uint32_t sequence_ = 0, chunks_ = 0;
 
   bool coming_ = false;  // a trajectory comes
   bool ended_ = false;   // all its waypoints have come
+  bool checks_ = false;  // it is only judged
   Origin origin_;        // of its Begin
   Fields fields_ = 0;
   int free_ = 0;          // waypoints that its window takes before it is sent

@@ -60,7 +60,7 @@ void Server::work(std::int64_t now_ns) {
   take_feedback(now_ns);
   for (Connection& connection : connections_)
     if (connection.state == Connection::State::kOpen && seen_ && connection.states.due(now_ns))
-      tell_state(connection, now_ns);
+      tell_state(connection);
 }
 
 void Server::take_messages(int slot, std::int64_t now_ns) {
@@ -158,13 +158,13 @@ void Server::leave(int slot, std::string_view how, std::int64_t now_ns) {
   joints_.give_up(connection.session);
   poses_.give_up(connection.session);
   tell_events("left", Status::kOk, text, slot, now_ns);
-  if (owner) lose_lease("has left", now_ns);
+  if (owner) lose_lease("ends, as it has left", now_ns);
   joints_.forget(connection.session);
   poses_.forget(connection.session);
 }
 
 /// What moves is brought to rest on its path, and what is on its way is void.
-void Server::end_motion(std::int64_t) {
+void Server::end_motion() {
   ++epoch_;
   if (takes_references()) with_intake([](auto& intake) { intake.cancel(); });
 }
@@ -173,7 +173,7 @@ void Server::lose_lease(std::string_view how, std::int64_t now_ns) {
   Connection& owner = at(lease_.owner());
   with_intake([&owner](auto& intake) { intake.give_up(owner.session); });
   lease_.end();
-  end_motion(now_ns);
+  end_motion();
   Message text("the lease of ");
   text << std::string_view(owner.name) << " " << how << ": the arm comes to rest";
   if (setup_.log != nullptr) setup_.log(text.c_str());

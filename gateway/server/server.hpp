@@ -93,7 +93,7 @@ class Server {
   void watch(int slot, std::int64_t now_ns);
   void cut(int slot, Status status, std::string_view text, std::int64_t now_ns);
   void leave(int slot, std::string_view how, std::int64_t now_ns);
-  void end_motion(std::int64_t now_ns);
+  void end_motion();
   void lose_lease(std::string_view how, std::int64_t now_ns);
 
   // server_requests.cpp: what is asked
@@ -104,7 +104,6 @@ class Server {
   Reply order(CycleOrder what, const Origin& from, std::int64_t now_ns);
   Reply control(const Origin& from);
   Reply subscribe(int slot, std::int64_t now_ns);
-
   // server_references.cpp: references
   Reply judge_place(int slot, bool given, const tactus_Place& place);
   Reply point(int slot, const Origin& from);
@@ -112,6 +111,13 @@ class Server {
   Reply part(const Origin& from);
   Reply end(const Origin& from);
   Reply reply(const Verdict& verdict) const;
+
+  // server_streams.cpp: chunks and velocities
+  Reply velocity(int slot, const Origin& from);
+  Reply chunk(int slot, const Origin& from, std::int64_t now_ns);
+  Reply read_chunk_time(int slot, std::int64_t now_ns, double& origin_s, double& observed_s) const;
+  Chunk<JointSpace>& chunk_of(const JointSpace&) { return joint_chunk_; }
+  Chunk<TaskSpace>& chunk_of(const TaskSpace&) { return task_chunk_; }
 
   // server_telling.cpp: what is told
   void answer(Connection& to, std::uint32_t number, const Reply& reply, std::int64_t now_ns);
@@ -121,10 +127,12 @@ class Server {
                    std::int64_t now_ns);
   void take_results(std::int64_t now_ns);
   void take_reports(std::int64_t now_ns);
+  void report(const Told& told, std::int64_t now_ns);
+
+  // server_watching.cpp: what is told of the cycles
   void take_snapshots(std::int64_t now_ns);
   void take_feedback(std::int64_t now_ns);
-  void report(const Told& told, std::int64_t now_ns);
-  void tell_state(Connection& to, std::int64_t now_ns);
+  void tell_state(Connection& to);
   template <class Space>
   void tell_feedback(const Feedback<Space>& feedback, ReferenceIntake<Space>& from,
                      std::int64_t now_ns);
@@ -136,6 +144,8 @@ class Server {
   Lease lease_;
   std::uint32_t epoch_ = 1;
   GeneratorClock clock_;
+  Chunk<JointSpace> joint_chunk_;  // that is being read
+  Chunk<TaskSpace> task_chunk_;
   CycleSnapshot newest_;
   bool seen_ = false;  // a snapshot
   std::uint32_t lost_feedback_ = 0;

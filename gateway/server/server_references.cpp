@@ -8,15 +8,6 @@
 namespace tactus {
 namespace {
 
-TrajectoryTerms terms_of(bool given, const tactus_Terms& from) {
-  TrajectoryTerms terms;
-  if (!given) return terms;
-  terms.held = from.held_joints;
-  terms.motion = from.motion_frame;
-  terms.wrench = from.wrench_frame;
-  return terms;
-}
-
 Fields fields_of(const tactus_Begin& begin) {
   return static_cast<Fields>((begin.velocities ? kVelocityField : 0) |
                              (begin.accelerations ? kAccelerationField : 0) |
@@ -41,7 +32,8 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
   Connection& connection = at(slot);
   const bool newer = connection.epoch != place.epoch ||
                      static_cast<std::int32_t>(place.sequence - connection.sequence) > 0;
-  if (place.epoch != epoch_ || !newer) return reply({Status::kVoidReference});
+  if (place.epoch != epoch_) return reply({Status::kEpochVoid});
+  if (!newer) return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
   connection.epoch = place.epoch;
   connection.sequence = place.sequence;
   return {};
@@ -74,7 +66,6 @@ Reply Server::begin(const Origin& from, std::int64_t now_ns) {
   if (!takes_references() || given.poses != takes_poses())
     return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: set Begin.poses"
                                                : "the pipeline takes joints, no poses"};
-  if (given.check) return {Status::kNotOffered, "this server does not offer to check"};
   TrajectoryTerms terms = terms_of(given.has_terms, given.terms);
   terms.poses = given.poses;
   terms.fields = fields_of(given);
@@ -82,6 +73,7 @@ Reply Server::begin(const Origin& from, std::int64_t now_ns) {
   if (name(terms.interpolation) == nullptr)
     return {Status::kBadValue, "Begin.interpolation is unknown"};
   terms.exact = given.exact;
+  terms.check = given.check;
   terms.window = static_cast<int>(std::min<std::uint32_t>(given.window, kMostWaypoints));
   if (given.start_ns != 0) {
     const Verdict verdict = clock_.time_of(given.start_ns, now_ns, terms.start_s);

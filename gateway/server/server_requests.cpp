@@ -25,11 +25,14 @@ bool needs_lease(pb_size_t request) {
     case tactus_ToServer_override_tag:
     case tactus_ToServer_pause_tag:
     case tactus_ToServer_resume_tag:
-    case tactus_ToServer_part_tag:
-    case tactus_ToServer_end_tag:
     case tactus_ToServer_rearm_tag: return true;
     default: return false;
   }
+}
+
+bool offered(tactus_Feature feature) {
+  return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
+         feature == tactus_Feature_FEATURE_VELOCITIES;
 }
 
 Reply not_offered(std::string_view what) {
@@ -42,14 +45,17 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (request_.requires[i] != tactus_Feature_FEATURE_NONE)
-      return not_offered("a feature that the message requires");
+    if (!offered(request_.requires[i])) return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)
     return {Status::kNotStarted, "the first message of a connection must be Hello"};
-  const bool moves =
-      needs_lease(what) || (what == tactus_ToServer_begin_tag && !request_.request.begin.check);
+  const bool checks = what == tactus_ToServer_begin_tag
+                          ? request_.request.begin.check
+                          : with_intake([&from](auto& intake) { return intake.checks(from); });
+  const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
+                       what == tactus_ToServer_begin_tag;
+  const bool moves = follows ? !checks : needs_lease(what);
   if (moves && lease_.owner() != slot) {
     Message text(describe(Status::kNotOwner));
     if (lease_.owner() != Lease::kNobody)
@@ -60,8 +66,8 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
     case tactus_ToServer_point_tag: return point(slot, from);
-    case tactus_ToServer_velocity_tag: return not_offered("velocities");
-    case tactus_ToServer_chunk_tag: return not_offered("chunks");
+    case tactus_ToServer_velocity_tag: return velocity(slot, from);
+    case tactus_ToServer_chunk_tag: return chunk(slot, from, now_ns);
     case tactus_ToServer_begin_tag: return begin(from, now_ns);
     case tactus_ToServer_part_tag: return part(from);
     case tactus_ToServer_end_tag: return end(from);
@@ -127,7 +133,7 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
   text << " owns the motion";
   if (taken == LeaseTaken::kTakenOver) {
     with_intake([&](auto& intake) { intake.give_up(at(before).session); });
-    end_motion(now_ns);
+    end_motion();
     text << ", taken over from " << std::string_view(at(before).name);
   }
   if (setup_.log != nullptr) setup_.log(text.c_str());

@@ -47,6 +47,8 @@ constexpr StatusWords words_of(Status status) {
     case Status::kWindowFull: return {"kWindowFull", "all waypoints of the store are still needed"};
     case Status::kNotStreamable: return {"kNotStreamable", "an open trajectory cannot be monotone"};
     case Status::kGoalVelocity: return {"kGoalVelocity", "not at rest at the goal"};
+    case Status::kChunkLate: return {"kChunkLate", "no target of the chunk is still ahead"};
+    case Status::kEpochVoid: return {"kEpochVoid", "a stop has voided the epoch"};
     case Status::kLeftPath: return {"kLeftPath", "the arm left its path while braking"};
     case Status::kStateNotFinite: return {"kStateNotFinite", "measured state not finite"};
     case Status::kReferenceFault: return {"kReferenceFault", "reference in the cycle not valid"};
@@ -92,8 +94,6 @@ constexpr StatusWords words_of(Status status) {
       return {"kMismatch",
               "two machines that run the same pipeline have computed different values"};
     case Status::kNotOwner: return {"kNotOwner", "another client or none owns the motion"};
-    case Status::kVoidReference:
-      return {"kVoidReference", "sent before the last stop, or after a newer one"};
     case Status::kStampRange: return {"kStampRange", "stamp too far from the present time"};
     case Status::kTooManyMessages: return {"kTooManyMessages", "too many messages"};
     case Status::kClientSilent: return {"kClientSilent", "no message from the client in time"};

@@ -47,6 +47,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNotStreamable = 55,
     kLeftPath = 57,
     kGoalVelocity = 58,
+    kChunkLate = 59,
+    kEpochVoid = 60,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,
@@ -88,11 +90,10 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kMismatch = 109,
     // ... of a client of references
     kNotOwner = 110,
-    kVoidReference = 111,
-    kStampRange = 112,
-    kTooManyMessages = 113,
-    kClientSilent = 114,
-    kClientSlow = 115,
+    kStampRange = 111,
+    kTooManyMessages = 112,
+    kClientSilent = 113,
+    kClientSlow = 114,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]

@@ -63,7 +63,7 @@ struct RawFields {
   const std::uint8_t* at;
   const std::uint8_t* end;
   std::uint32_t field = 0;
-  std::uint64_t value = 0;   // a varint, or the bits of a number
+  std::uint64_t value = 0;  // a varint, or the bits of a number
   RawFields inner() const { return {block, block + block_size}; }
   const std::uint8_t* block = nullptr;
   std::size_t block_size = 0;

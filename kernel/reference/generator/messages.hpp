@@ -9,7 +9,9 @@
 #include "kernel/core/mailbox.hpp"
 #include "kernel/reference/generator/feedback.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
+#include "kernel/reference/motion/chunk.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
+#include "kernel/reference/motion/velocity.hpp"
 #include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
@@ -18,15 +20,23 @@ enum class RequestKind : std::uint8_t {
   kPoint,       ///< make this point the reference
   kTrajectory,  ///< follow the trajectory in a store
   kAppend,      ///< take up waypoints appended to the open trajectory in a store
+  kChunk,       ///< go along with the curve in a store of chunks
+  kVelocity,    ///< move at a velocity
+};
+
+/// What a request has besides on a board with streams.
+template <class Space>
+struct StreamRequest {
+  Velocity<Space> velocity;  ///< kVelocity
 };
 
 template <class Space>
-struct Request {
+struct Request : OnlyWithStreams<StreamRequest<Space>> {
   std::uint32_t id = 0;  ///< the client's number, returned in every report
   RequestKind kind = RequestKind::kPoint;
-  int store = -1;                 ///< kTrajectory, kAppend: the store of the trajectory
+  int store = -1;                 ///< kTrajectory, kAppend, kChunk: the store of its kind
   typename Space::Point point;    ///< kPoint
-  typename Space::Header header;  ///< kPoint: joints left out, or frames it is given in
+  typename Space::Header header;  ///< kPoint, kVelocity: joints left out, or frames it is given in
   int count = 0;                  ///< kAppend: all waypoints including the new ones
   bool last = false;              ///< kAppend: none will follow
   typename Space::Extent extent;  ///< kAppend: extent of the new part
@@ -55,13 +65,13 @@ enum class Outcome : std::uint8_t {
   kAborted,     ///< final: an online point replaced it, a tolerance was violated, or the
                 ///< executive brakes; the verdict says why
   kCanceled,    ///< final: a client cancelled the trajectory
-  kExecuted,    ///< final: a point became the reference; a cancel, override, pause or resume took
-                ///< effect
+  kExecuted,    ///< final: a point, a chunk or a velocity took effect; a cancel, override, pause or
+                ///< resume took effect
   kSuperseded,  ///< final: a newer point replaced it before it took effect, or a newer trajectory
                 ///< before its start time; or a cancel voided a point
   kRefused,     ///< final: not accepted; the verdict says why
-  kStarved,   ///< an open trajectory ran out of waypoints: the arm stops on the path and waits for
-              ///< more
+  kStarved,   ///< an open trajectory ran out of waypoints, or an executed chunk or velocity was not
+              ///< followed by another in time: the arm comes to rest and waits for more
   kReleased,  ///< a store is the client's again, after a final report that did not return it
 };
 
@@ -117,7 +127,7 @@ inline constexpr std::size_t kReportsPerRequest = 10;
 /// The messages and stores between one client and one reference generator. The board owns it, with
 /// its mailboxes, as a ChannelMemory.
 template <class Space>
-struct ReferenceChannel {
+struct ReferenceChannel : ChunkStores<Space> {
   ReferenceChannel(MessageQueue<Request<Space>>& its_requests, MessageQueue<Report>& its_reports,
                    FeedbackQueue<Space>& its_feedback)
       : requests(its_requests), reports(its_reports), feedback(its_feedback) {}

@@ -23,10 +23,13 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   const Point held = measured;  // NOLINT(performance-unnecessary-copy-initialization)
   FeedbackPublisher<Space> feedback = feedback_;
   feedback.start(params.feedback_divisor, params.measured);
+  const OnlyWithStreams<StreamAccount<Space>> stream = stream_;
   new (this) ReferenceGenerator();  // anew in its place: a copy would be large on the stack
   feedback_ = feedback;
+  stream_ = stream;
   channel_ = &channel;
   params_ = params;
+  end_epoch();
   channel.tolerances = &params_.tolerances;
   void_requests_ = channel.requests.size();
   void_controls_ = channel.controls.size();
@@ -55,6 +58,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_supply();
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
+  watch_expiry();
   watch_start();
   take_controls();
   take_requests();
@@ -74,6 +78,7 @@ void ReferenceGenerator<Space>::brake(Status why, BrakeWay way) {
     end_waiting(Outcome::kAborted, {why});
     leave ? motion_.stop() : motion_.cancel();
     end_running(Outcome::kAborted, !motion_.on_path(), {why});
+    end_epoch();
   }
   refusing_ = why;
   take_controls();

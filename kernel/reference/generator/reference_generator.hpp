@@ -8,6 +8,7 @@
 
 #include "kernel/core/brake.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/generator/epoch_gate.hpp"
 #include "kernel/reference/generator/tolerance_monitor.hpp"
 #include "kernel/reference/motion/motion.hpp"
 
@@ -34,6 +35,14 @@ struct MotionState {
   double time_s = 0.0;  ///< generator time: periods since start
   Phase phase = Phase::kHolding;
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
+};
+
+/// The account of chunks and velocities.
+template <class Space>
+struct StreamAccount {
+  EpochGate gate;
+  std::uint32_t id = 0;  ///< the last one that took effect
+  bool expired = false;  ///< no successor came in time, and the client was told
 };
 
 template <class Space>
@@ -104,7 +113,16 @@ class ReferenceGenerator {
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
+  void take_other(const Request<Space>& request);
   void take_append(const Request<Space>& request);
+  void take_stream(const Request<Space>& request);
+  void take_chunk(const Request<Space>& request);
+  void take_velocity(const Request<Space>& request);
+  bool in_order(const Request<Space>& request, std::uint32_t epoch, std::uint32_t sequence);
+  void end_epoch();
+  void void_request(const Request<Space>& request);
+  void begin_stream(std::uint32_t id);
+  void watch_expiry();
   void watch_supply();
   void watch_goal(double dt_s, const Point& measured);
   void watch_stream(double dt_s);
@@ -139,6 +157,8 @@ class ReferenceGenerator {
   std::uint32_t canceled_before_ = 0;  // number of the last cancel
 
   double point_age_s_ = -kInfinity;  // since the last online point; -infinity: no point to watch
+
+  OnlyWithStreams<StreamAccount<Space>> stream_;
 };
 
 }  // namespace tactus

@@ -51,8 +51,9 @@ Verdict ReferenceGenerator<Space>::answer(const Control& control, LoopBound<2>& 
 template <class Space>
 Verdict ReferenceGenerator<Space>::cancel(std::uint32_t id, LoopBound<2>& cancels) {
   assert(refusing_ == Status::kOk);
+  end_epoch();
   const bool goes = running_.any() || waiting_.any() || phase() == Phase::kReaching ||
-                    phase() == Phase::kLeaving || motion_.holds_effort();
+                    streams(phase()) || phase() == Phase::kLeaving || motion_.holds_effort();
   if (!goes && channel_->requests.size() == 0) return {Status::kNothingToCancel};
   canceled_before_ = id;
   end_waiting(Outcome::kCanceled);
@@ -87,7 +88,7 @@ void ReferenceGenerator<Space>::take_requests() {
     if (answered(request)) continue;
     if (request.kind != RequestKind::kPoint) {
       if (point != nullptr) take_point(*point);
-      request.kind == RequestKind::kTrajectory ? take_trajectory(request) : take_append(request);
+      take_other(request);
       if (point != nullptr) return;
     } else {
       if (point != nullptr) report(point->id, Outcome::kSuperseded);
@@ -95,6 +96,13 @@ void ReferenceGenerator<Space>::take_requests() {
     }
   }
   if (point != nullptr) take_point(*point);
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::take_other(const Request<Space>& request) {
+  if (request.kind == RequestKind::kTrajectory) return take_trajectory(request);
+  if (request.kind == RequestKind::kAppend) return take_append(request);
+  take_stream(request);
 }
 
 /// True if the request is answered whatever its kind: it was sent before the start or before the
@@ -119,8 +127,10 @@ template <class Space>
 bool ReferenceGenerator<Space>::canceled(const Request<Space>& request) {
   const bool older = static_cast<std::int32_t>(canceled_before_ - request.id) > 0;
   if (!older || request.kind == RequestKind::kAppend) return false;
-  const bool point = request.kind == RequestKind::kPoint;
-  report(request.id, point ? Outcome::kSuperseded : Outcome::kCanceled, point ? -1 : request.store);
+  const bool trajectory = request.kind == RequestKind::kTrajectory;
+  void_request(request);
+  report(request.id, trajectory ? Outcome::kCanceled : Outcome::kSuperseded,
+         trajectory ? request.store : -1);
   return true;
 }
 
@@ -128,6 +138,7 @@ bool ReferenceGenerator<Space>::canceled(const Request<Space>& request) {
 template <class Space>
 void ReferenceGenerator<Space>::refuse(const Request<Space>& request, Status why) {
   const bool carries_store = request.kind == RequestKind::kTrajectory;
+  void_request(request);
   report(request.id, Outcome::kRefused, carries_store ? request.store : -1, {why});
 }
 

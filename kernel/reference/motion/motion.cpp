@@ -9,10 +9,7 @@
 namespace tactus {
 namespace {
 
-/// Feed-forward fades out in this time, or in the period of a stream.
-constexpr double kFade_s = 0.1;
-/// A path that itself decelerates at its limits can take seconds to stop on; after this time it is
-/// left.
+/// A path that decelerates at its limits can take seconds to stop on; it is left after this time.
 constexpr double kLongestBrake_s = 0.5;
 
 }  // namespace
@@ -30,7 +27,9 @@ void Motion<Space>::move_on(double dt_s) {
   time_s_ += dt_s;
   const Point last = reference_;
   leave_given_up();
-  if (phase_ == Phase::kStopping) {
+  if (kStreams && streams(phase_)) {
+    if constexpr (kStreams) move_stream(dt_s);
+  } else if (phase_ == Phase::kStopping) {
     reference_ = Space::come_to_rest(reference_, settings_->limits, dt_s);
     if (reference_.standing()) {
       hold(reference_);
@@ -182,7 +181,8 @@ void Motion<Space>::stop() {
 
 template <class Space>
 void Motion<Space>::cancel() {
-  if (phase_ == Phase::kReaching || holds_effort() || !offset_.zero()) return stop();
+  if (phase_ == Phase::kReaching || streams(phase_) || holds_effort() || !offset_.zero())
+    return stop();
   if (!given_up()) braking_s_ = 0.0;
   stream_.clear();
   tell(MotionEvent::kCancel);

@@ -2,15 +2,18 @@
 // of messages.
 //
 // The reference is a base plus an offset. The base is a path, passed at the rate of its law, a
-// stream of points, or a point that is held. The offset is the difference of the reference from a
-// new base at its beginning; the state-to-state law takes it to zero (offset_law.hpp), and then the
-// reference equals the base bit by bit. The difference in feed-forward fades out.
+// stream of points, the curves of chunks, or a point that is held. The offset is the difference of
+// the reference from a new base at its beginning; the state-to-state law takes it to zero
+// (offset_law.hpp), and then the reference equals the base bit by bit. The difference in
+// feed-forward fades out.
 #pragma once
 
+#include "kernel/reference/motion/chunk_plan.hpp"
 #include "kernel/reference/motion/motion_phase.hpp"
 #include "kernel/reference/motion/path.hpp"
 #include "kernel/reference/motion/path_law.hpp"
 #include "kernel/reference/motion/point_stream.hpp"
+#include "kernel/reference/motion/velocity.hpp"
 
 namespace tactus {
 
@@ -37,6 +40,13 @@ class Motion {
   /// now is near neither the reference nor the measured point. [cyclic]
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
                  const Point& measured, double elapsed_s = 0.0);
+  /// Goes along with the curve of `chunk`, whose clock shows `now_s`, from its first stamp ahead;
+  /// until then with the chunks before. Refuses on a path that cannot be left. The chunk is
+  /// released as soon as it is no longer needed. [cyclic]
+  Verdict track(ChunkCurve<Space>& chunk, double now_s);
+  /// Moves at a velocity, short of the position limits, and comes to rest when its time is over.
+  /// Refuses on a path that cannot be left. [cyclic]
+  Verdict drive(const Velocity<Space>& velocity);
   /// Passes paths at `rate`, 0..1, from now on; changes to it as fast as limits allow. [cyclic]
   void set_rate(double rate) { rate_ = rate; }
   /// Brings paths to rest (`on`) or continues them; a pause holds for later trajectories too.
@@ -69,13 +79,33 @@ class Motion {
   /// True if a stream moved the reference and has gone silent.
   bool silent() const { return phase_ == Phase::kReaching && stream_.silent(time_s_); }
   bool gives_velocity() const { return stream_.gives_velocity(); }
+  /// The chunks it goes along with; none outside the phases tracking and expiring.
+  const ChunkPlan<Space>& plan() const { return plan_; }
+  /// What limits keep the reference off its base.
+  const typename Space::Difference& offset() const { return offset_; }
+  /// True if no successor of the last chunk or velocity has come in time.
+  bool expires() const;
+  /// Time for which the last chunk or the velocity still lasts; 0: none runs, or it stops.
+  double margin_s() const;
 
  private:
-  void tell(MotionEvent event) { phase_ = next(phase_, event); }
+  /// Feed-forward fades out in this time, or in the period of a stream.
+  static constexpr double kFade_s = 0.1;
+
+  void tell(MotionEvent event) {
+    phase_ = next(phase_, event);
+    if constexpr (kStreams) {
+      if (!streams(phase_)) plan_.clear();
+    }
+  }
   bool streaming() const { return phase_ == Phase::kReaching && stream_.moves(time_s_); }
   bool steps() const { return on_path() && !path_.smooth(); }
   bool given_up() const { return phase_ == Phase::kBraking || phase_ == Phase::kLeaving; }
   bool can_leave() const;
+  void begin_stream(MotionEvent event);
+  void move_stream(double dt_s);
+  void rest_from_stream();
+  void move_at_velocity(double dt_s);
   void leave_given_up();
   void go();
   Point base_of_points(double time_s) const;
@@ -101,6 +131,9 @@ class Motion {
   bool paused_ = false, lost_path_ = false;
   double braking_s_ = 0.0;
   PointStream<Space> stream_;  // the base while points are streamed
+  ChunkPlan<Space> plan_;      // the base while chunks are followed
+  OnlyWithStreams<Velocity<Space>> velocity_;
+  double velocity_until_s_ = 0.0;
 
   typename Space::Difference offset_;
   typename Space::Effort effort_;  // feed-forward that fades out

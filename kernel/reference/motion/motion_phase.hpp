@@ -3,6 +3,9 @@
 //
 //   online       holding    at rest until the next request
 //                reaching   on the way to a point, or along with a stream of points
+//                tracking   along the curves of chunks
+//                expiring   the same, to rest at the end of the last one: no successor has come
+//                driving    at a given velocity, or coming to rest when it is not renewed
 //                stopping   on the fastest way to rest, wherever that ends
 //                braking    on the path of a trajectory that was given up, until it is at rest
 //                leaving    the same, to go to a point once a stop stays inside limits
@@ -24,6 +27,9 @@ namespace tactus {
 enum class Phase : std::uint8_t {
   kHolding,
   kReaching,
+  kTracking,
+  kExpiring,
+  kDriving,
   kStopping,
   kBraking,
   kLeaving,
@@ -44,16 +50,22 @@ enum class MotionEvent : std::uint8_t {
   kJoined,      ///< the reference is on its path
   kPause,
   kResume,
-  kDry,     ///< an open path is at rest at its present end
-  kFed,     ///< an open path moves again
-  kEnd,     ///< the path has ended, or has come to rest after it was given up
-  kAtRest,  ///< the reference has come to rest
+  kDry,       ///< an open path is at rest at its present end
+  kFed,       ///< an open path moves again
+  kEnd,       ///< the path has ended, or has come to rest after it was given up
+  kChunk,     ///< a chunk to go along with
+  kVelocity,  ///< a velocity to move at
+  kExpire,    ///< the last chunk ends and has no successor
+  kAtRest,    ///< the reference has come to rest
 };
 
 constexpr const char* name(Phase phase) {
   switch (phase) {
     case Phase::kHolding: return "holding";
     case Phase::kReaching: return "reaching";
+    case Phase::kTracking: return "tracking";
+    case Phase::kExpiring: return "expiring";
+    case Phase::kDriving: return "driving";
     case Phase::kStopping: return "stopping";
     case Phase::kBraking: return "braking";
     case Phase::kLeaving: return "leaving";
@@ -73,17 +85,20 @@ namespace detail {
 using P = Phase;
 // clang-format off
 inline constexpr std::array<std::array<Phase, kMotionEvents>, kPhases> kPhaseTable = {{
-    //           kPoint         kLeave       kStop         kTrajectory  kCancel       kComplete     kJoined        kPause        kResume       kDry          kFed          kEnd          kAtRest
-    /*holding*/  {P::kReaching,  P::kHolding, P::kHolding,  P::kJoining, P::kHolding,  P::kHolding,  P::kHolding,   P::kHolding,  P::kHolding,  P::kHolding,  P::kHolding,  P::kHolding,  P::kHolding},
-    /*reaching*/ {P::kReaching,  P::kReaching,P::kStopping, P::kJoining, P::kStopping, P::kReaching, P::kReaching,  P::kReaching, P::kReaching, P::kReaching, P::kReaching, P::kReaching, P::kHolding},
-    /*stopping*/ {P::kReaching,  P::kStopping,P::kStopping, P::kJoining, P::kStopping, P::kStopping, P::kStopping,  P::kStopping, P::kStopping, P::kStopping, P::kStopping, P::kStopping, P::kHolding},
-    /*braking*/  {P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kBraking,  P::kBraking,   P::kBraking,  P::kBraking,  P::kBraking,  P::kBraking,  P::kReaching, P::kBraking},
-    /*leaving*/  {P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kLeaving,  P::kLeaving,   P::kLeaving,  P::kLeaving,  P::kLeaving,  P::kLeaving,  P::kReaching, P::kLeaving},
-    /*joining*/  {P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kFollowing, P::kPaused,   P::kJoining,  P::kStarving, P::kJoining,  P::kSettling, P::kJoining},
-    /*following*/{P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kFollowing, P::kPaused,   P::kFollowing,P::kStarving, P::kFollowing,P::kSettling, P::kFollowing},
-    /*paused*/   {P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kPaused,    P::kPaused,   P::kJoining,  P::kPaused,   P::kPaused,   P::kSettling, P::kPaused},
-    /*starving*/ {P::kReaching,  P::kLeaving, P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kStarving,  P::kPaused,   P::kStarving, P::kStarving, P::kJoining,  P::kSettling, P::kStarving},
-    /*settling*/ {P::kReaching,  P::kReaching,P::kStopping, P::kJoining, P::kReaching, P::kReaching, P::kSettling,  P::kSettling, P::kSettling, P::kSettling, P::kSettling, P::kSettling, P::kSettling},
+    //            kPoint        kLeave        kStop         kTrajectory  kCancel       kComplete     kJoined        kPause        kResume        kDry          kFed           kEnd          kChunk        kVelocity    kExpire        kAtRest
+    /*holding*/  {P::kReaching, P::kHolding,  P::kHolding,  P::kJoining, P::kHolding,  P::kHolding,  P::kHolding,   P::kHolding,  P::kHolding,   P::kHolding,  P::kHolding,   P::kHolding,  P::kTracking, P::kDriving, P::kHolding,   P::kHolding},
+    /*reaching*/ {P::kReaching, P::kReaching, P::kStopping, P::kJoining, P::kStopping, P::kReaching, P::kReaching,  P::kReaching, P::kReaching,  P::kReaching, P::kReaching,  P::kReaching, P::kTracking, P::kDriving, P::kReaching,  P::kHolding},
+    /*tracking*/ {P::kReaching, P::kTracking, P::kStopping, P::kJoining, P::kStopping, P::kTracking, P::kTracking,  P::kTracking, P::kTracking,  P::kTracking, P::kTracking,  P::kTracking, P::kTracking, P::kDriving, P::kExpiring,  P::kHolding},
+    /*expiring*/ {P::kReaching, P::kExpiring, P::kStopping, P::kJoining, P::kStopping, P::kExpiring, P::kExpiring,  P::kExpiring, P::kExpiring,  P::kExpiring, P::kExpiring,  P::kExpiring, P::kTracking, P::kDriving, P::kExpiring,  P::kHolding},
+    /*driving*/  {P::kReaching, P::kDriving,  P::kStopping, P::kJoining, P::kStopping, P::kDriving,  P::kDriving,   P::kDriving,  P::kDriving,   P::kDriving,  P::kDriving,   P::kDriving,  P::kTracking, P::kDriving, P::kDriving,   P::kHolding},
+    /*stopping*/ {P::kReaching, P::kStopping, P::kStopping, P::kJoining, P::kStopping, P::kStopping, P::kStopping,  P::kStopping, P::kStopping,  P::kStopping, P::kStopping,  P::kStopping, P::kTracking, P::kDriving, P::kStopping,  P::kHolding},
+    /*braking*/  {P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kBraking,  P::kBraking,   P::kBraking,  P::kBraking,   P::kBraking,  P::kBraking,   P::kReaching, P::kTracking, P::kDriving, P::kBraking,   P::kBraking},
+    /*leaving*/  {P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kLeaving,  P::kLeaving,   P::kLeaving,  P::kLeaving,   P::kLeaving,  P::kLeaving,   P::kReaching, P::kTracking, P::kDriving, P::kLeaving,   P::kLeaving},
+    /*joining*/  {P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kFollowing, P::kPaused,   P::kJoining,   P::kStarving, P::kJoining,   P::kSettling, P::kTracking, P::kDriving, P::kJoining,   P::kJoining},
+    /*following*/{P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kFollowing, P::kPaused,   P::kFollowing, P::kStarving, P::kFollowing, P::kSettling, P::kTracking, P::kDriving, P::kFollowing, P::kFollowing},
+    /*paused*/   {P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kPaused,    P::kPaused,   P::kJoining,   P::kPaused,   P::kPaused,    P::kSettling, P::kTracking, P::kDriving, P::kPaused,    P::kPaused},
+    /*starving*/ {P::kReaching, P::kLeaving,  P::kStopping, P::kJoining, P::kBraking,  P::kReaching, P::kStarving,  P::kPaused,   P::kStarving,  P::kStarving, P::kJoining,   P::kSettling, P::kTracking, P::kDriving, P::kStarving,  P::kStarving},
+    /*settling*/ {P::kReaching, P::kReaching, P::kStopping, P::kJoining, P::kReaching, P::kReaching, P::kSettling,  P::kSettling, P::kSettling,  P::kSettling, P::kSettling,  P::kSettling, P::kTracking, P::kDriving, P::kSettling,  P::kSettling},
 }};
 // clang-format on
 }  // namespace detail
@@ -104,12 +119,19 @@ constexpr bool on_path(Phase phase) {
   return phase >= Phase::kBraking && phase <= Phase::kStarving;
 }
 
+/// True if chunks or a velocity move the reference. [any]
+constexpr bool streams(Phase phase) {
+  return phase >= Phase::kTracking && phase <= Phase::kDriving;
+}
+
 namespace detail {
 /// The state after an event by the paper's figure; events that it does not have change nothing.
 constexpr ReferenceState paper_says(ReferenceState state, MotionEvent event) {
   switch (event) {
     case MotionEvent::kPoint:
     case MotionEvent::kLeave:
+    case MotionEvent::kChunk:
+    case MotionEvent::kVelocity:
     case MotionEvent::kStop: return next(state, ReferenceEvent::kNewReference);
     case MotionEvent::kTrajectory: return next(state, ReferenceEvent::kTrajectoryAccepted);
     case MotionEvent::kCancel: return next(state, ReferenceEvent::kTrajectoryCanceled);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernel/reference/motion/fade.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
@@ -21,21 +22,6 @@ constexpr int kMost = 1000;
 template <class Difference>
 Difference moved(const Difference& from, double t) {
   return {from.x + t * (from.dx + 0.5 * t * from.ddx), from.dx + t * from.ddx, from.ddx};
-}
-
-/// Returns what is left, after the fraction x of the time T, of a difference that goes to zero by
-/// the Hermite quintic.
-template <class Difference>
-Difference faded(const Difference& e, double x, double T) {
-  const double y = 1.0 - x;
-  return {y * y * y *
-              ((1.0 + 3.0 * x + 6.0 * x * x) * e.x + T * x * (1.0 + 3.0 * x) * e.dx +
-               0.5 * T * T * x * x * e.ddx),
-          y * y *
-              (-30.0 * x * x / T * e.x + (1.0 + 2.0 * x - 15.0 * x * x) * e.dx +
-               0.5 * T * x * (2.0 - 5.0 * x) * e.ddx),
-          y * (-60.0 * x * (1.0 - 2.0 * x) / (T * T) * e.x + x * (-36.0 + 60.0 * x) / T * e.dx +
-               (1.0 - 8.0 * x + 10.0 * x * x) * e.ddx)};
 }
 
 }  // namespace

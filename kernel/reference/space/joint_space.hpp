@@ -152,6 +152,11 @@ struct JointSpace {
   /// Every joint takes its own fastest way.
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
   static Point rest_of(const Point& reference, const Limits& limits);
+  /// Every joint takes its own shortest way to its velocity.
+  static Point go_at(const Point& reference, const Rates& rates, const Limits& limits,
+                     double acceleration, double jerk, double dt_s);
+  /// Joints have no axes of the tip.
+  static Rates in_base(const Rates& rates, const Point&) { return rates; }
 };
 static_assert(SpaceContract<JointSpace>());
 

@@ -145,4 +145,32 @@ JointSpace::Point JointSpace::rest_of(const Point& reference, const Limits& limi
   return rest;
 }
 
+/// A velocity is the speed limit of a way to the end of the range.
+JointSpace::Point JointSpace::go_at(const Point& reference, const Rates& rates,
+                                    const Limits& limits, double acceleration, double jerk,
+                                    double dt_s) {
+  const Point stop = come_to_rest(reference, limits, dt_s);
+  Point point;
+  for (int j = 0; j < kDof; ++j) {
+    const AxisState from = axis_of(reference, j);
+    const AxisRange range = {limits.q_min[j] + kInset, limits.q_max[j] - kInset};
+    AxisLimits most = axis_limits(limits, j);
+    const AxisLimits own = most;
+    most.a_dn = most.a_up = acceleration * own.a_up;
+    most.j = jerk * own.j;
+    if (rates[j] > 0.0) most.v_hi = std::min(rates[j], own.v_hi);
+    if (rates[j] < 0.0) most.v_lo = std::max(rates[j], own.v_lo);
+    const double end = rates[j] > 0.0 ? range.highest : range.lowest;
+    const AxisPlan plan = rates[j] == 0.0
+                              ? plan_stop(from, most)
+                              : plan_inside(from, end, most, range.lowest, range.highest);
+    const AxisState next = plan.at(dt_s);
+    const AxisRange way = stop_range(next, own);
+    const bool inside = way.lowest >= std::min(range.lowest, from.p) &&
+                        way.highest <= std::max(range.highest, from.p);
+    set_axis(point, j, inside ? next : axis_of(stop, j));
+  }
+  return point;
+}
+
 }  // namespace tactus

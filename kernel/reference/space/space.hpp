@@ -206,6 +206,14 @@ struct SpaceContract : std::true_type {
   /// rest; rest_of(reference, limits) returns where that way ends. [cyclic]
   static_assert(kSame<decltype(S::come_to_rest), Point(const Point&, const Limits&, double)>);
   static_assert(kSame<decltype(S::rest_of), Point(const Point&, const Limits&)>);
+  /// go_at(reference, rates, limits, acceleration, jerk, dt_s) returns the reference one period
+  /// ahead on its way to a velocity, with these shares of the acceleration and jerk limits. It
+  /// brakes so as to rest inside the position limits, with more than these shares if it must.
+  /// [cyclic]
+  static_assert(kSame<decltype(S::go_at),
+                      Point(const Point&, const Rates&, const Limits&, double, double, double)>);
+  /// Turns a velocity from the axes of the tip into those of the base. [cyclic]
+  static_assert(kSame<decltype(S::in_base), Rates(const Rates&, const Point&)>);
 };
 
 }  // namespace tactus

@@ -145,6 +145,10 @@ void TaskSpace::keep_sign(Point& point, const Point& before) {
   if (point.x.r.dot(before.x.r) < 0.0) point.x.r.coeffs() = -point.x.r.coeffs();
 }
 
+TaskSpace::Rates TaskSpace::in_base(const Rates& rates, const Point& tip) {
+  return stacked(tip.x.r * rates.head<3>(), tip.x.r * rates.tail<3>());
+}
+
 TaskSpace::Error TaskSpace::error(const Point& desired, const Point& actual) {
   return {desired.x.p - actual.x.p, log_so3(desired.x.r * actual.x.r.conjugate()),
           desired.v - actual.v,     desired.a - actual.a,

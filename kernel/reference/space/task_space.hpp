@@ -188,6 +188,10 @@ struct TaskSpace {
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
   /// Approximate: the stop in one step instead of in periods.
   static Point rest_of(const Point& reference, const Limits& limits);
+  /// Translation and rotation go to their velocities independently, each on a straight line.
+  static Point go_at(const Point& reference, const Rates& rates, const Limits& limits,
+                     double acceleration, double jerk, double dt_s);
+  static Rates in_base(const Rates& rates, const Point& tip);
 };
 static_assert(SpaceContract<TaskSpace>());
 

@@ -223,4 +223,25 @@ TaskSpace::Point TaskSpace::rest_of(const Point& reference, const Limits& limits
   return come_to_rest(reference, limits, kLongest_s).at_rest();
 }
 
+/// In a frame that moves at the velocity to be reached, the way there is a stop.
+TaskSpace::Point TaskSpace::go_at(const Point& reference, const Rates& rates, const Limits& limits,
+                                  double acceleration, double jerk, double dt_s) {
+  const NormLimits p = translation_limits(limits), r = rotation_limits(limits);
+  const auto go = [&](VectorState from, const Vector3& v, const NormLimits& most) {
+    from.v -= v;
+    VectorState to = stop_on(from, acceleration * most.a, jerk * most.j, dt_s);
+    to.p += dt_s * v;
+    to.v += v;
+    return to;
+  };
+  const VectorState from = rotation_of(reference);
+  VectorState moved = go(translation_of(reference), rates.head<3>(), p);
+  const VectorState to = go(from, rates.tail<3>(), r);
+  if (!inside(reference.x.p, moved, limits, kRoomRounding, dt_s))
+    moved = stop_on(translation_of(reference), p.a, p.j, dt_s);
+  return {{moved.p, turned(reference.x.r, from, to, dt_s)},
+          stacked(moved.v, to.v),
+          stacked(moved.a, to.a)};
+}
+
 }  // namespace tactus

@@ -1,0 +1,61 @@
+// Chunk: future targets of a policy or a planner, as a client sends them.
+//
+//   Chunk<JointSpace> chunk;            // large: keep one
+//   chunk.epoch = 1;                    // newer than that of any stop
+//   chunk.sequence = ++sequence;        // grows with every chunk
+//   for (...) chunk.add(time_s, point); // by the generator's clock, increasing
+//   client.send(chunk, id);             // answered by exactly one report with this number
+//
+// The clock is that of every report and every message of feedback: periods since the generator
+// started.
+#pragma once
+
+#include <array>
+
+#include "kernel/reference/motion/chunk.hpp"
+
+namespace tactus {
+
+/// What targets are relative to.
+enum class ChunkBase : std::uint8_t {
+  kAbsolute,   ///< nothing: they are positions
+  kMeasured,   ///< where the robot was measured when the observation was made
+  kCommanded,  ///< where it was commanded to be
+};
+
+template <class Space>
+struct Chunk {
+  using Point = typename Space::Point;
+
+  std::uint32_t epoch = 1, sequence = 0;
+  /// The last target is to be reached and held. Otherwise more chunks follow, and the curve ends
+  /// with the velocity of its last targets.
+  bool ends = false;
+  /// The targets give velocities, which the curve then has.
+  bool velocities = false;
+  /// Time in which a disagreement with what is in force fades, 0 to kLongestFade_s, s; longer if
+  /// limits ask for it. 0: it is closed as fast as limits allow.
+  double fade_s = 0.2;
+  /// Noise in targets without velocities is smoothed away: of a sine of w rad/s the curve keeps
+  /// 1 / (1 + (w smoothing_s)^4). 0: it passes through the targets.
+  double smoothing_s = 0.03;
+  /// Relative targets are joint angles to be added, or poses in the frame of the tip, as they were
+  /// at `observed_s`, at most kHistory_s ago.
+  ChunkBase base = ChunkBase::kAbsolute;
+  double observed_s = 0.0;
+  typename Space::Header header;  ///< joints left out, or the frame of the targets
+
+  int count = 0;
+  std::array<double, static_cast<std::size_t>(kChunkTargets)> time_s;
+  std::array<Point, static_cast<std::size_t>(kChunkTargets)> targets;
+
+  /// Appends a target; false if there is no more space.
+  bool add(double at_s, const Point& target) {
+    if (count >= kChunkTargets) return false;
+    time_s[static_cast<std::size_t>(count)] = at_s;
+    targets[static_cast<std::size_t>(count++)] = target;
+    return true;
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,146 @@
+// ReferenceGenerator: its treatment of chunks and velocities.
+#include <cassert>
+
+#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/judge_channels.hpp"
+#include "kernel/reference/space/task_space.hpp"
+
+namespace tactus {
+
+/// A stop voids what is on its way.
+template <class Space>
+void ReferenceGenerator<Space>::end_epoch() {
+  if constexpr (kStreams) {
+    stream_.gate.end();
+    channel_->stream.epoch = stream_.gate.least();
+  }
+}
+
+/// Voids the epoch of a request that is refused or canceled whatever it says, and releases its
+/// chunk.
+template <class Space>
+void ReferenceGenerator<Space>::void_request(const Request<Space>& request) {
+  if constexpr (kStreams) {
+    if (request.kind == RequestKind::kVelocity) stream_.gate.end(request.velocity.epoch);
+    if (request.kind != RequestKind::kChunk) return;
+    ChunkCurve<Space>& chunk = channel_->chunks[static_cast<std::size_t>(request.store)];
+    stream_.gate.end(chunk.epoch);
+    channel_->stream.epoch = stream_.gate.least();
+    chunk.release();
+  }
+}
+
+/// Takes a chunk or a velocity. One ends the requests of this cycle.
+template <class Space>
+void ReferenceGenerator<Space>::take_stream(const Request<Space>& request) {
+  assert(refusing_ == Status::kOk);
+  if constexpr (kStreams) {
+    begun_ = true;
+    if (request.kind == RequestKind::kVelocity) return take_velocity(request);
+    take_chunk(request);
+  }
+}
+
+/// True if the request is newer than all before; else answers it.
+template <class Space>
+bool ReferenceGenerator<Space>::in_order(const Request<Space>& request, std::uint32_t epoch,
+                                         std::uint32_t sequence) {
+  if constexpr (kStreams) {
+    const EpochGate::Order order = stream_.gate.take(epoch, sequence);
+    channel_->stream.epoch = stream_.gate.least();
+    if (order == EpochGate::Order::kNext) return true;
+    ++channel_->stream.dropped;
+    if (order == EpochGate::Order::kOld)
+      report(request.id, Outcome::kSuperseded);
+    else
+      report(request.id, Outcome::kRefused, -1, {Status::kEpochVoid});
+  }
+  return false;
+}
+
+/// Puts a chunk in force from its first stamp ahead, which ends whatever ran before except older
+/// chunks. One target is a point of a stream.
+template <class Space>
+void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
+  if constexpr (kStreams) {
+    ChunkCurve<Space>& chunk = channel_->chunks[static_cast<std::size_t>(request.store)];
+    if (!in_order(request, chunk.epoch, chunk.sequence)) return chunk.release();
+    if (chunk.count == 1) {
+      Request<Space> point = request;
+      point.point = chunk.knots[0].point;
+      point.header = chunk.header;
+      chunk.release();
+      return take_point(point);
+    }
+    int passed = 0;
+    while (passed < chunk.count && chunk.knots[static_cast<std::size_t>(passed)].time_s <= time_s())
+      ++passed;
+    const bool late = passed == chunk.count;
+    Verdict verdict;
+    if (late)
+      verdict = {Status::kChunkLate, -1, -1, time_s() - chunk.end_s(), 0.0};
+    else
+      verdict = motion_.track(chunk, time_s());
+    if (!verdict.ok()) {
+      if (late) ++channel_->stream.late;
+      chunk.release();
+      return report(request.id, Outcome::kRefused, -1, verdict);
+    }
+    channel_->stream.trimmed += static_cast<std::uint32_t>(passed);
+    begin_stream(request.id);
+  }
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::take_velocity(const Request<Space>& request) {
+  if constexpr (kStreams) {
+    Velocity<Space> velocity = request.velocity;
+    if (velocity.epoch != 0 && !in_order(request, velocity.epoch, velocity.sequence)) return;
+    Point moving;
+    Space::rates(moving) = velocity.rates;
+    velocity.rates = Space::rates(Space::placed(
+        moving, Space::latch(request.header, reference(), channel_->settings.limits)));
+    const Verdict verdict = motion_.drive(velocity);
+    if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
+    begin_stream(request.id);
+  }
+}
+
+template <class Space>
+void ReferenceGenerator<Space>::begin_stream(std::uint32_t id) {
+  end_running(Outcome::kAborted, true);
+  point_age_s_ = -kInfinity;
+  stream_.id = id;
+  stream_.expired = false;
+  report(id, Outcome::kExecuted);
+}
+
+/// Tells once when a chunk or a velocity was not followed by another in time, and publishes what
+/// clients watch.
+template <class Space>
+void ReferenceGenerator<Space>::watch_expiry() {
+  if constexpr (kStreams) {
+    StreamState& told = channel_->stream;
+    told.margin_s = static_cast<float>(motion_.margin_s());
+    if (!streams(phase())) return;
+    told.seam = static_cast<float>(motion_.plan().seam());
+    told.offset = static_cast<float>(motion_.offset().x.cwiseAbs().maxCoeff());
+    if (!motion_.offset().zero()) ++told.shaped;
+    if (!motion_.expires() || stream_.expired) return;
+    stream_.expired = true;
+    ++told.starved;
+    if (has_room()) report(stream_.id, Outcome::kStarved);
+  }
+}
+
+#define TACTUS_STREAMS(Space)                                                   \
+  template void ReferenceGenerator<Space>::end_epoch();                         \
+  template void ReferenceGenerator<Space>::void_request(const Request<Space>&); \
+  template void ReferenceGenerator<Space>::take_stream(const Request<Space>&);  \
+  template void ReferenceGenerator<Space>::watch_expiry()
+TACTUS_STREAMS(JointSpace);
+TACTUS_STREAMS(TaskSpace);
+#undef TACTUS_STREAMS
+
+}  // namespace tactus

@@ -1,0 +1,89 @@
+// A chunk in the form that the cycle follows: a C2 curve of quintics through knots, fitted outside
+// the cycle from the targets that a client sent (gateway/chunk_fit.hpp).
+//
+// The client takes a free store, writes the curve and sends its number. The store is the plan's
+// until it is released, so that a chunk is installed in one cycle, without a copy.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include "kernel/core/published.hpp"
+#include "kernel/reference/space/interpolation.hpp"
+
+// Most targets of a chunk, a constant of the board. 0: it has no streams of chunks and velocities,
+// neither their code nor their memory.
+#ifndef TACTUS_CHUNK_TARGETS
+#define TACTUS_CHUNK_TARGETS 128
+#endif
+
+namespace tactus {
+
+inline constexpr int kChunkTargets = TACTUS_CHUNK_TARGETS;
+inline constexpr bool kStreams = kChunkTargets > 0;
+static_assert(kChunkTargets >= 0 && kChunkTargets <= 1 << 8, "a knot is found in 8 halvings");
+
+/// Chunks that can be in force, wait for their first stamp and be on their way, together.
+inline constexpr std::size_t kChunkStores = kStreams ? 8 : 0;
+
+/// Takes the place of what a board without streams does not have.
+struct NoStream {};
+template <class Type>
+using OnlyWithStreams = std::conditional_t<kStreams, Type, NoStream>;
+
+/// Longest crossfade, s.
+inline constexpr double kLongestFade_s = 0.3;
+
+template <class Space>
+struct Knot {
+  double time_s = 0.0;  ///< by the generator's clock
+  typename Space::Point point;
+};
+
+template <class Space>
+struct ChunkCurve {
+  std::array<Knot<Space>, static_cast<std::size_t>(kChunkTargets)> knots;
+  int count = 0;      ///< one: a target of teleoperation, whose stamp does not count
+  bool ends = false;  ///< at rest at the last knot; else more chunks are to follow
+  std::uint32_t epoch = 0, sequence = 0;
+  typename Space::Header header;  ///< joints left out, or frames the knots are given in
+  /// Time in which a disagreement fades; longer if limits ask for it. 0: closed as fast as limits
+  /// allow.
+  double fade_s = 0.0;
+  /// If no chunk follows, path time begins to stop at brake_s, by the generator's clock, with these
+  /// limits of its second and third derivative, and rests at the last knot.
+  double brake_s = 0.0, brake_a = 1.0, brake_j = 1.0;
+  std::atomic<bool> free{true};
+
+  double first_s() const { return knots[0].time_s; }
+  double end_s() const { return knots[static_cast<std::size_t>(count - 1)].time_s; }
+  /// Gives the store back to the client. [cyclic]
+  void release() { free.store(true, std::memory_order_release); }
+};
+
+/// What a client may read at any time of the chunks and velocities of one generator, since its
+/// first start.
+struct StreamState {
+  Published<std::uint32_t> trimmed;  ///< targets whose time had passed when their chunk came
+  Published<std::uint32_t> late;     ///< chunks of which nothing was left
+  Published<std::uint32_t> dropped;  ///< chunks and velocities: duplicate, older, or void
+  Published<std::uint32_t> starved;  ///< stops because no successor came
+  Published<std::uint32_t> shaped;   ///< cycles in which limits kept the reference off its curve
+  Published<std::uint32_t> epoch;    ///< the least that is not void
+  Published<float> seam;             ///< largest component of the last disagreement, rad or m
+  Published<float> offset;    ///< largest component of what limits keep off the curve, rad or m
+  Published<float> margin_s;  ///< time until the stop begins if no successor comes; 0: none runs
+};
+
+/// The stores of chunks of a channel, and what is told of them.
+template <class Space, bool streams = kStreams>
+struct ChunkStores {
+  std::array<ChunkCurve<Space>, kChunkStores> chunks;
+  StreamState stream;
+};
+template <class Space>
+struct ChunkStores<Space, false> {};
+
+}  // namespace tactus

@@ -1,0 +1,241 @@
+#include "kernel/reference/motion/chunk_plan.hpp"
+
+#include <algorithm>
+
+#include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/motion/fade.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/task_space.hpp"
+
+#if TACTUS_CHUNK_TARGETS > 0
+namespace tactus {
+namespace {
+
+/// A pause of the plan up to which it is bridged; before a longer one it comes to rest.
+constexpr double kBridged_s = 0.25;
+constexpr double kTimeRounding_s = 1e-9;
+
+/// A fade takes at most this share of each limit; it is lengthened in steps up to kLongest times.
+constexpr double kShare = 0.5, kStep = 1.25;
+constexpr int kSteps = 16;
+/// Largest derivatives of the fading quintic of a difference of one: of its position x, of its
+/// velocity dx, of its acceleration ddx.
+constexpr double kVelocityOfX = 1.875, kAccelerationOfX = 5.7736, kJerkOfX = 60.0;
+constexpr double kAccelerationOfDx = 4.0, kJerkOfDx = 36.0, kJerkOfDdx = 9.0;
+
+}  // namespace
+
+template <class Space>
+double fading_time_s(const typename Space::Difference& difference,
+                     const typename Space::Limits& limits, double least_s) {
+  constexpr int kSize = Space::kChannelSize;
+  const typename Space::Peaks most = Space::peaks(limits);
+  double T = least_s;
+  for (int c = 0; c < Space::kChannels; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const double x = difference.x.template segment<kSize>(c * kSize).norm();
+    const double dx = difference.dx.template segment<kSize>(c * kSize).norm();
+    const double ddx = difference.ddx.template segment<kSize>(c * kSize).norm();
+    LoopBound<kSteps> steps;
+    for (int k = 0; k < kSteps; ++k) {
+      steps.tick();
+      const double f = 1.0 / T;
+      const double v = kVelocityOfX * x * f;
+      const double a = (kAccelerationOfX * x * f + kAccelerationOfDx * dx) * f;
+      const double j = ((kJerkOfX * x * f + kJerkOfDx * dx) * f + kJerkOfDdx * ddx) * f;
+      if (v <= kShare * most.v[i] && a <= kShare * most.a[i] && j <= kShare * most.j[i]) break;
+      T *= kStep;
+    }
+  }
+  return std::min(T, least_s * 30.0);
+}
+
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::install(ChunkCurve<Space>& chunk, const Placement& placement,
+                                        double ahead_s, double now_s) {
+  Piece piece = {&chunk, placement, 0.0, ahead_s};
+  const double first_s = piece.first_s();
+  piece.start_s = std::max(first_s, now_s);
+  LoopBound<kChunkStores> replaced;
+  while (count_ > 0 && pieces_[count_ - 1].start_s >= piece.start_s) {
+    replaced.tick();
+    pieces_[--count_].chunk->release();
+    if (count_ == 0) entered_ = false;
+  }
+  const bool idle = count_ == 0 || stops_;
+  const double covered_s = idle ? now_s : std::max(now_s, pieces_[count_ - 1].end_s());
+  if (first_s > covered_s) piece.start_s = idle ? now_s : std::max(covered_s, first_s - kBridged_s);
+  pieces_[count_++] = piece;
+}
+
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::clear() {
+  LoopBound<kChunkStores> all;
+  while (count_ > 0) {
+    all.tick();
+    pieces_[--count_].chunk->release();
+  }
+  entered_ = stops_ = false;
+}
+
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::drop_first() {
+  now().chunk->release();
+  --count_;
+  LoopBound<kChunkStores> others;
+  for (std::size_t i = 0; i < count_; ++i) {
+    others.tick();
+    pieces_[i] = pieces_[i + 1];
+  }
+}
+
+template <class Space, bool streams>
+bool ChunkPlan<Space, streams>::due(double now_s) const {
+  const std::size_t next = entered_ ? 1 : 0;
+  return count_ > next && pieces_[next].start_s <= now_s;
+}
+
+template <class Space, bool streams>
+typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double now_s,
+                                                       const Point& reference,
+                                                       const Limits& limits) {
+  LoopBound<kChunkStores> begun;
+  while (due(now_s)) {
+    begun.tick();
+    if (entered_) drop_first();
+    entered_ = true;
+  }
+  stops_ = false;
+  const double s = before_s - now().zero_s, lead_s = now().chunk->first_s() - s;
+  target_ = -1;
+  if (lead_s > now_s - before_s)
+    lead_in(s, reference, limits);
+  else
+    follow(s);
+  watch_end(before_s);
+  const Point base = curve(path_time(before_s));
+  fade_in(before_s, reference, base, limits);
+  return fade_s_ > 0.0 ? reference : base;
+}
+
+/// Leads to the first knot: from the reference by one quintic, if there is time; else along the
+/// tangent of the curve, to which the reference fades.
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const Limits& limits) {
+  const Point first = now().knot(0), origin = first.at_rest();
+  const double lead_s = now().chunk->first_s() - s;
+  Point from = Space::without_held(reference, now().placement);
+  if (fading_time_s<Space>(Space::difference(from, first), limits, kTimeRounding_s + 0.05) >
+      lead_s) {
+    Difference back = Space::difference(first, origin);
+    back.x -= lead_s * back.dx;
+    back.ddx.setZero();
+    from = Space::sum(origin, back);
+  }
+  target_ = 0;
+  segment_s_ = s;
+  segment_end_s_ = now().chunk->first_s();
+  segment_ = Segment(from, first, lead_s, Interpolation::kQuintic, kVelocityField);
+}
+
+/// Makes the segment of path time s the present one; before the first knot, the first.
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::follow(double s) {
+  target_ = knot_after(s);
+  const auto to = static_cast<std::size_t>(target_);
+  const auto& knots = now().chunk->knots;
+  segment_s_ = knots[to - 1].time_s;
+  segment_end_s_ = knots[to].time_s;
+  segment_ = Segment(now().knot(target_ - 1), now().knot(target_), segment_end_s_ - segment_s_,
+                     Interpolation::kQuintic, kVelocityField);
+}
+
+/// Returns the first knot, from the second on, that is later than s; the last if there is none.
+template <class Space, bool streams>
+int ChunkPlan<Space, streams>::knot_after(double s) const {
+  int before = 0, found = now().chunk->count - 1;
+  LoopBound<8> halvings;  // of 256 knots
+  while (found - before > 1) {
+    halvings.tick();
+    const int middle = before + (found - before) / 2;
+    (now().chunk->knots[static_cast<std::size_t>(middle)].time_s > s ? found : before) = middle;
+  }
+  return found;
+}
+
+/// Begins to stop path time when no successor has come in time for it. A chunk that came too late
+/// to stop at its end from full rate is entered at a lower one.
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::watch_end(double now_s) {
+  const ChunkCurve<Space>& chunk = *now().chunk;
+  const bool succeeded = count_ > 1 && pieces_[1].start_s <= now().end_s() + kTimeRounding_s;
+  const double s = now_s - now().zero_s;
+  if (stops_ || chunk.ends || succeeded || s < chunk.brake_s) return;
+  const double way_s = std::max(chunk.end_s() - chunk.brake_s, kTimeRounding_s);
+  const double rate = std::clamp((chunk.end_s() - s) / way_s, 0.0, 1.0);
+  stop_ = plan_to({s, rate, 0.0}, chunk.end_s(), 0.0,
+                  {-1.0, 1.0, chunk.brake_a, chunk.brake_a, chunk.brake_j});
+  stop_from_s_ = now_s;
+  stops_ = true;
+}
+
+template <class Space, bool streams>
+typename ChunkPlan<Space, streams>::PathTime ChunkPlan<Space, streams>::path_time(
+    double now_s) const {
+  const double end_s = now().chunk->end_s();
+  if (!stops_) {
+    const double s = now_s - now().zero_s;
+    return s < end_s ? PathTime{s, 1.0, 0.0} : PathTime{end_s, 0.0, 0.0};
+  }
+  const AxisState state = stop_.at(now_s - stop_from_s_);
+  return {std::min(state.p, end_s), std::max(state.v, 0.0), state.a};
+}
+
+template <class Space, bool streams>
+typename Space::Point ChunkPlan<Space, streams>::curve(const PathTime& time) const {
+  const double t = std::min(time.s - segment_s_, segment_.duration());
+  return segment_.at(t).at_rate(time.rate, time.slope);
+}
+
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::fade_in(double before_s, const Point& reference, const Point& base,
+                                        const Limits& limits) {
+  jump_ = Space::difference(reference, base);
+  jump_s_ = before_s;
+  seam_ = jump_.x.cwiseAbs().maxCoeff();
+  fade_s_ = now().chunk->fade_s;
+  if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
+}
+
+template <class Space, bool streams>
+typename Space::Point ChunkPlan<Space, streams>::move_on(double now_s) {
+  watch_end(now_s);
+  const PathTime time = path_time(now_s);
+  if (time.s >= segment_end_s_ && target_ < now().chunk->count - 1) follow(time.s);
+  const Point point = curve(time);
+  const double x = now_s - jump_s_;
+  return x < fade_s_ ? Space::sum(point, faded(jump_, x / fade_s_, fade_s_)) : point;
+}
+
+template <class Space, bool streams>
+bool ChunkPlan<Space, streams>::ended(double now_s) const {
+  if (count_ != 1 || !entered_) return count_ == 0;
+  return path_time(now_s).rate <= 0.0 && now_s - jump_s_ >= fade_s_;
+}
+
+template <class Space, bool streams>
+double ChunkPlan<Space, streams>::margin_s(double now_s) const {
+  if (count_ == 0 || stops_) return 0.0;
+  const Piece& last = pieces_[count_ - 1];
+  return last.chunk->ends ? kInfinity : last.zero_s + last.chunk->brake_s - now_s;
+}
+
+#define TACTUS_CHUNK_PLAN(Space)   \
+  template class ChunkPlan<Space>; \
+  template double fading_time_s<Space>(const Space::Difference&, const Space::Limits&, double)
+TACTUS_CHUNK_PLAN(JointSpace);
+TACTUS_CHUNK_PLAN(TaskSpace);
+#undef TACTUS_CHUNK_PLAN
+
+}  // namespace tactus
+#endif

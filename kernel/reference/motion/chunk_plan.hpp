@@ -1,0 +1,108 @@
+// ChunkPlan: the plan that overlapping chunks make up. Each is in force from its first stamp that
+// is still ahead until the next newer one begins.
+//
+//   base(t) = curve(s(t)) + what is left of the seam's disagreement
+//
+// The curve is a quintic between two knots. Path time s is the time, or, where no successor has
+// come, the state-to-state law brings its rate to zero at the last knot, so that the base never
+// turns back. At a seam, the difference of the commanded position, velocity and acceleration from
+// those of the new curve fades by a quintic in the chunk's time, or in the longer one that keeps
+// half of every limit free.
+#pragma once
+
+#include "kernel/reference/motion/chunk.hpp"
+#include "kernel/reference/space/offset_law.hpp"
+#include "kernel/reference/space/space.hpp"
+
+namespace tactus {
+
+template <class Space, bool streams = kStreams>
+class ChunkPlan {
+ public:
+  using Point = typename Space::Point;
+  using Limits = typename Space::Limits;
+  using Placement = typename Space::Placement;
+
+  /// Puts `chunk` in force from its first stamp that is ahead of `now_s`, the time of the plan. Its
+  /// clock is `ahead_s` behind that of its stamps. Releases the chunks that it replaces whole. One
+  /// that begins only after the end of the plan is led to. At least one stamp is ahead. [cyclic]
+  void install(ChunkCurve<Space>& chunk, const Placement& placement, double ahead_s, double now_s);
+  /// Releases all chunks. [cyclic]
+  void clear();
+  /// True if a chunk begins up to `now_s`. [cyclic]
+  bool due(double now_s) const;
+  /// Enters the newest chunk that is due at `now_s`, while the reference of `before_s` is put out;
+  /// returns the base at `before_s`. [cyclic]
+  Point enter(double before_s, double now_s, const Point& reference, const Limits& limits);
+  /// Moves path time to `now_s`, and returns the base. [cyclic]
+  Point move_on(double now_s);
+
+  /// True if the reference fades to the curve that was entered last; else it has an offset from it.
+  bool fades() const { return fade_s_ > 0.0; }
+  /// True if the base rests at the end of the last chunk. [cyclic]
+  bool ended(double now_s) const;
+  /// True if no successor has come and the base is being stopped.
+  bool stopping() const { return stops_; }
+  /// Time until that stop begins; infinite for a chunk that ends at rest. [cyclic]
+  double margin_s(double now_s) const;
+  /// Largest component of the disagreement at the last seam, rad or m.
+  double seam() const { return seam_; }
+
+ private:
+  using Difference = typename Space::Difference;
+  using Segment = typename Space::Segment;
+
+  /// A chunk in its placement, and by the clock of the plan: its beginning, and its time zero.
+  struct Piece {
+    ChunkCurve<Space>* chunk = nullptr;
+    Placement placement;
+    double start_s = 0.0, zero_s = 0.0;
+
+    double first_s() const { return zero_s + chunk->first_s(); }
+    double end_s() const { return zero_s + chunk->end_s(); }
+    Point knot(int i) const {
+      return Space::placed(chunk->knots[static_cast<std::size_t>(i)].point, placement);
+    }
+  };
+  /// Path time by the chunk's clock, its rate and the slope of the rate.
+  struct PathTime {
+    double s, rate, slope;
+  };
+
+  Piece& now() { return pieces_[0]; }
+  const Piece& now() const { return pieces_[0]; }
+  void drop_first();
+  void lead_in(double s, const Point& reference, const Limits& limits);
+  void follow(double s);
+  int knot_after(double s) const;
+  void watch_end(double now_s);
+  PathTime path_time(double now_s) const;
+  Point curve(const PathTime& time) const;
+  void fade_in(double before_s, const Point& reference, const Point& base, const Limits& limits);
+
+  std::array<Piece, kChunkStores> pieces_;  // in the order of their beginnings
+  std::size_t count_ = 0;
+  bool entered_ = false;  // the first of them is in force
+
+  Segment segment_;  // to knot `target_`
+  int target_ = 0;
+  double segment_s_ = 0.0, segment_end_s_ = 0.0;  // by the chunk's clock
+  bool stops_ = false;
+  double stop_from_s_ = 0.0;
+  AxisPlan stop_;
+
+  Difference jump_;  // at jump_s_, from the curve to the reference
+  double jump_s_ = 0.0, fade_s_ = 0.0;
+  double seam_ = 0.0;
+};
+
+template <class Space>
+class ChunkPlan<Space, false> {};
+
+/// Returns the time, at least `least_s`, in which a difference fades with at most half of every
+/// limit. [cyclic]
+template <class Space>
+double fading_time_s(const typename Space::Difference& difference,
+                     const typename Space::Limits& limits, double least_s);
+
+}  // namespace tactus
