@@ -101,7 +101,7 @@ say       = @mkdir -p $(@D) && echo "  $(1)"
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
 
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
-all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME) $(CTL_HERE)   ## build the program of BOARD, ARCH=arm64: for a board
+all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
 
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html

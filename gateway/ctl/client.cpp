@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <ctime>
 
+#include "gateway/sockets/address.hpp"
+
 namespace tactus::ctl {
 namespace {
 
@@ -43,11 +45,9 @@ bool Client::lose(const std::string& reason) {
 }
 
 bool Client::connect() {
-  if (options_.connect.empty())
-    return lose(
-        "no address of a server; give --connect unix:PATH or tcp:HOST:PORT, or set "
-        "TACTUS_SOCKET");
-  if (!connection_.open(options_.connect, options_.timeout_ms)) return lose(connection_.error());
+  const std::string address =
+      options_.connect.empty() ? default_address().c_str() : options_.connect;
+  if (!connection_.open(address, options_.timeout_ms)) return lose(connection_.error());
   ToServer request;
   request.mutable_hello()->set_version(VERSION_PRESENT);
   request.mutable_hello()->set_client(options_.name);

@@ -65,10 +65,11 @@ CLI::Validator finite() {
 }
 
 void add_connection(CLI::App& verb, Options& o) {
-  verb.add_option("--connect", o.connect,
-                  "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET)")
+  verb.add_option(
+          "--connect", o.connect,
+          "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that "
+          "of tactus serve)")
       ->envname("TACTUS_SOCKET");
-  verb.add_option("--key", o.key, "key file, for a server at another address than loopback");
   verb.add_option("--name", o.name, "name that others see (default tactusctl-<process>)")
       ->check(CLI::Validator(
           [](std::string& text) {
