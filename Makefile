@@ -13,6 +13,11 @@ of_robot  = $(filter-out $(foreach other,$(filter-out $(robot),$(ROBOTS)),%/$(ot
 # A board.mk sets: robot, sources, libraries, runs and their runner, the name and own parts of its program, and its
 # tests, if not all.
 BOARDS := $(patsubst boards/%/board.mk,%,$(wildcard boards/*/board.mk))
+# The name of a board without an operating system ends with its core: fer_m7. The core has a folder of its own.
+CORES       := $(patsubst boards/%/memory.ld,%,$(wildcard boards/*/memory.ld))
+BARE_BOARDS := $(filter $(addprefix %_,$(CORES)),$(BOARDS))
+CORE        := $(filter $(CORES),$(lastword $(subst _, ,$(BOARD))))
+BARE        := $(filter $(CORES),$(ARCH))
 $(if $(strip $(BOARDS)),,$(error BOARDS is empty: name boards of boards/*/board.mk))
 SRCS   :=
 LDLIBS :=
@@ -52,17 +57,25 @@ SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -
              -DTACTUS_ROBOT=$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
-# The kernel is built for these machines: host, arm64, m7 (bare metal, linked without a C library); programs for the
-# first two.
+# The kernel is built for these machines: host, arm64, and bare cores, for which it is linked without a C library; programs
+# for the first two.
 CROSS_arm64 := aarch64-linux-gnu-
 CROSS_m7    := arm-none-eabi-
+CROSS_m55   := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
 INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 --param early-inlining-insns=6 \
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
-FLAGS_m7    := -DTACTUS_CHUNK_TARGETS=0 -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16 -fno-threadsafe-statics \
-               -fno-unwind-tables -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf \
-               $(INLINING)
+# Streams of chunks take memory that they do not have.
+BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
+              -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf $(INLINING)
+FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
+# Its vectors have no double precision, so they gain nothing.
+FLAGS_m55  := -mcpu=cortex-m55+nomve $(BARE_FLAGS)
 CXX      := $(CROSS_$(ARCH))g++
+# A compiler of the command line may be one for another machine.
+ifneq ($(and $(CROSS_$(ARCH)),$(filter command line,$(origin CXX))),)
+$(if $(findstring $(firstword $(subst -, ,$(CROSS_$(ARCH)))),$(shell $(CXX) -dumpmachine)),,$(error CXX=$(CXX) does not compile for ARCH=$(ARCH); name a $(CROSS_$(ARCH))g++))
+endif
 # A program without libraries of its own needs the C library and no other.
 LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
 AR       := $(CROSS_$(ARCH))ar
@@ -70,7 +83,6 @@ NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
 
 # `make run` runs the pipelines of every board that is this computer; with BOARD=... those of that board.
-BARE_BOARDS := fer_m7 ur10_m7
 RUN_BOARDS  := $(if $(filter command,$(origin BOARD)),$(BOARD),$(filter-out $(BARE_BOARDS),$(BOARDS)))
 # `make run ONLY="fer_trg_cpc ur10_trg_cpc"` runs these, and ALWAYS=1 also what has not changed.
 RUN_OPTIONS := $(if $(strip $(ONLY)),--only '$(ONLY)') $(if $(ALWAYS),--always)
@@ -168,8 +180,8 @@ run-tests: tests
 	$(Q)$(if $(filter-out $(VM_TESTS),$(TESTS)),scripts/run_tests $(filter-out $(VM_TESTS),$(TESTS)))
 
 # Where flash is short it is compiled for size.
-$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os
-$(if $(filter m7,$(ARCH)),$(call obj,$(NOT_CYCLIC))): private PCH :=
+$(if $(BARE),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os
+$(if $(BARE),$(call obj,$(NOT_CYCLIC))): private PCH :=
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
 $(call obj,$(SEAMS)): private PCH :=
 $(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
@@ -216,7 +228,7 @@ include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 include tests/trace/trace.mk
 include tests/wcet/can/can.mk
-include boards/m7/m7.mk
+include boards/bare_metal/image.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

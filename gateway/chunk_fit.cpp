@@ -155,6 +155,7 @@ void plan_stop_at_end(const Fit<Space>& fit, const AdmissionSettings<Space>& set
     const double begin_s = curve.end_s() - 0.5 * stop_s - kEarly * settings.period_s;
     curve.brake_a = a;
     curve.brake_j = j;
+    curve.brake_way_s = 0.5 * stop_s;
     curve.brake_s = std::max(begin_s, curve.first_s());
     if (begin_s >= fit.t[to - 1]) return;
   }
@@ -211,8 +212,13 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   curve.sequence = chunk.sequence;
   curve.header = chunk.header;
   curve.fade_s = chunk.fade_s;
-  for (std::size_t i = 0; i < n; ++i)
-    curve.knots[i] = {chunk.time_s[i], Space::sum(origin, fit.f[i])};
+  const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
+  for (std::size_t i = 0; i < n; ++i) {
+    Knot<Space>& knot = curve.knots[i] = {chunk.time_s[i], Space::sum(origin, fit.f[i])};
+    if (Space::judge_waypoint(knot.point, limits).ok()) continue;
+    fit.f[i].x = Space::difference(chunk.targets[i], origin).x;  // smoothed beyond a limit
+    knot.point = Space::sum(origin, fit.f[i]);
+  }
   if (n == 1) curve.knots[0].point = chunk.targets[0];
   plan_stop_at_end(fit, settings, curve);
 }

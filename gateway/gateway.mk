@@ -2,8 +2,8 @@
 # O, CROSS_..., obj and say.
 MESSAGES := build/generated/gateway/tactus.pb
 SERVER   := $(wildcard gateway/server/*.cpp gateway/sockets/*.cpp)
-# Static, as Debian has nanopb: the programs of robots need the C library and no other.
-GATEWAY_LIBS := -l:libprotobuf-nanopb.a
+# Static, as Debian has both: the programs of robots need the C library and no other.
+GATEWAY_LIBS := -l:libprotobuf-nanopb.a -l:libsodium.a
 
 # Apart from our warnings, as it is generated.
 $(O)/gateway/tactus.pb.o: $(MESSAGES).c

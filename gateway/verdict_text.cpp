@@ -143,8 +143,9 @@ const char* remedy(Status status) {
     case Status::kEffortLimit: return "; ask for less";
     case Status::kQuaternion: return "; write qw, qx, qy, qz of length 1";
     case Status::kNotOwner: return "; ask for the lease first";
-    case Status::kEpochVoid: return "; take epoch and position from the newest State";
     case Status::kStampRange: return "; name times of the server's clock, State.server_ns";
+    case Status::kChunkLate: return "; send sooner, or targets farther ahead";
+    case Status::kEpochVoid: return "; look at the robot, then begin a newer epoch";
     default: return "";
   }
 }

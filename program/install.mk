@@ -23,10 +23,11 @@ install: setup $(B)/$(NAME) trajectories                       ## install the pr
 	$(Q)install -D -m 644 -t $(LIB)/docs docs/ports.md
 	$(Q)install -D -m 644 -t $(LIB)/sim_plant/arm sim_plant/arm/*_mjcf.cpp
 	$(Q)install -m 644 NOTICE $(LIB)/NOTICE
-	$(Q)cp -r pipelines $(SHARE)/tactus/
+	$(Q)for file in $$(find pipelines -type f); do install -D -m 644 $$file $(SHARE)/tactus/$$file; done
 	$(Q)install -D -m 644 -t $(SHARE)/tactus/build/trajectories build/trajectories/*
 	$(Q)scripts/manual $(B)/$(NAME) $(COMMAND) $(RUN) > $(SHARE)/man/man1/$(COMMAND).1
 	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) $(RUN) > $(SHARE)/bash-completion/completions/$(COMMAND)
+	$(Q)chmod 644 $(SHARE)/man/man1/$(COMMAND).1 $(SHARE)/bash-completion/completions/$(COMMAND)
 
 OPTIONS := $(call obj,program/session/options.cpp)
 $(OPTIONS): private CXXFLAGS += -DTACTUS_VERSION='"$(VERSION)"'

@@ -68,9 +68,9 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +
                                    sizeof recorder + sizeof executive + sizeof client +
                                    sizeof task_client + sizeof(TrajectoryInput);
-  Session session{board.name,        static_bytes,    text,          board.hal,   pipeline,
-                  executive,         recorder,        client,        task_client, sections.gateway,
-                  sections.realtime, sections.expect, board.follower};
+  Session session{board.name,       !board.real,       static_bytes,    text,          board.hal,
+                  pipeline,         executive,         recorder,        client,        task_client,
+                  sections.gateway, sections.realtime, sections.expect, board.follower};
   if (board.follower != nullptr) board.follower->prepare(session);
   switch (options.verb) {
     case Verb::kCheck: return check(session, options);

@@ -21,17 +21,21 @@ bool refuse(const char* subject, const char* reason) {
   return false;
 }
 
-/// Opens the sockets. Another address than the computer's own needs a key.
-bool listen(const Options& options, Listener& listener, Text<127>& where) {
+/// Opens the sockets. Another address than the computer's own needs a key. Datagrams are not
+/// encrypted, and so not taken with a key.
+bool listen(const Options& options, Listener& listener, Key& key, Text<127>& where) {
   where = options.listen[0] != '\0' ? Text<127>(options.listen) : default_address();
   Address address;
   Message why;
   if (!address.parse(where, why)) return refuse("--listen", why.c_str());
-  if (!address.loopback())
+  const bool keyed = options.key[0] != '\0';
+  if (!address.loopback() && !keyed)
     return refuse(where.c_str(),
-                  "programs on other computers would reach it, and nothing here can tell who they "
-                  "are; listen at unix:PATH or tcp:127.0.0.1:PORT, and let ssh forward it");
-  return listener.open(address, why) || refuse(where.c_str(), why.c_str());
+                  "programs on other computers would reach it; give --key FILE, or listen at "
+                  "unix:PATH or tcp:127.0.0.1:PORT");
+  if (keyed && !Tunnel::prepare()) return refuse("--key", "libsodium cannot be used");
+  if (keyed && !read_key(options.key, key, why)) return refuse("--key", why.c_str());
+  return listener.open(address, !keyed, why) || refuse(where.c_str(), why.c_str());
 }
 
 ServerSetup setup_of(const Session& session, const Options& options) {
@@ -74,10 +78,11 @@ int serve(Session& session, const Options& options) {
   static Server server(setup_of(session, options), session.client, session.task_client, mail);
   static RunResult result;
   static TrajectoryInput input;  // a server follows none
-  Listener listener;
+  static Listener listener;
   Text<127> where;
-  if (!listen(options, listener, where)) return kRefused;
-  ServerThread thread(server, listener);
+  static Key key;
+  if (!listen(options, listener, key, where)) return kRefused;
+  static ServerThread thread(server, listener, options.key[0] != '\0' ? &key : nullptr);
   TrajectoryFeed feed(session, input);
   RunLog log;
   LogWriter writer(log);
@@ -92,6 +97,7 @@ int serve(Session& session, const Options& options) {
   CycleDesk desk(mail, session.executive, session.pipeline);
   loop.serve(desk);
   if (!loop.start() || !watchdog.arm(session.realtime)) {
+    thread.end();
     loop.stop();
     print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
     return kRefused;

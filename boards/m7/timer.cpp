@@ -1,11 +1,14 @@
-#include "boards/m7/timer.hpp"
+#include "boards/bare_metal/timer.hpp"
 
+#include "boards/bare_metal/apb_watchdog.hpp"
 #include "boards/m7/registers.hpp"
 
-namespace m7 {
+namespace bare {
 namespace {
 
 constexpr std::uint32_t kTicksPerUs = kClockHz / 1'000'000, kNsPerTick = 1'000'000'000 / kClockHz;
+
+constexpr ApbWatchdog kApbWatchdog = {kWatchdog};
 
 std::uint32_t last_value;
 std::int64_t time_ns;
@@ -42,16 +45,11 @@ std::int64_t now_ns() {
 }
 
 void start_watchdog() {
-  at(kWatchdogLock) = kWatchdogKey;
-  at(kWatchdogLoad) = kTicksPerUs * kWatchdog_us;
-  at(kWatchdogControl) = 3;  // interrupt and reset
-  at(kWatchdogLock) = 0;
+  kApbWatchdog.start(kTicksPerUs * kWatchdog_us);
 }
 
 void feed_watchdog() {
-  at(kWatchdogLock) = kWatchdogKey;
-  at(kWatchdogClear) = 1;
-  at(kWatchdogLock) = 0;
+  kApbWatchdog.feed();
 }
 
-}  // namespace m7
+}  // namespace bare

@@ -7,7 +7,7 @@ namespace tactus {
 template <class Space>
 Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms& terms,
                                       const typename Space::Point& point) {
-  if (book_.full()) return {Status::kMailboxFull};
+  if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.point(terms, point, id);
   if (verdict.ok()) book_.add({id, from, {}, 0.0});
@@ -19,7 +19,7 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
 template <class Space>
 Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
                                       Chunk<Space>& chunk) {
-  if (book_.full()) return {Status::kMailboxFull};
+  if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
   chunk.sequence = ++sequence_;
@@ -34,7 +34,7 @@ Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms&
 template <class Space>
 Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
                                          Velocity<Space>& velocity) {
-  if (book_.full()) return {Status::kMailboxFull};
+  if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   typename Space::Header header;
   velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
@@ -47,7 +47,7 @@ Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTer
 
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate) {
-  if (book_.full()) return {Status::kMailboxFull};
+  if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
   if (verdict.ok()) book_.add({id, from, {}, 0.0});
@@ -95,8 +95,8 @@ void ReferenceIntake<Space>::give_up(std::uint64_t session) {
 
 template <class Space>
 void ReferenceIntake<Space>::cancel() {
-  std::uint32_t id = 0;
-  static_cast<void>(server_.control(ControlKind::kCancel, 1.0, id));  // nobody is told
+  std::uint32_t id = 0;  // nobody is told
+  cancel_due_ = !server_.control(ControlKind::kCancel, 1.0, id).ok();
 }
 
 template <class Space>
@@ -129,6 +129,8 @@ void ReferenceIntake<Space>::note_sent() {
 
 template <class Space>
 void ReferenceIntake<Space>::move_on() {
+  if (cancel_due_) cancel();
+  if (cancel_due_) return;
   while (coming_ && count_ > 0) {
     const Verdict verdict = server_.take(staged_[static_cast<std::size_t>(first_)]);
     note_sent();

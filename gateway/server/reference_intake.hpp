@@ -65,7 +65,8 @@ class ReferenceIntake {
   /// Gives up the trajectory that comes from a session, if one does; what of it moves is to be
   /// canceled.
   void give_up(std::uint64_t session);
-  /// Brings to rest on its path whatever moves.
+  /// Brings to rest on its path whatever moves. Nothing else is taken before the generator has
+  /// space for it.
   void cancel();
   /// Nobody is told any more of what a session has sent.
   void forget(std::uint64_t session);
@@ -82,6 +83,7 @@ class ReferenceIntake {
   const AdmissionSettings<Space>& settings() const { return client_.settings(); }
 
  private:
+  bool busy() const { return book_.full() || cancel_due_; }
   void move_on();
   void note_sent();
   void fail(const Verdict& verdict, Outcome outcome);
@@ -91,6 +93,8 @@ class ReferenceIntake {
   ReferenceServer<Space> server_;
   ReportBook book_;
   std::uint32_t sequence_ = 0, chunks_ = 0;
+
+  bool cancel_due_ = false;  // one that found no space
 
   bool coming_ = false;  // a trajectory comes
   bool ended_ = false;   // all its waypoints have come

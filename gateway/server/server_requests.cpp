@@ -144,7 +144,9 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
 Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   const auto free = std::find_if(orders_.begin(), orders_.end(),
                                  [](const Order& order) { return order.id == 0; });
-  if (free == orders_.end() || !mail_.orders.post({next_order_, what}))
+  constexpr std::size_t kForStops = 4;  // of the mailbox, which no rearm may fill
+  const bool space = what == CycleOrder::kStop || mail_.orders.space() > kForStops;
+  if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
   *free = {next_order_, from};
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;

@@ -57,13 +57,13 @@ bool explain(const char* what, Message& why) {
 
 }  // namespace
 
-bool Listener::open(const Address& address, Message& why) {
+bool Listener::open(const Address& address, bool datagrams, Message& why) {
   close();
   address_ = address;
   const int family = address.local ? AF_UNIX : AF_INET;
   streams_ = ::socket(family, SOCK_STREAM | kFlags, 0);
-  datagrams_ = ::socket(family, SOCK_DGRAM | kFlags, 0);
-  if (streams_ < 0 || datagrams_ < 0) return explain("socket", why);
+  if (datagrams) datagrams_ = ::socket(family, SOCK_DGRAM | kFlags, 0);
+  if (streams_ < 0 || (datagrams && datagrams_ < 0)) return explain("socket", why);
   if (!(address.local ? open_local(why) : open_host(why))) {
     close();
     return false;
@@ -74,6 +74,7 @@ bool Listener::open(const Address& address, Message& why) {
 bool Listener::open_local(Message& why) {
   bound_ = bind_path(streams_, address_.path, SOCK_STREAM);
   if (!bound_) return explain(address_.path.sun_path, why);
+  if (datagrams_ < 0) return true;
   const sockaddr_un datagrams = beside(address_.path);
   bound_datagrams_ = bind_path(datagrams_, datagrams, SOCK_DGRAM);
   return bound_datagrams_ || explain(datagrams.sun_path, why);
@@ -83,7 +84,7 @@ bool Listener::open_host(Message& why) {
   constexpr int kYes = 1;
   setsockopt(streams_, SOL_SOCKET, SO_REUSEADDR, &kYes, sizeof kYes);
   if (::bind(streams_, generic(address_.host), sizeof address_.host) != 0 ||
-      ::bind(datagrams_, generic(address_.host), sizeof address_.host) != 0)
+      (datagrams_ >= 0 && ::bind(datagrams_, generic(address_.host), sizeof address_.host) != 0))
     return explain("the address and port", why);
   return true;
 }

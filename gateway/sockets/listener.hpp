@@ -13,12 +13,12 @@ class Listener {
   ~Listener() { close(); }
 
   /// Opens both sockets; a Unix socket has mode 0600, and replaces one that nobody listens at.
-  /// False: `why` says what is in the way. [init]
-  bool open(const Address& address, Message& why);
+  /// Without `datagrams` only that for streams. False: `why` says what is in the way. [init]
+  bool open(const Address& address, bool datagrams, Message& why);
   void close();
 
   int streams() const { return streams_; }
-  int datagrams() const { return datagrams_; }
+  int datagrams() const { return datagrams_; }  ///< -1: none are taken
   /// Accepts a client; -1: none waits. [any]
   int accept() const;
 

@@ -8,12 +8,15 @@
 
 #include "gateway/server/server.hpp"
 #include "gateway/sockets/listener.hpp"
+#include "gateway/sockets/tunnel.hpp"
 
 namespace tactus {
 
 class ServerThread {
  public:
-  ServerThread(Server& server, Listener& listener) : server_(server), listener_(listener) {}
+  /// With a key all connections are encrypted; null: none.
+  ServerThread(Server& server, Listener& listener, const Key* key)
+      : server_(server), listener_(listener), key_(key) {}
   ~ServerThread() { end(); }
   ServerThread(const ServerThread&) = delete;
   ServerThread& operator=(const ServerThread&) = delete;
@@ -31,11 +34,18 @@ class ServerThread {
   void welcome();
   void take_datagrams();
   void receive(int slot);
+  bool take_plain(int slot);
   void send(int slot);
+  ByteSpace space(int slot);
+  Bytes waiting(int slot);
+  void sent(int slot, std::size_t count);
   void close(int slot);
+  Tunnel& tunnel(int slot) { return tunnels_[static_cast<std::size_t>(slot)]; }
 
   Server& server_;
   Listener& listener_;
+  const Key* key_;
+  std::array<Tunnel, kMostClients> tunnels_;
   std::array<int, kMostClients> sockets_;  // of the slots of the server; -1: none
   std::array<std::uint8_t, kLongestMessage> datagram_;
   std::atomic<bool> ended_{false};

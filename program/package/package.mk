@@ -14,7 +14,7 @@ deb: $(if $(filter arm64,$(ARCH)),setup-arm64)              ## make the Debian p
 	$(Q)$(if $(DEBIAN),,echo 'deb: ARCH=$(ARCH) has no package; host and arm64 have' >&2; exit 2)
 	$(Q)$(if $(LDLIBS),echo 'deb: $(BOARD) simulates its robot; packages are for boards with a robot: fer_can$(comma) ur10_socket' >&2; exit 2)
 	$(Q)rm -rf $(B)/package
-	$(Q)SOURCE_DATE_EPOCH=$(COMMITTED) $(MAKE) --no-print-directory install DESTDIR=$(CURDIR)/$(B)/package PREFIX=/usr
+	$(Q)umask 022; SOURCE_DATE_EPOCH=$(COMMITTED) $(MAKE) --no-print-directory install DESTDIR=$(CURDIR)/$(B)/package PREFIX=/usr
 	$(Q)SOURCE_DATE_EPOCH=$(COMMITTED) program/package/build $(B)/package $(BOARD) $(DEBIAN) $(RELEASE) $(RUNS)
 package-test: deb                                           ## install, remove and purge that package in a file system of its own
 	$(Q)tests/package/install $(B)/*.deb || { [ $$? = 77 ] && echo 'package-test: SKIPPED, needs root' >&2; }

@@ -22,12 +22,27 @@ namespace {
 constexpr int kLook_ms = 100, kLooks = 100;  // in all the longest silence
 using Path = Text<64>;
 
+struct CoreMachine {
+  std::string_view core;
+  const char* machine;
+};
+constexpr CoreMachine kMachines[] = {{"m7", "mps2-an500"}, {"m55", "mps3-an547"}};
+
 Path in_folder(const char* folder, const char* name) {
   Path path(folder);
   return path << "/" << name;
 }
 
 }  // namespace
+
+BoardImage image_of(std::string_view builds, std::string_view board, std::string_view file) {
+  const std::string_view core = board.substr(board.rfind('_') + 1);
+  BoardImage image = {Text<1023>(builds), nullptr};
+  image.path << "/" << board << "-" << core << "/" << file;
+  for (const CoreMachine& each : kMachines)
+    if (each.core == core) image.machine = each.machine;
+  return image;
+}
 
 bool EmulatedBoard::make_pipes(Message& why) {
   std::strcpy(folder_.data(), "/tmp/tactus-board-XXXXXX");
@@ -45,12 +60,12 @@ bool EmulatedBoard::make_pipes(Message& why) {
 }
 
 /// The clock of the board counts its instructions, 1 ns each, so that two runs are the same.
-bool EmulatedBoard::spawn(const char* image, Message& why) {
+bool EmulatedBoard::spawn(const BoardImage& image, Message& why) {
   Text<128> semihosting("enable=on,target=native,arg=board,arg=");
   semihosting << folder_.data();
   const char* const arguments[] = {"qemu-system-arm",
                                    "-M",
-                                   "mps2-an500",
+                                   image.machine,
                                    "-nographic",
                                    "-monitor",
                                    "none",
@@ -61,7 +76,7 @@ bool EmulatedBoard::spawn(const char* image, Message& why) {
                                    "-semihosting-config",
                                    semihosting.c_str(),
                                    "-kernel",
-                                   image,
+                                   image.path.c_str(),
                                    nullptr};
   posix_spawnattr_t attributes;  // a group of its own: Ctrl-C is for this program, which ends it
   posix_spawnattr_init(&attributes);
@@ -76,10 +91,16 @@ bool EmulatedBoard::spawn(const char* image, Message& why) {
   return false;
 }
 
-bool EmulatedBoard::start(const char* image, Message& why) {
+bool EmulatedBoard::start(const BoardImage& image, Message& why) {
   stop();
-  if (access(image, R_OK) != 0) {
-    why = Message(image);
+  if (image.machine == nullptr) {
+    why = Message(image.path);
+    why << ": the emulator has no machine with the core of this board; boards:";
+    for (const CoreMachine& each : kMachines) why << " <robot>_" << each.core;
+    return false;
+  }
+  if (access(image.path.c_str(), R_OK) != 0) {
+    why = Message(image.path);
     why << ": " << std::strerror(errno) << "; make builds it with the program of this board";
     return false;
   }

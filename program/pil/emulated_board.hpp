@@ -11,6 +11,16 @@
 
 namespace tactus::pil {
 
+/// The program of a board, and the machine on which the emulator runs it.
+struct BoardImage {
+  Text<1023> path;
+  const char* machine;  ///< null: the emulator has none for this core
+};
+
+/// The image of a board below the folder `builds`; the board's name ends with its core, as fer_m7.
+/// [init]
+BoardImage image_of(std::string_view builds, std::string_view board, std::string_view file);
+
 class EmulatedBoard {
  public:
   static constexpr std::size_t kMost = 2 * serial::kMaxFrame;  ///< bytes of one exchange
@@ -18,7 +28,7 @@ class EmulatedBoard {
   ~EmulatedBoard() { stop(); }
 
   /// Starts the emulator with an image. False: `why` says what is missing. [init]
-  bool start(const char* image, Message& why);
+  bool start(const BoardImage& image, Message& why);
   /// Ends it. [any]
   void stop();
   bool running() const { return process_ > 0; }
@@ -32,7 +42,7 @@ class EmulatedBoard {
  private:
   void end_process();
   bool make_pipes(Message& why);
-  bool spawn(const char* image, Message& why);
+  bool spawn(const BoardImage& image, Message& why);
   bool has_ended();
   bool read_all(std::uint8_t* to, std::size_t size);
 

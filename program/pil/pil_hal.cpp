@@ -57,7 +57,7 @@ Status PilHal::connect(CommandMode mode) {
   serial::Greeting greeting;
   const Status status = board_.greet(greeting);
   if (status != Status::kOk) {
-    why_ = Message(image_);
+    why_ = Message(image_.path);
     why_ << (emulator_.running() ? ": the board does not answer" : ": the emulator has ended")
          << "; make builds the image anew";
     return status;

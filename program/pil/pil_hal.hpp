@@ -12,8 +12,8 @@ namespace tactus::pil {
 
 class PilHal final : public Hal, public Follower {
  public:
-  /// The file with the board's program, which outlives this. [init]
-  void set_image(const char* image) { image_ = image; }
+  /// The board's program. [init]
+  void set_image(const BoardImage& image) { image_ = image; }
   /// Builds the plant for cycles of `period_s`. kNotOffered for cycles by the wall clock; as
   /// SimHal::load(). [init]
   Status load(const PlantParams& params, double period_s, const Options& options);
@@ -39,7 +39,7 @@ class PilHal final : public Hal, public Follower {
   Status silent();
 
   SimHal plant_;
-  const char* image_ = nullptr;
+  BoardImage image_{};
   const Session* session_ = nullptr;
   EmulatedBoard emulator_;
   BoardClient board_{emulator_};

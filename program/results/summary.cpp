@@ -86,8 +86,8 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   const Guard::Telemetry& guard = session.executive.guard().telemetry();
   std::fprintf(file, "{\n  \"pipeline\": ");
   write_json_string(file, pipeline);
-  std::fprintf(file, ",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n", Robot::kName,
-               session.board);
+  std::fprintf(file, ",\n  \"robot\": \"%s\",\n  \"board\": \"%s\",\n  \"simulated\": %s,\n",
+               Robot::kName, session.board, session.simulated ? "true" : "false");
   std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);

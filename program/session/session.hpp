@@ -16,6 +16,7 @@ namespace tactus {
 
 struct Session {
   const char* board;
+  bool simulated;            ///< the robot is a plant in this program
   std::size_t static_bytes;  ///< of all objects of the kernel and the gateway on this board
   std::string_view text;     ///< of the pipeline file
   Hal& hal;

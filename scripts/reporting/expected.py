@@ -61,7 +61,7 @@ def kind(run):
 
 def kind_of(summary, path):
     """Returns the same from a summary and the path of the pipeline file; an emulated robot is on this machine."""
-    if summary["board"].endswith(("_sim", "_m7")):
+    if summary["simulated"]:
         return "simulated"
     if (Settings(path).given("can", "interfaces") or "").startswith("vcan"):
         return "emulated"

@@ -79,6 +79,7 @@ NUMBERS = ("rate_hz", "cycles", "seed", "slips", "overruns", "recorder_dropped",
 FORM = {
     **{key: (int, float) for key in NUMBERS + ("heap_allocations_in_cycle", "realtime_factor")},
     **{key: str for key in ("pipeline", "robot", "board", "config_hash")},
+    "simulated": bool,
     "result": {"code": int, "name": str},
     "guard": {"limited": int, "tripped": int},
     "timing": {"*": {key: (int, float) for key in ("p50_ns", "p99_ns", "max_ns")}},

@@ -6,7 +6,9 @@ import shutil
 import subprocess
 import sys
 
-M7 = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=sh"]
+# The emulator's machine of every bare core.
+BARE = {"m7": "mps2-an500", "m55": "mps3-an547"}
+SILENT = ["-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=sh"]
 
 
 class BuildError(Exception):
@@ -53,9 +55,9 @@ class Machine:
         """Returns the command that plays a job."""
         how = "".join(f"-{part}" for part in (self.arch if self.arch != "host" else "", self.variant()) if part)
         program = f"build/{robot}_sim{how}/trace"
-        if self.arch == "m7":
+        if self.arch in BARE:
             semihosting = f"enable=on,target=native,chardev=sh,arg=trace,arg={job}"
-            return [*M7, "-semihosting-config", semihosting, "-kernel", program]
+            return [self.emulator, "-M", BARE[self.arch], *SILENT, "-semihosting-config", semihosting, "-kernel", program]
         return [self.emulator, program, str(job)] if self.emulator else [program, str(job)]
 
 
@@ -65,4 +67,5 @@ QUICK = [
     Machine("Cortex-M7", "arm-none-eabi-g++", "m7", emulator="qemu-system-arm"),
 ]
 LEVELS = [(compiler, level) for compiler in ("g++", "clang++") for level in ("-O1", "-O2", "-O3")]
-MATRIX = QUICK + [Machine(f"{compiler} {level}", compiler, level=level) for compiler, level in LEVELS if (compiler, level) != ("g++", "-O3")]
+M55 = Machine("Cortex-M55", "arm-none-eabi-g++", "m55", emulator="qemu-system-arm")
+MATRIX = QUICK + [M55] + [Machine(f"{compiler} {level}", compiler, level=level) for compiler, level in LEVELS if (compiler, level) != ("g++", "-O3")]

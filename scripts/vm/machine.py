@@ -58,7 +58,7 @@ def run(machine, kernel, folder, buses, fd, longest_s):
         results.truncate(CARD_BYTES)
     with open(folder / "qemu", "wb") as said, open(output, "rb") as shown:
         line = arguments(machine, kernel, folder, buses, fd)
-        qemu = subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
+        qemu = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *line], stdin=subprocess.DEVNULL, stdout=said, stderr=said)
         deadline = time.monotonic() + longest_s
         try:
             while qemu.poll() is None and time.monotonic() < deadline:

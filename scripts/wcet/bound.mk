@@ -16,7 +16,7 @@ wcet-refute: wcet-bound build/wcet/count_plugin.so   ## try to refute the bounds
 certificate:                                  ## check static bytes, worst-case stack and heap calls of BOARD
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
-	$(Q)$(if $(RAM_BUDGET),$(MAKE) --no-print-directory ARCH=m7 image-certificate)
+	$(Q)$(if $(RAM_BUDGET),$(MAKE) --no-print-directory ARCH=$(CORE) image-certificate)
 certificate-m7: $(O)/libkernel.a $(B)/board.elf
 	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/board.elf --tools $(CROSS_m7) \
 	  --static-budget $(STATIC_BUDGET) --flash-budget $(FLASH_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt

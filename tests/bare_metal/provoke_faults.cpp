@@ -1,11 +1,11 @@
-#include "boards/m7/provoke.hpp"
+#include "boards/bare_metal/provoke.hpp"
 
 #include <atomic>
 
-#include "boards/m7/registers.hpp"
+#include "boards/bare_metal/registers.hpp"
 #include "hal/serial/protocol.hpp"
 
-namespace m7 {
+namespace bare {
 namespace {
 
 using tactus::serial::Provocation;
@@ -43,4 +43,4 @@ void provoked_cycle() {
   if (cycle_hangs) hang();
 }
 
-}  // namespace m7
+}  // namespace bare

@@ -148,6 +148,24 @@ void what_runs_goes_on_when_its_owner_gives_the_lease_back(void**) {
   assert_int_equal(two.a.status[again], static_cast<int>(Status::kNotOwner));
 }
 
+void a_take_over_stops_an_arm_whose_owner_has_filled_the_mailbox_of_controls(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease(1);
+  JointVector far = ServerBench::home().q;
+  far[0] += 2.0;
+  two.a.point(far);
+  two.run(100);
+  for (int i = 0; i < 20; ++i) two.a.send(ask::kOverride, RawMessage().real(1, 0.5));
+  two.b.lease(2);
+  const std::uint32_t early = two.b.point(far);
+  two.bench.server.work(two.bench.now_ns);
+  two.b.read();
+  assert_int_equal(two.b.status[early], static_cast<int>(Status::kMailboxFull));
+  two.run(1000);
+  assert_true(two.bench.generator.reference().standing());
+  assert_true(two.bench.generator.reference().q[0] < far[0] - 0.1);
+}
+
 void leases_outside_their_ranges_are_refused(void**) {
   TwoClients& two = fresh_clients();
   for (const std::uint32_t timeout_ms : {1U, 19U, 60'001U}) {
@@ -204,6 +222,7 @@ int main() {
       cmocka_unit_test(a_take_over_brings_the_arm_to_rest_and_tells_both),
       cmocka_unit_test(a_lease_that_is_not_renewed_ends_and_the_arm_rests_while_messages_renew_it),
       cmocka_unit_test(what_runs_goes_on_when_its_owner_gives_the_lease_back),
+      cmocka_unit_test(a_take_over_stops_an_arm_whose_owner_has_filled_the_mailbox_of_controls),
       cmocka_unit_test(leases_outside_their_ranges_are_refused),
       cmocka_unit_test(stamps_are_times_of_the_generator_also_after_cycles_were_left_out),
       cmocka_unit_test(a_stamp_more_than_ten_seconds_off_is_refused_with_its_distance),

@@ -3,6 +3,8 @@
 protobuf's own Python. WHAT names the function below that is run. Prints what is wrong and ends with 1, or with 0.
 """
 
+import ctypes
+import hashlib
 import os
 import random
 import signal
@@ -16,13 +18,65 @@ import time
 FINAL = 10
 
 
+class Sealed:
+    """A socket through the server's tunnel (gateway/sockets/tunnel.hpp)."""
+
+    def __init__(self, inner, key):
+        sodium = ctypes.CDLL("libsodium.so.23")
+        stream = "crypto_secretstream_xchacha20poly1305_"
+        self.push, self.pull = getattr(sodium, stream + "push"), getattr(sodium, stream + "pull")
+        size = getattr(sodium, stream + "statebytes")()
+        self.to, self.of = ctypes.create_string_buffer(size), ctypes.create_string_buffer(size)
+        self.inner, self.buffer = inner, b""
+        own, public = os.urandom(32), ctypes.create_string_buffer(32)
+        sodium.crypto_scalarmult_base(public, own)
+        inner.sendall(b"tactus-1" + public.raw)
+        answer = b""
+        while len(answer) < 56:
+            answer += inner.recv(56 - len(answer))
+        secret, header = ctypes.create_string_buffer(32), ctypes.create_string_buffer(24)
+        sodium.crypto_scalarmult(secret, own, answer[:32])
+        known = b"tactus-1" + secret.raw + public.raw + answer[:32]
+        keys = hashlib.blake2b(known, key=key, digest_size=64).digest()
+        getattr(sodium, stream + "init_push")(self.to, header, keys[:32])
+        getattr(sodium, stream + "init_pull")(self.of, answer[32:], keys[32:])
+        inner.sendall(header.raw)
+
+    def settimeout(self, timeout):
+        self.inner.settimeout(timeout)
+
+    def sendall(self, plain):
+        sealed = ctypes.create_string_buffer(len(plain) + 17)
+        self.push(self.to, sealed, None, plain, ctypes.c_ulonglong(len(plain)), None, ctypes.c_ulonglong(0), 0)
+        self.inner.sendall(struct.pack("<H", len(sealed.raw)) + sealed.raw)
+
+    def recv(self, _):
+        received = self.inner.recv(65536)
+        if not received:
+            return b""
+        self.buffer += received
+        plain = b""
+        while len(self.buffer) >= 2 and len(self.buffer) >= 2 + struct.unpack("<H", self.buffer[:2])[0]:
+            size = struct.unpack("<H", self.buffer[:2])[0]
+            opened = ctypes.create_string_buffer(size - 17)
+            sealed, self.buffer = self.buffer[2 : 2 + size], self.buffer[2 + size :]
+            good = self.pull(self.of, opened, None, None, sealed, ctypes.c_ulonglong(size), None, ctypes.c_ulonglong(0))
+            assert good == 0, "a record of the server does not open"
+            plain += opened.raw
+        if not plain:
+            raise TimeoutError
+        return plain
+
+
 class Client:
-    def __init__(self, pb, path, name):
+    def __init__(self, pb, path, name, key=None):
         self.pb, self.number, self.credit, self.state = pb, 0, 0, None
         self.answers, self.finals, self.welcome = {}, {}, None
         self.buffer = b""
         self.socket = socket.socket(socket.AF_UNIX)
         self.socket.connect(path)
+        if key:
+            self.socket = Sealed(self.socket, key)
         self.send(hello=pb.Hello(version=1, client=name))
         self.until(lambda: self.welcome)
 
@@ -168,6 +222,26 @@ def interrupted(pb, serve, path):
     client.until(lambda: max(abs(v) for v in client.state.dq_d) > 1e-3)
 
 
+KEY = bytes(range(32))
+
+
+def keyed(pb, serve, path):
+    """With the key, all is as without; with another, or in plain, the server says nothing."""
+    me = Client(pb, path, "me", KEY)
+    me.ready()
+    assert me.ask(lease=pb.Lease(timeout_ms=30000)).status == 0
+    goal = follow(me)
+    me.until(lambda: goal in me.finals)
+    assert me.finals[goal].outcome == pb.Report.SUCCEEDED, me.finals[goal]
+    for key in (bytes(32), None):
+        try:
+            Client(pb, path, "you", key)
+            assert False, "a client without the key was welcomed"
+        except (EOFError, ConnectionError):
+            pass
+    assert not os.path.exists(path + ".datagrams"), "datagrams are not encrypted"
+
+
 def main():
     program, pipeline, folder, what = sys.argv[1:]
     subprocess.run(["protoc", "-I.", f"--python_out={folder}", "gateway/tactus.proto"], check=True)
@@ -175,10 +249,16 @@ def main():
     from gateway import tactus_pb2 as pb
 
     path = os.path.join(folder, "arm.sock")
-    with subprocess.Popen([program, "serve", pipeline, "--listen", "unix:" + path], stdout=subprocess.PIPE, text=True) as serve:
+    command = [program, "serve", pipeline, "--listen", "unix:" + path]
+    if what == "keyed":
+        key = os.path.join(folder, "arm.key")
+        with open(os.open(key, os.O_CREAT | os.O_WRONLY, 0o600), "w", encoding="ascii") as file:
+            file.write(KEY.hex() + "\n")
+        command += ["--key", key]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as serve:
         try:
             assert path in serve.stdout.readline(), "the first line does not name the socket"
-            {f.__name__: f for f in (session, killed, interrupted)}[what](pb, serve, path)
+            {f.__name__: f for f in (session, killed, interrupted, keyed)}[what](pb, serve, path)
         finally:
             serve.send_signal(signal.SIGINT)
         code = serve.wait(30)

@@ -100,7 +100,7 @@ void a_copy_counts_by_its_size(void**) {
   for (const Refused& each :
        {Refused{"copy_of_any_size", "memcpy of an unknown size at tests/wcet/planted/copies.cpp:"},
         {"copy_of_two_sizes", "memcpy of an unknown size at tests/wcet/planted/copies.cpp:"},
-        {"move", "memmove: boards/m7/memory.cpp:"}})
+        {"move", "memmove: boards/bare_metal/memory.cpp:"}})
     expect_refused(each);
 }
 

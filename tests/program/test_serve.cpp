@@ -1,4 +1,6 @@
 // Tests `tactus serve` as a program: its clients speak over its socket, in Python.
+#include <sys/stat.h>
+
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {
@@ -21,6 +23,14 @@ void try_server(const char* what) {
   const int code = shell(command.c_str());
   if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
   assert_int_equal(code, 0);
+}
+
+/// A pipeline at a network address with this key file is refused for this reason.
+void assert_key_refused(const char* key, const char* reason) {
+  assert_int_equal(tactus_run({"serve", in_folder("served.ini").c_str(), "--listen",
+                               "tcp:0.0.0.0:0", "--key", key}),
+                   2);
+  assert_true(has(errors(), reason));
 }
 
 // Proves GW-9.
@@ -56,6 +66,23 @@ void addresses_of_other_kinds_are_refused(void**) {
   }
 }
 
+// Proves GW-11.
+
+void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
+  try_server("keyed");
+}
+
+void a_network_address_needs_a_key_file_that_is_the_users_alone(void**) {
+  write("served.ini", {kServed});
+  assert_key_refused(in_folder("none.key").c_str(), "No such file");
+  const Line key = write("arm.key", {"00ff00ff00ff00ff00ff00ff00ff00ff"});
+  assert_int_equal(chmod(key.c_str(), 0644), 0);
+  assert_key_refused(key.c_str(), "chmod 600");
+  assert_int_equal(chmod(key.c_str(), 0600), 0);
+  assert_key_refused(key.c_str(), "64 hexadecimal digits");
+  assert_true(errors().find("00ff00") == std::string_view::npos);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -66,6 +93,8 @@ int main(int, char** argv) {
       cmocka_unit_test(clients_that_are_killed_leave_the_arm_at_rest),
       cmocka_unit_test(an_interrupt_brakes_the_arm_and_ends_the_server_well),
       cmocka_unit_test(addresses_of_other_kinds_are_refused),
+      cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
+      cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
   };
   return run_program_tests(argv[0], tests);
 }

@@ -2,6 +2,8 @@
 // the link between them.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -24,6 +26,16 @@ using serial::Pace;
 /// What happens to the state on its way to the board in one cycle.
 enum class Fate { kArrives, kIsLost, kIsCorrupted };
 
+/// The board of this test, which is build/BOARD/tests/… or build/BOARD-SANITIZERS/tests/…
+inline std::string board_name() {
+  char program[512] = {};
+  assert_true(readlink("/proc/self/exe", program, sizeof program - 1) > 0);
+  std::string path(program);
+  path.resize(path.rfind("/tests/"));
+  path.erase(0, path.rfind('/') + 1);
+  return path.substr(0, path.find('-'));
+}
+
 struct BoardBench {
   EmulatedBoard emulator;
   BoardClient board{emulator};
@@ -34,9 +46,9 @@ struct BoardBench {
 
   /// Starts the board whose image can provoke faults.
   void boot() {
-    const std::string image = std::string("build/") + Robot::kName + "_m7-m7/image-faults.elf";
     Message why;
-    if (emulator.start(image.c_str(), why)) return board.begin();
+    if (emulator.start(image_of("build", board_name(), "image-faults.elf"), why))
+      return board.begin();
     std::fprintf(stderr, "%s\n", why.c_str());
     assert_true(false);
   }

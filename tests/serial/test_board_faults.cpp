@@ -12,13 +12,13 @@ struct Row {
   const char* name;
   Provocation provocation;
   FaultCause cause;
-  std::uint32_t cfsr;  ///< bits that are set [DDI 0403E, B3.2.15]
+  std::uint32_t cfsr;  ///< bits of which one is set [DDI 0403E, B3.2.15; DDI 0553B, D1.2]
 };
 
 constexpr Row kRows[] = {
     {"an access to nowhere", Provocation::kHardFault, FaultCause::kFault, 0x8000},   // BFARVALID
     {"a division by zero", Provocation::kDivision, FaultCause::kFault, 0x02000000},  // DIVBYZERO
-    {"a full stack", Provocation::kStackOverflow, FaultCause::kStack, 0x02},         // DACCVIOL
+    {"a full stack", Provocation::kStackOverflow, FaultCause::kStack, 0x100002},  // STKOF, DACCVIOL
     {"background work that hangs", Provocation::kStuckBackground, FaultCause::kBackground, 0},
     {"a cycle that hangs", Provocation::kStuckCycle, FaultCause::kWatchdog, 0},
 };
@@ -42,7 +42,7 @@ void assert_recorded(BoardBench& bench, const Row& row, std::uint32_t count) {
   print_message("    %s\n", fault_text(bench.board).c_str());
   assert_true(fault.cause == row.cause);
   assert_int_equal(fault.count, count);
-  assert_int_equal(fault.cfsr & row.cfsr, row.cfsr);
+  if (row.cfsr != 0) assert_true((fault.cfsr & row.cfsr) != 0);
   assert_true(fault.cycle > 0);
   if (row.cause != FaultCause::kStack) assert_true(fault.pc != 0);
 }

@@ -3,13 +3,13 @@ TRACE := tests/trace/trace.cpp tests/trace/traced_player.cpp $(PLAYER)
 
 .PHONY: trace same-bits
 trace: $(B)/trace
-same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and Cortex-M7
+same-bits:                                    ## compare the bits of all runs on x86-64, every compiler and level, aarch64 and bare cores
 	$(Q)scripts/setup check
 	$(Q)scripts/same_bits --matrix --twice
-ifeq ($(ARCH),m7)
-$(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) $(M7_START)) $(O)/libkernel.a
+ifneq ($(BARE),)
+$(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) $(BARE_START)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
+	$(Q)$(CXX) $(FLAGS_$(ARCH)) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $(WHOLE_KERNEL) -lm -lgcc
 else
 # Linked statically where that is possible, so that an emulator needs no libraries of the machine.
 $(B)/trace: $(call obj,tests/trace/main.cpp $(TRACE)) $(O)/libkernel.a

@@ -1,5 +1,5 @@
 // The program of tests/trace: plays the tapes of a job and prints their trace. The same source runs
-// on the host, on aarch64 and on the bare Cortex-M7.
+// on the host, on aarch64 and on a bare core.
 #pragma once
 
 #include "tests/trace/trace.hpp"

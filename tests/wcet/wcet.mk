@@ -6,9 +6,10 @@ WCET_PIPELINES := $(if $(STATIC_BUDGET),$(filter $(robot)_%,$(WCET_ALL)))
 WCET_SEARCH    := SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS=
 PLAYER         := tests/wcet/player.cpp tests/wcet/player_requests.cpp gateway/reference_client.cpp \
                   sim_plant/arm/$(robot)_mjcf.cpp
-# What an image for measurements on a bare Cortex-M7 is linked with.
-M7_START       := $(addprefix boards/m7/,startup.cpp semihosting.cpp memory.cpp) $(addprefix tests/wcet/m7/,console.cpp handlers.cpp)
-BARE           := $(M7_START) $(PLAYER)
+# What an image for measurements on a bare core is linked with.
+BARE_START     := $(addprefix boards/bare_metal/,startup.cpp semihosting.cpp memory.cpp) boards/$(ARCH)/start.cpp \
+                  $(addprefix tests/wcet/m7/,console.cpp handlers.cpp)
+MEASURE_LD     := boards/$(ARCH)/memory.ld tests/wcet/m7/measure.ld
 
 .PHONY: wcet wcet-boards wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## measure, count and bound the worst case of every stage; build/wcet
@@ -19,7 +20,7 @@ wcet: wcet-built                              ## measure, count and bound the wo
 	$(Q)nice scripts/wcet/search $(WCET_ALL)
 	$(Q)scripts/wcet/table $(WCET_ALL)
 	$(Q)$(MAKE) --no-print-directory wcet-boards
-wcet-boards:                                  ## count the instructions of every period of boards with a bare Cortex-M7
+wcet-boards:                                  ## count the instructions of every period of boards without an operating system
 	$(Q)$(MAKE) --no-print-directory BOARD=fer_sim build/wcet/count_plugin.so
 	$(Q)set -e; for board in $(BARE_BOARDS); do $(MAKE) --no-print-directory BOARD=$$board all; \
 	  scripts/wcet/board $$board $$($(MAKE) --no-print-directory BOARD=$$board list-runs | sed 's/^-- [^ ]*//'); done
@@ -37,10 +38,9 @@ wcet-setup:
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
-$(O)/boards/m7/startup.o: private CXXFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE)) $(O)/libkernel.a
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE_START) $(PLAYER)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $(WHOLE_KERNEL) -lm -lgcc
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $(WHOLE_KERNEL) -lm -lgcc
 $(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini Makefile
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@

@@ -1,12 +1,28 @@
 // ReferenceGenerator: its treatment of chunks and velocities.
 #include <cassert>
 
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/judge_channels.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
+namespace {
+
+/// Returns how many targets have a time up to `now_s`.
+template <class Space>
+int targets_until(const ChunkCurve<Space>& chunk, double now_s) {
+  int passed = 0;
+  LoopBound<1 << 8> targets;
+  while (passed < chunk.count && chunk.knots[static_cast<std::size_t>(passed)].time_s <= now_s) {
+    targets.tick();
+    ++passed;
+  }
+  return passed;
+}
+
+}  // namespace
 
 /// A stop voids what is on its way.
 template <class Space>
@@ -73,9 +89,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       chunk.release();
       return take_point(point);
     }
-    int passed = 0;
-    while (passed < chunk.count && chunk.knots[static_cast<std::size_t>(passed)].time_s <= time_s())
-      ++passed;
+    const int passed = targets_until(chunk, time_s());
     const bool late = passed == chunk.count;
     Verdict verdict;
     if (late)

@@ -53,8 +53,9 @@ struct ChunkCurve {
   /// allow.
   double fade_s = 0.0;
   /// If no chunk follows, path time begins to stop at brake_s, by the generator's clock, with these
-  /// limits of its second and third derivative, and rests at the last knot.
-  double brake_s = 0.0, brake_a = 1.0, brake_j = 1.0;
+  /// limits of its second and third derivative, and rests at the last knot. From full rate it takes
+  /// brake_way_s of path time.
+  double brake_s = 0.0, brake_way_s = 1.0, brake_a = 1.0, brake_j = 1.0;
   std::atomic<bool> free{true};
 
   double first_s() const { return knots[0].time_s; }

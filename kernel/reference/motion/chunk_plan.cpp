@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/motion/fade.hpp"
+#include "kernel/reference/motion/fading_time.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
@@ -15,40 +15,7 @@ namespace {
 constexpr double kBridged_s = 0.25;
 constexpr double kTimeRounding_s = 1e-9;
 
-/// A fade takes at most this share of each limit; it is lengthened in steps up to kLongest times.
-constexpr double kShare = 0.5, kStep = 1.25;
-constexpr int kSteps = 16;
-/// Largest derivatives of the fading quintic of a difference of one: of its position x, of its
-/// velocity dx, of its acceleration ddx.
-constexpr double kVelocityOfX = 1.875, kAccelerationOfX = 5.7736, kJerkOfX = 60.0;
-constexpr double kAccelerationOfDx = 4.0, kJerkOfDx = 36.0, kJerkOfDdx = 9.0;
-
 }  // namespace
-
-template <class Space>
-double fading_time_s(const typename Space::Difference& difference,
-                     const typename Space::Limits& limits, double least_s) {
-  constexpr int kSize = Space::kChannelSize;
-  const typename Space::Peaks most = Space::peaks(limits);
-  double T = least_s;
-  for (int c = 0; c < Space::kChannels; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    const double x = difference.x.template segment<kSize>(c * kSize).norm();
-    const double dx = difference.dx.template segment<kSize>(c * kSize).norm();
-    const double ddx = difference.ddx.template segment<kSize>(c * kSize).norm();
-    LoopBound<kSteps> steps;
-    for (int k = 0; k < kSteps; ++k) {
-      steps.tick();
-      const double f = 1.0 / T;
-      const double v = kVelocityOfX * x * f;
-      const double a = (kAccelerationOfX * x * f + kAccelerationOfDx * dx) * f;
-      const double j = ((kJerkOfX * x * f + kJerkOfDx * dx) * f + kJerkOfDdx * ddx) * f;
-      if (v <= kShare * most.v[i] && a <= kShare * most.a[i] && j <= kShare * most.j[i]) break;
-      T *= kStep;
-    }
-  }
-  return std::min(T, least_s * 30.0);
-}
 
 template <class Space, bool streams>
 void ChunkPlan<Space, streams>::install(ChunkCurve<Space>& chunk, const Placement& placement,
@@ -112,10 +79,10 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
     lead_in(s, reference, limits);
   else
     follow(s);
-  watch_end(before_s);
+  if (runs_out(now_s)) stop_path_time(before_s);
   const Point base = curve(path_time(before_s));
   fade_in(before_s, reference, base, limits);
-  return fade_s_ > 0.0 ? reference : base;
+  return fades() ? reference : base;
 }
 
 /// Leads to the first knot: from the reference by one quintic, if there is time; else along the
@@ -163,20 +130,35 @@ int ChunkPlan<Space, streams>::knot_after(double s) const {
   return found;
 }
 
-/// Begins to stop path time when no successor has come in time for it. A chunk that came too late
-/// to stop at its end from full rate is entered at a lower one.
 template <class Space, bool streams>
-void ChunkPlan<Space, streams>::watch_end(double now_s) {
-  const ChunkCurve<Space>& chunk = *now().chunk;
+bool ChunkPlan<Space, streams>::runs_out(double now_s) const {
+  if (!entered_ || stops_ || now().chunk->ends) return false;
   const bool succeeded = count_ > 1 && pieces_[1].start_s <= now().end_s() + kTimeRounding_s;
-  const double s = now_s - now().zero_s;
-  if (stops_ || chunk.ends || succeeded || s < chunk.brake_s) return;
-  const double way_s = std::max(chunk.end_s() - chunk.brake_s, kTimeRounding_s);
-  const double rate = std::clamp((chunk.end_s() - s) / way_s, 0.0, 1.0);
+  return !succeeded && now_s - now().zero_s >= now().chunk->brake_s;
+}
+
+template <class Space, bool streams>
+typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Point& base,
+                                                      const Point& reference,
+                                                      const Limits& limits) {
+  if (!stop_path_time(before_s)) return base;
+  const Point slower = curve(path_time(before_s));
+  fade_in(before_s, reference, slower, limits);
+  return fades() ? reference : slower;
+}
+
+/// Stops path time at the end of the chunk. From full rate if there is still time for it, else from
+/// a lower one: then returns true, as the base is no longer what it was.
+template <class Space, bool streams>
+bool ChunkPlan<Space, streams>::stop_path_time(double before_s) {
+  const ChunkCurve<Space>& chunk = *now().chunk;
+  const double s = before_s - now().zero_s, left_s = std::max(chunk.end_s() - s, 0.0);
+  const double rate = std::min(left_s / chunk.brake_way_s, 1.0);
   stop_ = plan_to({s, rate, 0.0}, chunk.end_s(), 0.0,
                   {-1.0, 1.0, chunk.brake_a, chunk.brake_a, chunk.brake_j});
-  stop_from_s_ = now_s;
+  stop_from_s_ = before_s;
   stops_ = true;
+  return rate < 1.0;
 }
 
 template <class Space, bool streams>
@@ -209,7 +191,6 @@ void ChunkPlan<Space, streams>::fade_in(double before_s, const Point& reference,
 
 template <class Space, bool streams>
 typename Space::Point ChunkPlan<Space, streams>::move_on(double now_s) {
-  watch_end(now_s);
   const PathTime time = path_time(now_s);
   if (time.s >= segment_end_s_ && target_ < now().chunk->count - 1) follow(time.s);
   const Point point = curve(time);
@@ -230,12 +211,8 @@ double ChunkPlan<Space, streams>::margin_s(double now_s) const {
   return last.chunk->ends ? kInfinity : last.zero_s + last.chunk->brake_s - now_s;
 }
 
-#define TACTUS_CHUNK_PLAN(Space)   \
-  template class ChunkPlan<Space>; \
-  template double fading_time_s<Space>(const Space::Difference&, const Space::Limits&, double)
-TACTUS_CHUNK_PLAN(JointSpace);
-TACTUS_CHUNK_PLAN(TaskSpace);
-#undef TACTUS_CHUNK_PLAN
+template class ChunkPlan<JointSpace>;
+template class ChunkPlan<TaskSpace>;
 
 }  // namespace tactus
 #endif

@@ -34,6 +34,12 @@ class ChunkPlan {
   /// Enters the newest chunk that is due at `now_s`, while the reference of `before_s` is put out;
   /// returns the base at `before_s`. [cyclic]
   Point enter(double before_s, double now_s, const Point& reference, const Limits& limits);
+  /// True if the chunk in force has no successor and the stop at its end is to begin before
+  /// `now_s`. [cyclic]
+  bool runs_out(double now_s) const;
+  /// Begins that stop at `before_s`, while the reference is put out and the base is `base`; returns
+  /// the base, which is another one if it is too late to stop from full rate. [cyclic]
+  Point stop(double before_s, const Point& base, const Point& reference, const Limits& limits);
   /// Moves path time to `now_s`, and returns the base. [cyclic]
   Point move_on(double now_s);
 
@@ -75,7 +81,7 @@ class ChunkPlan {
   void lead_in(double s, const Point& reference, const Limits& limits);
   void follow(double s);
   int knot_after(double s) const;
-  void watch_end(double now_s);
+  bool stop_path_time(double before_s);
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
   void fade_in(double before_s, const Point& reference, const Point& base, const Limits& limits);
@@ -98,11 +104,5 @@ class ChunkPlan {
 
 template <class Space>
 class ChunkPlan<Space, false> {};
-
-/// Returns the time, at least `least_s`, in which a difference fades with at most half of every
-/// limit. [cyclic]
-template <class Space>
-double fading_time_s(const typename Space::Difference& difference,
-                     const typename Space::Limits& limits, double least_s);
 
 }  // namespace tactus

@@ -5,6 +5,14 @@
 
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
+namespace {
+
+/// Share of the velocity limits of a reference on its way along chunks: the stop of a vector takes
+/// up to two per cent of its jerk for the acceleration across it, and then runs out that much
+/// farther.
+constexpr double kStreamShare = 0.999;
+
+}  // namespace
 
 template <class Space>
 Verdict Motion<Space>::track(ChunkCurve<Space>& chunk, double now_s) {
@@ -39,12 +47,12 @@ void Motion<Space>::begin_stream(MotionEvent event) {
 template <class Space>
 void Motion<Space>::move_stream(double dt_s) {
   if (phase_ == Phase::kDriving) return move_at_velocity(dt_s);
-  const typename Space::Limits& limits = settings_->limits;
-  if (plan_.due(time_s_)) {
-    base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits);
-    offset_ = plan_.fades() ? typename Space::Difference() : Space::difference(reference_, base_);
-    tell(MotionEvent::kChunk);
-  }
+  const typename Space::Limits limits = settings_->limits.slower(kStreamShare);
+  const bool seam = plan_.due(time_s_), stops = !seam && plan_.runs_out(time_s_);
+  if (seam) base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits);
+  if (stops) base_ = plan_.stop(time_s_ - dt_s, base_, reference_, limits);
+  if (seam || stops) offset_ = Space::difference(reference_, base_);
+  if (seam) tell(MotionEvent::kChunk);
   const Point before = base_;
   base_ = plan_.move_on(time_s_);
   reference_ = Space::approach(reference_, offset_, before, base_, false, limits, dt_s);

@@ -166,7 +166,9 @@ JointSpace::Point JointSpace::go_at(const Point& reference, const Rates& rates,
                               : plan_inside(from, end, most, range.lowest, range.highest);
     const AxisState next = plan.at(dt_s);
     const AxisRange way = stop_range(next, own);
-    const bool inside = way.lowest >= std::min(range.lowest, from.p) &&
+    const double run_out = next.v + 0.5 * next.a * std::abs(next.a) / own.j;
+    const bool inside = std::abs(run_out) <= own.v_hi &&
+                        way.lowest >= std::min(range.lowest, from.p) &&
                         way.highest <= std::max(range.highest, from.p);
     set_axis(point, j, inside ? next : axis_of(stop, j));
   }

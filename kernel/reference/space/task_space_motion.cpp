@@ -232,7 +232,9 @@ TaskSpace::Point TaskSpace::go_at(const Point& reference, const Rates& rates, co
     VectorState to = stop_on(from, acceleration * most.a, jerk * most.j, dt_s);
     to.p += dt_s * v;
     to.v += v;
-    return to;
+    const Vector3 run_out = to.v + 0.5 * to.a * to.a.norm() / most.j;
+    from.v += v;
+    return run_out.norm() <= most.v ? to : stop_on(from, most.a, most.j, dt_s);
   };
   const VectorState from = rotation_of(reference);
   VectorState moved = go(translation_of(reference), rates.head<3>(), p);

@@ -6,10 +6,12 @@
 namespace tactus {
 namespace {
 
-/// Fraction of j_max: an acceleration across the velocity that this much jerk removes in one period
-/// counts as zero, and the jerk along the line is reduced by it. Reducing it first would take the
-/// whole jerk from the stop.
+/// Fraction of j_max: while the speed falls, an acceleration across the velocity that this much
+/// jerk removes in one period counts as zero, and the jerk along the line is reduced by it.
+/// Reducing it first would take the whole jerk from the stop.
 constexpr double kAlong = 0.02;
+/// Fraction of a_max: an acceleration that raises the speed by less counts as none.
+constexpr double kRising = 1e-9;
 /// A stop has no speed limit.
 constexpr double kAnySpeed = 1e6;
 
@@ -18,7 +20,7 @@ struct Line {
   Vector3 direction;
   AxisState axis;
   AxisLimits limits;
-  bool straight;  // there is no acceleration across it
+  bool straight;  // the stop is on it from now on
 };
 
 Line line_of(const VectorState& state, double a_max, double j_max, double dt_s) {
@@ -33,7 +35,7 @@ Line line_of(const VectorState& state, double a_max, double j_max, double dt_s) 
   return {direction,
           {0.0, speed, along},
           {-kAnySpeed, kAnySpeed, a_max, a_max, j_max - std::min(beside, most)},
-          beside <= most};
+          along <= kRising * a_max && beside <= most};
 }
 
 VectorState moved(const VectorState& from, double t, const Vector3& jerk) {

@@ -1,5 +1,5 @@
-// Plays a job on a bare Cortex-M7. The job's path is the emulator's last argument. Job and
-// waypoints are in the board's PSRAM.
+// Plays a job on a bare core. The job's path is the emulator's last argument. Job and
+// waypoints are in TAPES of the linker script.
 #include "tests/trace/traced_player.hpp"
 #include "tests/wcet/m7/console.hpp"
 

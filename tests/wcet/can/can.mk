@@ -2,7 +2,7 @@
 CAN_SYSTEM := socket|bind|ioctl|[gs]etsockopt|fcntl|close|p?poll|(recv|send)mmsg|clock_(gettime|nanosleep)|strerror|__errno_location|strncpy|memchr|floor|lround
 
 # The CAN part of a cycle, counted and bounded on the Cortex-M7: docs/timing.md. The Makefile includes this file.
-CAN_IMAGE := $(CAN_BENCH) tests/wcet/can/library.cpp tests/wcet/can/main.cpp $(M7_START)
+CAN_IMAGE := $(CAN_BENCH) tests/wcet/can/library.cpp tests/wcet/can/main.cpp $(BARE_START)
 
 .PHONY: can-symbols wcet-can wcet-can-image
 can-symbols: $(B)/libcan.a                    ## check that the wire to drives on CAN has no heap, exceptions or locks
@@ -19,5 +19,5 @@ $(call obj,$(wildcard hal/can/*.cpp hal/cia402/*.cpp)): private CXXFLAGS += -fno
 wcet-can-image: $(B)/wcet-can.elf
 $(B)/wcet-can.elf: $(call obj,$(CAN_IMAGE)) $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections -T tests/wcet/m7/mps2-an500.ld -o $@ $^ -lm -lgcc
+	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $^ -lm -lgcc
 endif

@@ -1,8 +1,8 @@
 // What an image for measurements needs of the computer that emulates it, beside
-// boards/m7/semihosting.hpp.
+// boards/bare_metal/semihosting.hpp.
 #pragma once
 
-#include "boards/m7/semihosting.hpp"
+#include "boards/bare_metal/semihosting.hpp"
 
 namespace semihosting {
 

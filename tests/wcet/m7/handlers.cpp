@@ -1,5 +1,5 @@
 // The handlers of an image for measurements: a fault ends the emulator with a message.
-#include "boards/m7/registers.hpp"
+#include "boards/bare_metal/registers.hpp"
 #include "tests/wcet/m7/console.hpp"
 
 extern "C" {
@@ -17,7 +17,7 @@ extern "C" [[gnu::naked, gnu::used]] void on_fault() {
 
 extern "C" [[gnu::used]] void report_fault() {
   semihosting::print("fault, CFSR ");
-  semihosting::print(m7::at(m7::kCfsr));
+  semihosting::print(bare::at(bare::kCfsr));
   semihosting::print("\n");
   semihosting::exit(99);
 }

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "boards/m7/memory.cpp"
+#include "boards/bare_metal/memory.cpp"
 
 struct Large {
   unsigned char bytes[3200];

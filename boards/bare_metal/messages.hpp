@@ -4,10 +4,10 @@
 
 #include <atomic>
 
-#include "boards/m7/machine.hpp"
+#include "boards/bare_metal/machine.hpp"
 #include "hal/serial/board_link.hpp"
 
-namespace m7 {
+namespace bare {
 
 class Messages {
  public:
@@ -60,4 +60,4 @@ class Messages {
   bool poses_ = false;               // space of the trajectory that comes
 };
 
-}  // namespace m7
+}  // namespace bare

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-namespace m7 {
+namespace bare {
 
 std::string_view embedded_text();
 
-}  // namespace m7
+}  // namespace bare

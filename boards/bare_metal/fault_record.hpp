@@ -3,7 +3,7 @@
 
 #include "hal/serial/board_frames.hpp"
 
-namespace m7 {
+namespace bare {
 
 using tactus::serial::FaultCause;
 using tactus::serial::FaultRecord;
@@ -21,4 +21,4 @@ void last_words();
 /// The number of the present cycle. [any]
 std::uint32_t cycle_number();
 
-}  // namespace m7
+}  // namespace bare

@@ -1,8 +1,8 @@
-#include "boards/m7/machine.hpp"
+#include "boards/bare_metal/machine.hpp"
 
 #include "program/pil/row_hash.hpp"
 
-namespace m7 {
+namespace bare {
 
 using namespace tactus;
 
@@ -41,4 +41,4 @@ Report Machine::next_report() {
   return joints_.server.waiting() > 0 ? joints_.server.next() : poses_.server.next();
 }
 
-}  // namespace m7
+}  // namespace bare

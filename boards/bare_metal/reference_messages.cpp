@@ -1,6 +1,6 @@
-#include "boards/m7/messages.hpp"
+#include "boards/bare_metal/messages.hpp"
 
-namespace m7 {
+namespace bare {
 
 using namespace tactus;
 using serial::Kind;
@@ -69,4 +69,4 @@ void Messages::give_reports() {
     write_report(to, machine_->next_report());
 }
 
-}  // namespace m7
+}  // namespace bare

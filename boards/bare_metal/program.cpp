@@ -1,14 +1,14 @@
 // The program of a board with a Cortex-M7 and nothing else: the timer begins the cycles, messages
 // are executed in what they leave of the time, and whatever hangs or faults ends with disabled
 // drives, a record and a new start.
-#include "boards/m7/fault_record.hpp"
-#include "boards/m7/messages.hpp"
-#include "boards/m7/provoke.hpp"
-#include "boards/m7/semihosting.hpp"
-#include "boards/m7/semihosting_link.hpp"
-#include "boards/m7/timer.hpp"
+#include "boards/bare_metal/fault_record.hpp"
+#include "boards/bare_metal/messages.hpp"
+#include "boards/bare_metal/provoke.hpp"
+#include "boards/bare_metal/semihosting.hpp"
+#include "boards/bare_metal/semihosting_link.hpp"
+#include "boards/bare_metal/timer.hpp"
 
-namespace m7 {
+namespace bare {
 namespace {
 
 using namespace tactus;
@@ -87,10 +87,10 @@ void last_words() {
   bytes.receive(nothing, 0);
 }
 
-}  // namespace m7
+}  // namespace bare
 
 extern "C" [[gnu::used]] void on_timer() {
-  using namespace m7;
+  using namespace bare;
   clear_timer();
   Machine* const machine = messages.running();
   tick(machine);
@@ -102,7 +102,7 @@ extern "C" [[gnu::used]] void on_timer() {
 /// of its own waits; it does not sleep, because QEMU 7.2 loses every second interrupt of a core
 /// that does, by a clock that counts instructions.
 extern "C" void program() {
-  using namespace m7;
+  using namespace bare;
   if (!bytes.open()) semihosting::exit(2);
   start_watchdog();
   start_timer(kIdlePeriod_us);

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace m7 {
+namespace bare {
 
 /// Begins to call on_timer() every period. The clock starts at 0. [init]
 void start_timer(std::uint32_t period_us);
@@ -22,4 +22,4 @@ void start_watchdog();
 void feed_watchdog();
 inline constexpr std::uint32_t kWatchdog_us = 50'000;
 
-}  // namespace m7
+}  // namespace bare

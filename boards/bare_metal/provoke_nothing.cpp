@@ -1,6 +1,6 @@
-#include "boards/m7/provoke.hpp"
+#include "boards/bare_metal/provoke.hpp"
 
-namespace m7 {
+namespace bare {
 
 tactus::Status provoke(tactus::ByteReader) {
   return tactus::Status::kNotOffered;
@@ -8,4 +8,4 @@ tactus::Status provoke(tactus::ByteReader) {
 
 void provoked_cycle() {}
 
-}  // namespace m7
+}  // namespace bare

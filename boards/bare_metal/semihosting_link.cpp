@@ -1,12 +1,12 @@
-#include "boards/m7/semihosting_link.hpp"
+#include "boards/bare_metal/semihosting_link.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "boards/m7/semihosting.hpp"
+#include "boards/bare_metal/semihosting.hpp"
 #include "kernel/core/text.hpp"
 
-namespace m7 {
+namespace bare {
 
 bool SemihostingLink::open() {
   static char line[512];
@@ -47,4 +47,4 @@ std::size_t SemihostingLink::receive(std::uint8_t* to, std::size_t capacity) {
   return std::min(size, capacity);
 }
 
-}  // namespace m7
+}  // namespace bare

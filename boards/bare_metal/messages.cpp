@@ -1,15 +1,15 @@
-#include "boards/m7/messages.hpp"
+#include "boards/bare_metal/messages.hpp"
 
 #include <algorithm>
 #include <new>
 
-#include "boards/m7/embedded_text.hpp"
-#include "boards/m7/fault_record.hpp"
-#include "boards/m7/provoke.hpp"
-#include "boards/m7/timer.hpp"
+#include "boards/bare_metal/embedded_text.hpp"
+#include "boards/bare_metal/fault_record.hpp"
+#include "boards/bare_metal/provoke.hpp"
+#include "boards/bare_metal/timer.hpp"
 #include "gateway/fnv1a.hpp"
 
-namespace m7 {
+namespace bare {
 
 using namespace tactus;
 using serial::Frame;
@@ -126,4 +126,4 @@ void Messages::give_fault() {
   write(link_.answer(Status::kOk), fault_record());
 }
 
-}  // namespace m7
+}  // namespace bare

@@ -1,9 +1,9 @@
 // Faults: the handlers, and the record that survives the reset.
-#include "boards/m7/fault_record.hpp"
-#include "boards/m7/registers.hpp"
+#include "boards/bare_metal/fault_record.hpp"
+#include "boards/bare_metal/registers.hpp"
 #include "hal/serial/crc32.hpp"
 
-namespace m7 {
+namespace bare {
 
 /// As memory is when the board is switched on, the check sum is wrong.
 struct Kept {
@@ -12,17 +12,17 @@ struct Kept {
   std::uint32_t sum;
 };
 
-}  // namespace m7
+}  // namespace bare
 
 extern "C" {
-extern m7::Kept kept_fault;  // placed by the linker script, where no start-up touches it
+extern bare::Kept kept_fault;  // placed by the linker script, where no start-up touches it
 extern std::uint32_t fault_stack_top, cycle_stack_limit, cycle_stack_top, work_stack_limit,
     work_stack_top;
 void on_fault();
 [[noreturn]] void keep_fault(const std::uint32_t* frame, std::uint32_t number);
 }
 
-namespace m7 {
+namespace bare {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x7AC7C0DE;
@@ -33,9 +33,11 @@ std::uint32_t sum() {
   return tactus::serial::crc32<sizeof(FaultRecord)>(bytes, sizeof(FaultRecord));
 }
 
-bool within(std::uint32_t address, const std::uint32_t& begin, const std::uint32_t& end) {
-  return address >= reinterpret_cast<std::uintptr_t>(&begin) &&
-         address < reinterpret_cast<std::uintptr_t>(&end);
+/// A core with a stack limit that found no room for a frame has left the stack pointer at the
+/// limit.
+bool above(const std::uint32_t& limit, std::uint32_t address, const std::uint32_t& top) {
+  return address > reinterpret_cast<std::uintptr_t>(&limit) &&
+         address < reinterpret_cast<std::uintptr_t>(&top);
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ void end_with(const FaultRecord& record) {
   }
 }
 
-}  // namespace m7
+}  // namespace bare
 
 /// The stack of the program may be what failed: the handlers have one of their own.
 extern "C" [[gnu::naked, gnu::used]] void on_fault() {
@@ -80,17 +82,18 @@ extern "C" [[gnu::naked, gnu::used]] void on_fault() {
 }
 
 extern "C" [[gnu::used]] void keep_fault(const std::uint32_t* frame, std::uint32_t number) {
-  using namespace m7;
+  using namespace bare;
   constexpr std::uint32_t kNmi = 2, kStackingFailed = 1U << 4, kAddressKnown = 1U << 7;
   constexpr std::uint32_t kMpuViolation = 1U << 1;
+  constexpr std::uint32_t kBelowLimit = 1U << 20;  // of a stack, from Armv8-M on
   FaultRecord record;
   record.cfsr = at(kCfsr);
   record.hfsr = at(kHfsr);
   record.address = at((record.cfsr & kAddressKnown) != 0 ? kMmfar : kBfar);
   record.sp = static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(frame));
-  const bool stacked = within(record.sp, cycle_stack_limit, cycle_stack_top) ||
-                       within(record.sp, work_stack_limit, work_stack_top);
-  const bool full = (record.cfsr & (kStackingFailed | kMpuViolation)) != 0;
+  const bool stacked = above(cycle_stack_limit, record.sp, cycle_stack_top) ||
+                       above(work_stack_limit, record.sp, work_stack_top);
+  const bool full = (record.cfsr & (kStackingFailed | kMpuViolation | kBelowLimit)) != 0;
   if (stacked && (record.cfsr & kStackingFailed) == 0) {
     record.lr = frame[5];
     record.pc = frame[6];
@@ -102,9 +105,9 @@ extern "C" [[gnu::used]] void keep_fault(const std::uint32_t* frame, std::uint32
 }
 
 extern "C" [[noreturn]] void abort() {
-  m7::FaultRecord record;
-  record.cause = m7::FaultCause::kAbort;
+  bare::FaultRecord record;
+  record.cause = bare::FaultCause::kAbort;
   record.pc =
       static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(__builtin_return_address(0)));
-  m7::end_with(record);
+  bare::end_with(record);
 }

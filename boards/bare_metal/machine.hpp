@@ -8,7 +8,7 @@
 #include "kernel/load/loader.hpp"
 #include "program/sim/sim_sections.hpp"
 
-namespace m7 {
+namespace bare {
 
 /// Whole waypoints of a store; packed with positions only it holds almost four times as many. A
 /// path is followed at full speed if the window of its store reaches beyond where the arm can stop:
@@ -69,4 +69,4 @@ class Machine {
   std::uint32_t cycles_ = 0;
 };
 
-}  // namespace m7
+}  // namespace bare

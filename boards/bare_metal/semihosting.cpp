@@ -1,4 +1,4 @@
-#include "boards/m7/semihosting.hpp"
+#include "boards/bare_metal/semihosting.hpp"
 
 namespace semihosting {
 namespace {

@@ -4,11 +4,11 @@
 #include "hal/net/protocol_bytes.hpp"
 #include "kernel/core/status.hpp"
 
-namespace m7 {
+namespace bare {
 
 /// Does what a kProvoke asks for. kNotOffered: this image does not. [background]
 tactus::Status provoke(tactus::ByteReader payload);
 /// Called in every cycle: a place for a provoked one to hang. [cyclic]
 void provoked_cycle();
 
-}  // namespace m7
+}  // namespace bare

@@ -8,7 +8,7 @@
 
 #include "hal/serial/board_link.hpp"
 
-namespace m7 {
+namespace bare {
 
 class SemihostingLink final : public tactus::serial::ByteLink {
  public:
@@ -30,4 +30,4 @@ class SemihostingLink final : public tactus::serial::ByteLink {
   std::size_t size_ = 0;
 };
 
-}  // namespace m7
+}  // namespace bare

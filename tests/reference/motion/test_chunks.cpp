@@ -1,0 +1,311 @@
+// What becomes of chunks: order, epochs, trimming by time, the way through their targets, the end.
+#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/support/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+double sine(double t) {
+  return 0.2 * std::sin(2.0 * t);
+}
+
+// Proves RG-26, RG-29.
+
+/// A policy of 30 targets at 30 Hz every 0.3 s, 0.15 s late, whose chunks agree.
+template <class Space>
+void agreeing_chunks_add_no_delay(double period_s) {
+  ChunkBench<Space> bench(period_s);
+  const int every = bench.cycles(0.3), late = bench.cycles(0.15);
+  double worst = 0.0, behind = 0.0, ahead = 0.0;
+  int standing = 0, longest = 0;
+  for (int k = 0; k < bench.cycles(12.0); ++k) {
+    if (k >= late && (k - late) % every == 0)
+      bench.send_targets((k - late) * period_s, 1.0 / 30.0, 30, bench.signal);
+    bench.cycle();
+    const double t = bench.now_s();
+    if (t < 2.0) continue;
+    const double x = bench.way_now();
+    worst = std::max(worst, std::abs(x - bench.signal(t)));
+    behind += std::pow(x - bench.signal(t - period_s), 2);
+    ahead += std::pow(x - bench.signal(t), 2);
+    const bool stands =
+        std::abs(speed(bench.out())) < 0.02 && std::abs(bench.signal_speed(t)) > 0.2;
+    standing = stands ? standing + 1 : 0;
+    longest = std::max(longest, standing);
+  }
+  assert_true(ahead < behind);  // nearer to the signal now than to that of a cycle ago
+  assert_true(worst < 3e-4);
+  assert_int_equal(longest, 0);
+  assert_int_equal(bench.starved, 0);
+}
+void agreeing_chunks_add_no_delay_and_no_standstill(void**) {
+  for (const double period_s : {1e-3, 2e-3, 8e-3}) {
+    agreeing_chunks_add_no_delay<JointSpace>(period_s);
+    agreeing_chunks_add_no_delay<TaskSpace>(period_s);
+  }
+}
+
+// Proves RG-27.
+
+void a_duplicate_and_an_older_chunk_are_dropped_whole(void**) {
+  ChunkBench<JointSpace> bench, other;
+  for (ChunkBench<JointSpace>* each : {&bench, &other}) {
+    each->chunk.sequence = 6;
+    each->send_targets(0.0, 0.05, 30, sine);
+    each->run(0.1);
+    ASSERT_STATUS(each->last.outcome, Outcome::kExecuted);
+  }
+  bench.chunk.sequence = 6;
+  const std::uint32_t again = bench.send_targets(0.0, 0.05, 30, [](double) { return 0.4; });
+  bench.chunk.sequence = 2;
+  const std::uint32_t older = bench.send_targets(0.2, 0.05, 30, [](double) { return 0.4; });
+  assert_true(again != 0 && older != 0);
+  for (int k = 0; k < 500; ++k) {
+    bench.cycle();
+    other.cycle();
+    assert_true(bench.out().q == other.out().q);
+  }
+  ASSERT_STATUS(bench.last.outcome, Outcome::kSuperseded);
+  assert_int_equal(static_cast<std::uint32_t>(bench.client.stream().dropped), 2);
+}
+
+void a_chunk_without_a_target_ahead_is_late_and_changes_nothing(void**) {
+  ChunkBench<JointSpace> bench, other;
+  for (ChunkBench<JointSpace>* each : {&bench, &other}) {
+    each->chunk.sequence = 0;
+    each->send_targets(0.0, 0.05, 40, sine);
+    each->run(1.0);
+  }
+  bench.send_targets(0.1, 0.05, 10, [](double) { return 0.4; });
+  for (int k = 0; k < 500; ++k) {
+    bench.cycle();
+    other.cycle();
+    assert_true(bench.out().q == other.out().q);
+  }
+  ASSERT_STATUS(bench.last.outcome, Outcome::kRefused);
+  ASSERT_STATUS(bench.last.verdict.status, Status::kChunkLate);
+  ASSERT_NEAR(bench.last.verdict.value, 1.001 - 0.55, 1e-9);
+  assert_int_equal(static_cast<std::uint32_t>(bench.client.stream().late), 1);
+}
+
+/// Until its first stamp the plan before it goes on; what has passed of it is trimmed.
+void a_chunk_takes_effect_from_its_first_stamp_ahead(void**) {
+  for (const double first_s : {1.2, 0.8}) {
+    ChunkBench<JointSpace> bench, other;
+    for (ChunkBench<JointSpace>* each : {&bench, &other}) {
+      each->chunk.sequence = 0;
+      each->send_targets(0.0, 0.05, 40, sine);
+      each->run(1.0);
+    }
+    bench.send_targets(first_s, 0.05, 30, [](double t) { return sine(t) + 0.05; });
+    const double seam_s = std::max(first_s, bench.now_s());
+    for (int k = 0; k < 600; ++k) {
+      bench.cycle();
+      other.cycle();
+      if (bench.now_s() < seam_s - 1e-9) assert_true(bench.out().q == other.out().q);
+    }
+    ASSERT_NEAR(bench.way_now(), sine(bench.now_s()) + 0.05, 1e-3);
+    ASSERT_NEAR(static_cast<double>(static_cast<float>(bench.client.stream().seam)), 0.05, 2e-3);
+    const std::uint32_t trimmed = bench.client.stream().trimmed;
+    assert_int_equal(trimmed, first_s < 1.0 ? 6 : 1);  // one of the first chunk
+  }
+}
+
+void a_stop_voids_the_epoch(void**) {
+  ChunkBench<JointSpace> bench;
+  bench.chunk.epoch = 3;
+  bench.chunk.sequence = 0;
+  bench.send_targets(0.0, 0.05, 60, sine);
+  bench.run(0.5);
+  bench.cancel();
+  bench.run(0.5);
+  assert_true(bench.out().standing());
+  const JointVector rest = bench.out().q;
+  assert_int_equal(static_cast<std::uint32_t>(bench.client.stream().epoch), 4);
+  bench.send_targets(1.0, 0.05, 60, sine);
+  bench.run(0.1);
+  ASSERT_STATUS(bench.last.verdict.status, Status::kEpochVoid);
+  assert_true(bench.out().q == rest);
+  bench.chunk.epoch = 4;
+  bench.send_targets(1.0, 0.05, 60, sine);
+  bench.run(0.5);
+  ASSERT_STATUS(bench.last.outcome, Outcome::kExecuted);
+  bench.brake(Status::kCollision);
+  ASSERT_OK(bench.start(bench.out()));
+  bench.run(0.01);
+  bench.send_targets(0.0, 0.05, 60, sine);
+  bench.run(0.1);
+  ASSERT_STATUS(bench.last.verdict.status, Status::kEpochVoid);
+  assert_true(bench.out().standing());
+}
+
+// Proves RG-28.
+
+/// Without a successor the reference comes to rest at the last target, never turns back, and this
+/// is told before; a later chunk goes on from there.
+template <class Space>
+void starves() {
+  ChunkBench<Space> bench;
+  bench.chunk.sequence = 0;
+  const auto line = [](double t) { return 0.3 * t * t / (0.5 + t); };
+  const std::uint32_t id = bench.send_targets(0.0, 1.0 / 30.0, 31, line);
+  double moving_s = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    bench.cycle();
+    assert_true(speed(bench.out()) >= -1e-12);
+    if (bench.starved == 0) moving_s = bench.now_s();
+  }
+  assert_int_equal(bench.starved, 1);
+  assert_int_equal(bench.starved_id, id);
+  assert_true(moving_s < 1.0);
+  assert_true(bench.out().standing());
+  ASSERT_NEAR(bench.way_now(), line(1.0), 1e-9);
+  bench.send_targets(bench.now_s(), 1.0 / 30.0, 31, [&](double t) { return line(t - 1.0); });
+  bench.run(0.9);
+  ASSERT_NEAR(bench.way_now(), line(bench.now_s() - 1.0), 2e-3);
+}
+void a_plan_that_runs_out_rests_on_its_last_target_and_is_told(void**) {
+  starves<JointSpace>();
+  starves<TaskSpace>();
+}
+
+void a_chunk_that_ends_rests_at_its_last_target(void**) {
+  ChunkBench<JointSpace> bench;
+  bench.chunk.ends = true;
+  bench.send_targets(0.1, 0.05, 21, [](double t) { return 0.1 * t * t * (3.0 - 2.0 * t); });
+  bench.run(1.6);
+  assert_int_equal(bench.starved, 0);
+  assert_true(bench.out().standing());
+  ASSERT_NEAR(bench.way_now(), 0.1 * 1.1 * 1.1 * 0.8, 1e-9);
+}
+
+// Proves RG-31.
+
+/// The benchmark's disagreement: an offset of 15 mrad for each chunk and 1 mrad of noise; without
+/// and with the loss of 30 % of the chunks.
+void disagreement_costs_little_jerk(void**) {
+  for (const double loss : {0.0, 0.3}) {
+    ChunkBench<JointSpace> bench;
+    bench.chunk.smoothing_s = Chunk<JointSpace>().smoothing_s;
+    Dice dice{7};
+    const auto normal = [&] {
+      double sum = -6.0;
+      for (int i = 0; i < 12; ++i) sum += dice.uniform(0.0, 1.0);
+      return sum;
+    };
+    double square = 0.0, step = 0.0;
+    const int cycles = bench.cycles(30.0);
+    for (int k = 0; k < cycles; ++k) {
+      if (k >= 150 && (k - 150) % 300 == 0 && !dice.chance(loss)) {
+        const double offset = 15e-3 * normal();
+        bench.send_targets((k - 150) * 1e-3, 1.0 / 30.0, 30,
+                           [&](double t) { return bench.signal(t) + offset + 1e-3 * normal(); });
+      }
+      const double a = pull(bench.out()), x = bench.way_now();
+      bench.cycle();
+      square += std::pow((pull(bench.out()) - a) / 1e-3, 2);
+      step = std::max(step, std::abs(bench.way_now() - x));
+    }
+    const double jerk = std::sqrt(square / cycles);
+    print_message("loss %.0f %%: rms jerk %.0f rad/s^3, largest step %.2f mrad\n", 100.0 * loss,
+                  jerk, 1e3 * step);
+    assert_true(jerk < 250.0);
+    assert_true(step < 2.2e-3);
+  }
+}
+
+// Proves RG-32.
+
+/// Relative targets count from where the robot was at the observation, not where it is now.
+void relative_targets_count_from_the_observation(void**) {
+  for (const ChunkBase base : {ChunkBase::kMeasured, ChunkBase::kCommanded}) {
+    ChunkBench<TaskSpace> bench;
+    bench.params.feedback_divisor = 10;
+    ASSERT_OK(bench.start(bench.home));
+    bench.chunk.sequence = 0;
+    bench.send_targets(0.0, 0.05, 40, sine);
+    const double lag = 0.01;
+    TaskSpace::Point observed;
+    for (int k = 0; k < 1000; ++k) {
+      TaskSpace::Point measured = bench.out();
+      measured.x.p[2] -= lag;
+      ASSERT_OK(bench.step(measured));
+      Feedback<TaskSpace> feedback;
+      while (bench.client.poll_feedback(feedback)) {
+        if (std::abs(feedback.time_s - 0.7) < 1e-6)
+          observed = base == ChunkBase::kMeasured ? feedback.actual : feedback.desired;
+      }
+    }
+    bench.chunk.base = base;
+    bench.chunk.observed_s = 0.7;
+    bench.chunk.ends = true;
+    bench.chunk.count = 0;
+    ++bench.chunk.sequence;
+    for (int i = 0; i < 20; ++i) {
+      TaskSpace::Point target;  // to 50 mm along the axis of the tip
+      target.x.p[2] = 0.05 * i / 19.0;
+      bench.chunk.add(1.0 + 0.05 * i, target);
+    }
+    assert_true(bench.send_again() != 0);
+    bench.run(1.5);
+    const Vector3 goal = observed.x.p + observed.x.r * Vector3(0.0, 0.0, 0.05);
+    ASSERT_NEAR((bench.out().x.p - goal).norm(), 0.0, 1e-6);
+    bench.chunk.observed_s = -5.0;
+    assert_int_equal(bench.send_again(), 0);
+    ASSERT_STATUS(bench.verdict.status, Status::kReferenceTime);
+    bench.chunk.base = ChunkBase::kAbsolute;
+    bench.chunk.ends = false;
+  }
+}
+
+// Proves RG-26.
+
+void a_chunk_of_one_target_is_a_point(void**) {
+  ChunkBench<JointSpace> bench;
+  MotionBench<JointSpace> other(1e-3);
+  bench.send_targets(0.0, 0.05, 1, [](double) { return 0.3; });
+  other.send(moved_by(other.home, 0.3));
+  for (int k = 0; k < 1500; ++k) {
+    bench.cycle();
+    ASSERT_OK(other.step());
+    assert_true(bench.out().q == other.out().q);
+  }
+  ASSERT_NEAR(bench.way_now(), 0.3, 1e-12);
+}
+
+void a_bad_chunk_is_refused_with_its_place(void**) {
+  ChunkBench<JointSpace> bench;
+  const auto refused = [&](double first, double spacing, int count, double x) {
+    assert_int_equal(bench.send_targets(first, spacing, count, [&](double) { return x; }), 0);
+    return bench.verdict;
+  };
+  ASSERT_STATUS(refused(0.0, 0.05, 0, 0.0).status, Status::kReferenceSize);
+  ASSERT_STATUS(refused(0.0, 1e-4, 3, 0.0).status, Status::kReferenceTime);
+  ASSERT_STATUS(refused(std::nan(""), 0.05, 3, 0.0).status, Status::kReferenceNotFinite);
+  ASSERT_STATUS(refused(0.0, 0.05, 3, std::nan("")).status, Status::kReferenceNotFinite);
+  const Verdict outside = refused(0.0, 0.05, 3, 10.0);
+  ASSERT_STATUS(outside.status, Status::kPositionLimit);
+  assert_true(outside.waypoint == 0 && outside.axis == 0 && outside.value > outside.limit);
+  bench.chunk.fade_s = 0.5;
+  ASSERT_STATUS(refused(0.0, 0.05, 3, 0.0).status, Status::kBadValue);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(agreeing_chunks_add_no_delay_and_no_standstill),
+      cmocka_unit_test(a_duplicate_and_an_older_chunk_are_dropped_whole),
+      cmocka_unit_test(a_chunk_without_a_target_ahead_is_late_and_changes_nothing),
+      cmocka_unit_test(a_chunk_takes_effect_from_its_first_stamp_ahead),
+      cmocka_unit_test(a_stop_voids_the_epoch),
+      cmocka_unit_test(a_plan_that_runs_out_rests_on_its_last_target_and_is_told),
+      cmocka_unit_test(a_chunk_that_ends_rests_at_its_last_target),
+      cmocka_unit_test(disagreement_costs_little_jerk),
+      cmocka_unit_test(relative_targets_count_from_the_observation),
+      cmocka_unit_test(a_chunk_of_one_target_is_a_point),
+      cmocka_unit_test(a_bad_chunk_is_refused_with_its_place),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
