@@ -48,6 +48,8 @@ bool Client::connect() {
   const std::string address =
       options_.connect.empty() ? default_address().c_str() : options_.connect;
   if (!connection_.open(address, options_.timeout_ms)) return lose(connection_.error());
+  if (!options_.key.empty() && !connection_.encrypt(options_.key, options_.timeout_ms))
+    return lose(connection_.error());
   ToServer request;
   request.mutable_hello()->set_version(VERSION_PRESENT);
   request.mutable_hello()->set_client(options_.name);

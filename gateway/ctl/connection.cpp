@@ -110,6 +110,10 @@ bool Connection::send(const ToServer& message, int timeout_ms) {
   message.AppendToString(&bytes);
   const std::size_t length = bytes.size() - kHead;
   for (std::size_t i = 0; i < kHead; ++i) bytes[i] = static_cast<char>(length >> (8 * i) & 0xff);
+  return send_all(tunnel_ ? tunnel_->seal(bytes) : bytes, timeout_ms);
+}
+
+bool Connection::send_all(const std::string& bytes, int timeout_ms) {
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t taken = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
     if (taken > 0) {
@@ -121,6 +125,31 @@ bool Connection::send(const ToServer& message, int timeout_ms) {
     }
   }
   return true;
+}
+
+bool Connection::receive_exactly(std::string& bytes, std::size_t count, int timeout_ms) {
+  bytes.assign(count, '\0');
+  for (std::size_t have = 0; have < count;) {
+    if (!wait_for(socket_, POLLIN, timeout_ms)) return false;
+    const ssize_t got = recv(socket_, bytes.data() + have, count - have, 0);
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return false;
+    have += got > 0 ? static_cast<std::size_t>(got) : 0;
+  }
+  return true;
+}
+
+bool Connection::encrypt(const std::string& key_file, int timeout_ms) {
+  Key key;
+  Message why;
+  if (!read_key(key_file.c_str(), key, why)) return fail(std::string(why.c_str()));
+  ClientTunnel& tunnel = tunnel_.emplace();
+  const std::string hello = tunnel.hello();
+  std::string answer;
+  const bool agreed = !hello.empty() && send_all(hello, timeout_ms) &&
+                      receive_exactly(answer, ClientTunnel::kAnswerBytes, timeout_ms) &&
+                      send_all(tunnel.agree(key, answer), timeout_ms);
+  sodium_memzero(key.data(), key.size());
+  return agreed || fail("the server does not answer to a key; is it started with --key?");
 }
 
 bool Connection::take_message(ToClient& message, Got& got) {
@@ -144,7 +173,11 @@ Connection::Got Connection::receive(ToClient& message) {
     char bytes[4096];
     const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
     if (count > 0) {
-      received_.append(bytes, static_cast<std::size_t>(count));
+      (tunnel_ ? sealed_ : received_).append(bytes, static_cast<std::size_t>(count));
+      if (tunnel_ && !tunnel_->open(sealed_, received_)) {
+        fail("the server does not have this key, or somebody has changed what it sent");
+        return Got::kGone;
+      }
     } else if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
       return Got::kNothing;
     } else {

@@ -5,7 +5,10 @@
 #include <tactus.pb.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "gateway/ctl/client_tunnel.hpp"
 
 namespace tactus::ctl {
 
@@ -20,6 +23,8 @@ class Connection {
 
   /// Connects to unix:PATH or tcp:HOST:PORT within a time. False: error() says why.
   bool open(const std::string& address, int timeout_ms);
+  /// Encrypts the connection with the key in a file. False: error() says why.
+  bool encrypt(const std::string& key_file, int timeout_ms);
   void close();
   /// Sends a message; waits at most `timeout_ms` for a server that does not read. False: gone.
   bool send(const ToServer& message, int timeout_ms);
@@ -37,10 +42,13 @@ class Connection {
   bool open_tcp(const std::string& host, const std::string& port, int timeout_ms);
   bool connect_within(const void* address, std::size_t size, int timeout_ms);
   bool fail(const std::string& reason);
+  bool send_all(const std::string& bytes, int timeout_ms);
+  bool receive_exactly(std::string& bytes, std::size_t count, int timeout_ms);
   bool take_message(ToClient& message, Got& got);
 
   int socket_ = -1;
-  std::string received_, error_;
+  std::string sealed_, received_, error_;
+  std::optional<ClientTunnel> tunnel_;
 };
 
 }  // namespace tactus::ctl

@@ -3,7 +3,7 @@
 CTL          := build/ctl$(HOW)
 CTL_SEAM     := gateway/ctl/options.cpp
 CTL_PARTS    := $(filter-out %/main.cpp,$(wildcard gateway/ctl/*.cpp gateway/ctl/retime/*.cpp)) gateway/csv_cells.cpp \
-                gateway/line_reader.cpp gateway/sockets/address.cpp kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp
+                gateway/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))
 CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
@@ -13,7 +13,7 @@ CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS))
 
 $(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lprotobuf
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lprotobuf -lsodium
 $(CTL)/libctl.a: $(call ctl_obj,$(CTL_PARTS)) $(CTL)/proto/tactus.pb.o
 $(CTL)/proto/tactus.pb.cc: gateway/tactus.proto
 	$(call say,PROTO $<)

@@ -70,6 +70,7 @@ void add_connection(CLI::App& verb, Options& o) {
           "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that "
           "of tactus serve)")
       ->envname("TACTUS_SOCKET");
+  verb.add_option("--key", o.key, "key file, for a server that was started with one");
   verb.add_option("--name", o.name, "name that others see (default tactusctl-<process>)")
       ->check(CLI::Validator(
           [](std::string& text) {

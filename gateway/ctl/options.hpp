@@ -32,6 +32,7 @@ enum Exit : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2, kNoConnecti
 struct Options {
   Verb verb = Verb::kInfo;
   std::string connect;  ///< unix:PATH or tcp:HOST:PORT; empty: where tactus serve listens
+  std::string key;      ///< file; empty: none
   std::string name;     ///< of this client, for people
   bool json = false;
   int timeout_ms = 5000;  ///< longest wait for the server
