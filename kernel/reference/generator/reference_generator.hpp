@@ -113,7 +113,6 @@ class ReferenceGenerator {
   Verdict judge_point(const Point& point) const;
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
-  void take_other(const Request<Space>& request);
   void take_append(const Request<Space>& request);
   void take_stream(const Request<Space>& request);
   void take_chunk(const Request<Space>& request);

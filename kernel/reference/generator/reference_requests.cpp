@@ -88,7 +88,10 @@ void ReferenceGenerator<Space>::take_requests() {
     if (answered(request)) continue;
     if (request.kind != RequestKind::kPoint) {
       if (point != nullptr) take_point(*point);
-      take_other(request);
+      if (kStreams && request.kind >= RequestKind::kChunk)
+        take_stream(request);
+      else
+        request.kind == RequestKind::kTrajectory ? take_trajectory(request) : take_append(request);
       if (point != nullptr) return;
     } else {
       if (point != nullptr) report(point->id, Outcome::kSuperseded);
@@ -96,13 +99,6 @@ void ReferenceGenerator<Space>::take_requests() {
     }
   }
   if (point != nullptr) take_point(*point);
-}
-
-template <class Space>
-void ReferenceGenerator<Space>::take_other(const Request<Space>& request) {
-  if (request.kind == RequestKind::kTrajectory) return take_trajectory(request);
-  if (request.kind == RequestKind::kAppend) return take_append(request);
-  take_stream(request);
 }
 
 /// True if the request is answered whatever its kind: it was sent before the start or before the
