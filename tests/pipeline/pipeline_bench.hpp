@@ -45,8 +45,9 @@ struct PipelineBench {
   ReferenceClient<JointSpace> client{channel};
   ReferenceClient<TaskSpace> task_client{task_channel};
   std::string text;
-  Session session{"test",   0,      {},          hal,           pipeline,       executive,
-                  recorder, client, task_client, board.gateway, board.realtime, board.expect};
+  Session session{"test",        true,           0,           {},     hal,
+                  pipeline,      executive,      recorder,    client, task_client,
+                  board.gateway, board.realtime, board.expect};
   TrajectoryInput input;
   Report report;  ///< the last one
   std::int64_t cycles = 0;

@@ -32,8 +32,9 @@ struct SquareBench {
   Recorder recorder{nullptr, 0};
   ReferenceClient<JointSpace> client{channel};
   ReferenceClient<TaskSpace> task_client{task_channel};
-  Session session{"test",   0,      {},          hal,           pipeline,       executive,
-                  recorder, client, task_client, board.gateway, board.realtime, board.expect};
+  Session session{"test",        false,          0,           {},     hal,
+                  pipeline,      executive,      recorder,    client, task_client,
+                  board.gateway, board.realtime, board.expect};
   TrajectoryInput input;
   std::string text;
   std::int64_t cycles = 0;
