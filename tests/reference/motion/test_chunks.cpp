@@ -76,6 +76,22 @@ void a_plan_that_runs_out_rests_on_its_last_target_and_is_told(void**) {
   starves<TaskSpace>();
 }
 
+/// A successor that begins only at the end of the plan, or a little later, keeps it going.
+void a_successor_that_waits_keeps_the_plan_going(void**) {
+  for (const double gap_s : {-0.05, 0.0, 0.1}) {
+    ChunkBench<JointSpace> bench;
+    const auto line = [](double t) { return 0.5 * t; };
+    bench.chunk.sequence = 0;
+    bench.send_targets(0.0, 0.05, 21, line);
+    bench.run(0.5);
+    bench.send_targets(1.0 + gap_s, 0.05, 21, line);
+    bench.run(1.0);
+    assert_int_equal(bench.starved, 0);
+    ASSERT_NEAR(speed(bench.out()), 0.5, 1e-9);
+    ASSERT_NEAR(bench.way_now(), line(bench.now_s()), 1e-9);
+  }
+}
+
 void a_chunk_that_ends_rests_at_its_last_target(void**) {
   ChunkBench<JointSpace> bench;
   bench.chunk.ends = true;
@@ -171,6 +187,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(agreeing_chunks_add_no_delay_and_no_standstill),
       cmocka_unit_test(a_plan_that_runs_out_rests_on_its_last_target_and_is_told),
+      cmocka_unit_test(a_successor_that_waits_keeps_the_plan_going),
       cmocka_unit_test(a_chunk_that_ends_rests_at_its_last_target),
       cmocka_unit_test(disagreement_costs_little_jerk),
       cmocka_unit_test(relative_targets_count_from_the_observation),
