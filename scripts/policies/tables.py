@@ -1,0 +1,70 @@
+"""The tables of the benchmark, as text that is also Markdown."""
+
+from bounds import judge, place
+
+COLUMNS = (
+    ("max step mrad/ms", lambda row: number(row["step_mrad_ms"])),
+    ("jerk rms rad/s3", lambda row: number(row["jerk_rms"])),
+    ("of v limit", lambda row: number(row["shares"][0])),
+    ("of a limit", lambda row: number(row["shares"][1])),
+    ("of j limit", lambda row: number(row["shares"][2])),
+    ("standstill 1/s", lambda row: number(row["standstills"])),
+    ("delay ms", lambda row: number(row["delay_ms"], 1)),
+    ("residual mrad", lambda row: number(row["residual_mrad"], 1)),
+    ("SPARC", lambda row: number(row.get("sparc"), 2)),
+    ("LDLJ", lambda row: number(row.get("ldlj"), 1)),
+    ("reaction ms", lambda row: number(row.get("reaction_ms"), 0)),
+)
+
+
+def number(value, places=None):
+    """Returns a number with three digits, or with some places; a dash for none."""
+    if value is None:
+        return "-"
+    if places is not None:
+        return f"{value:.{places}f}"
+    return f"{value:.1e}" if abs(value) >= 10000 else f"{value:.3g}"
+
+
+def lines(head, rows):
+    """Returns a table with columns of equal width."""
+    cells = [head, *rows]
+    widths = [max(len(row[k]) for row in cells) for k in range(len(head))]
+    text = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |" for row in cells]
+    return [text[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *text[1:]]
+
+
+def by_executor(rows, scenario):
+    """Returns the table of one scenario: every executor on the joints of the first robot."""
+    chosen = [row for row in rows if row["scenario"] == scenario and row["space"] == "joint"]
+    chosen = [row for row in chosen if row["robot"] == chosen[0]["robot"] and row["period_us"] == 1000]
+    columns = [column for column in COLUMNS if any(column[1](row) != "-" for row in chosen)]
+    table = [[row["executor"], *(value(row) for _, value in columns)] for row in chosen]
+    return [f"{scenario}, {chosen[0]['robot']}:", *lines(["executor", *(name for name, _ in columns)], table)]
+
+
+def ours(rows):
+    """Returns the table of ours on every scenario, robot and space: the worst over its periods."""
+    groups = {}
+    for row in rows:
+        if row["executor"] == "ours":
+            groups.setdefault((row["scenario"], row["robot"], row["space"]), []).append(row)
+    table = []
+    for key, group in groups.items():
+        worst = [max(row["shares"][k] for row in group) for k in range(3)]
+        others = [max((abs(row[name]) for row in group)) for name in ("standstills", "delay_ms", "residual_mrad", "jerk_rms")]
+        table.append([*key, *(number(value) for value in (*worst, *others))])
+    head = ["scenario", "robot", "space", "of v limit", "of a limit", "of j limit", "standstill 1/s", "delay ms"]
+    return lines([*head, "residual mrad", "jerk rms rad/s3"], table) if table else []
+
+
+def verdicts(rows):
+    """Returns the bounds beside what was seen, and every result beyond one."""
+    judged = judge(rows)
+    table = [
+        [name, number(limit), number(value), place(worst), "yes" if not beyond else f"NO: {len(beyond)} results"]
+        for name, worst, value, limit, beyond in judged
+    ]
+    text = lines(["ours", "expected", "worst seen", "where", "kept"], table) if table else ["ours: not run"]
+    text += [f"beyond: {name}: {number(value)} in {place(row)}" for name, *_, beyond in judged for row, value in beyond]
+    return text
