@@ -1,7 +1,8 @@
 """The executors that the benchmark compares with: what stacks in use do with chunks, each reduced to its idea.
 
-An executor is a function of the chunks in the order of their arrival, the times of the control cycles, and the position
-at rest at time 0. It returns the command of every cycle. None knows a limit, except where its name says so.
+An executor is a function of the chunks in the order of their arrival, the times of the control cycles, the position at
+rest at time 0, and the rate of the points. It returns the command of every cycle. None knows a limit, except the
+trapezoid.
 
 Two kinds: queues take one step of a chunk per action period; splices keep a plan for all coming cycles and change it
 when a chunk arrives. No executor takes a chunk older than the one it has, except `blended`, which is true to its source.

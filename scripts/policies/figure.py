@@ -22,6 +22,7 @@ STYLE = {
 COLOURS = {"0.3/0.7, linear": "#ccaa22", "same, trapezoid": "#bb4488", "cubic, crossfade": "#339944", OURS: "#4477aa"}
 OTHER = "#aaaaaa"
 LIMIT = {"linewidth": 1.0, "linestyle": (0, (6, 2)), "color": "#a01c10"}
+GRID = {"hspace": 0.3, "wspace": 0.45, "left": 0.17, "right": 0.98, "top": 0.97, "bottom": 0.06}
 EXCERPT_S = (10.0, 12.0)
 
 
@@ -31,13 +32,14 @@ def excerpt(axes, rows, tasks, scenario, order, label, factor=1.0):
     for executor, colour in COLOURS.items():
         if executor not in drawn:
             continue
-        case, program, folder = next(
-            task for task in tasks if task[0].scenario == scenario and task[0].executor == executor and task[0].period_us == 1000
-        )
+        drawn_by = dict(scenario=scenario, executor=executor, period_us=1000)
+        case, program, folder = next(task for task in tasks if drawn_by.items() <= vars(task[0]).items())
         run = execute(case, Robot(program), folder)
-        values = run.q[:, 0] - run.intent[:, 0] if order == 0 else np.gradient(np.gradient(run.q[:, 0], run.dt), run.dt)
+        q = run.q[:, 0]
+        values = q - run.intent[:, 0] if order == 0 else np.gradient(np.gradient(q, run.dt), run.dt)
         shown = (run.t >= EXCERPT_S[0]) & (run.t < EXCERPT_S[1])
-        axes.plot(run.t[shown], factor * values[shown], color=colour, linewidth=1.4 if executor == OURS else 0.9, label=executor)
+        width = 1.4 if executor == OURS else 0.9
+        axes.plot(run.t[shown], factor * values[shown], color=colour, linewidth=width, label=executor)
         if order == 2:
             limit = Robot(program).limits("joint")[1][0]
             for side in (-limit, limit):
@@ -45,14 +47,17 @@ def excerpt(axes, rows, tasks, scenario, order, label, factor=1.0):
             axes.set_ylim(-2.5 * limit, 2.5 * limit)
     axes.set_xlabel("time [s]")
     axes.set_ylabel(label)
-    axes.legend(loc="upper right", fontsize=7)
+    if drawn:
+        axes.legend(loc="upper right", fontsize=7)
 
 
 def bars(axes, rows, scenario, value, label, limit, log):
     """Draws one bar per executor, with the bound that ours is to keep."""
-    chosen = [row for row in rows if row["scenario"] == scenario and row["space"] == "joint" and row["period_us"] == 1000]
-    chosen = [row for row in chosen if row["robot"] == rows[0]["robot"]]
+    shown = dict(scenario=scenario, space="joint", period_us=1000, robot=rows[0]["robot"])
+    chosen = [row for row in rows if shown.items() <= row.items()]
     names = [row["executor"] for row in chosen]
+    if not chosen:
+        return
     axes.barh(names, [value(row) for row in chosen], color=[COLOURS.get(name, OTHER) for name in names], height=0.7)
     axes.invert_yaxis()
     axes.set_xscale("log" if log else "linear")
@@ -60,18 +65,21 @@ def bars(axes, rows, scenario, value, label, limit, log):
     axes.set_xlabel(label)
 
 
+# Scenario, row and column of a panel, what its bars are, its label, the bound, whether its scale is logarithmic.
+BARS = (
+    ("sheet", 1, 0, lambda row: row["jerk_rms"], "jerk rms, 15 mrad of disagreement [rad/s3]", JERK_RMS, True),
+    ("loss 30 %", 1, 1, lambda row: row["step_mrad_ms"], "largest step, 30 % of chunks lost [mrad/ms]", STEP, True),
+    ("sheet", 2, 0, lambda row: row["shares"][1], "acceleration, share of its limit", 1.0, True),
+    ("agree", 2, 1, lambda row: row["delay_ms"], "delay on chunks that agree [ms]; one cycle dashed", 1.0, False),
+)
+
+
 def draw(figure, rows, tasks):
-    scenarios = {row["scenario"] for row in rows}
-    parts = figure.subplots(3, 2, gridspec_kw={"hspace": 0.35, "wspace": 0.5, "left": 0.12, "right": 0.98, "top": 0.97, "bottom": 0.06})
-    if "sheet" in scenarios:
-        excerpt(parts[0, 0], rows, tasks, "sheet", 0, "command - intent [mrad]", 1e3)
-        excerpt(parts[0, 1], rows, tasks, "sheet", 2, "acceleration [rad/s2]; limit dashed")
-        bars(parts[1, 0], rows, "sheet", lambda row: row["jerk_rms"], "jerk rms, 15 mrad of disagreement [rad/s3]", JERK_RMS, True)
-        bars(parts[2, 0], rows, "sheet", lambda row: row["shares"][1], "acceleration, share of its limit", 1.0, True)
-    if "loss 30 %" in scenarios:
-        bars(parts[1, 1], rows, "loss 30 %", lambda row: row["step_mrad_ms"], "largest step, 30 % of chunks lost [mrad/ms]", STEP, True)
-    if "agree" in scenarios:
-        bars(parts[2, 1], rows, "agree", lambda row: row["delay_ms"], "delay on chunks that agree [ms]; one cycle dashed", 1.0, False)
+    parts = figure.subplots(3, 2, gridspec_kw=GRID)
+    excerpt(parts[0, 0], rows, tasks, "sheet", 0, "command - intent [mrad]", 1e3)
+    excerpt(parts[0, 1], rows, tasks, "sheet", 2, "acceleration [rad/s2]; limit dashed")
+    for scenario, line, column, *of_bars in BARS:
+        bars(parts[line, column], rows, scenario, *of_bars)
 
 
 def write_figure(rows, tasks, out):

@@ -15,7 +15,14 @@ SETTLED_S = 2.0  # of the beginning is not measured, except for our limits and w
 GRACE_S = 0.1  # before chunks run out, and after they come again: rests there are no standstills
 BASELINE_DT = 1e-3
 INTENT, OURS = "intent", "ours"
-REPLAYED = {"rest per target": "rest", "point per target": "stream", OURS: None}  # executor: mode; None: the space
+# Executors of the replay program: its mode, None for that of the space, and its settings, fade and smoothing in s.
+REPLAYED = {
+    "rest per target": ("rest",),
+    "point per target": ("stream",),
+    OURS: (None, 0.3, 0.03),
+    "ours, not smoothed": (None, 0.3, 0.0),
+    "ours, no fade": (None, 0.0, 0.03),
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,24 +38,24 @@ class Case:
     duration_s: float | None = None
 
 
-def jerk_of(command, dt):
-    """Returns the jerk of a replay, from its accelerations."""
-    return np.diff(command.ddq, axis=0) / dt
-
-
 def shares(q, dt, limits):
-    """Returns the largest shares of the limits of velocity, acceleration and jerk, each of its worst axis."""
+    """Returns the largest shares of the limits of velocity, acceleration and jerk in the differences of positions."""
     return [float((metrics.largest(metrics.derivative(q, dt, k + 1)) / limits[k]).max()) for k in range(3)]
 
 
-def length_shares(command, dt, limits):
-    """Returns the same for a tip, whose limits are those of lengths, of translation and of rotation."""
+def commanded_shares(command, dt, limits, tip):
+    """Returns the largest shares in what was commanded: velocities, accelerations, and their differences.
+
+    The limits of a tip are those of lengths, of translation and of rotation.
+    """
 
     def share(rows, limit):
-        parts = rows.reshape(-1, 2, 3)
-        return float((np.linalg.norm(parts, axis=2).max(axis=0) / limit[[0, 3]]).max())
+        if not tip:
+            return float((metrics.largest(rows) / limit).max())
+        return float((np.linalg.norm(rows.reshape(-1, 2, 3), axis=2).max(axis=0) / limit[[0, 3]]).max())
 
-    return [share(rows, limit) for rows, limit in zip((command.dq, command.ddq, jerk_of(command, dt)), limits)]
+    jerk = np.diff(command.ddq, axis=0) / dt
+    return [share(rows, limit) for rows, limit in zip((command.dq, command.ddq, jerk), limits)]
 
 
 def counted(made, t):
@@ -107,8 +114,9 @@ def execute(case, robot, folder):
     t = np.arange(int(round(scenario.duration_s / dt))) * dt
     intent, command = robot.intent(scenario, case.space).at(t), None
     if replayed:
-        mode = REPLAYED[case.executor]
-        command = robot.replay(chunk_file(case, folder), case.space, case.period_us, scenario.duration_s, mode)
+        mode, *settings = REPLAYED[case.executor]
+        rows = chunk_file(case, folder)
+        command = robot.replay(mode or case.space, rows, case.space, case.period_us, scenario.duration_s, settings)
         q = command.q
     elif case.executor == INTENT:
         q = intent
@@ -122,7 +130,7 @@ def measure(case, robot, folder):
     scenario, run, limits = scenario_of(case), execute(case, robot, folder), robot.limits(case.space)
     t, dt, command = run.t, run.dt, run.command
     settled = slice(0 if scenario.first_s else int(round(SETTLED_S / dt)), None)
-    u, r = run.q[settled], run.intent[settled]
+    u, r, counts = run.q[settled], run.intent[settled], counted(run.made, t)[settled]
     delays, remains = metrics.delay(u, r, dt)
     result = dict(
         dataclasses.asdict(case),
@@ -130,25 +138,21 @@ def measure(case, robot, folder):
         chunks=len(run.made),
         step_mrad_ms=float(metrics.largest(metrics.derivative(u, dt, 1)).max()),
         jerk_rms=float(metrics.rms(metrics.derivative(u, dt, 3)).max()),
-        standstills=float(metrics.standstills(u, r, dt, counted(run.made, t)[settled]).max()),
+        standstills=float(metrics.standstills(u, r, dt, counts)),
+        axis_rests=float(metrics.axis_rests(u, r, dt, counts).max()),
         delay_ms=1e3 * float(delays[np.argmax(np.abs(delays))]),
         residual_mrad=1e3 * float(remains.max()),
         uncovered=float(1.0 - covered(run.made, t)[settled].mean()),
         **smoothness(run.q, dt, scenario),
     )
-    if case.space == "task":
-        result["shares"] = length_shares(command, dt, limits)
-    else:
-        result["shares"] = shares(run.q if case.executor == OURS else u, dt, limits)
+    tip = case.space == "task"
+    # Limits of a tip are those of lengths: differences of its rotation vector are no angular accelerations.
+    result["differences"] = [float("nan")] * 3 if tip else shares(u, dt, limits)
+    result["shares"] = result["differences"]
     if command is not None:
-        result.update(counts=command.counts, inconsistency=inconsistency(command, dt))
+        result["shares"] = commanded_shares(command, dt, limits, tip)
+        result.update(counts=command.counts)
     if scenario.switch_s:
         before = robot.intent(scenario, case.space).at(t, known_s=0.0)
         result["reaction_ms"] = 1e3 * float(metrics.reaction(run.q, before, run.intent, t, scenario.switch_s).max())
     return result
-
-
-def inconsistency(command, dt):
-    """Returns how far the reported velocity is from the differences of the positions, as a share of its largest value."""
-    mean = 0.5 * (command.dq[1:] + command.dq[:-1])
-    return float(np.max(np.abs(np.diff(command.q, axis=0) / dt - mean)) / np.max(np.abs(command.dq)))

@@ -31,15 +31,29 @@ def runs(flags):
     return edges.reshape(-1, 2)
 
 
-def standstills(u, reference, dt, counted):
-    """Returns how often a second every axis rests while its reference moves, where `counted` is true.
+def still(u, reference, dt, counted):
+    """Returns, for every cycle and axis, whether the axis rests while its reference moves, and `counted` is true."""
+    moving = np.abs(derivative(reference, dt, 1)) > MOVING_RAD_S
+    return (np.abs(derivative(u, dt, 1)) < STILL_RAD_S) & moving & counted[1:, None]
 
-    A rest lasts at least 8 ms below 0.02 rad/s while the reference exceeds 0.2 rad/s.
+
+def rests(flags, dt):
+    """Returns how often a second a flag is set for at least 8 ms."""
+    return sum((end - begin) * dt >= STILL_S - 1e-9 for begin, end in runs(flags)) / (len(flags) * dt)
+
+
+def axis_rests(u, reference, dt, counted):
+    """Returns how often a second every axis rests for at least 8 ms while its reference moves.
+
+    An axis also rests where it makes up for a disagreement against the direction of a slow reference.
     """
-    v, moving = derivative(u, dt, 1), np.abs(derivative(reference, dt, 1)) > MOVING_RAD_S
-    still = (np.abs(v) < STILL_RAD_S) & moving & counted[1:, None]
-    rests = [sum((end - begin) * dt >= STILL_S - 1e-9 for begin, end in runs(axis)) for axis in still.T]
-    return np.array(rests) / (len(u) * dt)
+    return np.array([rests(flags, dt) for flags in still(u, reference, dt, counted).T])
+
+
+def standstills(u, reference, dt, counted):
+    """Returns how often a second all axes rest for at least 8 ms while the reference of one of them moves."""
+    slow = np.all(np.abs(derivative(u, dt, 1)) < STILL_RAD_S, axis=1)
+    return rests(slow & np.any(still(u, reference, dt, counted), axis=1), dt)
 
 
 def delay(u, reference, dt):

@@ -1,4 +1,4 @@
-"""The robots of the benchmark: limits, where it begins, and replays through the kernel, by the board's replay program."""
+"""The robots of the benchmark: their limits, where it begins, and replays, by the replay program of a board."""
 
 import dataclasses
 import json
@@ -57,7 +57,8 @@ class Robot:
     def call(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, check=False)
         if done.returncode:
-            raise ReplayError(f"{self.program} {' '.join(map(str, arguments))}: exit code {done.returncode}\n{done.stderr}")
+            call = " ".join(map(str, [self.program, *arguments]))
+            raise ReplayError(f"{call}: exit code {done.returncode}\n{done.stderr}")
         return done.stdout
 
     def limits(self, space):
@@ -100,11 +101,11 @@ class Robot:
         joints = [f"q{i + 1}_rad" for i in range(len(self.facts["home"]))]
         chunk_files.write(path, moved, joints if space == "joint" else ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"])
 
-    def replay(self, path, space, period_us, duration_s, mode=None):
-        """Replays a file of chunks through the kernel, and returns the command, relative to home."""
+    def replay(self, mode, path, space, period_us, duration_s, settings=()):
+        """Replays a file of chunks, and returns the command, relative to home."""
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "command"
-            said = self.call(mode or space, path, period_us, duration_s, out)
+            said = self.call(mode, path, period_us, duration_s, out, *settings)
             axes = len(self.home(space))
             table = np.fromfile(out).reshape(-1, 3 * axes + 2)
         q, dq, ddq = (table[:, 1 + k * axes : 1 + (k + 1) * axes] for k in range(3))

@@ -9,12 +9,15 @@ COLUMNS = (
     ("of a limit", lambda row: number(row["shares"][1])),
     ("of j limit", lambda row: number(row["shares"][2])),
     ("standstill 1/s", lambda row: number(row["standstills"])),
+    ("one axis rests 1/s", lambda row: number(row["axis_rests"])),
     ("delay ms", lambda row: number(row["delay_ms"], 1)),
     ("residual mrad", lambda row: number(row["residual_mrad"], 1)),
     ("SPARC", lambda row: number(row.get("sparc"), 2)),
     ("LDLJ", lambda row: number(row.get("ldlj"), 1)),
     ("reaction ms", lambda row: number(row.get("reaction_ms"), 0)),
 )
+
+WORST = ("standstills", "axis_rests", "delay_ms", "residual_mrad", "jerk_rms")
 
 
 def number(value, places=None):
@@ -52,10 +55,11 @@ def ours(rows):
     table = []
     for key, group in groups.items():
         worst = [max(row["shares"][k] for row in group) for k in range(3)]
-        others = [max((abs(row[name]) for row in group)) for name in ("standstills", "delay_ms", "residual_mrad", "jerk_rms")]
+        others = [max(abs(row[name]) for row in group) for name in WORST]
         table.append([*key, *(number(value) for value in (*worst, *others))])
-    head = ["scenario", "robot", "space", "of v limit", "of a limit", "of j limit", "standstill 1/s", "delay ms"]
-    return lines([*head, "residual mrad", "jerk rms rad/s3"], table) if table else []
+    head = ["scenario", "robot", "space", "of v limit", "of a limit", "of j limit", "standstill 1/s"]
+    head += ["one axis rests 1/s", "delay ms", "residual mrad", "jerk rms rad/s3"]
+    return lines(head, table) if table else []
 
 
 def verdicts(rows):

@@ -1,7 +1,7 @@
 // policy_replay describe: prints the robot's limits and where the benchmark begins, as JSON.
-// policy_replay joint|task|rest CHUNKS PERIOD_US DURATION_S OUT: replays the chunks of a file
-// through the kernel (joint, task) or as a move to rest per target (rest), and prints counts as
-// JSON.
+// policy_replay MODE CHUNKS PERIOD_US DURATION_S OUT [FADE_S SMOOTHING_S]: replays the chunks of a
+// file: whole through the kernel (joint, task), or the targets that are due (rest, stream). Exit
+// code 1: a fault in the replay; 2: mistakes in the arguments or the file.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -44,7 +44,10 @@ struct Mode {
   int positions;  // numbers per position
   bool (*replay)(const std::vector<ChunkMessage>&, const Replay&);
 };
-constexpr Mode kModes[] = {{"rest", kDof, replay_rest}, {"stream", kDof, replay_stream}};
+constexpr Mode kModes[] = {{"joint", kDof, replay_chunks<JointSpace>},
+                           {"task", 7, replay_chunks<TaskSpace>},
+                           {"rest", kDof, replay_rest},
+                           {"stream", kDof, replay_stream}};
 
 const Mode* mode_of(const char* name) {
   for (const Mode& mode : kModes)
@@ -56,12 +59,18 @@ const Mode* mode_of(const char* name) {
 
 int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "describe") == 0) return describe();
-  const Mode* const mode = argc == 6 ? mode_of(argv[1]) : nullptr;
+  const Mode* const mode = argc == 6 || argc == 8 ? mode_of(argv[1]) : nullptr;
   if (mode == nullptr) {
-    std::fprintf(stderr, "usage: policy_replay describe | MODE CHUNKS PERIOD_US DURATION_S OUT\n");
+    std::fprintf(stderr,
+                 "usage: policy_replay describe | MODE CHUNKS PERIOD_US DURATION_S OUT "
+                 "[FADE_S SMOOTHING_S]\n");
     return 2;
   }
-  const Replay replay = {std::atoll(argv[3]), std::atof(argv[4]), argv[5]};
+  Replay replay = {std::atoll(argv[3]), std::atof(argv[4]), argv[5]};
+  if (argc == 8) {
+    replay.fade_s = std::atof(argv[6]);
+    replay.smoothing_s = std::atof(argv[7]);
+  }
   std::vector<ChunkMessage> chunks;
   if (!read_chunks(argv[2], mode->positions, chunks)) return 2;
   if (chunks.empty() || replay.period_us <= 0) {

@@ -12,6 +12,8 @@ struct Replay {
   std::int64_t period_us = 1000;
   double duration_s = 0.0;
   const char* out = nullptr;  ///< the file for what is commanded, see recording.hpp
+  double fade_s = 0.2;        ///< of chunks, see gateway/chunk.hpp
+  double smoothing_s = 0.0;
 
   double period_s() const { return 1e-6 * static_cast<double>(period_us); }
   int cycles() const { return static_cast<int>(duration_s / period_s() + 0.5); }
@@ -26,5 +28,8 @@ struct Replay {
 bool replay_rest(const std::vector<ChunkMessage>& chunks, const Replay& replay);
 /// Sends every target that is due as a point.
 bool replay_stream(const std::vector<ChunkMessage>& chunks, const Replay& replay);
+/// Sends every chunk when it arrives, and prints what became of them.
+template <class Space>
+bool replay_chunks(const std::vector<ChunkMessage>& messages, const Replay& replay);
 
 }  // namespace tactus
