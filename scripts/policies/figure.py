@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from bounds import JERK_RMS, STEP
 from measures import OURS, execute
 from robots import Robot
+from tables import on_joints
 
 STYLE = {
     "font.size": 8,
@@ -53,8 +54,7 @@ def excerpt(axes, rows, tasks, scenario, order, label, factor=1.0):
 
 def bars(axes, rows, scenario, value, label, limit, log):
     """Draws one bar per executor, with the bound that ours is to keep."""
-    shown = dict(scenario=scenario, space="joint", period_us=1000, robot=rows[0]["robot"])
-    chosen = [row for row in rows if shown.items() <= row.items()]
+    chosen = [row for row in on_joints(rows) if row["scenario"] == scenario]
     names = [row["executor"] for row in chosen]
     if not chosen:
         return

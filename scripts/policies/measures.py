@@ -103,7 +103,8 @@ def chunks_of(case, robot):
 
 def chunk_file(case, folder):
     """Returns the file of its chunks."""
-    return pathlib.Path(folder) / f"{case.scenario}-{case.robot}-{case.space}.csv".replace(" ", "-").replace("%", "percent")
+    name = f"{case.scenario}-{case.robot}-{case.space}.csv"
+    return pathlib.Path(folder) / name.replace(" ", "-").replace("%", "percent")
 
 
 def execute(case, robot, folder):

@@ -37,10 +37,45 @@ def lines(head, rows):
     return [text[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *text[1:]]
 
 
+# Scenario, heading, places and value of the columns in which executors are compared.
+COMPARED = (
+    ("sheet", "jerk rms rad/s3", None, lambda row: row["jerk_rms"]),
+    ("sheet", "of a limit", None, lambda row: row["shares"][1]),
+    ("sheet", "of j limit", None, lambda row: row["shares"][2]),
+    ("sheet", "standstill 1/s", 1, lambda row: row["standstills"]),
+    ("sheet", "residual mrad", 1, lambda row: row["residual_mrad"]),
+    ("agree", "delay ms", 1, lambda row: row["delay_ms"]),
+    ("loss 30 %", "max step mrad/ms", None, lambda row: row["step_mrad_ms"]),
+    ("loss 30 %", "residual mrad", 0, lambda row: row["residual_mrad"]),
+    ("lag", "jerk rms rad/s3", None, lambda row: row["jerk_rms"]),
+    ("reaches", "SPARC", 2, lambda row: row.get("sparc")),
+    ("reaches", "LDLJ", 1, lambda row: row.get("ldlj")),
+    ("switch", "reaction ms", 0, lambda row: row.get("reaction_ms")),
+)
+
+
+def on_joints(rows):
+    """Returns the rows of the joints of the first robot at 1 ms."""
+    shown = dict(space="joint", period_us=1000, robot=rows[0]["robot"])
+    return [row for row in rows if shown.items() <= row.items()]
+
+
+def compared(rows):
+    """Returns the table of all executors over several scenarios."""
+    found = {(row["executor"], row["scenario"]): row for row in on_joints(rows)}
+    scenarios = {scenario for _, scenario in found}
+    columns = [column for column in COMPARED if column[0] in scenarios]
+    table = [
+        [name, *(number(value(found[name, scenario]), places) for scenario, _, places, value in columns)]
+        for name in dict.fromkeys(name for name, _ in found)
+    ]
+    head = ["executor", *(f"{scenario}: {heading}" for scenario, heading, *_ in columns)]
+    return lines(head, table) if columns else []
+
+
 def by_executor(rows, scenario):
     """Returns the table of one scenario: every executor on the joints of the first robot."""
-    chosen = [row for row in rows if row["scenario"] == scenario and row["space"] == "joint"]
-    chosen = [row for row in chosen if row["robot"] == chosen[0]["robot"] and row["period_us"] == 1000]
+    chosen = [row for row in on_joints(rows) if row["scenario"] == scenario]
     columns = [column for column in COLUMNS if any(column[1](row) != "-" for row in chosen)]
     table = [[row["executor"], *(value(row) for _, value in columns)] for row in chosen]
     return [f"{scenario}, {chosen[0]['robot']}:", *lines(["executor", *(name for name, _ in columns)], table)]
