@@ -74,11 +74,13 @@ def compared(rows):
 
 
 def by_executor(rows, scenario):
-    """Returns the table of one scenario: every executor on the joints of the first robot."""
+    """Returns the table of one scenario, every executor on the joints of the first robot; none for ours alone."""
     chosen = [row for row in on_joints(rows) if row["scenario"] == scenario]
+    if len(chosen) < 2:
+        return []
     columns = [column for column in COLUMNS if any(column[1](row) != "-" for row in chosen)]
     table = [[row["executor"], *(value(row) for _, value in columns)] for row in chosen]
-    return [f"{scenario}, {chosen[0]['robot']}:", *lines(["executor", *(name for name, _ in columns)], table)]
+    return [f"{scenario}, {chosen[0]['robot']}:", *lines(["executor", *(name for name, _ in columns)], table), ""]
 
 
 def ours(rows):

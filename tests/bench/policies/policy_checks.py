@@ -137,6 +137,9 @@ def executors():
     for name, delayed in expected.items():
         behind = (intent.at(t) - EXECUTORS[name](made, t, made[0].q[0], 30.0))[5000:, 0] / 0.5
         near(behind.mean(), delayed, 0.001)
+    slowest = {name: np.diff(EXECUTORS[name](made, t, made[0].q[0], 30.0)[5000:, 0]).min() / DT for name in expected}
+    assert slowest["cubic from p and v"] > 0.49 and slowest["cubic, crossfade"] > 0.49, slowest
+    assert slowest["queue, held"] == 0.0
     behind = (intent.at(t) - EXECUTORS["cubic from measured"](made, t, made[0].q[0], 30.0))[5000:, 0] / 0.5
     assert behind.max() > 0.04, "the plant lags by 50 ms"
 
