@@ -6,7 +6,7 @@ import typing
 OVER = 1e-6  # of a limit, for rounding
 # Within a cycle in which limits shape the motion, positions take a little more than is commanded at its ends.
 AVERAGED = 1.02
-JERK_RMS = 730.0  # rad/s3, the best simple executor of the sheet
+JERK_RMS = 730.0  # rad/s3, of the best simple executor known
 STEP = 2.2  # mrad/ms
 
 
@@ -37,7 +37,7 @@ BOUNDS = (
     ),
     Bound(
         "rms jerk at 15 mrad of disagreement, rad/s3",
-        lambda row: row["scenario"] == "sheet",
+        lambda row: row["scenario"] == "disagree",
         lambda row: row["jerk_rms"],
         lambda row: JERK_RMS,
     ),

@@ -20,7 +20,7 @@ STYLE = {
     "legend.frameon": False,
 }
 # After Paul Tol's "bright" scheme, which colour-blind readers can tell apart.
-COLOURS = {"0.3/0.7, linear": "#ccaa22", "same, trapezoid": "#bb4488", "cubic, crossfade": "#339944", OURS: "#4477aa"}
+COLOURS = {"0.3/0.7, linear": "#ccaa22", "align, fade, trapezoid": "#bb4488", "cubic, crossfade": "#339944", OURS: "#4477aa"}
 OTHER = "#aaaaaa"
 LIMIT = {"linewidth": 1.0, "linestyle": (0, (6, 2)), "color": "#a01c10"}
 GRID = {"hspace": 0.3, "wspace": 0.45, "left": 0.17, "right": 0.98, "top": 0.97, "bottom": 0.06}
@@ -67,17 +67,17 @@ def bars(axes, rows, scenario, value, label, limit, log):
 
 # Scenario, row and column of a panel, what its bars are, its label, the bound, whether its scale is logarithmic.
 BARS = (
-    ("sheet", 1, 0, lambda row: row["jerk_rms"], "jerk rms, 15 mrad of disagreement [rad/s3]", JERK_RMS, True),
+    ("disagree", 1, 0, lambda row: row["jerk_rms"], "jerk rms, 15 mrad of disagreement [rad/s3]", JERK_RMS, True),
     ("loss 30 %", 1, 1, lambda row: row["step_mrad_ms"], "largest step, 30 % of chunks lost [mrad/ms]", STEP, True),
-    ("sheet", 2, 0, lambda row: row["shares"][1], "acceleration, share of its limit", 1.0, True),
+    ("disagree", 2, 0, lambda row: row["shares"][1], "acceleration, share of its limit", 1.0, True),
     ("agree", 2, 1, lambda row: row["delay_ms"], "delay on chunks that agree [ms]; one cycle dashed", 1.0, False),
 )
 
 
 def draw(figure, rows, tasks):
     parts = figure.subplots(3, 2, gridspec_kw=GRID)
-    excerpt(parts[0, 0], rows, tasks, "sheet", 0, "command - intent [mrad]", 1e3)
-    excerpt(parts[0, 1], rows, tasks, "sheet", 2, "acceleration [rad/s2]; limit dashed")
+    excerpt(parts[0, 0], rows, tasks, "disagree", 0, "command - intent [mrad]", 1e3)
+    excerpt(parts[0, 1], rows, tasks, "disagree", 2, "acceleration [rad/s2]; limit dashed")
     for scenario, line, column, *of_bars in BARS:
         bars(parts[line, column], rows, scenario, *of_bars)
 

@@ -52,31 +52,31 @@ class Scenario:
         return not (self.offset or self.slope or self.lag_s or self.noise or self.drift or self.clock_s)
 
 
-SHEET = Scenario("sheet")
-AGREE = dataclasses.replace(SHEET, name="agree", offset=0.0, noise=0.0)
+DISAGREE = Scenario("disagree")
+AGREE = dataclasses.replace(DISAGREE, name="agree", offset=0.0, noise=0.0)
 SCENARIOS = {
     scenario.name: scenario
     for scenario in (
-        SHEET,
+        DISAGREE,
         AGREE,
         dataclasses.replace(AGREE, name="agree 10 Hz", horizon=8, rate_hz=10.0, interval_s=0.2, latency_s=0.02),
         dataclasses.replace(AGREE, name="agree 15 Hz", horizon=30, rate_hz=15.0, interval_s=0.5, latency_s=0.35),
         dataclasses.replace(AGREE, name="agree 60 Hz", horizon=100, rate_hz=60.0, interval_s=0.5, latency_s=0.35),
         dataclasses.replace(AGREE, name="noise", noise=0.001),
-        dataclasses.replace(SHEET, name="slope", slope=0.015),
+        dataclasses.replace(DISAGREE, name="slope", slope=0.015),
         dataclasses.replace(AGREE, name="lag", lag_s=0.05),
-        dataclasses.replace(SHEET, name="often", horizon=50, interval_s=0.1, latency_s=0.02),
-        dataclasses.replace(SHEET, name="slow", horizon=50, interval_s=0.5, latency_s=0.35),
-        dataclasses.replace(SHEET, name="loss 1 %", loss=0.01),
-        dataclasses.replace(SHEET, name="loss 10 %", loss=0.1),
-        dataclasses.replace(SHEET, name="loss 30 %", loss=0.3),
-        dataclasses.replace(SHEET, name="disorder", duplicates=0.1, reordered=0.1),
-        dataclasses.replace(SHEET, name="first 0.7 s", first_s=0.7),
-        dataclasses.replace(SHEET, name="pause", pause_s=0.516),
+        dataclasses.replace(DISAGREE, name="often", horizon=50, interval_s=0.1, latency_s=0.02),
+        dataclasses.replace(DISAGREE, name="slow", horizon=50, interval_s=0.5, latency_s=0.35),
+        dataclasses.replace(DISAGREE, name="loss 1 %", loss=0.01),
+        dataclasses.replace(DISAGREE, name="loss 10 %", loss=0.1),
+        dataclasses.replace(DISAGREE, name="loss 30 %", loss=0.3),
+        dataclasses.replace(DISAGREE, name="disorder", duplicates=0.1, reordered=0.1),
+        dataclasses.replace(DISAGREE, name="first 0.7 s", first_s=0.7),
+        dataclasses.replace(DISAGREE, name="pause", pause_s=0.516),
         dataclasses.replace(AGREE, name="drift 100 ppm", drift=1e-4),
         dataclasses.replace(AGREE, name="drift 9 %", drift=0.09),
         dataclasses.replace(AGREE, name="clock 5 ms", clock_s=0.005),
-        dataclasses.replace(SHEET, name="reaches", motion="reaches"),
+        dataclasses.replace(DISAGREE, name="reaches", motion="reaches"),
         dataclasses.replace(AGREE, name="switch", switch_s=10.0, duration_s=20.0),
     )
 }

@@ -39,11 +39,11 @@ def lines(head, rows):
 
 # Scenario, heading, places and value of the columns in which executors are compared.
 COMPARED = (
-    ("sheet", "jerk rms rad/s3", None, lambda row: row["jerk_rms"]),
-    ("sheet", "of a limit", None, lambda row: row["shares"][1]),
-    ("sheet", "of j limit", None, lambda row: row["shares"][2]),
-    ("sheet", "standstill 1/s", 1, lambda row: row["standstills"]),
-    ("sheet", "residual mrad", 1, lambda row: row["residual_mrad"]),
+    ("disagree", "jerk rms rad/s3", None, lambda row: row["jerk_rms"]),
+    ("disagree", "of a limit", None, lambda row: row["shares"][1]),
+    ("disagree", "of j limit", None, lambda row: row["shares"][2]),
+    ("disagree", "standstill 1/s", 1, lambda row: row["standstills"]),
+    ("disagree", "residual mrad", 1, lambda row: row["residual_mrad"]),
     ("agree", "delay ms", 1, lambda row: row["delay_ms"]),
     ("loss 30 %", "max step mrad/ms", None, lambda row: row["step_mrad_ms"]),
     ("loss 30 %", "residual mrad", 0, lambda row: row["residual_mrad"]),

@@ -76,8 +76,8 @@ def delay():
 def scenarios():
     """The same seed gives the same chunks; what a scenario does not name stays as it is without it."""
     intent = Intent("sines", [1.0, 0.5])
-    sheet, lossy = SCENARIOS["sheet"], SCENARIOS["loss 30 %"]
-    first, again, other = (chunks(sheet, intent, seed) for seed in (7, 7, 8))
+    whole, lossy = SCENARIOS["disagree"], SCENARIOS["loss 30 %"]
+    first, again, other = (chunks(whole, intent, seed) for seed in (7, 7, 8))
     assert all(np.array_equal(a.q, b.q) and a.t_arrival == b.t_arrival for a, b in zip(first, again))
     assert not np.array_equal(first[0].q, other[0].q)
     kept = {chunk.number: chunk for chunk in chunks(lossy, intent, 7)}
@@ -146,7 +146,7 @@ def executors():
 
 def verdicts():
     """A result beyond a bound is named, one that is not a number too, and none that is not ours."""
-    row = {"executor": "ours", "scenario": "sheet", "robot": "fer", "space": "joint", "period_us": 1000, "seed": 1}
+    row = {"executor": "ours", "scenario": "disagree", "robot": "fer", "space": "joint", "period_us": 1000, "seed": 1}
     row.update(shares=[1.0, 1.0, 1.0], differences=[1.0, 1.0, 1.0], standstills=0.0, delay_ms=0.0, agrees=False)
     row.update(jerk_rms=100.0, step_mrad_ms=1.0)
 

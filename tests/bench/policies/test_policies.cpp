@@ -54,11 +54,19 @@ void a_result_beyond_a_bound_is_named(void**) {
 void the_kernel_keeps_its_bounds_on_chunks_that_agree_and_that_do_not(void**) {
   const int code = shell(
       "$R/scripts/policies/bench $P --ours --duration 8 --out $S/policies --scenario agree "
-      "--scenario sheet --scenario 'loss 30 %'");
+      "--scenario disagree --scenario 'loss 30 %'");
   if (code != 0) print_error("%.*s\n", static_cast<int>(output().size()), output().data());
   assert_int_equal(code, 0);
   assert_true(has(output(), "delay on chunks that agree, ms"));
   assert_true(exists("policies/figure.png"));
+}
+void a_replay_gives_the_same_bytes_again(void**) {
+  for (const char* name : {"first", "again"})
+    assert_int_equal(shell((Line("$P joint $S/policies/chunks/disagree-*-joint.csv 1000 8 $S/")
+                            << name << " 0.3 0.03")
+                               .c_str()),
+                     0);
+  assert_int_equal(shell("test -s $S/first && cmp $S/first $S/again"), 0);
 }
 
 }  // namespace
@@ -78,6 +86,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_row_that_is_none_is_refused_by_its_line),
       cmocka_unit_test(a_result_beyond_a_bound_is_named),
       cmocka_unit_test(the_kernel_keeps_its_bounds_on_chunks_that_agree_and_that_do_not),
+      cmocka_unit_test(a_replay_gives_the_same_bytes_again),
   };
   return run_program_tests(argv[0], tests, "policy_replay");
 }
