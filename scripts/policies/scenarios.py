@@ -20,6 +20,8 @@ import numpy as np
 LAG_FADES_S = 0.5
 SIGMA = 0.25  # of the logarithm of the latency
 REORDERED_S = 0.4  # what a reordered chunk is late in addition
+STALL_S = (0.015, 0.065)
+LASTS_S = 0.15  # for which a single target is good
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,6 +45,7 @@ class Scenario:
     clock_s: float = 0.0  # error of its offset, N(0, clock_s) for each chunk
     first_s: float | None = None  # latency of the first chunk
     pause_s: float = 0.0  # added to the latency once in every ten seconds
+    stalls: float = 0.0  # 15 to 65 ms are added to the latency
     switch_s: float | None = None
     scale: float = 1.0  # of the motion
     duration_s: float = 60.0
@@ -54,6 +57,7 @@ class Scenario:
 
 DISAGREE = Scenario("disagree")
 AGREE = dataclasses.replace(DISAGREE, name="agree", offset=0.0, noise=0.0)
+TELEOPERATION = dataclasses.replace(AGREE, name="teleop", horizon=1, latency_s=0.02, noise=0.0001, stalls=0.05)
 SCENARIOS = {
     scenario.name: scenario
     for scenario in (
@@ -78,6 +82,8 @@ SCENARIOS = {
         dataclasses.replace(AGREE, name="clock 5 ms", clock_s=0.005),
         dataclasses.replace(DISAGREE, name="reaches", motion="reaches"),
         dataclasses.replace(AGREE, name="switch", switch_s=10.0, duration_s=20.0),
+        dataclasses.replace(TELEOPERATION, name="teleop 20 Hz", interval_s=0.05),
+        dataclasses.replace(TELEOPERATION, name="teleop 100 Hz", interval_s=0.01),
     )
 }
 
@@ -107,7 +113,8 @@ def chunks(scenario, intent, seed, units=1.0):
 
     units = np.ones(len(intent.scales)) * units
     offsets, slopes, noises = random("offset"), random("slope"), random("noise")
-    latencies, losses, copies, orders, clocks = map(random, ("latency", "loss", "copies", "order", "clock"))
+    latencies, losses, copies, orders = map(random, ("latency", "loss", "copies", "order"))
+    clocks, stalls = random("clock"), random("stalls")
     made = []
     for number in range(int(round(scenario.duration_s / scenario.interval_s))):
         t_obs = number * scenario.interval_s
@@ -124,6 +131,8 @@ def chunks(scenario, intent, seed, units=1.0):
             latency = scenario.first_s
         if scenario.pause_s and number % round(10.0 / scenario.interval_s) == round(5.0 / scenario.interval_s):
             latency += scenario.pause_s
+        if stalls.uniform() < scenario.stalls:
+            latency += stalls.uniform(*STALL_S)
         latency += REORDERED_S * (orders.uniform() < scenario.reordered)
         stamps = t_obs + since * (1.0 + scenario.drift) + scenario.clock_s * clocks.normal()
         lost, twice = losses.uniform() < scenario.loss, copies.uniform() < scenario.duplicates
@@ -142,5 +151,5 @@ def covered(made, t):
     for chunk in made:
         if chunk.number > newest:
             newest = chunk.number
-            until[t >= chunk.t_arrival] = chunk.t[-1]
+            until[t >= chunk.t_arrival] = chunk.t[-1] if len(chunk.t) > 1 else chunk.t_arrival + LASTS_S
     return t <= until
