@@ -5,7 +5,7 @@ import typing
 
 OVER = 1e-6  # of a limit, for rounding
 # Within a cycle in which limits shape the motion, positions take a little more than is commanded at its ends.
-AVERAGED = 1.02
+AVERAGED = 1.05
 JERK_RMS = 730.0  # rad/s3, of the best simple executor known
 STEP = 2.2  # mrad/ms
 
