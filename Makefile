@@ -29,7 +29,7 @@ SCRIPTED :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
 PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
-TESTS  := $(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp)
+TESTS  := $(filter-out tests/ctl/%,$(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp))
 include tests/any_robot.mk
 robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
@@ -52,7 +52,7 @@ QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-
 # Back traces, profiles and bounds need line tables. To track variables too (DEBUG=-g) takes twice as long to compile,
 # with sanitizers three times.
 DEBUG     ?= -g1
-SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -isystem /usr/include/eigen3 \
+SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -Ibuild/generated -isystem /usr/include/eigen3 \
              $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED) \
              -DTACTUS_ROBOT=$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
@@ -94,7 +94,7 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
               kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway hal/os)) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/server gateway/sockets hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 TESTS    := $(TESTS:%.cpp=$(B)/%)
 # These run together in a virtual machine that has CAN buses.
@@ -191,22 +191,22 @@ $(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
 # Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
 $(O)/libkernel.a: $(call obj,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
 WHOLE_KERNEL = -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
-$(B)/libprogram.a: $(call obj,$(PROGRAM))
+$(B)/libprogram.a: $(call obj,$(PROGRAM)) $(O)/gateway/tactus.pb.o
 $(O)/liboracles.a: $(call obj,$(ORACLES))
 build/%.a:
 	$(call say,AR    $@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
 $(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) $(LDFLAGS) -o $@ $^ $(LDLIBS)
+	$(Q)$(CXX) $(SANITIZER) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(GATEWAY_LIBS)
 # Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
 build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
 	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
 $(TESTS): | build/libfcl_oracle.so
-$(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
+$(filter-out $(B)/tests/ctl/%,$(TESTS)): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS)
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS) $(GATEWAY_LIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
@@ -218,7 +218,9 @@ $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefil
 	$(call say,PCH   $@)
 	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
 
+include gateway/gateway.mk
 include program/install.mk
+include gateway/ctl/ctl.mk
 include program/package/package.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
@@ -228,6 +230,7 @@ include tests/trace/trace.mk
 include tests/bench/policies/policies.mk
 include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
+include gateway/python/python.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

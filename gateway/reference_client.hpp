@@ -43,6 +43,8 @@ class ReferenceClient {
   int needed(const Trajectory<Space>& trajectory) const {
     return channel_.needed[index_of(trajectory)].load(std::memory_order_acquire);
   }
+  /// Returns how many whole waypoints a store holds. [init]
+  int capacity() const { return channel_.stores[0].capacity; }
   /// Returns what trajectories are judged by.
   const AdmissionSettings<Space>& settings() const { return channel_.settings; }
   /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.

@@ -20,6 +20,8 @@ struct TrajectoryTerms {
   Interpolation interpolation = Interpolation::kByFields;
   bool exact = false;
   double start_s = kStartAtOnce;
+  int window = 0;  ///< waypoints that may be in the store at once; 0: all that fit. Not in a frame
+  bool check = false;  ///< it is judged and not sent. Not in a frame
   std::uint32_t held = 0;
   std::string_view motion, wrench;  ///< into the payload; empty: the base frame
 };

@@ -1,5 +1,6 @@
 #include "gateway/reference_server.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace tactus {
@@ -38,10 +39,10 @@ Verdict ReferenceServer<Space>::begin(const TrajectoryTerms& terms) {
   trajectory_->interpolation = terms.interpolation;
   trajectory_->exact = terms.exact;
   trajectory_->start_s = terms.start_s;
+  if (terms.window > 0) trajectory_->capacity = std::min(terms.window, trajectory_->capacity);
   sent_ = false;
-  part_ = 0;
-  awaited_ = 0;
-  failed_ = {};
+  checks_ = terms.check;
+  parts_.begin(0);
   return place(terms, trajectory_->header);
 }
 
@@ -53,13 +54,7 @@ Verdict ReferenceServer<Space>::take(ByteReader& waypoints, int count, int& take
       waypoints.left() != sizeof(double) * static_cast<std::size_t>(count * numbers))
     return {Status::kWireFormat};
   for (taken = 0; taken < count; ++taken) {
-    const auto waypoint = read_waypoint<Space>(waypoints, trajectory_->fields);
-    if (!sent_ && trajectory_->count < trajectory_->capacity) {
-      trajectory_->set(trajectory_->count++, waypoint);
-      continue;
-    }
-    Verdict verdict = sent_ ? Verdict() : send_open();
-    if (verdict.ok()) verdict = append(waypoint);
+    const Verdict verdict = take(read_waypoint<Space>(waypoints, trajectory_->fields));
     if (verdict.status == Status::kWindowFull) return {};
     if (!verdict.ok()) return verdict;
   }
@@ -67,49 +62,87 @@ Verdict ReferenceServer<Space>::take(ByteReader& waypoints, int count, int& take
 }
 
 template <class Space>
+Verdict ReferenceServer<Space>::take(const Waypoint<Space>& waypoint) {
+  if (trajectory_ == nullptr) return {Status::kNothingToExtend};
+  if (!sent_ && trajectory_->count < trajectory_->capacity) {
+    trajectory_->set(trajectory_->count++, waypoint);
+    return {};
+  }
+  if (checks_) return check(waypoint);
+  Verdict verdict = sent_ ? flush_full() : send_open();
+  if (verdict.ok()) verdict = parts_.append(client_, *trajectory_, waypoint);
+  if (verdict.ok()) verdict = flush_full();
+  return verdict;
+}
+
+/// Sends the present part if it is whole. With a full mailbox it is sent before the next waypoint.
+template <class Space>
+Verdict ReferenceServer<Space>::flush_full() {
+  if (!parts_.part_full(*trajectory_)) return {};
+  const Verdict verdict = parts_.flush(client_, *trajectory_, false);
+  return verdict.status == Status::kMailboxFull ? Verdict() : verdict;
+}
+
+template <class Space>
 Verdict ReferenceServer<Space>::send_open() {
   trajectory_->open = true;
   const Verdict verdict = client_.send(*trajectory_, id_);
   sent_ = verdict.ok();
+  stretch_ = trajectory_->stretch;
+  parts_.begin(trajectory_->count);
   return verdict;
 }
 
+/// Judges one more waypoint, and before the first that does not fit into the window those in it.
 template <class Space>
-Verdict ReferenceServer<Space>::append(const Waypoint<Space>& waypoint) {
-  if (!failed_.ok()) return failed_;
-  if (awaited_ != 0) return {Status::kWindowFull};
-  const Verdict verdict = client_.append(*trajectory_, waypoint);
-  if (!verdict.ok()) return verdict;
-  ++part_;
-  return part_ < trajectory_->capacity / kParts ? Verdict() : flush(false);
+Verdict ReferenceServer<Space>::check(const Waypoint<Space>& waypoint) {
+  Verdict verdict;
+  if (!trajectory_->open) {
+    trajectory_->open = true;
+    verdict = judge_.begin(*trajectory_, client_.settings());
+  }
+  return verdict.ok() ? judge_.append(*trajectory_, waypoint, client_.settings()) : verdict;
 }
 
 template <class Space>
-Verdict ReferenceServer<Space>::flush(bool last) {
-  const Verdict verdict = client_.flush(*trajectory_, last, awaited_);
-  if (verdict.ok()) part_ = 0;
+Verdict ReferenceServer<Space>::end_check() {
+  const Verdict verdict = trajectory_->open ? judge_.end(*trajectory_, client_.settings())
+                                            : judge_.begin(*trajectory_, client_.settings());
+  trajectory_ = nullptr;
+  stretch_ = judge_.stretch(judge_.end_s());
   return verdict;
 }
 
 template <class Space>
 Verdict ReferenceServer<Space>::end(std::uint32_t& id) {
   if (trajectory_ == nullptr) return {Status::kNothingToExtend};
-  if (awaited_ != 0) return {Status::kWindowFull};
-  Verdict verdict = failed_;
-  if (verdict.ok()) verdict = sent_ ? flush(true) : client_.send(*trajectory_, id_);
+  if (checks_) {
+    id = 0;
+    return end_check();
+  }
+  if (parts_.awaiting()) return {Status::kWindowFull};
+  const Verdict verdict =
+      sent_ ? parts_.flush(client_, *trajectory_, true) : client_.send(*trajectory_, id_);
+  if (verdict.status == Status::kMailboxFull) return {Status::kWindowFull};
+  if (!sent_) stretch_ = trajectory_->stretch;
   id = id_;
   trajectory_ = nullptr;
   return verdict;
 }
 
 template <class Space>
-Verdict ReferenceServer<Space>::point(const TrajectoryTerms& terms, ByteReader& numbers,
-                                      std::uint32_t& id) {
+Verdict ReferenceServer<Space>::point(const TrajectoryTerms& terms,
+                                      const typename Space::Point& point, std::uint32_t& id) {
   typename Space::Header header;
   const Verdict verdict = place(terms, header);
-  if (!verdict.ok()) return verdict;
+  return verdict.ok() ? client_.send(point, id, header) : verdict;
+}
+
+template <class Space>
+Verdict ReferenceServer<Space>::point(const TrajectoryTerms& terms, ByteReader& numbers,
+                                      std::uint32_t& id) {
   const auto waypoint = read_waypoint<Space>(numbers, terms.fields);
-  return numbers.done() ? client_.send(waypoint.point, id, header) : Verdict{Status::kWireFormat};
+  return numbers.done() ? point(terms, waypoint.point, id) : Verdict{Status::kWireFormat};
 }
 
 template <class Space>
@@ -125,19 +158,19 @@ Verdict ReferenceServer<Space>::control(ControlKind kind, double rate, std::uint
 
 /// The answers to parts are the server's; a refusal of one is that of its trajectory.
 template <class Space>
+bool ReferenceServer<Space>::fetch(Report& report) {
+  while (client_.poll(report))
+    if (!parts_.answered(report)) return true;
+  return false;
+}
+
+template <class Space>
 bool ReferenceServer<Space>::poll() {
+  const int before = count_;
   Report report;
-  bool any = false;
-  while (count_ < kKept && client_.poll(report)) {
-    any = true;
-    if (awaited_ != 0 && report.id == awaited_) {
-      awaited_ = 0;
-      if (report.outcome == Outcome::kRefused) failed_ = report.verdict;
-      continue;
-    }
+  while (count_ < kKept && fetch(report))
     reports_[static_cast<std::size_t>((first_ + count_++) % kKept)] = report;
-  }
-  return any;
+  return count_ > before;
 }
 
 template <class Space>

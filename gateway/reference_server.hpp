@@ -3,7 +3,7 @@
 // trajectory of any length passes through the window of its store. Runs outside the cycle.
 #pragma once
 
-#include "gateway/reference_client.hpp"
+#include "gateway/part_judge.hpp"
 #include "gateway/reference_frames.hpp"
 #include "kernel/pipeline/port_table.hpp"
 
@@ -13,22 +13,38 @@ template <class Space>
 class ReferenceServer {
  public:
   /// `ports` has the frames that references name. [init]
-  ReferenceServer(ReferenceChannel<Space>& channel, const PortTable& ports)
-      : client_(channel), ports_(ports) {}
+  ReferenceServer(ReferenceClient<Space>& client, const PortTable& ports)
+      : client_(client), ports_(ports) {}
 
   /// Begins a trajectory; its waypoints follow. What was begun before and not ended is forgotten.
   Verdict begin(const TrajectoryTerms& terms);
-  /// Takes waypoints as long as the window has space; `taken` says how many. The first that do not
-  /// fit into the store send it, open.
+  /// Takes the next waypoint; kWindowFull: there is no space at present, offer it again. The first
+  /// that does not fit into the window sends the trajectory, open.
+  Verdict take(const Waypoint<Space>& waypoint);
+  /// Takes waypoints of a frame as long as the window has space; `taken` says how many.
   Verdict take(ByteReader& waypoints, int count, int& taken);
   /// Ends the trajectory; kWindowFull: the generator has not yet answered the last part, ask again.
-  /// `id` is that of the trajectory.
+  /// `id` is that of the trajectory, 0 of one that is only judged.
   Verdict end(std::uint32_t& id);
-  /// Sends a point whose numbers stand behind its terms.
+  /// The number of the trajectory that comes, once the generator has it; 0: not yet, or none comes.
+  std::uint32_t sent() const { return trajectory_ != nullptr && sent_ ? id_ : 0; }
+  /// Waypoints that the window of the trajectory that comes holds; there is one.
+  int capacity() const { return trajectory_->capacity; }
+  /// How much longer the trajectory that was sent last becomes, as a fraction, as far as it was
+  /// known then.
+  double stretch() const { return stretch_; }
+  /// Finds the joints that terms leave out, or their frames. kUnknownPort.
+  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
+  /// Sends a point.
+  Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point,
+                std::uint32_t& id);
+  /// Sends a point whose numbers are behind its terms in a frame.
   Verdict point(const TrajectoryTerms& terms, ByteReader& numbers, std::uint32_t& id);
   Verdict control(ControlKind kind, double rate, std::uint32_t& id);
 
-  /// Fetches what the generator has reported; true: there was something.
+  /// Takes the next report that is not the answer to a part; false: there is none.
+  bool fetch(Report& report);
+  /// Fetches what the generator has reported, to keep it; true: there was something.
   bool poll();
   /// Reports that wait.
   int waiting() const { return count_; }
@@ -36,21 +52,22 @@ class ReferenceServer {
   Report next();
 
  private:
-  static constexpr int kParts = 4;  // in a window
   static constexpr int kKept = 32;  // reports
 
-  Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   Verdict send_open();
-  Verdict append(const Waypoint<Space>& waypoint);
-  Verdict flush(bool last);
+  Verdict check(const Waypoint<Space>& waypoint);
+  Verdict end_check();
+  Verdict flush_full();
 
-  ReferenceClient<Space> client_;
+  ReferenceClient<Space>& client_;
   const PortTable& ports_;
   Trajectory<Space>* trajectory_ = nullptr;  // that comes; null: none
-  bool sent_ = false;                        // it is longer than its store, which was sent
-  int part_ = 0;                             // waypoints appended since the last flush
-  std::uint32_t id_ = 0, awaited_ = 0;       // of the trajectory, and of its last part
-  Verdict failed_;                           // why a part was refused
+  bool sent_ = false;                        // it is longer than its window, which was sent
+  std::uint32_t id_ = 0;                     // of the trajectory
+  double stretch_ = 0.0;
+  bool checks_ = false;  // it is judged and not sent
+  PartJudge<Space> judge_;
+  PartSender<Space> parts_;
   std::array<Report, kKept> reports_;
   int first_ = 0, count_ = 0;
 };

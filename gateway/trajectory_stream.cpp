@@ -29,7 +29,7 @@ bool TrajectoryStream<Space>::fill_window() {
   window_->fields = reader_.fields();
   reader_.note_left_out(window_->header);
   window_->open = longer_ = taken == RowTaken::kWaypoint;
-  appended_ = sent_ = window_->count;
+  sender_.begin(window_->count);
   state_ = longer_ ? Fed::kMore : Fed::kIdle;
   return true;
 }
@@ -44,14 +44,7 @@ RowTaken TrajectoryStream<Space>::take(int wait_ms) {
 
 template <class Space>
 bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings) {
-  Admitted<Space> admitted;
-  const Verdict verdict = admit(*window_, settings, admitted);
-  if (!verdict.ok()) return refuse(verdict);
-  count_ = window_->count;
-  end_s_ = window_->end_s();
-  first_s_ = window_->time_s(0);
-  longer_s_ = window_->stretch * (end_s_ - first_s_);
-  account_.begin(window_->count, admitted);
+  if (!judged(judge_.begin(*window_, settings))) return false;
   if (!longer_ || !reader_.lines().regular()) return true;
   if (!judge_parts(settings)) return false;
   judged_hash_ = hash();
@@ -70,70 +63,63 @@ bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settin
   for (;;) {
     const RowTaken taken = has_next_ ? RowTaken::kWaypoint : take(-1);
     if (taken == RowTaken::kRefused) return false;
-    if (taken != RowTaken::kWaypoint) return judge_part(true, settings);
-    note(account_.count());
-    const Verdict verdict = account_.append(*window_, next_, settings);
-    if (!verdict.ok()) return refuse(verdict);
+    if (taken != RowTaken::kWaypoint) return judged(judge_.end(*window_, settings));
+    note(judge_.next());
+    if (!judged(judge_.append(*window_, next_, settings))) return false;
     has_next_ = false;
-    if (part_full(account_.count() - account_.ended()) && !judge_part(false, settings))
-      return false;
   }
 }
 
+/// Takes what the judge knows of the file up to now.
 template <class Space>
-bool TrajectoryStream<Space>::judge_part(bool last, const AdmissionSettings<Space>& settings) {
-  double longer = 0.0;
-  const Verdict verdict = account_.judge_part(*window_, last, settings, longer);
+bool TrajectoryStream<Space>::judged(const Verdict& verdict) {
   if (!verdict.ok()) return refuse(verdict);
-  count_ = account_.count();
-  end_s_ = window_->time_s(account_.count() - 1);
-  longer_s_ += longer * (end_s_ - window_->time_s(account_.ended() - 1));
-  account_.end_part();
+  count_ = judge_.count();
+  end_s_ = judge_.end_s();
   return true;
 }
 
 template <class Space>
 Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
   if (state_ != Fed::kMore) return state_;
-  if (awaited_ != 0) return Fed::kAhead;
+  if (sender_.awaiting()) return Fed::kAhead;
   for (;;) {
     if (!has_next_ && !whole_known_) {
       const RowTaken taken = take(wait_ms);
       if (taken == RowTaken::kRefused && reader_.lines().regular()) return give_up(kChanged);
       if (taken == RowTaken::kRefused) return state_ = Fed::kRefused;
-      const bool starves = sent_ - client.needed(*window_) < window_->capacity / kParts;
+      const bool starves =
+          sender_.sent() - client.needed(*window_) < PartSender<Space>::part_size(*window_);
       if (taken == RowTaken::kNotYet)
-        return starves && appended_ > sent_ ? send_part(client, false) : Fed::kNotYet;
+        return starves && sender_.unsent() > 0 ? send_part(client, false) : Fed::kNotYet;
     }
     if (!has_next_) return send_part(client, true);
-    const Verdict verdict = client.append(*window_, next_);
+    const int index = sender_.appended();
+    const Verdict verdict = sender_.append(client, *window_, next_);
     if (verdict.status == Status::kWindowFull) return Fed::kAhead;
-    note(appended_);
+    note(index);
     if (!verdict.ok()) return give_up(verdict);
     has_next_ = false;
-    ++appended_;
-    if (part_full(appended_ - sent_)) return send_part(client, false);
+    if (sender_.part_full(*window_)) return send_part(client, false);
   }
 }
 
 template <class Space>
 Fed TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last) {
   if (changed(last)) return give_up(kChanged);
-  const Verdict verdict = client.flush(*window_, last, awaited_);
+  const Verdict verdict = sender_.flush(client, *window_, last);
   if (!verdict.ok()) return give_up(verdict);
-  sent_ = appended_;
   if (!reader_.lines().regular()) {
-    count_ = sent_;
-    end_s_ = window_->time_s(sent_ - 1);
+    count_ = sender_.sent();
+    end_s_ = window_->time_s(sender_.sent() - 1);
   }
   return state_ = last ? Fed::kWhole : Fed::kMore;
 }
 
 template <class Space>
 void TrajectoryStream<Space>::answered(const Report& report) {
-  if (awaited_ == 0 || report.id != awaited_) return;
-  awaited_ = 0;
-  if (report.outcome == Outcome::kRefused && state_ != Fed::kIdle) refuse(report.verdict);
+  if (sender_.answered(report) && !sender_.failed().ok() && state_ != Fed::kIdle)
+    refuse(sender_.failed());
 }
 
 /// True if a file that was judged is not the same any more.

@@ -4,10 +4,7 @@
 // when its parts are sent.
 #pragma once
 
-#include <algorithm>
-
-#include "gateway/part_account.hpp"
-#include "gateway/reference_client.hpp"
+#include "gateway/part_judge.hpp"
 #include "gateway/trajectory_csv.hpp"
 
 namespace tactus {
@@ -53,19 +50,17 @@ class TrajectoryStream {
   bool longer() const { return longer_; }
   /// True if the last waypoint is known, since the file was judged or read to its end.
   bool whole_known() const { return whole_known_ || reader_.lines().regular(); }
-  std::int64_t count() const { return count_; }  ///< waypoints known so far
-  double end_s() const { return end_s_; }        ///< time of the last of them
-  double longer_s() const { return longer_s_; }  ///< time by which they are slowed down
+  std::int64_t count() const { return count_; }          ///< waypoints known so far
+  double end_s() const { return end_s_; }                ///< time of the last of them
+  double longer_s() const { return judge_.longer_s(); }  ///< time by which they are slowed down
   /// The same as a fraction of the time from the first to the last of them.
-  double stretch() const { return longer_s_ > 0.0 ? longer_s_ / (end_s_ - first_s_) : 0.0; }
+  double stretch() const { return judge_.stretch(end_s_); }
   std::uint64_t hash() const { return reader_.lines().hash(); }  ///< of the bytes read so far
   const StreamRefusal& refusal() const { return refusal_; }
   /// Returns the time of a waypoint, or infinity if it is not in the window.
   double time_s(int waypoint) const;
 
  private:
-  static constexpr int kParts = 4;  // in a window
-
   bool refuse(const Verdict& verdict);
   bool refuse(std::string_view reason);
   template <class Reason>
@@ -76,7 +71,7 @@ class TrajectoryStream {
   bool fill_window();
   RowTaken take(int wait_ms);
   bool judge_parts(const AdmissionSettings<Space>& settings);
-  bool judge_part(bool last, const AdmissionSettings<Space>& settings);
+  bool judged(const Verdict& verdict);
   Fed send_part(ReferenceClient<Space>& client, bool last);
   bool changed(bool at_end) const;
   /// Notes the line of the waypoint that becomes number `index`.
@@ -84,18 +79,16 @@ class TrajectoryStream {
   bool in_window(int index) const {
     return index <= newest_ && index > newest_ - window_->capacity;
   }
-  bool part_full(int count) const { return count >= std::max(1, window_->capacity / kParts); }
 
   TrajectoryReader<Space> reader_;
   Trajectory<Space>* window_ = nullptr;
   Waypoint<Space> next_;  // read, but not yet in the window
   bool has_next_ = false, longer_ = false, whole_known_ = false;
-  PartAccount<Space> account_;   // of the judge
-  int appended_ = 0, sent_ = 0;  // waypoints in the window, and those that were sent
-  std::uint32_t awaited_ = 0;    // request of the part that is not yet answered; 0: none
+  PartJudge<Space> judge_;
+  PartSender<Space> sender_;
   Fed state_ = Fed::kIdle;
   std::int64_t count_ = 0;
-  double first_s_ = 0.0, end_s_ = 0.0, longer_s_ = 0.0;
+  double end_s_ = 0.0;
   std::uint64_t judged_hash_ = 0;
   StreamRefusal refusal_;
   int newest_ = -1;                          // the newest waypoint in the window

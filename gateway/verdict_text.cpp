@@ -54,6 +54,7 @@ constexpr Measured kMeasured[] = {
     {Status::kMeasuredPositionLimit, kOutside, false, "measured position", " rad", "", ""},
     {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", "", ""},
     {Status::kFollowingError, kExceeds, false, "following error", " rad", "", ""},
+    {Status::kStampRange, kExceeds, true, "distance from the present time", " s", " s", " s"},
 };
 // clang-format on
 
@@ -141,6 +142,8 @@ const char* remedy(Status status) {
     case Status::kStartTolerance: return "; begin there, or later than at t = 0";
     case Status::kEffortLimit: return "; ask for less";
     case Status::kQuaternion: return "; write qw, qx, qy, qz of length 1";
+    case Status::kNotOwner: return "; ask for the lease first";
+    case Status::kStampRange: return "; name times of the server's clock, State.server_ns";
     case Status::kChunkLate: return "; send sooner, or targets farther ahead";
     case Status::kEpochVoid: return "; look at the robot, then begin a newer epoch";
     default: return "";

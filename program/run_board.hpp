@@ -40,7 +40,12 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   int exit_code = kSucceeded;
   if (!parse_options(argc, argv, board.name, board.scan != nullptr, options, exit_code))
     return exit_code;
-  options.realtime = options.realtime || board.real;
+  if (options.virtual_time && board.real) {
+    std::fprintf(stderr, "--virtual-time: refused: %s has no virtual time; leave it out\n",
+                 board.name);
+    return kRefused;
+  }
+  options.realtime = options.realtime || board.real || options.verb == Verb::kServe;
   if (options.verb == Verb::kDoctor) return doctor(options);
   if (options.verb == Verb::kJitter) return jitter(options);
   if (options.verb == Verb::kScan && board.scan != nullptr) return board.scan(options);
@@ -72,7 +77,11 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
                   pipeline,         executive,         recorder,        client,        task_client,
                   sections.gateway, sections.realtime, sections.expect, board.follower};
   if (board.follower != nullptr) board.follower->prepare(session);
-  return options.verb == Verb::kCheck ? check(session, options) : run(session, options);
+  switch (options.verb) {
+    case Verb::kCheck: return check(session, options);
+    case Verb::kServe: return serve(session, options);
+    default: return run(session, options);
+  }
 }
 
 }  // namespace tactus

@@ -112,6 +112,13 @@ void RunLoop::halt() {
   if (session_.follower != nullptr) session_.follower->halt();
 }
 
+/// The time of the executive in the cycle that begins `now`.
+CycleTime RunLoop::time_of(const CycleTime& now) {
+  if (!virtual_) return now;
+  virtual_ns_ += std::int64_t{1000} * session_.pipeline.robot.period_us;
+  return {virtual_ns_};
+}
+
 void RunLoop::stop() {
   latched_ = session_.executive.latched();
   if (latched_ != Status::kOk) trouble_ = session_.hal.trouble();
@@ -125,13 +132,14 @@ bool RunLoop::cycle(const CycleTime& now) {
   Status status = Status::kOk;
   {
     const HeapWatch watch;
-    status = session_.executive.cycle(now);
+    status = session_.executive.cycle(time_of(now));
   }
   watchdog_.cycle_completed();
   halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
-  if (status == Status::kArming && !halted_) return arm();
   commanded_ += commanded ? 1 : 0;
+  if (desk_ != nullptr) return served(now, status);
+  if (status == Status::kArming && !halted_) return arm();
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
   if (commanded) result_.expectation.add();
@@ -139,6 +147,14 @@ bool RunLoop::cycle(const CycleTime& now) {
   if (feed_.refused() && !broken_off_ && !planned_end_) break_off();
   take_result(status);
   return session_.executive.busy() || !over(status);
+}
+
+/// True until a signal has come, and the arm is at rest and its drives are disabled.
+bool RunLoop::served(const CycleTime& now, Status status) {
+  if (!halted_) desk_->work(status);
+  desk_->tell(now);
+  armed_ = armed_ || commands(session_.executive.rung());
+  return session_.executive.busy() || !halted_;
 }
 
 void RunLoop::take_result(Status status) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "program/cycle_desk.hpp"
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
@@ -41,6 +42,12 @@ class RunLoop {
         length_(length),
         goal_(session, input) {}
 
+  /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
+  /// only a signal does. [init]
+  void serve(CycleDesk& desk) { desk_ = &desk; }
+  /// Lets the time that the executive is told go on by one period in every cycle, so that late ones
+  /// are no fault. [init]
+  void in_virtual_time() { virtual_ = true; }
   /// Connects to the robot and asks for its drives. False: refused.
   bool start();
   /// Takes what the robot says of a fault, disables its drives and closes the wire. The loops do so
@@ -85,6 +92,8 @@ class RunLoop {
   void take_result(Status status);
   bool time_has_passed() const;
   bool over(Status status);
+  bool served(const CycleTime& now, Status status);
+  CycleTime time_of(const CycleTime& now);
 
   Session& session_;
   TrajectoryInput& input_;
@@ -93,6 +102,9 @@ class RunLoop {
   RunResult& result_;
   RunLength length_;
   GoalWatch goal_;
+  CycleDesk* desk_ = nullptr;  // of a server; null: none
+  bool virtual_ = false;
+  std::int64_t virtual_ns_ = 0;
   Verdict end_;           // of the goal's final report
   double ended_s_ = 0.0;  // when the time of the run had passed
   bool pending_ = false;  // the goal was sent, and its final report has not come

@@ -17,7 +17,7 @@ inline constexpr int kJointWaypoints = 384, kPoses = 64;
 
 template <class Space, int kWholeWaypoints>
 struct References {
-  explicit References(const tactus::PortTable& ports) : server(channel, ports) {
+  explicit References(const tactus::PortTable& ports) : server(client, ports) {
     for (std::size_t i = 0; i < tactus::kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i];
       channel.stores[i].capacity = kWholeWaypoints;
@@ -26,6 +26,7 @@ struct References {
 
   tactus::ChannelMemory<Space, 4, 32, 2> channel;
   tactus::Waypoint<Space> waypoints[tactus::kStores][kWholeWaypoints];
+  tactus::ReferenceClient<Space> client{channel};
   tactus::ReferenceServer<Space> server;
 };
 

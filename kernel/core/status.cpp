@@ -93,6 +93,11 @@ constexpr StatusWords words_of(Status status) {
     case Status::kMismatch:
       return {"kMismatch",
               "two machines that run the same pipeline have computed different values"};
+    case Status::kNotOwner: return {"kNotOwner", "another client or none owns the motion"};
+    case Status::kStampRange: return {"kStampRange", "stamp too far from the present time"};
+    case Status::kTooManyMessages: return {"kTooManyMessages", "too many messages"};
+    case Status::kClientSilent: return {"kClientSilent", "no message from the client in time"};
+    case Status::kClientSlow: return {"kClientSlow", "the client does not read what it is sent"};
   }
   return {"unknown", "unknown status"};
 }

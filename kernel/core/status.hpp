@@ -88,6 +88,12 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNotReferenced = 107,
     kBusConflict = 108,
     kMismatch = 109,
+    // ... of a client of references
+    kNotOwner = 110,
+    kStampRange = 111,
+    kTooManyMessages = 112,
+    kClientSilent = 113,
+    kClientSlow = 114,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]

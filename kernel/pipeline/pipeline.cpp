@@ -34,6 +34,11 @@ template <class Kind>
 constexpr bool kMoves<Kind, std::void_t<decltype(&Kind::at_rest)>> = true;
 
 template <class Kind, class = void>
+constexpr bool kGenerates = false;
+template <class Kind>
+constexpr bool kGenerates<Kind, std::void_t<decltype(&Kind::motion_state)>> = true;
+
+template <class Kind, class = void>
 constexpr bool kLimitsBraking = false;
 template <class Kind>
 constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
@@ -80,6 +85,16 @@ bool Pipeline::at_rest() const {
     });
   }
   return rests;
+}
+
+MotionState Pipeline::motion_state() const {
+  MotionState state;
+  for (int i = 0; i < count_; ++i) {
+    with_block(blocks_[static_cast<std::size_t>(i)], [&state](const auto& block) {
+      if constexpr (kGenerates<std::decay_t<decltype(block)>>) state = block.motion_state();
+    });
+  }
+  return state;
 }
 
 Status Pipeline::resume(const RobotState& measured) {

@@ -14,6 +14,7 @@
 #include "kernel/pipeline/schedule.hpp"
 #include "kernel/pipeline/settings.hpp"
 #include "kernel/pipeline/timing.hpp"
+#include "kernel/reference/generator/reference_generator.hpp"
 
 namespace tactus {
 
@@ -71,6 +72,9 @@ class Pipeline {
   /// True if no block has a motion of its own that goes on: see kernel/core/brake.hpp.
   /// [between two cycles]
   bool at_rest() const;
+  /// Returns what the last reference generator of the chain tells of its motion. [between two
+  /// cycles]
+  MotionState motion_state() const;
   /// Lets every block go on after a brake that has come to rest: see kernel/core/brake.hpp. [init]
   [[gnu::cold]] Status resume(const RobotState& measured);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]

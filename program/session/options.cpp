@@ -63,6 +63,23 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
                "run one cycle per period of the wall clock instead of as fast as possible");
 }
 
+void add_serve_options(CLI::App& serve, std::string& pipeline, std::string& listen,
+                       std::string& key, Options& options) {
+  serve.add_option("pipeline", pipeline, "pipeline file (.ini)")->required()->check(path());
+  serve
+      .add_option("--listen", listen,
+                  "unix:PATH or tcp:127.0.0.1:PORT (default: a Unix socket of the user)")
+      ->check([](const std::string& text) {
+        return text.size() < sizeof Options::listen ? "" : "the address is too long";
+      });
+  serve.add_option("--key", key, "file with the key of the clients, for an address of the network")
+      ->check(path());
+  serve.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
+      ->check(decimal(std::uint64_t{0}, ~std::uint64_t{0}, "a whole number of up to 64 bits"));
+  serve.add_flag("--virtual-time", options.virtual_time,
+                 "a simulated robot waits for a late cycle instead of being braked");
+}
+
 /// Adds the options of `doctor` and `jitter` that say on which CPU and priority a cycle would run.
 void add_host_options(CLI::App& verb, Options& options) {
   verb.add_option("--cpu", options.cpu, "number of the CPU for the cycle (default: any)")
@@ -97,7 +114,7 @@ void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& 
 
 bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
                    int& exit_code) {
-  std::string pipeline, trajectory, out, root, interface;
+  std::string pipeline, trajectory, out, root, interface, listen, key;
   std::vector<std::string> load, buses;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
@@ -119,6 +136,8 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
         ->check(path());
   }
   add_run_options(*run, out, options);
+  CLI::App* serve = app.add_subcommand("serve", "run a pipeline for clients until Ctrl-C");
+  add_serve_options(*serve, pipeline, listen, key, options);
   CLI::App* doctor = app.add_subcommand("doctor", "list settings of this host that hurt real time");
   doctor->add_option("--root", root, "folder that contains proc and sys (default /)")
       ->check(path());
@@ -142,7 +161,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
     return false;
   }
   if (app.get_subcommands().empty()) {
-    std::fprintf(stderr, "tactus: a verb is required: run, check, ports, doctor%s\n",
+    std::fprintf(stderr, "tactus: a verb is required: run, serve, check, ports, doctor%s\n",
                  has_bus ? ", jitter or scan" : " or jitter");
     exit_code = kRefused;
     return false;
@@ -155,6 +174,8 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   copy(pipeline, options.pipeline);
   copy(trajectory, options.trajectory);
   copy(out, options.out);
+  copy(listen, options.listen);
+  copy(key, options.key);
   copy(root, options.root);
   copy(interface, options.interface);
   for (const std::string& kind : load) {
@@ -165,6 +186,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   for (const std::string& bus : buses) copy(bus, options.buses[options.bus_count++]);
   options.verb = has_bus && *scan ? Verb::kScan
                  : *ports         ? Verb::kPorts
+                 : *serve         ? Verb::kServe
                  : *check         ? Verb::kCheck
                  : *doctor        ? Verb::kDoctor
                  : *jitter        ? Verb::kJitter

@@ -35,6 +35,10 @@ struct Session {
 /// writes log, summary and figure. Returns the exit code.
 int run(Session& session, const Options& options);
 
+/// `tactus serve`: runs the pipeline in real time for clients that connect to it, until a signal.
+/// Returns the exit code.
+int serve(Session& session, const Options& options);
+
 /// `tactus check`: judges pipeline and trajectory as `run` would, from where the robot is; no drive
 /// is enabled. Returns the exit code.
 int check(Session& session, const Options& options);

@@ -153,11 +153,6 @@ bool send_input(Session& session, TrajectoryInput& input) {
   return verdict.ok();
 }
 
-bool is_final(Outcome outcome) {
-  return outcome != Outcome::kScheduled && outcome != Outcome::kStarted &&
-         outcome != Outcome::kStarved && outcome != Outcome::kReleased;
-}
-
 int refusal_code(const TrajectoryInput& input) {
   return with_stream(input, static_cast<int>(kRefused), [](const auto& stream) {
     const Verdict& verdict = stream.refusal().verdict;

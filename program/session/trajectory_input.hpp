@@ -54,9 +54,6 @@ bool send_input(Session& session, TrajectoryInput& input);
 /// Takes the next report of the generator that got the trajectory. False: there is none.
 bool poll_report(Session& session, TrajectoryInput& input, Report& report);
 
-/// True for a report after which no other of its trajectory comes.
-bool is_final(Outcome outcome);
-
 /// Returns the result of a run whose file was refused on the way: the Status, or kRefused for a row
 /// that cannot be read.
 int refusal_code(const TrajectoryInput& input);

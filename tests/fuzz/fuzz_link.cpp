@@ -74,7 +74,8 @@ void deal_frames(const fuzz::Tape& tape, Wire& wire, BoardLink& link) {
   static Channel channel;
   static PortTable ports;
   new (&channel) Channel;
-  ReferenceServer<JointSpace> server(channel, ports);
+  ReferenceClient<JointSpace> client(channel);
+  ReferenceServer<JointSpace> server(client, ports);
   CycleTime now;
   std::uint16_t number = 0;
   for (std::size_t at = 0; at + 2 <= tape.size;) {

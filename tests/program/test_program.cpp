@@ -100,7 +100,7 @@ void a_command_line_that_is_not_understood_is_refused(void**) {
   const Line path = write("p.ini", {kPipeline}), out = in_folder("refused");
   const char* p = path.c_str();
   assert_int_equal(tactus_run({}), 2);
-  assert_true(has(errors(), "a verb is required: run, check, ports, doctor or jitter"));
+  assert_true(has(errors(), "a verb is required: run, serve, check, ports, doctor or jitter"));
   assert_int_equal(tactus_run({"frobnicate"}), 2);
   assert_true(has(errors(), "frobnicate"));
   for (const char* verb : {"run", "check"}) {

@@ -61,6 +61,7 @@ struct JointReferenceGenerator {
     generator_.brake(why, way);
   }
   bool at_rest() const { return generator_.reference().standing(); }
+  MotionState motion_state() const { return generator_.motion_state(); }
   /// Keeps the reference where it has come to rest. [init]
   Status resume();
 

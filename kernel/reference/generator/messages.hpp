@@ -92,6 +92,12 @@ constexpr const char* name(Outcome outcome) {
   return nullptr;
 }
 
+/// True if no report on the same request follows, but for the release of its store.
+constexpr bool is_final(Outcome outcome) {
+  return outcome != Outcome::kScheduled && outcome != Outcome::kStarted &&
+         outcome != Outcome::kStarved && outcome != Outcome::kReleased;
+}
+
 struct Report {
   std::uint32_t id = 0;
   Outcome outcome = Outcome::kRefused;

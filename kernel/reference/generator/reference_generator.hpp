@@ -30,6 +30,13 @@ constexpr const char* name(OnlineMode online) {
   return nullptr;
 }
 
+/// What a generator tells of its motion, whatever its space.
+struct MotionState {
+  double time_s = 0.0;  ///< generator time: periods since start
+  Phase phase = Phase::kHolding;
+  double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
+};
+
 /// The account of chunks and velocities.
 template <class Space>
 struct StreamAccount {
@@ -81,6 +88,7 @@ class ReferenceGenerator {
   ReferenceState state() const { return state_of(phase()); }
   /// Generator time: periods since start, s.
   double time_s() const { return time_s_; }
+  MotionState motion_state() const { return {time_s_, phase(), override_}; }
 
  private:
   /// A trajectory that was accepted: the number of its request, and its store; -1: none.

@@ -60,6 +60,7 @@ struct TaskReferenceGenerator {
     generator_.brake(why, way);
   }
   bool at_rest() const { return generator_.reference().standing(); }
+  MotionState motion_state() const { return generator_.motion_state(); }
 
   ReferenceChannel<TaskSpace>* channel = nullptr;  ///< bound by the loader
 

@@ -1,0 +1,21 @@
+# The messages of gateway/tactus.proto as C structs of fixed size, by nanopb. The Makefile includes this file and defines
+# O, CROSS_..., obj and say.
+MESSAGES := build/generated/gateway/tactus.pb
+SERVER   := $(wildcard gateway/server/*.cpp gateway/sockets/*.cpp)
+# Static, as Debian has both: the programs of robots need the C library and no other.
+GATEWAY_LIBS := -l:libprotobuf-nanopb.a -l:libsodium.a
+
+# Apart from our warnings, as it is generated.
+$(O)/gateway/tactus.pb.o: $(MESSAGES).c
+	$(call say,CC    $<)
+	$(Q)$(CROSS_$(ARCH))gcc -std=c11 -O2 -g1 -Ibuild/generated -c $< -o $@
+$(MESSAGES).c $(MESSAGES).h &: gateway/tactus.proto gateway/tactus.options
+	$(call say,PROTO $<)
+	$(Q)mkdir -p build/generated && protoc -I. --nanopb_out=build/generated $<
+# What includes the messages; dependency files say the rest.
+$(call obj,$(SERVER) $(wildcard program/serve*.cpp program/*/serve*.cpp tests/gateway/*.cpp tests/fuzz/fuzz_gateway*.cpp)): | $(MESSAGES).h
+
+.PHONY: run-server
+run-server: setup                             ## serve a simulated UR10 in real time; says on which socket
+	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim all
+	$(Q)build/ur10_sim/tactus serve pipelines/ur10_trg_cpc.ini

@@ -1,0 +1,83 @@
+// Connection: what the server keeps of one client.
+#pragma once
+
+#include <algorithm>
+
+#include "gateway/server/byte_queues.hpp"
+#include "kernel/core/load_error.hpp"
+
+namespace tactus {
+
+/// Messages per time: an allowance that fills up at a rate, and that every message takes from.
+class MessageRate {
+ public:
+  void start(std::int64_t now_ns) {
+    left_ = kMessageBurst;
+    at_ns_ = now_ns;
+  }
+  /// Counts a message; false: it is one too many.
+  bool count(std::int64_t now_ns) {
+    const double since_s = static_cast<double>(now_ns - at_ns_) * 1e-9;
+    left_ = std::min<double>(kMessageBurst, left_ + kMessagesPerSecond * std::max(0.0, since_s));
+    at_ns_ = now_ns;
+    left_ -= 1.0;
+    return left_ >= 0.0;
+  }
+
+ private:
+  double left_ = 0.0;
+  std::int64_t at_ns_ = 0;
+};
+
+/// Messages that a client has subscribed to, of one kind.
+struct Subscription {
+  std::int64_t period_ns = 0, due_ns = 0;  ///< 0: none
+
+  /// True once in every period, at most.
+  bool due(std::int64_t now_ns) {
+    if (period_ns == 0 || now_ns < due_ns) return false;
+    due_ns = std::max(due_ns + period_ns, now_ns - period_ns);
+    return true;
+  }
+};
+
+struct Connection {
+  enum class State : std::uint8_t {
+    kFree,
+    kNew,  ///< it has not said Hello
+    kOpen,
+    kLeaving,  ///< it is cut: what it was told last is being sent
+  };
+
+  State state = State::kFree;
+  std::uint64_t session = 0;
+  Name name;
+  std::int64_t heard_ns = 0;     ///< when its last bytes came, or it was opened or cut
+  std::int64_t read_ns = 0;      ///< when it last read something, or nothing waited for it
+  std::int64_t client_ns = 0;    ///< of its last message
+  std::int64_t received_ns = 0;  ///< when that came
+  MessageRate rate;
+  Subscription states, feedback;
+  bool events = false;
+  std::uint32_t epoch = 0, sequence = 0;  ///< of its last reference that had a place
+  std::uint32_t lost = 0;                 ///< States that found no space
+  InputBytes in;
+  OutputBytes out;
+
+  bool there() const { return state == State::kNew || state == State::kOpen; }
+  void open(std::uint64_t its_session, std::int64_t now_ns) {
+    state = State::kNew;
+    session = its_session;
+    name = {};
+    heard_ns = read_ns = received_ns = now_ns;
+    client_ns = 0;
+    rate.start(now_ns);
+    states = feedback = {};
+    events = false;
+    epoch = sequence = lost = 0;
+    in.clear();
+    out.clear();
+  }
+};
+
+}  // namespace tactus

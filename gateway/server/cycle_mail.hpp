@@ -1,0 +1,50 @@
+// CycleMail: the messages between the cycle's thread and the server's, both ways without waiting.
+// References have their own channel (kernel/reference/generator/messages.hpp); here is the rest:
+// orders to the executive, their results, and the state of every cycle for those who watch.
+#pragma once
+
+#include "kernel/core/mailbox.hpp"
+#include "kernel/core/status.hpp"
+#include "kernel/core/types.hpp"
+
+namespace tactus {
+
+enum class CycleOrder : std::uint8_t {
+  kStop,   ///< brake the whole chain on its path, then disable the drives
+  kRearm,  ///< take the arm over again
+};
+
+struct OrderMessage {
+  std::uint32_t id = 0;
+  CycleOrder order = CycleOrder::kStop;
+};
+struct OrderResult {
+  std::uint32_t id = 0;
+  Status status = Status::kOk;
+};
+
+/// What is told of one cycle, after it.
+struct CycleSnapshot {
+  /// Bits of `has`: what the pipeline has of the values below.
+  enum : std::uint8_t { kJointReference = 1, kPose = 2, kPoseReference = 4, kWrench = 8 };
+
+  std::int64_t stamp_ns = 0;  ///< its begin
+  double time_s = 0.0;        ///< of the generator
+  std::uint32_t cycle = 0, slips = 0, overruns = 0;
+  std::uint32_t lost = 0;  ///< snapshots for which there was no space, up to now
+  std::uint8_t rung = 0, phase = 0, has = 0;
+  Status status = Status::kOk;
+  double override = 1.0, speed_scaling = 1.0;
+  JointVector q = JointVector::Zero(), dq = JointVector::Zero(), tau = JointVector::Zero();
+  JointVector q_d = JointVector::Zero(), dq_d = JointVector::Zero();
+  Pose pose, pose_d;
+  Vector6 wrench = Vector6::Zero();
+};
+
+struct CycleMail {
+  Mailbox<OrderMessage, 8> orders;  ///< at most one is taken in a cycle
+  Mailbox<OrderResult, 16> results;
+  Mailbox<CycleSnapshot, 32> snapshots;  ///< one of every cycle that finds space
+};
+
+}  // namespace tactus

@@ -1,0 +1,206 @@
+#include "gateway/server/reference_intake.hpp"
+
+#include <algorithm>
+
+namespace tactus {
+
+template <class Space>
+Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms& terms,
+                                      const typename Space::Point& point) {
+  if (busy()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  const Verdict verdict = server_.point(terms, point, id);
+  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  return verdict;
+}
+
+/// The generator's own epochs void what a stop overtakes on its way to the cycle. The order is that
+/// in which messages have come, since the server has judged the clients' places.
+template <class Space>
+Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
+                                      Chunk<Space>& chunk) {
+  if (busy()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  chunk.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, chunk.header);
+  if (verdict.ok()) verdict = client_.send(chunk, id);
+  if (!verdict.ok()) return verdict;
+  book_.add({id, from, {}, 0.0});
+  ++chunks_;
+  return {};
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
+                                         Velocity<Space>& velocity) {
+  if (busy()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  typename Space::Header header;
+  velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  velocity.sequence = ++sequence_;
+  Verdict verdict = server_.place(terms, header);
+  if (verdict.ok()) verdict = client_.send(velocity, id, header);
+  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  return verdict;
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate) {
+  if (busy()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  const Verdict verdict = server_.control(kind, rate, id);
+  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  return verdict;
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::begin(const Origin& from, const TrajectoryTerms& terms) {
+  // There is space to tell what is given up, and what this one may end as before it is sent.
+  if (told_count_ + 2 > static_cast<int>(told_.size())) return {Status::kMailboxFull};
+  if (terms.check && coming_ && !comes(from)) return {Status::kNoFreeStore};
+  if (coming_) give_up(origin_.session);
+  const Verdict verdict = server_.begin(terms);
+  if (!verdict.ok()) return verdict;
+  coming_ = true;
+  ended_ = false;
+  checks_ = terms.check;
+  origin_ = from;
+  fields_ = terms.fields;
+  id_ = 0;
+  first_ = count_ = outstanding_ = 0;
+  free_ = server_.capacity();
+  return {};
+}
+
+template <class Space>
+void ReferenceIntake<Space>::take(const Waypoint<Space>& waypoint) {
+  if (count_ == kStagedWaypoints) move_on();  // into the window: it was granted with the rest
+  if (!coming_ || count_ == kStagedWaypoints) return;
+  --outstanding_;
+  staged_[static_cast<std::size_t>((first_ + count_++) % kStagedWaypoints)] = waypoint;
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::end(const Origin& from) {
+  if (!comes(from) || ended_) return {Status::kNothingToExtend};
+  ended_ = true;
+  return {};
+}
+
+template <class Space>
+void ReferenceIntake<Space>::give_up(std::uint64_t session) {
+  if (coming_ && origin_.session == session) fail({}, Outcome::kCanceled);
+}
+
+template <class Space>
+void ReferenceIntake<Space>::cancel() {
+  std::uint32_t id = 0;  // nobody is told
+  cancel_due_ = !server_.control(ControlKind::kCancel, 1.0, id).ok();
+}
+
+template <class Space>
+void ReferenceIntake<Space>::forget(std::uint64_t session) {
+  book_.forget(session);
+}
+
+/// Ends the trajectory that comes. Of one that the generator has, its report follows.
+template <class Space>
+void ReferenceIntake<Space>::fail(const Verdict& verdict, Outcome outcome) {
+  coming_ = false;
+  count_ = outstanding_ = 0;
+  ReportBook::Entry* const entry = id_ != 0 ? book_.find(id_) : nullptr;
+  if (entry == nullptr && id_ == 0) {
+    told_[static_cast<std::size_t>(told_count_++)] = {origin_, outcome, verdict, 0.0, 0.0};
+  } else if (entry != nullptr && !verdict.ok()) {
+    entry->failed = verdict;
+    cancel();  // or the arm would wait on the path for what never comes
+  }
+}
+
+/// Notes under which number the generator has the trajectory, once it does.
+template <class Space>
+void ReferenceIntake<Space>::note_sent() {
+  if (id_ != 0 || server_.sent() == 0) return;
+  id_ = server_.sent();
+  free_ = 0;
+  book_.add({id_, origin_, {}, server_.stretch()});
+}
+
+template <class Space>
+void ReferenceIntake<Space>::move_on() {
+  if (cancel_due_) cancel();
+  if (cancel_due_) return;
+  while (coming_ && count_ > 0) {
+    const Verdict verdict = server_.take(staged_[static_cast<std::size_t>(first_)]);
+    note_sent();
+    if (verdict.status == Status::kWindowFull) return;
+    if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
+    first_ = (first_ + 1) % kStagedWaypoints;
+    --count_;
+    free_ -= free_ > 0 ? 1 : 0;
+  }
+  if (!coming_ || !ended_) return;
+  std::uint32_t id = 0;
+  const Verdict verdict = server_.end(id);
+  if (verdict.status == Status::kWindowFull) return;
+  if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
+  coming_ = false;
+  if (checks_)
+    told_[static_cast<std::size_t>(told_count_++)] = {
+        origin_, Outcome::kExecuted, {}, 0.0, server_.stretch()};
+  else if (id_ == 0)
+    book_.add({id, origin_, {}, server_.stretch()});
+}
+
+template <class Space>
+bool ReferenceIntake<Space>::work(Told& told) {
+  move_on();
+  if (told_count_ > 0) {
+    told = told_[0];
+    std::move(told_.begin() + 1, told_.begin() + told_count_--, told_.begin());
+    return true;
+  }
+  Report report;
+  while (server_.fetch(report))
+    if (translate(report, told)) return true;
+  return false;
+}
+
+/// A report on a store, or on what nobody waits for, is for no client.
+template <class Space>
+bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
+  ReportBook::Entry* const entry = report.id != 0 ? book_.find(report.id) : nullptr;
+  if (entry == nullptr) return false;
+  told = {entry->from, report.outcome, report.verdict, report.time_s, entry->stretch};
+  if (report.outcome == Outcome::kCanceled && !entry->failed.ok()) {
+    told.outcome = Outcome::kAborted;
+    told.verdict = entry->failed;
+  }
+  if (!is_final(report.outcome)) return told.to.slot >= 0;
+  if (report.id == id_ && coming_) coming_ = false;
+  book_.remove(*entry);
+  return told.to.slot >= 0;
+}
+
+/// Whatever is granted can be taken at any moment: staged, or in the window before it is sent.
+template <class Space>
+bool ReferenceIntake<Space>::grant(Granted& granted) {
+  if (!coming_ || ended_) return false;
+  const int space = kStagedWaypoints - count_ + free_;
+  granted = {origin_, space - outstanding_};
+  if (granted.waypoints <= 0) return false;
+  outstanding_ = space;
+  return true;
+}
+
+template <class Space>
+std::uint32_t ReferenceIntake<Space>::number_of(std::uint32_t id, std::uint64_t session) {
+  const ReportBook::Entry* const entry = id != 0 ? book_.find(id) : nullptr;
+  return entry != nullptr && entry->from.session == session ? entry->from.number : 0;
+}
+
+template class ReferenceIntake<JointSpace>;
+template class ReferenceIntake<TaskSpace>;
+
+}  // namespace tactus

@@ -1,0 +1,113 @@
+// ReferenceIntake: the references of one space on their way from the clients to the generator, and
+// its reports on their way back. It stages the waypoints of one trajectory at a time, grants its
+// client credit for as many as it can take at any moment, and knows who is told of what.
+#pragma once
+
+#include "gateway/reference_server.hpp"
+#include "gateway/server/report_book.hpp"
+
+namespace tactus {
+
+/// A report for a client.
+struct Told {
+  Origin to;
+  Outcome outcome = Outcome::kRefused;
+  Verdict verdict;
+  double time_s = 0.0, stretch = 0.0;
+};
+
+/// Credit for a client.
+struct Granted {
+  Origin to;
+  int waypoints = 0;
+};
+
+template <class SpaceOfReferences>
+class ReferenceIntake {
+ public:
+  using Space = SpaceOfReferences;
+
+  ReferenceIntake(ReferenceClient<Space>& client, const PortTable& ports)
+      : client_(client), server_(client, ports) {}
+
+  Verdict point(const Origin& from, const TrajectoryTerms& terms,
+                const typename Space::Point& point);
+  /// Sends a chunk, whose header the terms give; it is newer than all before.
+  Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
+  /// Sends a velocity; it is newer than all before.
+  Verdict velocity(const Origin& from, const TrajectoryTerms& terms, Velocity<Space>& velocity);
+  /// Chunks that were sent.
+  std::uint32_t chunks() const { return chunks_; }
+  /// Counters and margins of chunks and velocities.
+  const StreamState& stream() const { return client_.stream(); }
+  Verdict control(const Origin& from, ControlKind kind, double rate);
+  /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
+  /// judged waits for that of another client: kNoFreeStore.
+  Verdict begin(const Origin& from, const TrajectoryTerms& terms);
+  /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
+  void take(const Waypoint<Space>& waypoint);
+  /// No waypoints follow.
+  Verdict end(const Origin& from);
+  /// True if the trajectory that comes is from this client.
+  bool comes(const Origin& from) const { return coming_ && origin_.session == from.session; }
+  /// Waypoints of the trajectory that `from` has begun for which it has credit; 0 if it has begun
+  /// none, or ended it.
+  int credit(const Origin& from) const { return comes(from) && !ended_ ? outstanding_ : 0; }
+  /// True if the trajectory that `from` has begun is only judged.
+  bool checks(const Origin& from) const { return comes(from) && checks_; }
+  /// Fields of the trajectory that comes.
+  Fields fields() const { return fields_; }
+  /// Ends the trajectory that `from` has begun, because something in it is refused.
+  void refuse(const Origin& from, const Verdict& verdict) {
+    if (comes(from)) fail(verdict, Outcome::kRefused);
+  }
+
+  /// Gives up the trajectory that comes from a session, if one does; what of it moves is to be
+  /// canceled.
+  void give_up(std::uint64_t session);
+  /// Brings to rest on its path whatever moves. Nothing else is taken before the generator has
+  /// space for it.
+  void cancel();
+  /// Nobody is told any more of what a session has sent.
+  void forget(std::uint64_t session);
+
+  /// Moves staged waypoints on, and takes the next report that concerns a client. False: there is
+  /// none. To be called until there is none.
+  bool work(Told& told);
+  /// New credit of the client whose trajectory comes; false: there is none.
+  bool grant(Granted& granted);
+
+  bool poll_feedback(Feedback<Space>& feedback) { return client_.poll_feedback(feedback); }
+  /// The client's number of the trajectory with this number in the channel; 0: none of it.
+  std::uint32_t number_of(std::uint32_t id, std::uint64_t session);
+  const AdmissionSettings<Space>& settings() const { return client_.settings(); }
+
+ private:
+  bool busy() const { return book_.full() || cancel_due_; }
+  void move_on();
+  void note_sent();
+  void fail(const Verdict& verdict, Outcome outcome);
+  bool translate(const Report& report, Told& told);
+
+  ReferenceClient<Space>& client_;
+  ReferenceServer<Space> server_;
+  ReportBook book_;
+  std::uint32_t sequence_ = 0, chunks_ = 0;
+
+  bool cancel_due_ = false;  // one that found no space
+
+  bool coming_ = false;  // a trajectory comes
+  bool ended_ = false;   // all its waypoints have come
+  bool checks_ = false;  // it is only judged
+  Origin origin_;        // of its Begin
+  Fields fields_ = 0;
+  int free_ = 0;          // waypoints that its window takes before it is sent
+  int outstanding_ = 0;   // credit that is not used
+  std::uint32_t id_ = 0;  // once the generator has it; 0: not yet
+  std::array<Waypoint<Space>, kStagedWaypoints> staged_;
+  int first_ = 0, count_ = 0;
+  std::array<Told, 16> told_;  // of what has ended before the generator had it
+  int told_count_ = 0;
+};
+
+}  // namespace tactus

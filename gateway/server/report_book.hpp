@@ -1,0 +1,57 @@
+// ReportBook: whose reference has which number in the channel, until its final report.
+#pragma once
+
+#include <array>
+
+#include "gateway/server/limits.hpp"
+#include "kernel/reference/space/verdict.hpp"
+
+namespace tactus {
+
+/// A message of a client: the connection, by its session, and the client's number of the message.
+struct Origin {
+  int slot = -1;  ///< of the connection; -1: nobody is told
+  std::uint64_t session = 0;
+  std::uint32_t number = 0;
+};
+
+class ReportBook {
+ public:
+  struct Entry {
+    std::uint32_t id = 0;  ///< 0: free
+    Origin from;
+    Verdict failed;  ///< why it is canceled, if the server does so
+    double stretch = 0.0;
+  };
+
+  /// True if no more is to be taken; there is still space for the trajectory that comes.
+  bool full() const { return count_ >= kMostUnreported - 1; }
+  /// There is space: see full().
+  void add(const Entry& entry) {
+    Entry* const free = find(0);
+    if (free == nullptr) return;
+    *free = entry;
+    ++count_;
+  }
+  /// Returns the entry of a number, or null.
+  Entry* find(std::uint32_t id) {
+    for (Entry& entry : entries_)
+      if (entry.id == id) return &entry;
+    return nullptr;
+  }
+  /// Nobody is told any more of what a session has sent.
+  void forget(std::uint64_t session) {
+    for (Entry& entry : entries_)
+      if (entry.from.session == session) entry.from.slot = -1;
+  }
+  void remove(Entry& entry) {
+    entry = {};
+    --count_;
+  }
+
+ private:
+  std::array<Entry, kMostUnreported> entries_{};
+  int count_ = 0;
+};
+
+}  // namespace tactus

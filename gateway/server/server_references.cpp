@@ -1,0 +1,115 @@
+// Server: the references of its clients.
+#include <type_traits>
+
+#include "gateway/server/message_points.hpp"
+#include "gateway/server/server.hpp"
+#include "gateway/verdict_text.hpp"
+
+namespace tactus {
+namespace {
+
+Fields fields_of(const tactus_Begin& begin) {
+  return static_cast<Fields>((begin.velocities ? kVelocityField : 0) |
+                             (begin.accelerations ? kAccelerationField : 0) |
+                             (begin.efforts ? kEffortField : 0));
+}
+
+template <class Space>
+constexpr bool kPoses = std::is_same_v<Space, TaskSpace>;
+
+}  // namespace
+
+Reply Server::reply(const Verdict& verdict) const {
+  if (verdict.ok()) return {};
+  Message text =
+      describe(verdict, takes_poses() ? VerdictAxes::kTip : VerdictAxes::kJoints, kInfinity);
+  return {verdict.status, text << remedy(verdict.status)};
+}
+
+/// Of one epoch only increasing sequences count, also those that wrap around.
+Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
+  if (!given) return {};
+  Connection& connection = at(slot);
+  const bool newer = connection.epoch != place.epoch ||
+                     static_cast<std::int32_t>(place.sequence - connection.sequence) > 0;
+  if (place.epoch != epoch_) return reply({Status::kEpochVoid});
+  if (!newer) return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
+  connection.epoch = place.epoch;
+  connection.sequence = place.sequence;
+  return {};
+}
+
+Reply Server::point(int slot, const Origin& from) {
+  const tactus_Point& given = request_.request.point;
+  const bool poses = given.which_target == tactus_Point_task_tag;
+  if (given.which_target == 0)
+    return {Status::kBadValue, "a Point has neither joint nor task; give one"};
+  if (!takes_references() || poses != takes_poses())
+    return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: give Point.task"
+                                               : "the pipeline takes joints: give Point.joint"};
+  const Reply placed = judge_place(slot, given.has_place, given.place);
+  if (placed.status != Status::kOk) return placed;
+  const TrajectoryTerms terms = terms_of(given.has_terms, given.terms);
+  Message why;
+  if (poses) {
+    TaskSpace::Point point;
+    if (!read_point(given.target.task, point, why)) return {Status::kBadValue, why};
+    return reply(poses_.point(from, terms, point));
+  }
+  JointSpace::Point point;
+  if (!read_point(given.target.joint, point, why)) return {Status::kBadValue, why};
+  return reply(joints_.point(from, terms, point));
+}
+
+Reply Server::begin(const Origin& from, std::int64_t now_ns) {
+  const tactus_Begin& given = request_.request.begin;
+  if (!takes_references() || given.poses != takes_poses())
+    return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: set Begin.poses"
+                                               : "the pipeline takes joints, no poses"};
+  TrajectoryTerms terms = terms_of(given.has_terms, given.terms);
+  terms.poses = given.poses;
+  terms.fields = fields_of(given);
+  terms.interpolation = static_cast<Interpolation>(given.interpolation);
+  if (name(terms.interpolation) == nullptr)
+    return {Status::kBadValue, "Begin.interpolation is unknown"};
+  terms.exact = given.exact;
+  terms.check = given.check;
+  terms.window = static_cast<int>(std::min<std::uint32_t>(given.window, kMostWaypoints));
+  if (given.start_ns != 0) {
+    const Verdict verdict = clock_.time_of(given.start_ns, now_ns, terms.start_s);
+    if (!verdict.ok()) return reply(verdict);
+  }
+  return reply(with_intake([&](auto& intake) { return intake.begin(from, terms); }));
+}
+
+Reply Server::part(const Origin& from) {
+  const tactus_Part& part = request_.request.part;
+  return with_intake([&](auto& intake) -> Reply {
+    using Space = typename std::decay_t<decltype(intake)>::Space;
+    if (!intake.comes(from)) return reply({Status::kNothingToExtend});
+    const int numbers = numbers_in_message<Space>(intake.fields());
+    Reply why;
+    if (part.numbers_count != part.time_s_count * numbers) {
+      why = {Status::kBadValue, "Part.numbers has another count than its times and fields say"};
+    } else if (part.time_s_count > intake.credit(from)) {
+      why = {Status::kWindowFull, "more waypoints than there is credit for; wait for Credit"};
+    }
+    if (why.status != Status::kOk) {
+      intake.refuse(from, {why.status});
+      return why;
+    }
+    for (int i = 0; i < part.time_s_count; ++i) {
+      Waypoint<Space> waypoint;
+      waypoint.time_s = part.time_s[i];
+      waypoint.point = point_of<Space>(part.numbers + i * numbers, intake.fields());
+      intake.take(waypoint);
+    }
+    return {};
+  });
+}
+
+Reply Server::end(const Origin& from) {
+  return reply(with_intake([&from](auto& intake) { return intake.end(from); }));
+}
+
+}  // namespace tactus

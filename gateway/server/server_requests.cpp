@@ -1,0 +1,188 @@
+// Server: what clients ask that is no reference.
+#include <algorithm>
+#include <cctype>
+
+#include "gateway/server/server.hpp"
+#include "gateway/verdict_text.hpp"
+
+namespace tactus {
+namespace {
+
+/// Printable characters only, as names go into logs and terminals.
+Name printable_name(const char* text) {
+  Name name;
+  for (; *text != '\0'; ++text)
+    name << std::string_view(std::isprint(static_cast<unsigned char>(*text)) != 0 ? text : "?", 1);
+  return name.empty() ? Name("a client") : name;
+}
+
+bool needs_lease(pb_size_t request) {
+  switch (request) {
+    case tactus_ToServer_point_tag:
+    case tactus_ToServer_velocity_tag:
+    case tactus_ToServer_chunk_tag:
+    case tactus_ToServer_cancel_tag:
+    case tactus_ToServer_override_tag:
+    case tactus_ToServer_pause_tag:
+    case tactus_ToServer_resume_tag:
+    case tactus_ToServer_rearm_tag: return true;
+    default: return false;
+  }
+}
+
+bool offered(tactus_Feature feature) {
+  return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
+         feature == tactus_Feature_FEATURE_VELOCITIES;
+}
+
+Reply not_offered(std::string_view what) {
+  Message text("this server does not offer ");
+  text << what << "; Welcome.features names what it offers";
+  return {Status::kNotOffered, text};
+}
+
+}  // namespace
+
+Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
+  for (pb_size_t i = 0; i < request_.requires_count; ++i)
+    if (!offered(request_.requires[i])) return not_offered("a feature that the message requires");
+  const pb_size_t what = request_.which_request;
+  if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
+  if (at(slot).state == Connection::State::kNew)
+    return {Status::kNotStarted, "the first message of a connection must be Hello"};
+  const bool checks = what == tactus_ToServer_begin_tag
+                          ? request_.request.begin.check
+                          : with_intake([&from](auto& intake) { return intake.checks(from); });
+  const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
+                       what == tactus_ToServer_begin_tag;
+  const bool moves = follows ? !checks : needs_lease(what);
+  if (moves && lease_.owner() != slot) {
+    Message text(describe(Status::kNotOwner));
+    if (lease_.owner() != Lease::kNobody)
+      text << ": " << std::string_view(at(lease_.owner()).name) << ", with priority "
+           << static_cast<int>(lease_.priority());
+    return {Status::kNotOwner, text << remedy(Status::kNotOwner)};
+  }
+  switch (what) {
+    case tactus_ToServer_lease_tag: return lease(slot, now_ns);
+    case tactus_ToServer_point_tag: return point(slot, from);
+    case tactus_ToServer_velocity_tag: return velocity(slot, from);
+    case tactus_ToServer_chunk_tag: return chunk(slot, from, now_ns);
+    case tactus_ToServer_begin_tag: return begin(from, now_ns);
+    case tactus_ToServer_part_tag: return part(from);
+    case tactus_ToServer_end_tag: return end(from);
+    case tactus_ToServer_cancel_tag:
+    case tactus_ToServer_override_tag:
+    case tactus_ToServer_pause_tag:
+    case tactus_ToServer_resume_tag: return control(from);
+    case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
+    case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
+    case tactus_ToServer_parameters_tag: return not_offered("parameters");
+    case tactus_ToServer_subscribe_tag: return subscribe(slot, now_ns);
+    case tactus_ToServer_ping_tag: return {};
+    default: return {Status::kUnknownKey, "unknown message; this server speaks version 1"};
+  }
+}
+
+Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
+  Connection& connection = at(slot);
+  if (connection.state == Connection::State::kOpen)
+    return {Status::kDuplicate, "Hello was said before"};
+  const tactus_Hello& hello = request_.request.hello;
+  if (hello.version != tactus_Version_VERSION_PRESENT) {
+    Message text("this server speaks version 1 of the messages, not ");
+    return {Status::kBadValue, text << static_cast<double>(hello.version)};
+  }
+  connection.state = Connection::State::kOpen;
+  connection.name = printable_name(hello.client);
+  welcome(connection, from.number, now_ns);
+  Message text(connection.name);
+  text << " has joined";
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("joined", Status::kOk, text, slot, now_ns);
+  return {};
+}
+
+Reply Server::lease(int slot, std::int64_t now_ns) {
+  const tactus_Lease& wish = request_.request.lease;
+  if (wish.wish == tactus_Lease_Wish_RELEASE) {
+    if (lease_.owner() != slot) return {Status::kNotOwner, "this client has no lease to give back"};
+    lease_.end();
+    with_intake([&](auto& intake) {
+      intake.refuse({slot, at(slot).session, 0}, {Status::kNotOwner});
+    });
+    Message text(at(slot).name);
+    tell_events("lease", Status::kOk, text << " has given the lease back", -1, now_ns);
+    return {};
+  }
+  const std::uint32_t timeout_ms = wish.timeout_ms == 0 ? kDefaultLease_ms : wish.timeout_ms;
+  if (timeout_ms < kShortestLease_ms || timeout_ms > kLongestLease_ms)
+    return {Status::kBadValue, "Lease.timeout_ms is not from 20 to 60000"};
+  if (wish.priority > kHighestPriority)
+    return {Status::kBadValue, "Lease.priority is not from 0 to 255"};
+  const int before = lease_.owner();
+  const LeaseTaken taken = lease_.take(slot, wish.priority, kMillisecond_ns * timeout_ms, now_ns);
+  if (taken == LeaseTaken::kRefused) {
+    Message text(std::string_view(at(before).name));
+    text << " owns the motion with priority " << static_cast<int>(lease_.priority())
+         << "; ask with a higher one, or wait until it is given back";
+    return {Status::kNotOwner, text};
+  }
+  if (taken == LeaseTaken::kRenewed) return {};
+  Message text(at(slot).name);
+  text << " owns the motion";
+  if (taken == LeaseTaken::kTakenOver) {
+    with_intake([&](auto& intake) { intake.give_up(at(before).session); });
+    end_motion();
+    text << ", taken over from " << std::string_view(at(before).name);
+  }
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("lease", Status::kOk, text, -1, now_ns);
+  return {};
+}
+
+Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
+  const auto free = std::find_if(orders_.begin(), orders_.end(),
+                                 [](const Order& order) { return order.id == 0; });
+  constexpr std::size_t kForStops = 4;  // of the mailbox, which no rearm may fill
+  const bool space = what == CycleOrder::kStop || mail_.orders.space() > kForStops;
+  if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
+    return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
+  *free = {next_order_, from};
+  next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
+  if (what != CycleOrder::kStop) return {};
+  ++epoch_;
+  Message text(at(from.slot).name);
+  text << " has stopped the arm";
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("stop", Status::kHalted, text, -1, now_ns);
+  return {};
+}
+
+Reply Server::control(const Origin& from) {
+  if (!takes_references()) return not_offered("references");
+  const pb_size_t what = request_.which_request;
+  const ControlKind kind = what == tactus_ToServer_cancel_tag     ? ControlKind::kCancel
+                           : what == tactus_ToServer_override_tag ? ControlKind::kOverride
+                           : what == tactus_ToServer_pause_tag    ? ControlKind::kPause
+                                                                  : ControlKind::kResume;
+  const double rate = kind == ControlKind::kOverride ? request_.request.override.rate : 1.0;
+  const Verdict verdict =
+      with_intake([&](auto& intake) { return intake.control(from, kind, rate); });
+  if (verdict.ok() && kind == ControlKind::kCancel) {
+    ++epoch_;
+    with_intake([&from](auto& intake) { intake.give_up(from.session); });
+  }
+  return reply(verdict);
+}
+
+Reply Server::subscribe(int slot, std::int64_t now_ns) {
+  const tactus_Subscribe& wish = request_.request.subscribe;
+  Connection& connection = at(slot);
+  connection.states = {kMillisecond_ns * wish.state_ms, now_ns};
+  connection.feedback = {kMillisecond_ns * wish.feedback_ms, now_ns};
+  connection.events = wish.events;
+  return {};
+}
+
+}  // namespace tactus

@@ -1,0 +1,169 @@
+// Server: what clients are told.
+#include "gateway/fnv1a.hpp"
+#include "gateway/server/message_points.hpp"
+#include "gateway/server/server.hpp"
+#include "gateway/verdict_text.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr tactus_Report_Outcome outcome_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kScheduled: return tactus_Report_Outcome_SCHEDULED;
+    case Outcome::kStarted: return tactus_Report_Outcome_STARTED;
+    case Outcome::kSucceeded: return tactus_Report_Outcome_SUCCEEDED;
+    case Outcome::kPreempted: return tactus_Report_Outcome_PREEMPTED;
+    case Outcome::kAborted: return tactus_Report_Outcome_ABORTED;
+    case Outcome::kCanceled: return tactus_Report_Outcome_CANCELED;
+    case Outcome::kExecuted: return tactus_Report_Outcome_EXECUTED;
+    case Outcome::kSuperseded: return tactus_Report_Outcome_SUPERSEDED;
+    case Outcome::kRefused: return tactus_Report_Outcome_REFUSED;
+    case Outcome::kStarved: return tactus_Report_Outcome_STARVED;
+    case Outcome::kReleased: break;
+  }
+  return tactus_Report_Outcome_UNKNOWN;
+}
+
+void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
+  const JointLimits& limits = pipeline.guard.limits;
+  to.joints_count = kDof;
+  for (int i = 0; i < kDof; ++i) {
+    tactus_Joint& joint = to.joints[i];
+    set_text(joint.name, Robot::kJointNames[static_cast<std::size_t>(i)]);
+    joint.min_rad = limits.q_min[i];
+    joint.max_rad = limits.q_max[i];
+    joint.velocity = limits.dq_max[i];
+    joint.acceleration = limits.ddq_max[i];
+    joint.jerk = limits.dddq_max[i];
+    joint.effort = limits.tau_max[i];
+  }
+}
+
+tactus_TaskLimits task_limits(const TaskLimits& limits) {
+  return {limits.v_max, limits.a_max,     limits.j_max,
+          limits.w_max, limits.alpha_max, limits.dalpha_max};
+}
+
+}  // namespace
+
+/// Sends what is in told_. False: there is no space.
+bool Server::put(Connection& to) {
+  const std::size_t size = encode(told_, bytes_);
+  return size > 0 && to.out.put(bytes_.data(), size);
+}
+
+/// There is always space: messages are taken while the reserve is free.
+void Server::answer(Connection& to, std::uint32_t number, const Reply& reply, std::int64_t now_ns) {
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_answer_tag;
+  tactus_Answer& answer = told_.message.answer;
+  answer.number = number;
+  answer.status = static_cast<std::uint32_t>(reply.status);
+  set_text(answer.text, reply.text);
+  answer.client_ns = to.client_ns;
+  answer.server_ns = now_ns;
+  answer.received_ns = to.received_ns;
+  answer.epoch = epoch_;
+  static_cast<void>(put(to));
+}
+
+void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) {
+  const Pipeline& pipeline = *setup_.loaded;
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_welcome_tag;
+  tactus_Welcome& welcome = told_.message.welcome;
+  welcome.number = number;
+  welcome.version = tactus_Version_VERSION_PRESENT;
+  set_text(welcome.board, setup_.board);
+  set_text(welcome.robot, Robot::kName);
+  set_text(welcome.pipeline, setup_.pipeline);
+  welcome.configuration = setup_.configuration;
+  welcome.session = to.session;
+  welcome.server_ns = now_ns;
+  welcome.client_ns = to.client_ns;
+  welcome.period_s = pipeline.robot.period_s();
+  write_joints(pipeline, welcome);
+  welcome.has_task = pipeline.takes_poses;
+  welcome.task = task_limits(pipeline.task_limits);
+  welcome.takes_poses = pipeline.takes_poses;
+  welcome.takes_joints = pipeline.takes_joints && !pipeline.takes_poses;
+  welcome.window =
+      static_cast<std::uint32_t>(pipeline.takes_poses ? setup_.task_window : setup_.joint_window);
+  welcome.longest_part = kLongestPart;
+  if (takes_references()) {
+    welcome.longest_chunk = kChunkTargets;
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_CHUNKS;
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
+  }
+  welcome.epoch = epoch_;
+  static_cast<void>(put(to));
+}
+
+/// Events are lost by a client whose reserve is in use.
+void Server::tell_events(std::string_view name, Status status, std::string_view text, int except,
+                         std::int64_t now_ns) {
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_event_tag;
+  tactus_Event& event = told_.message.event;
+  event.server_ns = now_ns;
+  set_text(event.name, name);
+  event.status = static_cast<std::uint32_t>(status);
+  set_text(event.text, text);
+  for (int slot = 0; slot < kMostClients; ++slot) {
+    Connection& to = at(slot);
+    const bool wanted = to.state == Connection::State::kOpen && to.events && slot != except;
+    if (wanted && to.out.free() >= kReserveBytes) static_cast<void>(put(to));
+  }
+}
+
+/// A client that does not read its reports is cut: none may be lost.
+void Server::report(const Told& told, std::int64_t now_ns) {
+  Connection& to = at(told.to.slot);
+  if (!to.there() || to.session != told.to.session) return;
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_report_tag;
+  tactus_Report& report = told_.message.report;
+  report.number = told.to.number;
+  report.outcome = outcome_of(told.outcome);
+  report.status = static_cast<std::uint32_t>(told.verdict.status);
+  set_text(report.text, reply(told.verdict).text);
+  report.time_s = told.time_s;
+  report.stretch = told.stretch;
+  report.server_ns = now_ns;
+  if (!put(to))
+    cut(told.to.slot, Status::kClientSlow, "reports were not read; read what is sent", now_ns);
+}
+
+void Server::take_reports(std::int64_t now_ns) {
+  if (!takes_references()) return;
+  with_intake([&](auto& intake) {
+    Told told;
+    while (intake.work(told)) report(told, now_ns);
+    Granted granted;
+    if (!intake.grant(granted)) return;
+    told_ = tactus_ToClient_init_zero;
+    told_.which_message = tactus_ToClient_credit_tag;
+    told_.message.credit.waypoints = static_cast<std::uint32_t>(granted.waypoints);
+    if (!put(at(granted.to.slot)))
+      cut(granted.to.slot, Status::kClientSlow, "credit was not read; read what is sent", now_ns);
+  });
+}
+
+void Server::take_results(std::int64_t now_ns) {
+  OrderResult result;
+  while (mail_.results.take(result)) {
+    for (Order& order : orders_) {
+      if (order.id == 0 || order.id != result.id) continue;
+      const bool good = result.status == Status::kOk;
+      report({order.from,
+              good ? Outcome::kExecuted : Outcome::kRefused,
+              {result.status},
+              newest_.time_s,
+              0.0},
+             now_ns);
+      order = {};
+    }
+  }
+}
+
+}  // namespace tactus

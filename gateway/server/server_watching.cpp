@@ -1,0 +1,112 @@
+// Server: what its clients are told of the cycles.
+#include <type_traits>
+
+#include "gateway/server/message_points.hpp"
+#include "gateway/server/server.hpp"
+#include "gateway/verdict_text.hpp"
+#include "kernel/cycle/ladder.hpp"
+
+namespace tactus {
+
+/// The newest of the cycles counts. A brake of the executive voids what is on its way.
+void Server::take_snapshots(std::int64_t now_ns) {
+  CycleSnapshot snapshot;
+  while (mail_.snapshots.take(snapshot)) {
+    const auto from = static_cast<Rung>(newest_.rung), to = static_cast<Rung>(snapshot.rung);
+    const bool changed = seen_ && from != to;
+    newest_ = snapshot;
+    seen_ = true;
+    clock_.set(snapshot.stamp_ns, snapshot.time_s);
+    if (!changed) continue;
+    if (refuses(to) && !refuses(from)) ++epoch_;
+    Message text(name(to));
+    if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
+    tell_events("rung", snapshot.status, text, -1, now_ns);
+  }
+}
+
+void Server::tell_state(Connection& to) {
+  if (to.out.free() < kReserveBytes) {
+    ++to.lost;
+    return;
+  }
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_state_tag;
+  tactus_State& state = told_.message.state;
+  state.server_ns = newest_.stamp_ns;
+  state.client_ns = to.client_ns;
+  state.client_received_ns = to.received_ns;
+  state.cycle = newest_.cycle;
+  state.rung = newest_.rung;
+  state.status = static_cast<std::uint32_t>(newest_.status);
+  state.phase = newest_.phase;
+  state.epoch = epoch_;
+  if (lease_.owner() != Lease::kNobody) set_text(state.owner, at(lease_.owner()).name);
+  state.override = newest_.override;
+  state.speed_scaling = newest_.speed_scaling;
+  set_numbers(state.q, state.q_count, newest_.q.data(), kDof);
+  set_numbers(state.dq, state.dq_count, newest_.dq.data(), kDof);
+  set_numbers(state.tau, state.tau_count, newest_.tau.data(), kDof);
+  if (newest_.has & CycleSnapshot::kJointReference) {
+    set_numbers(state.q_d, state.q_d_count, newest_.q_d.data(), kDof);
+    set_numbers(state.dq_d, state.dq_d_count, newest_.dq_d.data(), kDof);
+  }
+  if (newest_.has & CycleSnapshot::kPose) {
+    write_pose(newest_.pose, state.pose);
+    state.pose_count = 7;
+  }
+  if (newest_.has & CycleSnapshot::kPoseReference) {
+    write_pose(newest_.pose_d, state.pose_d);
+    state.pose_d_count = 7;
+  }
+  if (newest_.has & CycleSnapshot::kWrench)
+    set_numbers(state.wrench, state.wrench_count, newest_.wrench.data(), 6);
+  state.has_stream = true;
+  with_intake([&state](const auto& intake) {
+    const StreamState& stream = intake.stream();
+    state.margin_s = stream.margin_s;
+    state.stream = {intake.chunks(), stream.late, stream.dropped, stream.trimmed, stream.seam};
+  });
+  state.slips = newest_.slips;
+  state.overruns = newest_.overruns;
+  state.lost = newest_.lost + to.lost;
+  state.time_s = newest_.time_s;
+  static_cast<void>(put(to));
+}
+
+void Server::take_feedback(std::int64_t now_ns) {
+  if (!takes_references()) return;
+  with_intake([&](auto& intake) {
+    Feedback<typename std::decay_t<decltype(intake)>::Space> feedback;
+    while (intake.poll_feedback(feedback)) tell_feedback(feedback, intake, now_ns);
+  });
+}
+
+template <class Space>
+void Server::tell_feedback(const Feedback<Space>& feedback, ReferenceIntake<Space>& from,
+                           std::int64_t now_ns) {
+  lost_feedback_ += feedback.lost;
+  for (Connection& to : connections_) {
+    if (to.state != Connection::State::kOpen || !to.feedback.due(now_ns) ||
+        to.out.free() < kReserveBytes)
+      continue;
+    told_ = tactus_ToClient_init_zero;
+    told_.which_message = tactus_ToClient_feedback_tag;
+    tactus_Feedback& message = told_.message.feedback;
+    message.number = from.number_of(feedback.id, to.session);
+    message.time_s = feedback.time_s;
+    message.lost = lost_feedback_;
+    if constexpr (std::is_same_v<Space, TaskSpace>) {
+      message.has_task_desired = message.has_task_actual = true;
+      write_point(feedback.desired, message.task_desired);
+      write_point(feedback.actual, message.task_actual);
+    } else {
+      message.has_joint_desired = message.has_joint_actual = true;
+      write_point(feedback.desired, message.joint_desired);
+      write_point(feedback.actual, message.joint_actual);
+    }
+    static_cast<void>(put(to));
+  }
+}
+
+}  // namespace tactus

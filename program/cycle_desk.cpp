@@ -1,0 +1,110 @@
+#include "program/cycle_desk.hpp"
+
+#include <string_view>
+
+namespace tactus {
+namespace {
+
+/// Returns the value of the first output with this name and quantity; null: there is none.
+template <class Value>
+const Value* find(const PortTable& ports, std::string_view port, Quantity quantity) {
+  for (int i = 0; i < ports.count(); ++i)
+    if (ports[i].port == port && ports[i].quantity == quantity && ports[i].offered)
+      return static_cast<const Value*>(ports[i].value);
+  return nullptr;
+}
+
+/// Returns the pose of the block that also has the Jacobian: the robot model.
+const Pose* find_tip(const PortTable& ports) {
+  for (int i = 0; i < ports.count(); ++i) {
+    if (ports[i].quantity != Quantity::kJacobian) continue;
+    for (int k = 0; k < ports.count(); ++k)
+      if (std::string_view(ports[k].block) == ports[i].block &&
+          ports[k].quantity == Quantity::kPose)
+        return static_cast<const Pose*>(ports[k].value);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, const Pipeline& pipeline)
+    : mail_(mail), executive_(executive), pipeline_(pipeline) {
+  const PortTable& ports = pipeline.ports;
+  q_d_ = find<JointVector>(ports, "q_d", Quantity::kJointPosition);
+  dq_d_ = find<JointVector>(ports, "dq_d", Quantity::kJointVelocity);
+  pose_ = find_tip(ports);
+  pose_d_ = find<Pose>(ports, "x_d", Quantity::kPose);
+  wrench_ = find<Vector6>(ports, "h", Quantity::kWrench);
+}
+
+void CycleDesk::work(Status status) {
+  const bool begins = waits_ && !executive_.busy();
+  if (begins || status == Status::kArming) {
+    waits_ = false;
+    const Status armed = executive_.arm();
+    if (armed != Status::kArming) finish(armed);
+  } else if (rearm_ != 0 && !waits_) {
+    finish(status);  // arming has ended otherwise
+  }
+  take_order();
+}
+
+/// The result of a rearm that is under way.
+void CycleDesk::finish(Status status) {
+  if (rearm_ != 0) static_cast<void>(mail_.results.post({rearm_, status}));
+  rearm_ = 0;
+  waits_ = false;
+}
+
+/// A rearm begins once the arm rests and its drives are disabled. An order waits until there is
+/// space for its result, and that of a rearm.
+void CycleDesk::take_order() {
+  OrderMessage message;
+  if (mail_.results.space() < 2 || !mail_.orders.take(message)) return;
+  if (message.order == CycleOrder::kStop) {
+    finish(Status::kHalted);
+    executive_.halt();
+    static_cast<void>(mail_.results.post({message.id, Status::kOk}));
+    return;
+  }
+  finish(Status::kHalted);  // a rearm that a newer one replaces
+  rearm_ = message.id;
+  waits_ = true;
+}
+
+void CycleDesk::tell(const CycleTime& now) {
+  if (mail_.snapshots.space() == 0) {
+    ++lost_;
+    return;
+  }
+  const MotionState motion = pipeline_.motion_state();
+  const RobotSection& robot = pipeline_.robot;
+  CycleSnapshot told;
+  told.stamp_ns = now.stamp_ns;
+  told.time_s = motion.time_s;
+  told.cycle = executive_.telemetry().cycles;
+  told.slips = executive_.telemetry().slips;
+  told.overruns = executive_.telemetry().overruns;
+  told.lost = lost_;
+  told.rung = static_cast<std::uint8_t>(executive_.rung());
+  told.phase = static_cast<std::uint8_t>(motion.phase);
+  told.status = executive_.latched();
+  told.override = motion.override;
+  told.speed_scaling = robot.speed_scaling.value;
+  told.q = robot.q.value;
+  told.dq = robot.dq.value;
+  told.tau = robot.tau.value;
+  told.has = static_cast<std::uint8_t>((q_d_ != nullptr ? CycleSnapshot::kJointReference : 0) |
+                                       (pose_ != nullptr ? CycleSnapshot::kPose : 0) |
+                                       (pose_d_ != nullptr ? CycleSnapshot::kPoseReference : 0) |
+                                       (wrench_ != nullptr ? CycleSnapshot::kWrench : 0));
+  if (q_d_ != nullptr) told.q_d = *q_d_;
+  if (dq_d_ != nullptr) told.dq_d = *dq_d_;
+  if (pose_ != nullptr) told.pose = *pose_;
+  if (pose_d_ != nullptr) told.pose_d = *pose_d_;
+  if (wrench_ != nullptr) told.wrench = *wrench_;
+  static_cast<void>(mail_.snapshots.post(told));
+}
+
+}  // namespace tactus

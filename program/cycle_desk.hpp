@@ -1,0 +1,37 @@
+// CycleDesk: the cycle's end of CycleMail. After each cycle it takes at most one order and posts at
+// most one snapshot, whatever clients do; it never waits.
+#pragma once
+
+#include "gateway/server/cycle_mail.hpp"
+#include "kernel/cycle/executive.hpp"
+
+namespace tactus {
+
+class CycleDesk {
+ public:
+  /// Finds the outputs that are told in the loaded pipeline: the first called q_d, dq_d and x_d of
+  /// a reference, x of the robot model, h of a wrench. [init]
+  CycleDesk(CycleMail& mail, Executive& executive, const Pipeline& pipeline);
+
+  /// Takes an order, and goes on with arming; `status` is that of the last cycle. [between two
+  /// cycles]
+  void work(Status status);
+  /// Tells the cycle that has begun at `now`. [between two cycles]
+  void tell(const CycleTime& now);
+
+ private:
+  void take_order();
+  void finish(Status status);
+
+  CycleMail& mail_;
+  Executive& executive_;
+  const Pipeline& pipeline_;
+  const JointVector *q_d_ = nullptr, *dq_d_ = nullptr;
+  const Pose *pose_ = nullptr, *pose_d_ = nullptr;
+  const Vector6* wrench_ = nullptr;
+  std::uint32_t rearm_ = 0;  // number of a rearm that is under way; 0: none
+  bool waits_ = false;       // it has not begun: the arm is still being brought to rest
+  std::uint32_t lost_ = 0;   // snapshots
+};
+
+}  // namespace tactus

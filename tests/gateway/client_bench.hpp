@@ -1,0 +1,201 @@
+// Clients of the server's tests, which speak in bytes.
+#pragma once
+
+#include "tests/gateway/raw_messages.hpp"
+#include "tests/gateway/server_bench.hpp"
+
+namespace tactus {
+
+namespace ask {  // fields of ToServer
+enum : std::uint32_t {
+  kHello = 10,
+  kLease,
+  kPoint,
+  kVelocity,
+  kChunk,
+  kBegin,
+  kPart,
+  kEnd,
+  kCancel,
+  kOverride,
+  kPause,
+  kResume,
+  kStop,
+  kRearm,
+  kParameters,
+  kSubscribe,
+  kPing,
+};
+}
+
+/// A client at one slot; counts what each of its messages was answered and reported.
+struct TestClient {
+  static constexpr std::size_t kMost = 16384;  // numbers of messages
+  ServerBench* bench = nullptr;
+  int slot = -1;
+  std::uint32_t number = 0;
+  bool reads = true;
+  std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{};
+  std::uint32_t kinds[kMost]{};
+  std::int64_t credit = 0;
+  int starved = 0, states = 0, feedbacks = 0, events = 0, welcomes = 0;
+  std::uint32_t epoch = 0;
+  std::uint64_t session = 0;
+  std::uint8_t farewell = 0;  ///< status of the answer without number
+  char event[400] = "", text[400] = "";
+
+  void connect(ServerBench& its) {
+    *this = TestClient();
+    bench = &its;
+    session = its.next_session++;
+    slot = its.server.open(session, its.now_ns);
+  }
+  void greet(const char* name) {
+    connect(*bench);
+    send(ask::kHello, RawMessage().number(1, 1).text(2, name));
+  }
+  /// Sends a message; returns its number.
+  std::uint32_t send(std::uint32_t kind, const RawMessage& body = {}) {
+    RawMessage& whole = scratch();
+    whole.size = 0;
+    ++number;
+    kinds[number % kMost] = kind;
+    whole.number(1, number).time(2, bench->now_ns - 5);
+    whole.message(kind, body);
+    send_bytes(whole);
+    return number;
+  }
+  void send_bytes(const RawMessage& message) {
+    std::uint8_t length[4];
+    for (std::size_t i = 0; i < 4; ++i)
+      length[i] = static_cast<std::uint8_t>(message.size >> 8 * i);
+    push(length, 4);
+    push(message.bytes.data(), message.size);
+  }
+  /// Bytes as they would come from a socket, if the server takes any.
+  std::size_t push(const std::uint8_t* data, std::size_t size) {
+    std::size_t pushed = 0;
+    for (int tries = 0; pushed < size && tries < 100; ++tries) {
+      const ByteSpace space = bench->server.space(slot);
+      const std::size_t count = std::min(space.size, size - pushed);
+      if (count == 0) {
+        bench->server.work(bench->now_ns);
+        if (reads) read();
+        continue;
+      }
+      std::memcpy(space.data, data + pushed, count);
+      bench->server.received(slot, count, bench->now_ns);
+      pushed += count;
+    }
+    return pushed;
+  }
+  std::uint32_t lease(std::uint32_t priority = 0, std::uint32_t timeout_ms = 1000) {
+    return send(ask::kLease, RawMessage().number(2, priority).number(3, timeout_ms));
+  }
+  std::uint32_t point(const JointVector& q) {
+    return send(
+        ask::kPoint,
+        RawMessage().message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof))));
+  }
+  /// Takes what the server has to say.
+  void read() {
+    if (slot < 0) return;
+    const Bytes waiting = bench->server.waiting(slot);
+    for (std::size_t at = 0; at + 4 <= waiting.size;) {
+      std::size_t length = 0;
+      for (std::size_t i = 4; i > 0; --i) length = length << 8 | waiting.data[at + i - 1];
+      assert_true(at + 4 + length <= waiting.size);
+      take(RawFields(waiting.data + at + 4, waiting.data + at + 4 + length));
+      at += 4 + length;
+    }
+    if (waiting.size > 0) bench->server.sent(slot, waiting.size, bench->now_ns);
+  }
+  void take(RawFields whole) {
+    assert_true(whole.next());
+    RawFields inner = whole.inner();
+    std::array<std::uint64_t, 32> value{};
+    std::string_view words;
+    while (inner.next()) {
+      value[inner.field % 32] = inner.value;
+      if (inner.field == 3 && whole.field == 2) words = inner.text();
+      if (inner.field == 4 && (whole.field == 3 || whole.field == 6)) words = inner.text();
+    }
+    const std::size_t of = value[1] % kMost;
+    switch (whole.field) {
+      case 1:
+        ++welcomes;
+        ++answers[of];
+        session = value[7];
+        break;
+      case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
+      case 3:
+        if (value[2] == 3) ++starved;
+        if (value[2] < 10) return;
+        ++finals[of];
+        outcome[of] = static_cast<std::uint8_t>(value[2]);
+        std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
+        return;
+      case 4:
+        ++states;
+        epoch = static_cast<std::uint32_t>(value[8]);
+        return;
+      case 5: ++feedbacks; return;
+      case 6:
+        ++events;
+        std::snprintf(event, sizeof event, "%.*s", static_cast<int>(words.size()), words.data());
+        return;
+      default: credit += static_cast<std::int64_t>(value[1]);
+    }
+  }
+  void take_answer(std::size_t of, std::uint8_t its_status, std::string_view words,
+                   std::uint64_t its_epoch) {
+    if (of == 0) farewell = its_status;
+    ++answers[of];
+    status[of] = its_status;
+    epoch = static_cast<std::uint32_t>(its_epoch);
+    std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
+  }
+  bool finished() const { return bench->server.finished(slot, bench->now_ns); }
+  void close() {
+    if (slot >= 0) bench->server.closed(slot, bench->now_ns);
+    slot = -1;
+  }
+  static RawMessage& scratch() {
+    static RawMessage message;
+    return message;
+  }
+};
+
+/// A bench with two clients, A and B, that have said Hello; the last one is forgotten.
+struct TwoClients {
+  ServerBench bench;
+  TestClient a, b;
+
+  void start() {
+    bench.start();
+    a.bench = b.bench = &bench;
+    a.greet("A");
+    b.greet("B");
+    run(2);
+    assert_int_equal(a.welcomes, 1);
+    assert_int_equal(b.welcomes, 1);
+  }
+  /// Runs cycles in which both read.
+  void run(int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      bench.cycle();
+      if (a.reads) a.read();
+      if (b.reads) b.read();
+    }
+  }
+};
+
+inline TwoClients& fresh_clients() {
+  static TwoClients* two = nullptr;
+  delete two;
+  two = new TwoClients;
+  two->start();
+  return *two;
+}
+
+}  // namespace tactus

@@ -1,0 +1,90 @@
+// The bench of the server's tests: a server, the generator whose references it takes,
+// in virtual time.
+#pragma once
+
+#include "gateway/server/server.hpp"
+#include "kernel/cycle/ladder.hpp"
+#include "kernel/reference/generator/reference_generator.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus {
+
+inline constexpr double kPeriod_s = 1e-3;
+inline constexpr int kBenchWaypoints = 600;
+inline int log_lines = 0;
+inline char last_log[400];
+
+struct ServerBench {
+  ChannelMemory<JointSpace> channel;
+  ChannelMemory<TaskSpace> task_channel;
+  std::array<std::array<Waypoint<JointSpace>, kBenchWaypoints>, kStores> waypoints;
+  RoomyPipeline pipeline;
+  CycleMail mail;
+  ReferenceClient<JointSpace> joints{channel};
+  ReferenceClient<TaskSpace> poses{task_channel};
+  ReferenceGenerator<JointSpace> generator;
+  ReferenceGenerator<JointSpace>::Params params;
+  Rung rung = Rung::kNominal;
+  std::uint32_t cycles = 0;
+  std::int64_t now_ns = 1'000'000'000'000;
+  Server server{setup(), joints, poses, mail};
+  std::uint64_t next_session = 77;
+
+  ServerSetup setup() {
+    pipeline.takes_joints = true;
+    pipeline.robot.period_us = 1000;
+    ServerSetup its;
+    its.board = "bench";
+    its.pipeline = "none";
+    its.loaded = &pipeline;
+    its.joint_window = kBenchWaypoints;
+    its.log = [](const char* line) {
+      ++log_lines;
+      std::snprintf(last_log, sizeof last_log, "%s", line);
+    };
+    return its;
+  }
+  /// Starts the generator with the joints in the middle of their ranges, forwarding points.
+  void start(OnlineMode online = OnlineMode::kLimit) {
+    channel.settings.period_s = kPeriod_s;
+    for (std::size_t i = 0; i < kStores; ++i) {
+      channel.stores[i].waypoints = waypoints[i].data();
+      channel.stores[i].capacity = kBenchWaypoints;
+    }
+    params.online = online;
+    params.feedback_divisor = 10;
+    ASSERT_OK(generator.start(channel, params, home()));
+  }
+  static JointSpace::Point home() {
+    const JointLimits limits;
+    JointSpace::Point home;
+    home.q = 0.5 * (limits.q_min + limits.q_max);
+    return home;
+  }
+  /// One cycle as the executive runs it, with the mail of its thread; then the server's turn.
+  void cycle() {
+    now_ns += 1'000'000;
+    ++cycles;
+    if (refuses(rung)) generator.brake(Status::kHalted, BrakeWay::kOnPath);
+    ASSERT_OK(generator.step(kPeriod_s, generator.reference()));
+    OrderMessage order;
+    if (mail.orders.take(order)) {
+      rung = order.order == CycleOrder::kStop ? Rung::kDisabled : Rung::kNominal;
+      if (rung == Rung::kNominal)
+        ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
+      mail.results.post({order.id, Status::kOk});
+    }
+    CycleSnapshot told;
+    told.stamp_ns = now_ns;
+    told.time_s = generator.time_s();
+    told.cycle = cycles;
+    told.rung = static_cast<std::uint8_t>(rung);
+    told.status = refuses(rung) ? Status::kHalted : Status::kOk;
+    told.q = generator.reference().q;
+    mail.snapshots.post(told);
+    server.work(now_ns);
+  }
+};
+
+}  // namespace tactus

@@ -1,0 +1,92 @@
+// Tests which references of a client move the arm, and when.
+#include "tests/gateway/client_bench.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus {
+namespace {
+
+// Proves GW-7.
+
+void a_point_moves_the_reference_in_the_next_cycle(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease();
+  two.run(1);
+  JointVector q = ServerBench::home().q;
+  q[0] += 0.1;
+  two.a.point(q);
+  two.bench.server.work(two.bench.now_ns);
+  two.bench.cycle();
+  assert_false(two.bench.generator.reference().standing() &&
+               two.bench.generator.phase() == Phase::kHolding);
+  two.bench.cycle();
+  assert_true(two.bench.generator.reference().q[0] > ServerBench::home().q[0]);
+}
+
+void what_a_stop_voids_does_not_move_the_arm(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease();
+  two.run(1);
+  const std::uint32_t before = two.a.epoch;
+  two.b.send(ask::kStop);
+  two.run(3);
+  two.a.send(ask::kRearm);
+  two.run(3);
+  assert_true(two.bench.rung == Rung::kNominal);
+  JointVector q = ServerBench::home().q;
+  q[0] += 0.1;
+  RawMessage target;
+  target.message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof)));
+  RawMessage old = target, present = target;
+  old.message(1, RawMessage().number(1, before).number(2, 1));
+  const std::uint32_t stale = two.a.send(ask::kPoint, old);
+  two.run(50);
+  assert_int_equal(two.a.status[stale], static_cast<int>(Status::kEpochVoid));
+  assert_true(two.bench.generator.reference().standing());
+  assert_true(two.a.epoch > before);
+  present.message(1, RawMessage().number(1, two.a.epoch).number(2, 5));
+  const std::uint32_t taken = two.a.send(ask::kPoint, present);
+  const std::uint32_t twice = two.a.send(ask::kPoint, present);
+  two.run(2);
+  assert_int_equal(two.a.status[taken], 0);
+  assert_int_equal(two.a.status[twice], static_cast<int>(Status::kEpochVoid));
+}
+
+void datagrams_move_the_arm_of_their_session_only(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease();
+  two.run(1);
+  JointVector q = ServerBench::home().q;
+  q[0] += 0.1;
+  RawMessage body;
+  body.message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof)));
+  for (const std::uint64_t session : {std::uint64_t{0}, two.a.session + 77, two.b.session}) {
+    RawMessage forged;
+    forged.number(1, 9).fixed64(4, session).message(ask::kPoint, body);
+    two.bench.server.datagram({forged.bytes.data(), forged.size}, two.bench.now_ns);
+    two.run(10);
+    assert_true(two.bench.generator.reference().standing());
+  }
+  RawMessage stop;
+  stop.number(1, 9).fixed64(4, two.a.session).message(ask::kStop, {});
+  two.bench.server.datagram({stop.bytes.data(), stop.size}, two.bench.now_ns);
+  two.run(3);
+  assert_true(two.bench.rung == Rung::kNominal);
+  RawMessage own;
+  own.number(1, 9).fixed64(4, two.a.session).message(ask::kPoint, body);
+  two.bench.server.datagram({own.bytes.data(), own.size}, two.bench.now_ns);
+  two.run(3000);
+  ASSERT_NEAR(two.bench.generator.reference().q[0], q[0], 1e-9);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_point_moves_the_reference_in_the_next_cycle),
+      cmocka_unit_test(what_a_stop_voids_does_not_move_the_arm),
+      cmocka_unit_test(datagrams_move_the_arm_of_their_session_only),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

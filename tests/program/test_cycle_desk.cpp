@@ -1,0 +1,139 @@
+// Tests the cycle's end of the mailboxes between cycle and server.
+#include "program/cycle_desk.hpp"
+
+#include "kernel/load/loader.hpp"
+#include "program/session/host_sections.hpp"
+#include "sim_plant/arm/sim_hal.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus {
+namespace {
+
+/// An executive of a pipeline without blocks, with a simulated arm, at its desk.
+struct Bench {
+  SimHal hal;
+  RoomyPipeline pipeline;
+  CycleMail mail;
+  Executive executive{hal, pipeline};
+  CycleDesk* desk = nullptr;
+  std::int64_t now_ns = 0;
+  std::uint32_t next = 1;
+
+  void start() {
+    static constexpr std::string_view kText =
+        "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
+    LoadError error;
+    HostSections sections;
+    Loader loader({}, hal.capabilities(), sections);
+    ASSERT_OK(loader.load(kText, pipeline, error));
+    hal.set_period(1e-3);
+    ASSERT_OK(hal.load(PlantParams(), 1));
+    executive.in_virtual_time();
+    desk = new CycleDesk(mail, executive, pipeline);
+    ASSERT_OK(executive.start());
+    static_cast<void>(executive.arm());
+    for (int i = 0; i < 1000 && executive.rung() != Rung::kNominal; ++i) cycle();
+    assert_true(executive.rung() == Rung::kNominal);
+  }
+  void cycle() {
+    now_ns += 1'000'000;
+    desk->work(executive.cycle({now_ns}));
+    desk->tell({now_ns});
+  }
+  bool post(CycleOrder order) { return mail.orders.post({next++, order}); }
+};
+
+Bench& fresh() {
+  static Bench* bench = nullptr;
+  delete bench;
+  bench = new Bench;
+  bench->start();
+  return *bench;
+}
+
+// Proves GW-10.
+
+void a_cycle_takes_one_order_however_many_wait(void**) {
+  Bench& bench = fresh();
+  int posted = 0;
+  while (bench.post(CycleOrder::kStop)) ++posted;
+  assert_int_equal(posted, 8);
+  for (int left = posted; left > 0; --left) {
+    assert_int_equal(bench.mail.orders.size(), left);
+    bench.cycle();
+  }
+  bench.cycle();
+  assert_int_equal(bench.mail.orders.size(), 0);
+  assert_int_equal(bench.mail.results.size(), posted);
+}
+
+void a_cycle_posts_one_snapshot_and_counts_those_without_space(void**) {
+  Bench& bench = fresh();
+  CycleSnapshot told;
+  while (bench.mail.snapshots.take(told)) {
+  }
+  for (std::size_t i = 1; i <= 32; ++i) {
+    bench.cycle();
+    assert_int_equal(bench.mail.snapshots.size(), i);
+  }
+  const std::uint32_t before = told.lost;
+  for (int i = 0; i < 10; ++i) bench.cycle();
+  assert_int_equal(bench.mail.snapshots.size(), 32);
+  while (bench.mail.snapshots.take(told)) {
+  }
+  bench.cycle();
+  assert_true(bench.mail.snapshots.take(told));
+  assert_true(told.lost >= before + 10);
+  assert_int_equal(told.stamp_ns, bench.now_ns);
+}
+
+void orders_wait_while_nobody_takes_their_results(void**) {
+  Bench& bench = fresh();
+  for (int i = 0; i < 40; ++i) {
+    bench.post(CycleOrder::kStop);
+    bench.cycle();
+  }
+  assert_true(bench.mail.results.size() <= 16);
+  assert_int_equal(bench.mail.orders.size(), 8);
+  OrderResult result;
+  std::uint32_t last = 0;
+  for (int i = 0; i < 60; ++i) {
+    while (bench.mail.results.take(result)) {
+      assert_int_equal(result.id, last + 1);  // every order once, in order
+      last = result.id;
+    }
+    bench.cycle();
+  }
+  assert_int_equal(bench.mail.orders.size(), 0);
+}
+
+void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
+  Bench& bench = fresh();
+  OrderResult result;
+  bench.post(CycleOrder::kStop);
+  for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
+  assert_true(bench.executive.rung() == Rung::kDisabled);
+  assert_true(bench.mail.results.take(result));
+  ASSERT_OK(result.status);
+  for (int i = 0; i < 3000 && bench.executive.busy(); ++i) bench.cycle();
+  bench.post(CycleOrder::kRearm);
+  for (int i = 0; i < 3000 && bench.mail.results.size() == 0; ++i) bench.cycle();
+  assert_true(bench.mail.results.take(result));
+  ASSERT_OK(result.status);
+  assert_int_equal(result.id, bench.next - 1);
+  assert_true(bench.executive.rung() == Rung::kNominal);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_cycle_takes_one_order_however_many_wait),
+      cmocka_unit_test(a_cycle_posts_one_snapshot_and_counts_those_without_space),
+      cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
+      cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,100 @@
+// Tests `tactus serve` as a program: its clients speak over its socket, in Python.
+#include <sys/stat.h>
+
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kServed =
+    "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
+    "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
+    "overrun_window = 1\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n"
+    "goal_tolerance = 0.2\nstopped_velocity = 0\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+
+void try_server(const char* what) {
+  write("served.ini", {kServed});
+  Line command("cd $R && mkdir -p $S/");
+  command << what << " && tests/gateway/try_server.py $P $S/served.ini $S/" << what << " " << what;
+  const int code = shell(command.c_str());
+  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
+  assert_int_equal(code, 0);
+}
+
+/// A pipeline at a network address with this key file is refused for this reason.
+void assert_key_refused(const char* key, const char* reason) {
+  assert_int_equal(tactus_run({"serve", in_folder("served.ini").c_str(), "--listen",
+                               "tcp:0.0.0.0:0", "--key", key}),
+                   2);
+  assert_true(has(errors(), reason));
+}
+
+// Proves GW-9.
+
+void a_client_in_python_moves_the_arm_and_is_told_of_it(void**) {
+  try_server("session");
+}
+
+void clients_that_are_killed_leave_the_arm_at_rest(void**) {
+  try_server("killed");
+}
+
+void an_interrupt_brakes_the_arm_and_ends_the_server_well(void**) {
+  try_server("interrupted");
+}
+
+void addresses_of_other_kinds_are_refused(void**) {
+  const Line pipeline = write("served.ini", {kServed});
+  constexpr struct {
+    const char *address, *reason;
+  } kCases[] = {
+      {"tcp:0.0.0.0:7370", "programs on other computers would reach it"},
+      {"tcp:192.168.1.5:7370", "programs on other computers would reach it"},
+      {"tcp:127.0.0.1", "is no IPv4 address and port"},
+      {"tcp:127.0.0.1:99999", "is no IPv4 address and port"},
+      {"udp:127.0.0.1:7370", "is neither unix:PATH nor tcp:ADDRESS:PORT"},
+      {"unix:", "the path of a Unix socket has 1 to"},
+      {"unix:/nowhere/arm.sock", "/nowhere/arm.sock: No such file or directory"},
+  };
+  for (const auto& [address, reason] : kCases) {
+    assert_int_equal(tactus_run({"serve", pipeline.c_str(), "--listen", address}), 2);
+    assert_true(has(errors(), reason));
+  }
+}
+
+// Proves GW-11.
+
+void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
+  try_server("keyed");
+}
+
+void a_network_address_needs_a_key_file_that_is_the_users_alone(void**) {
+  write("served.ini", {kServed});
+  assert_key_refused(in_folder("none.key").c_str(), "No such file");
+  const Line key = write("arm.key", {"00ff00ff00ff00ff00ff00ff00ff00ff"});
+  assert_int_equal(chmod(key.c_str(), 0644), 0);
+  assert_key_refused(key.c_str(), "chmod 600");
+  assert_int_equal(chmod(key.c_str(), 0600), 0);
+  assert_key_refused(key.c_str(), "64 hexadecimal digits");
+  assert_true(errors().find("00ff00") == std::string_view::npos);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_client_in_python_moves_the_arm_and_is_told_of_it),
+      cmocka_unit_test(clients_that_are_killed_leave_the_arm_at_rest),
+      cmocka_unit_test(an_interrupt_brakes_the_arm_and_ends_the_server_well),
+      cmocka_unit_test(addresses_of_other_kinds_are_refused),
+      cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
+      cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
+  };
+  return run_program_tests(argv[0], tests);
+}
