@@ -70,7 +70,7 @@ def delay(u, reference, dt):
         best = int(np.clip(np.argmin(column), 1, len(shifts) - 2))
         before, at, after = column[best - 1 : best + 2]
         bend = before - 2.0 * at + after
-        part = 0.5 * (before - after) / bend if bend > 0.0 else 0.0
+        part = np.clip(0.5 * (before - after) / bend, -0.5, 0.5) if bend > 0.0 else 0.0
         delays[axis] = (shifts[best] + part) * dt
         remains[axis] = np.sqrt(max(at - 0.25 * (before - after) * part, 0.0))
     return delays, remains
