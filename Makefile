@@ -29,7 +29,7 @@ SCRIPTED :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
 PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
-TESTS  := $(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp)
+TESTS  := $(filter-out tests/ctl/%,$(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp))
 include tests/any_robot.mk
 robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
@@ -204,7 +204,7 @@ build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
 	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
 $(TESTS): | build/libfcl_oracle.so
-$(TESTS): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
+$(filter-out $(B)/tests/ctl/%,$(TESTS)): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS) $(GATEWAY_LIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(O)/libkernel.a
@@ -220,12 +220,14 @@ $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefil
 
 include gateway/gateway.mk
 include program/install.mk
+include gateway/ctl/ctl.mk
 include program/package/package.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 include tests/trace/trace.mk
+include tests/bench/policies/policies.mk
 include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
 include gateway/python/python.mk

@@ -31,14 +31,16 @@ struct Fit {
   double h(std::size_t i) const { return t[i + 1] - t[i]; }
 };
 
-/// Adds the multiple of a full turn that brings a rotation vector nearest to the one before it.
-void unwrap(TaskSpace::Difference& now, const TaskSpace::Difference& before) {
-  const double angle = now.x.tail<3>().norm();
-  if (!(angle > 1e-6)) return;
-  const Vector3 axis = now.x.tail<3>() / angle, last = before.x.tail<3>();
-  const double turn = 2.0 * 3.14159265358979323846;
-  const Vector3 other = (angle - turn) * axis;
-  if ((other - last).norm() < (now.x.tail<3>() - last).norm()) now.x.tail<3>() = other;
+/// Of a rotation vector, takes the one of the two on its axis that is nearest to the one before it.
+template <class Space>
+void unwrap(typename Space::Difference& now, const typename Space::Difference& before) {
+  if constexpr (std::is_same_v<Space, TaskSpace>) {
+    const Vector3 phi = now.x.template tail<3>(), last = before.x.template tail<3>();
+    const double angle = phi.norm();
+    if (!(angle > 1e-6)) return;
+    const Vector3 other = (1.0 - 2.0 * 3.14159265358979323846 / angle) * phi;
+    if ((other - last).norm() < (phi - last).norm()) now.x.template tail<3>() = other;
+  }
 }
 
 /// The symmetric matrix R + L Q^T Q of bandwidth two, factorized in place.
@@ -200,10 +202,8 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
     fit.f[i] = Space::difference(chunk.velocities ? target : target.at_rest(), origin);
     fit.f[i].ddx.setZero();
   }
-  if constexpr (std::is_same_v<Space, TaskSpace>) {
-    for (std::size_t i = n / 2 + 1; i < n; ++i) unwrap(fit.f[i], fit.f[i - 1]);
-    for (std::size_t i = n / 2; i-- > 0;) unwrap(fit.f[i], fit.f[i + 1]);
-  }
+  for (std::size_t i = n / 2 + 1; i < n; ++i) unwrap<Space>(fit.f[i], fit.f[i - 1]);
+  for (std::size_t i = n / 2; i-- > 0;) unwrap<Space>(fit.f[i], fit.f[i + 1]);
   if (chunk.velocities && n > 1) fit_velocities(fit);
   if (!chunk.velocities) fit_spline(fit, chunk.smoothing_s);
   if (chunk.ends) fit.f[n - 1].dx = fit.f[n - 1].ddx = 0.0 * fit.f[n - 1].dx;

@@ -2,37 +2,9 @@
 
 #include <bitset>
 
+#include "gateway/csv_cells.hpp"
+
 namespace tactus {
-namespace {
-
-/// A unit that files may use in place of one of SI.
-struct Unit {
-  std::string_view name, si;
-  double scale;  // SI units in one of it
-};
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr std::array<Unit, 3> kUnits = {
-    {{"_deg", "_rad", kPi / 180.0}, {"_mm", "_m", 1e-3}, {"_ms", "_s", 1e-3}}};
-
-/// Returns the header with the SI unit in place of another, which is a whole word of it.
-Name in_si(std::string_view header, double& scale) {
-  scale = 1.0;
-  for (const Unit& unit : kUnits) {
-    const std::size_t at = header.find(unit.name);
-    if (at == std::string_view::npos) continue;
-    const std::string_view rest = header.substr(at + unit.name.size());
-    if (!rest.empty() && rest.front() != '_') continue;
-    scale = unit.scale;
-    Name changed(header.substr(0, at));
-    changed << unit.si << rest;
-    return changed;
-  }
-  return Name(header);
-}
-
-}  // namespace
-
 template <class Space>
 bool Columns<Space>::add(std::string_view header, Message& reason) {
   Column column;

@@ -1,42 +1,13 @@
 #include "gateway/trajectory_reader.hpp"
 
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 
+#include "gateway/csv_cells.hpp"
 #include "kernel/load/ini.hpp"
 
 namespace tactus {
 namespace {
-
-/// Cuts a row into cells.
-class Cells {
- public:
-  Cells(std::string_view row, char separator) : row_(row), separator_(separator) {}
-
-  /// Takes the next cell; false if none is left.
-  bool take(std::string_view& cell) {
-    if (!more_) return false;
-    const std::size_t end = row_.find(separator_);
-    more_ = end != std::string_view::npos;
-    cell = trim(row_.substr(0, end));
-    row_.remove_prefix(more_ ? end + 1 : row_.size());
-    return true;
-  }
-
- private:
-  std::string_view row_;
-  char separator_;
-  bool more_ = true;
-};
-
-/// Returns what separates the cells of a file: a semicolon or a tab if its header has one.
-char separator_of(std::string_view header) {
-  for (const char separator : {';', '\t'})
-    if (header.find(separator) != std::string_view::npos) return separator;
-  return ',';
-}
 
 bool refuse(CsvError& error, int line, int column, std::string_view header,
             std::string_view reason) {
@@ -45,13 +16,6 @@ bool refuse(CsvError& error, int line, int column, std::string_view header,
   error.header = Name(header);
   error.reason = Message(reason);
   return false;
-}
-
-bool read_number(std::string_view cell, double& value) {
-  if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
-  const char* end = cell.data() + cell.size();
-  const auto [stop, code] = std::from_chars(cell.data(), end, value);
-  return code == std::errc() && stop == end && std::isfinite(value);
 }
 
 template <class Space>
@@ -63,18 +27,6 @@ bool read_header(Cells cells, int line, Columns<Space>& columns, CsvError& error
   }
   Message reason;
   return columns.complete(reason) || refuse(error, line, 0, {}, reason);
-}
-
-/// Explains a cell that is not a number.
-Message not_a_number(std::string_view cell) {
-  Message reason("'");
-  reason << cell << "' is not a finite number";
-  const std::size_t comma = cell.find(',');
-  if (comma != std::string_view::npos && cell.find(',', comma + 1) == std::string_view::npos)
-    reason << "; write " << cell.substr(0, comma) << "." << cell.substr(comma + 1);
-  else
-    reason << "; write a number such as -0.5";
-  return reason;
 }
 
 Message not_readable(int error) {

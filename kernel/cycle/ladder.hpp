@@ -21,10 +21,9 @@
 #include "kernel/core/brake.hpp"
 #include "kernel/core/hal.hpp"
 #include "kernel/core/names.hpp"
+#include "kernel/cycle/rung.hpp"
 
 namespace tactus {
-
-enum class Rung : std::uint8_t { kNominal, kSkipOptional, kHold, kStop, kArming, kDisabled };
 
 enum class Cause : std::uint8_t {
   kOverruns,  ///< too many cycles longer than the period within a window
@@ -50,18 +49,6 @@ enum class Cause : std::uint8_t {
   kRearm,     ///< the arm is commanded again
   kRefused,   ///< connecting or arming was refused
 };
-
-constexpr const char* name(Rung rung) {
-  switch (rung) {
-    case Rung::kNominal: return "nominal";
-    case Rung::kSkipOptional: return "skip_optional";
-    case Rung::kHold: return "hold";
-    case Rung::kStop: return "stop";
-    case Rung::kArming: return "arming";
-    case Rung::kDisabled: return "disabled";
-  }
-  return nullptr;
-}
 
 constexpr const char* name(Cause cause) {
   switch (cause) {

@@ -71,7 +71,7 @@ void a_joint_rests_at_the_end_of_its_range(void**) {
   const JointLimits limits;
   for (const double sign : {1.0, -1.0}) {
     drive(bench, turn(sign * limits.dq_max[0], 10.0));
-    bench.run(4.0);
+    bench.run((limits.q_max[0] - limits.q_min[0]) / limits.dq_max[0] + 1.0);
     assert_true(bench.out().standing());
     const double end = sign > 0.0 ? limits.q_max[0] : limits.q_min[0];
     ASSERT_NEAR(bench.out().q[0], end, 1e-6);

@@ -1,0 +1,73 @@
+// Client: the conversation of one verb with the server. It numbers requests, waits for answers,
+// keeps the lease alive, and hands everything else that arrives to the verb.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "gateway/ctl/connection.hpp"
+#include "gateway/ctl/options.hpp"
+#include "gateway/ctl/output.hpp"
+
+namespace tactus::ctl {
+
+class Client {
+ public:
+  Client(const Options& options, Output& output) : options_(options), output_(output) {}
+
+  /// Connects and says Hello. False: said; exit_code() is kNoConnection or kRefused.
+  bool connect();
+  /// Takes the lease. False: said; refused with the owner's name, or no connection.
+  bool take_lease();
+  /// Gives the lease back: what runs goes on to its end.
+  void release_lease();
+
+  /// Everything that arrives besides the answers that are awaited.
+  std::function<void(const ToClient&)> on_message = [](const ToClient&) {};
+
+  /// Sends a request. Returns its number; 0: the server is gone, said.
+  std::uint32_t post(ToServer& request);
+  /// Sends a request and waits for its Answer. False: refused, or no connection; said.
+  bool ask(ToServer& request);
+  /// Does the same and waits for the final Report, too, and prints it. False: it is none of
+  /// success.
+  bool ask_and_wait(ToServer& request);
+  /// Waits until something arrives, at most `timeout_ms`, and hands it on. Also returns when a
+  /// signal arrives or `other`, a descriptor, is readable. False: the server is gone, said.
+  bool wait(int timeout_ms, int other = -1);
+
+  const Welcome& welcome() const { return welcome_; }
+  int exit_code() const { return exit_code_; }
+  bool gone() const { return exit_code_ == kNoConnection; }
+  /// Says why the verb ends; returns false.
+  bool refuse(const std::string& text);
+
+ private:
+  bool exchange(ToServer& request);
+  bool lose(const std::string& reason);
+  bool take_all();
+  void handle(const ToClient& message);
+  bool keep_alive();
+  int next_wait_ms(int timeout_ms) const;
+
+  const Options& options_;
+  Output& output_;
+  Connection connection_;
+  Welcome welcome_;
+  Answer answer_;
+  Report report_;
+  std::uint32_t number_ = 0, awaited_ = 0;
+  std::int64_t sent_ns_ = 0, taken_ = 0;
+  bool welcomed_ = false, answered_ = false, reported_ = false, leased_ = false;
+  int exit_code_ = kSucceeded;
+};
+
+/// True for an outcome after which no other comes.
+bool final(Report::Outcome outcome);
+/// True for an outcome of what was done as it was asked.
+bool succeeded(Report::Outcome outcome);
+
+/// The client's monotonic clock.
+std::int64_t now_ns();
+
+}  // namespace tactus::ctl

@@ -1,0 +1,232 @@
+// Tests the verbs of tactusctl as a user starts them, against a server of a simulated UR10.
+#include "tests/ctl/ctl_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kJoints = "ur10_jrg_pid";
+constexpr const char* kTip = "ur10_trg_cpc";
+
+// The square of pipelines/trajectories, eight times as fast.
+constexpr const char* kSquare =
+    "awk -F, -v OFS=, '/^[0-9]/{$1/=8}{print}' $R/pipelines/trajectories/ur10_square_at_rest.csv "
+    ">$S/square.csv; ";
+// Proves CTL-1.
+
+void a_square_is_sent_and_succeeds(void**) {
+  Text<2047> script(kSquare);
+  script << "$T send $S/square.csv --motion-frame base_link.x --json >$S/all";
+  assert_int_equal(served(kTip, script.c_str()), 0);
+  assert_int_equal(shell("tail -1 $S/all | grep '^{\"result\":{.*\"outcome\":\"SUCCEEDED\"'"), 0);
+  // Its last corner, (0.6, 0.16, 0.74) m in base_link, which is turned by pi about z.
+  assert_int_equal(
+      shell("$R/tests/ctl/last_values.py $S/all feedback task_actual.pose -0.6 -0.16 0.74"), 0);
+}
+
+/// 40 000 waypoints, more than the 32 768 of the window; also through a pipe, whose end is not
+/// known.
+void a_file_longer_than_its_window_is_sent_by_credit(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "awk 'BEGIN{print \"time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\"; "
+             "for(i=1;i<=40000;++i){s=i/40000;printf \"%.17g,%.17g,-1.67,1.87,2.94,-1.57,0\\n\","
+             "i*1e-4,0.6*s*s*(3-2*s)}}' >$S/long.csv; $T send $S/long.csv || exit 81; "
+             "$T point 0 -1.67 1.87 2.94 -1.57 0 --wait || exit 82; cat $S/long.csv | $T send -"),
+      0);
+  assert_true(has(output(), "40000 waypoints"));
+  assert_true(has(output(), "\nsucceeded"));
+}
+
+// Proves CTL-2.
+
+void ctrl_c_cancels_on_the_path(void**) {
+  const int code = served(kJoints,
+                          "there 6; "
+                          "$T send $S/there.csv --json >$S/all & pid=$!; "
+                          "until_says $S/all feedback && kill -INT $pid; wait $pid; code=$?; "
+                          "phase >$S/phase; $T watch --duration 0.1 >$S/rest; exit $code");
+  assert_int_equal(code, 1);
+  assert_int_equal(shell("tail -1 $S/all | grep '\"result\":{.*\"outcome\":\"CANCELED\"'"), 0);
+  assert_int_equal(shell("grep -qx holding $S/phase"), 0);
+  // On its path: between the ends, and no joint but the first has moved.
+  assert_int_equal(shell("tail -1 $S/rest | awk '{exit !($6 >= 0 && $6 < 0.6 && "
+                         "($7+1.67)^2 < 1e-4 && ($8-1.87)^2 < 1e-4)}'"),
+                   0);
+}
+
+// Proves CTL-3.
+
+void a_second_client_is_refused_with_the_owners_name(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "there 20; "
+             "$T send $S/there.csv --name first --json >$S/all & pid=$!; "
+             "until_says $S/all STARTED; "
+             "$T send $S/there.csv --name second; test $? = 2 || exit 81; "
+             "$T override 50%; test $? = 2 || exit 82; "
+             "$T watch --json --duration 0.1 | grep -q '\"owner\":\"first\"' || exit 83; "
+             "$T cancel --priority 200; kill -INT $pid; wait $pid; test $? = 1"),
+      0);
+  assert_true(has(errors(), "first owns the motion"));
+}
+
+void everybody_may_stop_and_rearm_takes_over(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "there 20; "
+             "$T send $S/there.csv --json >$S/all & pid=$!; until_says $S/all STARTED; "
+             "$T stop || exit 81; wait $pid; test $? = 1 || exit 82; "
+             "$T point 0 0 0 0 0 0; test $? = 2 || exit 83; "
+             "n=0; until $T rearm; do n=$((n+1)); test $n -lt 50 || exit 84; done; "
+             "$T watch --duration 0.1 | grep -q nominal"),
+      0);
+  assert_true(has(output(), "tactusctl rearm takes it over"));
+}
+
+// Proves CTL-4.
+
+void a_server_that_goes_away_is_told_with_exit_code_3(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "there 20; "
+             "$T send $S/there.csv --json >$S/all & pid=$!; until_says $S/all STARTED; "
+             "kill -9 $(cat $S/pid); wait $pid; test $? = 3"),
+      0);
+  assert_true(has(errors(), "the server has closed the connection"));
+}
+
+void without_a_server_the_error_says_what_to_do(void**) {
+  const auto run = [](const char* words) {
+    return shell((Line("d=$(dirname $P); env -u TACTUS_SOCKET XDG_RUNTIME_DIR=$S "
+                       "$R/build/tactusctl${d##*/ur10_sim} ")
+                  << words)
+                     .c_str());
+  };
+  assert_int_equal(run("watch"), 3);
+  assert_true(has(errors(), "/tactus.sock: No such file"));
+  assert_int_equal(run("watch --connect unix:$S/nothing --json"), 3);
+  assert_true(has(errors(), "is 'tactus serve' running"));
+  assert_true(has(output(), "{\"error\":{\"text\":\"unix:"));
+  assert_int_equal(run("watch --connect here"), 3);
+  assert_true(has(errors(), "write unix:PATH or tcp:HOST:PORT"));
+  assert_int_equal(run("watch --connect tcp:127.0.0.1:1"), 3);
+  assert_int_equal(run("fly"), 2);
+  assert_int_equal(run("override 150%"), 2);
+  assert_int_equal(run("--version"), 0);
+}
+
+// Proves CTL-5.
+
+void a_point_is_reached_and_targets_are_streamed(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "$T point 0.2 -1.67 1.87 2.94 -1.57 0 --wait || exit 81; "
+             "test $(phase) = holding || exit 82; "
+             "awk 'BEGIN{print \"q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\"; "
+             "for(i=1;i<=40;++i)printf \"%g,-1.67,1.87,2.94,-1.57,0\\n\",0.2+i*1e-3}' | "
+             "$T stream --period-ms 5 || exit 83; n=0; "
+             "until $T watch --duration 0.1 --json >$S/states; "
+             "$R/tests/ctl/last_values.py $S/states state q 0.24; do "
+             "n=$((n+1)); test $n -lt 50 || exit 84; done"),
+      0);
+  assert_true(has(output(), "40 targets: "));
+}
+
+void what_is_malformed_is_refused_before_it_is_sent(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "no() { printf \"$1\" >$S/bad.csv; $T send $S/bad.csv; test $? = 2 || exit 81; }; "
+             "no 'q1_rad\\n0\\n'; no 'time_s,q1_rad\\n0,0\\n'; no 'time_s,height\\n'; no ''; "
+             "no 'time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n1,0,0,nan,0,0,0\\n'; "
+             "no 'time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n1,0,0\\n'; "
+             "$T send $S/none.csv; test $? = 2 || exit 82; $T point 1 2; test $? = 2 || exit 83; "
+             "printf 'q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n0,0,0,0,0,99\\n' | $T stream; "
+             "test $? = 2"),
+      0);
+  assert_true(has(errors(), "bad.csv:1: time_s: the column is missing"));
+  assert_true(has(errors(), "bad.csv:1:2: height: unknown column"));
+  assert_true(has(errors(), "bad.csv:2:4: q3_rad: 'nan' is not a finite number"));
+  assert_true(has(errors(), "fewer cells than columns"));
+  assert_true(has(errors(), "a point of ur10 has 6"));
+}
+
+// Proves CTL-6.
+
+void a_detached_trajectory_is_paused_slowed_resumed_and_canceled(void**) {
+  assert_int_equal(served(kJoints,
+                          "there 30; $T send --detach $S/there.csv || exit 81; "
+                          "$T pause || exit 82; test $(phase) = paused || exit 83; "
+                          "$T override 50% || exit 84; $T watch --json --duration 0.1 | "
+                          "grep -q '\"override\":0.5' || exit 85; "
+                          "$T resume || exit 86; test $(phase) = following || exit 87; "
+                          "$T cancel || exit 88; $T cancel; test $? = 2"),
+                   0);
+}
+
+// Proves CTL-8.
+
+/// Paths retimed for the robot are admitted as they are, not slowed down.
+void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "cut -d, -f1-7 $R/pipelines/trajectories/ur10_five_waypoints.csv >$S/path.csv; "
+             "for how in '' --no-jerk '--tolerance 0.01' '--radius 0.2 --no-jerk' "
+             "'--tolerance 0.1 --velocity 50%'; do "
+             "$T retime $S/path.csv --robot ur10 $how --out $S/timed.csv || exit 81; "
+             "$T check $S/timed.csv --exact || exit 82; done; "
+             "$T retime $S/path.csv --connect $TACTUS_SOCKET --out $S/timed.csv || exit 83; "
+             "$T send $S/timed.csv || exit 84; $T retime $S/path.csv --robot ur10 "
+             "--acceleration 100% --out $S/timed.csv; $T check $S/timed.csv --exact; test $? = 2"),
+      0);
+}
+
+// Proves CTL-7.
+
+void states_are_recorded_as_a_file_that_can_be_read(void**) {
+  assert_int_equal(served(kJoints,
+                          "$T point 0.1 -1.67 1.87 2.94 -1.57 0 & "
+                          "$T record $S/r.csv --trajectory --duration 1 || exit 81; "
+                          "$T retime $S/r.csv --robot ur10 --out $S/again.csv || exit 82; "
+                          "$T record - --duration 0.1 >$S/full.csv && head -1 $S/full.csv"),
+                   0);
+  assert_true(has(output(), "time_s,q1_rad,q2_rad"));
+  assert_int_equal(shell("test $(wc -l <$S/r.csv) -gt 20"), 0);
+}
+
+// Proves CTL-14.
+
+void an_installed_program_has_a_man_page_and_a_completion(void**) {
+  assert_int_equal(shell("cd $R && env -u MAKEFLAGS make -s BOARD=ur10_sim install-tactusctl "
+                         "DESTDIR=$S PREFIX=/o && "
+                         "$S/o/bin/tactusctl --version && "
+                         "for word in send retime rearm 'Exit codes' TACTUS_SOCKET; do "
+                         "grep -q \"$word\" $S/o/share/man/man1/tactusctl.1 || exit 81; done; "
+                         "bash -c '. $S/o/share/bash-completion/completions/tactusctl; "
+                         "COMP_WORDS=(tactusctl send --det); COMP_CWORD=2; _tactusctl; "
+                         "test \"${COMPREPLY[*]}\" = --detach'"),
+                   0);
+  assert_true(has(output(), "tactusctl 0.1"));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(a_square_is_sent_and_succeeds),
+      cmocka_unit_test(a_file_longer_than_its_window_is_sent_by_credit),
+      cmocka_unit_test(ctrl_c_cancels_on_the_path),
+      cmocka_unit_test(a_second_client_is_refused_with_the_owners_name),
+      cmocka_unit_test(everybody_may_stop_and_rearm_takes_over),
+      cmocka_unit_test(a_server_that_goes_away_is_told_with_exit_code_3),
+      cmocka_unit_test(without_a_server_the_error_says_what_to_do),
+      cmocka_unit_test(a_point_is_reached_and_targets_are_streamed),
+      cmocka_unit_test(what_is_malformed_is_refused_before_it_is_sent),
+      cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
+      cmocka_unit_test(the_server_admits_what_is_retimed_without_slowing_it_down),
+      cmocka_unit_test(an_installed_program_has_a_man_page_and_a_completion),
+      cmocka_unit_test(states_are_recorded_as_a_file_that_can_be_read),
+  };
+  return run_program_tests(argv[0], tests);
+}
