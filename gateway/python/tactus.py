@@ -467,11 +467,16 @@ class _Link:
         try:
             self._socket.sendall(self._tunnel.seal(data) if self._tunnel else data)
         except OSError as error:
-            why = "takes no more" if isinstance(error, TimeoutError) else "has ended the connection"
-            raise Lost(f"{self.address}: the server {why}: {error}") from error
+            if isinstance(error, TimeoutError):
+                raise Lost(f"{self.address}: the server takes no more: {error}") from error
+            raise self._ended(f": {error.strerror}") from error
         except BaseException:  # Ctrl-C, perhaps within the message: nothing can follow it
             self._socket.shutdown(socket.SHUT_RDWR)
             raise
+
+    def _ended(self, how: str) -> Lost:
+        hint = "" if self._heard else "; do both ends have the same key, or none?"
+        return Lost(f"{self.address}: the server has ended the connection{how}{hint}")
 
     def can_send(self) -> bool:
         return bool(select.select([], [self._socket], [], 0)[1])
@@ -483,16 +488,9 @@ class _Link:
         try:
             piece = self._socket.recv(1 << 16)
         except OSError as error:
-            raise Lost(f"{self.address}: the server has ended the connection: {error.strerror}") from error
+            raise self._ended(f": {error.strerror}") from error
         if not piece:
-            rest = (
-                " within a message"
-                if self._bytes
-                else ""
-                if self._heard
-                else "; do both ends have the same key, or none?"
-            )
-            raise Lost(f"{self.address}: the server has ended the connection{rest}")
+            raise self._ended(" within a message" if self._bytes else "")
         self._bytes += self._tunnel.open(piece) if self._tunnel else piece
         while len(self._bytes) >= 4:
             length = int.from_bytes(self._bytes[:4], "little")

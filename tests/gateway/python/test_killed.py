@@ -11,7 +11,7 @@ import numpy as np
 import served
 import tactus
 
-TRIALS = int(os.environ.get("TACTUS_KILLS", "200"))
+TRIALS = int(os.environ.get("TACTUS_KILLS", 200 if served.ROBOT == "ur10" else 20))
 
 
 def trajectory(arm):
