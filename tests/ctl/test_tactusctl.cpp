@@ -150,6 +150,30 @@ void what_is_malformed_is_refused_before_it_is_sent(void**) {
   assert_true(has(errors(), "a point of ur10 has 6"));
 }
 
+// Proves CTL-9.
+
+void keys_move_a_joint_and_it_stops_without_them(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "(printf 1; for i in 1 2 3 4 5 6; do printf +; sleep 0.1; done; sleep 1; printf q) | "
+             "$T jog --speed 20% --json >$S/all; test $? = 0 || exit 81; "
+             "test $(phase) = holding || exit 82; "
+             "$T watch --duration 0.1 | tail -1 | awk '{exit !($6 > 0.02 && $6 < 1)}'"),
+      0);
+}
+
+void a_server_with_a_key_is_spoken_to_with_it(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "for k in key other; do openssl rand -hex 32 >$S/$k; chmod 600 $S/$k; done; "
+             "end; $P serve $S/served.ini --listen tcp:127.0.0.1:17371 --key $S/key >$S/server.log "
+             "2>&1 & echo $! >$S/pid; until_says $S/server.log serves || exit 80; "
+             "export TACTUS_SOCKET=tcp:127.0.0.1:17371; $T info --key $S/key || exit 81; "
+             "$T info --key $S/other; test $? = 3 || exit 82; $T info --key $S/none; test $? = 3"),
+      0);
+  assert_true(has(errors(), "the server does not have this key"));
+}
+
 // Proves CTL-6.
 
 void a_detached_trajectory_is_paused_slowed_resumed_and_canceled(void**) {
@@ -222,6 +246,8 @@ int main(int, char** argv) {
       cmocka_unit_test(a_server_that_goes_away_is_told_with_exit_code_3),
       cmocka_unit_test(without_a_server_the_error_says_what_to_do),
       cmocka_unit_test(a_point_is_reached_and_targets_are_streamed),
+      cmocka_unit_test(keys_move_a_joint_and_it_stops_without_them),
+      cmocka_unit_test(a_server_with_a_key_is_spoken_to_with_it),
       cmocka_unit_test(what_is_malformed_is_refused_before_it_is_sent),
       cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
       cmocka_unit_test(the_server_admits_what_is_retimed_without_slowing_it_down),
