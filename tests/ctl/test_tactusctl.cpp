@@ -128,7 +128,8 @@ void a_server_with_a_key_is_spoken_to_with_it(void**) {
   assert_int_equal(
       served(kJoints,
              "for k in key other; do openssl rand -hex 32 >$S/$k; chmod 600 $S/$k; done; "
-             "end; $P serve $S/served.ini --listen tcp:127.0.0.1:17371 --key $S/key >$S/server.log "
+             "end; : >$S/server.log; $P serve $S/served.ini --listen tcp:127.0.0.1:17371 --key "
+             "$S/key >$S/server.log "
              "2>&1 & echo $! >$S/pid; until_says $S/server.log serves || exit 80; "
              "export TACTUS_SOCKET=tcp:127.0.0.1:17371; $T info --key $S/key || exit 81; "
              "$T info --key $S/other; test $? = 3 || exit 82; $T info --key $S/none; test $? = 3"),
