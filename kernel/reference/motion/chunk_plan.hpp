@@ -16,6 +16,7 @@
 
 namespace tactus {
 
+/// `streams` is true, or the class below takes its place.
 template <class Space, bool streams = kStreams>
 class ChunkPlan {
  public:

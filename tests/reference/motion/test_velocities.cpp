@@ -65,13 +65,27 @@ void shares_of_acceleration_and_jerk_are_kept(void**) {
   ASSERT_NEAR(bench.out().dq[0], 1.0, 1e-12);
 }
 
+/// A gentler velocity that comes while the joint still gains speed does not take it beyond a limit.
+void less_jerk_in_the_middle_of_a_change_keeps_the_velocity_limit(void**) {
+  const double fastest = axis_limits(0).v;
+  CheckedJoints bench;
+  drive(bench, turn(fastest, 2.0));
+  while (bench.out().dq[0] < 0.99 * fastest) bench.cycle();
+  assert_true(bench.out().ddq[0] > 0.0);
+  Velocity<JointSpace> gentle = turn(fastest, 2.0);
+  gentle.jerk = 0.05;
+  drive(bench, gentle);
+  bench.run(0.5);
+  ASSERT_NEAR(bench.out().dq[0], fastest, 1e-9);
+}
+
 /// It brakes in time, comes to rest at the end of the range, and can be driven back.
 void a_joint_rests_at_the_end_of_its_range(void**) {
   CheckedJoints bench;
   const JointLimits limits;
   for (const double sign : {1.0, -1.0}) {
     drive(bench, turn(sign * limits.dq_max[0], 10.0));
-    bench.run(4.0);
+    bench.run((limits.q_max[0] - limits.q_min[0]) / limits.dq_max[0] + 1.0);
     assert_true(bench.out().standing());
     const double end = sign > 0.0 ? limits.q_max[0] : limits.q_min[0];
     ASSERT_NEAR(bench.out().q[0], end, 1e-6);
@@ -159,6 +173,7 @@ int main() {
       cmocka_unit_test(a_joint_velocity_is_reached_held_and_ended_by_its_timeout),
       cmocka_unit_test(renewed_in_time_it_goes_on_and_the_newest_counts),
       cmocka_unit_test(shares_of_acceleration_and_jerk_are_kept),
+      cmocka_unit_test(less_jerk_in_the_middle_of_a_change_keeps_the_velocity_limit),
       cmocka_unit_test(a_joint_rests_at_the_end_of_its_range),
       cmocka_unit_test(a_twist_is_given_in_the_axes_of_base_tip_or_frame),
       cmocka_unit_test(a_tip_stays_in_its_workspace),
