@@ -227,8 +227,10 @@ include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
 include scripts/wcet/bound.mk
 include tests/trace/trace.mk
+include tests/bench/policies/policies.mk
 include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
+include gateway/python/python.mk
 
 .PRECIOUS: $(O)/%.o
 .DELETE_ON_ERROR:

@@ -40,6 +40,11 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   int exit_code = kSucceeded;
   if (!parse_options(argc, argv, board.name, board.scan != nullptr, options, exit_code))
     return exit_code;
+  if (options.virtual_time && board.real) {
+    std::fprintf(stderr, "--virtual-time: refused: %s has no virtual time; leave it out\n",
+                 board.name);
+    return kRefused;
+  }
   options.realtime = options.realtime || board.real || options.verb == Verb::kServe;
   if (options.verb == Verb::kDoctor) return doctor(options);
   if (options.verb == Verb::kJitter) return jitter(options);

@@ -112,6 +112,13 @@ void RunLoop::halt() {
   if (session_.follower != nullptr) session_.follower->halt();
 }
 
+/// The time of the executive in the cycle that begins `now`.
+CycleTime RunLoop::time_of(const CycleTime& now) {
+  if (!virtual_) return now;
+  virtual_ns_ += std::int64_t{1000} * session_.pipeline.robot.period_us;
+  return {virtual_ns_};
+}
+
 void RunLoop::stop() {
   latched_ = session_.executive.latched();
   if (latched_ != Status::kOk) trouble_ = session_.hal.trouble();
@@ -125,7 +132,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   Status status = Status::kOk;
   {
     const HeapWatch watch;
-    status = session_.executive.cycle(now);
+    status = session_.executive.cycle(time_of(now));
   }
   watchdog_.cycle_completed();
   halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes

@@ -96,6 +96,10 @@ int serve(Session& session, const Options& options) {
   RunLoop loop(session, input, feed, watchdog, result, {});
   CycleDesk desk(mail, session.executive, session.pipeline);
   loop.serve(desk);
+  if (options.virtual_time) {
+    session.executive.in_virtual_time();
+    loop.in_virtual_time();
+  }
   if (!loop.start() || !watchdog.arm(session.realtime)) {
     thread.end();
     loop.stop();

@@ -76,6 +76,8 @@ void add_serve_options(CLI::App& serve, std::string& pipeline, std::string& list
       ->check(path());
   serve.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
       ->check(decimal(std::uint64_t{0}, ~std::uint64_t{0}, "a whole number of up to 64 bits"));
+  serve.add_flag("--virtual-time", options.virtual_time,
+                 "a simulated robot waits for a late cycle instead of being braked");
 }
 
 /// Adds the options of `doctor` and `jitter` that say on which CPU and priority a cycle would run.

@@ -1,0 +1,12 @@
+"""The arm of an example: that of an address, or a simulated one."""
+
+import pathlib
+
+import tactus
+
+PIPELINES = pathlib.Path(__file__).resolve().parents[3] / "pipelines"
+
+
+def arm_of(arguments, pipeline):
+    """Returns the arm at the address in the arguments, or one that runs a pipeline in simulation, for a `with`."""
+    return tactus.connect(arguments[0]) if arguments else tactus.sim(PIPELINES / f"{pipeline}.ini")

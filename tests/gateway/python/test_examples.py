@@ -1,0 +1,54 @@
+"""Every example runs against the server of this board, without a terminal."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import served
+
+EXAMPLES = sorted(
+    path for path in (served.ROOT / "gateway/python/examples").glob("*.py") if path.stat().st_mode & 0o100
+)
+KEYS = {"jog.py": "1+++2--q"}
+
+
+class Examples(unittest.TestCase):
+    def run_example(self, path: pathlib.Path, *arguments):
+        """Returns what an example prints."""
+        done = subprocess.run(
+            [sys.executable, path, *arguments],
+            input=KEYS.get(path.name, ""),
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""), f"{path.name}: {done.stdout}{done.stderr}")
+        return done.stdout
+
+    def test_all_run_at_an_address(self):
+        with served.serve() as address:
+            said = {path.name: self.run_example(path, address) for path in EXAMPLES}
+        self.assertEqual(said["minimum_jerk.py"].count("succeeded"), 2)
+        self.assertRegex(said["chunked_policy.py"], "chunks taken, 0 late")
+        self.assertTrue(said["jog.py"].endswith("\n"))
+
+    @unittest.skipIf(served.ROBOT != "ur10", "the examples simulate a UR10")
+    def test_without_an_address_they_run_a_simulated_ur10(self):
+        self.assertIn("succeeded", self.run_example(EXAMPLES[-1]))
+
+    @unittest.skipIf(served.ROBOT != "ur10", "the page simulates a UR10")
+    def test_the_ten_lines_of_the_page_run(self):
+        page = (served.ROOT / "docs/python.md").read_text(encoding="utf-8")
+        program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
+        self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
+        done = subprocess.run(
+            [sys.executable, "-c", program], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
