@@ -104,7 +104,7 @@ bool Client::exchange(ToServer& request) {
     const std::int64_t left_ms = (end_ns - now_ns()) / kMillisecond_ns;
     if (left_ms <= 0)
       return lose("the server has not answered within " + std::to_string(options_.timeout_ms) +
-                  " ms; --timeout-ms waits longer");
+                  " ms; --timeout-ms waits longer, and a server with a key needs --key");
     if (!wait(static_cast<int>(left_ms))) return false;
   }
   return true;

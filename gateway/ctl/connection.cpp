@@ -166,6 +166,11 @@ bool Connection::take_message(ToClient& message, Got& got) {
   return true;
 }
 
+Connection::Got Connection::stranger() {
+  fail("the server does not have this key, or somebody changes what is sent; give its key file");
+  return Got::kGone;
+}
+
 Connection::Got Connection::receive(ToClient& message) {
   Got got = Got::kNothing;
   while (!take_message(message, got)) {
@@ -175,12 +180,13 @@ Connection::Got Connection::receive(ToClient& message) {
     if (count > 0) {
       (tunnel_ ? sealed_ : received_).append(bytes, static_cast<std::size_t>(count));
       if (tunnel_ && !tunnel_->open(sealed_, received_)) {
-        fail("the server does not have this key, or somebody has changed what it sent");
-        return Got::kGone;
+        return stranger();
       }
+      opened_ = !received_.empty() || opened_;
     } else if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
       return Got::kNothing;
     } else {
+      if (tunnel_ && !opened_) return stranger();
       fail(count == 0 ? std::string("the server has closed the connection")
                       : std::string("the server is gone: ") + std::strerror(errno));
       return Got::kGone;

@@ -42,11 +42,13 @@ class Connection {
   bool open_tcp(const std::string& host, const std::string& port, int timeout_ms);
   bool connect_within(const void* address, std::size_t size, int timeout_ms);
   bool fail(const std::string& reason);
+  Got stranger();
   bool send_all(const std::string& bytes, int timeout_ms);
   bool receive_exactly(std::string& bytes, std::size_t count, int timeout_ms);
   bool take_message(ToClient& message, Got& got);
 
   int socket_ = -1;
+  bool opened_ = false;  // something of the server could be decrypted
   std::string sealed_, received_, error_;
   std::optional<ClientTunnel> tunnel_;
 };

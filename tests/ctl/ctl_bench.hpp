@@ -9,7 +9,7 @@ namespace tactus {
 
 inline constexpr const char* kServe =
     "d=$(dirname $P); export T=$R/build/tactusctl${d##*/ur10_sim} TACTUS_SOCKET=unix:$S/socket; "
-    "serve() { { sed 's|reference_generator$|&\\nonline = limit|; "
+    "serve() { : >$S/server.log; { sed 's|reference_generator$|&\\nonline = limit|; "
     "s|trajectories/|'$R'/pipelines/&|' "
     "$R/pipelines/$1.ini; printf "
     "'\\n[executive]\\nmax_slip=1000\\nmax_late=16\\nlate_window=1\\n'; } "

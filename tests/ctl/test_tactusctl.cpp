@@ -95,26 +95,6 @@ void a_server_that_goes_away_is_told_with_exit_code_3(void**) {
   assert_true(has(errors(), "the server has closed the connection"));
 }
 
-void without_a_server_the_error_says_what_to_do(void**) {
-  const auto run = [](const char* words) {
-    return shell((Line("d=$(dirname $P); env -u TACTUS_SOCKET XDG_RUNTIME_DIR=$S "
-                       "$R/build/tactusctl${d##*/ur10_sim} ")
-                  << words)
-                     .c_str());
-  };
-  assert_int_equal(run("watch"), 3);
-  assert_true(has(errors(), "/tactus.sock: No such file"));
-  assert_int_equal(run("watch --connect unix:$S/nothing --json"), 3);
-  assert_true(has(errors(), "is 'tactus serve' running"));
-  assert_true(has(output(), "{\"error\":{\"text\":\"unix:"));
-  assert_int_equal(run("watch --connect here"), 3);
-  assert_true(has(errors(), "write unix:PATH or tcp:HOST:PORT"));
-  assert_int_equal(run("watch --connect tcp:127.0.0.1:1"), 3);
-  assert_int_equal(run("fly"), 2);
-  assert_int_equal(run("override 150%"), 2);
-  assert_int_equal(run("--version"), 0);
-}
-
 // Proves CTL-5.
 
 void a_point_is_reached_and_targets_are_streamed(void**) {
@@ -132,22 +112,29 @@ void a_point_is_reached_and_targets_are_streamed(void**) {
   assert_true(has(output(), "40 targets: "));
 }
 
-void what_is_malformed_is_refused_before_it_is_sent(void**) {
+// Proves CTL-9.
+
+void keys_move_a_joint_and_it_stops_without_them(void**) {
   assert_int_equal(
       served(kJoints,
-             "no() { printf \"$1\" >$S/bad.csv; $T send $S/bad.csv; test $? = 2 || exit 81; }; "
-             "no 'q1_rad\\n0\\n'; no 'time_s,q1_rad\\n0,0\\n'; no 'time_s,height\\n'; no ''; "
-             "no 'time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n1,0,0,nan,0,0,0\\n'; "
-             "no 'time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n1,0,0\\n'; "
-             "$T send $S/none.csv; test $? = 2 || exit 82; $T point 1 2; test $? = 2 || exit 83; "
-             "printf 'q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\\n0,0,0,0,0,99\\n' | $T stream; "
-             "test $? = 2"),
+             "(printf 1; for i in 1 2 3 4 5 6; do printf +; sleep 0.1; done; sleep 1; printf q) | "
+             "$T jog --speed 20% --json >$S/all; test $? = 0 || exit 81; "
+             "test $(phase) = holding || exit 82; "
+             "$T watch --duration 0.1 | tail -1 | awk '{exit !($6 > 0.02 && $6 < 1)}'"),
       0);
-  assert_true(has(errors(), "bad.csv:1: time_s: the column is missing"));
-  assert_true(has(errors(), "bad.csv:1:2: height: unknown column"));
-  assert_true(has(errors(), "bad.csv:2:4: q3_rad: 'nan' is not a finite number"));
-  assert_true(has(errors(), "fewer cells than columns"));
-  assert_true(has(errors(), "a point of ur10 has 6"));
+}
+
+void a_server_with_a_key_is_spoken_to_with_it(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "for k in key other; do openssl rand -hex 32 >$S/$k; chmod 600 $S/$k; done; "
+             "end; : >$S/server.log; $P serve $S/served.ini --listen tcp:127.0.0.1:17371 --key "
+             "$S/key >$S/server.log "
+             "2>&1 & echo $! >$S/pid; until_says $S/server.log serves || exit 80; "
+             "export TACTUS_SOCKET=tcp:127.0.0.1:17371; $T info --key $S/key || exit 81; "
+             "$T info --key $S/other; test $? = 3 || exit 82; $T info --key $S/none; test $? = 3"),
+      0);
+  assert_true(has(errors(), "the server does not have this key"));
 }
 
 // Proves CTL-6.
@@ -163,51 +150,6 @@ void a_detached_trajectory_is_paused_slowed_resumed_and_canceled(void**) {
                    0);
 }
 
-// Proves CTL-8.
-
-/// Paths retimed for the robot are admitted as they are, not slowed down.
-void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
-  assert_int_equal(
-      served(kJoints,
-             "cut -d, -f1-7 $R/pipelines/trajectories/ur10_five_waypoints.csv >$S/path.csv; "
-             "for how in '' --no-jerk '--tolerance 0.01' '--radius 0.2 --no-jerk' "
-             "'--tolerance 0.1 --velocity 50%'; do "
-             "$T retime $S/path.csv --robot ur10 $how --out $S/timed.csv || exit 81; "
-             "$T check $S/timed.csv --exact || exit 82; done; "
-             "$T retime $S/path.csv --connect $TACTUS_SOCKET --out $S/timed.csv || exit 83; "
-             "$T send $S/timed.csv || exit 84; $T retime $S/path.csv --robot ur10 "
-             "--acceleration 100% --out $S/timed.csv; $T check $S/timed.csv --exact; test $? = 2"),
-      0);
-}
-
-// Proves CTL-7.
-
-void states_are_recorded_as_a_file_that_can_be_read(void**) {
-  assert_int_equal(served(kJoints,
-                          "$T point 0.1 -1.67 1.87 2.94 -1.57 0 & "
-                          "$T record $S/r.csv --trajectory --duration 1 || exit 81; "
-                          "$T retime $S/r.csv --robot ur10 --out $S/again.csv || exit 82; "
-                          "$T record - --duration 0.1 >$S/full.csv && head -1 $S/full.csv"),
-                   0);
-  assert_true(has(output(), "time_s,q1_rad,q2_rad"));
-  assert_int_equal(shell("test $(wc -l <$S/r.csv) -gt 20"), 0);
-}
-
-// Proves CTL-14.
-
-void an_installed_program_has_a_man_page_and_a_completion(void**) {
-  assert_int_equal(shell("cd $R && env -u MAKEFLAGS make -s BOARD=ur10_sim install-tactusctl "
-                         "DESTDIR=$S PREFIX=/o && "
-                         "$S/o/bin/tactusctl --version && "
-                         "for word in send retime rearm 'Exit codes' TACTUS_SOCKET; do "
-                         "grep -q \"$word\" $S/o/share/man/man1/tactusctl.1 || exit 81; done; "
-                         "bash -c '. $S/o/share/bash-completion/completions/tactusctl; "
-                         "COMP_WORDS=(tactusctl send --det); COMP_CWORD=2; _tactusctl; "
-                         "test \"${COMPREPLY[*]}\" = --detach'"),
-                   0);
-  assert_true(has(output(), "tactusctl 0.1"));
-}
-
 }  // namespace
 }  // namespace tactus
 
@@ -220,13 +162,10 @@ int main(int, char** argv) {
       cmocka_unit_test(a_second_client_is_refused_with_the_owners_name),
       cmocka_unit_test(everybody_may_stop_and_rearm_takes_over),
       cmocka_unit_test(a_server_that_goes_away_is_told_with_exit_code_3),
-      cmocka_unit_test(without_a_server_the_error_says_what_to_do),
       cmocka_unit_test(a_point_is_reached_and_targets_are_streamed),
-      cmocka_unit_test(what_is_malformed_is_refused_before_it_is_sent),
+      cmocka_unit_test(keys_move_a_joint_and_it_stops_without_them),
+      cmocka_unit_test(a_server_with_a_key_is_spoken_to_with_it),
       cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
-      cmocka_unit_test(the_server_admits_what_is_retimed_without_slowing_it_down),
-      cmocka_unit_test(an_installed_program_has_a_man_page_and_a_completion),
-      cmocka_unit_test(states_are_recorded_as_a_file_that_can_be_read),
   };
   return run_program_tests(argv[0], tests);
 }
