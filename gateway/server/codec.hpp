@@ -18,7 +18,7 @@ std::size_t encode(const tactus_ToClient& message, std::array<std::uint8_t, kLon
 template <std::size_t N>
 void set_text(char (&field)[N], std::string_view text) {
   const std::size_t size = text.size() < N ? text.size() : N - 1;
-  std::memcpy(field, text.data(), size);
+  if (size > 0) std::memcpy(field, text.data(), size);
   field[size] = '\0';
 }
 

@@ -116,6 +116,7 @@ class Server {
   Reply velocity(int slot, const Origin& from);
   Reply chunk(int slot, const Origin& from, std::int64_t now_ns);
   Reply read_chunk_time(int slot, std::int64_t now_ns, double& origin_s, double& observed_s) const;
+  Verdict judge_targets(double origin_s, std::int64_t now_ns) const;
   Chunk<JointSpace>& chunk_of(const JointSpace&) { return joint_chunk_; }
   Chunk<TaskSpace>& chunk_of(const TaskSpace&) { return task_chunk_; }
 

@@ -30,7 +30,7 @@ bool needs_lease(pb_size_t request) {
   }
 }
 
-bool offered(tactus_Feature feature) {
+bool offered(std::uint32_t feature) {
   return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
          feature == tactus_Feature_FEATURE_VELOCITIES;
 }

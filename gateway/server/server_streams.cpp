@@ -1,4 +1,5 @@
 // Server: chunks and velocities.
+#include <cmath>
 #include <type_traits>
 
 #include "gateway/server/message_points.hpp"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kLongestVelocity_ms = 10'000;
 
-ChunkBase base_of(tactus_Chunk_Base base) {
+ChunkBase base_of(std::uint32_t base) {
   return base == tactus_Chunk_Base_COMMANDED  ? ChunkBase::kCommanded
          : base == tactus_Chunk_Base_MEASURED ? ChunkBase::kMeasured
                                               : ChunkBase::kAbsolute;
@@ -71,11 +72,24 @@ Reply Server::read_chunk_time(int slot, std::int64_t now_ns, double& origin_s,
   return reply(verdict);
 }
 
+/// Every target is as near to now as a stamp must be: a curve through one that is not has no finite
+/// derivatives.
+Verdict Server::judge_targets(double origin_s, std::int64_t now_ns) const {
+  const tactus_Chunk& given = request_.request.chunk;
+  const double range_s = static_cast<double>(kStampRange_ns) * 1e-9;
+  for (int i = 0; i < given.time_s_count; ++i) {
+    const double ahead_s = origin_s + given.time_s[i] - clock_.time_s(now_ns);
+    if (!(std::abs(ahead_s) <= range_s)) return {Status::kStampRange, -1, -1, ahead_s, range_s};
+  }
+  return {};
+}
+
 Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
   const tactus_Chunk& given = request_.request.chunk;
   if (!takes_references()) return {Status::kNotOffered, "the pipeline takes no references"};
   double origin_s = 0.0, observed_s = 0.0;
   Reply why = read_chunk_time(slot, now_ns, origin_s, observed_s);
+  if (why.status == Status::kOk) why = reply(judge_targets(origin_s, now_ns));
   if (why.status == Status::kOk) why = judge_place(slot, given.has_place, given.place);
   if (why.status != Status::kOk) return why;
   return with_intake([&](auto& intake) -> Reply {
