@@ -23,6 +23,8 @@ enum class ChunkBase : std::uint8_t {
   kCommanded,  ///< where it was commanded to be
 };
 
+inline constexpr double kUsualFade_s = 0.2;
+
 template <class Space>
 struct Chunk {
   using Point = typename Space::Point;
@@ -35,7 +37,7 @@ struct Chunk {
   bool velocities = false;
   /// Time in which a disagreement with what is in force fades, 0 to kLongestFade_s, s; longer if
   /// limits ask for it. 0: it is closed as fast as limits allow.
-  double fade_s = 0.2;
+  double fade_s = kUsualFade_s;
   /// Noise in targets without velocities is smoothed away: of a sine of w rad/s the curve keeps
   /// 1 / (1 + (w smoothing_s)^4). 0: it passes through the targets.
   double smoothing_s = 0.03;

@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "kernel/reference/space/joint_space.hpp"
-#include "kernel/reference/space/judge_channels.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 #if TACTUS_CHUNK_TARGETS > 0
@@ -165,31 +164,6 @@ void plan_stop_at_end(const Fit<Space>& fit, const AdmissionSettings<Space>& set
 }  // namespace
 
 template <class Space>
-Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settings) {
-  if (chunk.count < 1 || chunk.count > kChunkTargets)
-    return {Status::kReferenceSize, -1, -1, static_cast<double>(chunk.count),
-            static_cast<double>(kChunkTargets)};
-  if (!(chunk.fade_s >= 0.0 && chunk.fade_s <= kLongestFade_s))
-    return {Status::kBadValue, -1, -1, chunk.fade_s, kLongestFade_s};
-  if (!(chunk.smoothing_s >= 0.0 && chunk.smoothing_s < kInfinity))
-    return {Status::kBadValue, -1, -1, chunk.smoothing_s, 0.0};
-  const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
-  const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
-  double earliest_s = -kInfinity;
-  for (int i = 0; i < chunk.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const double time_s = chunk.time_s[k];
-    if (!std::isfinite(time_s)) return {Status::kReferenceNotFinite, i, -1, time_s, 0.0};
-    if (!(time_s >= earliest_s)) return {Status::kReferenceTime, i, -1, time_s, earliest_s};
-    earliest_s = time_s + settings.period_s;
-    Verdict verdict = Space::judge_waypoint(Space::placed(chunk.targets[k], placement), limits);
-    verdict.waypoint = i;
-    if (!verdict.ok()) return verdict;
-  }
-  return {};
-}
-
-template <class Space>
 void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settings,
                ChunkCurve<Space>& curve) {
   const auto n = static_cast<std::size_t>(chunk.count);
@@ -224,12 +198,10 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   plan_stop_at_end(fit, settings, curve);
 }
 
-#define TACTUS_CHUNK_FIT(Space)                                                       \
-  template Verdict judge_chunk(const Chunk<Space>&, const AdmissionSettings<Space>&); \
-  template void fit_chunk(const Chunk<Space>&, const AdmissionSettings<Space>&, ChunkCurve<Space>&)
-TACTUS_CHUNK_FIT(JointSpace);
-TACTUS_CHUNK_FIT(TaskSpace);
-#undef TACTUS_CHUNK_FIT
+template void fit_chunk(const Chunk<JointSpace>&, const AdmissionSettings<JointSpace>&,
+                        ChunkCurve<JointSpace>&);
+template void fit_chunk(const Chunk<TaskSpace>&, const AdmissionSettings<TaskSpace>&,
+                        ChunkCurve<TaskSpace>&);
 
 }  // namespace tactus
 #endif

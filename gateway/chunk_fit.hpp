@@ -15,7 +15,8 @@
 
 namespace tactus {
 
-/// Judges a chunk: number, numbers and times of the targets, positions. [any, not cyclic]
+/// Judges a chunk: number, numbers and times of the targets, positions, given velocities, and the
+/// mean velocities between targets, which may be up to four times the limit. [any, not cyclic]
 template <class Space>
 Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settings);
 

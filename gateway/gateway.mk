@@ -18,4 +18,4 @@ $(call obj,$(SERVER) $(wildcard program/serve*.cpp program/*/serve*.cpp tests/ga
 .PHONY: run-server
 run-server: setup                             ## serve a simulated UR10 in real time; says on which socket
 	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim all
-	$(Q)build/ur10_sim/tactus serve pipelines/ur10_trg_cpc.ini
+	$(Q)build/ur10_sim/tactus serve --virtual-time pipelines/ur10_trg_cpc.ini

@@ -6,6 +6,9 @@
 namespace tactus {
 namespace {
 
+/// Waypoints in a window: two of the segment that is passed, and two ahead.
+constexpr int kLeastWindow = 4;
+
 /// Finds the pose that a name means; the base frame, null, for none. False: no pose has it.
 bool find_pose(const PortTable& ports, std::string_view name, const Pose*& pose) {
   pose = nullptr;
@@ -39,7 +42,8 @@ Verdict ReferenceServer<Space>::begin(const TrajectoryTerms& terms) {
   trajectory_->interpolation = terms.interpolation;
   trajectory_->exact = terms.exact;
   trajectory_->start_s = terms.start_s;
-  if (terms.window > 0) trajectory_->capacity = std::min(terms.window, trajectory_->capacity);
+  if (terms.window > 0)
+    trajectory_->capacity = std::min(std::max(terms.window, kLeastWindow), trajectory_->capacity);
   sent_ = false;
   checks_ = terms.check;
   parts_.begin(0);

@@ -9,7 +9,7 @@
 
 namespace tactus {
 
-/// Time that is kept at 10 ms between messages, s.
+/// Time that is kept, s.
 inline constexpr double kHistory_s = 2.0;
 
 template <class Space>
@@ -19,9 +19,12 @@ class StateHistory {
 
   void push(const Feedback<Space>& feedback) {
     if (count_ > 0 && feedback.time_s <= newest().time_s) count_ = 0;  // the generator restarted
-    newest_ = (newest_ + 1) % kStates;
+    // The newest is replaced by messages that follow too closely on the one before it.
+    if (count_ < 2 || newest().time_s - at(1).time_s >= kSpacing_s) {
+      newest_ = (newest_ + 1) % kStates;
+      if (count_ < kStates) ++count_;
+    }
     states_[newest_] = {feedback.time_s, feedback.desired.at_rest(), feedback.actual.at_rest()};
-    if (count_ < kStates) ++count_;
   }
   /// Finds the position at `time_s`, between two messages. False if that is before the oldest or
   /// after the newest one.
@@ -49,7 +52,9 @@ class StateHistory {
     double time_s = 0.0;
     Point desired, actual;
   };
-  static constexpr std::size_t kStates = 200;
+  static constexpr std::size_t kStates = 256;
+  static constexpr double kSpacing_s = 0.009;
+  static_assert(kSpacing_s * (kStates - 2) > kHistory_s);
 
   const State& newest() const { return states_[newest_]; }
   const State& at(std::size_t age) const { return states_[(newest_ + kStates - age) % kStates]; }

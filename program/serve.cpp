@@ -43,6 +43,8 @@ ServerSetup setup_of(const Session& session, const Options& options) {
   setup.board = session.board;
   setup.pipeline = stem(options.pipeline);
   setup.configuration = fnv1a(session.text);
+  setup.motion_frame = session.gateway.motion_frame;
+  setup.wrench_frame = session.gateway.wrench_frame;
   setup.loaded = &session.pipeline;
   setup.joint_window = session.client.capacity();
   setup.task_window = session.task_client.capacity();

@@ -20,7 +20,8 @@ $(CTL)/proto/tactus.pb.cc: gateway/tactus.proto
 	$(Q)protoc -Igateway --cpp_out=$(@D) $<
 $(CTL)/proto/tactus.pb.o: $(CTL)/proto/tactus.pb.cc
 	$(Q)$(CXX) -std=c++17 $(SANITIZER) -O1 -c $< -o $@
-$(CTL)/%.o: %.cpp Makefile gateway/ctl/ctl.mk | $(CTL)/proto/tactus.pb.cc
+# The messages are a system header, which dependency files leave out.
+$(CTL)/%.o: %.cpp Makefile gateway/ctl/ctl.mk $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(if $(filter $(CTL_SEAM),$<),$(CTL_SEAMFLAGS) -DTACTUS_VERSION='"$(VERSION)"',$(CTLFLAGS)) -c $< -o $@
 $(call ctl_obj,$(CTL_SEAM)): build/version

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace tactus::ctl {
 namespace {
@@ -66,10 +67,9 @@ CLI::Validator finite() {
 
 void add_connection(CLI::App& verb, Options& o) {
   verb.add_option(
-          "--connect", o.connect,
-          "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that "
-          "of tactus serve)")
-      ->envname("TACTUS_SOCKET");
+      "--connect", o.connect,
+      "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that "
+      "of tactus serve)");
   verb.add_option("--key", o.key, "key file, for a server that was started with one");
   verb.add_option("--name", o.name, "name that others see (default tactusctl-<process>)")
       ->check(CLI::Validator(
@@ -92,8 +92,9 @@ void add_lease(CLI::App& verb, Options& o) {
 
 void add_terms(CLI::App& verb, Options& o) {
   verb.add_flag("--partial", o.partial, "joints that are left out hold");
-  verb.add_option("--motion-frame", o.motion_frame, "frame of poses, block.port of the pipeline");
-  verb.add_option("--wrench-frame", o.wrench_frame, "frame of wrenches, block.port");
+  verb.add_option("--motion-frame", o.motion_frame,
+                  "frame of poses, block.port of the pipeline, or base (default: the pipeline's)");
+  verb.add_option("--wrench-frame", o.wrench_frame, "frame of wrenches, likewise");
 }
 
 void add_trajectory(CLI::App& verb, Options& o) {
@@ -242,6 +243,9 @@ bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
     exit_code = app.exit(error) == 0 ? kSucceeded : kRefused;
     return false;
   }
+  // An option that names the variable would have it read for every verb, after --connect of one.
+  const char* const usual = std::getenv("TACTUS_SOCKET");
+  if (options.connect.empty() && usual != nullptr) options.connect = usual;
   return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ enum class Verb : std::uint8_t {
 
 enum Exit : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2, kNoConnection = 3 };
 
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): in the order of the command line
 struct Options {
   Verb verb = Verb::kInfo;
   std::string connect;  ///< unix:PATH or tcp:HOST:PORT; empty: where tactus serve listens
@@ -44,7 +46,7 @@ struct Options {
 
   // send, check, point, stream, jog
   std::string interpolation = "fields";
-  std::string motion_frame, wrench_frame;
+  std::optional<std::string> motion_frame, wrench_frame;  ///< none: those of the pipeline
   bool exact = false, partial = false, detach = false;
   std::vector<double> numbers;  ///< of a point: joints, rad, or a pose
   bool pose = false, degrees = false, wait = false;

@@ -93,7 +93,7 @@ void Streamer::take(const ToClient& message) {
 bool Streamer::send(const Row& row) {
   ToServer request;
   Point& point = *request.mutable_point();
-  fill_terms(s_.options, reader_.form().held_joints, *point.mutable_terms());
+  fill_terms(s_, reader_.form().held_joints, *point.mutable_terms());
   fill_target(reader_.form(), row.numbers, point);
   ++sent_;
   return s_.client.post(request) != 0;
@@ -152,7 +152,7 @@ int send_point(Session& session) {
   if (options.degrees && !options.pose)
     for (double& number : numbers) number *= kDegree_rad;
   ToServer request;
-  fill_terms(options, 0, *request.mutable_point()->mutable_terms());
+  fill_terms(session, 0, *request.mutable_point()->mutable_terms());
   fill_target(form, numbers, *request.mutable_point());
   if (!session.client.take_lease()) return session.client.exit_code();
   count_interrupts();

@@ -180,8 +180,8 @@ bool RowReader::complete() {
     if (found[static_cast<std::size_t>(group)] != 0) at += form_.derivative();
   }
   for (Column& column : columns_)
-    column.place = static_cast<std::size_t>(begin[static_cast<std::size_t>(column.group)] +
-                                            column.index % kTip);
+    column.place = static_cast<std::size_t>(begin[static_cast<std::size_t>(column.group)]) +
+                   static_cast<std::size_t>(column.index % kTip);
   return true;
 }
 

@@ -85,7 +85,7 @@ bool Sender::begin() {
   ToServer request;
   Begin& begin = *request.mutable_begin();
   const RowForm& form = reader_.form();
-  fill_terms(s_.options, form.held_joints, *begin.mutable_terms());
+  fill_terms(s_, form.held_joints, *begin.mutable_terms());
   begin.set_interpolation(interpolation(s_.options.interpolation));
   begin.set_exact(s_.options.exact);
   begin.set_poses(form.poses);

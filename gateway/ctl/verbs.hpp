@@ -25,7 +25,7 @@ int info(Session& session);
 int retime_path(const Options& options, Output& output);
 
 /// Fills in what a reference says of joints and frames.
-void fill_terms(const Options& options, std::uint32_t held_joints, Terms& terms);
+void fill_terms(Session& session, std::uint32_t held_joints, Terms& terms);
 /// True if the server offers a feature.
 bool offers(const Welcome& welcome, Feature feature);
 /// Returns the names of the robot's joints.

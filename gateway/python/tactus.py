@@ -110,18 +110,22 @@ class Refused(Error):
 
     status       -- number of the reason, as in docs/reference-generators.md
     place        -- "waypoint 13, joint 3 (elbow_joint)", or ""
+    waypoint     -- of it, or target, from 0; None: none in particular
+    axis         -- of it: joint, or axis of the tip, from 0; None: none in particular
     value, limit -- in the unit that the text names, or None
     remedy       -- what to do, or ""
     """
 
-    def __init__(self, text: str, status: int):
+    def __init__(self, text: str, status: int, finding: Optional["pb.Finding"] = None):
         super().__init__(f"{text} ({status})" if f"({status})" not in text else text)
         self.status = status
         reason, _, self.remedy = text.partition("; ")
         self.place = reason.partition(": ")[0] if ": " in reason else ""
-        number = r"(-?[\d.]+(?:e[-+]?\d+)?)"
-        numbers = re.search(rf"{number}(?: [^\d ]\S*){{0,2}} (?:exceeds|is below) {number}", reason)
-        self.value, self.limit = (float(number) for number in numbers.groups()) if numbers else (None, None)
+        given = finding is not None
+        self.waypoint = finding.waypoint if given and finding.waypoint >= 0 else None
+        self.axis = finding.axis if given and finding.axis >= 0 else None
+        self.value = finding.value if given else None
+        self.limit = finding.limit if given else None
 
 
 class Aborted(Error):
@@ -536,11 +540,15 @@ class _Call:
 
     def refusal(self) -> Optional[Refused]:
         """What the server has refused it with."""
+        said: Union[pb.Answer, pb.Report]
         if self.answer is not None and self.answer.status:
-            return Refused(self.answer.text or f"the server refused {self.kind}", self.answer.status)
-        if self.report is not None and Outcome(self.report.outcome) == Outcome.REFUSED:
-            return Refused(self.report.text or f"the server refused {self.kind}", self.report.status)
-        return None
+            said = self.answer
+        elif self.report is not None and Outcome(self.report.outcome) == Outcome.REFUSED:
+            said = self.report
+        else:
+            return None
+        finding = said.finding if said.HasField("finding") else None
+        return Refused(said.text or f"the server refused {self.kind}", said.status, finding)
 
 
 class _Session:
@@ -1367,6 +1375,8 @@ class Chunks(_References):
         count = len(next(iter(targets.values())))
         if count > self._arm.robot.longest_chunk:
             raise ValueError(f"{count} targets; the server takes {self._arm.robot.longest_chunk} in a chunk")
+        if observed_ns is None and self._base != pb.Chunk.NONE:
+            raise ValueError("observed_ns is missing; relative targets count from the state at an observation")
         chunk = pb.Chunk(
             base=self._base,
             ends=ends,

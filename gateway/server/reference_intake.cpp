@@ -26,7 +26,7 @@ Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms&
   Verdict verdict = server_.place(terms, chunk.header);
   if (verdict.ok()) verdict = client_.send(chunk, id);
   if (!verdict.ok()) return verdict;
-  book_.add({id, from, {}, 0.0});
+  book_.add({id, from, {}, 0.0, true});
   ++chunks_;
   return {};
 }
@@ -41,7 +41,7 @@ Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTer
   velocity.sequence = ++sequence_;
   Verdict verdict = server_.place(terms, header);
   if (verdict.ok()) verdict = client_.send(velocity, id, header);
-  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  if (verdict.ok()) book_.add({id, from, {}, 0.0, true});
   return verdict;
 }
 
@@ -102,6 +102,7 @@ void ReferenceIntake<Space>::cancel() {
 template <class Space>
 void ReferenceIntake<Space>::forget(std::uint64_t session) {
   book_.forget(session);
+  if (stream_.from.session == session) stream_ = {};
 }
 
 /// Ends the trajectory that comes. Of one that the generator has, its report follows.
@@ -171,7 +172,10 @@ bool ReferenceIntake<Space>::work(Told& told) {
 template <class Space>
 bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
   ReportBook::Entry* const entry = report.id != 0 ? book_.find(report.id) : nullptr;
-  if (entry == nullptr) return false;
+  if (entry == nullptr) {
+    told = {stream_.from, report.outcome, report.verdict, report.time_s, 0.0};
+    return report.outcome == Outcome::kStarved && report.id == stream_.id && told.to.slot >= 0;
+  }
   told = {entry->from, report.outcome, report.verdict, report.time_s, entry->stretch};
   if (report.outcome == Outcome::kCanceled && !entry->failed.ok()) {
     told.outcome = Outcome::kAborted;
@@ -179,6 +183,7 @@ bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
   }
   if (!is_final(report.outcome)) return told.to.slot >= 0;
   if (report.id == id_ && coming_) coming_ = false;
+  if (entry->streams && report.outcome == Outcome::kExecuted) stream_ = *entry;
   book_.remove(*entry);
   return told.to.slot >= 0;
 }

@@ -92,6 +92,7 @@ class ReferenceIntake {
   ReferenceClient<Space>& client_;
   ReferenceServer<Space> server_;
   ReportBook book_;
+  ReportBook::Entry stream_;  // the chunk or velocity in force, of which only starving is to come
   std::uint32_t sequence_ = 0, chunks_ = 0;
 
   bool cancel_due_ = false;  // one that found no space

@@ -22,6 +22,7 @@ class ReportBook {
     Origin from;
     Verdict failed;  ///< why it is canceled, if the server does so
     double stretch = 0.0;
+    bool streams = false;  ///< a chunk or a velocity, which may starve after its final report
   };
 
   /// True if no more is to be taken; there is still space for the trajectory that comes.

@@ -22,17 +22,19 @@ namespace tactus {
 /// What a server says of itself, and where its log goes.
 struct ServerSetup {
   const char* board = "";
-  std::string_view pipeline;        ///< name of its file
-  std::uint64_t configuration = 0;  ///< hash of the file's text
+  std::string_view pipeline;                    ///< name of its file
+  std::uint64_t configuration = 0;              ///< hash of the file's text
+  std::string_view motion_frame, wrench_frame;  ///< of its own trajectory
   const Pipeline* loaded = nullptr;
   int joint_window = 0, task_window = 0;  ///< waypoints that a store holds with all fields
   void (*log)(const char* line) = nullptr;
 };
 
-/// Result of a request: kOk, or the reason of a refusal in words.
+/// Result of a request: kOk, or the reason of a refusal in words, and the number that it is about.
 struct Reply {
   Status status = Status::kOk;
   Message text;
+  Verdict verdict;
 
   Reply() = default;
   Reply(Status why, std::string_view words) : status(why), text(words) {}
@@ -148,7 +150,8 @@ class Server {
   Chunk<JointSpace> joint_chunk_;  // that is being read
   Chunk<TaskSpace> task_chunk_;
   CycleSnapshot newest_;
-  bool seen_ = false;  // a snapshot
+  bool seen_ = false;          // a snapshot
+  std::uint32_t dropped_ = 0;  // references that were duplicates or overtaken
   std::uint32_t lost_feedback_ = 0;
   std::array<Order, 16> orders_{};
   std::uint32_t next_order_ = 1;

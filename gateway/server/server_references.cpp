@@ -23,7 +23,9 @@ Reply Server::reply(const Verdict& verdict) const {
   if (verdict.ok()) return {};
   Message text =
       describe(verdict, takes_poses() ? VerdictAxes::kTip : VerdictAxes::kJoints, kInfinity);
-  return {verdict.status, text << remedy(verdict.status)};
+  Reply reply(verdict.status, text << remedy(verdict.status));
+  reply.verdict = verdict;
+  return reply;
 }
 
 /// Of one epoch only increasing sequences count, also those that wrap around.
@@ -33,7 +35,10 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
   const bool newer = connection.epoch != place.epoch ||
                      static_cast<std::int32_t>(place.sequence - connection.sequence) > 0;
   if (place.epoch != epoch_) return reply({Status::kEpochVoid});
-  if (!newer) return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
+  if (!newer) {
+    ++dropped_;
+    return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
+  }
   connection.epoch = place.epoch;
   connection.sequence = place.sequence;
   return {};

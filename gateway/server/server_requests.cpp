@@ -105,11 +105,14 @@ Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
 
 Reply Server::lease(int slot, std::int64_t now_ns) {
   const tactus_Lease& wish = request_.request.lease;
+  if (wish.wish > tactus_Lease_Wish_RELEASE) return {Status::kBadValue, "Lease.wish is unknown"};
   if (wish.wish == tactus_Lease_Wish_RELEASE) {
     if (lease_.owner() != slot) return {Status::kNotOwner, "this client has no lease to give back"};
     lease_.end();
     with_intake([&](auto& intake) {
+      if (!intake.comes({slot, at(slot).session, 0})) return;
       intake.refuse({slot, at(slot).session, 0}, {Status::kNotOwner});
+      ++epoch_;
     });
     Message text(at(slot).name);
     tell_events("lease", Status::kOk, text << " has given the lease back", -1, now_ns);
@@ -142,10 +145,12 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
 }
 
 Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
-  const auto free = std::find_if(orders_.begin(), orders_.end(),
-                                 [](const Order& order) { return order.id == 0; });
-  constexpr std::size_t kForStops = 4;  // of the mailbox, which no rearm may fill
-  const bool space = what == CycleOrder::kStop || mail_.orders.space() > kForStops;
+  const auto is_free = [](const Order& order) { return order.id == 0; };
+  const auto free = std::find_if(orders_.begin(), orders_.end(), is_free);
+  constexpr std::ptrdiff_t kForStops = 4;  // of the places, which no rearm may fill
+  const bool space = what == CycleOrder::kStop ||
+                     (static_cast<std::ptrdiff_t>(mail_.orders.space()) > kForStops &&
+                      std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
   if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
   *free = {next_order_, from};

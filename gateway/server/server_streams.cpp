@@ -86,6 +86,8 @@ Verdict Server::judge_targets(double origin_s, std::int64_t now_ns) const {
 
 Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
   const tactus_Chunk& given = request_.request.chunk;
+  if (given.time > tactus_Chunk_Time_ON_ARRIVAL || given.base > tactus_Chunk_Base_MEASURED)
+    return {Status::kBadValue, "Chunk.time or Chunk.base is unknown"};
   if (!takes_references()) return {Status::kNotOffered, "the pipeline takes no references"};
   double origin_s = 0.0, observed_s = 0.0;
   Reply why = read_chunk_time(slot, now_ns, origin_s, observed_s);
@@ -99,7 +101,7 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
               "Chunk: there must be a position, and a velocity or none, for each of its times, in "
               "the joints or as poses as the pipeline takes them"};
     chunk.ends = given.ends;
-    chunk.fade_s = given.crossfade_s;
+    chunk.fade_s = given.has_crossfade_s ? given.crossfade_s : kUsualFade_s;
     chunk.base = base_of(given.base);
     chunk.observed_s = observed_s;
     return reply(intake.chunk(from, terms_of(given.has_terms, given.terms), chunk));

@@ -39,6 +39,12 @@ void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
   }
 }
 
+/// Writes the number that a verdict is about; without one, nothing.
+void write_finding(const Verdict& verdict, bool& has, tactus_Finding& to) {
+  has = verdict.waypoint >= 0 || verdict.axis >= 0 || verdict.value != 0.0 || verdict.limit != 0.0;
+  to = {verdict.waypoint, verdict.axis, verdict.value, verdict.limit};
+}
+
 tactus_TaskLimits task_limits(const TaskLimits& limits) {
   return {limits.v_max, limits.a_max,     limits.j_max,
           limits.w_max, limits.alpha_max, limits.dalpha_max};
@@ -64,6 +70,7 @@ void Server::answer(Connection& to, std::uint32_t number, const Reply& reply, st
   answer.server_ns = now_ns;
   answer.received_ns = to.received_ns;
   answer.epoch = epoch_;
+  write_finding(reply.verdict, answer.has_finding, answer.finding);
   static_cast<void>(put(to));
 }
 
@@ -96,6 +103,8 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
   }
   welcome.epoch = epoch_;
+  set_text(welcome.motion_frame, setup_.motion_frame);
+  set_text(welcome.wrench_frame, setup_.wrench_frame);
   static_cast<void>(put(to));
 }
 
@@ -130,6 +139,7 @@ void Server::report(const Told& told, std::int64_t now_ns) {
   report.time_s = told.time_s;
   report.stretch = told.stretch;
   report.server_ns = now_ns;
+  write_finding(told.verdict, report.has_finding, report.finding);
   if (!put(to))
     cut(told.to.slot, Status::kClientSlow, "reports were not read; read what is sent", now_ns);
 }

@@ -62,10 +62,12 @@ void Server::tell_state(Connection& to) {
   if (newest_.has & CycleSnapshot::kWrench)
     set_numbers(state.wrench, state.wrench_count, newest_.wrench.data(), 6);
   state.has_stream = true;
-  with_intake([&state](const auto& intake) {
+  with_intake([this, &state](const auto& intake) {
     const StreamState& stream = intake.stream();
     state.margin_s = stream.margin_s;
-    state.stream = {intake.chunks(), stream.late, stream.dropped, stream.trimmed, stream.seam};
+    state.stream = {intake.chunks(), stream.late, stream.dropped + dropped_,
+                    stream.trimmed,  stream.seam, stream.starved,
+                    stream.shaped};
   });
   state.slips = newest_.slips;
   state.overruns = newest_.overruns;

@@ -15,10 +15,11 @@ constexpr const char* kSquare =
 
 void a_square_is_sent_and_succeeds(void**) {
   Text<2047> script(kSquare);
-  script << "$T send $S/square.csv --motion-frame base_link.x --json >$S/all";
+  script << "$T send $S/square.csv --json >$S/all";
   assert_int_equal(served(kTip, script.c_str()), 0);
   assert_int_equal(shell("tail -1 $S/all | grep '^{\"result\":{.*\"outcome\":\"SUCCEEDED\"'"), 0);
-  // Its last corner, (0.6, 0.16, 0.74) m in base_link, which is turned by pi about z.
+  // Its last corner, (0.6, 0.16, 0.74) m in base_link, which is turned by pi about z, and which the
+  // pipeline file names.
   assert_int_equal(
       shell("$R/tests/ctl/last_values.py $S/all feedback task_actual.pose -0.6 -0.16 0.74"), 0);
 }

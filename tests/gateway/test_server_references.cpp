@@ -51,6 +51,23 @@ void what_a_stop_voids_does_not_move_the_arm(void**) {
   assert_int_equal(two.a.status[twice], static_cast<int>(Status::kEpochVoid));
 }
 
+void a_velocity_that_is_not_renewed_comes_to_rest_and_is_told(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease(0, 5000);
+  JointVector dq = JointVector::Zero();
+  dq[0] = 0.3;
+  const std::uint32_t sent =
+      two.a.send(ask::kVelocity,
+                 RawMessage().number(3, 50).reals(4, dq.data(), static_cast<std::size_t>(kDof)));
+  two.run(40);
+  assert_int_equal(two.a.outcome[sent], 14);  // EXECUTED
+  assert_int_equal(two.a.starved, 0);
+  two.run(500);
+  assert_int_equal(two.a.starved, 1);
+  assert_int_equal(two.a.finals[sent], 1);
+  assert_true(two.bench.generator.reference().standing());
+}
+
 void datagrams_move_the_arm_of_their_session_only(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease();
@@ -86,6 +103,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_point_moves_the_reference_in_the_next_cycle),
       cmocka_unit_test(what_a_stop_voids_does_not_move_the_arm),
+      cmocka_unit_test(a_velocity_that_is_not_renewed_comes_to_rest_and_is_told),
       cmocka_unit_test(datagrams_move_the_arm_of_their_session_only),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -45,6 +45,25 @@ void ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap(voi
   ASSERT_NEAR(worst, 0.0, 1e-6);
 }
 
+void the_smallest_window_is_passed_to_its_end(void**) {
+  constexpr int kWaypoints = 1001;
+  TwoClients& two = fresh_clients();
+  two.a.lease(0, 60000);
+  const std::uint32_t goal = two.a.send(ask::kBegin, begin(1));
+  two.run(1);
+  const auto at = [](double t) { return swing(t, 1.0); };
+  for (int sent = 0, cycle = 0; two.a.finals[goal] == 0 && cycle < 200'000; ++cycle) {
+    if (sent < kWaypoints && two.a.credit > 0) {
+      two.a.send(ask::kPart, part(sent, sent + 1, at));
+      --two.a.credit;
+      if (++sent == kWaypoints) two.a.send(ask::kEnd);
+    }
+    if (cycle % 500 == 0) two.b.send(ask::kPing);
+    two.run(1);
+  }
+  assert_int_equal(two.a.outcome[goal], 10);  // SUCCEEDED
+}
+
 void waypoints_beyond_the_credit_end_their_trajectory(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease();
@@ -141,6 +160,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap),
+      cmocka_unit_test(the_smallest_window_is_passed_to_its_end),
       cmocka_unit_test(waypoints_beyond_the_credit_end_their_trajectory),
       cmocka_unit_test(a_waypoint_that_is_refused_on_the_way_brings_the_arm_to_rest_and_is_named),
       cmocka_unit_test(a_trajectory_is_refused_at_its_end_with_the_waypoint),

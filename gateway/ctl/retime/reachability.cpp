@@ -82,6 +82,7 @@ double largest_u(const Slopes& here, const Slopes& there, double step, double x,
 std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bounds, int steps) {
   std::vector<PathNode> nodes = grid(section, steps);
   std::vector<Slopes> slopes;
+  slopes.reserve(nodes.size());
   for (const PathNode& node : nodes) slopes.push_back(slopes_at(node, bounds));
   const std::size_t last = nodes.size() - 1;
   std::vector<double> most(nodes.size(), 0.0);

@@ -11,6 +11,10 @@ namespace tactus::ctl {
 namespace {
 
 constexpr double kShortestWindow_s = 0.004;  // four waypoints of 1 ms
+/// Windows that are tried, each longer than the last by this factor: up to seven times the time in
+/// which the acceleration reaches its bound.
+constexpr int kWindows = 20;
+constexpr double kNextWindow = 1.15;
 constexpr double kWaypointsInWindow = 4.0;
 constexpr double kRounding = 1e-9;  // of a bound
 
@@ -65,11 +69,12 @@ std::vector<TimedPoint> with_jerk(const std::vector<PathNode>& nodes,
   const MotionBounds& bounds = settings.bounds;
   const double whole_s = (bounds.a / bounds.j).maxCoeff();
   std::vector<TimedPoint> best;
-  for (double factor = 0.5; factor < 8.0; factor *= 1.15) {
-    const double window_s = std::max(kShortestWindow_s, whole_s * factor);
+  double window_s = std::max(kShortestWindow_s, 0.5 * whole_s);
+  for (int i = 0; i < kWindows; ++i) {
     std::vector<TimedPoint> points = smoothed(nodes, window_s);
     keep_bounds(points, settings);
     if (best.empty() || points.back().time_s < best.back().time_s) best.swap(points);
+    window_s *= kNextWindow;
   }
   return best;
 }

@@ -94,6 +94,8 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
     Verdict verdict;
     if (late)
       verdict = {Status::kChunkLate, -1, -1, time_s() - chunk.end_s(), 0.0};
+    else if (!(chunk.first_s() <= time_s() + kLongestChunk_s))
+      verdict = {Status::kReferenceTime, 0, -1, chunk.first_s(), time_s() + kLongestChunk_s};
     else
       verdict = motion_.track(chunk, time_s());
     if (!verdict.ok()) {

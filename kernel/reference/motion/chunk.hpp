@@ -35,6 +35,8 @@ using OnlyWithStreams = std::conditional_t<kStreams, Type, NoStream>;
 
 /// Longest crossfade, s.
 inline constexpr double kLongestFade_s = 0.3;
+/// Longest time from one target of a chunk to another, and to the first one from now, s.
+inline constexpr double kLongestChunk_s = 600.0;
 
 template <class Space>
 struct Knot {

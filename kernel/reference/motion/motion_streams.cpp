@@ -27,6 +27,7 @@ template <class Space>
 Verdict Motion<Space>::drive(const Velocity<Space>& velocity) {
   if (!can_leave()) return {Status::kPositionLimit};
   begin_stream(MotionEvent::kVelocity);
+  plan_.clear();
   velocity_ = velocity;
   velocity_until_s_ = time_s_ + velocity.timeout_s;
   return {};

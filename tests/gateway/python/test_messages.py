@@ -146,19 +146,15 @@ class Trajectories(unittest.TestCase):
 
     def test_a_refusal_has_its_parts(self):
         text = "waypoint 13 (t = 1.2 s), joint 3 (elbow_joint): position -3.30189 rad is below -3.141593 rad (34); keep off"
-        refusal = tactus.Refused(text, 34)
+        refusal = tactus.Refused(text, 34, pb.Finding(waypoint=13, axis=2, value=-3.30189, limit=-3.141593))
         self.assertEqual(str(refusal), text)
         self.assertEqual(refusal.place, "waypoint 13 (t = 1.2 s), joint 3 (elbow_joint)")
-        self.assertEqual((refusal.value, refusal.limit, refusal.remedy), (-3.30189, -3.141593, "keep off"))
-        small = tactus.Refused("waypoint 2, x: velocity 1.5e-07 m/s exceeds 1e-08 m/s (36)", 36)
-        self.assertEqual((small.value, small.limit, small.remedy), (1.5e-07, 1e-08, ""))
-        fast = tactus.Refused(
-            "joint 1 (a): acceleration 7.25 rad/s^2 exceeds 5 rad/s^2 (37); give this part more time", 37
-        )
-        self.assertEqual((fast.value, fast.limit), (7.25, 5))
-        strong = tactus.Refused("joint 1 (a): effort 400 N m exceeds 330 N m (38)", 38)
-        self.assertEqual((strong.value, strong.limit), (400, 330))
-        self.assertIsNone(tactus.Refused("another client owns the motion", 110).value)
+        self.assertEqual((refusal.waypoint, refusal.axis, refusal.remedy), (13, 2, "keep off"))
+        self.assertEqual((refusal.value, refusal.limit), (-3.30189, -3.141593))
+        joint = tactus.Refused("joint 1 (a): effort 400 N m exceeds 330 N m (38)", 38, pb.Finding(waypoint=-1, value=400, limit=330))
+        self.assertEqual((joint.waypoint, joint.axis, joint.value, joint.limit), (None, 0, 400, 330))
+        owned = tactus.Refused("another client owns the motion", 110)
+        self.assertEqual((owned.waypoint, owned.axis, owned.value, owned.limit), (None, None, None, None))
 
     def test_an_aborted_trajectory_raises(self):
         class Aborts(Peer):

@@ -119,6 +119,62 @@ void a_chunk_of_one_target_is_a_point(void**) {
   ASSERT_NEAR(bench.way_now(), 0.3, 1e-12);
 }
 
+/// A chunk that waits for its first stamp must not bring back what a velocity has ended.
+void a_chunk_after_a_velocity_goes_on_from_the_reference(void**) {
+  for (const bool ends : {true, false}) {
+    ChunkBench<JointSpace> bench;
+    const double most = bench.channel.settings.limits.ddq_max[0] * bench.period_s * 1.001;
+    bench.chunk.ends = ends;
+    bench.send_targets(0.02, 0.02, 3, [](double) { return 0.0; });
+    bench.run(0.03);
+    Velocity<JointSpace> velocity;
+    velocity.rates[0] = 0.3;
+    velocity.timeout_s = 2.0;
+    std::uint32_t id = 0;
+    ASSERT_OK(bench.client.send(velocity, id).status);
+    bench.run(0.4);
+    const double reached = bench.way_now();
+    assert_true(reached > 0.05);
+    bench.chunk.ends = true;
+    bench.send_targets(bench.now_s() + 0.3, 0.1, 6, [&](double) { return reached + 0.1; });
+    JointSpace::Point before = bench.out();
+    for (int k = bench.cycles(1.0); k > 0; --k) {
+      bench.cycle();
+      assert_true(std::abs(bench.out().dq[0] - before.dq[0]) <= most);
+      assert_true(bench.way_now() >= reached);
+      ASSERT_NEAR(bench.out().q[0], before.q[0] + bench.period_s * before.dq[0], 1e-5);
+      before = bench.out();
+    }
+    ASSERT_NEAR(bench.way_now(), reached + 0.1, 1e-9);
+  }
+}
+
+void targets_that_no_limit_could_shape_are_refused(void**) {
+  ChunkBench<JointSpace> bench;
+  assert_int_equal(bench.send_targets(0.0, 1e-3, 2, [](double t) { return 100.0 * t; }), 0);
+  ASSERT_STATUS(bench.verdict.status, Status::kVelocityLimit);
+  assert_int_equal(bench.verdict.waypoint, 1);
+  bench.chunk.velocities = true;
+  bench.chunk.count = 0;
+  for (const double t : {0.1, 0.2}) bench.chunk.add(t, bench.home);
+  bench.chunk.targets[1].dq[2] = 1e200;
+  assert_int_equal(bench.send_again(), 0);
+  ASSERT_STATUS(bench.verdict.status, Status::kVelocityLimit);
+  assert_true(bench.verdict.waypoint == 1 && bench.verdict.axis == 2);
+}
+
+/// The server's clock may be asked for a time that never comes.
+void a_chunk_of_a_distant_future_is_refused_and_changes_nothing(void**) {
+  ChunkBench<JointSpace> bench;
+  const typename JointSpace::Point before = bench.out();
+  for (const double first_s : {kLongestChunk_s + 1.0, 1e200}) {
+    bench.send_targets(first_s, 0.05, 3, [](double) { return 0.3; });
+    bench.run(0.1);
+    ASSERT_STATUS(bench.last.verdict.status, Status::kReferenceTime);
+    assert_true(bench.out().q == before.q && bench.out().standing());
+  }
+}
+
 void a_bad_chunk_is_refused_with_its_place(void**) {
   ChunkBench<JointSpace> bench;
   const auto refused = [&](double first, double spacing, int count, double x) {
@@ -132,6 +188,9 @@ void a_bad_chunk_is_refused_with_its_place(void**) {
   const Verdict outside = refused(0.0, 0.05, 3, 10.0);
   ASSERT_STATUS(outside.status, Status::kPositionLimit);
   assert_true(outside.waypoint == 0 && outside.axis == 0 && outside.value > outside.limit);
+  const Verdict apart = refused(-1e200, 1e200, 3, 0.0);
+  ASSERT_STATUS(apart.status, Status::kReferenceTime);
+  assert_int_equal(apart.waypoint, 1);
   bench.chunk.fade_s = 0.5;
   ASSERT_STATUS(refused(0.0, 0.05, 3, 0.0).status, Status::kBadValue);
 }
@@ -145,6 +204,9 @@ int main() {
       cmocka_unit_test(a_chunk_takes_effect_from_its_first_stamp_ahead),
       cmocka_unit_test(a_stop_voids_the_epoch),
       cmocka_unit_test(a_chunk_of_one_target_is_a_point),
+      cmocka_unit_test(a_chunk_after_a_velocity_goes_on_from_the_reference),
+      cmocka_unit_test(targets_that_no_limit_could_shape_are_refused),
+      cmocka_unit_test(a_chunk_of_a_distant_future_is_refused_and_changes_nothing),
       cmocka_unit_test(a_bad_chunk_is_refused_with_its_place),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
