@@ -66,10 +66,8 @@ CLI::Validator finite() {
 }
 
 void add_connection(CLI::App& verb, Options& o) {
-  verb.add_option(
-      "--connect", o.connect,
-      "address of the server, unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that "
-      "of tactus serve)");
+  verb.add_option("--connect", o.connect,
+                  "unix:PATH or tcp:HOST:PORT (default: TACTUS_SOCKET, else that of tactus serve)");
   verb.add_option("--key", o.key, "key file, for a server that was started with one");
   verb.add_option("--name", o.name, "name that others see (default tactusctl-<process>)")
       ->check(CLI::Validator(
@@ -243,9 +241,9 @@ bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
     exit_code = app.exit(error) == 0 ? kSucceeded : kRefused;
     return false;
   }
-  // An option that names the variable would have it read for every verb, after --connect of one.
-  const char* const usual = std::getenv("TACTUS_SOCKET");
-  if (options.connect.empty() && usual != nullptr) options.connect = usual;
+  // An option that names the variable would read it for every verb, after --connect of one.
+  if (const char* usual = std::getenv("TACTUS_SOCKET"); usual != nullptr && options.connect.empty())
+    options.connect = usual;
   return true;
 }
 

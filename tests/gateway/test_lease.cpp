@@ -1,7 +1,7 @@
 // Tests the table of ownership in docs/gateway.md, in every order of what can happen.
 #include "gateway/server/generator_clock.hpp"
 #include "gateway/server/lease.hpp"
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -148,36 +148,6 @@ void what_runs_goes_on_when_its_owner_gives_the_lease_back(void**) {
   assert_int_equal(two.a.status[again], static_cast<int>(Status::kNotOwner));
 }
 
-void a_trajectory_that_still_comes_ends_with_its_lease_and_its_epoch(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  two.run(1);
-  const std::uint32_t before = two.a.epoch, goal = two.a.send(ask::kBegin, begin(16));
-  two.run(1);
-  const auto at = [](double t) { return swing(t, 2.0); };
-  for (int i = 0; i < 4; ++i) two.a.send(ask::kPart, part(60 * i, 60 * i + 60, at));
-  two.run(50);
-  assert_false(two.bench.generator.reference().standing());
-  const std::uint32_t back = two.a.send(ask::kLease, RawMessage().number(1, 1));
-  two.run(1000);
-  assert_int_equal(two.a.status[back], 0);
-  assert_int_equal(two.a.finals[goal], 1);
-  assert_true(two.a.epoch > before);
-  assert_true(two.bench.generator.reference().standing());
-}
-
-void a_flood_of_rearms_leaves_places_for_stops(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.lease();
-  two.run(1);
-  for (int i = 0; i < 40; ++i) two.a.send(ask::kRearm);
-  two.bench.server.work(two.bench.now_ns);
-  const std::uint32_t stop = two.b.send(ask::kStop);
-  two.run(40);
-  assert_int_equal(two.b.status[stop], 0);
-  assert_int_equal(two.b.finals[stop], 1);
-}
-
 void a_take_over_stops_an_arm_whose_owner_has_filled_the_mailbox_of_controls(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease(1);
@@ -252,8 +222,6 @@ int main() {
       cmocka_unit_test(a_take_over_brings_the_arm_to_rest_and_tells_both),
       cmocka_unit_test(a_lease_that_is_not_renewed_ends_and_the_arm_rests_while_messages_renew_it),
       cmocka_unit_test(what_runs_goes_on_when_its_owner_gives_the_lease_back),
-      cmocka_unit_test(a_trajectory_that_still_comes_ends_with_its_lease_and_its_epoch),
-      cmocka_unit_test(a_flood_of_rearms_leaves_places_for_stops),
       cmocka_unit_test(a_take_over_stops_an_arm_whose_owner_has_filled_the_mailbox_of_controls),
       cmocka_unit_test(leases_outside_their_ranges_are_refused),
       cmocka_unit_test(stamps_are_times_of_the_generator_also_after_cycles_were_left_out),

@@ -68,6 +68,22 @@ void a_velocity_that_is_not_renewed_comes_to_rest_and_is_told(void**) {
   assert_true(two.bench.generator.reference().standing());
 }
 
+// Proves GW-3.
+
+void a_flood_of_rearms_leaves_places_for_stops(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease();
+  two.run(1);
+  for (int i = 0; i < 40; ++i) two.a.send(ask::kRearm);
+  two.bench.server.work(two.bench.now_ns);
+  const std::uint32_t stop = two.b.send(ask::kStop);
+  two.run(40);
+  assert_int_equal(two.b.status[stop], 0);
+  assert_int_equal(two.b.finals[stop], 1);
+}
+
+// Proves GW-7.
+
 void datagrams_move_the_arm_of_their_session_only(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease();
@@ -101,6 +117,7 @@ void datagrams_move_the_arm_of_their_session_only(void**) {
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_flood_of_rearms_leaves_places_for_stops),
       cmocka_unit_test(a_point_moves_the_reference_in_the_next_cycle),
       cmocka_unit_test(what_a_stop_voids_does_not_move_the_arm),
       cmocka_unit_test(a_velocity_that_is_not_renewed_comes_to_rest_and_is_told),

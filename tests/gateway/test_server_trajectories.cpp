@@ -64,6 +64,24 @@ void the_smallest_window_is_passed_to_its_end(void**) {
   assert_int_equal(two.a.outcome[goal], 10);  // SUCCEEDED
 }
 
+void a_trajectory_that_still_comes_ends_with_its_lease_and_its_epoch(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease();
+  two.run(1);
+  const std::uint32_t before = two.a.epoch, goal = two.a.send(ask::kBegin, begin(16));
+  two.run(1);
+  const auto at = [](double t) { return swing(t, 2.0); };
+  for (int i = 0; i < 4; ++i) two.a.send(ask::kPart, part(60 * i, 60 * i + 60, at));
+  two.run(50);
+  assert_false(two.bench.generator.reference().standing());
+  const std::uint32_t back = two.a.send(ask::kLease, RawMessage().number(1, 1));
+  two.run(1000);
+  assert_int_equal(two.a.status[back], 0);
+  assert_int_equal(two.a.finals[goal], 1);
+  assert_true(two.a.epoch > before);
+  assert_true(two.bench.generator.reference().standing());
+}
+
 void waypoints_beyond_the_credit_end_their_trajectory(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease();
@@ -159,6 +177,7 @@ void a_check_waits_for_the_trajectory_that_comes_and_gives_way_to_it(void**) {
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_trajectory_that_still_comes_ends_with_its_lease_and_its_epoch),
       cmocka_unit_test(ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap),
       cmocka_unit_test(the_smallest_window_is_passed_to_its_end),
       cmocka_unit_test(waypoints_beyond_the_credit_end_their_trajectory),
