@@ -169,6 +169,7 @@ class Trajectories(unittest.TestCase):
         class Runs(Peer):
             def take_end(self, message):
                 self.report(self.trajectory, pb.Report.STARTED)
+                signal.signal(signal.SIGINT, signal.default_int_handler)  # which a job in the background ignores
                 threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,)).start()
 
             def take_cancel(self, message):
