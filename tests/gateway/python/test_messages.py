@@ -166,10 +166,11 @@ class Trajectories(unittest.TestCase):
             arm.move(t=[1.0], q=np.zeros((1, JOINTS)))
 
     def test_ctrl_c_cancels_on_the_path(self):
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+
         class Runs(Peer):
             def take_end(self, message):
                 self.report(self.trajectory, pb.Report.STARTED)
-                signal.signal(signal.SIGINT, signal.default_int_handler)  # which a job in the background ignores
                 threading.Timer(0.05, signal.raise_signal, (signal.SIGINT,)).start()
 
             def take_cancel(self, message):
