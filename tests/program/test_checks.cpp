@@ -42,7 +42,8 @@ int plant_boards(void**) {
   return shell(
       "mkdir -p $S/m/tests/oracles/fcl $S/m/tests/core $S/m/scripts $S/m/build && "
       "cp --parents Makefile $(sed -n 's/^include \\([^$]*\\.mk\\)$/\\1/p' Makefile) "
-      "scripts/run_tests kernel/core/precompiled.hpp tests/support/testing.hpp $S/m && cp $S/x.cpp "
+      "scripts/run_tests kernel/core/precompiled.hpp tests/support/testing.hpp "
+      "gateway/tactus.proto gateway/tactus.options $S/m && cp $S/x.cpp "
       "$S/m/tests/core/test_x.cpp "
       "&& cd "
       "$S/m && "
