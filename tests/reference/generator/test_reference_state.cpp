@@ -66,7 +66,12 @@ void every_phase_can_be_reached_from_holding(void**) {
   for (const bool is : reached) assert_true(is);
 }
 
-/// Without a point or a trajectory, a stop stays a stop or is at rest, and rest ends it.
+bool is_reference(MotionEvent event) {
+  return event == MotionEvent::kPoint || event == MotionEvent::kTrajectory ||
+         event == MotionEvent::kChunk || event == MotionEvent::kVelocity;
+}
+
+/// Without a new reference, a stop stays a stop or is at rest, and rest ends it.
 void a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_keeps_it(void**) {
   for (std::size_t from = 0; from < kPhases; ++from) {
     const Phase stopped = next(phase(from), MotionEvent::kStop);
@@ -75,7 +80,7 @@ void a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_kee
   }
   for (const Phase resting : {Phase::kStopping, Phase::kHolding}) {
     for (std::size_t e = 0; e < kMotionEvents; ++e) {
-      if (event(e) == MotionEvent::kPoint || event(e) == MotionEvent::kTrajectory) continue;
+      if (is_reference(event(e))) continue;
       const Phase then = next(resting, event(e));
       assert_true(then == resting || then == Phase::kHolding);
     }
@@ -97,6 +102,8 @@ void an_accepted_trajectory_is_joined_and_a_point_is_reached_from_everywhere(voi
   for (std::size_t from = 0; from < kPhases; ++from) {
     assert_true(next(phase(from), MotionEvent::kTrajectory) == Phase::kJoining);
     assert_true(next(phase(from), MotionEvent::kPoint) == Phase::kReaching);
+    assert_true(next(phase(from), MotionEvent::kChunk) == Phase::kTracking);
+    assert_true(next(phase(from), MotionEvent::kVelocity) == Phase::kDriving);
   }
 }
 
