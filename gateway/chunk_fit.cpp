@@ -53,7 +53,7 @@ class Band {
       if (k + 1 >= size_) continue;
       const double c = 1.0 / fit.h(k + 2);
       e_[k] = fit.h(k + 1) / 6.0 - smoothing * b * (a + 2.0 * b + c);
-      if (k + 2 < size_) f_[k] = smoothing * b * c * 1.0;
+      if (k + 2 < size_) f_[k] = smoothing * b * c;
     }
     for (std::size_t k = 0; k < size_; ++k) {
       if (k > 0) d_[k] -= e_[k - 1] * e_[k - 1] * d_[k - 1];

@@ -66,6 +66,18 @@ void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
       0);
 }
 
+// Proves CTL-4.
+
+void an_address_that_is_given_counts_and_not_the_usual_one(void**) {
+  assert_int_equal(
+      served(kJoints,
+             "$T info || exit 81; $T info --connect unix:$S/none; "
+             "test $? = 3 || exit 82; $T point --connect=unix:$S/none "
+             "0.1 -1.67 1.87 2.94 -1.57 0; test $? = 3 || exit 83; "
+             "here=$TACTUS_SOCKET; TACTUS_SOCKET=unix:$S/none $T info --connect $here"),
+      0);
+}
+
 // Proves CTL-7.
 
 void states_are_recorded_as_a_file_that_can_be_read(void**) {
@@ -103,6 +115,7 @@ int main(int, char** argv) {
       cmocka_unit_test(without_a_server_the_error_says_what_to_do),
       cmocka_unit_test(what_is_malformed_is_refused_before_it_is_sent),
       cmocka_unit_test(the_server_admits_what_is_retimed_without_slowing_it_down),
+      cmocka_unit_test(an_address_that_is_given_counts_and_not_the_usual_one),
       cmocka_unit_test(states_are_recorded_as_a_file_that_can_be_read),
       cmocka_unit_test(an_installed_program_has_a_man_page_and_a_completion),
   };
