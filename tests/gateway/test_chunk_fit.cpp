@@ -18,11 +18,14 @@ using namespace tactus;
 /// Values and velocities at the knots that minimize; the bending energy of a Hermite cubic is a
 /// quadratic form in them. With L = 0 the values are the targets and the velocities minimize.
 struct DenseSpline {
-  Eigen::VectorXd f, df;
+  static constexpr int kMost = 2 * kChunkTargets;
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+  Vector f, df;
 
-  DenseSpline(const Eigen::VectorXd& t, const Eigen::VectorXd& y, double L) {
+  DenseSpline(const Vector& t, const Vector& y, double L) {
     const Eigen::Index n = t.size();
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    Matrix K = Matrix::Zero(2 * n, 2 * n);
     for (Eigen::Index i = 0; i + 1 < n; ++i) {
       const double h = t[i + 1] - t[i];
       Eigen::Matrix4d k;  // of a beam: values and slopes of both ends
@@ -35,14 +38,15 @@ struct DenseSpline {
     }
     if (L == 0.0) {
       f = y;
-      df = K.bottomRightCorner(n, n).fullPivLu().solve(-K.bottomLeftCorner(n, n) * y);
+      const Matrix slopes = K.bottomRightCorner(n, n);
+      df = slopes.fullPivLu().solve(-K.bottomLeftCorner(n, n) * y);
       return;
     }
-    Eigen::MatrixXd A = L * K;
-    A.topLeftCorner(n, n) += Eigen::MatrixXd::Identity(n, n);
-    Eigen::VectorXd b = Eigen::VectorXd::Zero(2 * n);
+    Matrix A = L * K;
+    A.topLeftCorner(n, n) += Matrix::Identity(n, n);
+    Vector b = Vector::Zero(2 * n);
     b.head(n) = y;
-    const Eigen::VectorXd x = A.fullPivLu().solve(b);
+    const Vector x = A.fullPivLu().solve(b);
     f = x.head(n);
     df = x.tail(n);
   }
@@ -63,7 +67,7 @@ void the_curve_is_the_smoothing_spline(void**) {
     for (const int n : {2, 3, 4, 5, 30, kChunkTargets}) {
       chunk = {};
       chunk.smoothing_s = smoothing_s;
-      Eigen::VectorXd t(n), y(n);
+      DenseSpline::Vector t(n), y(n);
       double time_s = 100.0;
       for (int i = 0; i < n; ++i) {
         time_s += dice.uniform(0.01, 0.05);
