@@ -18,7 +18,7 @@ using namespace tactus;
 /// Values and velocities at the knots that minimize; the bending energy of a Hermite cubic is a
 /// quadratic form in them. With L = 0 the values are the targets and the velocities minimize.
 struct DenseSpline {
-  static constexpr int kMost = 2 * kChunkTargets;
+  static constexpr int kKnots = 64, kMost = 2 * kKnots;  // matrices on the stack: no heap here
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
   Vector f, df;
@@ -64,7 +64,7 @@ AdmissionSettings<TaskSpace> task_settings;
 void the_curve_is_the_smoothing_spline(void**) {
   Dice dice{3};
   for (const double smoothing_s : {0.0, 0.03, 0.2}) {
-    for (const int n : {2, 3, 4, 5, 30, kChunkTargets}) {
+    for (const int n : {2, 3, 4, 5, 30, DenseSpline::kKnots}) {
       chunk = {};
       chunk.smoothing_s = smoothing_s;
       DenseSpline::Vector t(n), y(n);
