@@ -132,6 +132,7 @@ Message& add_code(Message& text, Status status) {
 const char* remedy(Status status) {
   switch (status) {
     case Status::kPositionLimit: return "; keep within the range of the joint: are these degrees?";
+    case Status::kCannotLeave: return "; send it again a little later";
     case Status::kWorkspace: return "; keep within [task_limits]: are these millimetres?";
     case Status::kReferenceTime: return "; sort the waypoints by time";
     case Status::kVelocityLimit:

@@ -26,13 +26,6 @@ struct JointLimits {
     return limits;
   }
 
-  /// Returns these limits with velocity multiplied by `share`. [any]
-  JointLimits slower(double share) const {
-    JointLimits limits = *this;
-    limits.dq_max *= share;
-    return limits;
-  }
-
   /// Takes the limits of the board's robot table.
   JointLimits() {
     for (int i = 0; i < kDof; ++i) {

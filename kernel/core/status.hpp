@@ -45,6 +45,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kNothingToExtend = 53,
     kWindowFull = 54,
     kNotStreamable = 55,
+    kCannotLeave = 56,
     kLeftPath = 57,
     kGoalVelocity = 58,
     kChunkLate = 59,

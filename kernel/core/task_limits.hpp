@@ -55,13 +55,6 @@ struct TaskLimits {
     }
     return limits;
   }
-  /// Returns these limits with velocities multiplied by `share`. [any]
-  TaskLimits slower(double share) const {
-    TaskLimits limits = *this;
-    limits.v_max *= share;
-    limits.w_max *= share;
-    return limits;
-  }
 
  private:
   static constexpr Range up_to(double maximum) { return {kPositive.lo, maximum}; }

@@ -198,6 +198,7 @@ template <class Space>
 Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
                               const typename Space::Tolerance& tolerance, const Point& measured,
                               double elapsed_s) {
+  if (!can_leave()) return {Status::kCannotLeave};
   Path<Space> path(trajectory, reference_, settings_->limits);
   Verdict verdict = path.judge_placement(*settings_);
   Point base;

@@ -36,8 +36,9 @@ class Motion {
   void reach(const Point& point);
   /// Leaves what it follows for a trajectory that began `elapsed_s` ago: by one segment to its
   /// first waypoint if that is still ahead, else at the point where its path is now. Refuses, with
-  /// no effect, if the placed trajectory or that segment breaks a limit, or if a path that begins
-  /// now is near neither the reference nor the measured point. [cyclic]
+  /// no effect, if the placed trajectory or that segment breaks a limit, if a path that begins now
+  /// is near neither the reference nor the measured point, or on a path that cannot be left.
+  /// [cyclic]
   Verdict follow(const Trajectory<Space>& trajectory, const typename Space::Tolerance& tolerance,
                  const Point& measured, double elapsed_s = 0.0);
   /// Goes along with the curve of `chunk`, whose clock shows `now_s`, from its first stamp ahead;

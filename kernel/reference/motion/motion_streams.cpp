@@ -5,18 +5,9 @@
 
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
-namespace {
-
-/// Share of the velocity limits of a reference on its way along chunks: the stop of a vector takes
-/// up to two per cent of its jerk for the acceleration across it, and then runs out that much
-/// farther.
-constexpr double kStreamShare = 0.999;
-
-}  // namespace
-
 template <class Space>
 Verdict Motion<Space>::track(ChunkCurve<Space>& chunk, double now_s) {
-  if (!can_leave()) return {Status::kPositionLimit};
+  if (!can_leave()) return {Status::kCannotLeave};
   begin_stream(MotionEvent::kChunk);
   plan_.install(chunk, Space::latch(chunk.header, reference_, settings_->limits), time_s_ - now_s,
                 time_s_);
@@ -25,7 +16,7 @@ Verdict Motion<Space>::track(ChunkCurve<Space>& chunk, double now_s) {
 
 template <class Space>
 Verdict Motion<Space>::drive(const Velocity<Space>& velocity) {
-  if (!can_leave()) return {Status::kPositionLimit};
+  if (!can_leave()) return {Status::kCannotLeave};
   begin_stream(MotionEvent::kVelocity);
   plan_.clear();
   velocity_ = velocity;
@@ -48,7 +39,7 @@ void Motion<Space>::begin_stream(MotionEvent event) {
 template <class Space>
 void Motion<Space>::move_stream(double dt_s) {
   if (phase_ == Phase::kDriving) return move_at_velocity(dt_s);
-  const typename Space::Limits limits = settings_->limits.slower(kStreamShare);
+  const typename Space::Limits& limits = settings_->limits;
   const bool seam = plan_.due(time_s_), stops = !seam && plan_.runs_out(time_s_);
   if (seam) base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits);
   if (stops) base_ = plan_.stop(time_s_ - dt_s, base_, reference_, limits);

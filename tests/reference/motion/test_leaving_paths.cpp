@@ -160,6 +160,29 @@ void a_tip_that_is_called_off_a_bend_along_a_side_of_its_workspace_stays_inside(
   }
 }
 
+void a_trajectory_that_is_sent_on_that_bend_is_refused_or_keeps_inside(void**) {
+  for (const double period : {1e-3, 2e-3, 8e-3}) {
+    int refused = 0, taken = 0;
+    for (double at_s = 0.4; at_s < 0.7; at_s += 0.004) {
+      TipOnABend bench(period);
+      bench.run(at_s);
+      Trajectory<TaskSpace>* elsewhere = bench.trajectory(kQuintics);
+      bench.add(*elsewhere, 1.0, bench.home.at_rest());
+      const std::uint32_t id = bench.send(*elsewhere);
+      assert_int_not_equal(id, 0);
+      bench.cycle();
+      const Report report = bench.report_of(id);
+      const bool no = report.outcome == Outcome::kRefused;
+      if (no) ASSERT_STATUS(report.verdict.status, Status::kCannotLeave);
+      ++(no ? refused : taken);
+      bench.run(3.0);
+      ASSERT_STATUS(bench.report_of(no ? bench.id : id).outcome, Outcome::kSucceeded);
+    }
+    print_message("%d refused, %d taken\n", refused, taken);
+    assert_true(refused > 0 && taken > 0);
+  }
+}
+
 void a_robot_that_does_not_follow_is_stopped_inside_too(void**) {
   int left = 0;
   for (double at_s = 0.5; at_s < 0.6; at_s += 0.002) {
@@ -213,6 +236,7 @@ int main() {
       cmocka_unit_test(
           a_path_that_cannot_be_stopped_on_is_left_after_half_a_second_and_that_is_told),
       cmocka_unit_test(a_tip_that_is_called_off_a_bend_along_a_side_of_its_workspace_stays_inside),
+      cmocka_unit_test(a_trajectory_that_is_sent_on_that_bend_is_refused_or_keeps_inside),
       cmocka_unit_test(a_robot_that_does_not_follow_is_stopped_inside_too),
       cmocka_unit_test(a_stream_that_dries_up_just_before_an_end_of_the_range_stays_inside),
   };
