@@ -1,6 +1,8 @@
 // Tests the cycle's end of the mailboxes between cycle and server.
 #include "program/cycle_desk.hpp"
 
+#include <optional>
+
 #include "kernel/load/loader.hpp"
 #include "program/session/host_sections.hpp"
 #include "sim_plant/arm/sim_hal.hpp"
@@ -15,7 +17,7 @@ struct Bench {
   RoomyPipeline pipeline;
   CycleMail mail;
   Executive executive{hal, pipeline};
-  CycleDesk* desk = nullptr;
+  std::optional<CycleDesk> desk;
   std::int64_t now_ns = 0;
   std::uint32_t next = 1;
 
@@ -29,7 +31,7 @@ struct Bench {
     hal.set_period(1e-3);
     ASSERT_OK(hal.load(PlantParams(), 1));
     executive.in_virtual_time();
-    desk = new CycleDesk(mail, executive, pipeline);
+    desk.emplace(mail, executive, pipeline);
     ASSERT_OK(executive.start());
     static_cast<void>(executive.arm());
     for (int i = 0; i < 1000 && executive.rung() != Rung::kNominal; ++i) cycle();
