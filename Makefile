@@ -96,6 +96,10 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/server gateway/sockets hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
+# Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them.
+SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,check_steps checks expected loop_bounds refuted report report_folders \
+                  report_labels run_all setup static_bounds tools wcet)
+TESTS    := $(if $(SANITIZE),$(filter-out $(SCRIPT_TESTS),$(TESTS)),$(TESTS))
 TESTS    := $(TESTS:%.cpp=$(B)/%)
 # These run together in a virtual machine that has CAN buses.
 VM_TESTS := $(filter $(B)/tests/vm/%,$(TESTS))

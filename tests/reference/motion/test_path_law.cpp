@@ -14,9 +14,15 @@ namespace {
 constexpr double kPeriod_s = 1e-3, kShare = 0.98;
 
 /// The number of paths of each kind to try.
+#ifdef TACTUS_SANITIZED
+constexpr int kTrials = 40;
+#else
+constexpr int kTrials = 200;
+#endif
+
 int trials() {
   const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : 200;
+  return wanted != nullptr ? std::atoi(wanted) : kTrials;
 }
 
 /// A random path with its law, and the largest use of the limits.

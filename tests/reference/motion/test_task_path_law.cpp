@@ -15,9 +15,15 @@ namespace {
 constexpr double kPeriod_s = 1e-3, kShare = 0.98;
 constexpr int kPieces = 12;
 
+#ifdef TACTUS_SANITIZED
+constexpr int kTrials = 20;
+#else
+constexpr int kTrials = 60;
+#endif
+
 int trials() {
   const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : 60;
+  return wanted != nullptr ? std::atoi(wanted) : kTrials;
 }
 
 Vector3 any(Random& random) {
