@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "gateway/fnv1a.hpp"
+#include "gateway/page/page_thread.hpp"
 #include "gateway/sockets/server_thread.hpp"
 #include "gateway/verdict_text.hpp"
 #include "program/run_loop.hpp"
@@ -36,6 +37,27 @@ bool listen(const Options& options, Listener& listener, Key& key, Text<127>& whe
   if (keyed && !Tunnel::prepare()) return refuse("--key", "libsodium cannot be used");
   if (keyed && !read_key(options.key, key, why)) return refuse("--key", why.c_str());
   return listener.open(address, !keyed, why) || refuse(where.c_str(), why.c_str());
+}
+
+/// Reads where the page is to be, if there is to be one.
+bool read_page(const Options& options, Address& address) {
+  Message why;
+  const bool none = options.http[0] == '\0';
+  return none || parse_page_address(options.http, address, why) || refuse("--http", why.c_str());
+}
+
+/// Starts the page, if there is to be one. If the computer cannot, the server goes on without.
+void start_page(PageThread& page, const Options& options, const Address& address) {
+  Message why;
+  if (options.http[0] != '\0' && !page.start(address, why))
+    std::fprintf(stderr, "--http %s: there is no page: %s; the server goes on\n", options.http,
+                 why.c_str());
+}
+
+void say_where(const Options& options, const char* where, const PageThread& page) {
+  std::printf("%s: serves %s; Ctrl-C ends it\n", options.pipeline, where);
+  if (page.started()) std::printf("page: http://127.0.0.1:%d/\n", page.port());
+  std::fflush(stdout);
 }
 
 ServerSetup setup_of(const Session& session, const Options& options) {
@@ -83,8 +105,11 @@ int serve(Session& session, const Options& options) {
   static Listener listener;
   Text<127> where;
   static Key key;
-  if (!listen(options, listener, key, where)) return kRefused;
+  Address page_address;
+  if (!read_page(options, page_address) || !listen(options, listener, key, where)) return kRefused;
   static ServerThread thread(server, listener, options.key[0] != '\0' ? &key : nullptr);
+  static PortMail ports;
+  static PageThread page({session.board, stem(options.pipeline), session.pipeline}, thread, ports);
   TrajectoryFeed feed(session, input);
   RunLog log;
   LogWriter writer(log);
@@ -92,26 +117,29 @@ int serve(Session& session, const Options& options) {
   Realtime realtime;
   const int error = thread.start();
   if (error != 0) refuse("the thread of the server", std::strerror(error));
+  if (error == 0) start_page(page, options, page_address);
   if (error != 0 || !watchdog.start(session.realtime) || !prepare(realtime, session.realtime))
     return kRefused;
   catch_interrupts();
   RunLoop loop(session, input, feed, watchdog, result, {});
   CycleDesk desk(mail, session.executive, session.pipeline);
+  if (page.started()) desk.show(ports);
   loop.serve(desk);
   if (options.virtual_time) {
     session.executive.in_virtual_time();
     loop.in_virtual_time();
   }
   if (!loop.start() || !watchdog.arm(session.realtime)) {
+    page.end();
     thread.end();
     loop.stop();
     print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
     return kRefused;
   }
-  std::printf("%s: serves %s; Ctrl-C ends it\n", options.pipeline, where.c_str());
-  std::fflush(stdout);
+  say_where(options, where.c_str(), page);
   run_cycles(session, loop, writer);
   watchdog.disarm();
+  page.end();
   thread.end();
   return finish(session, options, loop, result);
 }

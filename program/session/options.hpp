@@ -28,6 +28,7 @@ struct Options {
   bool figure = true;
   bool realtime = false;      ///< cycles by the wall clock
   char listen[128] = "";      ///< of `serve`: the address; empty: a Unix socket of the user
+  char http[64] = "";         ///< of `serve`: where the page is; empty: there is none
   bool virtual_time = false;  ///< of `serve`: late cycles delay the simulated robot
   char key[512] = "";         ///< of `serve`: the key file; empty: none
   char root[512] = "";        ///< of `doctor`: the folder that contains proc and sys
