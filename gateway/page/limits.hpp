@@ -14,7 +14,7 @@ inline constexpr std::size_t kLongestBody = 64;            ///< bytes of a POST
 inline constexpr std::size_t kNewsBytes = 256 << 10;  ///< that the slowest browser may lag behind
 inline constexpr int kSocketBytes = 64 << 10;         ///< that the system keeps for a browser
 inline constexpr std::size_t kDescriptionBytes = 64 << 10;  ///< of robot and pipeline
-inline constexpr int kStatePeriod_ms = 50, kPortPeriod_ms = 100;
+inline constexpr int kStatePeriod_ms = 50, kPortPeriod_ms = 50;
 inline constexpr std::int64_t kPing_ns = 2'000'000'000;
 
 }  // namespace tactus

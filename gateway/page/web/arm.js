@@ -72,7 +72,7 @@ export class ArmView {
   constructor(canvas) {
     this.canvas = canvas;
     this.gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
-    this.turn = { azimuth: -0.9, elevation: 0.35, distance: 3.2 };
+    this.turn = { azimuth: -0.9, elevation: 0.35, distance: 2.7 };
     this.trail = [];
     this.dark = matchMedia("(prefers-color-scheme: dark)");
     if (!this.gl) canvas.replaceWith("This browser has no WebGL: the arm is not drawn.");

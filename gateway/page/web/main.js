@@ -16,17 +16,36 @@ function found() {
   document.body.classList.remove("lost");
 }
 
+const COMMANDS = [["q_c", "q_d"], ["dq_c", "dq_d"], ["tau_c", "tau_d"]];
+let inputs = [];  // of the robot
+let values = [];  // of all outputs, the newest
+
+/** Where the pipeline has no reference of the joints, what it commands counts as desired. */
+function addDesired(state) {
+  for (const [command, desired] of COMMANDS) {
+    const input = inputs.find(({ port }) => port === command);
+    if (input && !(state[desired] || []).length) state[desired] = values[input.from] || [];
+    state[desired] = state[desired] || [];
+  }
+}
+
 const hear = {
   describe(robot) {
+    inputs = robot.blocks[robot.blocks.length - 1].inputs;
+    values = [];
     for (const part of [panel, arm, plots, wires]) part.describe(robot);
   },
   state(state) {
     found();
+    addDesired(state);
     history.add(state);
     arm.show(state);
     panel.state(state);
   },
-  ports: (ports) => wires.show(ports),
+  ports(ports) {
+    values = ports.values;
+    wires.show(ports);
+  },
   answer: (answer) => panel.answer(answer),
   report: (report) => panel.report(report),
   event: (event) => panel.event(event),

@@ -16,7 +16,7 @@ const NUMBERS = [
   ["Slips", (s) => s.slips],
   ["Overruns", (s) => s.overruns],
   ["Late chunks", (s) => s.late],
-  ["States lost", (s) => s.lost],
+  ["Snapshots lost", (s) => s.lost],
 ];
 
 function by(id) { return document.getElementById(id); }

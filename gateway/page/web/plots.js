@@ -100,7 +100,7 @@ class Plot {
 const JOINT = {
   q: { desired: "q_d", unit: "rad", limits: (joint) => [joint.min, joint.max] },
   dq: { desired: "dq_d", unit: "rad/s", limits: (joint) => [-joint.velocity, joint.velocity] },
-  tau: { desired: null, unit: "N m", limits: (joint) => [-joint.effort, joint.effort] },
+  tau: { desired: "tau_d", unit: "N m", limits: (joint) => [-joint.effort, joint.effort] },
 };
 const POSE = [["x", "m"], ["y", "m"], ["z", "m"], ["qw", ""], ["qx", ""], ["qy", ""], ["qz", ""]];
 
@@ -131,7 +131,7 @@ export class Plots {
   choose() {
     const key = this.select.value, { desired, unit, limits } = JOINT[key];
     this.robot.joints.forEach((joint, i) => {
-      this.joints[i].set(`${i + 1} ${joint.name}`, unit, (s) => [s[key][i], desired ? s[desired][i] : undefined], limits(joint));
+      this.joints[i].set(`${i + 1} ${joint.name}`, unit, (s) => [s[key][i], s[desired][i]], limits(joint));
     });
   }
 

@@ -1,6 +1,6 @@
 // The pipeline as a picture: a box for each block, a line for each wire, and the values of its outputs.
 
-const BOX = 250, GAP = 90, ROW = 17, HEAD = 36, SPACE = 22;
+const BOX = 222, GAP = 62, ROW = 17, HEAD = 36, SPACE = 22;
 const SHOWN = 3;  // numbers beside an output
 
 function element(name, attributes, text) {
@@ -51,7 +51,8 @@ export class Wires {
       return { x, y, height };
     });
     const width = 20 + (Math.max(...column) + 1) * (BOX + GAP) - GAP, height = Math.max(...below.filter(Boolean));
-    Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` }).forEach(([key, value]) => this.svg.setAttribute(key, value));
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    Object.assign(this.svg.style, { width: "100%", minWidth: `${0.75 * width}px`, maxWidth: `${width}px` });
     blocks.forEach((block, i) => this.placeOutputs(block, boxes[i]));
     blocks.forEach((block, i) => this.drawWires(block, boxes[i]));
     blocks.forEach((block, i) => this.drawBlock(block, boxes[i]));
@@ -89,7 +90,7 @@ export class Wires {
     const group = element("g", live ? { class: "output", tabindex: 0, role: "button" } : { class: "output" });
     group.append(element("title", {}, `${block.name}.${output.port}: ${output.quantity}, ${output.unit}`));
     group.append(element("text", { class: live ? "port" : "dead", x: x + BOX - 5, y, "text-anchor": "end" }, output.port));
-    const value = element("text", { class: "value", x: x + BOX - 62, y, "text-anchor": "end" });
+    const value = element("text", { class: "value", x: x + BOX - Math.max(42, 12 + 6.5 * output.port.length), y, "text-anchor": "end" });
     group.append(value);
     this.svg.append(group);
     this.outputs.set(output.number, { ...output, name: `${block.name}.${output.port}`, group, value });
