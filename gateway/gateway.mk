@@ -22,3 +22,9 @@ $(call obj,gateway/page/page_files.cpp): $(wildcard gateway/page/web/*)
 run-server: setup                             ## serve a simulated UR10 in real time, with a page; says where
 	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim all
 	$(Q)build/ur10_sim/tactus serve --virtual-time --http 127.0.0.1:7380 pipelines/ur10_trg_cpc.ini
+
+.PHONY: page-picture
+page-picture:                                 ## make docs/images/page.png, the page of a simulated UR10, in Chromium
+	$(Q)scripts/setup report
+	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim all
+	$(Q)scripts/page_picture build/ur10_sim/tactus pipelines/ur10_trg_cpc.ini pipelines/trajectories/ur10_square.csv docs/images/page.png

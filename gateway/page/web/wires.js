@@ -90,7 +90,7 @@ export class Wires {
     const group = element("g", live ? { class: "output", tabindex: 0, role: "button" } : { class: "output" });
     group.append(element("title", {}, `${block.name}.${output.port}: ${output.quantity}, ${output.unit}`));
     group.append(element("text", { class: live ? "port" : "dead", x: x + BOX - 5, y, "text-anchor": "end" }, output.port));
-    const value = element("text", { class: "value", x: x + BOX - Math.max(42, 12 + 6.5 * output.port.length), y, "text-anchor": "end" });
+    const value = element("text", { class: "value", x: x + BOX - Math.max(42, 16 + 7 * output.port.length), y, "text-anchor": "end" });
     group.append(value);
     this.svg.append(group);
     this.outputs.set(output.number, { ...output, name: `${block.name}.${output.port}`, group, value });
