@@ -1,5 +1,6 @@
 // Tests the page as a client of the server, in virtual time.
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <string>
 

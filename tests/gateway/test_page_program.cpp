@@ -32,7 +32,7 @@ void the_page_is_served_and_takes_commands(void**) {
 
 // Proves PAGE-2.
 
-void a_port_that_is_taken_is_named_and_the_server_goes_on(void**) {
+void the_page_comes_with_a_key_and_goes_without_a_port(void**) {
   run_class("test_http.PlaceTest");
 }
 
@@ -46,7 +46,7 @@ void an_address_of_the_network_is_refused(void**) {
 // Proves PAGE-4.
 
 void hostile_browsers_do_not_disturb_the_server(void**) {
-  run_class("test_http.HostileTest");
+  run_class("test_hostile_browsers");
 }
 
 // Proves PAGE-6.
@@ -66,7 +66,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_page_is_served_and_takes_commands),
-      cmocka_unit_test(a_port_that_is_taken_is_named_and_the_server_goes_on),
+      cmocka_unit_test(the_page_comes_with_a_key_and_goes_without_a_port),
       cmocka_unit_test(an_address_of_the_network_is_refused),
       cmocka_unit_test(hostile_browsers_do_not_disturb_the_server),
       cmocka_unit_test(a_browser_shows_the_arm_and_its_buttons_work),

@@ -51,6 +51,10 @@ class BrowserTest(unittest.TestCase):
         self.addCleanup(self.page.__exit__)
         self.page.go(self.served.page())
         self.page.until(NOMINAL)
+        self.watch()
+
+    def watch(self):
+        """Connects a client."""
         self.client = self.served.client()
         self.client.ready()
 
@@ -64,7 +68,7 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(self.page.value("document.querySelectorAll('#joints figure').length"), 7)
         begin = {part: picture_of(self.page, part) for part in ("#arm", "#joints figure")}
         self.assertGreater(len(np.unique(begin["#arm"].reshape(-1, 3), axis=0)), COLOURS)
-        self.client.ready()
+        self.watch()
         swing(self.client)
         self.page.until("document.getElementById('phase').textContent === 'following'")
         self.client.until(lambda: self.client.state.q[0] > 0.1)
