@@ -42,6 +42,7 @@ struct PageBench {
       assert_int_equal(send(theirs, bytes.data, bytes.size, MSG_DONTWAIT), bytes.size);
       server.server.sent(slot, bytes.size, server.now_ns);
     }
+    if (server.server.finished(slot, server.now_ns)) shutdown(theirs, SHUT_RDWR);
     other.read();
     link.work(server.now_ns, [this](const tactus_ToClient& message) { take(message); });
   }
