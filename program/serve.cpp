@@ -136,7 +136,7 @@ int serve(Session& session, const Options& options) {
     print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
     return kRefused;
   }
-  say_where(options, where.c_str(), page);
+  say_where(options, listener.address().text().c_str(), page);
   run_cycles(session, loop, writer);
   watchdog.disarm();
   page.end();

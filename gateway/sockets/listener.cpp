@@ -83,7 +83,9 @@ bool Listener::open_local(Message& why) {
 bool Listener::open_host(Message& why) {
   constexpr int kYes = 1;
   setsockopt(streams_, SOL_SOCKET, SO_REUSEADDR, &kYes, sizeof kYes);
+  socklen_t size = sizeof address_.host;
   if (::bind(streams_, generic(address_.host), sizeof address_.host) != 0 ||
+      getsockname(streams_, reinterpret_cast<sockaddr*>(&address_.host), &size) != 0 ||
       (datagrams_ >= 0 && ::bind(datagrams_, generic(address_.host), sizeof address_.host) != 0))
     return explain("the address and port", why);
   return true;

@@ -34,6 +34,7 @@ struct TestClient {
   ServerBench* bench = nullptr;
   int slot = -1;
   std::uint32_t number = 0;
+  virtual ~TestClient() = default;
   bool reads = true;
   std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{};
   std::uint32_t kinds[kMost]{};
@@ -73,7 +74,7 @@ struct TestClient {
     push(message.bytes.data(), message.size);
   }
   /// Bytes as they would come from a socket, if the server takes any.
-  std::size_t push(const std::uint8_t* data, std::size_t size) {
+  virtual std::size_t push(const std::uint8_t* data, std::size_t size) {
     std::size_t pushed = 0;
     for (int tries = 0; pushed < size && tries < 100; ++tries) {
       const ByteSpace space = bench->server.space(slot);
@@ -98,17 +99,23 @@ struct TestClient {
         RawMessage().message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof))));
   }
   /// Takes what the server has to say.
-  void read() {
+  virtual void read() {
     if (slot < 0) return;
     const Bytes waiting = bench->server.waiting(slot);
-    for (std::size_t at = 0; at + 4 <= waiting.size;) {
+    assert_int_equal(take_whole(waiting), waiting.size);
+    if (waiting.size > 0) bench->server.sent(slot, waiting.size, bench->now_ns);
+  }
+  /// Takes the messages that are whole; returns how many bytes these are.
+  std::size_t take_whole(const Bytes& bytes) {
+    std::size_t at = 0;
+    while (at + 4 <= bytes.size) {
       std::size_t length = 0;
-      for (std::size_t i = 4; i > 0; --i) length = length << 8 | waiting.data[at + i - 1];
-      assert_true(at + 4 + length <= waiting.size);
-      take(RawFields(waiting.data + at + 4, waiting.data + at + 4 + length));
+      for (std::size_t i = 4; i > 0; --i) length = length << 8 | bytes.data[at + i - 1];
+      if (at + 4 + length > bytes.size) break;
+      take(RawFields(bytes.data + at + 4, bytes.data + at + 4 + length));
       at += 4 + length;
     }
-    if (waiting.size > 0) bench->server.sent(slot, waiting.size, bench->now_ns);
+    return at;
   }
   void take(RawFields whole) {
     assert_true(whole.next());

@@ -62,8 +62,13 @@ struct ServerBench {
     home.q = 0.5 * (limits.q_min + limits.q_max);
     return home;
   }
-  /// One cycle as the executive runs it, with the mail of its thread; then the server's turn.
+  /// One cycle, then the server's turn.
   void cycle() {
+    step();
+    server.work(now_ns);
+  }
+  /// One cycle as the executive runs it, with the mail of its thread.
+  void step() {
     now_ns += 1'000'000;
     ++cycles;
     if (refuses(rung)) generator.brake(Status::kHalted, BrakeWay::kOnPath);
@@ -83,7 +88,6 @@ struct ServerBench {
     told.status = refuses(rung) ? Status::kHalted : Status::kOk;
     told.q = generator.reference().q;
     mail.snapshots.post(told);
-    server.work(now_ns);
   }
 };
 
