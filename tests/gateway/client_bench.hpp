@@ -31,7 +31,8 @@ enum : std::uint32_t {
 /// A client at one slot; counts what each of its messages was answered and reported.
 struct TestClient {
   static constexpr std::size_t kMost = 16384;  // numbers of messages
-  ServerBench* bench = nullptr;
+  BenchClock* clock = nullptr;
+  Server* server = nullptr;
   int slot = -1;
   std::uint32_t number = 0;
   virtual ~TestClient() = default;
@@ -45,23 +46,29 @@ struct TestClient {
   std::uint8_t farewell = 0;  ///< status of the answer without number
   char event[400] = "", text[400] = "";
 
-  void connect(ServerBench& its) {
+  void connect(BenchClock& its, Server& whose) {
     *this = TestClient();
-    bench = &its;
+    clock = &its;
+    server = &whose;
     session = its.next_session++;
-    slot = its.server.open(session, its.now_ns);
+    slot = whose.open(session, its.now_ns);
+  }
+  template <class Bench>
+  void connect(Bench& its) {
+    connect(its, its.server);
   }
   void greet(const char* name) {
-    connect(*bench);
-    send(ask::kHello, RawMessage().number(1, 1).text(2, name));
+    connect(*clock, *server);
+    hello(name);
   }
+  void hello(const char* name) { send(ask::kHello, RawMessage().number(1, 1).text(2, name)); }
   /// Sends a message; returns its number.
   std::uint32_t send(std::uint32_t kind, const RawMessage& body = {}) {
     RawMessage& whole = scratch();
     whole.size = 0;
     ++number;
     kinds[number % kMost] = kind;
-    whole.number(1, number).time(2, bench->now_ns - 5);
+    whole.number(1, number).time(2, clock->now_ns - 5);
     whole.message(kind, body);
     send_bytes(whole);
     return number;
@@ -77,15 +84,15 @@ struct TestClient {
   virtual std::size_t push(const std::uint8_t* data, std::size_t size) {
     std::size_t pushed = 0;
     for (int tries = 0; pushed < size && tries < 100; ++tries) {
-      const ByteSpace space = bench->server.space(slot);
+      const ByteSpace space = server->space(slot);
       const std::size_t count = std::min(space.size, size - pushed);
       if (count == 0) {
-        bench->server.work(bench->now_ns);
+        server->work(clock->now_ns);
         if (reads) read();
         continue;
       }
       std::memcpy(space.data, data + pushed, count);
-      bench->server.received(slot, count, bench->now_ns);
+      server->received(slot, count, clock->now_ns);
       pushed += count;
     }
     return pushed;
@@ -101,9 +108,9 @@ struct TestClient {
   /// Takes what the server has to say.
   virtual void read() {
     if (slot < 0) return;
-    const Bytes waiting = bench->server.waiting(slot);
+    const Bytes waiting = server->waiting(slot);
     assert_int_equal(take_whole(waiting), waiting.size);
-    if (waiting.size > 0) bench->server.sent(slot, waiting.size, bench->now_ns);
+    if (waiting.size > 0) server->sent(slot, waiting.size, clock->now_ns);
   }
   /// Takes the messages that are whole; returns how many bytes these are.
   std::size_t take_whole(const Bytes& bytes) {
@@ -162,9 +169,9 @@ struct TestClient {
     epoch = static_cast<std::uint32_t>(its_epoch);
     std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
   }
-  bool finished() const { return bench->server.finished(slot, bench->now_ns); }
+  bool finished() const { return server->finished(slot, clock->now_ns); }
   void close() {
-    if (slot >= 0) bench->server.closed(slot, bench->now_ns);
+    if (slot >= 0) server->closed(slot, clock->now_ns);
     slot = -1;
   }
   static RawMessage& scratch() {
@@ -180,9 +187,10 @@ struct TwoClients {
 
   void start() {
     bench.start();
-    a.bench = b.bench = &bench;
-    a.greet("A");
-    b.greet("B");
+    a.connect(bench);
+    a.hello("A");
+    b.connect(bench);
+    b.hello("B");
     run(2);
     assert_int_equal(a.welcomes, 1);
     assert_int_equal(b.welcomes, 1);

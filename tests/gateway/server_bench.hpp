@@ -15,7 +15,13 @@ inline constexpr int kBenchWaypoints = 600;
 inline int log_lines = 0;
 inline char last_log[400];
 
-struct ServerBench {
+/// Virtual time, and the sessions that were given out.
+struct BenchClock {
+  std::int64_t now_ns = 1'000'000'000'000;
+  std::uint64_t next_session = 77;
+};
+
+struct ServerBench : BenchClock {
   ChannelMemory<JointSpace> channel;
   ChannelMemory<TaskSpace> task_channel;
   std::array<std::array<Waypoint<JointSpace>, kBenchWaypoints>, kStores> waypoints;
@@ -27,9 +33,7 @@ struct ServerBench {
   ReferenceGenerator<JointSpace>::Params params;
   Rung rung = Rung::kNominal;
   std::uint32_t cycles = 0;
-  std::int64_t now_ns = 1'000'000'000'000;
   Server server{setup(), joints, poses, mail};
-  std::uint64_t next_session = 77;
 
   ServerSetup setup() {
     pipeline.takes_joints = true;

@@ -38,12 +38,12 @@ struct SocketClient : TestClient {
 
   ~SocketClient() override { ::close(socket); }
   void join(SocketBench& its) {
-    bench = &its.bench;
+    clock = &its.bench;
     const sockaddr_in& host = its.listener.address().host;
     assert_true(ntohs(host.sin_port) != 0);
     socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     assert_int_equal(::connect(socket, reinterpret_cast<const sockaddr*>(&host), sizeof host), 0);
-    send(ask::kHello, RawMessage().number(1, 1).text(2, "A"));
+    hello("A");
     flush(queued);
     while (welcomes == 0) wait();
   }
