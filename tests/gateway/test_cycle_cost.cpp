@@ -20,11 +20,16 @@ struct Hostile {
   Random random{81};
 };
 
-/// Sends every kind of message that the client may, with nonsense in it, and bytes that are none.
+/// Sends every kind of message but those that everybody may send to the cycle, and sometimes bytes
+/// that are no message.
 void flood_with_everything(Hostile& hostile, TestClient& from) {
-  for (std::uint32_t kind = ask::kHello; kind <= ask::kPing; ++kind)
-    if (kind != ask::kStop && kind != ask::kLease)
-      from.send(kind, RawMessage().number(1, 7).number(3, 9));
+  const JointVector q = ServerBench::home().q;
+  from.point(q);
+  from.send(ask::kVelocity, RawMessage().number(3, 100).reals(4, q.data(), kDof));
+  for (const std::uint32_t kind : {ask::kHello, ask::kChunk, ask::kBegin, ask::kPart, ask::kEnd,
+                                   ask::kResume, ask::kRearm, ask::kParameters, ask::kPing})
+    from.send(kind);
+  from.send(ask::kSubscribe, RawMessage().number(1, 1).number(2, 1).number(3, 1));
   if (hostile.random.below(40) > 0) return;
   RawMessage junk;
   for (int i = 0; i < 500; ++i) junk.byte(static_cast<std::uint8_t>(hostile.random.below(256)));
