@@ -28,3 +28,8 @@ page-picture:                                 ## make docs/images/page.png, the 
 	$(Q)scripts/setup report
 	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim all
 	$(Q)scripts/page_picture build/ur10_sim/tactus pipelines/ur10_trg_cpc.ini pipelines/trajectories/ur10_square.csv docs/images/page.png
+
+.PHONY: bench-key-press
+bench-key-press: setup                        ## measure the time from a key press to the first changed command
+	$(Q)$(MAKE) --no-print-directory -j2 BOARD=ur10_sim build/ur10_sim/tactus build/tactusctl python
+	$(Q)tests/bench/key_press.py build/ur10_sim/tactus build/tactusctl
