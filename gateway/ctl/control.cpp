@@ -40,13 +40,24 @@ bool fill(Session& session, ToServer& request) {
   }
 }
 
+/// Takes the lease that a verb needs. What only slows the arm down needs none; an override may, if
+/// it makes it faster.
+bool prepare(Session& session) {
+  switch (session.options.verb) {
+    case Verb::kStop:
+    case Verb::kCancel:
+    case Verb::kPause: return true;
+    case Verb::kOverride: return session.client.take_free_lease();
+    default: return session.options.check_only || session.client.take_lease();
+  }
+}
+
 }  // namespace
 
 int control(Session& session) {
   ToServer request;
   if (!fill(session, request)) return session.client.exit_code();
-  const bool needs_lease = session.options.verb != Verb::kStop && !session.options.check_only;
-  if (needs_lease && !session.client.take_lease()) return session.client.exit_code();
+  if (!prepare(session)) return session.client.exit_code();
   session.client.ask_and_wait(request);
   session.client.release_lease();
   return session.client.exit_code();

@@ -137,7 +137,7 @@ class Client:
     def ready(self):
         """Waits until the arm is commanded."""
         self.ask(subscribe=self.pb.Subscribe(state_ms=5))
-        self.until(lambda: self.state and self.state.rung <= 1)
+        self.until(lambda: self.state and self.state.rung <= self.pb.RUNG_SKIP_OPTIONAL)
 
 
 def swing(pb, home, count):
@@ -172,15 +172,15 @@ def session(pb, serve, path):
     goal = follow(me)
     me.until(lambda: goal in me.finals)
     assert me.finals[goal].outcome == pb.Report.SUCCEEDED, me.finals[goal]
-    assert other.ask(cancel=pb.Cancel()).status == 110
+    assert other.ask(resume=pb.Resume()).status == pb.CODE_NOT_OWNER
     target = list(me.state.q_d)
     assert me.result(point=pb.Point(joint=pb.JointPoint(q=target))).outcome == pb.Report.EXECUTED
     epoch = me.state.epoch
     assert other.result(stop=pb.Stop()).outcome == pb.Report.EXECUTED
-    me.until(lambda: me.state.rung == 5 and me.state.epoch > epoch)
-    assert me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == 60
+    me.until(lambda: me.state.rung == pb.RUNG_DISABLED and me.state.epoch > epoch)
+    assert me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == pb.CODE_EPOCH_VOID
     assert me.result(rearm=pb.Rearm()).outcome == pb.Report.EXECUTED
-    me.until(lambda: me.state.rung == 0)
+    me.until(lambda: me.state.rung == pb.RUNG_NOMINAL)
     datagrams = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     target[0] += 1e-4
     message = pb.ToServer(session=me.welcome.session, point=pb.Point(joint=pb.JointPoint(q=target)))
@@ -209,7 +209,7 @@ def killed(pb, serve, path):
         watcher.until(lambda: watcher.state.owner == "")
         watcher.send(ping=pb.Ping())
         watcher.until(lambda: max(abs(v) for v in watcher.state.dq_d) == 0.0)
-        assert watcher.state.rung <= 1, watcher.state
+        assert watcher.state.rung <= pb.RUNG_SKIP_OPTIONAL, watcher.state
     assert watcher.ask(lease=pb.Lease()).status == 0
 
 

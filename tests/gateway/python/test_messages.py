@@ -129,7 +129,7 @@ class Trajectories(unittest.TestCase):
         with connected() as (arm, _):
             motion = arm.start(t=[1.0], q=np.zeros((1, JOINTS)))
             feedback = list(motion)
-            self.assertEqual([told.time_s for told in feedback], [1.5])
+            self.assertEqual([(told.time_s, told.path_s, told.path_end_s) for told in feedback], [(1.5, 0.5, 2.5)])
             np.testing.assert_array_equal(feedback[0].desired.q, np.ones(JOINTS))
             self.assertIsNone(feedback[0].desired.dq)
             self.assertEqual(motion.result, tactus.Result(tactus.Outcome.SUCCEEDED, 0, "", 3.0, 0.05))
