@@ -6,6 +6,8 @@
 #include "gateway/page/page_thread.hpp"
 #include "gateway/sockets/server_thread.hpp"
 #include "gateway/verdict_text.hpp"
+#include "program/results/run_folder.hpp"
+#include "program/results/scene_file.hpp"
 #include "program/run_loop.hpp"
 #include "program/session/session.hpp"
 
@@ -82,6 +84,34 @@ void run_cycles(Session& session, RunLoop& loop, LogWriter& writer) {
     loop.in_real_time(writer, progress);
 }
 
+/// Opens the log of the session in the folder that --out names.
+bool begin_log(Session& session, const Options& options, RunFolder& folder, RunLog& log) {
+  if (!folder.begin({options.pipeline, nullptr}, session.text) ||
+      !log.open(folder.file("log.csv").c_str(), session.pipeline.recording))
+    return false;
+  log.limit(options.rows);
+  start_recorder(session.recorder, session.pipeline);
+  return true;
+}
+
+/// Writes what a folder holds beside the log. False: prints why it could not.
+bool end_log(const Session& session, const Options& options, const RunLoop& loop, RunFolder& folder,
+             RunLog& log, RunResult& result) {
+  result.seed = options.seed;
+  result.config_hash = fnv1a(session.text);
+  result.simulated_s = loop.time_s();
+  result.cycles = loop.commanded();
+  if (!log.close() || !write_scene(folder.file("scene.json").c_str(), session.pipeline) ||
+      !write_summary(folder.summary_part().c_str(), stem(options.pipeline), session, result) ||
+      !folder.complete(result.cycles > 0))
+    return false;
+  std::printf("  written to %s\n", folder.path().c_str());
+  if (log.left_out() > 0)
+    std::printf("  log.csv has the first %lld rows; %lld later ones were left out (--rows)\n",
+                static_cast<long long>(options.rows), static_cast<long long>(log.left_out()));
+  return true;
+}
+
 /// Says how it ended, and returns the exit code.
 int finish(const Session& session, const Options& options, const RunLoop& loop,
            const RunResult& result) {
@@ -111,8 +141,11 @@ int serve(Session& session, const Options& options) {
   static PortMail ports;
   static PageThread page({session.board, stem(options.pipeline), session.pipeline}, thread, ports);
   TrajectoryFeed feed(session, input);
-  RunLog log;
+  static RunLog log;
   LogWriter writer(log);
+  RunFolder folder(options);
+  const bool logs = options.out[0] != '\0';
+  if (logs && !(begin_log(session, options, folder, log) && writer.start())) return kRefused;
   WatchdogThread watchdog;
   Realtime realtime;
   const int error = thread.start();
@@ -141,7 +174,9 @@ int serve(Session& session, const Options& options) {
   watchdog.disarm();
   page.end();
   thread.end();
-  return finish(session, options, loop, result);
+  const bool written = !logs || end_log(session, options, loop, folder, log, result);
+  const int code = finish(session, options, loop, result);
+  return written ? code : kEndedOtherwise;
 }
 
 }  // namespace tactus
