@@ -743,12 +743,12 @@ class _Session:
                     _sample(*pair)
                     for pair in ((told.joint_desired, told.task_desired), (told.joint_actual, told.task_actual))
                 )
-                call.feedback.append(
-                    Feedback(told.time_s, desired, actual, told.lost, told.path_s, told.path_end_s)
-                )
+                call.feedback.append(Feedback(told.time_s, desired, actual, told.lost, told.path_s, told.path_end_s))
         elif kind == "event":
             told = message.event
-            self.events.append(Event(self.clock.to_local(told.server_ns), told.name, _named(Code, told.status), told.text))
+            self.events.append(
+                Event(self.clock.to_local(told.server_ns), told.name, _named(Code, told.status), told.text)
+            )
         elif kind == "credit":
             self.credit += message.credit.waypoints
 

@@ -133,7 +133,9 @@ def main():
     program, tactusctl, presses = sys.argv[1], sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 500
     with tempfile.TemporaryDirectory() as folder:
         path, pipeline = os.path.join(folder, "socket"), os.path.join(folder, "served.ini")
-        with open("pipelines/ur10_jrg_pid.ini", encoding="utf-8") as source, open(pipeline, "w", encoding="utf-8") as file:
+        with open("pipelines/ur10_jrg_pid.ini", encoding="utf-8") as source, open(
+            pipeline, "w", encoding="utf-8"
+        ) as file:
             text = source.read().replace("reference_generator\n", "reference_generator\nonline = limit\n")
             file.write(text.replace("trajectories/", os.path.abspath("pipelines") + "/trajectories/"))
         command = [program, "serve", "--virtual-time", pipeline, "--listen", "unix:" + path]

@@ -26,6 +26,14 @@ void the_client_sends_and_understands_what_the_protocol_says(void**) {
   run_module("test_messages");
 }
 
+void trajectories_are_sent_as_the_protocol_says(void**) {
+  run_module("test_trajectories");
+}
+
+void streams_are_sent_as_the_protocol_says(void**) {
+  run_module("test_streams");
+}
+
 // Proves PYT-4.
 
 void a_server_that_does_not_keep_to_the_protocol_is_named_in_time(void**) {
@@ -42,6 +50,10 @@ void the_clock_of_the_server_is_followed(void**) {
 
 void a_simulated_robot_is_moved_in_all_ways(void**) {
   run_module("test_robot");
+}
+
+void a_server_is_started_with_a_key_and_in_virtual_time(void**) {
+  run_module("test_serving");
 }
 
 // Proves PYT-7.
@@ -63,9 +75,12 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_client_sends_and_understands_what_the_protocol_says),
+      cmocka_unit_test(trajectories_are_sent_as_the_protocol_says),
+      cmocka_unit_test(streams_are_sent_as_the_protocol_says),
       cmocka_unit_test(a_server_that_does_not_keep_to_the_protocol_is_named_in_time),
       cmocka_unit_test(the_clock_of_the_server_is_followed),
       cmocka_unit_test(a_simulated_robot_is_moved_in_all_ways),
+      cmocka_unit_test(a_server_is_started_with_a_key_and_in_virtual_time),
       cmocka_unit_test(every_example_runs),
       cmocka_unit_test(a_client_that_is_killed_leaves_the_arm_at_rest_and_free),
   };

@@ -3,8 +3,6 @@
 protobuf's own Python. WHAT names the function below that is run. Prints what is wrong and ends with 1, or with 0.
 """
 
-import ctypes
-import hashlib
 import os
 import random
 import signal
@@ -15,57 +13,9 @@ import subprocess
 import sys
 import time
 
+from sealed_socket import Sealed
+
 FINAL = 10
-
-
-class Sealed:
-    """A socket through the server's tunnel (gateway/sockets/tunnel.hpp)."""
-
-    def __init__(self, inner, key):
-        sodium = ctypes.CDLL("libsodium.so.23")
-        stream = "crypto_secretstream_xchacha20poly1305_"
-        self.push, self.pull = getattr(sodium, stream + "push"), getattr(sodium, stream + "pull")
-        size = getattr(sodium, stream + "statebytes")()
-        self.to, self.of = ctypes.create_string_buffer(size), ctypes.create_string_buffer(size)
-        self.inner, self.buffer = inner, b""
-        own, public = os.urandom(32), ctypes.create_string_buffer(32)
-        sodium.crypto_scalarmult_base(public, own)
-        inner.sendall(b"tactus-1" + public.raw)
-        answer = b""
-        while len(answer) < 56:
-            answer += inner.recv(56 - len(answer))
-        secret, header = ctypes.create_string_buffer(32), ctypes.create_string_buffer(24)
-        sodium.crypto_scalarmult(secret, own, answer[:32])
-        known = b"tactus-1" + secret.raw + public.raw + answer[:32]
-        keys = hashlib.blake2b(known, key=key, digest_size=64).digest()
-        getattr(sodium, stream + "init_push")(self.to, header, keys[:32])
-        getattr(sodium, stream + "init_pull")(self.of, answer[32:], keys[32:])
-        inner.sendall(header.raw)
-
-    def settimeout(self, timeout):
-        self.inner.settimeout(timeout)
-
-    def sendall(self, plain):
-        sealed = ctypes.create_string_buffer(len(plain) + 17)
-        self.push(self.to, sealed, None, plain, ctypes.c_ulonglong(len(plain)), None, ctypes.c_ulonglong(0), 0)
-        self.inner.sendall(struct.pack("<H", len(sealed.raw)) + sealed.raw)
-
-    def recv(self, _):
-        received = self.inner.recv(65536)
-        if not received:
-            return b""
-        self.buffer += received
-        plain = b""
-        while len(self.buffer) >= 2 and len(self.buffer) >= 2 + struct.unpack("<H", self.buffer[:2])[0]:
-            size = struct.unpack("<H", self.buffer[:2])[0]
-            opened = ctypes.create_string_buffer(size - 17)
-            sealed, self.buffer = self.buffer[2 : 2 + size], self.buffer[2 + size :]
-            good = self.pull(self.of, opened, None, None, sealed, ctypes.c_ulonglong(size), None, ctypes.c_ulonglong(0))
-            assert good == 0, "a record of the server does not open"
-            plain += opened.raw
-        if not plain:
-            raise TimeoutError
-        return plain
 
 
 class Client:
@@ -178,7 +128,9 @@ def session(pb, serve, path):
     epoch = me.state.epoch
     assert other.result(stop=pb.Stop()).outcome == pb.Report.EXECUTED
     me.until(lambda: me.state.rung == pb.RUNG_DISABLED and me.state.epoch > epoch)
-    assert me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == pb.CODE_EPOCH_VOID
+    assert (
+        me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == pb.CODE_EPOCH_VOID
+    )
     assert me.result(rearm=pb.Rearm()).outcome == pb.Report.EXECUTED
     me.until(lambda: me.state.rung == pb.RUNG_NOMINAL)
     datagrams = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)

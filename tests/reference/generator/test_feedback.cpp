@@ -2,65 +2,12 @@
 // counted, and values that are not measured are NaN.
 #include "kernel/reference/generator/feedback.hpp"
 
-#include "gateway/reference_client.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/generator/joint_reference_generator.hpp"
 #include "kernel/reference/generator/task_reference_generator.hpp"
-#include "tests/support/testing.hpp"
+#include "tests/reference/generator/feedback_bench.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr double kPeriod_s = 1e-3;
-
-/// A generator's block with its client and the measured values.
-template <class Space, class Generator>
-struct Bench {
-  ChannelMemory<Space> channel;
-  ReferenceClient<Space> client{channel};
-  std::array<std::array<Waypoint<Space>, 4>, kStores> waypoints;
-  Generator block;
-  typename Space::Point measured;
-  std::uint32_t id = 0;
-
-  explicit Bench(int divisor) {
-    channel.settings.period_s = kPeriod_s;
-    for (std::size_t i = 0; i < waypoints.size(); ++i) {
-      channel.stores[i].waypoints = waypoints[i].data();
-      channel.stores[i].capacity = 4;
-    }
-    block.channel = &channel;
-    block.params.generator.feedback_divisor = divisor;
-    block.params.generator.stopped_velocity = 0.0;
-  }
-  void run(int cycles) {
-    for (int k = 0; k < cycles; ++k) assert_true(block.step(kPeriod_s) == Status::kOk);
-  }
-  /// Returns the only message that waits.
-  Feedback<Space> only() {
-    Feedback<Space> message, second;
-    assert_true(client.poll_feedback(message) && !client.poll_feedback(second));
-    return message;
-  }
-  bool send(const typename Space::Point& goal, double time_s) {
-    Trajectory<Space>& motion = *client.acquire();
-    motion.count = 1;
-    motion.fields = kVelocityField | kAccelerationField;
-    motion.waypoints[0] = {time_s, goal};
-    return client.send(motion, id).ok();
-  }
-};
-
-struct JointBench : Bench<JointSpace, JointReferenceGenerator> {
-  explicit JointBench(int divisor) : Bench(divisor) {
-    const JointLimits limits;
-    measured.q = 0.5 * (limits.q_min + limits.q_max);
-    block.q.source = &measured.q;
-  }
-  JointSpace::Point out() const {
-    return {block.q_d.value, block.dq_d.value, block.ddq_d.value, block.tau_d.value};
-  }
-};
 
 struct TaskBench : Bench<TaskSpace, TaskReferenceGenerator> {
   explicit TaskBench(int divisor) : Bench(divisor) {
@@ -119,40 +66,6 @@ void desired_actual_and_error_are_of_the_cycle_of_the_message(void**) {
     assert_true(message.error.tau == out.tau - bench.measured.tau);
     assert_int_equal(message.id, bench.id);
   }
-}
-
-void the_progress_is_the_place_on_the_path_under_an_override_and_in_a_pause(void**) {
-  constexpr double kWay = 0.2, kWhole_s = 0.5;
-  JointBench bench(1);
-  ASSERT_OK(bench.block.start());
-  bench.run(1);
-  assert_true(bench.only().path_s == 0.0);
-  JointSpace::Point goal = bench.measured;
-  goal.q[0] += kWay;
-  assert_true(bench.send(goal, kWhole_s));
-  std::uint32_t id = 0;
-  int standing = 0, half = 0;
-  double last_s = 0.0;
-  for (int k = 1; k <= 2000; ++k) {
-    if (k == 150) assert_true(bench.client.set_override(0.5, id).ok());
-    if (k == 300) assert_true(bench.client.pause(id).ok());
-    if (k == 600) assert_true(bench.client.resume(id).ok());
-    bench.run(1);
-    const Feedback<JointSpace> message = bench.only();
-    Report report;
-    while (bench.client.poll(report)) {
-    }
-    if (message.id == 0) continue;
-    const double u = message.path_s / message.path_end_s;
-    ASSERT_NEAR(message.path_end_s, kWhole_s, 1e-12);
-    ASSERT_NEAR(message.desired.q[0] - bench.measured.q[0],
-                kWay * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), 1e-9);
-    standing += message.path_s == last_s && u < 1.0 ? 1 : 0;
-    half += std::abs(message.path_s - last_s - 0.5 * kPeriod_s) < 1e-9 ? 1 : 0;
-    last_s = message.path_s;
-  }
-  ASSERT_NEAR(last_s, kWhole_s, 1e-9);
-  assert_true(standing > 150 && half > 200);
 }
 
 void the_trajectory_is_named_while_it_is_executed_and_points_are_none(void**) {
@@ -267,7 +180,6 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_message_comes_every_divisor_cycles_at_the_generators_time),
       cmocka_unit_test(desired_actual_and_error_are_of_the_cycle_of_the_message),
-      cmocka_unit_test(the_progress_is_the_place_on_the_path_under_an_override_and_in_a_pause),
       cmocka_unit_test(the_trajectory_is_named_while_it_is_executed_and_points_are_none),
       cmocka_unit_test(what_finds_no_room_is_lost_and_told_by_the_next),
       cmocka_unit_test(a_restart_begins_at_time_zero_and_forgets_no_loss),
