@@ -1076,7 +1076,9 @@ class Arm:
         self._session.ask("parameters", request)
 
     def release(self) -> None:
-        """Gives the lease back; what runs goes on to its end."""
+        """Gives the lease back, if this client has it; what runs goes on to its end."""
+        if not self._leased:
+            return
         self._session.ask("lease", pb.Lease(wish=pb.Lease.RELEASE))
         self._leased = False
 

@@ -45,6 +45,7 @@ struct Sending {
   std::uint32_t until = 0;  // the cycle in which the line goes on
   std::size_t segment = 0;  // bytes of a Part
   int held_back = 0, segments = 0;
+  int waits = 0;  // since the last cycle
 
   double place_s = 0.0, worst_rad = 0.0, longest_step_s = 0.0;
   int moving = 0, standing = 0;  // cycles on the path
@@ -57,7 +58,7 @@ struct Sending {
     client.lease(0, 60000);
     goal = client.send(ask::kBegin, tactus::begin(kWindow));
     client.flush(client.queued);
-    while (client.credit == 0) client.wait();
+    while (client.credit == 0) client.wait(1);
   }
   void send_parts() {
     while (sent < waypoints && client.credit >= std::min(60, waypoints - sent)) {
@@ -94,7 +95,11 @@ struct Sending {
   /// part of it that the generator has yet to take.
   bool caught_up() const {
     return delays || !on_path(phase()) || sent == waypoints || ahead() >= kWindow / 2 ||
-           served.bench.channel.requests.size() > 0;
+           (served.bench.channel.requests.size() > 0 && takes_requests());
+  }
+  /// True if the server has fetched enough reports for the generator to take a request.
+  bool takes_requests() const {
+    return served.bench.channel.reports.space() >= kReportsPerRequest + kControls;
   }
   Phase phase() const { return served.bench.generator.phase(); }
 
@@ -115,10 +120,13 @@ struct Sending {
       client.read();
       send_parts();
       pass_on();
-      if (caught_up())
+      if (caught_up()) {
         cycle();
-      else
-        client.wait();
+        waits = 0;
+      } else {
+        client.wait(1);
+        assert_true(++waits < 20'000);  // the server grants or sends nothing more
+      }
     }
   }
 };
