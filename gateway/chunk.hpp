@@ -46,14 +46,21 @@ struct Chunk {
   ChunkBase base = ChunkBase::kAbsolute;
   double observed_s = 0.0;
   typename Space::Header header;  ///< joints left out, or the frame of the targets
+  /// Outputs that every target gives in its bits; with a mask of 0 the chunk leaves all alone. They
+  /// are put out when the motion has come within `outputs_lead_s` of the target's time, or that
+  /// much later if it is negative: -kLongestLead_s to kLongestLead_s.
+  std::uint32_t outputs_mask = 0;
+  double outputs_lead_s = 0.0;
 
   int count = 0;
   std::array<double, static_cast<std::size_t>(kChunkTargets)> time_s;
   std::array<Point, static_cast<std::size_t>(kChunkTargets)> targets;
+  std::array<std::uint32_t, static_cast<std::size_t>(kChunkTargets)> outputs;
 
   /// Appends a target; false if there is no more space.
-  bool add(double at_s, const Point& target) {
+  bool add(double at_s, const Point& target, std::uint32_t its_outputs = 0) {
     if (count >= kChunkTargets) return false;
+    outputs[static_cast<std::size_t>(count)] = its_outputs;
     time_s[static_cast<std::size_t>(count)] = at_s;
     targets[static_cast<std::size_t>(count++)] = target;
     return true;

@@ -187,6 +187,10 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   curve.sequence = chunk.sequence;
   curve.header = chunk.header;
   curve.fade_s = chunk.fade_s;
+  curve.outputs_mask = chunk.outputs_mask;
+  curve.outputs_lead_s = chunk.outputs_lead_s;
+  if (chunk.outputs_mask != 0)
+    std::copy(chunk.outputs.begin(), chunk.outputs.begin() + chunk.count, curve.outputs.begin());
   const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
   for (std::size_t i = 0; i < n; ++i) {
     Knot<Space>& knot = curve.knots[i] = {chunk.time_s[i], Space::sum(origin, fit.f[i])};

@@ -33,6 +33,8 @@ Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& s
     return {Status::kBadValue, -1, -1, chunk.fade_s, kLongestFade_s};
   if (!(chunk.smoothing_s >= 0.0 && chunk.smoothing_s < kInfinity))
     return {Status::kBadValue, -1, -1, chunk.smoothing_s, 0.0};
+  if (!(std::abs(chunk.outputs_lead_s) <= kLongestLead_s))
+    return {Status::kBadValue, -1, -1, chunk.outputs_lead_s, kLongestLead_s};
   const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
   const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
   double earliest_s = -kInfinity;

@@ -136,10 +136,11 @@ Verdict ReferenceServer<Space>::end(std::uint32_t& id) {
 
 template <class Space>
 Verdict ReferenceServer<Space>::point(const TrajectoryTerms& terms,
-                                      const typename Space::Point& point, std::uint32_t& id) {
+                                      const typename Space::Point& point, std::uint32_t& id,
+                                      const DigitalOutputs& outputs) {
   typename Space::Header header;
   const Verdict verdict = place(terms, header);
-  return verdict.ok() ? client_.send(point, id, header) : verdict;
+  return verdict.ok() ? client_.send(point, id, header, outputs) : verdict;
 }
 
 template <class Space>

@@ -36,8 +36,8 @@ class ReferenceServer {
   /// Finds the joints that terms leave out, or their frames. kUnknownPort.
   Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   /// Sends a point.
-  Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point,
-                std::uint32_t& id);
+  Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point, std::uint32_t& id,
+                const DigitalOutputs& outputs = {});
   /// Sends a point whose numbers are behind its terms in a frame.
   Verdict point(const TrajectoryTerms& terms, ByteReader& numbers, std::uint32_t& id);
   Verdict control(ControlKind kind, double rate, std::uint32_t& id);

@@ -109,6 +109,7 @@ void CycleDesk::tell(const CycleTime& now) {
                                        (pose_ != nullptr ? CycleSnapshot::kPose : 0) |
                                        (pose_d_ != nullptr ? CycleSnapshot::kPoseReference : 0) |
                                        (wrench_ != nullptr ? CycleSnapshot::kWrench : 0));
+  told.outputs = *robot.outputs;
   if (q_d_ != nullptr) told.q_d = *q_d_;
   if (dq_d_ != nullptr) told.dq_d = *dq_d_;
   if (pose_ != nullptr) told.pose = *pose_;

@@ -11,6 +11,9 @@ void print_board(const char* board, const Capabilities& offered) {
   if (offered.velocity_feed_forward || offered.effort_feed_forward)
     std::printf(" Feed-forward:%s%s.", offered.velocity_feed_forward ? " dq_ff" : "",
                 offered.effort_feed_forward ? " tau_ff" : "");
+  int outputs = 0;
+  for (std::uint32_t left = offered.outputs; left != 0; left &= left - 1) ++outputs;
+  if (outputs > 0) std::printf(" Digital outputs: %d.", outputs);
   std::printf(" Period %d to %d us.\n", static_cast<int>(offered.min_period_us),
               static_cast<int>(offered.max_period_us));
   std::printf(

@@ -70,6 +70,8 @@ ServerSetup setup_of(const Session& session, const Options& options) {
   setup.motion_frame = session.gateway.motion_frame;
   setup.wrench_frame = session.gateway.wrench_frame;
   setup.loaded = &session.pipeline;
+  for (int i = 0; i < kMostOutputs; ++i)
+    setup.output_names[static_cast<std::size_t>(i)] = session.hal.output_name(i);
   setup.joint_window = session.client.capacity();
   setup.task_window = session.task_client.capacity();
   setup.log = print_line;

@@ -12,7 +12,7 @@ Status configure(const UrSections& sections, const Pipeline& pipeline, const Opt
   const RobotSection& robot = pipeline.robot;
   Tool tool{robot.tool_mass, robot.tool_com, {}};
   tool.tip.p = robot.tool_tip;
-  hal.configure(sections.ur, tool, robot.period_us);
+  hal.configure(sections.ur, tool, robot.period_us, robot.puts_out());
   return Status::kOk;
 }
 

@@ -44,6 +44,15 @@ std::string one_line(const State& state) {
          phase_name(state.phase()) + "  q" + per_joint(" %.4f", state.q());
 }
 
+/// The digital outputs that are commanded, with their values.
+std::string set_outputs(const State& state) {
+  std::string text;
+  for (unsigned i = 0; i < 32; ++i)
+    if ((state.outputs_mask() >> i & 1u) != 0)
+      text += formatted(" %.0f", i) + ((state.outputs() >> i & 1u) != 0 ? ":1" : ":0");
+  return text;
+}
+
 /// The view that fills a terminal.
 std::string whole_view(const Welcome& welcome, const State& state, double cycle_hz) {
   std::string text = kHome + printed(welcome.robot()) + " on " + printed(welcome.board()) + ", " +
@@ -57,6 +66,7 @@ std::string whole_view(const Welcome& welcome, const State& state, double cycle_
   text += formatted("\nrate   %.1f cycles/s", cycle_hz) + formatted(", slips %.0f", state.slips()) +
           formatted(", overruns %.0f", state.overruns()) + formatted(", lost %.0f", state.lost());
   text += formatted("\nmargin %.3f s until a stream starves\n", state.margin_s());
+  if (state.outputs_mask() != 0) text += "outputs" + set_outputs(state) + "\n";
   text += "\njoint                      q         q_d     error          dq         tau\n";
   text += "                         rad         rad      mrad       rad/s         N m\n";
   for (int i = 0; i < state.q_size(); ++i) {
@@ -197,6 +207,14 @@ int info(Session& session) {
                      (welcome.takes_poses() ? ", poses" : ", no poses") +
                      formatted(", chunks of %.0f", welcome.longest_chunk()) +
                      formatted(", trajectories through a window of %.0f", welcome.window()));
+  std::string outputs;
+  for (unsigned i = 0, named = 0; i < 32; ++i) {
+    if ((welcome.outputs() >> i & 1u) == 0) continue;
+    outputs += formatted(" %.0f", i);
+    const int name = static_cast<int>(named++);
+    if (name < welcome.output_names_size()) outputs += " " + printed(welcome.output_names(name));
+  }
+  if (!outputs.empty()) session.output.say("digital outputs" + outputs);
   session.output.say(
       "joint                       from         to      rad/s    rad/s^2    rad/s^3        N m");
   for (const Joint& joint : welcome.joints()) {

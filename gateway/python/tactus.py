@@ -208,6 +208,7 @@ class Robot:
     longest_chunk: int  # targets
     window: int  # waypoints that the server holds at once
     longest_part: int  # waypoints of a message
+    outputs: Mapping[int, str]  # digital outputs that can be set, with the robot's names for them, or ""
 
     @property
     def dof(self) -> int:
@@ -300,6 +301,7 @@ class State:
     chunks_dropped: int
     targets_trimmed: int
     seam: float  # largest difference at the latest seam, rad, or m and rad
+    outputs: Mapping[int, bool]  # digital outputs as commanded; those that were left alone are not in it
 
 
 def _array(numbers: Sequence[float]) -> Optional[Array]:
@@ -999,6 +1001,7 @@ class Arm:
         rate_hz: float,
         relative_to: Optional[str] = None,
         crossfade_s: float = 0.2,
+        outputs_lead_s: float = 0.0,
         motion_frame: str = "",
         joints: Optional[Sequence[str]] = None,
     ) -> Chunks:
@@ -1009,12 +1012,14 @@ class Arm:
                        time of the observation; "measured": to where the arm was then
         crossfade_s -- 0 to 0.3, in which the difference to the old plan fades, or longer by the limits. 0: as fast
                        as they allow
+        outputs_lead_s -- -0.5 to 0.5: by how much digital outputs change before their targets are reached (the latency
+                       of a gripper); negative: after they have been passed (the lag of the arm)
         """
         if not rate_hz > 0:
             raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")
         if not self.robot.longest_chunk:
             raise Refused(f"the pipeline {self.robot.pipeline} takes no chunks", 0)
-        return Chunks(self, rate_hz, relative_to, crossfade_s, motion_frame, joints)
+        return Chunks(self, rate_hz, relative_to, crossfade_s, outputs_lead_s, motion_frame, joints)
 
     # Controls
 
@@ -1135,6 +1140,14 @@ class Arm:
             targets[name] = self._checked(name, values, joints, rows)
             rows = targets[name].shape[:-1]  # all have as many as the first
         return targets
+
+    def _known_outputs(self, outputs: Mapping[int, T]) -> Mapping[int, T]:
+        """Returns them; ValueError if there is one that the robot or its pipeline does not have."""
+        for output in outputs:
+            if output not in self.robot.outputs:
+                known = ", ".join(map(str, self.robot.outputs)) or "none: wire [robot] outputs in the pipeline file"
+                raise ValueError(f"digital output {output!r}; there is {known}")
+        return outputs
 
     def _checked(
         self, name: str, values: ArrayLike, joints: Optional[Sequence[str]], rows: tuple[Optional[int], ...]
@@ -1324,10 +1337,12 @@ class Stream(_References):
         twist: Optional[ArrayLike] = None,
         acceleration: Optional[ArrayLike] = None,
         wrench: Optional[ArrayLike] = None,
+        outputs: Optional[Mapping[int, bool]] = None,
     ) -> None:
         """Sends a point: q and what goes with it, [joints], or pose and what goes with it, [7] and [6].
 
         With dq or twist the arm passes the point at that velocity and comes to rest if no other follows.
+        outputs -- digital outputs, set when the point takes effect; the others are left alone
         """
         targets = self._arm._targets(
             dict(q=q, dq=dq, ddq=ddq, tau=tau),
@@ -1336,6 +1351,9 @@ class Stream(_References):
             rows=(),
         )
         point = pb.Point()
+        for output, on in self._arm._known_outputs(outputs or {}).items():
+            point.outputs_mask |= 1 << output
+            point.outputs |= int(on) << output
         for name, numbers in targets.items():
             getattr(point.task if name in _TASK_WIDTHS else point.joint, name).extend(numbers.tolist())
         self._send("point", point)
@@ -1370,6 +1388,7 @@ class Chunks(_References):
         rate_hz: float,
         relative_to: Optional[str],
         crossfade_s: float,
+        outputs_lead_s: float,
         motion_frame: str,
         joints: Optional[Sequence[str]],
     ):
@@ -1378,6 +1397,7 @@ class Chunks(_References):
         if relative_to not in bases:
             raise ValueError(f"relative_to {relative_to!r}; expected None, 'commanded' or 'measured'")
         self._base, self._rate_hz, self._crossfade_s = bases[relative_to], rate_hz, crossfade_s
+        self._outputs_lead_s = outputs_lead_s
         self.late = 0
 
     def send(
@@ -1390,6 +1410,7 @@ class Chunks(_References):
         observed_ns: Optional[int] = None,
         first: int = 0,
         ends: bool = False,
+        outputs: Optional[Mapping[int, ArrayLike]] = None,
     ) -> None:
         """Sends a chunk; target k is for the time observed_ns + (first + k) / rate_hz.
 
@@ -1399,6 +1420,7 @@ class Chunks(_References):
                        count from the arrival at the server (for devices; a policy loses its latency)
         first       -- number of the first target; 0: that of the observation itself
         ends        -- the last target is reached at rest, and no chunk follows
+        outputs     -- digital outputs, at most 8, each with [n] values: {0: closed}; the others are left alone
         """
         targets = self._arm._targets(dict(q=q, dq=dq), dict(pose=pose, twist=twist), self._joints)
         count = len(next(iter(targets.values())))
@@ -1412,7 +1434,13 @@ class Chunks(_References):
             crossfade_s=self._crossfade_s,
             time_s=((first + np.arange(count)) / self._rate_hz).tolist(),
             time=pb.Chunk.ON_ARRIVAL if observed_ns is None else pb.Chunk.ABSOLUTE,
+            outputs_lead_s=self._outputs_lead_s,
         )
+        for output, values in self._arm._known_outputs(outputs or {}).items():
+            array = np.asarray(values)
+            if array.shape != (count,) or not np.isin(array, (0, 1)).all():
+                raise ValueError(f"outputs[{output}] has the shape {array.shape}; expected ({count},), of 0 and 1")
+            chunk.channels.add(output=output, values=array.astype(bool).tolist())
         if observed_ns is not None:
             chunk.origin_ns = chunk.observed_ns = self._session.clock.to_server(observed_ns)
         for name, numbers in targets.items():
@@ -1520,7 +1548,13 @@ def _robot(welcome: pb.Welcome) -> Robot:
         welcome.longest_chunk,
         welcome.window,
         welcome.longest_part,
+        _outputs(welcome),
     )
+
+
+def _outputs(welcome: pb.Welcome) -> Mapping[int, str]:
+    offered = [i for i in range(32) if welcome.outputs >> i & 1]
+    return dict(zip(offered, list(welcome.output_names) or [""] * len(offered)))
 
 
 def _state(told: pb.State, clock: _Clock) -> State:
@@ -1530,6 +1564,7 @@ def _state(told: pb.State, clock: _Clock) -> State:
     for name, value in copied.items():
         if name in ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench"):
             copied[name] = _array(value)
+    copied["outputs"] = {i: bool(told.outputs >> i & 1) for i in range(32) if told.outputs_mask >> i & 1}
     counts = told.stream
     return State(
         stamp_ns=clock.to_local(told.server_ns),

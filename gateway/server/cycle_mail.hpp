@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/core/types.hpp"
@@ -42,6 +43,7 @@ struct CycleSnapshot {
   JointVector q_d = JointVector::Zero(), dq_d = JointVector::Zero();
   Pose pose, pose_d;
   Vector6 wrench = Vector6::Zero();
+  DigitalOutputs outputs;  ///< as commanded
 };
 
 /// The numbers of every output of the pipeline after one cycle: of the first in the port table,

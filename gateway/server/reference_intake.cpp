@@ -6,10 +6,11 @@ namespace tactus {
 
 template <class Space>
 Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms& terms,
-                                      const typename Space::Point& point) {
+                                      const typename Space::Point& point,
+                                      const DigitalOutputs& outputs) {
   if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
-  const Verdict verdict = server_.point(terms, point, id);
+  const Verdict verdict = server_.point(terms, point, id, outputs);
   if (verdict.ok()) book_.add({id, from, {}, 0.0});
   return verdict;
 }

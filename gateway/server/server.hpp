@@ -26,6 +26,8 @@ struct ServerSetup {
   std::uint64_t configuration = 0;              ///< hash of the file's text
   std::string_view motion_frame, wrench_frame;  ///< of its own trajectory
   const Pipeline* loaded = nullptr;
+  /// Names of its digital outputs; null: they have none.
+  std::array<const char*, kMostOutputs> output_names{};
   int joint_window = 0, task_window = 0;  ///< waypoints that a store holds with all fields
   void (*log)(const char* line) = nullptr;
 };
@@ -82,6 +84,7 @@ class Server {
   Connection& at(int slot) { return connections_[static_cast<std::size_t>(slot)]; }
   const Connection& at(int slot) const { return connections_[static_cast<std::size_t>(slot)]; }
   bool takes_poses() const { return setup_.loaded->takes_poses; }
+  bool puts_out() const { return setup_.loaded->robot.puts_out(); }
   bool takes_references() const { return takes_poses() || setup_.loaded->takes_joints; }
   /// Calls act(intake) with that of the references that the pipeline takes.
   template <class Act>

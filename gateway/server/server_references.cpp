@@ -1,6 +1,7 @@
 // Server: the references of its clients.
 #include <type_traits>
 
+#include "gateway/server/message_outputs.hpp"
 #include "gateway/server/message_points.hpp"
 #include "gateway/server/server.hpp"
 #include "gateway/verdict_text.hpp"
@@ -88,18 +89,22 @@ Reply Server::point(int slot, const Origin& from) {
   if (!takes_references() || poses != takes_poses())
     return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: give Point.task"
                                                : "the pipeline takes joints: give Point.joint"};
+  Message why;
+  const DigitalOutputs outputs = {given.outputs, given.outputs_mask};
+  const Status offered =
+      judge_outputs(outputs.mask, setup_.loaded->robot.offered, "Point.outputs_mask", why);
+  if (offered != Status::kOk) return {offered, why};
   const Reply placed = judge_place(slot, given.has_place, given.place);
   if (placed.status != Status::kOk) return placed;
   const TrajectoryTerms terms = terms_of(given.has_terms, given.terms);
-  Message why;
   if (poses) {
     TaskSpace::Point point;
     if (!read_point(given.target.task, point, why)) return {Status::kBadValue, why};
-    return reply(poses_.point(from, terms, point));
+    return reply(poses_.point(from, terms, point, outputs));
   }
   JointSpace::Point point;
   if (!read_point(given.target.joint, point, why)) return {Status::kBadValue, why};
-  return reply(joints_.point(from, terms, point));
+  return reply(joints_.point(from, terms, point, outputs));
 }
 
 Reply Server::begin(const Origin& from, std::int64_t now_ns) {

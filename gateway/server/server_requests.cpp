@@ -27,7 +27,8 @@ bool needs_lease(pb_size_t request) {
   }
 }
 
-bool offered(std::uint32_t feature) {
+bool offered(std::uint32_t feature, bool outputs) {
+  if (feature == tactus_Feature_FEATURE_OUTPUTS) return outputs;
   return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
          feature == tactus_Feature_FEATURE_VELOCITIES;
 }
@@ -42,7 +43,8 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i])) return not_offered("a feature that the message requires");
+    if (!offered(request_.requires[i], puts_out()))
+      return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)

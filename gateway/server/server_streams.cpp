@@ -2,6 +2,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "gateway/server/message_outputs.hpp"
 #include "gateway/server/message_points.hpp"
 #include "gateway/server/server.hpp"
 
@@ -96,6 +97,11 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
   double origin_s = 0.0, observed_s = 0.0;
   Reply why = read_chunk_time(slot, now_ns, origin_s, observed_s);
   if (why.status == Status::kOk) why = reply(judge_targets(origin_s, now_ns));
+  if (why.status == Status::kOk) {
+    Message text;
+    const Status status = judge_channels(given, setup_.loaded->robot.offered, text);
+    if (status != Status::kOk) why = {status, text};
+  }
   if (why.status == Status::kOk) why = judge_place(slot, given.has_place, given.place);
   if (why.status != Status::kOk) return why;
   return with_intake([&](auto& intake) -> Reply {
@@ -104,6 +110,7 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
       return {Status::kBadValue,
               "Chunk: there must be a position, and a velocity or none, for each of its times, in "
               "the joints or as poses as the pipeline takes them"};
+    read_channels(given, chunk);
     chunk.ends = given.ends;
     chunk.fade_s = given.has_crossfade_s ? given.crossfade_s : kUsualFade_s;
     chunk.base = base_of(given.base);

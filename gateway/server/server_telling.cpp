@@ -45,6 +45,19 @@ void write_finding(const Verdict& verdict, bool& has, tactus_Finding& to) {
   to = {verdict.waypoint, verdict.axis, verdict.value, verdict.limit};
 }
 
+/// Writes what digital outputs there are, and their names if they all have one.
+void write_outputs(const ServerSetup& setup, tactus_Welcome& to) {
+  to.outputs = setup.loaded->robot.offered;
+  for (std::size_t i = 0; i < setup.output_names.size(); ++i) {
+    if ((to.outputs >> i & 1u) == 0) continue;
+    if (setup.output_names[i] == nullptr) {
+      to.output_names_count = 0;
+      return;
+    }
+    set_text(to.output_names[to.output_names_count++], setup.output_names[i]);
+  }
+}
+
 tactus_TaskLimits task_limits(const TaskLimits& limits) {
   return {limits.v_max, limits.a_max,     limits.j_max,
           limits.w_max, limits.alpha_max, limits.dalpha_max};
@@ -101,7 +114,9 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
     welcome.longest_chunk = kChunkTargets;
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_CHUNKS;
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
+    if (puts_out()) welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_OUTPUTS;
   }
+  write_outputs(setup_, welcome);
   welcome.epoch = epoch_;
   set_text(welcome.motion_frame, setup_.motion_frame);
   set_text(welcome.wrench_frame, setup_.wrench_frame);

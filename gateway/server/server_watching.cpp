@@ -74,6 +74,8 @@ void Server::tell_state(Connection& to) {
   state.overruns = newest_.overruns;
   state.lost = newest_.lost + to.lost;
   state.time_s = newest_.time_s;
+  state.outputs = newest_.outputs.value;
+  state.outputs_mask = newest_.outputs.mask;
   static_cast<void>(put(to));
 }
 

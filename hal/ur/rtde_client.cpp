@@ -3,9 +3,8 @@
 namespace tactus::ur {
 namespace {
 
-template <std::size_t N>
-void write_names(const std::array<RecipeField, N>& fields, ByteWriter& packet) {
-  for (std::size_t i = 0; i < N; ++i) {
+void write_names(const RecipeField* fields, std::size_t count, ByteWriter& packet) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) packet.text(",");
     packet.text(fields[i].name);
   }
@@ -18,9 +17,11 @@ Status refuse(Message& why, Status status, std::string_view text) {
 
 }  // namespace
 
-Status RtdeClient::start(const char* address, int port, double rate_hz, const Deadline& deadline,
-                         Message& why) {
+Status RtdeClient::start(const char* address, int port, double rate_hz, bool outputs,
+                         const Deadline& deadline, Message& why) {
   rate_hz_ = rate_hz;
+  inputs_ = outputs ? kInputFields.size() : kSetPointFields;
+  outputs_ = {};
   protocol_ = 2;
   phase_ = RtdePhase::kConnect;
   TRY(stream_.connect(address, port, deadline, why));
@@ -109,7 +110,7 @@ Status RtdeClient::ask_outputs(const Deadline& deadline, Message& why) {
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupOutputs);
   if (protocol_ == 2) request.f64(rate_hz_);
-  write_names(kOutputFields, request);
+  write_names(kOutputFields.data(), kOutputFields.size(), request);
   RtdePacket reply;
   TRY(ask(request, RtdeType::kSetupOutputs, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
@@ -121,12 +122,12 @@ Status RtdeClient::ask_inputs(const Deadline& deadline, Message& why) {
   Request bytes;
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupInputs);
-  write_names(kInputFields, request);
+  write_names(kInputFields.data(), inputs_, request);
   RtdePacket reply;
   TRY(ask(request, RtdeType::kSetupInputs, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
   input_recipe_ = in.u8();
-  TRY(check_types(in.rest(), kInputFields.data(), kInputFields.size(), why));
+  TRY(check_types(in.rest(), kInputFields.data(), inputs_, why));
   return input_recipe_ != 0
              ? Status::kOk
              : refuse(why, Status::kRefusedByRobot, "the controller refused the input recipe");
@@ -175,6 +176,11 @@ Socket::Sent RtdeClient::send(std::int32_t count, const Vector6& q) {
   packet.u8(input_recipe_);
   packet.i32(count);
   for (const double value : q) packet.f64(value);
+  for (std::size_t i = kSetPointFields; i < inputs_; i += 2) {  // eight outputs of a kind
+    const std::size_t shift = 4 * (i - kSetPointFields);
+    packet.u8(static_cast<std::uint8_t>(outputs_.mask >> shift));
+    packet.u8(static_cast<std::uint8_t>(outputs_.value >> shift));
+  }
   return stream_.send(packet);
 }
 

@@ -5,6 +5,7 @@
 
 #include "hal/ur/rtde_stream.hpp"
 #include "hal/ur/ur_state.hpp"
+#include "kernel/core/digital_outputs.hpp"
 
 namespace tactus::ur {
 
@@ -34,9 +35,10 @@ constexpr const char* name(RtdePhase phase) {
 class RtdeClient {
  public:
   /// Connects and starts the stream of data packages. kConnectionLost, kBusTimeout,
-  /// kRefusedByRobot, kRegistersInUse, kWireFormat: `why` names phase and reason. [init]
-  Status start(const char* address, int port, double rate_hz, const Deadline& deadline,
-               Message& why);
+  /// kRefusedByRobot, kRegistersInUse, kWireFormat: `why` names phase and reason. With `outputs`
+  /// the digital outputs are claimed too. [init]
+  Status start(const char* address, int port, double rate_hz, bool outputs,
+               const Deadline& deadline, Message& why);
 
   /// Takes all data packages that have come, at most `kMostPackets`, and returns their number in
   /// `count`; the newest is in `state`. [cyclic]
@@ -44,6 +46,8 @@ class RtdeClient {
   /// Waits until bytes have come. [any]
   bool wait(std::int64_t timeout_ns) const { return stream_.socket.wait(timeout_ns); }
 
+  /// Digital outputs that go with every set-point from now on. [cyclic]
+  void put_out(const DigitalOutputs& outputs) { outputs_ = outputs; }
   /// Sends a set-point; nothing else is ever written to the registers. [cyclic]
   Socket::Sent send(std::int32_t count, const Vector6& q);
 
@@ -73,6 +77,8 @@ class RtdeClient {
   Version version_;
   int protocol_ = 2;
   double rate_hz_ = 0.0;
+  std::size_t inputs_ = kSetPointFields;  // fields of the recipe
+  DigitalOutputs outputs_;
   std::uint8_t output_recipe_ = 0, input_recipe_ = 0;
 };
 

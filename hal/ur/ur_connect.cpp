@@ -3,7 +3,8 @@
 
 namespace tactus::ur {
 
-void UrHal::configure(const UrSettings& settings, const Tool& tool, int period_us) {
+void UrHal::configure(const UrSettings& settings, const Tool& tool, int period_us, bool outputs) {
+  puts_out_ = outputs;
   settings_ = &settings;
   tool_ = tool;
   period_us_ = period_us;
@@ -30,7 +31,8 @@ Status UrHal::open(CommandMode mode) {
   TRY(check_rate());
   const UrSettings& set = *settings_;
   const Deadline deadline(set.connect_ms);
-  TRY(session_.start(set.address.c_str(), set.rtde_port, 1e6 / period_us_, deadline, why_));
+  TRY(session_.start(set.address.c_str(), set.rtde_port, 1e6 / period_us_, puts_out_, deadline,
+                     why_));
   TRY(check_sensor());
   TRY(await_state(deadline));
   return drives_.connect(deadline);

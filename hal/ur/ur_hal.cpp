@@ -22,6 +22,7 @@ static_assert(kDof == 6, "a UR arm has six joints");
 Capabilities UrHal::capabilities() const {
   Capabilities offered;
   offered.position = offered.wrench = true;
+  offered.outputs = (1u << kDigitalOutputNames.size()) - 1;
   offered.min_period_us = 2000;
   offered.max_period_us = 8000;
   return offered;
@@ -89,9 +90,15 @@ void UrHal::show(RobotState& state) {
 
 /// Without a wire that works, a program that runs is still told to end.
 Status UrHal::write(const RobotCommand& command) {
+  session_.put_out(command.outputs);
   if (fault_ == Status::kOk) fault_ = drives_.step(command, state_);
   if (fault_ != Status::kOk) drives_.end_program();
   return fault_;
+}
+
+const char* UrHal::output_name(int output) const {
+  const auto i = static_cast<std::size_t>(output);
+  return i < kDigitalOutputNames.size() ? kDigitalOutputNames[i] : nullptr;
 }
 
 Message UrHal::trouble() {

@@ -19,10 +19,12 @@ namespace tactus::ur {
 
 class UrHal final : public Hal, public Clock {
  public:
-  /// Takes the settings of the pipeline file, which must outlive the use of the Hal. [init]
-  void configure(const UrSettings& settings, const Tool& tool, int period_us);
+  /// Takes the settings of the pipeline file, which must outlive the use of the Hal.
+  /// With `outputs` it claims and sends the digital outputs. [init]
+  void configure(const UrSettings& settings, const Tool& tool, int period_us, bool outputs = false);
 
-  /// Positions, at 125 Hz (CB3, e-Series) or 500 Hz (e-Series).
+  /// Positions, at 125 Hz (CB3, e-Series) or 500 Hz (e-Series), and 18 digital outputs, which the
+  /// robot keeps as they are when the drives are disabled, and when the wire is closed or lost.
   Capabilities capabilities() const override;
   /// Connects and waits for the first state, in all no longer than `connect_ms`. kNotOffered,
   /// kBadValue, kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat;
@@ -31,6 +33,7 @@ class UrHal final : public Hal, public Clock {
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
   Status disconnect() override;
+  const char* output_name(int output) const override;
 
   Clock* clock() override { return this; }
   /// Waits for the packet that begins the next cycle, or until it is bridged, and gives the time by
@@ -61,6 +64,7 @@ class UrHal final : public Hal, public Clock {
   const UrSettings* settings_ = nullptr;
   Tool tool_;
   int period_us_ = 0;
+  bool puts_out_ = false;
 
   Message why_;
   RtdeClient session_;

@@ -105,6 +105,8 @@ Status check_types(std::string_view types, const RecipeField* fields, std::size_
     why = Message(fields[i].name);
     why << " is " << (any ? type.substr(0, 32) : "missing") << ", not " << expected
         << (in_use ? "; end the client or fieldbus that claims it" : "");
+    if (i >= kSetPointFields && fields == kInputFields.data())
+      why << ", or remove outputs from [robot]";
     return in_use ? Status::kRegistersInUse : Status::kWireFormat;
   }
   return types.empty() ? Status::kOk

@@ -57,15 +57,31 @@ inline constexpr std::array<RecipeField, 14> kOutputFields = {
      {"safety_status_bits", FieldType::kUint32},
      {"runtime_state", FieldType::kUint32}}};
 
-/// The registers of a set-point, as in hal/ur/servo_program.hpp.
-inline constexpr std::array<RecipeField, 7> kInputFields = {
+/// The registers of a set-point, as in hal/ur/servo_program.hpp, then the digital outputs, which
+/// are left out of the recipe where a pipeline does not put them out.
+inline constexpr std::size_t kSetPointFields = 7;
+inline constexpr std::array<RecipeField, kSetPointFields + 6> kInputFields = {
     {{"input_int_register_24", FieldType::kInt32},
      {"input_double_register_24", FieldType::kDouble},
      {"input_double_register_25", FieldType::kDouble},
      {"input_double_register_26", FieldType::kDouble},
      {"input_double_register_27", FieldType::kDouble},
      {"input_double_register_28", FieldType::kDouble},
-     {"input_double_register_29", FieldType::kDouble}}};
+     {"input_double_register_29", FieldType::kDouble},
+     {"standard_digital_output_mask", FieldType::kUint8},
+     {"standard_digital_output", FieldType::kUint8},
+     {"configurable_digital_output_mask", FieldType::kUint8},
+     {"configurable_digital_output", FieldType::kUint8},
+     {"tool_digital_output_mask", FieldType::kUint8},
+     {"tool_digital_output", FieldType::kUint8}}};
+
+/// Names of the digital outputs, in the order of actual_digital_output_bits.
+inline constexpr std::array<const char*, 18> kDigitalOutputNames = {
+    "standard_out[0]",     "standard_out[1]",     "standard_out[2]",     "standard_out[3]",
+    "standard_out[4]",     "standard_out[5]",     "standard_out[6]",     "standard_out[7]",
+    "configurable_out[0]", "configurable_out[1]", "configurable_out[2]", "configurable_out[3]",
+    "configurable_out[4]", "configurable_out[5]", "configurable_out[6]", "configurable_out[7]",
+    "tool_out[0]",         "tool_out[1]"};
 
 /// Decodes the fields of a data package. kWireFormat: its size is wrong, or a field is not finite;
 /// `why` names the size or the first such field. [cyclic]

@@ -7,7 +7,9 @@
 #include <cstdint>
 
 #include "kernel/core/clock.hpp"
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/drive.hpp"
+#include "kernel/core/streams.hpp"
 #include "kernel/core/text.hpp"
 #include "kernel/core/types.hpp"
 
@@ -40,6 +42,9 @@ struct RobotCommand {
   CommandMode mode = CommandMode::kEffort;
   JointVector value = JointVector::Zero();
   DriveRequest request = DriveRequest::kDisable;
+  /// In force whatever is requested of the drives: braking, faults and disabled drives leave the
+  /// outputs as they are, so that a gripper keeps its load.
+  OnlyWithStreams<DigitalOutputs> outputs = {};
   /// Feed-forward beside the value, zero where the pipeline gives none: the velocity of a position,
   /// rad/s, and the torque that the motion is expected to take, N m. In CiA 402 the velocity offset
   /// (60B1h) and the torque offset (60B2h) of the cyclic synchronous modes.
@@ -53,6 +58,7 @@ struct Capabilities {
   bool wrench = false;  ///< it has a force/torque sensor at the flange
   /// It takes a velocity beside positions; a torque beside positions and velocities.
   bool velocity_feed_forward = false, effort_feed_forward = false;
+  std::uint32_t outputs = 0;  ///< bit i: it has digital output i
 };
 
 class Hal {
@@ -77,6 +83,8 @@ class Hal {
 
   /// Returns the wire's clock if it begins the cycles; null: the host's does. [init]
   virtual Clock* clock() { return nullptr; }
+  /// Returns the name of a digital output in the robot's own words; null: it has none. [init]
+  virtual const char* output_name(int /*output*/) const { return nullptr; }
   /// Explains the last Status that was not kOk in the robot's own words. [between two cycles]
   virtual Message trouble() { return {}; }
 

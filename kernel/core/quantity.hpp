@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/types.hpp"
 
 namespace tactus {
@@ -26,6 +27,7 @@ enum class Quantity : std::uint8_t {
   kBox,
   kFlag,
   kScalar,
+  kDigitalOutputs,
 };
 
 struct QuantityInfo {
@@ -40,7 +42,7 @@ struct QuantityInfo {
 /// wrench is exerted by the environment on the tool. A sensor wrench is the output of a
 /// force/torque sensor at the flange: about the flange's origin, in its axes, including the weight
 /// of the tool.
-inline constexpr std::array<QuantityInfo, 15> kQuantities = {{
+inline constexpr std::array<QuantityInfo, 16> kQuantities = {{
     {"joint position", "rad", "", kDof},
     {"joint velocity", "rad/s", "", kDof},
     {"joint acceleration", "rad/s^2", "", kDof},
@@ -56,8 +58,9 @@ inline constexpr std::array<QuantityInfo, 15> kQuantities = {{
     {"box", "m", "", 0},
     {"flag", "0 or 1", "on", 1},
     {"scalar", "1", "value", 1},
+    {"digital outputs", "bits", "value mask", 2},
 }};
-static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kScalar) + 1);
+static_assert(kQuantities.size() == static_cast<std::size_t>(Quantity::kDigitalOutputs) + 1);
 
 constexpr const QuantityInfo& info(Quantity quantity) {
   return kQuantities[static_cast<std::size_t>(quantity)];
@@ -104,6 +107,12 @@ template <>
 struct QuantityValue<Quantity::kScalar> {
   using Type = double;
   static Type neutral() { return 0.0; }
+};
+
+template <>
+struct QuantityValue<Quantity::kDigitalOutputs> {
+  using Type = DigitalOutputs;
+  static Type neutral() { return {}; }
 };
 
 template <Quantity Q>

@@ -106,6 +106,7 @@ void Executive::write(const RobotCommand& command) {
     sent.request = DriveRequest::kFollow;
   }
   if (rung() == Rung::kArming) sent.request = DriveRequest::kArm;
+  pipeline_.robot.put_out(sent);
   requested_ = sent.request;
   const Status status = hal_.write(sent);
   if (wire_ == Status::kOk) wire_ = status;

@@ -144,7 +144,7 @@ Status Loader::load_command(const Ini& ini, const IniSection& section, Pipeline&
   return Status::kOk;
 }
 
-Status Loader::check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+Status Loader::check_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                              LoadError& error) const {
   const CommandMode mode = pipeline.robot.mode();
   const bool offered = mode == CommandMode::kEffort     ? offered_.effort
@@ -162,7 +162,17 @@ Status Loader::check_command(const Ini& ini, const IniSection& section, const Pi
   if (fed != nullptr)
     return error.refuse(Status::kNotOffered, line_of(ini, section, fed), section.name, fed,
                         "the robot does not take this feed-forward");
-  return Status::kOk;
+  return check_outputs(ini, section, pipeline, error);
+}
+
+Status Loader::check_outputs(const Ini& ini, const IniSection& section, Pipeline& pipeline,
+                             LoadError& error) const {
+  pipeline.robot.offer_outputs(offered_.outputs);
+  if (!pipeline.robot.puts_out() || offered_.outputs != 0) return Status::kOk;
+  return error.refuse(Status::kNotOffered, line_of(ini, section, "outputs"), section.name,
+                      "outputs",
+                      "the robot has no digital outputs; remove the key, or take a board whose "
+                      "robot has some");
 }
 
 }  // namespace tactus

@@ -36,7 +36,9 @@ class Loader {
                     LoadError& error);
   Status load_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                       LoadError& error);
-  Status check_command(const Ini& ini, const IniSection& section, const Pipeline& pipeline,
+  Status check_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,
+                       LoadError& error) const;
+  Status check_outputs(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                        LoadError& error) const;
 
   Channels channels_, left_;  // all channels, and those that no generator has taken

@@ -58,9 +58,13 @@ Status read_signals(std::string_view list, const PortTable& ports, Recording& re
   return Status::kOk;
 }
 
-Status read_all_signals(const PortTable& ports, Recording& recording, const Place& place) {
+/// Digital outputs are among them only if the pipeline puts them out.
+Status read_all_signals(const Pipeline& pipeline, Recording& recording, const Place& place) {
+  const PortTable& ports = pipeline.ports;
   for (int i = 0; i < ports.count(); ++i) {
-    if (ports[i].offered && info(ports[i].quantity).recorded > 0)
+    const bool unused =
+        ports[i].quantity == Quantity::kDigitalOutputs && !pipeline.robot.puts_out();
+    if (ports[i].offered && info(ports[i].quantity).recorded > 0 && !unused)
       TRY(add_signal(recording, &ports[i], place));
   }
   return Status::kOk;
@@ -106,7 +110,7 @@ Status read_recording(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   const RecorderSection& section = pipeline.recorder;
   Recording& recording = pipeline.recording;
   if (section.signals.empty()) {
-    TRY(read_all_signals(pipeline.ports, recording, place));
+    TRY(read_all_signals(pipeline, recording, place));
   } else {
     TRY(read_signals(section.signals, pipeline.ports, recording, place));
   }

@@ -29,6 +29,10 @@ int flatten(const PortEntry& port, double* to) {
     *to = *static_cast<const bool*>(port.value) ? 1.0 : 0.0;
   } else if (port.quantity == Quantity::kScalar) {
     *to = *static_cast<const double*>(port.value);
+  } else if (port.quantity == Quantity::kDigitalOutputs) {
+    const DigitalOutputs& outputs = *static_cast<const DigitalOutputs*>(port.value);
+    to[0] = outputs.value;
+    to[1] = outputs.mask;
   } else if (count > 0) {
     const JointVector& joints = *static_cast<const JointVector*>(port.value);
     std::copy(joints.data(), joints.data() + count, to);

@@ -3,16 +3,16 @@
 #pragma once
 
 #include "kernel/core/describe.hpp"
-#include "kernel/core/hal.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/core/port.hpp"
+#include "kernel/pipeline/outputs_section.hpp"
 #include "kernel/pipeline/rate_watch.hpp"
 
 namespace tactus {
 
 /// [robot]: the period, the tool, the measured values as outputs for the blocks, and the one
 /// command as an input.
-struct RobotSection {
+struct RobotSection : OutputsSection<> {
   Name name;                           ///< robot that the file is written for; must be the board's
   int period_us = kRequiredInt;        ///< cycle period
   double tool_mass = 0.0;              ///< kg
@@ -61,6 +61,7 @@ struct RobotSection {
     visit.optional("tau_c", tau_c);
     visit.optional("dq_ff", dq_ff);
     visit.optional("tau_ff", tau_ff);
+    describe_outputs(visit);
   }
 
   /// [cyclic]
@@ -79,7 +80,7 @@ struct RobotSection {
   /// Returns the value of the wired command with its feed-forward. [cyclic]
   RobotCommand command() const {
     const JointVector& value = tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c;
-    return {mode(), value, DriveRequest::kDisable, *dq_ff, *tau_ff};
+    return {mode(), value, DriveRequest::kDisable, {}, *dq_ff, *tau_ff};
   }
   double period_s() const { return period_us * 1e-6; }
 };

@@ -17,6 +17,7 @@ Status SimHal::load(const PlantParams& params, std::uint64_t seed) {
   random_.seed(seed);
   ft_sensor_.load(params, seed);
   time_ns_ = 0;
+  outputs_ = {};
   return Status::kOk;
 }
 
@@ -24,6 +25,7 @@ Capabilities SimHal::capabilities() const {
   Capabilities offered;
   offered.position = offered.velocity = offered.effort = true;
   offered.wrench = offered.velocity_feed_forward = true;
+  offered.outputs = 0xff;
   offered.min_period_us = 100;
   offered.max_period_us = 10000;
   return offered;
@@ -55,6 +57,7 @@ Status SimHal::read(const CycleTime& now, RobotState& state) {
 
 Status SimHal::write(const RobotCommand& command) {
   if (!connected_) return Status::kNotStarted;
+  outputs_.set(command.outputs);
   const bool was_enabled = drives_.state() == DriveState::kEnabled;
   drives_.step(command.request);
   if (arm_.diverged()) drives_.fail();

@@ -24,8 +24,8 @@ class SimHal final : public Hal {
   /// Sets the cycle period, s; connect() judges it. [init]
   void set_period(double period_s) { period_s_ = period_s; }
 
-  /// Position, velocity and effort, 100 us to 10 ms, and a force/torque sensor. A real UR10 takes
-  /// no efforts. [any]
+  /// Position, velocity and effort, 100 us to 10 ms, a force/torque sensor, and eight digital
+  /// outputs. A real UR10 takes no efforts. [any]
   Capabilities capabilities() const override;
   /// Connects to the arm, which stands. kNotOffered for a period out of range, kNotStarted before
   /// load(). [init]
@@ -46,6 +46,8 @@ class SimHal final : public Hal {
 
   /// The arm itself, with the true state without noise and delay. [any]
   const Arm& arm() const { return arm_; }
+  /// The digital outputs; they stay as they are set when the wire is closed. [any]
+  std::uint32_t outputs() const { return outputs_.value; }
   /// Virtual time since load(), ns. [any]
   std::int64_t time_ns() const { return time_ns_; }
 
@@ -68,6 +70,7 @@ class SimHal final : public Hal {
 
   std::mt19937_64 random_;
   std::int64_t time_ns_ = 0;
+  DigitalOutputs outputs_;
   bool connected_ = false, follows_ = false;
   SimDrives drives_;
   JointVector tau_ = JointVector::Zero();  // torque of the drives, N m

@@ -27,6 +27,7 @@ class FakeHal final : public Hal {
  public:
   RobotState state;      // what is measured
   RobotCommand command;  // what the drives followed last
+  RobotCommand sent;     // the last one, on any rung
   Status connect_status = Status::kOk, read_status = Status::kOk, write_status = Status::kOk;
   Status disconnect_status = Status::kOk;
   std::uint64_t read_ns = 0, write_ns = 0;  // how long reading and writing take
@@ -37,7 +38,7 @@ class FakeHal final : public Hal {
   FakeHal() { all(DriveState::kDisabled); }
 
   Capabilities capabilities() const override {
-    return {true, true, true, 100, 100000, true, true, true};
+    return {true, true, true, 100, 100000, true, true, true, 0xff};
   }
   Status connect(CommandMode) override {
     note('s');
@@ -51,7 +52,8 @@ class FakeHal final : public Hal {
     measured = state;
     return read_status;
   }
-  Status write(const RobotCommand& sent) override {
+  Status write(const RobotCommand& its_command) override {
+    sent = its_command;
     g_stopwatch_ns += write_ns;
     const bool follow = sent.request == DriveRequest::kFollow;
     const bool disable = sent.request == DriveRequest::kDisable;

@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   RtdeClient client;
   UrState state;
   Message why;
-  Status status = client.start("127.0.0.1", 30004, 125.0, Deadline(100), why);
+  Status status = client.start("127.0.0.1", 30004, 125.0, true, Deadline(100), why);
   MUST(client.running() == (status == Status::kOk));
   while (status == Status::kOk) {
     const std::size_t before = fuzz::wire.at;

@@ -42,6 +42,8 @@ struct TestClient {
   std::int64_t credit = 0;
   int starved = 0, states = 0, feedbacks = 0, events = 0, welcomes = 0;
   std::uint32_t epoch = 0;
+  std::uint32_t offered = 0;                    ///< digital outputs, by Welcome
+  std::uint32_t outputs = 0, outputs_mask = 0;  ///< as commanded, by State
   std::uint64_t session = 0;
   std::uint8_t farewell = 0;  ///< status of the answer without number
   char event[400] = "", text[400] = "";
@@ -140,6 +142,7 @@ struct TestClient {
         ++welcomes;
         ++answers[of];
         session = value[7];
+        offered = static_cast<std::uint32_t>(value[22]);
         break;
       case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
       case 3:
@@ -152,6 +155,8 @@ struct TestClient {
       case 4:
         ++states;
         epoch = static_cast<std::uint32_t>(value[8]);
+        outputs = static_cast<std::uint32_t>(value[26]);
+        outputs_mask = static_cast<std::uint32_t>(value[27]);
         return;
       case 5: ++feedbacks; return;
       case 6:

@@ -70,7 +70,7 @@ void feed_forward_within_its_limits_is_sent_unchanged(void**) {
     const JointVector dq = JointVector::Constant(0.3 * std::sin(t));
     q += kPeriod_s * dq;
     const JointVector tau = JointVector::Constant(5.0 * std::sin(t));
-    const RobotCommand sent = bench.send({bench.mode, q, DriveRequest::kFollow, dq, tau});
+    const RobotCommand sent = bench.send({bench.mode, q, DriveRequest::kFollow, {}, dq, tau});
     assert_true(sent.dq_ff == dq && sent.tau_ff == tau);
   }
   assert_int_equal(bench.telemetry().feed_forward_cycles, 0);
@@ -86,7 +86,7 @@ void a_limited_position_is_not_fed_faster_than_it_moves(void**) {
     const JointVector ramp = speed * std::min(1.0, k / 500.0);
     q += kPeriod_s * ramp;
     const JointVector before = bench.last.value, fed = bench.last.dq_ff;
-    const RobotCommand sent = bench.send({bench.mode, q, DriveRequest::kFollow, ramp});
+    const RobotCommand sent = bench.send({bench.mode, q, DriveRequest::kFollow, {}, ramp});
     for (int i = 0; i < kDof; ++i) {
       if (sent.value[i] == q[i]) continue;
       const double slope = (sent.value[i] - before[i]) / kPeriod_s;
@@ -106,7 +106,7 @@ void a_brake_ends_the_velocity_and_keeps_the_torque_that_is_fed_forward(void**) 
   for (int k = 1; k <= 500; ++k) {
     const JointVector dq = JointVector::Constant(1e-3 * k);
     q += kPeriod_s * dq;
-    bench.send({bench.mode, q, DriveRequest::kFollow, dq, tau});
+    bench.send({bench.mode, q, DriveRequest::kFollow, {}, dq, tau});
   }
   assert_true(bench.last.dq_ff == JointVector(JointVector::Constant(0.5)));
   for (int k = 0; k < 200; ++k) {

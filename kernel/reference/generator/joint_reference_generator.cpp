@@ -51,6 +51,7 @@ void JointReferenceGenerator::write() {
   const Pose x = forward_kinematics<Robot>(joint_trig<Robot>(reference.q), tool->tip, J);
   x_d.value = {x.p, unit_beside(x.r, x_d.value.r)};
   v_d.value = J * reference.dq;
+  write_outputs(generator_.outputs());
 }
 
 }  // namespace tactus

@@ -5,11 +5,12 @@
 
 #include "kernel/core/port.hpp"
 #include "kernel/reference/generator/generator_settings.hpp"
+#include "kernel/reference/generator/stream_outputs.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 
 namespace tactus {
 
-struct JointReferenceGenerator {
+struct JointReferenceGenerator : StreamOutputs<> {
   static constexpr const char* kType = "joint_reference_generator";
 
   struct Params {
@@ -47,6 +48,7 @@ struct JointReferenceGenerator {
     visit.out("tau_d", tau_d);
     visit.out("x_d", x_d);
     visit.out("v_d", v_d);
+    describe_outputs(visit);
     visit.channel(channel);
   }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
 #include "kernel/reference/generator/feedback.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
@@ -28,6 +29,7 @@ enum class RequestKind : std::uint8_t {
 template <class Space>
 struct StreamRequest {
   Velocity<Space> velocity;  ///< kVelocity
+  DigitalOutputs outputs;    ///< kPoint: set together with it
 };
 
 template <class Space>

@@ -27,6 +27,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   new (this) ReferenceGenerator();  // anew in its place: a copy would be large on the stack
   feedback_ = feedback;
   stream_ = stream;
+  if constexpr (kStreams) stream_.outputs = {};
   channel_ = &channel;
   params_ = params;
   end_epoch();
@@ -55,6 +56,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   assert(params_.online == OnlineMode::kLimit ||
          (phase() != Phase::kLeaving && !motion_.gives_velocity()));
   motion_.move_on(dt_s);
+  pass_outputs();
   watch_supply();
   watch_goal(dt_s, measured);
   watch_stream(dt_s);
@@ -62,6 +64,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   watch_start();
   take_controls();
   take_requests();
+  if constexpr (kStreams) stream_.outputs.move_on(time_s());
   release_store();
   monitor_.put_out(reference());
   if constexpr (kStreams) feedback_.set(running_.any() ? motion_.progress() : PathProgress());

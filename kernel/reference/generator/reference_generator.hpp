@@ -11,6 +11,7 @@
 #include "kernel/reference/generator/epoch_gate.hpp"
 #include "kernel/reference/generator/tolerance_monitor.hpp"
 #include "kernel/reference/motion/motion.hpp"
+#include "kernel/reference/motion/output_delay.hpp"
 
 namespace tactus {
 
@@ -43,6 +44,9 @@ struct StreamAccount {
   EpochGate gate;
   std::uint32_t id = 0;  ///< the last one that took effect
   bool expired = false;  ///< no successor came in time, and the client was told
+  /// Kept as they are by every stop. A start commands none, so that none that people have changed
+  /// in the meantime changes back.
+  OutputDelay outputs;
 };
 
 template <class Space>
@@ -89,6 +93,11 @@ class ReferenceGenerator {
   /// Generator time: periods since start, s.
   double time_s() const { return time_s_; }
   MotionState motion_state() const { return {time_s_, phase(), override_}; }
+  /// Digital outputs as chunks and points have set them; none on a board without streams.
+  DigitalOutputs outputs() const {
+    if constexpr (kStreams) return stream_.outputs.put_out();
+    return {};
+  }
 
  private:
   /// A trajectory that was accepted: the number of its request, and its store; -1: none.
@@ -121,6 +130,7 @@ class ReferenceGenerator {
   void end_epoch();
   void void_request(const Request<Space>& request);
   void begin_stream(std::uint32_t id);
+  void pass_outputs();
   void watch_expiry();
   void watch_supply();
   void watch_goal(double dt_s, const Point& measured);

@@ -158,6 +158,7 @@ void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   params_.online == OnlineMode::kLimit ? motion_.reach(point) : motion_.forward(point);
   end_running(Outcome::kAborted, !motion_.on_path());
   point_age_s_ = 0.0;
+  if constexpr (kStreams) stream_.outputs.ask(request.outputs, time_s());
   report(request.id, Outcome::kExecuted);
 }
 

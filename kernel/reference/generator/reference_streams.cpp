@@ -24,12 +24,22 @@ int targets_until(const ChunkCurve<Space>& chunk, double now_s) {
 
 }  // namespace
 
-/// A stop voids what is on its way.
+/// A stop voids what is on its way, and digital outputs stay as they are.
 template <class Space>
 void ReferenceGenerator<Space>::end_epoch() {
   if constexpr (kStreams) {
     stream_.gate.end();
     channel_->stream.epoch = stream_.gate.least();
+    stream_.outputs.hold();
+  }
+}
+
+/// Asks for the digital outputs of the targets that were passed in this cycle.
+template <class Space>
+void ReferenceGenerator<Space>::pass_outputs() {
+  if constexpr (kStreams) {
+    const PassedOutputs passed = motion_.take_outputs();
+    if (passed.any) stream_.outputs.ask(passed.outputs, time_s() + passed.delay_s);
   }
 }
 
@@ -86,6 +96,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       Request<Space> point = request;
       point.point = chunk.knots[0].point;
       point.header = chunk.header;
+      point.outputs = {chunk.outputs[0], chunk.outputs_mask};
       chunk.release();
       return take_point(point);
     }
@@ -152,6 +163,7 @@ void ReferenceGenerator<Space>::watch_expiry() {
 
 #define TACTUS_STREAMS(Space)                                                   \
   template void ReferenceGenerator<Space>::end_epoch();                         \
+  template void ReferenceGenerator<Space>::pass_outputs();                      \
   template void ReferenceGenerator<Space>::void_request(const Request<Space>&); \
   template void ReferenceGenerator<Space>::take_stream(const Request<Space>&);  \
   template void ReferenceGenerator<Space>::watch_expiry()

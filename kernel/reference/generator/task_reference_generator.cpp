@@ -32,6 +32,7 @@ void TaskReferenceGenerator::write(const Eigen::Quaterniond& last) {
   a_d.value = reference.a;
   h_d.value = reference.h;
   dh_d.value = reference.dh;
+  write_outputs(generator_.outputs());
 }
 
 }  // namespace tactus

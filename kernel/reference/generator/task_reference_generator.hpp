@@ -4,11 +4,12 @@
 
 #include "kernel/core/port.hpp"
 #include "kernel/reference/generator/generator_settings.hpp"
+#include "kernel/reference/generator/stream_outputs.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
 
-struct TaskReferenceGenerator {
+struct TaskReferenceGenerator : StreamOutputs<> {
   static constexpr const char* kType = "task_reference_generator";
 
   struct Params {
@@ -46,6 +47,7 @@ struct TaskReferenceGenerator {
     visit.out("a_d", a_d);
     visit.out("h_d", h_d);
     visit.out("dh_d", dh_d);
+    describe_outputs(visit);
     visit.channel(channel);
   }
 

@@ -8,35 +8,22 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <type_traits>
 
 #include "kernel/core/published.hpp"
+#include "kernel/core/streams.hpp"
 #include "kernel/reference/space/interpolation.hpp"
-
-// Most targets of a chunk, a constant of the board. 0: it has no streams of chunks and velocities,
-// neither their code nor their memory.
-#ifndef TACTUS_CHUNK_TARGETS
-#define TACTUS_CHUNK_TARGETS 128
-#endif
 
 namespace tactus {
 
-inline constexpr int kChunkTargets = TACTUS_CHUNK_TARGETS;
-inline constexpr bool kStreams = kChunkTargets > 0;
-static_assert(kChunkTargets >= 0 && kChunkTargets <= 1 << 8, "a knot is found in 8 halvings");
-
 /// Chunks that can be in force, wait for their first stamp and be on their way, together.
 inline constexpr std::size_t kChunkStores = kStreams ? 8 : 0;
-
-/// Takes the place of what a board without streams does not have.
-struct NoStream {};
-template <class Type>
-using OnlyWithStreams = std::conditional_t<kStreams, Type, NoStream>;
 
 /// Longest crossfade, s.
 inline constexpr double kLongestFade_s = 0.3;
 /// Longest time from one target of a chunk to another, and to the first one from now, s.
 inline constexpr double kLongestChunk_s = 600.0;
+/// Longest time by which digital outputs come before or after their targets, s.
+inline constexpr double kLongestLead_s = 0.5;
 
 template <class Space>
 struct Knot {
@@ -58,6 +45,10 @@ struct ChunkCurve {
   /// limits of its second and third derivative, and rests at the last knot. From full rate it takes
   /// brake_way_s of path time.
   double brake_s = 0.0, brake_way_s = 1.0, brake_a = 1.0, brake_j = 1.0;
+  /// Digital outputs from each target's stamp on, less the lead; with a mask of 0 none.
+  std::array<std::uint32_t, static_cast<std::size_t>(kChunkTargets)> outputs;
+  std::uint32_t outputs_mask = 0;
+  double outputs_lead_s = 0.0;
   std::atomic<bool> free{true};
 
   double first_s() const { return knots[0].time_s; }

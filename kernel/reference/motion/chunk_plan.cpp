@@ -43,6 +43,7 @@ void ChunkPlan<Space, streams>::clear() {
     pieces_[--count_].chunk->release();
   }
   entered_ = stops_ = false;
+  passed_target_ = {};
 }
 
 template <class Space, bool streams>
@@ -108,7 +109,7 @@ void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const 
 /// Makes the segment of path time s the present one; before the first knot, the first.
 template <class Space, bool streams>
 void ChunkPlan<Space, streams>::follow(double s) {
-  target_ = knot_after(s);
+  target_ = knot_after(*now().chunk, s);
   const auto to = static_cast<std::size_t>(target_);
   const auto& knots = now().chunk->knots;
   segment_s_ = knots[to - 1].time_s;
@@ -119,13 +120,13 @@ void ChunkPlan<Space, streams>::follow(double s) {
 
 /// Returns the first knot, from the second on, that is later than s; the last if there is none.
 template <class Space, bool streams>
-int ChunkPlan<Space, streams>::knot_after(double s) const {
-  int before = 0, found = now().chunk->count - 1;
+int ChunkPlan<Space, streams>::knot_after(const ChunkCurve<Space>& chunk, double s) {
+  int before = 0, found = chunk.count - 1;
   LoopBound<8> halvings;  // of 256 knots
   while (found - before > 1) {
     halvings.tick();
     const int middle = before + (found - before) / 2;
-    (now().chunk->knots[static_cast<std::size_t>(middle)].time_s > s ? found : before) = middle;
+    (chunk.knots[static_cast<std::size_t>(middle)].time_s > s ? found : before) = middle;
   }
   return found;
 }

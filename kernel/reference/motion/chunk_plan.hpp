@@ -8,13 +8,30 @@
 // turns back. At a seam, the difference of the commanded position, velocity and acceleration from
 // those of the new curve fades by a quintic in the chunk's time, or in the longer one that keeps
 // half of every limit free.
+//
+// Digital outputs of the targets keep time with path time: they stop where it stops.
 #pragma once
 
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/reference/motion/chunk.hpp"
 #include "kernel/reference/space/offset_law.hpp"
 #include "kernel/reference/space/space.hpp"
 
 namespace tactus {
+
+/// A target that was passed, and its digital outputs with the time after which they are due.
+struct PassedTarget {
+  std::uint32_t epoch = 0, sequence = 0;
+  int target = -1;
+  bool operator==(const PassedTarget& other) const {
+    return epoch == other.epoch && sequence == other.sequence && target == other.target;
+  }
+};
+struct PassedOutputs {
+  bool any = false;  ///< a target with outputs was passed
+  DigitalOutputs outputs;
+  double delay_s = 0.0;
+};
 
 /// `streams` is true, or the class below takes its place.
 template <class Space, bool streams = kStreams>
@@ -43,6 +60,14 @@ class ChunkPlan {
   Point stop(double before_s, const Point& base, const Point& reference, const Limits& limits);
   /// Moves path time to `now_s`, and returns the base. [cyclic]
   Point move_on(double now_s);
+  /// Finds the digital outputs of the targets passed up to `now_s`. [cyclic]
+  void pass_outputs(double now_s);
+  /// Hands over what pass_outputs() has found since the last time. [cyclic]
+  PassedOutputs take_outputs() {
+    const PassedOutputs passed = passed_;
+    passed_ = {};
+    return passed;
+  }
 
   /// True if the reference fades to the curve that was entered last; else it has an offset from it.
   bool fades() const { return fade_s_ > 0.0; }
@@ -81,7 +106,7 @@ class ChunkPlan {
   void drop_first();
   void lead_in(double s, const Point& reference, const Limits& limits);
   void follow(double s);
-  int knot_after(double s) const;
+  static int knot_after(const ChunkCurve<Space>& chunk, double s);
   bool stop_path_time(double before_s);
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
@@ -101,6 +126,8 @@ class ChunkPlan {
   Difference jump_;  // at jump_s_, from the curve to the reference
   double jump_s_ = 0.0, fade_s_ = 0.0;
   double seam_ = 0.0;
+  PassedTarget passed_target_;
+  PassedOutputs passed_;
 };
 
 template <class Space>

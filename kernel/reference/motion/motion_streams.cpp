@@ -47,6 +47,7 @@ void Motion<Space>::move_stream(double dt_s) {
   if (seam) tell(MotionEvent::kChunk);
   const Point before = base_;
   base_ = plan_.move_on(time_s_);
+  plan_.pass_outputs(time_s_);
   reference_ = Space::approach(reference_, offset_, before, base_, false, limits, dt_s);
   if (plan_.stopping()) tell(MotionEvent::kExpire);
   if (offset_.zero() && plan_.ended(time_s_) && reference_.standing()) rest_from_stream();
@@ -80,11 +81,17 @@ double Motion<Space>::margin_s() const {
   return phase_ == Phase::kDriving ? std::max(velocity_until_s_ - time_s_, 0.0) : 0.0;
 }
 
+template <class Space>
+PassedOutputs Motion<Space>::take_outputs() {
+  return plan_.take_outputs();
+}
+
 #define TACTUS_MOTION_STREAMS(Space)                                 \
   template Verdict Motion<Space>::track(ChunkCurve<Space>&, double); \
   template Verdict Motion<Space>::drive(const Velocity<Space>&);     \
   template void Motion<Space>::move_stream(double);                  \
   template bool Motion<Space>::expires() const;                      \
+  template PassedOutputs Motion<Space>::take_outputs();              \
   template double Motion<Space>::margin_s() const
 TACTUS_MOTION_STREAMS(JointSpace);
 TACTUS_MOTION_STREAMS(TaskSpace);

@@ -120,6 +120,8 @@ class Peer:
             longest_chunk=128,
             window=self.window,
             longest_part=self.longest_part,
+            outputs=0b1001,
+            output_names=["gripper", "lamp"],
             epoch=self.epoch,
         )
         self.write(welcome=pb.Welcome(**{**fields, **changed}))

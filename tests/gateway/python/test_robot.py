@@ -1,6 +1,8 @@
 """What a program does with an arm, on the simulated robot of this board."""
 
 import contextlib
+import pathlib
+import tempfile
 import time
 import unittest
 
@@ -10,6 +12,7 @@ import tactus
 from tactus import Outcome
 
 NOT_OFFERED = 11
+GENERATOR = "jrg"  # of the joint pipelines
 
 
 def setUpModule():
@@ -31,6 +34,32 @@ class OnRobot(unittest.TestCase):
                 arm.rearm()
             arm.override(1.0)
             served.go_home(arm)
+
+
+class Outputs(unittest.TestCase):
+    def test_outputs_change_in_time_with_the_arm(self):
+        text = served.JOINT_PIPELINE.read_text(encoding="utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            pipeline = pathlib.Path(folder) / "outputs.ini"
+            pipeline.write_text(text.replace("[robot]", f"[robot]\noutputs = {GENERATOR}.outputs", 1), encoding="utf-8")
+            with served.serve(pipeline) as its_address, tactus.connect(its_address, state_s=0.002) as arm:
+                self.assertEqual(list(arm.robot.outputs), list(range(8)))
+                here = arm.state().q_d
+                path = np.linspace(0, 0.1, 31)
+                targets = here + np.outer(path, served.moved(arm.robot.dof))
+                with arm.chunks(rate_hz=30) as policy:
+                    policy.send(targets, first=3, ends=True, outputs={5: np.arange(31) >= 15})
+                for state in arm.watch():
+                    if state.outputs.get(5):
+                        break
+                self.assertEqual(state.outputs, {5: True})
+                self.assertAlmostEqual(state.q_d[0] - here[0], path[15], delta=0.005)
+                arm.stop()
+                self.assertEqual(served.at_rest(arm).outputs, {5: True})
+
+    def test_a_pipeline_without_the_wire_has_none(self):
+        with connect() as arm:
+            self.assertEqual(arm.robot.outputs, {})
 
 
 class Trajectories(OnRobot):

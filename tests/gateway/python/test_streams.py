@@ -64,6 +64,27 @@ class Streams(unittest.TestCase):
         self.assertEqual(chunk.origin_ns, chunk.observed_ns)
         self.assertTrue(chunk.ends)
 
+    def test_outputs_ride_along_a_chunk(self):
+        with connected() as (arm, peer):
+            self.assertEqual(arm.robot.outputs, {0: "gripper", 3: "lamp"})
+            with arm.chunks(rate_hz=20, outputs_lead_s=0.1) as policy:
+                policy.send(np.zeros((3, JOINTS)), outputs={0: [0, 1, 1], 3: np.array([True, False, True])})
+                for wrong in ({0: [0, 1]}, {3: [0, 2, 1]}, {0: 1}, {1: [0, 0, 0]}, {-1: [0, 0, 0]}):
+                    with self.assertRaisesRegex(ValueError, "output"):
+                        policy.send(np.zeros((3, JOINTS)), outputs=wrong)
+        (chunk,) = sent(peer, "chunk")
+        self.assertEqual(chunk.outputs_lead_s, 0.1)
+        self.assertEqual([(c.output, list(c.values)) for c in chunk.channels],
+                         [(0, [False, True, True]), (3, [True, False, True])])
+
+    def test_a_point_sets_outputs(self):
+        with connected() as (arm, peer):
+            arm.point(q=np.zeros(JOINTS), outputs={3: True, 0: False})
+            with self.assertRaisesRegex(ValueError, "digital output 2; there is 0, 3"):
+                arm.point(q=np.zeros(JOINTS), outputs={2: True})
+        (point,) = sent(peer, "point")
+        self.assertEqual((point.outputs, point.outputs_mask), (0b1000, 0b1001))
+
     def test_late_chunks_are_counted(self):
         class Late(Peer):
             def take_chunk(self, message):

@@ -133,7 +133,7 @@ void a_second_client_cannot_have_the_registers(void**) {
   UrArmBench& bench = moving();
   RtdeClient second;
   Message why;
-  ASSERT_STATUS(second.start("127.0.0.1", kRtdePort + kOffset, 125.0, Deadline(2000), why),
+  ASSERT_STATUS(second.start("127.0.0.1", kRtdePort + kOffset, 125.0, false, Deadline(2000), why),
                 Status::kRegistersInUse);
   assert_non_null(std::strstr(why.c_str(), "input_int_register_24 is IN_USE"));
   for (int i = 0; i < 20; ++i) ASSERT_OK(bench.run_cycle());

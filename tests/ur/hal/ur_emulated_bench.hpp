@@ -64,11 +64,12 @@ class EmulatedRobot {
 inline std::optional<UrArmBench> g_bench;
 inline std::optional<EmulatedRobot> g_robot;
 
-inline UrArmBench& fresh(const Settings& settings = {}, int period_us = 8000) {
+inline UrArmBench& fresh(const Settings& settings = {}, int period_us = 8000,
+                         bool outputs = false) {
   g_bench.reset();
   g_robot.reset();
   g_robot.emplace(settings);
-  UrArmBench& bench = g_bench.emplace(period_us);
+  UrArmBench& bench = g_bench.emplace(period_us, outputs);
   bench.pipeline.executive.max_slip = 1000;  // lateness of the host is not tested here
   bench.settings.packet_wait = 500.0;
   bench.settings.connect_ms = bench.settings.program_ms = 2000;
@@ -80,7 +81,7 @@ inline UrArmBench& fresh(const Settings& settings = {}, int period_us = 8000) {
   tool.mass_kg = 0.749;
   tool.com = {0.0, 0.0, 0.0291};
   tool.tip.p = {0.0, 0.0, 0.0905};
-  bench.hal.configure(bench.settings, tool, period_us);
+  bench.hal.configure(bench.settings, tool, period_us, outputs);
   return bench;
 }
 

@@ -35,8 +35,9 @@ struct UrArmBench {
   RoomyPipeline pipeline;
   Executive executive{hal, pipeline};
 
-  explicit UrArmBench(int period_us = 8000) {
-    file << period_us << kUrPipeline;
+  /// With `outputs` the pipeline puts digital outputs out.
+  explicit UrArmBench(int period_us = 8000, bool outputs = false) {
+    file << period_us << (outputs ? "\noutputs = jrg.outputs" : "") << kUrPipeline;
     channel.stores[0].waypoints = waypoints.data();
     channel.stores[0].capacity = static_cast<int>(waypoints.size());
     Loader loader({&channel}, hal.capabilities());

@@ -1,0 +1,23 @@
+// Whether a board has streams: chunks of targets, velocities, and the digital outputs beside them.
+#pragma once
+
+#include <type_traits>
+
+// Most targets of a chunk, a constant of the board. 0: it has no streams of chunks and velocities
+// and no digital outputs, neither their code nor their memory.
+#ifndef TACTUS_CHUNK_TARGETS
+#define TACTUS_CHUNK_TARGETS 128
+#endif
+
+namespace tactus {
+
+inline constexpr int kChunkTargets = TACTUS_CHUNK_TARGETS;
+inline constexpr bool kStreams = kChunkTargets > 0;
+static_assert(kChunkTargets >= 0 && kChunkTargets <= 1 << 8, "a knot is found in 8 halvings");
+
+/// Takes the place of what a board without streams does not have.
+struct NoStream {};
+template <class Type>
+using OnlyWithStreams = std::conditional_t<kStreams, Type, NoStream>;
+
+}  // namespace tactus

@@ -1,0 +1,60 @@
+// ChunkPlan: the digital outputs of the targets that path time passes.
+#include <algorithm>
+
+#include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/motion/chunk_plan.hpp"
+#include "kernel/reference/space/joint_space.hpp"
+#include "kernel/reference/space/task_space.hpp"
+
+#if TACTUS_CHUNK_TARGETS > 0
+namespace tactus {
+namespace {
+
+constexpr double kTimeRounding_s = 1e-9;
+
+/// Time by which outputs come before their targets; a delay begins once the target is passed.
+template <class Space>
+double ahead_s(const ChunkCurve<Space>& chunk) {
+  return chunk.outputs_mask != 0 ? std::max(chunk.outputs_lead_s, 0.0) : 0.0;
+}
+
+}  // namespace
+
+/// The newest chunk whose first stamp ahead has come, less its lead, has the outputs; those of
+/// the older ones that are later than this stamp are void.
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::pass_outputs(double now_s) {
+  const auto begins_s = [this](std::size_t i) {
+    return std::max(pieces_[i].start_s, pieces_[i].first_s());
+  };
+  std::size_t newest = count_ - 1;
+  LoopBound<kChunkStores> waiting;
+  while (newest > 0 &&
+         now_s + ahead_s(*pieces_[newest].chunk) < begins_s(newest) - kTimeRounding_s) {
+    waiting.tick();
+    --newest;
+  }
+  const Piece& piece = pieces_[newest];
+  const ChunkCurve<Space>& chunk = *piece.chunk;
+  if (chunk.outputs_mask == 0) return;
+  const double s = newest == 0 ? path_time(now_s).s : now_s - piece.zero_s;
+  double until_s = s + ahead_s(chunk) + kTimeRounding_s;
+  if (newest + 1 < count_)
+    until_s = std::min(until_s, begins_s(newest + 1) - piece.zero_s - kTimeRounding_s);
+  if (!(chunk.first_s() <= until_s)) return;
+  const int last = chunk.count - 1;
+  const int passed = chunk.end_s() <= until_s ? last : knot_after(chunk, until_s) - 1;
+  const PassedTarget target = {chunk.epoch, chunk.sequence, passed};
+  if (target == passed_target_) return;
+  passed_target_ = target;
+  const auto at = static_cast<std::size_t>(passed);
+  passed_.any = true;
+  passed_.outputs = {chunk.outputs[at], chunk.outputs_mask};
+  passed_.delay_s = std::max(chunk.knots[at].time_s - s - chunk.outputs_lead_s, 0.0);
+}
+
+template void ChunkPlan<JointSpace>::pass_outputs(double);
+template void ChunkPlan<TaskSpace>::pass_outputs(double);
+
+}  // namespace tactus
+#endif

@@ -1,0 +1,148 @@
+// Digital outputs beside the targets of chunks: in time with the motion, newest chunk first.
+#include "tests/reference/motion/output_bench.hpp"
+#include "tests/reference/motion/output_edges.hpp"
+#include "tests/support/testing.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr std::array<double, 5> kLeads_s = {0.0, 0.05, -0.05, kLongestLead_s, -kLongestLead_s};
+constexpr std::array<double, 3> kPeriods_s = {1e-3, 2e-3, 8e-3};
+
+template <class Space>
+bool same(const ChunkBench<Space>& bench, const OutputEdges& edges) {
+  const DigitalOutputs now = bench.generator.outputs();
+  return now.mask == edges.mask() && (now.value & now.mask) == edges.value();
+}
+
+// Proves OUT-1, OUT-2.
+
+/// Overlapping chunks that disagree in motion and outputs, late, lost, repeated and out of order.
+template <class Space>
+void newest_chunk_wins(Dice& dice, int run) {
+  static OutputEdges edges;
+  const double period_s = kPeriods_s[static_cast<std::size_t>(dice.below(3))];
+  const double lead_s = dice.chance(0.5) ? kLeads_s[static_cast<std::size_t>(dice.below(5))]
+                                         : dice.uniform(-kLongestLead_s, kLongestLead_s);
+  const double spacing_s = dice.uniform(0.02, 0.1);
+  const std::uint32_t mask = static_cast<std::uint32_t>(dice.bits()) | 1u;
+  ChunkBench<Space> bench(period_s);
+  edges.start(mask, lead_s, period_s);
+  const int every = bench.cycles(dice.uniform(0.05, 0.3));
+  for (int k = 0; k < bench.cycles(4.0); ++k) {
+    const double now_s = bench.now_s();
+    const bool sends = k % every == 0 && !dice.chance(0.2);
+    if (sends) {
+      set_outputs(bench, dice, mask, lead_s);
+      write_targets(bench, now_s - dice.uniform(-0.1, 0.4), spacing_s, 60,
+                    dice.uniform(-0.01, 0.01));
+      const std::uint32_t newest = bench.chunk.sequence;
+      if (dice.chance(0.1)) bench.chunk.sequence -= std::min(newest - 1, 2u);
+      const std::uint32_t id = bench.send_again();
+      bench.chunk.sequence = newest;
+      assert_true(id != 0);
+      bench.cycle();
+      edges.move_on(bench.now_s());
+      if (bench.last.id == id && bench.last.outcome == Outcome::kExecuted)
+        edges.take(
+            bench.now_s(), bench.chunk.count,
+            [&](int i) { return bench.chunk.time_s[static_cast<std::size_t>(i)]; },
+            [&](int i) { return bench.chunk.outputs[static_cast<std::size_t>(i)]; });
+    } else {
+      bench.cycle();
+      edges.move_on(bench.now_s());
+    }
+    const bool right = same(bench, edges);
+    if (!right)
+      print_error(
+          "run %d, %g ms, lead %g s, spacing %g s, at %g s: 0x%x of 0x%x instead of 0x%x of 0x%x\n",
+          run, 1e3 * period_s, lead_s, spacing_s, bench.now_s(), bench.generator.outputs().value,
+          bench.generator.outputs().mask, edges.value(), edges.mask());
+    assert_true(right);
+  }
+  assert_int_equal(bench.starved, 0);
+}
+void the_newest_chunk_has_the_outputs(void**) {
+  for (int run = 0; run < 60; ++run) {
+    Dice dice{static_cast<std::uint64_t>(run + 1) * 977};
+    newest_chunk_wins<JointSpace>(dice, run);
+    newest_chunk_wins<TaskSpace>(dice, run);
+  }
+}
+
+// Proves OUT-3.
+
+/// A line on which the position tells the path time. Without a successor edges keep time with the
+/// motion that comes to rest, and those after the last target never come. Returns the cycles
+/// between an edge and its target at worst.
+template <class Space>
+int edges_of_a_line(double period_s, double lead_s) {
+  ChunkBench<Space> bench(period_s);
+  constexpr int kTargets = 31;
+  constexpr double kSpacing_s = 1.0 / 30.0;
+  bench.chunk.fade_s = 0.0;
+  bench.chunk.outputs_mask = 1;
+  bench.chunk.outputs_lead_s = lead_s;
+  bench.chunk.count = 0;
+  ++bench.chunk.sequence;
+  for (int i = 0; i < kTargets; ++i) {
+    const double t = i * kSpacing_s;
+    bench.chunk.add(t, moved_by(bench.home, line(t)), i % 2 == 0 ? 0 : 1);
+  }
+  assert_true(bench.send_again() != 0);
+  int edges = 0, worst = 0, passed = 0, cycle = 0;
+  std::uint32_t before = 0;
+  std::array<int, kTargets> passed_in{};
+  for (; cycle < bench.cycles(3.0); ++cycle) {
+    bench.cycle();
+    while (passed < kTargets && bench.way_now() >= line(passed * kSpacing_s) - 1e-7)
+      passed_in[static_cast<std::size_t>(passed++)] = cycle;
+    const DigitalOutputs now = bench.generator.outputs();
+    if (now.mask == 0 || now.value == before) continue;
+    before = now.value;
+    ++edges;
+    const int delay = static_cast<int>(std::lround(std::max(-lead_s, 0.0) / period_s));
+    assert_true(edges < passed + 1);
+    const int off = cycle - passed_in[static_cast<std::size_t>(edges)] - delay;
+    worst = std::max(worst, std::abs(off));
+  }
+  assert_int_equal(edges, kTargets - 1);
+  assert_int_equal(bench.starved, 1);
+  return worst;
+}
+void edges_keep_time_with_a_motion_that_starves(void**) {
+  for (const double period_s : kPeriods_s)
+    for (const double lead_s : {0.0, -0.2}) {
+      const int joint = edges_of_a_line<JointSpace>(period_s, lead_s);
+      const int tip = edges_of_a_line<TaskSpace>(period_s, lead_s);
+      print_message("%g ms, lead %g s: edges %d and %d cycles from the executed stamps\n",
+                    1e3 * period_s, lead_s, joint, tip);
+      assert_true(joint <= 1 && tip <= 1);
+    }
+}
+
+/// In a stop at starvation, the time of the motion is behind that of the clock: edges wait for it.
+void a_starved_motion_delays_its_edges(void**) {
+  ChunkBench<JointSpace> bench;
+  bench.chunk.outputs_mask = 1;
+  bench.chunk.count = 0;
+  ++bench.chunk.sequence;
+  for (int i = 0; i <= 30; ++i)
+    bench.chunk.add(i / 30.0, moved_by(bench.home, line(i / 30.0)), i == 30 ? 1 : 0);
+  assert_true(bench.send_again() != 0);
+  while (bench.generator.outputs().value == 0 && bench.now_s() < 3.0) bench.cycle();
+  assert_true(bench.now_s() > 1.01);
+  assert_true(std::abs(bench.way_now() - line(1.0)) < 1e-5);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_newest_chunk_has_the_outputs),
+      cmocka_unit_test(edges_keep_time_with_a_motion_that_starves),
+      cmocka_unit_test(a_starved_motion_delays_its_edges),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
