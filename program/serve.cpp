@@ -38,7 +38,7 @@ bool listen(const Options& options, Listener& listener, Key& key, Text<127>& whe
   return listener.open(address, !keyed, why) || refuse(where.c_str(), why.c_str());
 }
 
-ServerSetup setup_of(const Session& session, const Options& options) {
+ServerSetup setup_of(const Session& session, const Options& options, ParameterBook& parameters) {
   ServerSetup setup;
   setup.board = session.board;
   setup.pipeline = stem(options.pipeline);
@@ -49,6 +49,7 @@ ServerSetup setup_of(const Session& session, const Options& options) {
   setup.joint_window = session.client.capacity();
   setup.task_window = session.task_client.capacity();
   setup.log = print_line;
+  setup.parameters = &parameters;
   return setup;
 }
 
@@ -77,7 +78,8 @@ int finish(const Session& session, const Options& options, const RunLoop& loop,
 
 int serve(Session& session, const Options& options) {
   static CycleMail mail;
-  static Server server(setup_of(session, options), session.client, session.task_client, mail);
+  static ParameterBook parameters(session.pipeline);
+  static Server server(setup_of(session, options, parameters), session.client, session.task_client, mail);
   static RunResult result;
   static TrajectoryInput input;  // a server follows none
   static Listener listener;
