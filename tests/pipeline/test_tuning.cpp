@@ -9,6 +9,7 @@ namespace tactus {
 namespace {
 
 constexpr double kRun_s = 6.0;
+constexpr double kMoving_s = 3.0;  // from here on every joint of a torque pipeline has an error
 
 /// Largest step of each joint's command from one cycle to the next in a run without changes.
 JointVector own_steps(const std::string& name, std::uint32_t& limited) {
@@ -100,15 +101,12 @@ void refused_sets_change_no_bit_of_the_commands(void**) {
     Random random{4};
     int refused = 0;
     const std::string law = name.find("pdgc") != std::string::npos ? "pd" : "pid";
-    while (run->bench.time_s() < 3.0) {
+    while (run->bench.time_s() < kMoving_s + 2.0) {
       auto set = run->scaled(random, 0.5, 0.5, 2.0);
       set.insert(set.begin() + random.below(static_cast<int>(set.size()) + 1),
                  {"guard", "max_torque", "1"});
-      if (random.below(3) == 0) set = {{law, "kp", "1e9"}};
-      if (run->change(set).status == Status::kOk) {
-        assert_true(set[0][1] == "kp");  // an arm exactly on its reference asks for no more
-        break;
-      }
+      if (random.below(3) == 0 && run->bench.time_s() > kMoving_s) set = {{law, "kp", "1e9"}};
+      assert_true(run->change(set).status != Status::kOk);
       ++refused;
       run->bench.cycle();
       twin->bench.cycle();
