@@ -27,7 +27,7 @@
 // max_velocity, when the axis reaches max_displacement.
 //
 // When M, D or K change, e and v stay, and so does the force on the mass: the difference of spring
-// and damper fades (kernel/control/fade.hpp).
+// and damper fades (kernel/math/fade.hpp).
 //
 // When braked, v goes to zero on each axis with half the robot's acceleration limit of the tip,
 // within the same bounds, and e is held there: neither wrench nor spring moves it any more.
@@ -35,12 +35,12 @@
 
 #include <array>
 
-#include "kernel/control/fade.hpp"
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 #include "kernel/math/mass_spring_damper.hpp"
 
 namespace tactus {

@@ -35,7 +35,7 @@
 //   - a large error is corrected no faster than the joints can brake with half their acceleration;
 //   - JointIntegrator bounds the result: position, velocity, lead, acceleration.
 //
-// When K changes, the difference of the correction fades (kernel/control/fade.hpp); the posture's
+// When K changes, the difference of the correction fades (kernel/math/fade.hpp); the posture's
 // velocity changes with a bounded acceleration anyway.
 //
 // When braked on the path, the posture's velocity goes to zero, and once the reference is at rest,
@@ -43,12 +43,12 @@
 // braked at once, every joint stops separately with max_acceleration.
 #pragma once
 
-#include "kernel/control/fade.hpp"
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/math/damped_inverse.hpp"
+#include "kernel/math/fade.hpp"
 #include "kernel/math/joint_integrator.hpp"
 
 namespace tactus {

@@ -7,11 +7,11 @@
 // every law.
 #pragma once
 
-#include "kernel/control/fade.hpp"
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 
 namespace tactus {
 

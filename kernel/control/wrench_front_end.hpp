@@ -21,11 +21,11 @@
 // with a time constant, h does not step; without, it steps by up to the tare tolerances.
 #pragma once
 
-#include "kernel/control/fade.hpp"
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 
 namespace tactus {
 

@@ -194,7 +194,9 @@ void random_sets_are_taken_whole_or_not_at_all(void**) {
     assert_int_equal(status == Status::kOk, good);
     if (good && random.below(4) != 0) {
       b.take();
-      kp[0] = next[0], kp[1] = next[1], kd = next_kd;
+      kp[0] = next[0];
+      kp[1] = next[1];
+      kd = next_kd;
       ++taken;
     } else {
       b.book->drop();

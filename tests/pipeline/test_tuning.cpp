@@ -8,7 +8,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kRun_s = 6.0;
+constexpr double kRun_s = 9.0;
 constexpr double kMoving_s = 3.0;  // from here on every joint of a torque pipeline has an error
 
 /// Largest step of each joint's command from one cycle to the next in a run without changes.
@@ -129,9 +129,11 @@ void gains_that_are_changed_and_changed_back_leave_the_steady_state(void**) {
     Random random{6};
     const auto there = run->scaled(random, 2.0, 1.5, 1.5),
                back = run->scaled(random, 2.0, 1.0, 1.0);
-    while (run->bench.time_s() < 3.0) {
-      if (run->bench.cycles == 700) ASSERT_OK(run->change(there).status);
-      if (run->bench.cycles == 1500) ASSERT_OK(run->change(back).status);
+    const double period_s = run->bench.pipeline.robot.period_s();
+    const std::int64_t first = std::lround(kMoving_s / period_s), last = 2 * first;
+    while (run->bench.cycles <= last) {
+      if (run->bench.cycles == first) ASSERT_OK(run->change(there).status);
+      if (run->bench.cycles == last) ASSERT_OK(run->change(back).status);
       run->bench.cycle();
       twin->bench.cycle();
     }
