@@ -316,7 +316,7 @@ class Parameters(OnRobot):
             owner.override(1.0)
             kp = self.gain(arm)
             arm.set_parameters({kp.section: {"kp": 1.0}}, check=True)
-            with self.assertRaisesRegex(tactus.Refused, "kp: -1.0 .*> *=? *0"):
+            with self.assertRaisesRegex(tactus.Refused, "kp: .*-1.0 .*it must be >"):
                 arm.set_parameters({kp.section: {"kp": -1.0}}, check=True)
             with self.assertRaises(tactus.Refused):
                 arm.set_parameters({kp.section: {"kp": 1.0}})
