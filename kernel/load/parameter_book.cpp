@@ -124,7 +124,8 @@ Status ParameterBook::read(const Ini& ini, const IniSection& section, LoadError&
   each_section(Copy::kNext, [&](std::string_view name, auto& described) {
     if (name == section.name && !found) {
       found = true;
-      ParameterReader reader(ini, section, pipeline_.ports, error);
+      ParameterReader reader(ini, section, pipeline_.ports, error,
+                             kTunes<std::decay_t<decltype(described)>>);
       while (reader.next()) {
         reader.fixed("type");
         described.describe(reader);

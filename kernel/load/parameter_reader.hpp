@@ -8,8 +8,19 @@ namespace tactus {
 
 class ParameterReader : public SectionReader {
  public:
-  using SectionReader::SectionReader;
+  /// `tunes`: what is described is a copy of a block, whose tunable parameters may be read; they
+  /// are fixed elsewhere.
+  ParameterReader(const Ini& ini, const IniSection& section, PortTable& ports, LoadError& error,
+                  bool tunes)
+      : SectionReader(ini, section, ports, error), tunes_(tunes) {}
 
+  template <class Value>
+  void tunable(const char* key, Value& value, const Range& range, const char* unit) {
+    if (tunes_)
+      SectionReader::param(key, value, range, unit);
+    else
+      fixed(key);
+  }
   template <class Value>
   void param(const char* key, Value& /*value*/, const Range& /*range*/, const char* /*unit*/) {
     fixed(key);
@@ -42,6 +53,9 @@ class ParameterReader : public SectionReader {
       refuse(Status::kNotOffered, key,
              "it cannot change while the pipeline runs; edit the pipeline file and start again");
   }
+
+ private:
+  bool tunes_;
 };
 
 }  // namespace tactus
