@@ -94,7 +94,7 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
               kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/server gateway/sockets hal/os)) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/page gateway/server gateway/sockets hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 # Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them.
 SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,check_steps checks expected loop_bounds refuted report report_folders \

@@ -2,6 +2,7 @@
 // account of its stores. Runs outside the cycle; one client per channel.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "gateway/chunk.hpp"
@@ -70,6 +71,12 @@ class ReferenceClient {
   /// pause() stops on the path and keeps the trajectory; resume() continues it.
   Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
   Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }
+
+  /// Controls whose final reports were not fetched.
+  std::size_t unanswered() const {
+    return kControls - static_cast<std::size_t>(
+                           std::count(unanswered_.begin(), unanswered_.end(), std::uint32_t{0}));
+  }
 
   /// Conditions under which a goal counts as reached, unless it says otherwise; null before the
   /// generator has started.

@@ -88,7 +88,17 @@ TuningVerdict CycleDesk::retune(const Tuning& tuning) {
   return pipeline_.retune(tuning, commands(rung));
 }
 
+/// A fixed number of outputs is copied, whoever watches.
+void CycleDesk::tell_ports() {
+  port_values_.cycle = executive_.telemetry().cycles;
+  double* to = port_values_.numbers.data();
+  for (int i = 0; i < pipeline_.ports.count(); ++i) to += flatten(pipeline_.ports[i], to);
+  static_cast<void>(port_mail_->values.post(port_values_));
+}
+
 void CycleDesk::tell(const CycleTime& now) {
+  const auto cycle = static_cast<int>(executive_.telemetry().cycles);
+  if (port_mail_ != nullptr && cycle % port_mail_->divisor == 0) tell_ports();
   if (mail_.snapshots.space() == 0) {
     ++lost_;
     return;

@@ -13,6 +13,8 @@ class CycleDesk {
   /// a reference, x of the robot model, h of a wrench. [init]
   CycleDesk(CycleMail& mail, Executive& executive, Pipeline& pipeline);
 
+  /// Tells the values of all outputs too, in every `divisor`-th cycle. [init]
+  void show(PortMail& ports) { port_mail_ = &ports; }
   /// Takes an order and a set of parameters, and goes on with arming; `status` is that of the last
   /// cycle. [between two cycles]
   void work(Status status);
@@ -24,6 +26,7 @@ class CycleDesk {
   void take_parameters();
   TuningVerdict retune(const Tuning& tuning);
   void finish(Status status);
+  void tell_ports();
 
   CycleMail& mail_;
   Executive& executive_;
@@ -31,9 +34,11 @@ class CycleDesk {
   const JointVector *q_d_ = nullptr, *dq_d_ = nullptr;
   const Pose *pose_ = nullptr, *pose_d_ = nullptr;
   const Vector6* wrench_ = nullptr;
-  std::uint32_t rearm_ = 0;  // number of a rearm that is under way; 0: none
-  bool waits_ = false;       // it has not begun: the arm is still being brought to rest
-  std::uint32_t lost_ = 0;   // snapshots
+  std::uint32_t rearm_ = 0;        // number of a rearm that is under way; 0: none
+  bool waits_ = false;             // it has not begun: the arm is still being brought to rest
+  std::uint32_t lost_ = 0;         // snapshots
+  PortMail* port_mail_ = nullptr;  // null: nobody watches the wires
+  PortValues port_values_;         // that are being told
 };
 
 }  // namespace tactus

@@ -26,11 +26,6 @@ double planned_duration(const Session& session, const Options& options,
   return input.start_s + input.duration_s() + session.gateway.settle_s;
 }
 
-Status record(void* recorder, const RobotState&, double time_s) {
-  static_cast<Recorder*>(recorder)->record(time_s);
-  return Status::kOk;  // a full ring drops the row and counts it
-}
-
 /// Returns the cycles that cover a time, at least one; rounding is no cycle.
 std::int64_t cycles_of(double duration_s, double period_s) {
   constexpr double kRounding = 1e-6;  // of a cycle
@@ -200,8 +195,7 @@ int run(Session& session, const Options& options) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
     result.tracking[i].start(recording.tracking[i]);
   }
-  session.recorder.start(recording);
-  session.pipeline.schedule.bind("recorder", record, &session.recorder);
+  start_recorder(session.recorder, session.pipeline);
   if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
   execute(session, options, input, feed, log, writer, watchdog, result);

@@ -3,8 +3,11 @@
 #include <cstring>
 
 #include "gateway/fnv1a.hpp"
+#include "gateway/page/page_thread.hpp"
 #include "gateway/sockets/server_thread.hpp"
 #include "gateway/verdict_text.hpp"
+#include "program/results/run_folder.hpp"
+#include "program/results/scene_file.hpp"
 #include "program/run_loop.hpp"
 #include "program/session/session.hpp"
 
@@ -38,6 +41,27 @@ bool listen(const Options& options, Listener& listener, Key& key, Text<127>& whe
   return listener.open(address, !keyed, why) || refuse(where.c_str(), why.c_str());
 }
 
+/// Reads where the page is to be, if there is to be one.
+bool read_page(const Options& options, Address& address) {
+  Message why;
+  const bool none = options.http[0] == '\0';
+  return none || parse_page_address(options.http, address, why) || refuse("--http", why.c_str());
+}
+
+/// Starts the page, if there is to be one. If the computer cannot, the server goes on without.
+void start_page(PageThread& page, const Options& options, const Address& address) {
+  Message why;
+  if (options.http[0] != '\0' && !page.start(address, why))
+    std::fprintf(stderr, "--http %s: there is no page: %s; the server goes on\n", options.http,
+                 why.c_str());
+}
+
+void say_where(const Options& options, const char* where, const PageThread& page) {
+  std::printf("%s: serves %s; Ctrl-C ends it\n", options.pipeline, where);
+  if (page.started()) std::printf("page: http://127.0.0.1:%d/\n", page.port());
+  std::fflush(stdout);
+}
+
 ServerSetup setup_of(const Session& session, const Options& options, ParameterBook& parameters) {
   ServerSetup setup;
   setup.board = session.board;
@@ -59,6 +83,34 @@ void run_cycles(Session& session, RunLoop& loop, LogWriter& writer) {
     loop.at_robots_pace(*session.hal.clock(), writer, progress);
   else
     loop.in_real_time(writer, progress);
+}
+
+/// Opens the log of the session in the folder that --out names.
+bool begin_log(Session& session, const Options& options, RunFolder& folder, RunLog& log) {
+  if (!folder.begin({options.pipeline, nullptr}, session.text) ||
+      !log.open(folder.file("log.csv").c_str(), session.pipeline.recording))
+    return false;
+  log.limit(options.rows);
+  start_recorder(session.recorder, session.pipeline);
+  return true;
+}
+
+/// Writes what a folder holds beside the log. False: prints why it could not.
+bool end_log(const Session& session, const Options& options, const RunLoop& loop, RunFolder& folder,
+             RunLog& log, RunResult& result) {
+  result.seed = options.seed;
+  result.config_hash = fnv1a(session.text);
+  result.simulated_s = loop.time_s();
+  result.cycles = loop.commanded();
+  if (!log.close() || !write_scene(folder.file("scene.json").c_str(), session.pipeline) ||
+      !write_summary(folder.summary_part().c_str(), stem(options.pipeline), session, result) ||
+      !folder.complete(result.cycles > 0))
+    return false;
+  std::printf("  written to %s\n", folder.path().c_str());
+  if (log.left_out() > 0)
+    std::printf("  log.csv has the first %lld rows; %lld later ones were left out (--rows)\n",
+                static_cast<long long>(options.rows), static_cast<long long>(log.left_out()));
+  return true;
 }
 
 /// Says how it ended, and returns the exit code.
@@ -85,37 +137,48 @@ int serve(Session& session, const Options& options) {
   static Listener listener;
   Text<127> where;
   static Key key;
-  if (!listen(options, listener, key, where)) return kRefused;
+  Address page_address;
+  if (!read_page(options, page_address) || !listen(options, listener, key, where)) return kRefused;
   static ServerThread thread(server, listener, options.key[0] != '\0' ? &key : nullptr);
+  static PortMail ports;
+  static PageThread page({session.board, stem(options.pipeline), session.pipeline}, thread, ports);
   TrajectoryFeed feed(session, input);
-  RunLog log;
+  static RunLog log;
   LogWriter writer(log);
+  RunFolder folder(options);
+  const bool logs = options.out[0] != '\0';
+  if (logs && !(begin_log(session, options, folder, log) && writer.start())) return kRefused;
   WatchdogThread watchdog;
   Realtime realtime;
   const int error = thread.start();
   if (error != 0) refuse("the thread of the server", std::strerror(error));
+  if (error == 0) start_page(page, options, page_address);
   if (error != 0 || !watchdog.start(session.realtime) || !prepare(realtime, session.realtime))
     return kRefused;
   catch_interrupts();
   RunLoop loop(session, input, feed, watchdog, result, {});
   CycleDesk desk(mail, session.executive, session.pipeline);
+  if (page.started()) desk.show(ports);
   loop.serve(desk);
   if (options.virtual_time) {
     session.executive.in_virtual_time();
     loop.in_virtual_time();
   }
   if (!loop.start() || !watchdog.arm(session.realtime)) {
+    page.end();
     thread.end();
     loop.stop();
     print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
     return kRefused;
   }
-  std::printf("%s: serves %s; Ctrl-C ends it\n", options.pipeline, where.c_str());
-  std::fflush(stdout);
+  say_where(options, listener.address().text().c_str(), page);
   run_cycles(session, loop, writer);
   watchdog.disarm();
+  page.end();
   thread.end();
-  return finish(session, options, loop, result);
+  const bool written = !logs || end_log(session, options, loop, folder, log, result);
+  const int code = finish(session, options, loop, result);
+  return written ? code : kEndedOtherwise;
 }
 
 }  // namespace tactus

@@ -61,14 +61,26 @@ bool Client::connect() {
   return true;
 }
 
-bool Client::take_lease() {
+ToServer Client::wish_for_lease(int priority) const {
   ToServer request;
   Lease& lease = *request.mutable_lease();
   lease.set_wish(Lease::TAKE);
-  lease.set_priority(static_cast<std::uint32_t>(options_.priority));
+  lease.set_priority(static_cast<std::uint32_t>(priority));
   lease.set_timeout_ms(static_cast<std::uint32_t>(options_.lease_ms));
+  return request;
+}
+
+bool Client::take_lease() {
+  ToServer request = wish_for_lease(options_.priority);
   leased_ = ask(request);
   return leased_;
+}
+
+bool Client::take_free_lease() {
+  ToServer request = wish_for_lease(0);  // which takes it from nobody
+  const bool answered = exchange(request);
+  leased_ = answered && answer_.status() == 0;
+  return answered;
 }
 
 void Client::release_lease() {

@@ -19,6 +19,8 @@ class Client {
   bool connect();
   /// Takes the lease. False: said; refused with the owner's name, or no connection.
   bool take_lease();
+  /// Takes the lease if nobody has it. False: no connection, said.
+  bool take_free_lease();
   /// Gives the lease back: what runs goes on to its end.
   void release_lease();
 
@@ -43,6 +45,7 @@ class Client {
   bool refuse(const std::string& text);
 
  private:
+  ToServer wish_for_lease(int priority) const;
   bool exchange(ToServer& request);
   bool lose(const std::string& reason);
   bool take_all();

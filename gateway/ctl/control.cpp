@@ -15,13 +15,24 @@ void fill(const Session& session, ToServer& request) {
   }
 }
 
+/// Takes the lease that a verb needs. What only slows the arm down needs none; an override may, if
+/// it makes it faster.
+bool prepare(Session& session) {
+  switch (session.options.verb) {
+    case Verb::kStop:
+    case Verb::kCancel:
+    case Verb::kPause: return true;
+    case Verb::kOverride: return session.client.take_free_lease();
+    default: return session.options.check_only || session.client.take_lease();
+  }
+}
+
 }  // namespace
 
 int control(Session& session) {
   ToServer request;
-  fill(session, request);
-  const bool needs_lease = session.options.verb != Verb::kStop;
-  if (needs_lease && !session.client.take_lease()) return session.client.exit_code();
+  if (!fill(session, request)) return session.client.exit_code();
+  if (!prepare(session)) return session.client.exit_code();
   session.client.ask_and_wait(request);
   session.client.release_lease();
   return session.client.exit_code();

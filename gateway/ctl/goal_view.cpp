@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/reference/motion/motion_phase.hpp"
-
 namespace tactus::ctl {
 namespace {
 
@@ -40,7 +38,8 @@ void GoalView::take(const ToClient& message) {
   if (message.has_report() && message.report().number() == number_) take_report(message.report());
   if (message.has_feedback()) take_feedback(message.feedback());
   if (message.has_state()) take_state(message.state());
-  if (message.has_event() && message.event().status() != 0) {
+  const bool slowed = message.has_event() && message.event().name() == "slowed";
+  if (slowed || (message.has_event() && message.event().status() != 0)) {
     output_.object("event", message.event());
     output_.say("event " + printed(message.event().name()) + ": " +
                 printed(message.event().text()));
@@ -54,7 +53,6 @@ void GoalView::take_report(const Report& report) {
   if (first) {
     started_ = true;
     start_s_ = report.time_s();
-    length_s_ *= 1.0 + report.stretch();
   }
   if (report.outcome() == Report::STARVED && !starved_)
     output_.say("starved: the arm waits on its path for waypoints");
@@ -74,18 +72,14 @@ void GoalView::take_feedback(const Feedback& feedback) {
   }
   largest_.tip_m = std::max(largest_.tip_m, now_.tip_m);
   largest_.tip_rad = std::max(largest_.tip_rad, now_.tip_rad);
-  const double elapsed_s = feedback.time_s() - start_s_;
-  passed_s_ += (elapsed_s - elapsed_s_) * rate_;
-  elapsed_s_ = elapsed_s;
+  elapsed_s_ = feedback.time_s() - start_s_;
+  passed_s_ = feedback.path_s();
   show();
 }
 
 void GoalView::take_state(const State& state) {
   state_ = state;
-  const bool stands = state.phase() == static_cast<std::uint32_t>(Phase::kPaused) ||
-                      state.phase() == static_cast<std::uint32_t>(Phase::kStarving);
-  rate_ = stands ? 0.0 : state.override() * state.speed_scaling();
-  at_rest_ = ended_ && state.phase() == static_cast<std::uint32_t>(Phase::kHolding);
+  at_rest_ = ended_ && state.phase() == PHASE_HOLDING;
 }
 
 void GoalView::show() {

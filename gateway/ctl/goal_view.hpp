@@ -47,7 +47,7 @@ class GoalView {
   Report report_;
   bool started_ = false, ended_ = false, at_rest_ = false, starved_ = false;
   double start_s_ = 0.0, elapsed_s_ = 0.0;
-  double rate_ = 1.0, passed_s_ = 0.0;  // of the trajectory's time, as the states tell
+  double passed_s_ = 0.0;  // in the times of the waypoints
   State state_;
   TrackingError now_, largest_;
 };

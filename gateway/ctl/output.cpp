@@ -5,20 +5,23 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 #include "kernel/core/status.hpp"
-#include "kernel/cycle/rung.hpp"
-#include "kernel/reference/motion/motion_phase.hpp"
 
 namespace tactus::ctl {
 namespace {
 
-constexpr std::uint32_t kFirstOfCycle = 64;  // statuses of the cycle and of the wire, up to 109
-constexpr std::uint32_t kLastOfWire = 109;
+constexpr int kFirstOfCycle = 64;  // codes of the cycle and of the wire, up to 109
+constexpr int kLastOfWire = 109;
 
-template <class E>
-std::string name_or_number(std::uint32_t value) {
-  return value < kNames<E>.size() ? kNames<E>[value] : std::to_string(value);
+/// Returns an enumerator without its prefix, in small letters.
+std::string word(const std::string& enumerator, std::size_t prefix) {
+  std::string text = enumerator.substr(std::min(prefix, enumerator.size()));
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
 }
 
 std::string json_text(const std::string& text) {
@@ -81,22 +84,20 @@ void Output::end_progress() {
 }
 
 std::string name_of(Report::Outcome outcome) {
-  std::string name = Report::Outcome_Name(outcome);
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return name;
+  return word(Report::Outcome_Name(outcome), 0);
 }
 
-std::string phase_name(std::uint32_t phase) {
-  return name_or_number<Phase>(phase);
+std::string phase_name(Phase phase) {
+  const std::string name = Phase_Name(phase);
+  return name.empty() ? std::to_string(phase) : word(name, std::strlen("PHASE_"));
 }
 
-std::string rung_name(std::uint32_t rung) {
-  return name_or_number<Rung>(rung);
+std::string rung_name(Rung rung) {
+  const std::string name = Rung_Name(rung);
+  return name.empty() ? std::to_string(rung) : word(name, std::strlen("RUNG_"));
 }
 
-std::string status_name(std::uint32_t status) {
+std::string status_name(Code status) {
   return std::string(meaning(static_cast<Status>(status))) + " (" + std::to_string(status) + ")";
 }
 

@@ -34,10 +34,11 @@ class Output {
 
 /// Returns "succeeded", "refused", ...
 std::string name_of(Report::Outcome outcome);
-/// Returns the name of a phase, a rung, a status; a number if it is none.
-std::string phase_name(std::uint32_t phase);
-std::string rung_name(std::uint32_t rung);
-std::string status_name(std::uint32_t status);
+/// Returns the name of a phase or a rung as the kernel has it; a number if it is none.
+std::string phase_name(Phase phase);
+std::string rung_name(Rung rung);
+/// Returns the meaning of a code, and its number.
+std::string status_name(Code status);
 /// Returns a number in printf's format.
 std::string formatted(const char* format, double value);
 /// Returns a text without what must not reach a terminal.

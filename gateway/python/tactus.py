@@ -61,6 +61,7 @@ __all__ = [
     "Aborted",
     "Arm",
     "Chunks",
+    "Code",
     "Error",
     "Event",
     "Feedback",
@@ -69,9 +70,11 @@ __all__ = [
     "Motion",
     "Outcome",
     "Parameter",
+    "Phase",
     "Refused",
     "Result",
     "Robot",
+    "Rung",
     "Sample",
     "State",
     "Stopped",
@@ -89,9 +92,6 @@ _TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
-_SKIP_OPTIONAL = 1  # the lowest rung of the ladder on which the arm takes references
-_NOT_AT_REST = 39  # the Status of a rearm that comes too early
-_CHUNK_LATE = 59  # the Status of a chunk that is late as a whole
 _REPORTED = {"point", "velocity", "chunk", "begin", "parameters"}
 _REPORTED |= {"cancel", "override", "pause", "resume", "stop", "rearm"}
 
@@ -110,7 +110,7 @@ class Lost(Error):
 class Refused(Error):
     """The server refused a request; nothing has changed. The text names place, value, limit and remedy.
 
-    status       -- number of the reason, as in docs/reference-generators.md
+    status       -- the Code of the reason, also a number: docs/reference-generators.md
     place        -- "waypoint 13, joint 3 (elbow_joint)", or ""
     waypoint     -- of it, or target, from 0; None: none in particular
     axis         -- of it: joint, or axis of the tip, from 0; None: none in particular
@@ -119,8 +119,8 @@ class Refused(Error):
     """
 
     def __init__(self, text: str, status: int, finding: Optional["pb.Finding"] = None):
-        super().__init__(f"{text} ({status})" if f"({status})" not in text else text)
-        self.status = status
+        super().__init__(f"{text} ({int(status)})" if f"({int(status)})" not in text else text)
+        self.status = _named(Code, status)
         reason, _, self.remedy = text.partition("; ")
         self.place = reason.partition(": ")[0] if ": " in reason else ""
         given = finding is not None
@@ -134,7 +134,7 @@ class Aborted(Error):
     """A trajectory was given up by the robot: a tolerance was violated, or a fault brakes the arm. `result` has it."""
 
     def __init__(self, result: Result):
-        super().__init__(result.text or f"aborted ({result.status})")
+        super().__init__(result.text or f"aborted ({int(result.status)})")
         self.result = result
 
 
@@ -163,6 +163,23 @@ class Outcome(enum.IntEnum):
     @property
     def final(self) -> bool:
         return self >= Outcome.SUCCEEDED
+
+
+def _names(name: str, prefix: str, numbers: Mapping[str, int]) -> Any:
+    return enum.IntEnum(name, {key.removeprefix(prefix): number for key, number in numbers.items()}, module=__name__)
+
+
+Rung = _names("Rung", "RUNG_", dict(pb.Rung.items()))
+Rung.__doc__ = "The ladder by which the arm stops in stages: NOMINAL, ... as in tactus.proto."
+Phase = _names("Phase", "PHASE_", dict(pb.Phase.items()))
+Phase.__doc__ = "The phase of the motion: HOLDING, FOLLOWING, PAUSED, ... as in tactus.proto."
+Code = _names("Code", "CODE_", dict(pb.Code.items()))
+Code.__doc__ = "Why something was refused, ended or stopped: OK, VELOCITY_LIMIT, ... as in tactus.proto."
+
+
+def _named(kind: Any, number: int) -> int:
+    """Returns the member with this number; the number itself if a newer server has sent one without a name."""
+    return kind(number) if number in kind.__members__.values() else number
 
 
 @dataclasses.dataclass(frozen=True)
@@ -216,12 +233,17 @@ class Sample:
 
 @dataclasses.dataclass(frozen=True)
 class Feedback:
-    """Reference and measurement of one cycle while a trajectory is executed. `lost` messages before it were dropped."""
+    """Reference and measurement of one cycle while a trajectory is executed. `lost` messages before it were dropped.
+
+    path_s of path_end_s of the trajectory's own time have passed; they wait in a pause and slow down with an override.
+    """
 
     time_s: float
     desired: Sample
     actual: Sample
     lost: int
+    path_s: float
+    path_end_s: float  # time of the last waypoint that the server has
 
 
 @dataclasses.dataclass(frozen=True)
@@ -229,7 +251,7 @@ class Result:
     """How a trajectory has ended. `stretch` is the fraction by which it was slowed down to keep the limits."""
 
     outcome: Outcome
-    status: int
+    status: int  # a Code
     text: str
     time_s: float
     stretch: float
@@ -245,7 +267,7 @@ class Event:
 
     stamp_ns: int
     name: str
-    status: int
+    status: int  # a Code
     text: str
 
 
@@ -274,9 +296,9 @@ class State:
     stamp_ns: int
     server_ns: int  # the same by the server's clock
     cycle: int
-    rung: int  # of the ladder; 0 is nominal, from 2 on no references are taken
-    status: int  # why it is not nominal
-    phase: int  # of the motion
+    rung: int  # a Rung; from HOLD on no references are taken
+    status: int  # a Code: why it is not nominal
+    phase: int  # a Phase of the motion
     epoch: int
     owner: str  # the client that holds the lease; "" if nobody does
     override: float
@@ -752,10 +774,12 @@ class _Session:
                     _sample(*pair)
                     for pair in ((told.joint_desired, told.task_desired), (told.joint_actual, told.task_actual))
                 )
-                call.feedback.append(Feedback(told.time_s, desired, actual, told.lost))
+                call.feedback.append(Feedback(told.time_s, desired, actual, told.lost, told.path_s, told.path_end_s))
         elif kind == "event":
             told = message.event
-            self.events.append(Event(self.clock.to_local(told.server_ns), told.name, told.status, told.text))
+            self.events.append(
+                Event(self.clock.to_local(told.server_ns), told.name, _named(Code, told.status), told.text)
+            )
         elif kind == "parameter_page":
             if call := self._calls.get(message.parameter_page.number):
                 call.page = message.parameter_page
@@ -1029,18 +1053,21 @@ class Arm:
     # Controls
 
     def cancel(self) -> None:
-        """Ends what runs; the arm brakes on its path and holds. Raises Refused (42) if nothing runs."""
-        self._own()
+        """Ends what runs, whoever moves it; the arm brakes on its path and holds. Raises Refused (42) if nothing runs."""
         self._session.ask("cancel", pb.Cancel())
 
     def override(self, rate: float) -> None:
-        """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on."""
-        self._own()
-        self._session.ask("override", pb.Override(rate=rate))
+        """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on. To raise it needs the lease."""
+        try:
+            self._session.ask("override", pb.Override(rate=rate))
+        except Refused as refusal:
+            if refusal.status != pb.CODE_NOT_OWNER:
+                raise
+            self._own()
+            self._session.ask("override", pb.Override(rate=rate))
 
     def pause(self) -> None:
-        """Brings the arm to rest on its path; the trajectory stays alive until `resume` or `cancel`."""
-        self._own()
+        """Brings the arm to rest on its path, whoever moves it; the trajectory lives until `resume` or `cancel`."""
         self._session.ask("pause", pb.Pause())
 
     def resume(self) -> None:
@@ -1065,7 +1092,7 @@ class Arm:
                 self._session.ask("rearm", pb.Rearm())
                 break
             except Refused as refusal:
-                if refusal.status != _NOT_AT_REST or time.monotonic() > end:
+                if refusal.status != pb.CODE_NOT_AT_REST or time.monotonic() > end:
                     raise
             time.sleep(0.02)
         self._await_nominal(max(1.0, end - time.monotonic()))
@@ -1098,7 +1125,9 @@ class Arm:
         self._session.ask("parameters", request)
 
     def release(self) -> None:
-        """Gives the lease back; what runs goes on to its end."""
+        """Gives the lease back, if this client has it; what runs goes on to its end."""
+        if not self._leased:
+            return
         self._session.ask("lease", pb.Lease(wish=pb.Lease.RELEASE))
         self._leased = False
 
@@ -1121,13 +1150,13 @@ class Arm:
         before = session.state
 
         def told(state: Optional[pb.State]) -> bool:
-            return state is not None and state is not before and state.rung <= _SKIP_OPTIONAL
+            return state is not None and state is not before and state.rung <= pb.RUNG_SKIP_OPTIONAL
 
         with contextlib.suppress(TimeoutError):
             session.wait_long(lambda: told(session.state), "armed arm", within_s)
             return
         state = self.state()
-        raise Error(f"the arm is not armed within {within_s:.3g} s; rung {state.rung}, status {state.status}")
+        raise Error(f"the arm is not armed within {within_s:.3g} s; {state.rung!r}, {state.status!r}")
 
     def _terms(self, joints: Optional[Sequence[str]]) -> pb.Terms:
         names = [joint.name for joint in self.robot.joints]
@@ -1202,7 +1231,7 @@ class Motion:
         told = self._call.report
         if told is None or not Outcome(told.outcome).final:
             return None
-        return Result(Outcome(told.outcome), told.status, told.text, told.time_s, told.stretch)
+        return Result(Outcome(told.outcome), _named(Code, told.status), told.text, told.time_s, told.stretch)
 
     def wait(self, timeout_s: Optional[float] = None) -> Result:
         """Waits for the end, and returns the Result if it succeeded, was preempted or canceled.
@@ -1441,7 +1470,7 @@ class Chunks(_References):
 
     def _judge(self, call: _Call) -> None:
         refusal = call.refusal()
-        if refusal and refusal.status == _CHUNK_LATE:
+        if refusal and refusal.status == pb.CODE_CHUNK_LATE:
             self.late += 1
         elif refusal:
             super()._judge(call)
@@ -1545,6 +1574,8 @@ def _robot(welcome: pb.Welcome) -> Robot:
 
 def _state(told: pb.State, clock: _Clock) -> State:
     copied = {field.name: getattr(told, field.name) for field in dataclasses.fields(State) if hasattr(told, field.name)}
+    for name, kind in {"rung": Rung, "status": Code, "phase": Phase}.items():
+        copied[name] = _named(kind, copied[name])
     for name, value in copied.items():
         if name in ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench"):
             copied[name] = _array(value)

@@ -17,4 +17,14 @@ std::size_t encode(const tactus_ToClient& message, std::array<std::uint8_t, kLon
   return pb_encode(&stream, tactus_ToClient_fields, &message) ? stream.bytes_written : 0;
 }
 
+bool decode(const Bytes& bytes, tactus_ToClient& message) {
+  pb_istream_t stream = pb_istream_from_buffer(bytes.data, bytes.size);
+  return pb_decode(&stream, tactus_ToClient_fields, &message);
+}
+
+std::size_t encode(const tactus_ToServer& message, const ByteSpace& to) {
+  pb_ostream_t stream = pb_ostream_from_buffer(to.data, to.size);
+  return pb_encode(&stream, tactus_ToServer_fields, &message) ? stream.bytes_written : 0;
+}
+
 }  // namespace tactus

@@ -14,6 +14,10 @@ bool decode(const Bytes& bytes, tactus_ToServer& message, const char*& why);
 /// Writes a message into `bytes`; returns its size, 0 if it does not fit. [any]
 std::size_t encode(const tactus_ToClient& message, std::array<std::uint8_t, kLongestTold>& bytes);
 
+/// The same at the other end, for a client. [any]
+bool decode(const Bytes& bytes, tactus_ToClient& message);
+std::size_t encode(const tactus_ToServer& message, const ByteSpace& to);
+
 /// Copies a text into a field, cut to its size. [any]
 template <std::size_t N>
 void set_text(char (&field)[N], std::string_view text) {

@@ -3,9 +3,12 @@
 // orders to the executive, their results, and the state of every cycle for those who watch.
 #pragma once
 
+#include <array>
+
 #include "kernel/core/mailbox.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/core/types.hpp"
+#include "kernel/pipeline/port_table.hpp"
 #include "kernel/pipeline/tuning.hpp"
 
 namespace tactus {
@@ -45,6 +48,20 @@ struct CycleSnapshot {
   JointVector q_d = JointVector::Zero(), dq_d = JointVector::Zero();
   Pose pose, pose_d;
   Vector6 wrench = Vector6::Zero();
+};
+
+/// The numbers of every output of the pipeline after one cycle: of the first in the port table,
+/// then of the next. Those that the recorder does not take have none.
+struct PortValues {
+  static constexpr std::size_t kMost = kMaxPorts * std::size_t{7};
+  std::uint32_t cycle = 0;
+  std::array<double, kMost> numbers{};
+};
+
+/// For those who watch the wires: values now and then. A box that is not emptied gets no more.
+struct PortMail {
+  int divisor = 100;  ///< cycles from one to the next
+  Mailbox<PortValues, 2> values;
 };
 
 struct CycleMail {

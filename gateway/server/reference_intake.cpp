@@ -46,8 +46,9 @@ Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTer
 }
 
 template <class Space>
-Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate) {
-  if (busy()) return {Status::kMailboxFull};
+Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate,
+                                        bool by_owner) {
+  if (busy() || (!by_owner && client_.unanswered() >= kControls / 2)) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
   if (verdict.ok()) book_.add({id, from, {}, 0.0});

@@ -40,7 +40,9 @@ class ReferenceIntake {
   std::uint32_t chunks() const { return chunks_; }
   /// Counters and margins of chunks and velocities.
   const StreamState& stream() const { return client_.stream(); }
-  Verdict control(const Origin& from, ControlKind kind, double rate);
+  /// Sends a control. Those of clients that do not own the motion leave half of the mailbox to its
+  /// owner.
+  Verdict control(const Origin& from, ControlKind kind, double rate, bool by_owner);
   /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
   /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);

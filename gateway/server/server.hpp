@@ -106,10 +106,13 @@ class Server {
   Reply greet(int slot, const Origin& from, std::int64_t now_ns);
   Reply lease(int slot, std::int64_t now_ns);
   Reply order(CycleOrder what, const Origin& from, std::int64_t now_ns);
-  Reply control(const Origin& from);
+  bool raises(pb_size_t what) const;
+  Reply control(const Origin& from, std::int64_t now_ns);
+  void tell_slowed(const Origin& by, ControlKind kind, std::int64_t now_ns);
   Reply subscribe(int slot, std::int64_t now_ns);
   // server_references.cpp: references
   Reply judge_place(int slot, bool given, const tactus_Place& place);
+  Reply judge_fields() const;
   Reply point(int slot, const Origin& from);
   Reply begin(const Origin& from, std::int64_t now_ns);
   Reply part(const Origin& from);
@@ -154,6 +157,7 @@ class Server {
   CycleMail& mail_;
   Lease lease_;
   std::uint32_t epoch_ = 1;
+  double rate_ = 1.0;  // of the override that was taken last
   GeneratorClock clock_;
   Chunk<JointSpace> joint_chunk_;  // that is being read
   Chunk<TaskSpace> task_chunk_;

@@ -44,6 +44,42 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
   return {};
 }
 
+/// Refuses what does not belong into a message for this robot and pipeline.
+Reply Server::judge_fields() const {
+  const auto& asked = request_.request;
+  const tactus_Terms* terms = nullptr;
+  int joints = 0, poses = 0;  // numbers of either kind
+  switch (request_.which_request) {
+    case tactus_ToServer_point_tag:
+      if (asked.point.has_terms) terms = &asked.point.terms;
+      break;
+    case tactus_ToServer_begin_tag:
+      if (asked.begin.has_terms) terms = &asked.begin.terms;
+      break;
+    case tactus_ToServer_velocity_tag:
+      if (asked.velocity.has_terms) terms = &asked.velocity.terms;
+      joints = asked.velocity.dq_count;
+      poses = asked.velocity.twist_count;
+      break;
+    case tactus_ToServer_chunk_tag:
+      if (asked.chunk.has_terms) terms = &asked.chunk.terms;
+      joints = asked.chunk.q_count + asked.chunk.dq_count;
+      poses = asked.chunk.pose_count + asked.chunk.twist_count;
+      break;
+    default: return {};
+  }
+  if (joints > 0 && poses > 0)
+    return {Status::kBadValue, takes_poses()
+                                   ? "the pipeline takes poses: leave q and dq empty"
+                                   : "the pipeline takes joints: leave pose and twist empty"};
+  if (terms == nullptr || terms->held_joints == 0) return {};
+  if (takes_poses())
+    return {Status::kBadValue, "Terms.held_joints: the pipeline takes poses; leave it 0"};
+  if (terms->held_joints >> kDof == 0) return {};
+  Message text("Terms.held_joints has bits beyond the ");
+  return {Status::kBadValue, text << kDof << " joints of the robot; bit 0 is the first joint"};
+}
+
 Reply Server::point(int slot, const Origin& from) {
   const tactus_Point& given = request_.request.point;
   const bool poses = given.which_target == tactus_Point_task_tag;

@@ -22,9 +22,6 @@ bool needs_lease(const tactus_ToServer& message) {
     case tactus_ToServer_point_tag:
     case tactus_ToServer_velocity_tag:
     case tactus_ToServer_chunk_tag:
-    case tactus_ToServer_cancel_tag:
-    case tactus_ToServer_override_tag:
-    case tactus_ToServer_pause_tag:
     case tactus_ToServer_resume_tag:
     case tactus_ToServer_rearm_tag: return true;
     default: return false;
@@ -58,7 +55,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
                           : with_intake([&from](auto& intake) { return intake.checks(from); });
   const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
                        what == tactus_ToServer_begin_tag;
-  const bool moves = follows ? !checks : needs_lease(request_);
+  const bool moves = follows ? !checks : needs_lease(request_) || raises(what);
   if (moves && lease_.owner() != slot) {
     Message text(describe(Status::kNotOwner));
     if (lease_.owner() != Lease::kNobody)
@@ -66,6 +63,8 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
            << static_cast<int>(lease_.priority());
     return {Status::kNotOwner, text << remedy(Status::kNotOwner)};
   }
+  const Reply foreign = judge_fields();
+  if (foreign.status != Status::kOk) return foreign;
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
     case tactus_ToServer_point_tag: return point(slot, from);
@@ -77,7 +76,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     case tactus_ToServer_cancel_tag:
     case tactus_ToServer_override_tag:
     case tactus_ToServer_pause_tag:
-    case tactus_ToServer_resume_tag: return control(from);
+    case tactus_ToServer_resume_tag: return control(from, now_ns);
     case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
     case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
     case tactus_ToServer_parameters_tag:
@@ -88,6 +87,11 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     case tactus_ToServer_ping_tag: return {};
     default: return {Status::kUnknownKey, "unknown message; this server speaks version 1"};
   }
+}
+
+/// True for an override above the rate that was set last: only its owner makes the arm faster.
+bool Server::raises(pb_size_t what) const {
+  return what == tactus_ToServer_override_tag && !(request_.request.override.rate <= rate_);
 }
 
 Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
@@ -170,7 +174,17 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   return {};
 }
 
-Reply Server::control(const Origin& from) {
+/// The owner and the others hear of it if somebody else slows the arm down.
+void Server::tell_slowed(const Origin& by, ControlKind kind, std::int64_t now_ns) {
+  Message text(at(by.slot).name);
+  text << (kind == ControlKind::kCancel  ? " has canceled what runs"
+           : kind == ControlKind::kPause ? " has paused the arm"
+                                         : " has lowered the override");
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("slowed", Status::kOk, text, by.slot, now_ns);
+}
+
+Reply Server::control(const Origin& from, std::int64_t now_ns) {
   if (!takes_references()) return not_offered("references");
   const pb_size_t what = request_.which_request;
   const ControlKind kind = what == tactus_ToServer_cancel_tag     ? ControlKind::kCancel
@@ -178,13 +192,19 @@ Reply Server::control(const Origin& from) {
                            : what == tactus_ToServer_pause_tag    ? ControlKind::kPause
                                                                   : ControlKind::kResume;
   const double rate = kind == ControlKind::kOverride ? request_.request.override.rate : 1.0;
+  const int owner = lease_.owner();
+  const bool by_owner = owner == from.slot;
   const Verdict verdict =
-      with_intake([&](auto& intake) { return intake.control(from, kind, rate); });
-  if (verdict.ok() && kind == ControlKind::kCancel) {
+      with_intake([&](auto& intake) { return intake.control(from, kind, rate, by_owner); });
+  if (!verdict.ok()) return reply(verdict);
+  if (kind == ControlKind::kOverride && rate >= 0.0 && rate <= 1.0) rate_ = rate;
+  if (kind == ControlKind::kCancel) {
     ++epoch_;
-    with_intake([&from](auto& intake) { intake.give_up(from.session); });
+    if (owner != Lease::kNobody)
+      with_intake([&](auto& intake) { intake.give_up(at(owner).session); });
   }
-  return reply(verdict);
+  if (!by_owner) tell_slowed(from, kind, now_ns);
+  return {};
 }
 
 Reply Server::subscribe(int slot, std::int64_t now_ns) {

@@ -67,6 +67,10 @@ Reply Server::read_chunk_time(int slot, std::int64_t now_ns, double& origin_s,
   const bool on_arrival = given.time == tactus_Chunk_Time_ON_ARRIVAL;
   Verdict verdict =
       clock_.time_of(on_arrival ? at(slot).received_ns : given.origin_ns, now_ns, origin_s);
+  if (given.base != tactus_Chunk_Base_NONE && given.observed_ns > now_ns)
+    return {Status::kStampRange,
+            "Chunk.observed_ns is in the future; give the server's time of the observation, as "
+            "State.server_ns has it"};
   if (verdict.ok() && given.base != tactus_Chunk_Base_NONE)
     verdict = clock_.time_of(given.observed_ns, now_ns, observed_s);
   return reply(verdict);

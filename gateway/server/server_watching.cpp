@@ -19,6 +19,7 @@ void Server::take_snapshots(std::int64_t now_ns) {
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
     if (refuses(to) && !refuses(from)) ++epoch_;
+    if (refuses(from) && !refuses(to)) rate_ = 1.0;  // the generator has started anew
     Message text(name(to));
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     tell_events("rung", snapshot.status, text, -1, now_ns);
@@ -98,6 +99,8 @@ void Server::tell_feedback(const Feedback<Space>& feedback, ReferenceIntake<Spac
     message.number = from.number_of(feedback.id, to.session);
     message.time_s = feedback.time_s;
     message.lost = lost_feedback_;
+    message.path_s = feedback.path_s;
+    message.path_end_s = feedback.path_end_s;
     if constexpr (std::is_same_v<Space, TaskSpace>) {
       message.has_task_desired = message.has_task_actual = true;
       write_point(feedback.desired, message.task_desired);

@@ -52,6 +52,13 @@ bool Address::parse(std::string_view text, Message& why) {
   return false;
 }
 
+Text<127> Address::text() const {
+  if (local) return Text<127>(kUnix) << path.sun_path;
+  char name[INET_ADDRSTRLEN] = "";
+  inet_ntop(AF_INET, &host.sin_addr, name, sizeof name);
+  return Text<127>(kTcp) << name << ":" << static_cast<int>(ntohs(host.sin_port));
+}
+
 bool Address::loopback() const {
   return local || ntohl(host.sin_addr.s_addr) >> 24 == 127;
 }

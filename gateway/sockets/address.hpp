@@ -16,6 +16,8 @@ struct Address {
 
   /// Reads an address. False: `why` says what is wrong with it. [init]
   bool parse(std::string_view text, Message& why);
+  /// Writes it as it is read. [any]
+  Text<127> text() const;
   /// True if only programs on this computer reach it. [any]
   bool loopback() const;
   /// The Unix socket for datagrams: beside that for streams, with this suffix.

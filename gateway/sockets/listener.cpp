@@ -27,10 +27,15 @@ sockaddr_un beside(const sockaddr_un& path) {
   return to;
 }
 
+/// True if something is there that is no socket.
+bool is_other(const sockaddr_un& path) {
+  struct stat file {};
+  return lstat(path.sun_path, &file) == 0 && !S_ISSOCK(file.st_mode);
+}
+
 /// True if nobody listens at the path any more.
 bool is_left_over(const sockaddr_un& path, int type) {
-  struct stat file {};
-  if (lstat(path.sun_path, &file) != 0 || !S_ISSOCK(file.st_mode)) return false;
+  if (access(path.sun_path, F_OK) != 0 || is_other(path)) return false;
   const int probe = ::socket(AF_UNIX, type | kFlags, 0);
   const bool refused =
       probe >= 0 && ::connect(probe, generic(path), sizeof path) != 0 && errno == ECONNREFUSED;
@@ -55,6 +60,12 @@ bool explain(const char* what, Message& why) {
   return false;
 }
 
+bool explain_path(const sockaddr_un& path, Message& why) {
+  if (errno != EADDRINUSE || !is_other(path)) return explain(path.sun_path, why);
+  why << path.sun_path << ": a file is there that is no socket; remove it, or give --listen";
+  return false;
+}
+
 }  // namespace
 
 bool Listener::open(const Address& address, bool datagrams, Message& why) {
@@ -73,17 +84,19 @@ bool Listener::open(const Address& address, bool datagrams, Message& why) {
 
 bool Listener::open_local(Message& why) {
   bound_ = bind_path(streams_, address_.path, SOCK_STREAM);
-  if (!bound_) return explain(address_.path.sun_path, why);
+  if (!bound_) return explain_path(address_.path, why);
   if (datagrams_ < 0) return true;
   const sockaddr_un datagrams = beside(address_.path);
   bound_datagrams_ = bind_path(datagrams_, datagrams, SOCK_DGRAM);
-  return bound_datagrams_ || explain(datagrams.sun_path, why);
+  return bound_datagrams_ || explain_path(datagrams, why);
 }
 
 bool Listener::open_host(Message& why) {
   constexpr int kYes = 1;
   setsockopt(streams_, SOL_SOCKET, SO_REUSEADDR, &kYes, sizeof kYes);
+  socklen_t size = sizeof address_.host;
   if (::bind(streams_, generic(address_.host), sizeof address_.host) != 0 ||
+      getsockname(streams_, reinterpret_cast<sockaddr*>(&address_.host), &size) != 0 ||
       (datagrams_ >= 0 && ::bind(datagrams_, generic(address_.host), sizeof address_.host) != 0))
     return explain("the address and port", why);
   return true;

@@ -12,11 +12,14 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
   ~Listener() { close(); }
 
-  /// Opens both sockets; a Unix socket has mode 0600, and replaces one that nobody listens at.
-  /// Without `datagrams` only that for streams. False: `why` says what is in the way. [init]
+  /// Opens both sockets; a Unix socket has mode 0600, and replaces one that nobody listens at. Port
+  /// 0 is any that is free. Without `datagrams` only that for streams. False: `why` says what is in
+  /// the way. [init]
   bool open(const Address& address, bool datagrams, Message& why);
   void close();
 
+  /// The address with the port that it has. [any]
+  const Address& address() const { return address_; }
   int streams() const { return streams_; }
   int datagrams() const { return datagrams_; }  ///< -1: none are taken
   /// Accepts a client; -1: none waits. [any]

@@ -32,6 +32,13 @@ void ServerThread::end() {
   ended_.store(true, std::memory_order_release);
   pthread_join(thread_, nullptr);
   started_ = false;
+  const int joining = joining_.exchange(-1);
+  if (joining >= 0) ::close(joining);
+}
+
+bool ServerThread::join(int socket) {
+  int none = -1;
+  return joining_.compare_exchange_strong(none, socket);
 }
 
 void* ServerThread::run(void* thread) {
@@ -69,17 +76,19 @@ void ServerThread::turn(int timeout_ms) {
       else if ((found & (POLLHUP | POLLERR)) != 0)
         close(slot);
     }
-    if (polled[kMostClients].revents != 0) welcome();
+    if (polled[kMostClients].revents != 0) welcome(listener_.accept(), false);
     if (polled[kMostClients + 1].revents != 0) take_datagrams();
   }
-  for (int slot = 0; slot < kMostClients && key_ != nullptr; ++slot)
-    if (sockets_[static_cast<std::size_t>(slot)] >= 0 && !take_plain(slot)) close(slot);
+  welcome(joining_.exchange(-1), true);
+  for (int slot = 0; slot < kMostClients; ++slot)
+    if (sockets_[static_cast<std::size_t>(slot)] >= 0 && keyed(slot) && !take_plain(slot))
+      close(slot);
   server_.work(monotonic_ns());
   for (int slot = 0; slot < kMostClients; ++slot) send(slot);
 }
 
-void ServerThread::welcome() {
-  const int socket = listener_.accept();
+/// A socket of -1 is none.
+void ServerThread::welcome(int socket, bool inside) {
   if (socket < 0) return;
   std::uint64_t session = 0;
   const bool drawn = getrandom(&session, sizeof session, 0) == sizeof session && session != 0;
@@ -89,23 +98,24 @@ void ServerThread::welcome() {
     return;
   }
   sockets_[static_cast<std::size_t>(slot)] = socket;
-  if (key_ != nullptr) tunnel(slot).begin(*key_);
+  inside_[static_cast<std::size_t>(slot)] = inside;
+  if (keyed(slot)) tunnel(slot).begin(*key_);
 }
 
 /// The bytes of the network go to the server, or through the tunnel.
 ByteSpace ServerThread::space(int slot) {
-  return key_ != nullptr ? tunnel(slot).space() : server_.space(slot);
+  return keyed(slot) ? tunnel(slot).space() : server_.space(slot);
 }
 
 Bytes ServerThread::waiting(int slot) {
-  if (key_ == nullptr) return server_.waiting(slot);
+  if (!keyed(slot)) return server_.waiting(slot);
   const std::size_t sealed = tunnel(slot).seal(server_.waiting(slot));
   if (sealed > 0) server_.sent(slot, sealed, monotonic_ns());
   return tunnel(slot).waiting();
 }
 
 void ServerThread::sent(int slot, std::size_t count) {
-  key_ != nullptr ? tunnel(slot).sent(count) : server_.sent(slot, count, monotonic_ns());
+  keyed(slot) ? tunnel(slot).sent(count) : server_.sent(slot, count, monotonic_ns());
 }
 
 /// Gives the server what has come through the tunnel and it has space for. False: the tunnel is
@@ -139,8 +149,8 @@ void ServerThread::receive(int slot) {
   const ssize_t size = ::recv(socket, to.data, to.size, 0);
   const auto count = static_cast<std::size_t>(size);
   if (size > 0)
-    return key_ != nullptr ? tunnel(slot).received(count)
-                           : server_.received(slot, count, monotonic_ns());
+    return keyed(slot) ? tunnel(slot).received(count)
+                       : server_.received(slot, count, monotonic_ns());
   if (size == 0 || (errno != EAGAIN && errno != EINTR)) close(slot);
 }
 

@@ -26,12 +26,15 @@ class ServerThread {
   int start();
   /// Ends the thread and closes the connections. [any]
   void end();
+  /// Takes over the socket of a client in this program, which needs no key. Closes it if there is
+  /// no place for one more client. False, without effect: another one is being taken over. [any]
+  bool join(int socket);
 
  private:
   static void* run(void* thread);
   void work();
   void turn(int timeout_ms);
-  void welcome();
+  void welcome(int socket, bool inside);
   void take_datagrams();
   void receive(int slot);
   bool take_plain(int slot);
@@ -41,13 +44,16 @@ class ServerThread {
   void sent(int slot, std::size_t count);
   void close(int slot);
   Tunnel& tunnel(int slot) { return tunnels_[static_cast<std::size_t>(slot)]; }
+  bool keyed(int slot) const { return key_ != nullptr && !inside_[static_cast<std::size_t>(slot)]; }
 
   Server& server_;
   Listener& listener_;
   const Key* key_;
   std::array<Tunnel, kMostClients> tunnels_;
-  std::array<int, kMostClients> sockets_;  // of the slots of the server; -1: none
+  std::array<int, kMostClients> sockets_;    // of the slots of the server; -1: none
+  std::array<bool, kMostClients> inside_{};  // clients in this program
   std::array<std::uint8_t, kLongestMessage> datagram_;
+  std::atomic<int> joining_{-1};
   std::atomic<bool> ended_{false};
   pthread_t thread_{};
   bool started_ = false;

@@ -54,7 +54,7 @@ bool is_earlier(const ParameterText* set, int i, std::string_view section) {
 ParameterBook::ParameterBook(Pipeline& pipeline) : pipeline_(pipeline) {
   for (Places& places : copies_) {
     for (int i = 0; i < pipeline.count(); ++i) {
-      with_block(pipeline.block(i), [&](const auto& block) {
+      with_block(pipeline[i], [&](const auto& block) {
         using Kind = std::decay_t<decltype(block)>;
         if constexpr (kTunes<Kind>) new (places[static_cast<std::size_t>(i)].bytes) Kind(block);
       });
@@ -63,7 +63,7 @@ ParameterBook::ParameterBook(Pipeline& pipeline) : pipeline_(pipeline) {
 }
 
 Block ParameterBook::block(Copy which, int i) {
-  Block block = pipeline_.block(i);
+  Block block = pipeline_[i];
   with_block(block, [&](const auto& its) {
     if constexpr (kTunes<std::decay_t<decltype(its)>>)
       block.place = copies_[static_cast<std::size_t>(which)][static_cast<std::size_t>(i)].bytes;

@@ -63,8 +63,8 @@ class Pipeline {
   void append(const Block& block) { blocks_[static_cast<std::size_t>(count_++)] = block; }
   int count() const { return count_; }
   /// Name of the section of a block.
-  const Name& name(int block) const { return blocks_[static_cast<std::size_t>(block)].name; }
-  const Block& block(int i) const { return blocks_[static_cast<std::size_t>(i)]; }
+  const Name& name(int block) const { return (*this)[block].name; }
+  const Block& operator[](int block) const { return blocks_[static_cast<std::size_t>(block)]; }
 
   /// Starts every block in order, from the measured state, and checks that state for collisions.
   /// Returns the first Status that is not kOk. [init]

@@ -20,7 +20,17 @@ std::int64_t count_rows(const char* path) {
   return lines > 0 ? lines - 1 : 0;
 }
 
+Status record(void* recorder, const RobotState&, double time_s) {
+  static_cast<Recorder*>(recorder)->record(time_s);
+  return Status::kOk;  // a full ring drops the row and counts it
+}
+
 }  // namespace
+
+void start_recorder(Recorder& recorder, Pipeline& pipeline) {
+  recorder.start(pipeline.recording);
+  pipeline.schedule.bind("recorder", record, &recorder);
+}
 
 Text<2 * kMaxNameLength + 16> column_name(const PortEntry& port, int number) {
   std::string_view words = info(port.quantity).components, word;
@@ -51,6 +61,10 @@ void RunLog::drain(Recorder& recorder) {
 }
 
 void RunLog::write_row(const double* row) {
+  if (rows_ == most_) {
+    ++left_out_;
+    return;
+  }
   std::array<char, kMaxWidth * kNumberLength> text;
   char* to = text.data();
   for (std::size_t i = 0; i < width_; ++i) {

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
+#include "kernel/pipeline/pipeline.hpp"
 #include "kernel/pipeline/recorder.hpp"
 #include "program/results/result_file.hpp"
 
@@ -15,10 +17,17 @@ Text<2 * kMaxNameLength + 16> column_name(const PortEntry& port, int number);
 /// Writes ",block.port_component" for every recorded component of an output.
 void write_names(std::FILE* file, const PortEntry& port);
 
+/// Lets the recorder record rows from the first cycle on. [init]
+void start_recorder(Recorder& recorder, Pipeline& pipeline);
+
 class RunLog {
  public:
   /// Opens `path` and writes the header row. False: prints the reason to stderr.
   bool open(const char* path, const Recording& recording);
+  /// Writes no more rows than these; later ones are counted.
+  void limit(std::int64_t rows) { most_ = rows; }
+  /// Rows that were left out.
+  std::int64_t left_out() const { return left_out_; }
   /// Writes all rows that the recorder holds.
   void drain(Recorder& recorder);
   /// Closes the file. False if a row could not be written: prints the reason to stderr, and how
@@ -31,7 +40,8 @@ class RunLog {
 
   ResultFile file_;
   std::size_t width_ = 0;
-  std::int64_t rows_ = 0;
+  std::int64_t rows_ = 0, left_out_ = 0;
+  std::int64_t most_ = std::numeric_limits<std::int64_t>::max();
   std::array<double, kMaxWidth> row_{};
 };
 

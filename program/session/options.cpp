@@ -64,7 +64,7 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
 }
 
 void add_serve_options(CLI::App& serve, std::string& pipeline, std::string& listen,
-                       std::string& key, Options& options) {
+                       std::string& key, std::string& http, std::string& out, Options& options) {
   serve.add_option("pipeline", pipeline, "pipeline file (.ini)")->required()->check(path());
   serve
       .add_option("--listen", listen,
@@ -74,8 +74,16 @@ void add_serve_options(CLI::App& serve, std::string& pipeline, std::string& list
       });
   serve.add_option("--key", key, "file with the key of the clients, for an address of the network")
       ->check(path());
+  serve.add_option("--http", http, "127.0.0.1:PORT: show the robot on a page there; port 0: any")
+      ->check([](const std::string& text) {
+        return text.size() < sizeof Options::http ? "" : "the address is too long";
+      });
   serve.add_option("--seed", options.seed, "seed of the sensor noise (default 1)")
       ->check(decimal(std::uint64_t{0}, ~std::uint64_t{0}, "a whole number of up to 64 bits"));
+  serve.add_option("--out", out, "folder for the log of the session (default: none is written)")
+      ->check(path());
+  serve.add_option("--rows", options.rows, "rows of the log at most (default 1000000)")
+      ->check(decimal(std::int64_t{1}, std::int64_t{1} << 40, "a whole number from 1"));
   serve.add_flag("--virtual-time", options.virtual_time,
                  "a simulated robot waits for a late cycle instead of being braked");
 }
@@ -114,7 +122,7 @@ void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& 
 
 bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
                    int& exit_code) {
-  std::string pipeline, trajectory, out, root, interface, listen, key;
+  std::string pipeline, trajectory, out, root, interface, listen, key, http;
   std::vector<std::string> load, buses;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
@@ -137,7 +145,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   }
   add_run_options(*run, out, options);
   CLI::App* serve = app.add_subcommand("serve", "run a pipeline for clients until Ctrl-C");
-  add_serve_options(*serve, pipeline, listen, key, options);
+  add_serve_options(*serve, pipeline, listen, key, http, out, options);
   CLI::App* doctor = app.add_subcommand("doctor", "list settings of this host that hurt real time");
   doctor->add_option("--root", root, "folder that contains proc and sys (default /)")
       ->check(path());
@@ -176,6 +184,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   copy(out, options.out);
   copy(listen, options.listen);
   copy(key, options.key);
+  copy(http, options.http);
   copy(root, options.root);
   copy(interface, options.interface);
   for (const std::string& kind : load) {

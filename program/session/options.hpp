@@ -26,15 +26,17 @@ struct Options {
   double duration_s = 0.0;    ///< 0: the default of the verb
   std::uint64_t seed = 1;
   bool figure = true;
-  bool realtime = false;      ///< cycles by the wall clock
-  char listen[128] = "";      ///< of `serve`: the address; empty: a Unix socket of the user
-  bool virtual_time = false;  ///< of `serve`: late cycles delay the simulated robot
-  char key[512] = "";         ///< of `serve`: the key file; empty: none
-  char root[512] = "";        ///< of `doctor`: the folder that contains proc and sys
-  int cpu = -1;               ///< of `doctor` and `jitter`; -1: any
-  int priority = 80;          ///< of `doctor` and `jitter`
-  int period_us = 1000;       ///< of `jitter`
-  Load load;                  ///< of `jitter`
+  bool realtime = false;          ///< cycles by the wall clock
+  char listen[128] = "";          ///< of `serve`: the address; empty: a Unix socket of the user
+  char http[64] = "";             ///< of `serve`: where the page is; empty: there is none
+  bool virtual_time = false;      ///< of `serve`: late cycles delay the simulated robot
+  std::int64_t rows = 1'000'000;  ///< of `serve`: longest log
+  char key[512] = "";             ///< of `serve`: the key file; empty: none
+  char root[512] = "";            ///< of `doctor`: the folder that contains proc and sys
+  int cpu = -1;                   ///< of `doctor` and `jitter`; -1: any
+  int priority = 80;              ///< of `doctor` and `jitter`
+  int period_us = 1000;           ///< of `jitter`
+  Load load;                      ///< of `jitter`
   static constexpr int kMostBuses = 8;
   char buses[kMostBuses][16] = {};  ///< of `scan`: the interfaces
   int bus_count = 0;                ///< of `scan`

@@ -64,7 +64,7 @@ void a_second_client_is_refused_with_the_owners_name(void**) {
              "$T send $S/there.csv --name first --json >$S/all & pid=$!; "
              "until_says $S/all STARTED; "
              "$T send $S/there.csv --name second; test $? = 2 || exit 81; "
-             "$T override 50%; test $? = 2 || exit 82; "
+             "$T resume; test $? = 2 || exit 82; "
              "$T watch --json --duration 0.1 | grep -q '\"owner\":\"first\"' || exit 83; "
              "$T cancel --priority 200; kill -INT $pid; wait $pid; test $? = 1"),
       0);
@@ -153,6 +153,24 @@ void a_detached_trajectory_is_paused_slowed_resumed_and_canceled(void**) {
 
 // Proves CTL-15.
 
+void what_one_terminal_sends_is_slowed_down_and_canceled_from_another(void**) {
+  assert_int_equal(served(kJoints,
+                          "there 30; $T send $S/there.csv --json >$S/all & pid=$!; "
+                          "until_says $S/all feedback || exit 80; "
+                          "$T override 50% || exit 81; $T pause || exit 82; "
+                          "test $(phase) = paused || exit 83; "
+                          "$T watch --json --duration 0.1 >$S/states; "
+                          "grep -q '\"rung\":\"RUNG_NOMINAL\",.*\"phase\":\"PHASE_PAUSED\"' "
+                          "$S/states || exit 84; "
+                          "$T resume; test $? = 2 || exit 85; "
+                          "$T override 60%; test $? = 2 || exit 86; "
+                          "$T override 40% || exit 87; $T cancel || exit 88; "
+                          "wait $pid; test $? = 1 || exit 89; grep -q 'has paused' $S/all"),
+                   0);
+}
+
+// Proves CTL-16.
+
 void parameters_are_listed_checked_and_changed_while_the_arm_moves(void**) {
   assert_int_equal(
       served(
@@ -192,6 +210,7 @@ int main(int, char** argv) {
       cmocka_unit_test(keys_move_a_joint_and_it_stops_without_them),
       cmocka_unit_test(a_server_with_a_key_is_spoken_to_with_it),
       cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
+      cmocka_unit_test(what_one_terminal_sends_is_slowed_down_and_canceled_from_another),
       cmocka_unit_test(parameters_are_listed_checked_and_changed_while_the_arm_moves),
   };
   return run_program_tests(argv[0], tests);

@@ -32,9 +32,11 @@ enum : std::uint32_t {
 /// A client at one slot; counts what each of its messages was answered and reported.
 struct TestClient {
   static constexpr std::size_t kMost = 16384;  // numbers of messages
-  ServerBench* bench = nullptr;
+  BenchClock* clock = nullptr;
+  Server* server = nullptr;
   int slot = -1;
   std::uint32_t number = 0;
+  virtual ~TestClient() = default;
   bool reads = true;
   std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{};
   std::uint32_t kinds[kMost]{};
@@ -47,23 +49,29 @@ struct TestClient {
   std::uint8_t farewell = 0;  ///< status of the answer without number
   char event[400] = "", text[400] = "";
 
-  void connect(ServerBench& its) {
+  void connect(BenchClock& its, Server& whose) {
     *this = TestClient();
-    bench = &its;
+    clock = &its;
+    server = &whose;
     session = its.next_session++;
-    slot = its.server.open(session, its.now_ns);
+    slot = whose.open(session, its.now_ns);
+  }
+  template <class Bench>
+  void connect(Bench& its) {
+    connect(its, its.server);
   }
   void greet(const char* name) {
-    connect(*bench);
-    send(ask::kHello, RawMessage().number(1, 1).text(2, name));
+    connect(*clock, *server);
+    hello(name);
   }
+  void hello(const char* name) { send(ask::kHello, RawMessage().number(1, 1).text(2, name)); }
   /// Sends a message; returns its number.
   std::uint32_t send(std::uint32_t kind, const RawMessage& body = {}) {
     RawMessage& whole = scratch();
     whole.size = 0;
     ++number;
     kinds[number % kMost] = kind;
-    whole.number(1, number).time(2, bench->now_ns - 5);
+    whole.number(1, number).time(2, clock->now_ns - 5);
     whole.message(kind, body);
     send_bytes(whole);
     return number;
@@ -76,18 +84,18 @@ struct TestClient {
     push(message.bytes.data(), message.size);
   }
   /// Bytes as they would come from a socket, if the server takes any.
-  std::size_t push(const std::uint8_t* data, std::size_t size) {
+  virtual std::size_t push(const std::uint8_t* data, std::size_t size) {
     std::size_t pushed = 0;
     for (int tries = 0; pushed < size && tries < 100; ++tries) {
-      const ByteSpace space = bench->server.space(slot);
+      const ByteSpace space = server->space(slot);
       const std::size_t count = std::min(space.size, size - pushed);
       if (count == 0) {
-        bench->server.work(bench->now_ns);
+        server->work(clock->now_ns);
         if (reads) read();
         continue;
       }
       std::memcpy(space.data, data + pushed, count);
-      bench->server.received(slot, count, bench->now_ns);
+      server->received(slot, count, clock->now_ns);
       pushed += count;
     }
     return pushed;
@@ -101,17 +109,23 @@ struct TestClient {
         RawMessage().message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof))));
   }
   /// Takes what the server has to say.
-  void read() {
+  virtual void read() {
     if (slot < 0) return;
-    const Bytes waiting = bench->server.waiting(slot);
-    for (std::size_t at = 0; at + 4 <= waiting.size;) {
+    const Bytes waiting = server->waiting(slot);
+    assert_int_equal(take_whole(waiting), waiting.size);
+    if (waiting.size > 0) server->sent(slot, waiting.size, clock->now_ns);
+  }
+  /// Takes the messages that are whole; returns how many bytes these are.
+  std::size_t take_whole(const Bytes& bytes) {
+    std::size_t at = 0;
+    while (at + 4 <= bytes.size) {
       std::size_t length = 0;
-      for (std::size_t i = 4; i > 0; --i) length = length << 8 | waiting.data[at + i - 1];
-      assert_true(at + 4 + length <= waiting.size);
-      take(RawFields(waiting.data + at + 4, waiting.data + at + 4 + length));
+      for (std::size_t i = 4; i > 0; --i) length = length << 8 | bytes.data[at + i - 1];
+      if (at + 4 + length > bytes.size) break;
+      take(RawFields(bytes.data + at + 4, bytes.data + at + 4 + length));
       at += 4 + length;
     }
-    if (waiting.size > 0) bench->server.sent(slot, waiting.size, bench->now_ns);
+    return at;
   }
   void take(RawFields whole) {
     assert_true(whole.next());
@@ -163,9 +177,9 @@ struct TestClient {
     epoch = static_cast<std::uint32_t>(its_epoch);
     std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
   }
-  bool finished() const { return bench->server.finished(slot, bench->now_ns); }
+  bool finished() const { return server->finished(slot, clock->now_ns); }
   void close() {
-    if (slot >= 0) bench->server.closed(slot, bench->now_ns);
+    if (slot >= 0) server->closed(slot, clock->now_ns);
     slot = -1;
   }
   static RawMessage& scratch() {
@@ -181,9 +195,10 @@ struct TwoClients {
 
   void start() {
     bench.start();
-    a.bench = b.bench = &bench;
-    a.greet("A");
-    b.greet("B");
+    a.connect(bench);
+    a.hello("A");
+    b.connect(bench);
+    b.hello("B");
     run(2);
     assert_int_equal(a.welcomes, 1);
     assert_int_equal(b.welcomes, 1);

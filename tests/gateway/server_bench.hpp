@@ -18,7 +18,13 @@ inline constexpr int kBenchWaypoints = 600;
 inline int log_lines = 0;
 inline char last_log[400];
 
-struct ServerBench {
+/// Virtual time, and the sessions that were given out.
+struct BenchClock {
+  std::int64_t now_ns = 1'000'000'000'000;
+  std::uint64_t next_session = 77;
+};
+
+struct ServerBench : BenchClock {
   ChannelMemory<JointSpace> channel;
   ChannelMemory<TaskSpace> task_channel;
   std::array<std::array<Waypoint<JointSpace>, kBenchWaypoints>, kStores> waypoints;
@@ -33,9 +39,7 @@ struct ServerBench {
   ReferenceGenerator<JointSpace>::Params params;
   Rung rung = Rung::kNominal;
   std::uint32_t cycles = 0;
-  std::int64_t now_ns = 1'000'000'000'000;
   Server server{setup(), joints, poses, mail};
-  std::uint64_t next_session = 77;
 
   /// Loads a pipeline of one law, whose parameters may change.
   ServerSetup setup() {
@@ -75,8 +79,13 @@ struct ServerBench {
     home.q = 0.5 * (limits.q_min + limits.q_max);
     return home;
   }
-  /// One cycle as the executive runs it, with the mail of its thread; then the server's turn.
+  /// One cycle, then the server's turn.
   void cycle() {
+    step();
+    server.work(now_ns);
+  }
+  /// One cycle as the executive runs it, with the mail of its thread.
+  void step() {
     now_ns += 1'000'000;
     ++cycles;
     if (refuses(rung)) generator.brake(Status::kHalted, BrakeWay::kOnPath);
@@ -103,7 +112,6 @@ struct ServerBench {
     told.status = refuses(rung) ? Status::kHalted : Status::kOk;
     told.q = generator.reference().q;
     mail.snapshots.post(told);
-    server.work(now_ns);
   }
 };
 

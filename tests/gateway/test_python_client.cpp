@@ -26,6 +26,14 @@ void the_client_sends_and_understands_what_the_protocol_says(void**) {
   run_module("test_messages");
 }
 
+void trajectories_are_sent_as_the_protocol_says(void**) {
+  run_module("test_trajectories");
+}
+
+void streams_are_sent_as_the_protocol_says(void**) {
+  run_module("test_streams");
+}
+
 // Proves PYT-4.
 
 void a_server_that_does_not_keep_to_the_protocol_is_named_in_time(void**) {
@@ -38,10 +46,20 @@ void the_clock_of_the_server_is_followed(void**) {
   run_module("test_clock");
 }
 
-// Proves PYT-6, PYT-9, PYT-10, PYT-11.
+// Proves PYT-6, PYT-9, PYT-10.
 
 void a_simulated_robot_is_moved_in_all_ways(void**) {
   run_module("test_robot");
+}
+
+void a_server_is_started_with_a_key_and_in_virtual_time(void**) {
+  run_module("test_serving");
+}
+
+// Proves PYT-11.
+
+void parameters_change_while_the_arm_moves(void**) {
+  run_module("test_parameters");
 }
 
 // Proves PYT-7.
@@ -63,9 +81,13 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_client_sends_and_understands_what_the_protocol_says),
+      cmocka_unit_test(trajectories_are_sent_as_the_protocol_says),
+      cmocka_unit_test(streams_are_sent_as_the_protocol_says),
       cmocka_unit_test(a_server_that_does_not_keep_to_the_protocol_is_named_in_time),
       cmocka_unit_test(the_clock_of_the_server_is_followed),
       cmocka_unit_test(a_simulated_robot_is_moved_in_all_ways),
+      cmocka_unit_test(a_server_is_started_with_a_key_and_in_virtual_time),
+      cmocka_unit_test(parameters_change_while_the_arm_moves),
       cmocka_unit_test(every_example_runs),
       cmocka_unit_test(a_client_that_is_killed_leaves_the_arm_at_rest_and_free),
   };

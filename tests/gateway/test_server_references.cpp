@@ -51,6 +51,45 @@ void what_a_stop_voids_does_not_move_the_arm(void**) {
   assert_int_equal(two.a.status[twice], static_cast<int>(Status::kEpochVoid));
 }
 
+// Proves GW-17.
+
+void what_does_not_belong_to_this_robot_is_refused_by_name(void**) {
+  constexpr auto kJoints = static_cast<std::size_t>(kDof);
+  TwoClients& two = fresh_clients();
+  two.a.lease(0, 60000);
+  two.run(1);
+  const JointVector q = ServerBench::home().q;
+  const JointVector rates = JointVector::Zero();
+  const double zeros[7] = {}, time_s = 0.1;
+  RawMessage beyond, chunk;
+  beyond.number(1, 1U << kDof);
+  chunk.number(3, 1).reals(9, &time_s, 1).reals(10, q.data(), kJoints);
+  const auto refused = [&two](std::uint32_t kind, const RawMessage& body, const char* why,
+                              Status status) {
+    const std::uint32_t number = two.a.send(kind, body);
+    two.run(1);
+    assert_int_equal(two.a.status[number], static_cast<int>(status));
+    assert_non_null(std::strstr(two.a.text, why));
+  };
+  const char* const kBits = "Terms.held_joints has bits beyond the 7 joints";
+  const Status bad = Status::kBadValue;
+  const RawMessage point = RawMessage().message(3, RawMessage().reals(1, q.data(), kJoints));
+  const RawMessage velocity = RawMessage().number(3, 50).reals(4, rates.data(), kJoints);
+  refused(ask::kPoint, RawMessage(point).message(2, beyond), kBits, bad);
+  refused(ask::kVelocity, RawMessage(velocity).message(2, beyond), kBits, bad);
+  refused(ask::kChunk, RawMessage(chunk).message(2, beyond), kBits, bad);
+  refused(ask::kBegin, RawMessage().message(1, beyond), kBits, bad);
+  refused(ask::kVelocity, RawMessage(velocity).reals(5, zeros, 6), "leave pose and twist empty",
+          bad);
+  refused(ask::kChunk, RawMessage(chunk).reals(12, zeros, 7), "leave pose and twist empty", bad);
+  RawMessage future(chunk);
+  future.number(6, 1).time(5, two.bench.now_ns + 50'000'000);
+  refused(ask::kChunk, future, "observed_ns is in the future", Status::kStampRange);
+  const std::uint32_t good = two.a.send(ask::kChunk, chunk);
+  two.run(1);
+  assert_int_equal(two.a.status[good], 0);
+}
+
 void a_velocity_that_is_not_renewed_comes_to_rest_and_is_told(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease(0, 5000);
@@ -120,6 +159,7 @@ int main() {
       cmocka_unit_test(a_flood_of_rearms_leaves_places_for_stops),
       cmocka_unit_test(a_point_moves_the_reference_in_the_next_cycle),
       cmocka_unit_test(what_a_stop_voids_does_not_move_the_arm),
+      cmocka_unit_test(what_does_not_belong_to_this_robot_is_refused_by_name),
       cmocka_unit_test(a_velocity_that_is_not_renewed_comes_to_rest_and_is_told),
       cmocka_unit_test(datagrams_move_the_arm_of_their_session_only),
   };

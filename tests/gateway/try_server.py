@@ -3,8 +3,6 @@
 protobuf's own Python. WHAT names the function below that is run. Prints what is wrong and ends with 1, or with 0.
 """
 
-import ctypes
-import hashlib
 import os
 import random
 import signal
@@ -15,57 +13,9 @@ import subprocess
 import sys
 import time
 
+from sealed_socket import Sealed
+
 FINAL = 10
-
-
-class Sealed:
-    """A socket through the server's tunnel (gateway/sockets/tunnel.hpp)."""
-
-    def __init__(self, inner, key):
-        sodium = ctypes.CDLL("libsodium.so.23")
-        stream = "crypto_secretstream_xchacha20poly1305_"
-        self.push, self.pull = getattr(sodium, stream + "push"), getattr(sodium, stream + "pull")
-        size = getattr(sodium, stream + "statebytes")()
-        self.to, self.of = ctypes.create_string_buffer(size), ctypes.create_string_buffer(size)
-        self.inner, self.buffer = inner, b""
-        own, public = os.urandom(32), ctypes.create_string_buffer(32)
-        sodium.crypto_scalarmult_base(public, own)
-        inner.sendall(b"tactus-1" + public.raw)
-        answer = b""
-        while len(answer) < 56:
-            answer += inner.recv(56 - len(answer))
-        secret, header = ctypes.create_string_buffer(32), ctypes.create_string_buffer(24)
-        sodium.crypto_scalarmult(secret, own, answer[:32])
-        known = b"tactus-1" + secret.raw + public.raw + answer[:32]
-        keys = hashlib.blake2b(known, key=key, digest_size=64).digest()
-        getattr(sodium, stream + "init_push")(self.to, header, keys[:32])
-        getattr(sodium, stream + "init_pull")(self.of, answer[32:], keys[32:])
-        inner.sendall(header.raw)
-
-    def settimeout(self, timeout):
-        self.inner.settimeout(timeout)
-
-    def sendall(self, plain):
-        sealed = ctypes.create_string_buffer(len(plain) + 17)
-        self.push(self.to, sealed, None, plain, ctypes.c_ulonglong(len(plain)), None, ctypes.c_ulonglong(0), 0)
-        self.inner.sendall(struct.pack("<H", len(sealed.raw)) + sealed.raw)
-
-    def recv(self, _):
-        received = self.inner.recv(65536)
-        if not received:
-            return b""
-        self.buffer += received
-        plain = b""
-        while len(self.buffer) >= 2 and len(self.buffer) >= 2 + struct.unpack("<H", self.buffer[:2])[0]:
-            size = struct.unpack("<H", self.buffer[:2])[0]
-            opened = ctypes.create_string_buffer(size - 17)
-            sealed, self.buffer = self.buffer[2 : 2 + size], self.buffer[2 + size :]
-            good = self.pull(self.of, opened, None, None, sealed, ctypes.c_ulonglong(size), None, ctypes.c_ulonglong(0))
-            assert good == 0, "a record of the server does not open"
-            plain += opened.raw
-        if not plain:
-            raise TimeoutError
-        return plain
 
 
 class Client:
@@ -137,7 +87,7 @@ class Client:
     def ready(self):
         """Waits until the arm is commanded."""
         self.ask(subscribe=self.pb.Subscribe(state_ms=5))
-        self.until(lambda: self.state and self.state.rung <= 1)
+        self.until(lambda: self.state and self.state.rung <= self.pb.RUNG_SKIP_OPTIONAL)
 
 
 def swing(pb, home, count):
@@ -172,15 +122,17 @@ def session(pb, serve, path):
     goal = follow(me)
     me.until(lambda: goal in me.finals)
     assert me.finals[goal].outcome == pb.Report.SUCCEEDED, me.finals[goal]
-    assert other.ask(cancel=pb.Cancel()).status == 110
+    assert other.ask(resume=pb.Resume()).status == pb.CODE_NOT_OWNER
     target = list(me.state.q_d)
     assert me.result(point=pb.Point(joint=pb.JointPoint(q=target))).outcome == pb.Report.EXECUTED
     epoch = me.state.epoch
     assert other.result(stop=pb.Stop()).outcome == pb.Report.EXECUTED
-    me.until(lambda: me.state.rung == 5 and me.state.epoch > epoch)
-    assert me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == 60
+    me.until(lambda: me.state.rung == pb.RUNG_DISABLED and me.state.epoch > epoch)
+    assert (
+        me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == pb.CODE_EPOCH_VOID
+    )
     assert me.result(rearm=pb.Rearm()).outcome == pb.Report.EXECUTED
-    me.until(lambda: me.state.rung == 0)
+    me.until(lambda: me.state.rung == pb.RUNG_NOMINAL)
     datagrams = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     target[0] += 1e-4
     message = pb.ToServer(session=me.welcome.session, point=pb.Point(joint=pb.JointPoint(q=target)))
@@ -209,7 +161,7 @@ def killed(pb, serve, path):
         watcher.until(lambda: watcher.state.owner == "")
         watcher.send(ping=pb.Ping())
         watcher.until(lambda: max(abs(v) for v in watcher.state.dq_d) == 0.0)
-        assert watcher.state.rung <= 1, watcher.state
+        assert watcher.state.rung <= pb.RUNG_SKIP_OPTIONAL, watcher.state
     assert watcher.ask(lease=pb.Lease()).status == 0
 
 

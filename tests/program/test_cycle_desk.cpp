@@ -126,6 +126,34 @@ void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
   assert_true(bench.executive.rung() == Rung::kNominal);
 }
 
+// Proves PAGE-7.
+
+void the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for(void**) {
+  Bench& bench = fresh();
+  static PortMail ports;
+  ports.divisor = 20;
+  bench.desk->show(ports);
+  PortValues told;
+  std::uint32_t last = 0;
+  for (int i = 0; i < 200; ++i) {
+    bench.cycle();
+    if (!ports.values.take(told)) continue;
+    assert_true(last == 0 || told.cycle == last + 20);
+    last = told.cycle;
+    const double* from = told.numbers.data();  // q, dq and tau are the robot's first outputs
+    for (int k = 0; k < kDof; ++k) {
+      ASSERT_NEAR(from[k], bench.pipeline.robot.q.value[k], 0.0);
+      ASSERT_NEAR(from[2 * kDof + k], bench.pipeline.robot.tau.value[k], 0.0);
+    }
+    assert_int_equal(ports.values.size(), 0);
+  }
+  assert_true(last > 0);
+  for (int i = 0; i < 200; ++i) bench.cycle();  // nobody takes them
+  assert_int_equal(ports.values.size(), 2);
+  assert_true(ports.values.take(told));
+  assert_true(told.cycle <= last + 20);
+}
+
 // Proves PAR-8.
 
 /// Sets are taken on every rung but while the arm is braked or armed; each has its verdict in the
@@ -190,6 +218,7 @@ int main() {
       cmocka_unit_test(a_cycle_posts_one_snapshot_and_counts_those_without_space),
       cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
       cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
+      cmocka_unit_test(the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for),
       cmocka_unit_test(a_set_is_taken_unless_the_arm_is_braked_or_armed),
       cmocka_unit_test(a_cycle_takes_one_set_and_none_without_space_for_its_verdict),
   };

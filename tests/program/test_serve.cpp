@@ -66,6 +66,32 @@ void addresses_of_other_kinds_are_refused(void**) {
   }
 }
 
+void a_file_at_the_path_of_the_socket_is_named(void**) {
+  const Line pipeline = write("served.ini", {kServed}), file = write("there", {"mine\n"});
+  assert_int_equal(
+      tactus_run({"serve", pipeline.c_str(), "--listen", (Line("unix:") << file).c_str()}), 2);
+  assert_true(has(errors(), "there: a file is there that is no socket; remove it"));
+  assert_true(has(file_of("there"), "mine"));
+}
+
+// Proves GW-15.
+
+/// 0.2 s and more at 4 ms, in a log of ten rows; port 0 is one that is free.
+void the_log_of_a_session_is_written_where_out_says(void**) {
+  write("served.ini", {kServed, "[recorder]\ntracking = jrg.q_d robot.q\n"});
+  assert_int_equal(
+      shell(
+          "$P serve $S/served.ini --virtual-time --listen tcp:127.0.0.1:0 --out $S/session --rows "
+          "10 >$S/said & pid=$!; n=0; until grep -q serves $S/said; do n=$((n+1)); test $n -lt "
+          "600 || exit 80; sleep 0.1; done; sleep 0.5; kill -INT $pid; wait $pid || exit 81; "
+          "grep -q 'serves tcp:127.0.0.1:[1-9]' $S/said || exit 82; "
+          "test $(wc -l <$S/session/log.csv) = 11 || exit 83; "
+          "grep -q 'has the first 10 rows; [1-9]' $S/said || exit 84; "
+          "test -s $S/session/summary.json && test -s $S/session/pipeline.ini && "
+          "test ! -e $S/session/incomplete.txt"),
+      0);
+}
+
 // Proves GW-11.
 
 void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
@@ -93,6 +119,8 @@ int main(int, char** argv) {
       cmocka_unit_test(clients_that_are_killed_leave_the_arm_at_rest),
       cmocka_unit_test(an_interrupt_brakes_the_arm_and_ends_the_server_well),
       cmocka_unit_test(addresses_of_other_kinds_are_refused),
+      cmocka_unit_test(a_file_at_the_path_of_the_socket_is_named),
+      cmocka_unit_test(the_log_of_a_session_is_written_where_out_says),
       cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
       cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
   };

@@ -17,6 +17,7 @@ void FeedbackPublisher<Space>::step(std::int64_t cycle, double time_s, std::uint
                                     FeedbackQueue<Space>& queue) {
   if (divisor_ == 0 || cycle % divisor_ != 0) return;
   Feedback<Space> message;
+  static_cast<Progress&>(message) = *this;
   message.time_s = time_s;
   message.id = id;
   message.lost = lost_;

@@ -64,6 +64,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   take_requests();
   release_store();
   monitor_.put_out(reference());
+  if constexpr (kStreams) feedback_.set(running_.any() ? motion_.progress() : PathProgress());
   feedback_.step(cycles_, time_s(), running_.any() ? running_.id : 0, reference(), measured,
                  channel_->feedback);
   return reference().finite() ? Status::kOk : Status::kReferenceFault;

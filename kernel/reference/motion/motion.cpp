@@ -109,8 +109,7 @@ void Motion<Space>::feed_beyond(const Point& fed, const Point& base, double fade
   faded_s_ = 0.0;
 }
 
-/// Adds what is left of the fading feed-forward, by the quintic from one to zero that begins and
-/// ends at rest.
+/// Adds what is left of the fading feed-forward, by the quintic from one to zero, at rest at both.
 template <class Space>
 void Motion<Space>::fade(double dt_s) {
   faded_s_ += dt_s;

@@ -12,6 +12,7 @@
 #include "kernel/reference/motion/motion_phase.hpp"
 #include "kernel/reference/motion/path.hpp"
 #include "kernel/reference/motion/path_law.hpp"
+#include "kernel/reference/motion/path_progress.hpp"
 #include "kernel/reference/motion/point_stream.hpp"
 #include "kernel/reference/motion/velocity.hpp"
 
@@ -77,6 +78,8 @@ class Motion {
   bool lost_path() const { return lost_path_; }
   /// Index of the first waypoint that is still needed.
   int needed() const { return path_.needed(); }
+  /// Place on the path that it follows, or has followed to its end, and that end.
+  PathProgress progress() const { return {law_.s(), path_.running() ? path_.end_s() : law_.s()}; }
   /// True if a stream moved the reference and has gone silent.
   bool silent() const { return phase_ == Phase::kReaching && stream_.silent(time_s_); }
   bool gives_velocity() const { return stream_.gives_velocity(); }

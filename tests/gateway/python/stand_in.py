@@ -158,7 +158,8 @@ class Peer:
 
     def feedback(self):
         point = pb.JointPoint(q=[1.0] * JOINTS)
-        self.write(feedback=pb.Feedback(number=self.trajectory, time_s=1.5, joint_desired=point, joint_actual=point))
+        told = dict(number=self.trajectory, time_s=1.5, path_s=0.5, path_end_s=2.5)
+        self.write(feedback=pb.Feedback(joint_desired=point, joint_actual=point, **told))
 
 
 @contextlib.contextmanager

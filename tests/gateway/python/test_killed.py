@@ -112,6 +112,7 @@ class Killed(unittest.TestCase):
         state = served.at_rest(observer)
         if state.rung:
             observer.rearm()
+        observer.resume()
         observer.override(1.0)
         if trial % 10 == 9:  # before the joints have wandered to their limits
             served.go_home(observer)

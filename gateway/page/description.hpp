@@ -1,0 +1,28 @@
+// The description of robot and pipeline for the page, as JSON, once: geometry for the picture of
+// the arm, limits, and the blocks with their wires.
+#pragma once
+
+#include <string_view>
+
+#include "gateway/page/json.hpp"
+#include "kernel/pipeline/pipeline.hpp"
+
+namespace tactus {
+
+struct PageSubject {
+  std::string_view board, file;  ///< the file: name of the pipeline
+  Pipeline& pipeline;            ///< loaded; its blocks' describe() changes nothing
+};
+
+/// Writes joints, frames and capsules. [init]
+void describe_robot(const Pipeline& pipeline, Json& to);
+
+/// Writes "blocks": of each its name, its type, its inputs, with the number of the output that each
+/// is connected to (-1: of none), and its outputs, numbered as in the port table. "robot" has the
+/// measured values, "command" the inputs of the robot. [init]
+void describe_blocks(Pipeline& pipeline, Json& to);
+
+/// Writes the whole description. [init]
+void describe_page(const PageSubject& subject, std::string_view token, Json& to);
+
+}  // namespace tactus

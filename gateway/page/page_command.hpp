@@ -1,0 +1,27 @@
+// PageCommand: what a browser asks for by a POST, and the messages of the gateway that it becomes.
+#pragma once
+
+#include <string_view>
+
+#include "gateway/server/codec.hpp"
+
+namespace tactus {
+
+enum class PageCommand : unsigned char { kStop, kOverride, kCancel, kPause, kResume, kRearm };
+
+/// Finds the command of a path, "/stop". False: there is none. [any]
+bool command_of(std::string_view path, PageCommand& command);
+
+/// Reads the body: a rate from 0 to 1 for kOverride, nothing for the others. False: it is something
+/// else. [any]
+bool read_body(PageCommand command, std::string_view body, double& rate);
+
+/// Sets the request of a message; its number is left alone. [any]
+void write_request(PageCommand command, double rate, tactus_ToServer& message);
+
+/// True if the gateway takes it from the owner of the lease only. [any]
+constexpr bool needs_lease(PageCommand command) {
+  return command != PageCommand::kStop;
+}
+
+}  // namespace tactus

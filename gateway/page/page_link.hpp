@@ -1,0 +1,53 @@
+// PageLink: the page's connection to the server, as that of any client.
+#pragma once
+
+#include "gateway/page/page_command.hpp"
+#include "gateway/server/codec.hpp"
+
+namespace tactus {
+
+class PageLink {
+ public:
+  PageLink() = default;
+  ~PageLink() { close(); }
+  PageLink(const PageLink&) = delete;
+  PageLink& operator=(const PageLink&) = delete;
+
+  /// Takes over a connected socket, and sends Hello and Subscribe. [any]
+  void open(int socket, std::int64_t now_ns);
+  void close();
+  bool there() const { return socket_ >= 0; }
+
+  /// Receives what has come and calls take(message) for every message; pings. Ends the connection
+  /// if the server has. Never waits. [any]
+  template <class Take>
+  void work(std::int64_t now_ns, const Take& take) {
+    ping(now_ns);
+    while (receive())
+      while (next()) take(told_);
+  }
+
+  /// Sends a command; one that needs the lease takes it before and gives it back behind, with the
+  /// lowest priority. Their answers have the numbers `first` and following. Returns how many; 0: it
+  /// could not be sent. [any]
+  int send(PageCommand command, double rate, std::uint32_t& first);
+
+ private:
+  bool receive();
+  bool next();
+  void ping(std::int64_t now_ns);
+  void put();
+  void put_lease(tactus_Lease_Wish wish);
+  bool flush();
+
+  int socket_ = -1;
+  std::uint32_t number_ = 0;  // goes on in a later connection
+  std::int64_t ping_ns_ = 0;
+  InputBytes in_;
+  std::array<std::uint8_t, 512> out_{};  // messages that are sent at once
+  std::size_t out_size_ = 0;
+  tactus_ToServer asked_;
+  tactus_ToClient told_;
+};
+
+}  // namespace tactus

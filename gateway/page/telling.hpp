@@ -1,0 +1,17 @@
+// The messages of the gateway as JSON for browsers.
+#pragma once
+
+#include "gateway/page/json.hpp"
+#include "gateway/page/news.hpp"
+#include "gateway/server/codec.hpp"
+#include "gateway/server/cycle_mail.hpp"
+
+namespace tactus {
+
+/// Adds a message of the server to the news; those that the page does not show are left out. [any]
+void tell(const tactus_ToClient& message, News& news);
+
+/// Adds the values of all outputs. [any]
+void tell(const PortValues& values, const PortTable& ports, News& news);
+
+}  // namespace tactus

@@ -1,0 +1,129 @@
+// The state in words and numbers, the events, and the controls.
+
+const MOST_EVENTS = 100;
+const MOST_ASKED = 200, MOST_EARLY = 50;
+const QUIET_MS = 700;  // after the slider was moved, it follows the robot again
+
+const NUMBERS = [
+  ["Owner", (s) => s.owner || "nobody"],
+  ["Epoch", (s) => s.epoch],
+  ["Time", (s) => `${s.time_s.toFixed(2)} s`],
+  ["Cycle", (s) => s.cycle],
+  ["Override", (s) => `${(s.override * 100).toFixed(0)} %`],
+  ["Robot's speed", (s) => `${(s.speed_scaling * 100).toFixed(0)} %`],
+  ["Margin of the stream", (s) => `${s.margin_s.toFixed(3)} s`],
+  ["Streams starved", (s) => s.starved],
+  ["Slips", (s) => s.slips],
+  ["Overruns", (s) => s.overruns],
+  ["Late chunks", (s) => s.late],
+  ["Snapshots lost", (s) => s.lost],
+];
+
+function by(id) { return document.getElementById(id); }
+
+export class Panel {
+  constructor(link) {
+    this.link = link;
+    this.moved = -Infinity;
+    this.asked = new Map();  // number of a message -> the command that it belongs to
+    this.early = [];
+    this.cells = NUMBERS.map(([name]) => {
+      const [term, cell] = [document.createElement("dt"), document.createElement("dd")];
+      term.textContent = name;
+      by("numbers").append(term, cell);
+      return cell;
+    });
+    by("stop").addEventListener("click", () => this.command("stop"));
+    document.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || event.repeat) return;
+      event.preventDefault();
+      this.command("stop");
+    });
+    for (const button of document.querySelectorAll("[data-command]"))
+      button.addEventListener("click", () => this.command(button.dataset.command));
+    this.takeSlider();
+  }
+
+  /** While the slider moves, its newest value is sent ten times a second. */
+  takeSlider() {
+    const slider = by("override");
+    let waits = false;
+    const send = () => { waits = false; this.command("override", String(slider.value / 100)); };
+    slider.addEventListener("input", () => {
+      this.moved = performance.now();
+      by("override_value").textContent = `${slider.value} %`;
+      if (waits) return;
+      waits = true;
+      setTimeout(send, 100);
+    });
+  }
+
+  async command(name, body) {
+    try {
+      const { number, count } = await this.link.send(name, body);
+      for (let i = 0; i < count; ++i) this.asked.set(number + i, { name, first: number });
+      while (this.asked.size > MOST_ASKED) this.asked.delete(this.asked.keys().next().value);
+      this.newest = number;
+      this.say(`${name}: sent`, false);
+      this.early.splice(0).forEach(([kind, message]) => this[kind](message));
+    } catch (error) {
+      this.say(`${name}: ${error.message}`, true);
+    }
+  }
+
+  /** The newest command that a message is about; one that comes before its number is known waits. */
+  about(kind, message) {
+    const asked = this.asked.get(message.number);
+    if (asked) return asked.first === this.newest ? asked : null;
+    this.early.push([kind, message]);
+    if (this.early.length > MOST_EARLY) this.early.shift();
+    return null;
+  }
+
+  say(text, refused) {
+    by("answer").textContent = text;
+    by("answer").classList.toggle("refused", refused);
+  }
+
+  /** Of the answers to one command, the first refusal counts; that of the lease gives the reason. */
+  answer(message) {
+    const asked = this.about("answer", message);
+    if (!asked || this.refused === asked.first) return;
+    if (message.status === 0) return this.say(`${asked.name}: taken`, false);
+    this.refused = asked.first;
+    this.say(`${asked.name}: refused: ${message.text} (${message.status})`, true);
+  }
+
+  report(message) {
+    const asked = this.about("report", message), { outcome, text, status } = message;
+    if (!asked) return;
+    this.say(`${asked.name}: ${outcome}${text ? ": " + text : ""}${status ? ` (${status})` : ""}`, outcome === "refused");
+  }
+
+  state(state) {
+    const rung = by("rung");
+    rung.textContent = state.rung.replace("_", " ");
+    rung.className = { nominal: "good", skip_optional: "warn", arming: "warn" }[state.rung] || "bad";
+    by("phase").textContent = state.phase;
+    by("why").textContent = state.why;
+    NUMBERS.forEach(([, text], i) => { this.cells[i].textContent = text(state); });
+    if (performance.now() - this.moved < QUIET_MS) return;
+    by("override").value = Math.round(state.override * 100);
+    by("override_value").textContent = `${Math.round(state.override * 100)} %`;
+  }
+
+  event({ name, text, server_s }) {
+    const item = document.createElement("li"), time = document.createElement("time");
+    time.textContent = `${server_s.toFixed(1)} s`;
+    item.append(time, `${name}: ${text}`);
+    by("events").prepend(item);
+    while (by("events").children.length > MOST_EVENTS) by("events").lastChild.remove();
+  }
+
+  describe(robot) {
+    this.asked.clear();
+    this.newest = this.refused = undefined;
+    by("subject").textContent = `${robot.robot} on ${robot.board}, ${robot.pipeline}`;
+    document.title = `${robot.robot} – Tactus`;
+  }
+}

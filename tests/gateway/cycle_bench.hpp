@@ -1,0 +1,90 @@
+// The cycle of `tactus serve` in virtual time: an executive, its pipeline and the cycle's end of
+// the mailboxes, with a robot that does at once what it is told. The server has its turn where the
+// test lets it.
+#pragma once
+
+#include "kernel/load/loader.hpp"
+#include "program/cycle_desk.hpp"
+#include "program/session/host_sections.hpp"
+#include "tests/gateway/client_bench.hpp"
+#include "tests/support/armed.hpp"
+
+namespace tactus {
+
+struct ObedientHal final : Hal {
+  RobotState state;
+  RobotCommand command;  ///< the last one
+
+  ObedientHal() {
+    state.drives.fill({DriveState::kEnabled, true});
+    state.q = ServerBench::home().q;
+  }
+  Capabilities capabilities() const override { return {true, true, true, 100, 100000, true}; }
+  Status connect(CommandMode) override { return Status::kOk; }
+  Status read(const CycleTime& now, RobotState& measured) override {
+    measured = state;
+    measured.stamp_ns = now.stamp_ns;
+    return Status::kOk;
+  }
+  Status write(const RobotCommand& sent) override {
+    command = sent;
+    if (sent.request == DriveRequest::kFollow) state.q = sent.value;
+    return Status::kOk;
+  }
+  Status disconnect() override { return Status::kOk; }
+};
+
+struct CycleBench : BenchClock {
+  ObedientHal hal;
+  ChannelMemory<JointSpace> channel;
+  ChannelMemory<TaskSpace> task_channel;
+  std::array<std::array<Waypoint<JointSpace>, kBenchWaypoints>, kStores> waypoints;
+  RoomyPipeline pipeline;
+  HostSections sections;
+  Executive executive{hal, pipeline};
+  CycleMail mail;
+  ReferenceClient<JointSpace> joints{channel};
+  ReferenceClient<TaskSpace> poses{task_channel};
+  alignas(CycleDesk) std::array<std::byte, sizeof(CycleDesk)> desk_place;
+  alignas(Server) std::array<std::byte, sizeof(Server)> server_place;
+  CycleDesk* desk = nullptr;
+  Server* server = nullptr;
+
+  void start() {
+    static constexpr std::string_view kText =
+        "[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n"
+        "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n";
+    for (std::size_t i = 0; i < kStores; ++i) {
+      channel.stores[i].waypoints = waypoints[i].data();
+      channel.stores[i].capacity = kBenchWaypoints;
+    }
+    LoadError error;
+    Loader loader({&channel, &task_channel}, hal.capabilities(), sections);
+    ASSERT_OK(loader.load(kText, pipeline, error));
+    executive.in_virtual_time();
+    ServerSetup setup;
+    setup.loaded = &pipeline;
+    setup.joint_window = kBenchWaypoints;
+    desk = new (desk_place.data()) CycleDesk(mail, executive, pipeline);
+    server = new (server_place.data()) Server(setup, joints, poses, mail);
+    ASSERT_OK(start_armed(executive, 1'000'000, now_ns));
+    cycle();
+    server->work(now_ns);
+  }
+  /// One cycle, as RunLoop runs it for a server.
+  void cycle() {
+    now_ns += 1'000'000;
+    desk->work(executive.cycle({now_ns}));
+    desk->tell({now_ns});
+  }
+  /// Connects a client that has said Hello.
+  void welcome(TestClient& client, const char* name) {
+    client.connect(*this, *server);
+    client.hello(name);
+    server->work(now_ns);
+    client.read();
+    assert_int_equal(client.welcomes, 1);
+  }
+};
+
+}  // namespace tactus

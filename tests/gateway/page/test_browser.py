@@ -1,0 +1,133 @@
+"""Tests the page in Chromium without a window."""
+
+import io
+import sys
+import unittest
+
+import numpy as np
+from matplotlib.image import imread
+from page_bench import ROOT, Served, wait
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from reporting.chromium import Chromium  # noqa: E402
+
+COLOURS = 200  # of a picture of a shaded arm; a blank one has few
+MOVED = 300  # pixels
+NOMINAL = "document.getElementById('rung').textContent === 'nominal'"
+BOX = "(({x, y, width, height}) => [x + scrollX, y + scrollY, width, height])(document.querySelector('%s').getBoundingClientRect())"
+
+
+def picture_of(page, selector):
+    """Returns the pixels of an element [rows, columns, 3]."""
+    return imread(io.BytesIO(page.picture(*page.value(BOX % selector))))[..., :3]
+
+
+def solid(picture):
+    """Where the measured arm is, which is bluish; the ghost of the desired one is orange."""
+    return picture[..., 2] > picture[..., 0] + 0.03
+
+
+def moved(before, after):
+    return np.count_nonzero(np.any(before != after, axis=2))
+
+
+def swing(client):
+    """Sends a motion of the first joint of 30 s, and gives the lease back: it goes on."""
+    pb = client.pb
+    home = list(client.state.q_d)
+    assert client.ask(lease=pb.Lease(timeout_ms=30000)).status == 0
+    client.send(begin=pb.Begin(interpolation=pb.Begin.MONOTONE))
+    client.until(lambda: client.credit >= 60)
+    part = pb.Part()
+    for i in range(60):
+        s = i / 59
+        part.time_s.append(0.5 * i + 0.01)
+        part.numbers.extend([home[0] + 0.8 * s * s * s * (10 - 15 * s + 6 * s * s)] + home[1:])
+    assert client.ask(part=part).status == 0
+    assert client.ask(end=pb.End()).status == 0
+    client.until(lambda: max(abs(v) for v in client.state.dq_d) > 1e-3)
+    assert client.ask(lease=pb.Lease(wish=pb.Lease.RELEASE)).status == 0
+
+
+class BrowserTest(unittest.TestCase):
+    def setUp(self):
+        self.served = Served("browser")
+        self.page = Chromium()
+        self.addCleanup(self.page.__exit__)
+        self.page.go(self.served.page())
+        self.page.until(NOMINAL)
+        self.watch()
+
+    def watch(self):
+        """Connects a client."""
+        self.client = self.served.client()
+        self.client.ready()
+
+    def tearDown(self):
+        self.assertEqual(self.page.said, [])
+        if self.served.program.poll() is None:
+            self.assertEqual(self.served.end(), 0)
+
+    def test_the_arm_is_drawn_and_a_trajectory_is_seen(self):
+        self.page.until("document.querySelector('#wires text.value').textContent.length > 0")
+        self.assertEqual(self.page.value("document.querySelectorAll('#joints figure').length"), 7)
+        begin = {part: picture_of(self.page, part) for part in ("#arm", "#joints figure")}
+        self.assertGreater(len(np.unique(begin["#arm"].reshape(-1, 3), axis=0)), COLOURS)
+        self.watch()
+        swing(self.client)
+        self.page.until("document.getElementById('phase').textContent === 'following'")
+        self.client.until(lambda: self.client.state.q[0] > 0.1)
+        plot, arm = begin["#joints figure"], solid(begin["#arm"])
+        wait(lambda: moved(plot, picture_of(self.page, "#joints figure")) > MOVED)
+        wait(lambda: np.count_nonzero(solid(picture_of(self.page, "#arm")) & ~arm) > MOVED)
+
+    def test_stop_and_rearm(self):
+        swing(self.client)
+        self.page.click("#stop")
+        self.client.until(lambda: self.client.state.rung == 5)
+        self.page.until("document.getElementById('rung').textContent === 'disabled'")
+        self.page.until("document.getElementById('events').textContent.includes('stop')")
+        self.page.click("[data-command=rearm]")
+        self.client.until(lambda: self.client.state.rung <= 1)
+        self.page.until(NOMINAL)
+        self.page.press("Escape", 27)
+        self.client.until(lambda: self.client.state.rung == 5)
+
+    def test_the_slider_sets_the_override_unless_another_owns_the_motion(self):
+        swing(self.client)
+        self.page.click("#override")  # in its middle
+        self.client.until(lambda: abs(self.client.state.override - 0.5) < 0.03)
+        self.client.until(lambda: self.client.state.owner == "")
+        rate = self.client.state.override
+        self.client.ask(lease=self.client.pb.Lease(timeout_ms=60000))
+        self.page.value("document.getElementById('override').focus()")
+        self.page.press("Home", 36)
+        self.page.until("document.getElementById('answer').className === 'refused'")
+        said = self.page.value("document.getElementById('answer').textContent")
+        self.assertIn("override: refused: ", said)
+        self.assertIn("me", said)
+        self.client.send(ping=self.client.pb.Ping())
+        self.page.until(f"document.getElementById('override').value === '{round(rate * 100)}'")
+        self.assertEqual(self.client.state.override, rate)
+
+    def test_a_server_that_dies_is_named_loudly_and_taken_up_again(self):
+        lost = "!document.getElementById('lost').hidden && document.getElementById('lost').getBoundingClientRect().height > 30"
+        self.served.program.kill()
+        self.served.program.wait()
+        self.page.until(lost)
+        self.assertIn("connection lost", self.page.value("document.getElementById('lost').textContent"))
+        self.page.said.clear()  # of requests to a server that is not there
+        again = Served("browser", self.served.port)
+        again.page()
+        self.page.until("document.getElementById('lost').hidden")
+        self.page.until(NOMINAL)
+        client = again.client()
+        client.ready()
+        self.page.press("Escape", 27)
+        client.until(lambda: client.state.rung == 5)
+        self.assertEqual(again.end(), 0)
+        self.page.said.clear()
+
+
+if __name__ == "__main__":
+    unittest.main()

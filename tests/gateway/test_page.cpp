@@ -1,0 +1,144 @@
+// Tests the parts of the page without HTTP: what a request is judged by, what browsers are told,
+// and the page as a client of the server, in virtual time.
+#include <sys/socket.h>
+
+#include <string>
+
+#include "gateway/page/json.hpp"
+#include "gateway/page/news.hpp"
+#include "gateway/page/page_command.hpp"
+#include "gateway/page/page_thread.hpp"
+#include "gateway/page/request_check.hpp"
+#include "tests/support/testing.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr std::string_view kToken = "00112233445566778899aabbccddeeff";
+
+int status_of(const RequestHead& head) {
+  return judge_request(head, kToken).status;
+}
+
+// Proves PAGE-3.
+
+void only_names_of_this_computer_are_hosts(void**) {
+  for (const char* host : {"localhost", "127.0.0.1", "localhost:7380", "127.0.0.1:1"})
+    assert_true(own_host(host));
+  for (const char* host :
+       {"", ":7380", "localhost.", "localhost:x", "127.0.0.1.example", "127.0.0.2", "example:7380",
+        "localhost:80:80", "0.0.0.0", "[::1]", "localhost@example"})
+    assert_false(own_host(host));
+}
+
+void what_acts_needs_the_method_the_origin_and_the_token(void**) {
+  const RequestHead good = {"POST", "/stop", "localhost:7380", "http://localhost:7380", kToken};
+  assert_int_equal(status_of(good), 200);
+  RequestHead head = good;
+  head.origin = {};
+  assert_int_equal(status_of(head), 200);
+  for (const char* origin : {"http://localhost", "https://localhost:7380", "http://example", "null",
+                             "http://localhost:7380.example", "http:/"}) {
+    head.origin = origin;
+    assert_int_equal(status_of(head), 403);
+  }
+  head = good;
+  for (const std::string_view token :
+       {std::string_view(), kToken.substr(1), kToken.substr(0, 31)}) {
+    head.token = token;
+    assert_int_equal(status_of(head), 403);
+  }
+  head = good;
+  head.method = "GET";
+  assert_int_equal(status_of(head), 405);
+  head.path = "/begin";
+  assert_int_equal(status_of(head), 404);
+}
+
+// Proves PAGE-2.
+
+void an_address_that_other_computers_reach_is_refused_with_the_remedy(void**) {
+  Address address;
+  Message why;
+  assert_true(parse_page_address("127.0.0.1:7380", address, why));
+  for (const char* text : {"0.0.0.0:7380", "192.168.1.5:7380"}) {
+    why = {};
+    assert_false(parse_page_address(text, address, why));
+    assert_non_null(std::strstr(why.c_str(), "ssh -L PORT:127.0.0.1:PORT"));
+  }
+  for (const char* text : {"", "7380", "localhost:7380", "127.0.0.1:", "unix:/tmp/page"})
+    assert_false(parse_page_address(text, address, why));
+}
+
+// Proves PAGE-1.
+
+void numbers_and_texts_are_json_whatever_they_are(void**) {
+  char bytes[120];
+  Json json(bytes, sizeof bytes);
+  const double values[] = {0.0, -1.5, 1e-300, std::nan(""), kInfinity};
+  json.open('{').numbers("v", values, 5).string("a\"b\\c\n\xff", "s").integer(-7, "i");
+  json.flag(true, "f").open('[', "e").close(']').close('}');
+  assert_string_equal(std::string(json.text()).c_str(),
+                      "{\"v\":[0,-1.5,1e-300,null,null],\"s\":\"a\\\"b\\\\c??\",\"i\":-7,"
+                      "\"f\":true,\"e\":[]}");
+}
+
+void what_does_not_fit_is_not_told_in_part(void**) {
+  char bytes[8];
+  Json json(bytes, sizeof bytes);
+  json.open('{').integer(12345, "key").close('}');
+  assert_true(json.text().empty());
+}
+
+// Proves PAGE-4.
+
+void a_browser_reads_the_news_at_its_own_pace_until_it_has_lost_some(void**) {
+  static News news;
+  news.tell("first", "1");
+  const std::uint64_t from = news.end();
+  std::string told, read;
+  for (int i = 0; told.size() + 40 < kNewsBytes; ++i) {
+    const std::string data = std::to_string(i);
+    news.tell("state", data);
+    told += "event: state\ndata: " + data + "\n\n";
+  }
+  assert_true(news.holds(from));
+  char piece[1000];
+  for (std::uint64_t at = from; at < news.end();) {
+    const std::size_t count = news.read(at, piece, sizeof piece);
+    read.append(piece, count);
+    at += count;
+  }
+  assert_true(read == told);
+  news.tell("state", std::string(40, 'x'));
+  assert_false(news.holds(from));
+}
+
+// Proves PAGE-3.
+
+void bodies_that_are_no_rate_are_refused(void**) {
+  double rate = -1.0;
+  for (const char* body : {"0", "1", "0.5", "1e-3"})
+    assert_true(read_body(PageCommand::kOverride, body, rate));
+  for (const char* body : {"", "-0.1", "1.0001", "nan", "inf", "0.5 ", " 0.5", "0x1", "0,5", "1 1"})
+    assert_false(read_body(PageCommand::kOverride, body, rate));
+  assert_true(read_body(PageCommand::kStop, "", rate));
+  assert_false(read_body(PageCommand::kStop, "0", rate));
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(only_names_of_this_computer_are_hosts),
+      cmocka_unit_test(what_acts_needs_the_method_the_origin_and_the_token),
+      cmocka_unit_test(an_address_that_other_computers_reach_is_refused_with_the_remedy),
+      cmocka_unit_test(numbers_and_texts_are_json_whatever_they_are),
+      cmocka_unit_test(what_does_not_fit_is_not_told_in_part),
+      cmocka_unit_test(a_browser_reads_the_news_at_its_own_pace_until_it_has_lost_some),
+      cmocka_unit_test(bodies_that_are_no_rate_are_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

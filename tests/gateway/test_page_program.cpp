@@ -1,0 +1,75 @@
+// Tests the page of `tactus serve` as a program, by the modules in tests/gateway/page: with
+// sockets, and with Chromium.
+#include "tests/program/program_bench.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr const char* kServed =
+    "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
+    "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
+    "overrun_window = 1\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n"
+    "goal_tolerance = 0.2\nstopped_velocity = 0\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+
+/// Runs a test class; $P is the program that serves.
+void run_class(const char* name) {
+  write("served.ini", {kServed});
+  Line command("PYTHONPATH=$R/tests/gateway/page /usr/bin/python3 -B -W ignore -m unittest ");
+  const int code = shell((command << name).c_str());
+  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
+  assert_int_equal(code, 0);
+}
+
+// Proves PAGE-1, PAGE-3, PAGE-5.
+
+void the_page_is_served_and_takes_commands(void**) {
+  run_class("test_http.PageTest");
+}
+
+// Proves PAGE-2.
+
+void the_page_comes_with_a_key_and_goes_without_a_port(void**) {
+  run_class("test_http.PlaceTest");
+}
+
+void an_address_of_the_network_is_refused(void**) {
+  const Line pipeline = write("served.ini", {kServed});
+  assert_int_equal(tactus_run({"serve", pipeline.c_str(), "--http", "0.0.0.0:7380"}), 2);
+  assert_true(has(errors(), "--http: refused: '0.0.0.0:7380': programs on other computers would"));
+  assert_true(has(errors(), "ssh -L"));
+}
+
+// Proves PAGE-4.
+
+void hostile_browsers_do_not_disturb_the_server(void**) {
+  run_class("test_hostile_browsers");
+}
+
+// Proves PAGE-6.
+
+void a_browser_shows_the_arm_and_its_buttons_work(void**) {
+  if (shell("command -v chromium") != 0) {
+    print_message("there is no chromium; as root: scripts/setup report\n");
+    _skip(__FILE__, __LINE__);
+  }
+  run_class("test_browser");
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int, char** argv) {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(the_page_is_served_and_takes_commands),
+      cmocka_unit_test(the_page_comes_with_a_key_and_goes_without_a_port),
+      cmocka_unit_test(an_address_of_the_network_is_refused),
+      cmocka_unit_test(hostile_browsers_do_not_disturb_the_server),
+      cmocka_unit_test(a_browser_shows_the_arm_and_its_buttons_work),
+  };
+  return run_program_tests(argv[0], tests);
+}
