@@ -23,7 +23,7 @@ bool prepare(Session& session) {
     case Verb::kCancel:
     case Verb::kPause: return true;
     case Verb::kOverride: return session.client.take_free_lease();
-    default: return session.options.check_only || session.client.take_lease();
+    default: return session.client.take_lease();
   }
 }
 
@@ -31,7 +31,7 @@ bool prepare(Session& session) {
 
 int control(Session& session) {
   ToServer request;
-  if (!fill(session, request)) return session.client.exit_code();
+  fill(session, request);
   if (!prepare(session)) return session.client.exit_code();
   session.client.ask_and_wait(request);
   session.client.release_lease();
