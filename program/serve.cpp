@@ -131,7 +131,8 @@ int finish(const Session& session, const Options& options, const RunLoop& loop,
 int serve(Session& session, const Options& options) {
   static CycleMail mail;
   static ParameterBook parameters(session.pipeline);
-  static Server server(setup_of(session, options, parameters), session.client, session.task_client, mail);
+  static Server server(setup_of(session, options, parameters), session.client, session.task_client,
+                       mail);
   static RunResult result;
   static TrajectoryInput input;  // a server follows none
   static Listener listener;
