@@ -149,6 +149,6 @@ inline constexpr std::uint8_t kFmmuRead = 0x01, kFmmuWrite = 0x02;
 // Control of the EEPROM.
 inline constexpr std::uint16_t kEepromRead = 0x0100, kEepromCommandBits = 0x0700,
                                kEepromReads8 = 0x0040, kEepromError = 0x2000, kEepromBusy = 0x8000,
-                               kEepromErrorBits = 0x7800;
+                               kEepromErrorBits = 0x6000;
 
 }  // namespace tactus::ethercat

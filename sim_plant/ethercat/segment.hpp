@@ -32,6 +32,12 @@ class Segment {
   bool add(const drives::Fault& fault);
   bool add(const LineFault& fault) { return line_.add(fault); }
 
+  /// Ends all faults. [any]
+  void clear_faults() {
+    line_.clear();
+    for (DriveSlave& slave : slaves_) slave.faults().clear();
+  }
+
   /// Takes a frame; what is no EtherCAT frame is dropped. Times must not decrease. [cyclic]
   void receive(const ethercat::Frame& frame, std::int64_t now_ns);
   /// Copies a frame that has come back; false: there is none. [cyclic]
