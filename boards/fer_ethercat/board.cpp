@@ -3,6 +3,7 @@
 #include "boards/fer_ethercat/ethercat_sections.hpp"
 #include "hal/ethercat/ethercat_hal.hpp"
 #include "program/run_board.hpp"
+#include "program/scan_segment/scan_segment.hpp"
 
 namespace tactus {
 namespace {
@@ -21,6 +22,6 @@ Status configure(const EthercatSections& sections, const Pipeline& pipeline, con
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<EthercatSections>(argc, argv,
-                                     {"fer_ethercat", hal, sizeof hal, true, configure});
+  return run_board<EthercatSections>(
+      argc, argv, {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment});
 }

@@ -1,7 +1,7 @@
 # A Franka FER as seven CiA 402 drives on an EtherCAT segment, on Linux.
 ROBOT  := Fer
 SRCS   += boards/fer_ethercat/board.cpp
-PARTS  := $(wildcard hal/cia402/*.cpp hal/ethercat/*.cpp)
+PARTS  := $(wildcard hal/cia402/*.cpp hal/ethercat/*.cpp program/scan_segment/*.cpp)
 
 # The pipelines that `make run` runs, with an emulated segment at the other end of a virtual cable.
 RUNS   += fer_jrg_pdgc_ethercat

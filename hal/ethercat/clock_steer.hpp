@@ -26,7 +26,10 @@ class ClockSteer {
   void take(std::int64_t reference_ns) {
     if (!known_) begin_ns_ = reference_ns;
     known_ = true;
-    std::int64_t error = (reference_ns - begin_ns_) % period_ns_;
+    // The time of a segment may be any number.
+    const auto since = static_cast<std::int64_t>(static_cast<std::uint64_t>(reference_ns) -
+                                                 static_cast<std::uint64_t>(begin_ns_));
+    std::int64_t error = since % period_ns_;
     if (error > period_ns_ / 2) error -= period_ns_;
     if (error < -period_ns_ / 2) error += period_ns_;
     error_ns_ = error;

@@ -15,15 +15,21 @@ class SiiReader {
 
   void begin(std::uint16_t station, std::uint16_t word) {
     station_ = station;
+    by_position_ = false;
     word_ = word;
     asked_ = false;
     polls_ = 0;
     progress_ = Progress::kBusy;
   }
+  /// As begin(), for a slave without a station address, by its place in the line, from 0.
+  void begin_at(int position, std::uint16_t word) {
+    begin(position_field(position), word);
+    by_position_ = true;
+  }
   Request next() const {
     const std::uint32_t control = address_of(station_, kEepromControlReg);
-    if (asked_) return Request(Command::kFprd, control, 10);
-    Request request(Command::kFpwr, control, 6);
+    if (asked_) return Request(by_position_ ? Command::kAprd : Command::kFprd, control, 10);
+    Request request(by_position_ ? Command::kApwr : Command::kFpwr, control, 6);
     put(request.data.data(), kEepromRead);
     put(request.data.data() + 2, std::uint32_t{word_});
     return request;
@@ -48,7 +54,7 @@ class SiiReader {
 
  private:
   std::uint16_t station_ = 0, word_ = 0;
-  bool asked_ = false;
+  bool asked_ = false, by_position_ = false;
   int polls_ = 0;
   std::uint32_t value_ = 0;
   Progress progress_ = Progress::kDone;

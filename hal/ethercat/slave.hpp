@@ -28,8 +28,9 @@ struct Slave {
   ProcessData data;
 
   // Of the clock, at the moment of the latch, ns.
-  std::uint32_t loop_ns = 0;  ///< from the frame's arrival until it came back from behind
-  std::int64_t local_ns = 0, delay_ns = 0;
+  std::uint32_t loop_ns = 0;   ///< from the frame's arrival until it came back from behind
+  std::uint64_t local_ns = 0;  ///< wraps
+  std::int64_t delay_ns = 0;
 
   // Of the cycle.
   std::uint16_t al_status = 0, al_code = 0;

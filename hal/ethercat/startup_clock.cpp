@@ -18,7 +18,8 @@ Request Startup::clock_request() const {
     case Stage::kOffsets: {
       Request request(Command::kFpwr, address_of(station, kTimeOffsetReg), 12);
       const Slave& first = slaves_[static_cast<std::size_t>(order_[0])];
-      put(&request.data[0], first.local_ns + at().delay_ns - at().local_ns);
+      put(&request.data[0],
+          first.local_ns + static_cast<std::uint64_t>(at().delay_ns) - at().local_ns);
       put(&request.data[8], static_cast<std::uint32_t>(at().delay_ns));
       return request;
     }
@@ -35,7 +36,7 @@ Status Startup::take_times(const Answer& answer) {
     case Stage::kTimes:
       if (answer.counter != 1) return refuse(Status::kBusTimeout, "its clock cannot be read");
       at().loop_ns = get<std::uint32_t>(answer.data + 4) - get<std::uint32_t>(answer.data);
-      at().local_ns = get<std::int64_t>(answer.data + 24);
+      at().local_ns = get<std::uint64_t>(answer.data + 24);
       next_slave(Stage::kTimes, Stage::kOffsets);
       if (stage_ == Stage::kOffsets) set_delays();
       break;

@@ -127,13 +127,13 @@ void Esc::after_write(std::size_t at, std::size_t size, const std::uint8_t* from
     port_ns_ = now_ns_;
   }
   if (at == kSystemTimeReg && size >= 4) {
-    const auto low = static_cast<std::int64_t>(get<std::uint32_t>(from));
-    const std::int64_t own_ns = clock_.system(now_ns_);
     // Of four bytes the upper half is that of the own time.
-    const std::int64_t time_ns =
-        size >= 8 ? get<std::int64_t>(from)
-                  : own_ns + static_cast<std::int32_t>(static_cast<std::uint32_t>(low - own_ns));
-    clock_.steer(time_ns, now_ns_);
+    const auto own = static_cast<std::uint64_t>(clock_.system(now_ns_));
+    const auto low =
+        static_cast<std::int32_t>(get<std::uint32_t>(from) - static_cast<std::uint32_t>(own));
+    const std::uint64_t time =
+        size >= 8 ? get<std::uint64_t>(from) : own + static_cast<std::uint64_t>(std::int64_t{low});
+    clock_.steer(static_cast<std::int64_t>(time), now_ns_);
     const std::int64_t difference = clock_.difference();
     const std::int64_t size_ns = std::min<std::int64_t>(std::abs(difference), 0x7FFFFFFF);
     put(&memory_[kTimeDifferenceReg],

@@ -95,7 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         frame.bytes[(data[at] << 8 | data[at + 1]) % frame.size] = data[at + 2];
       bench->master.receive(frame);
     }
-    if ((kind & 4) == 0) continue;
+    if ((kind & 4) == 0 || at == size) continue;
     Frame own;
     own.size = data[at++] % 128U;
     for (std::size_t i = 0; i < own.size && at < size; ++i) own.bytes[i] = data[at++];
