@@ -32,6 +32,9 @@ Status EthercatHal::wait(CycleTime& now) {
   while (result == EINTR) result = clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
   if (result != 0) return Status::kClock;
   now.stamp_ns = clock_ns();
+  if (ethercat_->frame_wait_ms == 0) return Status::kOk;
+  if (master_.awaits()) (void)socket_.wait(std::int64_t{1'000'000} * ethercat_->frame_wait_ms);
+  if (now_ns_ >= 0) now.stamp_ns = now_ns_ + period_ns;
   return Status::kOk;
 }
 

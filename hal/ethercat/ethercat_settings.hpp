@@ -17,6 +17,10 @@ struct EthercatSettings {
   int clock_frames = 4000;  ///< that the clocks are steered by before the first cycle
   /// After which a drive without frames leaves operation; 0: ten periods.
   int watchdog_ms = 0;
+  /// Longest time that a cycle waits for its frame, beyond its beginning; 0: it does not. With it
+  /// the cycles are a period apart by their stamps, however long they take: for an emulated
+  /// segment.
+  int frame_wait_ms = 0;
   double vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any
 
   /// Time-out of the process data, ms. [init]
@@ -33,6 +37,7 @@ struct EthercatSettings {
     visit.param("sdo_ms", sdo_ms, Range{1.0, 10000.0}, "ms");
     visit.param("clock_frames", clock_frames, Range{0.0, 100000.0}, "1");
     visit.param("watchdog_ms", watchdog_ms, Range{0.0, 6000.0}, "ms");
+    visit.param("frame_wait_ms", frame_wait_ms, Range{0.0, 1000.0}, "ms");
     visit.param("vendor", vendor, Range{0.0, 4294967295.0}, "1");
     visit.param("product", product, Range{0.0, 4294967295.0}, "1");
   }
