@@ -158,7 +158,8 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   add_jitter_options(*jitter, load, options);
   CLI::App* scan = nullptr;
   if (has_bus) {
-    scan = app.add_subcommand("scan", "list the drives of CAN buses or EtherCAT segments, without changing them");
+    scan = app.add_subcommand(
+        "scan", "list the drives of CAN buses or EtherCAT segments, without changing them");
     add_scan_options(*scan, buses, options);
   }
 
