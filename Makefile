@@ -65,8 +65,8 @@ CROSS_m55   := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
 INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 --param early-inlining-insns=6 \
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
-# Streams of chunks take memory that they do not have.
-BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
+# Streams of chunks, and parameters that change at run time, take memory that they do not have.
+BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
               -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf $(INLINING)
 FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
 # Its vectors have no double precision, so they gain nothing.

@@ -28,7 +28,7 @@ const Pose* find_tip(const PortTable& ports) {
 
 }  // namespace
 
-CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, const Pipeline& pipeline)
+CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, Pipeline& pipeline)
     : mail_(mail), executive_(executive), pipeline_(pipeline) {
   const PortTable& ports = pipeline.ports;
   q_d_ = find<JointVector>(ports, "q_d", Quantity::kJointPosition);
@@ -47,6 +47,7 @@ void CycleDesk::work(Status status) {
   } else if (rearm_ != 0 && !waits_) {
     finish(status);  // arming has ended otherwise
   }
+  take_parameters();
   take_order();
 }
 
@@ -71,6 +72,20 @@ void CycleDesk::take_order() {
   finish(Status::kHalted);  // a rearm that a newer one replaces
   rearm_ = message.id;
   waits_ = true;
+}
+
+void CycleDesk::take_parameters() {
+  TuningMessage message;
+  if (mail_.tuned.space() == 0 || !mail_.tunings.take(message)) return;
+  static_cast<void>(mail_.tuned.post(retune(*message.tuning)));
+}
+
+/// A brake ends with the law with which it began, and arming with that which start() has judged.
+TuningVerdict CycleDesk::retune(const Tuning& tuning) {
+  const Rung rung = executive_.rung();
+  if (rung == Rung::kArming) return {Status::kArming};
+  if (rung == Rung::kStop || executive_.busy()) return {Status::kNotAtRest};
+  return pipeline_.retune(tuning, commands(rung));
 }
 
 /// A fixed number of outputs is copied, whoever watches.

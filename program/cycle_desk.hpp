@@ -11,24 +11,26 @@ class CycleDesk {
  public:
   /// Finds the outputs that are told in the loaded pipeline: the first called q_d, dq_d and x_d of
   /// a reference, x of the robot model, h of a wrench. [init]
-  CycleDesk(CycleMail& mail, Executive& executive, const Pipeline& pipeline);
+  CycleDesk(CycleMail& mail, Executive& executive, Pipeline& pipeline);
 
   /// Tells the values of all outputs too, in every `divisor`-th cycle. [init]
   void show(PortMail& ports) { port_mail_ = &ports; }
-  /// Takes an order, and goes on with arming; `status` is that of the last cycle. [between two
-  /// cycles]
+  /// Takes an order and a set of parameters, and goes on with arming; `status` is that of the last
+  /// cycle. [between two cycles]
   void work(Status status);
   /// Tells the cycle that has begun at `now`. [between two cycles]
   void tell(const CycleTime& now);
 
  private:
   void take_order();
+  void take_parameters();
+  TuningVerdict retune(const Tuning& tuning);
   void finish(Status status);
   void tell_ports();
 
   CycleMail& mail_;
   Executive& executive_;
-  const Pipeline& pipeline_;
+  Pipeline& pipeline_;
   const JointVector *q_d_ = nullptr, *dq_d_ = nullptr;
   const Pose *pose_ = nullptr, *pose_d_ = nullptr;
   const Vector6* wrench_ = nullptr;

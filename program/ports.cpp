@@ -14,7 +14,8 @@ void print_board(const char* board, const Capabilities& offered) {
   std::printf(" Period %d to %d us.\n", static_cast<int>(offered.min_period_us),
               static_cast<int>(offered.max_period_us));
   std::printf(
-      "A number per joint may be given once for all joints. Limits and defaults are this\n"
+      "A number per joint may be given once for all joints. What is tunable may change while the\n"
+      "pipeline runs (gateway.md). Limits and defaults are this\n"
       "robot's, sections this board's: `build/<board>/tactus ports` prints another's.\n");
 }
 

@@ -27,6 +27,12 @@ class PortPrinter {
   void param(const char* key, const Vector3& value, const Range& range, const char* unit) {
     row(key, "3 numbers", unit, vector(value.data(), 3, false), range);
   }
+  template <class Value>
+  void tunable(const char* key, const Value& value, const Range& range, const char* unit) {
+    tunable_ = true;
+    param(key, value, range, unit);
+    tunable_ = false;
+  }
   void limit(const char* key, const JointVector& value, const char* unit) {
     std::printf("| `%s` | limit per joint | %s | %s | > 0, at most the default |\n", key, unit,
                 vector(value.data(), kDof, true).c_str());
@@ -70,15 +76,17 @@ class PortPrinter {
     for (int i = 0; i < (same ? 1 : count); ++i) text << (i > 0 ? " " : "") << values[i];
     return text;
   }
-  static void row(const char* key, const char* kind, const char* unit, const Message& value,
-                  const Range& range) {
-    std::printf("| `%s` | %s | %s | %s | %s |\n", key, kind, unit, value.c_str(),
-                (Message("") << range).c_str());
+  void row(const char* key, const char* kind, const char* unit, const Message& value,
+           const Range& range) const {
+    std::printf("| `%s` | %s%s | %s | %s | %s |\n", key, tunable_ ? "tunable " : "", kind, unit,
+                value.c_str(), (Message("") << range).c_str());
   }
   static void port(const char* key, const char* kind, Quantity quantity, const char* value) {
     std::printf("| `%s` | %s: %s | %s | %s | |\n", key, kind, info(quantity).name,
                 info(quantity).unit, value);
   }
+
+  bool tunable_ = false;
 };
 
 /// The visitor that prints a table for every section.

@@ -62,7 +62,7 @@ void say_where(const Options& options, const char* where, const PageThread& page
   std::fflush(stdout);
 }
 
-ServerSetup setup_of(const Session& session, const Options& options) {
+ServerSetup setup_of(const Session& session, const Options& options, ParameterBook& parameters) {
   ServerSetup setup;
   setup.board = session.board;
   setup.pipeline = stem(options.pipeline);
@@ -73,6 +73,7 @@ ServerSetup setup_of(const Session& session, const Options& options) {
   setup.joint_window = session.client.capacity();
   setup.task_window = session.task_client.capacity();
   setup.log = print_line;
+  setup.parameters = &parameters;
   return setup;
 }
 
@@ -129,7 +130,8 @@ int finish(const Session& session, const Options& options, const RunLoop& loop,
 
 int serve(Session& session, const Options& options) {
   static CycleMail mail;
-  static Server server(setup_of(session, options), session.client, session.task_client, mail);
+  static ParameterBook parameters(session.pipeline);
+  static Server server(setup_of(session, options, parameters), session.client, session.task_client, mail);
   static RunResult result;
   static TrajectoryInput input;  // a server follows none
   static Listener listener;

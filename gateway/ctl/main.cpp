@@ -43,6 +43,7 @@ int run(Session& session) {
     case Verb::kWatch: return watch(session);
     case Verb::kRecord: return record(session);
     case Verb::kInfo: return info(session);
+    case Verb::kParams: return params(session);
     default: return control(session);
   }
 }

@@ -178,7 +178,7 @@ constexpr VerbHelp kVerbs[] = {
     {Verb::kRearm, "rearm", "take the arm over after a stop"},
     {Verb::kWatch, "watch", "show the state of the arm"},
     {Verb::kRecord, "record", "write states into a CSV file"},
-    {Verb::kParams, "params", "change parameters of the pipeline, all in one cycle"},
+    {Verb::kParams, "params", "list parameters of the pipeline, or change them, all in one cycle"},
     {Verb::kInfo, "info", "print what the server says of robot and limits"},
     {Verb::kRetime, "retime", "turn a path without times into the fastest trajectory"},
 };
@@ -204,8 +204,8 @@ void fill(Verb verb, CLI::App& app, Options& o) {
           ->transform(share(0.0, "from 0% to 100%, or 0 to 1"));
       break;
     case Verb::kParams:
-      app.add_option("settings", o.settings, "section.key=value, as in the pipeline file")
-          ->required();
+      app.add_option("settings", o.settings,
+                     "section.key=value, as in the pipeline file (default: list what there is)");
       app.add_flag("--check", o.check_only, "judge them and change nothing");
       break;
     default: break;

@@ -56,7 +56,7 @@ struct Options {
   std::string joystick;    ///< device; empty: the keyboard
 
   double rate = 1.0;                  ///< override
-  std::vector<std::string> settings;  ///< of params: section.key=value
+  std::vector<std::string> settings;  ///< of params: section.key=value; none: list
   bool check_only = false;
 
   int every_ms = 0;       ///< between two states; 0: the default of the verb

@@ -19,9 +19,11 @@ bool read_body(PageCommand command, std::string_view body, double& rate);
 /// Sets the request of a message; its number is left alone. [any]
 void write_request(PageCommand command, double rate, tactus_ToServer& message);
 
-/// True if the gateway takes it from the owner of the lease only. [any]
-constexpr bool needs_lease(PageCommand command) {
-  return command != PageCommand::kStop;
+/// True if the gateway takes it from the owner of the lease only; an override if it is a higher
+/// one. [any]
+constexpr bool may_need_lease(PageCommand command) {
+  return command == PageCommand::kOverride || command == PageCommand::kResume ||
+         command == PageCommand::kRearm;
 }
 
 }  // namespace tactus

@@ -58,15 +58,15 @@ void PageLink::put_lease(tactus_Lease_Wish wish) {
   put();
 }
 
-int PageLink::send(PageCommand command, double rate, std::uint32_t& first) {
+std::uint32_t PageLink::send(PageCommand command, double rate) {
   if (!there()) return 0;
-  first = number_ + 1;
-  if (needs_lease(command)) put_lease(tactus_Lease_Wish_TAKE);
+  if (may_need_lease(command)) put_lease(tactus_Lease_Wish_TAKE);
   asked_ = tactus_ToServer_init_zero;
   write_request(command, rate, asked_);
   put();
-  if (needs_lease(command)) put_lease(tactus_Lease_Wish_RELEASE);
-  return flush() ? static_cast<int>(number_ - first + 1) : 0;
+  const std::uint32_t number = number_;
+  if (may_need_lease(command)) put_lease(tactus_Lease_Wish_RELEASE);
+  return flush() ? number : 0;
 }
 
 void PageLink::ping(std::int64_t now_ns) {

@@ -27,10 +27,10 @@ class PageLink {
       while (next()) take(told_);
   }
 
-  /// Sends a command; one that needs the lease takes it before and gives it back behind, with the
-  /// lowest priority. Their answers have the numbers `first` and following. Returns how many; 0: it
-  /// could not be sent. [any]
-  int send(PageCommand command, double rate, std::uint32_t& first);
+  /// Sends a command; one that may need the lease takes it before, with the lowest priority, and
+  /// gives it back behind. Its answer has the number that is returned; 0: it could not be sent.
+  /// [any]
+  std::uint32_t send(PageCommand command, double rate);
 
  private:
   bool receive();

@@ -129,12 +129,12 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
   if (!read_body(command.what, {command.body.data(), command.size}, rate))
     return send_text(connection, 400,
                      "the body of /override is a number from 0 to 1; the others have none", kPlain);
-  std::uint32_t first = 0;
-  const int count = link_.send(command.what, rate, first);
-  if (count == 0) return send_text(connection, 503, "the server has no place for the page", kPlain);
+  const std::uint32_t number = link_.send(command.what, rate);
+  if (number == 0)
+    return send_text(connection, 503, "the server has no place for the page", kPlain);
   char bytes[64];
   Json json(bytes, sizeof bytes);
-  json.open('{').integer(first, "number").integer(count, "count").close('}');
+  json.open('{').integer(number, "number").close('}');
   return send_text(connection, 202, json.text(), kJson);
 }
 

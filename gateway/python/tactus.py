@@ -69,6 +69,7 @@ __all__ = [
     "Lost",
     "Motion",
     "Outcome",
+    "Parameter",
     "Phase",
     "Refused",
     "Result",
@@ -91,7 +92,8 @@ _TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
-_REPORTED = {"point", "velocity", "chunk", "begin", "cancel", "override", "pause", "resume", "stop", "rearm"}
+_REPORTED = {"point", "velocity", "chunk", "begin", "parameters"}
+_REPORTED |= {"cancel", "override", "pause", "resume", "stop", "rearm"}
 
 
 # --- errors ---
@@ -267,6 +269,24 @@ class Event:
     name: str
     status: int  # a Code
     text: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """A parameter of the pipeline that runs; values are words as in its file."""
+
+    section: str
+    key: str
+    value: str
+    unit: str
+    range: str
+    file_value: str  # that of the file
+    tunable: bool  # it may change while the pipeline runs
+
+    @property
+    def numbers(self) -> Array:
+        """The value as numbers; one if it is the same for all joints. Raises ValueError if it is a word."""
+        return np.array(self.value.split(), dtype=float)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -549,6 +569,7 @@ class _Call:
         self.kind = kind
         self.answer: Optional[pb.Answer] = None
         self.report: Optional[pb.Report] = None
+        self.page: Optional[pb.ParameterPage] = None
         self.feedback: collections.deque[Feedback] = collections.deque(maxlen=1024)
 
     @property
@@ -658,6 +679,16 @@ class _Session:
         assert call.answer
         return call.answer
 
+    def page(self, first: int) -> pb.ParameterPage:
+        """Asks for the parameters from number `first` on; their page comes before the Answer."""
+        call = self.send("list_parameters", pb.ListParameters(first=first))
+        self.wait(lambda: call.final, "answer to list_parameters")
+        if refusal := call.refusal():
+            raise refusal
+        if call.page is None:
+            raise Lost(f"{self.address}: the server has answered without the page of parameters")
+        return call.page
+
     def wait(self, predicate: Callable[[], Optional[T]], what: str) -> T:
         """Returns what the predicate does, once it is true; a server that lets `timeout_s` pass before has failed."""
         try:
@@ -749,6 +780,9 @@ class _Session:
             self.events.append(
                 Event(self.clock.to_local(told.server_ns), told.name, _named(Code, told.status), told.text)
             )
+        elif kind == "parameter_page":
+            if call := self._calls.get(message.parameter_page.number):
+                call.page = message.parameter_page
         elif kind == "credit":
             self.credit += message.credit.waypoints
 
@@ -1063,16 +1097,31 @@ class Arm:
             time.sleep(0.02)
         self._await_nominal(max(1.0, end - time.monotonic()))
 
-    def parameters(self, values: Mapping[str, Mapping[str, Any]], *, check: bool = False) -> None:
-        """Changes settings of the pipeline, all in one cycle or none: {"pd": {"kp": [100, 100, ...]}}.
+    def parameters(self) -> list[Parameter]:
+        """The parameters of the pipeline: present values, units, ranges, and which may change now. Needs no lease."""
+        told: list[pb.PresentParameter] = []
+        while True:
+            page = self._session.page(len(told))
+            told += page.parameters
+            if not page.parameters or len(told) >= page.total:
+                break
+        return [
+            Parameter(p.section, p.key, p.value, p.unit, p.range, p.file_value or p.value, p.tunable) for p in told
+        ]
 
-        check -- judge them and change nothing. Raises Refused with section, key and reason.
+    def set_parameters(self, values: Mapping[str, Mapping[str, Any]], *, check: bool = False) -> None:
+        """Changes parameters of the pipeline, all in one cycle or none: {"pd": {"kp": [100, 100, ...]}}.
+
+        No command steps. Returns when they are in force. Raises Refused with section, key and reason.
+        check -- judge them and change nothing; needs no lease.
         """
         request = pb.Parameters(check=check)
         for section, keys in values.items():
             for key, value in keys.items():
                 text = value if isinstance(value, str) else " ".join(f"{v!r}" for v in np.ravel(value).tolist())
                 request.set.add(section=section, key=key, value=text)
+        if not check:
+            self._own()
         self._session.ask("parameters", request)
 
     def release(self) -> None:

@@ -9,6 +9,7 @@
 #include "kernel/core/status.hpp"
 #include "kernel/core/types.hpp"
 #include "kernel/pipeline/port_table.hpp"
+#include "kernel/pipeline/tuning.hpp"
 
 namespace tactus {
 
@@ -24,6 +25,11 @@ struct OrderMessage {
 struct OrderResult {
   std::uint32_t id = 0;
   Status status = Status::kOk;
+};
+
+/// A set of parameters; there is one at a time.
+struct TuningMessage {
+  const Tuning* tuning = nullptr;
 };
 
 /// What is told of one cycle, after it.
@@ -61,6 +67,8 @@ struct PortMail {
 struct CycleMail {
   Mailbox<OrderMessage, 8> orders;  ///< at most one is taken in a cycle
   Mailbox<OrderResult, 16> results;
+  Mailbox<TuningMessage, 2> tunings;  ///< whose bytes are the cycle's until its verdict
+  Mailbox<TuningVerdict, 2> tuned;
   Mailbox<CycleSnapshot, 32> snapshots;  ///< one of every cycle that finds space
 };
 

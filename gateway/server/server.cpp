@@ -48,6 +48,7 @@ bool Server::finished(int slot, std::int64_t now_ns) const {
 void Server::work(std::int64_t now_ns) {
   take_snapshots(now_ns);
   take_results(now_ns);
+  take_tuned(now_ns);
   take_reports(now_ns);
   for (int i = 0; i < kMostClients; ++i) {
     const int slot = (turn_ + i) % kMostClients;
@@ -98,6 +99,9 @@ void Server::take_message(int slot, const Bytes& bytes, std::int64_t now_ns) {
                      request_.which_request == tactus_ToServer_hello_tag;
   const Reply reply = execute(slot, from, now_ns);
   if (!hello || reply.status != Status::kOk) answer(connection, from.number, reply, now_ns);
+  const bool judged = request_.which_request == tactus_ToServer_parameters_tag &&
+                      request_.request.parameters.check && reply.status == Status::kOk;
+  if (judged) report({from, Outcome::kExecuted, {}, newest_.time_s, 0.0}, {}, now_ns);
 }
 
 /// References come again in datagrams, so nobody is told that one is not taken.

@@ -15,6 +15,7 @@
 #include "gateway/server/generator_clock.hpp"
 #include "gateway/server/lease.hpp"
 #include "gateway/server/reference_intake.hpp"
+#include "kernel/load/parameter_book.hpp"
 #include "kernel/pipeline/pipeline.hpp"
 
 namespace tactus {
@@ -28,6 +29,7 @@ struct ServerSetup {
   const Pipeline* loaded = nullptr;
   int joint_window = 0, task_window = 0;  ///< waypoints that a store holds with all fields
   void (*log)(const char* line) = nullptr;
+  ParameterBook* parameters = nullptr;  ///< null: they do not change while the pipeline runs
 };
 
 /// Result of a request: kOk, or the reason of a refusal in words, and the number that it is about.
@@ -117,6 +119,12 @@ class Server {
   Reply end(const Origin& from);
   Reply reply(const Verdict& verdict) const;
 
+  // server_parameters.cpp: parameters of the pipeline
+  Reply parameters(const Origin& from);
+  Reply list_parameters(const Origin& from);
+  void tell_changes(std::int64_t now_ns);
+  void take_tuned(std::int64_t now_ns);
+
   // server_streams.cpp: chunks and velocities
   Reply velocity(int slot, const Origin& from);
   Reply chunk(int slot, const Origin& from, std::int64_t now_ns);
@@ -133,7 +141,7 @@ class Server {
                    std::int64_t now_ns);
   void take_results(std::int64_t now_ns);
   void take_reports(std::int64_t now_ns);
-  void report(const Told& told, std::int64_t now_ns);
+  void report(const Told& told, std::string_view text, std::int64_t now_ns);
 
   // server_watching.cpp: what is told of the cycles
   void take_snapshots(std::int64_t now_ns);
@@ -159,7 +167,11 @@ class Server {
   std::uint32_t lost_feedback_ = 0;
   std::array<Order, 16> orders_{};
   std::uint32_t next_order_ = 1;
-  int turn_ = 0;  // the connection that is served first
+  bool tuning_ = false;  // a set of parameters is the cycle's
+  Origin tuning_from_;
+  Name tuning_by_;
+  std::uint32_t parameter_sets_ = 0;  // that have taken effect
+  int turn_ = 0;                      // the connection that is served first
   std::array<Connection, kMostClients> connections_{};
   tactus_ToServer request_;  // that is being executed
   tactus_ToClient told_;     // that is being written

@@ -16,8 +16,9 @@ Name printable_name(const char* text) {
   return name.empty() ? Name("a client") : name;
 }
 
-bool needs_lease(pb_size_t request) {
-  switch (request) {
+bool needs_lease(const tactus_ToServer& message) {
+  switch (message.which_request) {
+    case tactus_ToServer_parameters_tag: return !message.request.parameters.check;
     case tactus_ToServer_point_tag:
     case tactus_ToServer_velocity_tag:
     case tactus_ToServer_chunk_tag:
@@ -27,8 +28,9 @@ bool needs_lease(pb_size_t request) {
   }
 }
 
-bool offered(std::uint32_t feature) {
-  return feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
+bool offered(std::uint32_t feature, bool parameters) {
+  return (parameters && feature == tactus_Feature_FEATURE_PARAMETERS) ||
+         feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
          feature == tactus_Feature_FEATURE_VELOCITIES;
 }
 
@@ -42,7 +44,8 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i])) return not_offered("a feature that the message requires");
+    if (!offered(request_.requires[i], setup_.parameters != nullptr))
+      return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)
@@ -52,7 +55,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
                           : with_intake([&from](auto& intake) { return intake.checks(from); });
   const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
                        what == tactus_ToServer_begin_tag;
-  const bool moves = follows ? !checks : needs_lease(what) || raises(what);
+  const bool moves = follows ? !checks : needs_lease(request_) || raises(what);
   if (moves && lease_.owner() != slot) {
     Message text(describe(Status::kNotOwner));
     if (lease_.owner() != Lease::kNobody)
@@ -76,7 +79,10 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     case tactus_ToServer_resume_tag: return control(from, now_ns);
     case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
     case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
-    case tactus_ToServer_parameters_tag: return not_offered("parameters");
+    case tactus_ToServer_parameters_tag:
+      return setup_.parameters != nullptr ? parameters(from) : not_offered("parameters");
+    case tactus_ToServer_list_parameters_tag:
+      return setup_.parameters != nullptr ? list_parameters(from) : not_offered("parameters");
     case tactus_ToServer_subscribe_tag: return subscribe(slot, now_ns);
     case tactus_ToServer_ping_tag: return {};
     default: return {Status::kUnknownKey, "unknown message; this server speaks version 1"};

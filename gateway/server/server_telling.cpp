@@ -102,6 +102,9 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_CHUNKS;
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
   }
+  if (setup_.parameters != nullptr)
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_PARAMETERS;
+  welcome.parameter_sets = parameter_sets_;
   welcome.epoch = epoch_;
   set_text(welcome.motion_frame, setup_.motion_frame);
   set_text(welcome.wrench_frame, setup_.wrench_frame);
@@ -126,7 +129,7 @@ void Server::tell_events(std::string_view name, Status status, std::string_view 
 }
 
 /// A client that does not read its reports is cut: none may be lost.
-void Server::report(const Told& told, std::int64_t now_ns) {
+void Server::report(const Told& told, std::string_view text, std::int64_t now_ns) {
   Connection& to = at(told.to.slot);
   if (!to.there() || to.session != told.to.session) return;
   told_ = tactus_ToClient_init_zero;
@@ -135,7 +138,7 @@ void Server::report(const Told& told, std::int64_t now_ns) {
   report.number = told.to.number;
   report.outcome = outcome_of(told.outcome);
   report.status = static_cast<std::uint32_t>(told.verdict.status);
-  set_text(report.text, reply(told.verdict).text);
+  set_text(report.text, text);
   report.time_s = told.time_s;
   report.stretch = told.stretch;
   report.server_ns = now_ns;
@@ -148,7 +151,7 @@ void Server::take_reports(std::int64_t now_ns) {
   if (!takes_references()) return;
   with_intake([&](auto& intake) {
     Told told;
-    while (intake.work(told)) report(told, now_ns);
+    while (intake.work(told)) report(told, reply(told.verdict).text, now_ns);
     Granted granted;
     if (!intake.grant(granted)) return;
     told_ = tactus_ToClient_init_zero;
@@ -170,7 +173,7 @@ void Server::take_results(std::int64_t now_ns) {
               {result.status},
               newest_.time_s,
               0.0},
-             now_ns);
+             reply({result.status}).text, now_ns);
       order = {};
     }
   }

@@ -33,13 +33,19 @@ Admittance::Axis Admittance::axis_of(int i) const {
   return axis;
 }
 
-Status Admittance::start() {
+Status Admittance::judge() const {
   for (int i = 0; i < 6; ++i) {
     const Axis axis = axis_of(i);
     if (axis.compliant && axis.stiffness == 0.0 && params.damping_given == DampingGiven::kAsRatio)
       return Status::kBadValue;
-    axes_[static_cast<std::size_t>(i)] = axis;
   }
+  return Status::kOk;
+}
+
+Status Admittance::start() {
+  TRY(judge());
+  for (int i = 0; i < 6; ++i) axes_[static_cast<std::size_t>(i)] = axis_of(i);
+  fade_.clear();
   period_s_ = 0.0;
   braked_ = false;
   limited.value = false;
@@ -55,6 +61,8 @@ Status Admittance::step(double dt_s) {
   const Matrix3 to_axes = frame().transpose();
   const Vector6 wrench = *h - *h_d;
   const Vector6 force = stacked(to_axes * wrench.head<3>(), to_axes * wrench.tail<3>());
+  fade_.step(dt_s);
+  const Vector6 fading = fade_.value();
   limited.value = false;
   LoopBound<6> axes;
   for (int i = 0; i < 6; ++i) {
@@ -62,7 +70,7 @@ Status Admittance::step(double dt_s) {
     Axis& axis = axes_[static_cast<std::size_t>(i)];
     if (braked_)
       axis.brake(dt_s);
-    else if (axis.move(force[i], dt_s))
+    else if (axis.move(force[i], fading[i], dt_s))
       limited.value = true;
   }
   return command();
@@ -74,10 +82,10 @@ bool Admittance::at_rest() const {
   return rests;
 }
 
-bool Admittance::Axis::move(double force, double dt_s) {
+bool Admittance::Axis::move(double force, double fading, double dt_s) {
   if (!compliant) return false;
   const double f = std::clamp(force, -max_force, max_force);
-  const MassSpringDamper::State free = law.step(state, f), next = bounded(free, dt_s);
+  const MassSpringDamper::State free = law.step(state, f + fading), next = bounded(free, dt_s);
   state = next;
   return f != force || next.x != free.x || next.v != free.v;
 }
@@ -99,6 +107,21 @@ MassSpringDamper::State Admittance::Axis::bounded(const MassSpringDamper::State&
     if (next.v * next.x > 0.0) next.v = 0.0;
   }
   return next;
+}
+
+void Admittance::retune(const Params& next, const JointLimits& /*limits*/) {
+  params = next;
+  Vector6 difference = fade_.value();
+  for (int i = 0; i < 6; ++i) {
+    Axis& axis = axes_[static_cast<std::size_t>(i)];
+    const Axis before = axis;
+    axis = axis_of(i);
+    axis.state = before.state;
+    difference[i] += (axis.stiffness - before.stiffness) * axis.state.x +
+                     (axis.damping - before.damping) * axis.state.v;
+  }
+  fade_.start(difference, kFade_s);
+  period_s_ = 0.0;  // the next step computes the coefficients
 }
 
 Matrix3 Admittance::frame() const {

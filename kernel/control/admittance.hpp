@@ -26,6 +26,9 @@
 // The bounds act on the state itself, so nothing winds up. The largest step of v_c on an axis is
 // max_velocity, when the axis reaches max_displacement.
 //
+// When M, D or K change, e and v stay, and so does the force on the mass: the difference of spring
+// and damper fades (kernel/math/fade.hpp).
+//
 // When braked, v goes to zero on each axis with half the robot's acceleration limit of the tip,
 // within the same bounds, and e is held there: neither wrench nor spring moves it any more.
 #pragma once
@@ -34,8 +37,10 @@
 
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
+#include "kernel/core/joint_limits.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 #include "kernel/math/mass_spring_damper.hpp"
 
 namespace tactus {
@@ -113,13 +118,13 @@ class Admittance {
     visit.choice("compliant_translation", params.translation);
     visit.choice("compliant_rotation", params.rotation);
     visit.choice("damping_given_as", params.damping_given);
-    visit.param("mass", params.mass, kMasses, "kg");
-    visit.param("inertia", params.inertia, kMasses, "kg m^2");
-    visit.param("damping", params.damping, kGains, "N s/m, or 1 for a ratio");
-    visit.param("rotational_damping", params.rotational_damping, kGains,
-                "N m s/rad, or 1 for a ratio");
-    visit.param("stiffness", params.stiffness, kGains, "N/m");
-    visit.param("rotational_stiffness", params.rotational_stiffness, kGains, "N m/rad");
+    visit.tunable("mass", params.mass, kMasses, "kg");
+    visit.tunable("inertia", params.inertia, kMasses, "kg m^2");
+    visit.tunable("damping", params.damping, kGains, "N s/m, or 1 for a ratio");
+    visit.tunable("rotational_damping", params.rotational_damping, kGains,
+                  "N m s/rad, or 1 for a ratio");
+    visit.tunable("stiffness", params.stiffness, kGains, "N/m");
+    visit.tunable("rotational_stiffness", params.rotational_stiffness, kGains, "N m/rad");
     visit.param("max_displacement", params.max_displacement, Range{0.0, 1.0}, "m");
     visit.param("max_rotation", params.max_rotation, Range{0.0, 1.8}, "rad");
     visit.param("max_velocity", params.max_velocity, Range{0.0, 2.0}, "m/s");
@@ -135,10 +140,12 @@ class Admittance {
     visit.out("limited", limited);
   }
 
-  /// Starts without displacement: the commanded pose is the desired one. Returns kBadValue if a
-  /// ratio is given for the damping of a compliant axis without stiffness, where it gives none;
+  /// Starts without displacement: the commanded pose is the desired one. Returns what judge() does;
   /// otherwise as step(). [init]
   [[gnu::cold]] Status start();
+  /// Returns kBadValue if a ratio is given for the damping of a compliant axis without stiffness,
+  /// where it gives none. [init]
+  [[gnu::cold]] Status judge() const;
 
   /// Returns kCommandNotFinite if an input or the command is not finite. The first step after a
   /// change of period computes the coefficients again. [cyclic]
@@ -148,6 +155,9 @@ class Admittance {
   void brake(Status /*why*/, BrakeWay /*way*/) { braked_ = true; }
   /// True if the displacement does not move. [between two cycles]
   bool at_rest() const;
+  /// Changes the tunable parameters: displacement, velocity and the force on each mass go on, and
+  /// what spring and damper exert differently fades in kFade_s. [between two cycles], after a step
+  void retune(const Params& next, const JointLimits& limits);
 
  private:
   static constexpr Range kMasses = {1e-4, 1e4}, kGains = {0.0, 1e6};
@@ -160,8 +170,8 @@ class Admittance {
     MassSpringDamper law;
     MassSpringDamper::State state;
 
-    /// Advances one period under `force`; true if a bound acted.
-    bool move(double force, double dt_s);
+    /// Advances one period under `force`, which is bounded, and what fades; true if a bound acted.
+    bool move(double force, double fading, double dt_s);
     /// Advances one period towards rest.
     void brake(double dt_s);
     /// Returns the next state kept within the bounds, given the present one.
@@ -177,6 +187,7 @@ class Admittance {
   std::array<Axis, 6> axes_;  // three translations, three rotations
   double period_s_ = 0.0;     // of the laws
   bool braked_ = false;
+  Fade<Vector6> fade_;  // N and N m, in the compliant axes
 };
 
 }  // namespace tactus

@@ -79,9 +79,21 @@ double CartesianPose::excess(const Vector6& v) const {
       {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
 }
 
+/// Returns the twist that corrects an error, within the tip's speed limits.
+Vector6 CartesianPose::correction(const Vector6& e) const {
+  const Vector6 wanted = stacked(params.position_gain.cwiseProduct(e.head<3>()),
+                                 params.rotation_gain.cwiseProduct(e.tail<3>()));
+  return wanted / excess(wanted);
+}
+
+Status CartesianPose::judge(double dt_s) const {
+  return largest_gain() * (dt_s + params.measurement_delay) <= kMaxGainPeriods
+             ? Status::kOk
+             : Status::kUnstableGain;
+}
+
 Status CartesianPose::start(double dt_s) {
-  if (!(largest_gain() * (dt_s + params.measurement_delay) <= kMaxGainPeriods))
-    return Status::kUnstableGain;
+  TRY(judge(dt_s));
   if (!q->allFinite()) return Status::kStateNotFinite;
   const JointLimits& limits = params.limits;
   motion_.start({limits.q_min + params.position_margin, limits.q_max - params.position_margin,
@@ -91,6 +103,7 @@ Status CartesianPose::start(double dt_s) {
   dq_c.value.setZero();
   posture_dq_.setZero();
   braked_ = at_once_ = false;
+  fade_.clear();
   tracking_ = 1.0;
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
@@ -100,6 +113,13 @@ Status CartesianPose::start(double dt_s) {
 Status CartesianPose::resume() {
   braked_ = at_once_ = false;
   return Status::kOk;
+}
+
+void CartesianPose::retune(const Params& next, const JointLimits& /*limits*/) {
+  const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
+  const Vector6 before = correction(e) + fade_.value();
+  params = next;
+  fade_.start(before - correction(e), kFade_s);
 }
 
 Status CartesianPose::step(double dt_s) {
@@ -125,10 +145,9 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
     return Status::kReferenceFault;
   run_down(dt_s);
 
-  Vector6 wanted;
-  wanted << params.position_gain.cwiseProduct(e.head<3>()),
-      params.rotation_gain.cwiseProduct(e.tail<3>());
-  wanted /= excess(wanted);
+  fade_.step(dt_s);
+  Vector6 wanted = correction(e);
+  if (fade_.runs()) wanted += fade_.value();
   const double rate = largest_gain();
   Demand demand{*v_d, wanted, rate > 0.0 ? kBend * wanted.norm() / rate : 0.0};
   Inverse inverse(*J, params.damping_onset, demand.floor);

@@ -35,6 +35,9 @@
 //   - a large error is corrected no faster than the joints can brake with half their acceleration;
 //   - JointIntegrator bounds the result: position, velocity, lead, acceleration.
 //
+// When K changes, the difference of the correction fades (kernel/math/fade.hpp); the posture's
+// velocity changes with a bounded acceleration anyway.
+//
 // When braked on the path, the posture's velocity goes to zero, and once the reference is at rest,
 // the remaining error is corrected for no longer than kRunDown_s and never faster than before. When
 // braked at once, every joint stops separately with max_acceleration.
@@ -45,6 +48,7 @@
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/math/damped_inverse.hpp"
+#include "kernel/math/fade.hpp"
 #include "kernel/math/joint_integrator.hpp"
 
 namespace tactus {
@@ -83,11 +87,11 @@ class CartesianPose {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("position_gain", params.position_gain, Range{0.0, 1000.0}, "1/s");
-    visit.param("rotation_gain", params.rotation_gain, Range{0.0, 1000.0}, "1/s");
+    visit.tunable("position_gain", params.position_gain, Range{0.0, 1000.0}, "1/s");
+    visit.tunable("rotation_gain", params.rotation_gain, Range{0.0, 1000.0}, "1/s");
     visit.param("measurement_delay", params.measurement_delay, Range{0.0, 0.1}, "s");
     visit.param("damping_onset", params.damping_onset, Range{1e-3, 1.0}, "1");
-    visit.param("posture_gain", params.posture_gain, Range{0.0, 10.0}, "1/s");
+    visit.tunable("posture_gain", params.posture_gain, Range{0.0, 10.0}, "1/s");
     visit.param("max_lead", params.max_lead, Range{1e-4, 1.0}, "rad");
     visit.param("max_speed", params.max_speed, Range{1e-3, Robot::kTaskLimit.v_max}, "m/s");
     visit.param("max_angular_speed", params.max_angular_speed, Range{1e-3, Robot::kTaskLimit.w_max},
@@ -109,9 +113,11 @@ class CartesianPose {
     visit.out("damping", damping);
   }
 
-  /// Holds the measured position. Returns kUnstableGain unless every gain times (dt_s +
-  /// measurement_delay) is at most kMaxGainPeriods; kStateNotFinite. [init]
+  /// Holds the measured position. Returns what judge() does; kStateNotFinite. [init]
   [[gnu::cold]] Status start(double dt_s);
+  /// Returns kUnstableGain unless every gain times (dt_s + measurement_delay) is at most
+  /// kMaxGainPeriods. [init]
+  [[gnu::cold]] Status judge(double dt_s) const;
 
   /// Returns kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
@@ -129,6 +135,9 @@ class CartesianPose {
   /// Lets the joint command go on from where it is; a remaining error fades in again, and the
   /// posture stays that of the start. [init]
   Status resume();
+  /// Changes the tunable parameters: the correction goes on, and its difference fades in kFade_s.
+  /// [between two cycles], after a step
+  void retune(const Params& next, const JointLimits& limits);
 
   /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
   /// overshoot below 1; with two periods of unmodelled delay the stability limit is
@@ -144,6 +153,7 @@ class CartesianPose {
 
   double largest_gain() const;
   double excess(const Vector6& v) const;
+  Vector6 correction(const Vector6& e) const;
   Status command_velocity(double dt_s, JointVector& dq);
   void run_down(double dt_s);
   void share_out(const DampedInverse<kDof>& inverse, double dt_s, Demand& demand) const;
@@ -154,6 +164,7 @@ class CartesianPose {
   JointVector posture_ = JointVector::Zero();  // joints at start()
   JointVector posture_dq_ = JointVector::Zero();
   bool braked_ = false, at_once_ = false;
+  Fade<Vector6> fade_;     // m/s and rad/s, in base axes
   double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;
 };

@@ -11,6 +11,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 
 namespace tactus {
 
@@ -28,8 +29,8 @@ struct PdGravity {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("kp", params.kp, kPositive, "N m/rad");
-    visit.param("kd", params.kd, kPositive, "N m s/rad");
+    visit.tunable("kp", params.kp, kPositive, "N m/rad");
+    visit.tunable("kd", params.kd, kPositive, "N m s/rad");
     visit.in("q_d", q_d);
     visit.in("q", q);
     visit.in("dq", dq);
@@ -39,15 +40,41 @@ struct PdGravity {
 
   /// If the reference is at the measured position and the robot at rest, the first torque is
   /// gravity. [init]
-  Status start() { return step(0.0); }
+  Status start() {
+    fade_.clear();
+    return step(0.0);
+  }
+  /// The torque goes on, with what is left of a change of the gains. [init]
+  Status resume() { return step(0.0); }
 
   /// Returns kCommandNotFinite if the torque is not finite. [cyclic]
-  Status step(double /*dt_s*/) {
-    tau.value = params.kp.cwiseProduct(*q_d - *q) - params.kd.cwiseProduct(*dq) + *g;
+  Status step(double dt_s) {
+    fade_.step(dt_s);
+    tau.value = torque(params);
+    if (fade_.runs()) tau.value += fade_.value();
     return tau.value.allFinite() ? Status::kOk : Status::kCommandNotFinite;
   }
   /// No effect: the block has no motion of its own. [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) {}
+
+  /// Judges a change of the gains as judge_torque(). [between two cycles], after a step
+  Status judge_change(const Params& next, const JointLimits& limits) const {
+    return judge_torque(torque(next), torque(params), limits);
+  }
+  /// Changes the gains: the torque goes on from the last one, and the difference fades with at most
+  /// half of limits.dtau_max. [between two cycles], after a step
+  void retune(const Params& next, const JointLimits& limits) {
+    const JointVector difference = tau.value - torque(next);
+    params = next;
+    fade_.start(difference, fading_time(difference, limits));
+  }
+
+ private:
+  JointVector torque(const Params& with) const {
+    return with.kp.cwiseProduct(*q_d - *q) - with.kd.cwiseProduct(*dq) + *g;
+  }
+
+  Fade<JointVector> fade_;
 };
 
 }  // namespace tactus

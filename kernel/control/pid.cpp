@@ -19,44 +19,47 @@ JointVector difference(const JointVector& now, const JointVector& before, double
   return dt_s == 0.0 ? JointVector(JointVector::Zero()) : JointVector((now - before) / dt_s);
 }
 
-bool is_gain(const JointVector& gain) {
-  return gain.allFinite() && gain.minCoeff() >= 0.0;
-}
-
 }  // namespace
 
-Status Pid::start() {
+Status Pid::judge() const {
   const bool deaf = (!dq_d.wired() && params.velocity_gain.maxCoeff() > 0.0) ||
                     (!ddq_d.wired() && params.acceleration_gain.maxCoeff() > 0.0);
-  if (deaf) return Status::kNotConnected;
+  return deaf ? Status::kNotConnected : Status::kOk;
+}
+
+Status Pid::start() {
+  TRY(judge());
   if (!tau_measured->allFinite()) return Status::kCommandNotFinite;
   frozen_ = false;
-  const JointVector e = error(), de = error_rate(0.0);
+  fade_.clear();
+  const JointVector e = error(params.dead_band), de = error_rate(0.0);
   JointVector integral = JointVector::Zero();
   if (tau_measured.wired()) {
-    const JointVector missing = *tau_measured - other_terms(e, de);
+    const JointVector missing = *tau_measured - other_terms(params, e, de);
     for (int i = 0; i < kDof; ++i) integral[i] = params.gains.ki[i] > 0.0 ? missing[i] : 0.0;
   }
   return put_out(e, de, clamped(integral, params.integral_limit));
 }
 
 Status Pid::step(double dt_s) {
-  const JointVector e = error(), de = filtered(error_rate(dt_s), dt_s);
-  const JointVector others = other_terms(e, de);
+  const JointVector e = error(params.dead_band), de = filtered(error_rate(dt_s), dt_s);
+  const JointVector others = other_terms(params, e, de);
+  fade_.step(dt_s);
   JointVector integral;
   for (int i = 0; i < kDof; ++i) integral[i] = integrated(i, e[i], others[i], dt_s);
   return put_out(e, de, integral);
 }
 
 /// Returns all terms of the law but the integral.
-JointVector Pid::other_terms(const JointVector& e, const JointVector& de) const {
-  return params.gains.kp.cwiseProduct(e) + params.gains.kd.cwiseProduct(de) +
-         params.velocity_gain.cwiseProduct(*dq_d) + params.acceleration_gain.cwiseProduct(*ddq_d) +
-         params.effort_gain.cwiseProduct(*tau_d) + *g;
+JointVector Pid::other_terms(const Params& with, const JointVector& e,
+                             const JointVector& de) const {
+  return with.gains.kp.cwiseProduct(e) + with.gains.kd.cwiseProduct(de) +
+         with.velocity_gain.cwiseProduct(*dq_d) + with.acceleration_gain.cwiseProduct(*ddq_d) +
+         with.effort_gain.cwiseProduct(*tau_d) + *g;
 }
 
 Status Pid::put_out(const JointVector& e, const JointVector& de, const JointVector& integral) {
-  const JointVector sum = other_terms(e, de) + integral;
+  const JointVector sum = other_terms(params, e, de) + integral;
   if (!sum.allFinite()) return Status::kCommandNotFinite;
   e_ = e;
   de_ = de;
@@ -64,13 +67,14 @@ Status Pid::put_out(const JointVector& e, const JointVector& de, const JointVect
   q_d_ = *q_d;
   integral_ = integral;
   tau.value = clamped(sum, params.output_limit);
+  if (fade_.runs()) tau.value = clamped(tau.value + fade_.value(), params.output_limit);
   return Status::kOk;
 }
 
-JointVector Pid::error() const {
+JointVector Pid::error(const JointVector& dead_band) const {
   JointVector e = *q_d - *q;
   for (int i = 0; i < kDof; ++i) {
-    const double band = params.dead_band[i];
+    const double band = dead_band[i];
     e[i] = std::abs(e[i]) <= band ? 0.0 : e[i] - std::copysign(band, e[i]);
   }
   return e;
@@ -120,17 +124,20 @@ double Pid::tracking_time_constant(int i) const {
   return gains.kd[i] > 0.0 ? std::sqrt(gains.kd[i] / gains.ki[i]) : gains.kp[i] / gains.ki[i];
 }
 
-Status Pid::set_gains(const Gains& gains) {
-  if (!is_gain(gains.kp) || !is_gain(gains.ki) || !is_gain(gains.kd)) return Status::kBadValue;
-  for (int i = 0; i < kDof; ++i) {
-    if (gains.ki[i] == 0.0) continue;
-    const double change =
-        (gains.kp[i] - params.gains.kp[i]) * e_[i] + (gains.kd[i] - params.gains.kd[i]) * de_[i];
-    integral_[i] =
-        std::clamp(integral_[i] - change, -params.integral_limit[i], params.integral_limit[i]);
-  }
-  params.gains = gains;
-  return Status::kOk;
+/// Returns the torque of the last cycle with other parameters, without limit and fade.
+JointVector Pid::torque(const Params& with) const {
+  return other_terms(with, error(with.dead_band), de_) + integral_;
+}
+
+Status Pid::judge_change(const Params& next, const JointLimits& limits) const {
+  return judge_torque(torque(next), torque(params), limits);
+}
+
+void Pid::retune(const Params& next, const JointLimits& limits) {
+  const JointVector difference = tau.value - clamped(torque(next), next.output_limit);
+  params = next;
+  e_ = error(next.dead_band);
+  fade_.start(difference, fading_time(difference, limits));
 }
 
 }  // namespace tactus

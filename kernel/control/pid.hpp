@@ -5,7 +5,8 @@
 //   feed-forward = Fv dq_d + Fa ddq_d + Ft tau_d
 //
 // The integral is that of Ki e, in N m, by the trapezoidal rule: exact for an error that is linear
-// between samples, and a change of Ki causes no step. A velocity that is not wired is the
+// between samples, and a change of Ki causes no step. When another gain changes, the difference
+// fades (kernel/math/fade.hpp). A velocity that is not wired is the
 // difference of the position. The rate of the error is low-passed with the pole of the continuous
 // filter, exp(-dt/T); the filter is exact for a rate that is constant over the past period, so at
 // every period the response is that of the continuous one to within half a period times the slope
@@ -24,6 +25,7 @@
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 
 namespace tactus {
 
@@ -85,19 +87,19 @@ class Pid {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.param("kp", params.gains.kp, kNonNegative, "N m/rad");
-    visit.param("ki", params.gains.ki, kNonNegative, "N m/(rad s)");
-    visit.param("kd", params.gains.kd, kNonNegative, "N m s/rad");
-    visit.param("dead_band", params.dead_band, kNonNegative, "rad");
+    visit.tunable("kp", params.gains.kp, kNonNegative, "N m/rad");
+    visit.tunable("ki", params.gains.ki, kNonNegative, "N m/(rad s)");
+    visit.tunable("kd", params.gains.kd, kNonNegative, "N m s/rad");
+    visit.tunable("dead_band", params.dead_band, kNonNegative, "rad");
     visit.choice("derivative", params.derivative);
     visit.param("derivative_time_constant", params.derivative_time_constant, kNonNegative, "s");
     visit.choice("anti_windup", params.anti_windup);
-    visit.param("tracking_time_constant", params.tracking_time_constant, kNonNegative, "s");
+    visit.tunable("tracking_time_constant", params.tracking_time_constant, kNonNegative, "s");
     visit.limit("integral_limit", params.integral_limit, "N m");
     visit.limit("output_limit", params.output_limit, "N m");
-    visit.param("velocity_gain", params.velocity_gain, kNonNegative, "N m s/rad");
-    visit.param("acceleration_gain", params.acceleration_gain, kNonNegative, "kg m^2");
-    visit.param("effort_gain", params.effort_gain, kNonNegative, "1");
+    visit.tunable("velocity_gain", params.velocity_gain, kNonNegative, "N m s/rad");
+    visit.tunable("acceleration_gain", params.acceleration_gain, kNonNegative, "kg m^2");
+    visit.tunable("effort_gain", params.effort_gain, kNonNegative, "1");
     visit.in("q_d", q_d);
     visit.in("q", q);
     visit.optional("dq_d", dq_d);
@@ -112,9 +114,10 @@ class Pid {
   /// The integral begins at zero: if the reference is at the measured position and the robot at
   /// rest, the first torque is gravity and feed-forward. If tau_measured is wired, the integral
   /// begins such that the first torque is the measured one, at joints with ki > 0 and within its
-  /// limit. Returns kNotConnected if a feed-forward gain lacks its input; otherwise as step().
-  /// [init]
+  /// limit. Returns what judge() does; otherwise as step(). [init]
   [[gnu::cold]] Status start();
+  /// Returns kNotConnected if a feed-forward gain lacks its input. [init]
+  [[gnu::cold]] Status judge() const;
 
   /// Returns kCommandNotFinite if an input that is read is not finite; torque and state are then
   /// unchanged. [cyclic]
@@ -129,21 +132,23 @@ class Pid {
     return Status::kOk;
   }
 
-  /// Changes the gains and moves the integral by the change of the other terms of the last cycle,
-  /// so that the torque does not step. The part that exceeds the integral limit does step. At a
-  /// joint whose new ki is 0, the integral is unchanged and the torque steps by at most
-  /// |new kp - old kp| |e| + |new kd - old kd| |rate of e|. Returns kBadValue, without effect, if a
-  /// gain is negative or not finite. [cyclic], after a step
-  Status set_gains(const Gains& gains);
+  /// Judges a change of the parameters as judge_torque(), before the output limit.
+  /// [between two cycles], after a step
+  Status judge_change(const Params& next, const JointLimits& limits) const;
+  /// Changes the tunable parameters. The integral keeps its torque, also where the new ki is 0; the
+  /// torque goes on from the last one, and the difference fades with at most half of
+  /// limits.dtau_max. [between two cycles], after a step
+  void retune(const Params& next, const JointLimits& limits);
 
   /// The integral term, N m. [any]
   const JointVector& integral() const { return integral_; }
 
  private:
-  JointVector error() const;
+  JointVector error(const JointVector& dead_band) const;
   JointVector error_rate(double dt_s) const;
   JointVector filtered(const JointVector& rate, double dt_s) const;
-  JointVector other_terms(const JointVector& e, const JointVector& de) const;
+  JointVector other_terms(const Params& with, const JointVector& e, const JointVector& de) const;
+  JointVector torque(const Params& with) const;
   double integrated(int i, double e, double others, double dt_s) const;
   double tracking_time_constant(int i) const;
   Status put_out(const JointVector& e, const JointVector& de, const JointVector& integral);
@@ -153,6 +158,7 @@ class Pid {
   JointVector q_ = JointVector::Zero(), q_d_ = JointVector::Zero();
   JointVector integral_ = JointVector::Zero();  // N m
   bool frozen_ = false;
+  Fade<JointVector> fade_;
 };
 
 }  // namespace tactus

@@ -22,6 +22,7 @@ Status WrenchFrontEnd::start() {
   period_s_ = 0.0;
   last_ = *ft;
   unchanged_ = samples_ = cycles_ = 0;
+  fade_.clear();
   return check();
 }
 
@@ -33,9 +34,20 @@ Status WrenchFrontEnd::step(double dt_s) {
   if (!load.allFinite()) return Status::kSensorNotFinite;
   if (taring.value) return tare(load, dt_s);
   filter(at_tip(load - bias.value, R), dt_s);
-  h.value << shortened(filtered_.head<3>(), params.dead_force),
-      shortened(filtered_.tail<3>(), params.dead_moment);
+  fade_.step(dt_s);
+  h.value = contact();
+  if (fade_.runs()) h.value += fade_.value();
   return h.value.allFinite() ? Status::kOk : Status::kSensorNotFinite;
+}
+
+Vector6 WrenchFrontEnd::contact() const {
+  return stacked(shortened(filtered_.head<3>(), params.dead_force),
+                 shortened(filtered_.tail<3>(), params.dead_moment));
+}
+
+void WrenchFrontEnd::retune(const Params& next, const JointLimits& /*limits*/) {
+  params = next;
+  fade_.start(h.value - contact(), kFade_s);
 }
 
 Status WrenchFrontEnd::check() const {

@@ -25,6 +25,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 
 namespace tactus {
 
@@ -61,8 +62,8 @@ class WrenchFrontEnd {
     visit.param("tare_force_tolerance", params.tare_force_tolerance, kNonNegative, "N");
     visit.param("tare_moment_tolerance", params.tare_moment_tolerance, kNonNegative, "N m");
     visit.param("time_constant_s", params.time_constant_s, Range{0.0, 10.0}, "s");
-    visit.param("dead_force", params.dead_force, kNonNegative, "N");
-    visit.param("dead_moment", params.dead_moment, kNonNegative, "N m");
+    visit.tunable("dead_force", params.dead_force, kNonNegative, "N");
+    visit.tunable("dead_moment", params.dead_moment, kNonNegative, "N m");
     visit.in("ft", ft);
     visit.in("x", x);
     visit.in("tool", tool);
@@ -80,6 +81,9 @@ class WrenchFrontEnd {
   Status step(double dt_s);
   /// No effect: the block has no motion of its own. [cyclic]
   void brake(Status /*why*/, BrakeWay /*way*/) {}
+  /// Changes the tunable parameters: h goes on, and its difference fades in kFade_s.
+  /// [between two cycles], after a step
+  void retune(const Params& next, const JointLimits& limits);
 
  private:
   Status check() const;
@@ -91,11 +95,14 @@ class WrenchFrontEnd {
   /// Moves a wrench from the flange, in its axes R, to the tip, in base axes.
   Vector6 at_tip(const Vector6& flange, const Matrix3& R) const;
   void filter(const Vector6& contact, double dt_s);
+  /// Returns the filtered wrench less the dead band.
+  Vector6 contact() const;
 
   Vector6 filtered_ = Vector6::Zero();
   double gain_ = 0.0, period_s_ = 0.0;  // of the filter, and the period for which it holds
   Vector6 last_ = Vector6::Zero();      // ft of the last cycle
   int unchanged_ = 0;                   // cycles without a change of ft
+  Fade<Vector6> fade_;
   // The tare's interval: sum, extremes and number of samples; and the cycles since start.
   Vector6 sum_ = Vector6::Zero(), low_ = Vector6::Zero(), high_ = Vector6::Zero();
   int samples_ = 0, cycles_ = 0;

@@ -131,28 +131,28 @@ Status Ini::parse_line(std::string_view line, int number, LoadError& error) {
   return add_entry(trim(prefix(line, equals)), trim(value), number, error);
 }
 
-Status Ini::add_section(std::string_view name, int number, LoadError& error) {
+Status Ini::add_section(std::string_view name, int line, LoadError& error) {
   if (!is_name(name)) {
-    return error.refuse(Status::kBadSyntax, number, {}, {},
+    return error.refuse(Status::kBadSyntax, line, {}, {},
                         "a section name is 1 to 31 letters, digits or underscores");
   }
   if (const IniSection* earlier = find(name)) {
     Message reason("the section is already given at line ");
     reason << earlier->line;
-    return error.refuse(Status::kDuplicate, number, name, {}, reason);
+    return error.refuse(Status::kDuplicate, line, name, {}, reason);
   }
   if (section_count_ == kMaxSections) {
-    return error.refuse(Status::kTooLarge, number, name, {},
+    return error.refuse(Status::kTooLarge, line, name, {},
                         Message("more than ") << kMaxSections << " sections");
   }
   IniSection& section = sections_[static_cast<std::size_t>(section_count_++)];
-  section = {number, name, entry_count_, 0};
+  section = {line, name, entry_count_, 0};
   return Status::kOk;
 }
 
-Status Ini::add_entry(std::string_view key, std::string_view value, int number, LoadError& error) {
+Status Ini::add_entry(std::string_view key, std::string_view value, int line, LoadError& error) {
   if (section_count_ == 0) {
-    return error.refuse(Status::kBadSyntax, number, {}, {},
+    return error.refuse(Status::kBadSyntax, line, {}, {},
                         "key = value is before the first [section]");
   }
   IniSection& section = sections_[static_cast<std::size_t>(section_count_ - 1)];
@@ -175,9 +175,9 @@ Status Ini::add_entry(std::string_view key, std::string_view value, int number, 
     reason << "more than " << kMaxEntries << " keys";
   }
   if (status != Status::kOk) {
-    return error.refuse(status, number, section.name, is_name(key) ? key : "", reason);
+    return error.refuse(status, line, section.name, is_name(key) ? key : "", reason);
   }
-  entries_[static_cast<std::size_t>(entry_count_++)] = {number, key, value};
+  entries_[static_cast<std::size_t>(entry_count_++)] = {line, key, value};
   ++section.count;
   return Status::kOk;
 }

@@ -29,6 +29,10 @@ class Ini {
   /// Splits `text`. If it is refused, `error` says why, and the table must not be used. [init]
   Status parse(std::string_view text, LoadError& error);
 
+  /// Begins a section, and adds an entry to it. `line` is where they are, for the refusal. [init]
+  Status add_section(std::string_view name, int line, LoadError& error);
+  Status add_entry(std::string_view key, std::string_view value, int line, LoadError& error);
+
   int section_count() const { return section_count_; }
   const IniSection& section(int index) const { return sections_[static_cast<std::size_t>(index)]; }
   const IniEntry& entry(int index) const { return entries_[static_cast<std::size_t>(index)]; }
@@ -39,8 +43,6 @@ class Ini {
 
  private:
   Status parse_line(std::string_view line, int number, LoadError& error);
-  Status add_section(std::string_view name, int number, LoadError& error);
-  Status add_entry(std::string_view key, std::string_view value, int number, LoadError& error);
 
   std::array<IniSection, kMaxSections> sections_;
   std::array<IniEntry, kMaxEntries> entries_;

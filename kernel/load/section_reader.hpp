@@ -38,6 +38,11 @@ class SectionReader {
   void param(const char* key, int& value, const Range& range, const char* unit);
   void param(const char* key, JointVector& value, const Range& range, const char* unit);
   void param(const char* key, Vector3& value, const Range& range, const char* unit);
+  /// Reads a setting that may also change while the pipeline runs.
+  template <class Value>
+  void tunable(const char* key, Value& value, const Range& range, const char* unit) {
+    param(key, value, range, unit);
+  }
   /// Reads a limit per joint, which may be tightened from its present value, not widened.
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>
@@ -76,6 +81,11 @@ class SectionReader {
   const void* source(const char* key, Quantity quantity, bool required);
   bool failed() const { return error_.status != Status::kOk; }
 
+ protected:
+  /// Returns the entry of a key, or null; while it seeks, compares the name and returns null.
+  const IniEntry* find(const char* key);
+  void refuse(Status status, const char* key, std::string_view reason);
+
  private:
   template <Quantity Q>
   void bind(const char* key, In<Q>& port, bool required) {
@@ -91,15 +101,12 @@ class SectionReader {
     offered_->*which = nullptr;
   }
   void add_output(const PortEntry& entry);
-  /// Returns the entry of a key, or null; while it seeks, compares the name and returns null.
-  const IniEntry* find(const char* key);
   int choose(const char* key, const char* const* words, std::size_t count);
   /// Reads as many numbers as there are values, or for joints also one number for all. Without the
   /// key the defaults remain, if there are any.
   bool numbers(const char* key, double* values, int count, bool joints, const char* unit);
   /// Returns the word in the file that gave value `index`.
   std::string_view written(const char* key, int index);
-  void refuse(Status status, const char* key, std::string_view reason);
   void refuse_length(const char* key, std::size_t length, std::size_t limit);
   void refuse_missing(const char* key, const char* unit);
 

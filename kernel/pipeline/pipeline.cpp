@@ -1,7 +1,7 @@
 #include "kernel/pipeline/pipeline.hpp"
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/pipeline/kinds.hpp"
+#include "kernel/pipeline/with_block.hpp"
 
 namespace tactus {
 
@@ -42,14 +42,6 @@ template <class Kind, class = void>
 constexpr bool kLimitsBraking = false;
 template <class Kind>
 constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
-
-/// Returns act(block) with the block as its own kind.
-template <class Act>
-auto with_block(const Block& block, Act&& act) {
-  return with_kind(block.kind, [&](auto kind) {
-    return act(*static_cast<typename decltype(kind)::Type*>(block.place));
-  });
-}
 
 /// A block whose command must not step has a resume(); the others start anew.
 template <class Kind>

@@ -14,6 +14,7 @@
 #include "kernel/pipeline/schedule.hpp"
 #include "kernel/pipeline/settings.hpp"
 #include "kernel/pipeline/timing.hpp"
+#include "kernel/pipeline/tuning.hpp"
 #include "kernel/reference/generator/reference_generator.hpp"
 
 namespace tactus {
@@ -78,6 +79,11 @@ class Pipeline {
   MotionState motion_state() const;
   /// Lets every block go on after a brake that has come to rest: see kernel/core/brake.hpp. [init]
   [[gnu::cold]] Status resume(const RobotState& measured);
+  /// Changes the parameters of all blocks of which `tuning` has a copy, or of none: the first block
+  /// that refuses is in the verdict. While the chain `runs`, no command steps
+  /// (kernel/math/fade.hpp), and a law may refuse what it would ask for; otherwise the next
+  /// start() begins with the new parameters. [between two cycles]
+  TuningVerdict retune(const Tuning& tuning, bool runs);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]
   void brake(Status why, BrakeWay way);
   /// Returns the deceleration of every joint in a brake at once, rad/s^2: the guard's limit, or a

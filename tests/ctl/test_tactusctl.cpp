@@ -169,6 +169,31 @@ void what_one_terminal_sends_is_slowed_down_and_canceled_from_another(void**) {
                    0);
 }
 
+// Proves CTL-16.
+
+void parameters_are_listed_checked_and_changed_while_the_arm_moves(void**) {
+  assert_int_equal(
+      served(
+          kJoints,
+          "there 20; "
+          "$T params >$S/list || exit 81; grep -q '^\\* pid.kp .*1000 10000 .*N m/rad' $S/list || "
+          "exit 82; grep -q '^  guard.max_velocity' $S/list || exit 83; "
+          "$T params pid.kp=-1 --check; test $? = 2 || exit 84; "
+          "$T params guard.max_torque=1; test $? = 2 || exit 85; "
+          "$T params pidkp; test $? = 2 || exit 86; "
+          "$T params pid.kp='900 9000 4500 900 450 27' pid.ki=0 --check || exit 87; "
+          "grep -q '^  *guard' $S/list; $T params | grep -q 'file:' && exit 88; "
+          "$T send --detach $S/there.csv || exit 89; "
+          "$T params pid.kp='900 9000 4500 900 450 27' pid.ki=0 || exit 90; "
+          "test $(phase) = following || exit 91; "
+          "$T params --json >$S/all || exit 92; "
+          "grep -q '\"key\":\"kp\",\"value\":\"900 9000 4500 900 450 27\"' $S/all || exit 93; "
+          "$T params | grep -q 'pid.ki .*file: 5 10 10 4 3 2' || exit 94; $T cancel"),
+      0);
+  assert_true(has(errors(), "[pid] kp: joint 1: -1 N m/rad is out of range; it must be >= 0"));
+  assert_true(has(errors(), "cannot change while the pipeline runs"));
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -186,6 +211,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_server_with_a_key_is_spoken_to_with_it),
       cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
       cmocka_unit_test(what_one_terminal_sends_is_slowed_down_and_canceled_from_another),
+      cmocka_unit_test(parameters_are_listed_checked_and_changed_while_the_arm_moves),
   };
   return run_program_tests(argv[0], tests);
 }

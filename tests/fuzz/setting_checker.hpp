@@ -22,6 +22,10 @@ class SettingChecker {
     else
       for (int i = 0; i < value.size(); ++i) MUST(range.contains(value[i]));
   }
+  template <class Number>
+  void tunable(const char* key, const Number& value, const Range& range, const char* unit) {
+    param(key, value, range, unit);
+  }
   void limit(const char*, const JointVector& value, const char*) {
     MUST((value.array() > 0.0).all() && value.allFinite());
   }

@@ -25,6 +25,7 @@ enum : std::uint32_t {
   kParameters,
   kSubscribe,
   kPing,
+  kListParameters,
 };
 }
 
@@ -40,6 +41,8 @@ struct TestClient {
   std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{};
   std::uint32_t kinds[kMost]{};
   std::int64_t credit = 0;
+  int pages = 0;                      // of parameters
+  std::uint32_t total = 0, sets = 0;  // as the last page says
   int starved = 0, states = 0, feedbacks = 0, events = 0, welcomes = 0;
   std::uint32_t epoch = 0;
   std::uint64_t session = 0;
@@ -157,6 +160,11 @@ struct TestClient {
       case 6:
         ++events;
         std::snprintf(event, sizeof event, "%.*s", static_cast<int>(words.size()), words.data());
+        return;
+      case 8:
+        ++pages;
+        total = static_cast<std::uint32_t>(value[3]);
+        sets = static_cast<std::uint32_t>(value[4]);
         return;
       default: credit += static_cast<std::int64_t>(value[1]);
     }

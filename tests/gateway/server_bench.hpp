@@ -2,8 +2,11 @@
 // in virtual time.
 #pragma once
 
+#include <optional>
+
 #include "gateway/server/server.hpp"
 #include "kernel/cycle/ladder.hpp"
+#include "kernel/load/loader.hpp"
 #include "kernel/reference/generator/reference_generator.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/testing.hpp"
@@ -26,6 +29,9 @@ struct ServerBench : BenchClock {
   ChannelMemory<TaskSpace> task_channel;
   std::array<std::array<Waypoint<JointSpace>, kBenchWaypoints>, kStores> waypoints;
   RoomyPipeline pipeline;
+  std::optional<ParameterBook> book;  // made by setup()
+  TuningVerdict refused_by_cycle;     // what the cycle says of sets; kOk: it takes them
+  bool answers_sets = true;           // the cycle runs
   CycleMail mail;
   ReferenceClient<JointSpace> joints{channel};
   ReferenceClient<TaskSpace> poses{task_channel};
@@ -35,10 +41,17 @@ struct ServerBench : BenchClock {
   std::uint32_t cycles = 0;
   Server server{setup(), joints, poses, mail};
 
+  /// Loads a pipeline of one law, whose parameters may change.
   ServerSetup setup() {
+    Message text("[robot]\nperiod_us = 1000\ntau_c = pd.tau\nname = ");
+    text << Robot::kName << "\n[pd]\ntype = pd_gravity\nq_d = robot.q\nq = robot.q\n"
+         << "dq = robot.dq\nkp = 100\nkd = 10\n";
+    LoadError error;
+    ASSERT_OK(Loader({}, {false, false, true, 100, 10000}).load(text, pipeline, error));
     pipeline.takes_joints = true;
-    pipeline.robot.period_us = 1000;
+    book.emplace(pipeline);
     ServerSetup its;
+    its.parameters = &*book;
     its.board = "bench";
     its.pipeline = "none";
     its.loaded = &pipeline;
@@ -83,6 +96,13 @@ struct ServerBench : BenchClock {
       if (rung == Rung::kNominal)
         ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
       mail.results.post({order.id, Status::kOk});
+    }
+    TuningMessage set;
+    if (answers_sets && mail.tunings.take(set)) {
+      const TuningVerdict verdict = refused_by_cycle.status == Status::kOk
+                                        ? pipeline.retune(*set.tuning, false)
+                                        : refused_by_cycle;
+      mail.tuned.post(verdict);
     }
     CycleSnapshot told;
     told.stamp_ns = now_ns;

@@ -70,13 +70,6 @@ void unknown_fields_are_ignored_and_unknown_requirements_refused(void**) {
   assert_int_equal(two.a.status[42], static_cast<int>(Status::kUnknownKey));
 }
 
-void parameters_are_not_offered(void**) {
-  TwoClients& two = fresh_clients();
-  const std::uint32_t number = two.a.send(ask::kParameters);
-  two.run(1);
-  assert_int_equal(two.a.status[number], static_cast<int>(Status::kNotOffered));
-}
-
 // Proves GW-5.
 
 void a_flood_is_cut_and_the_others_are_told(void**) {
@@ -175,7 +168,6 @@ int main() {
       cmocka_unit_test(the_first_message_is_hello_and_is_answered_by_a_welcome),
       cmocka_unit_test(a_message_may_come_byte_by_byte),
       cmocka_unit_test(unknown_fields_are_ignored_and_unknown_requirements_refused),
-      cmocka_unit_test(parameters_are_not_offered),
       cmocka_unit_test(a_flood_is_cut_and_the_others_are_told),
       cmocka_unit_test(a_client_that_reads_nothing_is_cut_and_bounded_until_then),
       cmocka_unit_test(a_silent_client_is_cut_after_fifteen_seconds),

@@ -7,7 +7,8 @@ namespace {
 
 bool moves(std::uint32_t kind) {
   return kind == ask::kPoint || kind == ask::kVelocity || kind == ask::kChunk ||
-         (kind >= ask::kBegin && kind <= ask::kResume) || kind == ask::kRearm;
+         (kind >= ask::kBegin && kind <= ask::kResume) || kind == ask::kRearm ||
+         kind == ask::kParameters;
 }
 /// True if everybody may send it, an override only if it is lower than that before.
 bool slows(std::uint32_t kind) {
@@ -44,6 +45,11 @@ RawMessage body_of(std::uint32_t kind, TestClient& client, Random& random) {
       return part(first, first + 1 + random.below(59), [](double t) { return swing(t, 0.5); });
     }
     case ask::kOverride: return body.real(1, random.uniform(0.0, 1.2));
+    case ask::kParameters: {
+      constexpr const char* kValues[] = {"50", "200", "-1"};
+      return body.message(
+          2, RawMessage().text(1, "pd").text(2, "kp").text(3, kValues[random.below(3)]));
+    }
     default: return body;
   }
 }

@@ -154,6 +154,60 @@ void the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for(void
   assert_true(told.cycle <= last + 20);
 }
 
+// Proves PAR-8.
+
+/// Sets are taken on every rung but while the arm is braked or armed; each has its verdict in the
+/// same cycle.
+void a_set_is_taken_unless_the_arm_is_braked_or_armed(void**) {
+  Bench& bench = fresh();
+  Tuning nothing;
+  bool seen[kNames<Rung>.size()] = {};
+  const auto verdict_now = [&] {
+    assert_true(bench.mail.tunings.post({&nothing}));
+    bench.cycle();
+    TuningVerdict verdict;
+    assert_true(bench.mail.tuned.take(verdict));
+    seen[static_cast<std::size_t>(bench.executive.rung())] = true;
+    return verdict.status;
+  };
+  ASSERT_OK(verdict_now());
+  bench.post(CycleOrder::kStop);
+  bench.cycle();
+  while (bench.executive.busy() || bench.executive.rung() == Rung::kStop) {
+    const bool braked = bench.executive.busy();
+    const Status status = verdict_now();
+    if (braked && bench.executive.busy()) assert_true(status == Status::kNotAtRest);
+  }
+  assert_true(bench.executive.rung() == Rung::kDisabled);
+  ASSERT_OK(verdict_now());
+  bench.post(CycleOrder::kRearm);
+  for (int i = 0; i < 1000 && bench.executive.rung() != Rung::kArming; ++i) bench.cycle();
+  for (int i = 0; i < 1000 && bench.executive.rung() == Rung::kArming; ++i) {
+    const Status status = verdict_now();
+    if (bench.executive.rung() == Rung::kArming) assert_true(status == Status::kArming);
+  }
+  assert_true(bench.executive.rung() == Rung::kNominal);
+  ASSERT_OK(verdict_now());
+  assert_true(seen[static_cast<std::size_t>(Rung::kArming)]);
+  assert_true(seen[static_cast<std::size_t>(Rung::kStop)]);
+}
+
+void a_cycle_takes_one_set_and_none_without_space_for_its_verdict(void**) {
+  Bench& bench = fresh();
+  Tuning nothing;
+  for (int i = 0; i < 6; ++i) {
+    bench.mail.tunings.post({&nothing});
+    bench.cycle();
+  }
+  assert_int_equal(bench.mail.tuned.size(), 2);
+  assert_int_equal(bench.mail.tunings.size(), 2);
+  TuningVerdict verdict;
+  assert_true(bench.mail.tuned.take(verdict));
+  bench.cycle();
+  assert_int_equal(bench.mail.tuned.size(), 2);
+  assert_int_equal(bench.mail.tunings.size(), 1);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -165,6 +219,8 @@ int main() {
       cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
       cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
       cmocka_unit_test(the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for),
+      cmocka_unit_test(a_set_is_taken_unless_the_arm_is_braked_or_armed),
+      cmocka_unit_test(a_cycle_takes_one_set_and_none_without_space_for_its_verdict),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

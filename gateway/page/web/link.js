@@ -54,7 +54,7 @@ export class Link {
     if (this.heard > 0 && silent > SILENCE_MS) this.hear.lost(`no state for ${(silent / 1000).toFixed(0)} s`);
   }
 
-  /** Sends a command; returns {number, count} of the answers to come. Throws the text of a refusal. */
+  /** Sends a command; returns {number} of the answer to come. Throws the text of a refusal. */
   async send(command, body = "") {
     let answer;
     try {

@@ -60,8 +60,8 @@ export class Panel {
 
   async command(name, body) {
     try {
-      const { number, count } = await this.link.send(name, body);
-      for (let i = 0; i < count; ++i) this.asked.set(number + i, { name, first: number });
+      const { number } = await this.link.send(name, body);
+      this.asked.set(number, { name, number });
       while (this.asked.size > MOST_ASKED) this.asked.delete(this.asked.keys().next().value);
       this.newest = number;
       this.say(`${name}: sent`, false);
@@ -74,7 +74,8 @@ export class Panel {
   /** The newest command that a message is about; one that comes before its number is known waits. */
   about(kind, message) {
     const asked = this.asked.get(message.number);
-    if (asked) return asked.first === this.newest ? asked : null;
+    if (asked) return asked.number === this.newest ? asked : null;
+    if (message.number < this.newest) return null;  // of the lease, or of another browser
     this.early.push([kind, message]);
     if (this.early.length > MOST_EARLY) this.early.shift();
     return null;
@@ -85,12 +86,10 @@ export class Panel {
     by("answer").classList.toggle("refused", refused);
   }
 
-  /** Of the answers to one command, the first refusal counts; that of the lease gives the reason. */
   answer(message) {
     const asked = this.about("answer", message);
-    if (!asked || this.refused === asked.first) return;
+    if (!asked) return;
     if (message.status === 0) return this.say(`${asked.name}: taken`, false);
-    this.refused = asked.first;
     this.say(`${asked.name}: refused: ${message.text} (${message.status})`, true);
   }
 
@@ -122,7 +121,7 @@ export class Panel {
 
   describe(robot) {
     this.asked.clear();
-    this.newest = this.refused = undefined;
+    this.newest = undefined;
     by("subject").textContent = `${robot.robot} on ${robot.board}, ${robot.pipeline}`;
     document.title = `${robot.robot} – Tactus`;
   }

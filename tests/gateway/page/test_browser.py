@@ -93,7 +93,7 @@ class BrowserTest(unittest.TestCase):
         self.page.press("Escape", 27)
         self.client.until(lambda: self.client.state.rung == 5)
 
-    def test_the_slider_sets_the_override_unless_another_owns_the_motion(self):
+    def test_the_slider_raises_the_override_unless_another_owns_the_motion(self):
         swing(self.client)
         self.page.click("#override")  # in its middle
         self.client.until(lambda: abs(self.client.state.override - 0.5) < 0.03)
@@ -101,7 +101,7 @@ class BrowserTest(unittest.TestCase):
         rate = self.client.state.override
         self.client.ask(lease=self.client.pb.Lease(timeout_ms=60000))
         self.page.value("document.getElementById('override').focus()")
-        self.page.press("Home", 36)
+        self.page.press("End", 35)
         self.page.until("document.getElementById('answer').className === 'refused'")
         said = self.page.value("document.getElementById('answer').textContent")
         self.assertIn("override: refused: ", said)

@@ -16,7 +16,7 @@ import tactus_pb2 as pb
 
 JOINTS = 6
 OFFSET_NS = 7_000_000_000_000  # of the stand-in's clock, so that forgotten conversions are seen
-ENDS = {"cancel", "override", "pause", "resume", "stop", "rearm"}
+ENDS = {"cancel", "override", "pause", "resume", "stop", "rearm", "parameters"}
 
 
 class Peer:

@@ -93,7 +93,7 @@ class Controls(unittest.TestCase):
             arm.cancel()
             arm.rearm()
             arm.stop()
-            arm.parameters({"pd": {"kp": [1, 2.5], "mode": "fast"}}, check=True)
+            arm.set_parameters({"pd": {"kp": [1, 2.5], "mode": "fast"}}, check=True)
         kinds = [message.WhichOneof("request") for message in peer.taken]
         kinds = [kind for kind in kinds if kind not in ("hello", "ping", "subscribe", "lease")]
         self.assertEqual(kinds, ["override", "pause", "resume", "cancel", "rearm", "stop", "parameters"])

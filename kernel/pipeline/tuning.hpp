@@ -1,0 +1,22 @@
+// Tuning: a set of parameters on its way to a pipeline that runs. Whoever prepares it owns the
+// copies of the blocks that have the new parameters, and leaves them alone until the verdict.
+#pragma once
+
+#include <array>
+
+#include "kernel/core/status.hpp"
+#include "kernel/pipeline/timing.hpp"
+
+namespace tactus {
+
+struct Tuning {
+  /// Of each block a copy of its kind with the new parameters; null: it keeps its own.
+  std::array<const void*, kMaxBlocks> copies{};
+};
+
+struct TuningVerdict {
+  Status status = Status::kOk;
+  int block = -1;  ///< that refuses the set
+};
+
+}  // namespace tactus
