@@ -40,7 +40,7 @@ KINDS := $(KINDS_$(ARCH))
 O     := build/$(robot)$(HOW)$(if $(KINDS),-$(BOARD))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
-SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp sim_plant/drives/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp sim_plant/drives/server/options.cpp sim_plant/ethercat/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 # GCC 12 sees reads beyond a string_view where its header is precompiled, and none without.
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror -Wno-stringop-overread
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
@@ -108,7 +108,7 @@ TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -l
 # The drives on CAN at both ends, without sockets and arm: for benches and bounds.
 CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp can_plan_names.cpp \
                node_setup.cpp pdo_layout.cpp sdo_client.cpp sdo_client_text.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
-               $(filter-out %/drive_arm.cpp %/drive_arm_motion.cpp,$(wildcard sim_plant/drives/*.cpp))
+               $(filter-out %/drive_arm.cpp %/driven_arm.cpp,$(wildcard sim_plant/drives/*.cpp))
 CAN_LINK  := $(addprefix hal/can/,can_socket.cpp can_socket_open.cpp link_health.cpp)
 PCH      := $(O)/precompiled.hpp
 QUICK    := $(filter-out $(SEAMS),$(ORACLES) $(TESTS:$(B)/%=%.cpp))

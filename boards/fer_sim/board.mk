@@ -18,7 +18,7 @@ STACK_BUDGET      := 12288
 HOST_STACK_BUDGET := 32768
 
 # All tests except those of wires and of the Cortex-M7.
-OTHERS := $(addprefix tests/,ur/% can/% cia402/% drives/% vm/% serial/% trace/test_same_bits.cpp)
+OTHERS := $(addprefix tests/,ur/% can/% ethercat/% cia402/% drives/% vm/% serial/% trace/test_same_bits.cpp)
 TESTS  := $(filter-out $(OTHERS),$(TESTS))
 
 # The core on which `make wcet` judges the bound of a cycle with its rows, with code and data in tightly coupled memory:

@@ -109,7 +109,7 @@ void add_jitter_options(CLI::App& jitter, std::vector<std::string>& load, Option
 }
 
 void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& options) {
-  scan.add_option("interfaces", buses, "the buses, can0 for example")
+  scan.add_option("interfaces", buses, "the buses or interfaces, can0 or eth0 for example")
       ->required()
       ->expected(-1)
       ->check(interface_name());
@@ -158,7 +158,8 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   add_jitter_options(*jitter, load, options);
   CLI::App* scan = nullptr;
   if (has_bus) {
-    scan = app.add_subcommand("scan", "list the nodes of CAN buses, without changing them");
+    scan = app.add_subcommand(
+        "scan", "list the drives of CAN buses or EtherCAT segments, without changing them");
     add_scan_options(*scan, buses, options);
   }
 

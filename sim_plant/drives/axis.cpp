@@ -1,5 +1,8 @@
 #include "sim_plant/drives/axis.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tactus::drives {
 namespace {
 
@@ -9,7 +12,9 @@ constexpr Slot kControlword = slot_of(0x6040), kMode = slot_of(0x6060), kDisplay
                kAbortOption = slot_of(0x6007), kQuickStopOption = slot_of(0x605A),
                kShutdownOption = slot_of(0x605B), kDisableOption = slot_of(0x605C),
                kFaultOption = slot_of(0x605E), kProfileDeceleration = slot_of(0x6084),
-               kQuickDeceleration = slot_of(0x6085);
+               kQuickDeceleration = slot_of(0x6085), kMaxTorque = slot_of(0x6072),
+               kRatedTorque = slot_of(0x6076), kMaxSpeed = slot_of(0x6080),
+               kPeriodValue = slot_of(0x60C2, 1), kPeriodIndex = slot_of(0x60C2, 2);
 constexpr std::int64_t kCoast = 0, kSlowRamp = 1, kFirstThatStays = 5;
 constexpr std::uint16_t kResetBit = 0x0080;
 
@@ -23,6 +28,10 @@ std::uint16_t bits_of(State state) {
 
 void Axis::power_on(const AxisSettings& settings) {
   settings_ = settings;
+  dictionary_.set(kRatedTorque, settings.rated_mNm);
+  const double permille = settings.max_torque_Nm * 1e6 / settings.rated_mNm;
+  dictionary_.set(kMaxTorque, std::llround(std::min(permille, 65535.0)));
+  dictionary_.set(kMaxSpeed, std::llround(settings.max_speed_rad_s * 9.5492966));  // rpm
   controlword_ = 0;
   brake_stuck_ = false;
   motion_ = Motion::kOff;
@@ -131,6 +140,12 @@ bool Axis::abort_connection() {
 
 void Axis::disable() {
   if (state_ != State::kFault) enter(State::kSwitchOnDisabled);
+}
+
+double Axis::period_s() const {
+  const auto value = static_cast<double>(dictionary_.get(kPeriodValue));
+  const auto exponent = static_cast<double>(dictionary_.get(kPeriodIndex));
+  return std::clamp(value * std::pow(10.0, exponent), 1e-4, 0.1);
 }
 
 std::uint16_t Axis::statusword() const {

@@ -33,7 +33,8 @@ class Axis {
  public:
   explicit Axis(Dictionary& dictionary) : dictionary_(dictionary) {}
 
-  /// Power comes on: switch on disabled, brake closed. [any]
+  /// Power comes on: switch on disabled, brake closed; the objects that say what the drive can do.
+  /// [any]
   void power_on(const AxisSettings& settings);
 
   /// Takes a controlword; a command that is not valid in the state is ignored. `causes_gone`: no
@@ -57,6 +58,7 @@ class Axis {
   /// Writes the objects that the drive measures and reports. [cyclic]
   void report(const JointSample& sample);
 
+  double period_s() const;  ///< of 60C2h
   cia402::State state() const { return state_; }
   bool braked() const { return brake_; }
   bool powered() const { return motion_ != Motion::kOff; }

@@ -10,24 +10,21 @@
 #include <array>
 
 #include "kernel/core/status.hpp"
-#include "sim_plant/arm/arm.hpp"
 #include "sim_plant/drives/drive_bus.hpp"
+#include "sim_plant/drives/driven_arm.hpp"
 
 namespace tactus::drives {
 
 inline constexpr std::size_t kBuses = kDof;
 
-struct DriveArmSettings {
+struct DriveArmSettings : DrivenArmSettings {
   struct Place {
     int bus = 0, node = 0;  ///< node 0: the joint has no drive, and its brake is closed
   };
   std::array<Place, kDof> joints{};
   bool fd = false;
-  bool gravity_by_drive = false;  ///< target torque 0 holds the arm
-  double brake_release_s = 0.150;
   std::int64_t boot_ns = 10'000'000;
   std::uint64_t seed = 1;  ///< of faults by probability
-  PlantParams plant;
 };
 
 class DriveArm {
@@ -46,9 +43,9 @@ class DriveArm {
   /// Takes the next frame that a drive sends; false: there is none. [cyclic]
   bool take(std::size_t bus, can::CanFrame& frame) { return buses_[bus].queue().take(frame); }
 
-  Arm& arm() { return arm_; }
+  Arm& arm() { return driven_.arm(); }
   Node& node(int joint) { return nodes_[static_cast<std::size_t>(joint)]; }
-  std::int64_t periods() const { return periods_; }  ///< that the arm has moved
+  std::int64_t periods() const { return driven_.periods(); }  ///< that the arm has moved
 
  private:
   static constexpr std::int64_t kNoSync_ns = 20'000'000;
@@ -56,25 +53,16 @@ class DriveArm {
 
   void receive_sync(std::size_t bus, const can::CanFrame& frame, std::int64_t now_ns);
   void move(std::int64_t now_ns);
-  void move_for(double period_s);
-  JointVector with_brakes(const JointVector& tau);
-  JointSample sample(int joint) const;
   bool has_drive(int joint) const;
   void measure();
-  void recover();
   double period_s() const;
 
   DriveArmSettings settings_;
-  Arm arm_;
+  DrivenArm driven_;
   std::array<Node, kDof> nodes_;
   std::array<DriveBus, kBuses> buses_;
   std::array<bool, kBuses> synced_{};  // had its SYNC in this cycle
-  std::array<bool, kDof> braked_{};
-  JointVector held_q_ = JointVector::Zero();  // where the brakes closed, rad
-  JointVector gravity_ = JointVector::Zero();
-  JointVector q_ = JointVector::Zero(), dq_ = JointVector::Zero();
   std::int64_t plant_ns_ = 0, sync_ns_ = 0;
-  std::int64_t periods_ = 0;
 };
 
 }  // namespace tactus::drives

@@ -1,17 +1,20 @@
 // Lies: while one exists, objects of the dictionary read what injected faults make them read.
 #pragma once
 
-#include "sim_plant/drives/node.hpp"
+#include "hal/can/protocol_canopen.hpp"
+#include "sim_plant/drives/dictionary.hpp"
+#include "sim_plant/drives/faults.hpp"
 
 namespace tactus::drives {
 
 class Lies {
  public:
-  explicit Lies(Node& node) : node_(node) {
+  Lies(Dictionary& dictionary, Faults& faults, std::int64_t syncs)
+      : dictionary_(dictionary), faults_(faults), syncs_(syncs) {
     tell(FaultKind::kWrongMode, slot_of(0x6061));
     tell(FaultKind::kWrongIdentity, slot_of(can::kIdentity, 2));
     if (const Fault* fault = find(FaultKind::kNonsenseStatus))
-      set(slot_of(0x6041), node.dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
+      set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
     if (find(FaultKind::kSaturatedTorque) != nullptr) set(slot_of(0x6077), 32767);
     if (const Fault* fault = find(FaultKind::kWrongMapping))
       for (std::uint16_t i = 0; i < kPdos; ++i)
@@ -21,26 +24,28 @@ class Lies {
   ~Lies() {
     while (count_ > 0) {
       --count_;
-      node_.dictionary_.set(slots_[count_], truths_[count_]);
+      dictionary_.set(slots_[count_], truths_[count_]);
     }
   }
   Lies(const Lies&) = delete;
   Lies& operator=(const Lies&) = delete;
 
  private:
-  const Fault* find(FaultKind kind) { return node_.faults_.active(kind, node_.syncs_); }
+  const Fault* find(FaultKind kind) { return faults_.active(kind, syncs_); }
   void tell(FaultKind kind, Slot slot) {
     if (const Fault* fault = find(kind)) set(slot, fault->value);
   }
   void set(Slot slot, std::int64_t value) {
     slots_[count_] = slot;
-    truths_[count_++] = node_.dictionary_.get(slot);
-    node_.dictionary_.set(slot, value);
+    truths_[count_++] = dictionary_.get(slot);
+    dictionary_.set(slot, value);
   }
 
   static constexpr std::size_t kMost = 4 + 2 * kPdos;
 
-  Node& node_;
+  Dictionary& dictionary_;
+  Faults& faults_;
+  std::int64_t syncs_;
   std::array<Slot, kMost> slots_{};
   std::array<std::int64_t, kMost> truths_{};
   std::size_t count_ = 0;

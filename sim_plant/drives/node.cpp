@@ -1,7 +1,6 @@
 #include "sim_plant/drives/node.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_plant/drives/lies.hpp"
 
@@ -15,8 +14,7 @@ namespace {
 
 constexpr Slot kControlword = slot_of(0x6040), kSyncCob = slot_of(can::kSyncIdObject),
                kHeartbeat = slot_of(can::kHeartbeatProducer), kStatus = slot_of(0x6041),
-               kVelocityOffset = slot_of(0x60B1), kPeriodValue = slot_of(0x60C2, 1),
-               kPeriodIndex = slot_of(0x60C2, 2);
+               kVelocityOffset = slot_of(0x60B1);
 
 }  // namespace
 
@@ -31,14 +29,9 @@ void Node::load(const NodeSettings& settings, FrameQueue& queue, std::int64_t no
 /// The boot-up message follows boot_ns later.
 void Node::reset(NmtCommand command, std::int64_t now_ns) {
   if (command == NmtCommand::kResetNode) {
-    const AxisSettings& axis = settings_.axis;
     dictionary_.reset(settings_.node);
-    dictionary_.set(slot_of(0x6076), axis.rated_mNm);
-    const double permille = axis.max_torque_Nm * 1e6 / axis.rated_mNm;
-    dictionary_.set(slot_of(0x6072), std::llround(std::min(permille, 65535.0)));
-    dictionary_.set(slot_of(0x6080), std::llround(axis.max_speed_rad_s * 9.5492966));  // rpm
     errors_.reset();
-    axis_.power_on(axis);
+    axis_.power_on(settings_.axis);
   } else {
     if (axis_.powered()) lose_master();
     dictionary_.reset_communication(settings_.node);
@@ -105,7 +98,7 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
   device_.powered = axis_.powered();
   SdoAnswer answer;
   if ((frame.data[0] & can::kSpecifier) == can::kUpload) {
-    const Lies lies(*this);
+    const Lies lies(dictionary_, faults_, syncs_);
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
   } else {
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
@@ -199,12 +192,6 @@ void Node::measure(const JointSample& sample) {
 
 std::uint16_t Node::sync_id() const {
   return static_cast<std::uint16_t>(dictionary_.get(kSyncCob) & 0x7FF);
-}
-
-double Node::period_s() const {
-  const double value = static_cast<double>(dictionary_.get(kPeriodValue));
-  const double exponent = static_cast<double>(dictionary_.get(kPeriodIndex));
-  return std::clamp(value * std::pow(10.0, exponent), 1e-4, 0.1);
 }
 
 }  // namespace tactus::drives

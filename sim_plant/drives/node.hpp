@@ -48,10 +48,8 @@ class Node {
   int number() const { return settings_.node; }
   bool operational() const { return device_.nmt == can::NmtState::kOperational; }
   std::uint16_t sync_id() const;
-  double period_s() const;  ///< of 60C2h
 
  private:
-  friend class Lies;
   struct Watched {
     std::int64_t deadline_ns = 0;  // 0: no heartbeat has come yet
     bool lost = false;

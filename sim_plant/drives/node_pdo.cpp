@@ -155,7 +155,7 @@ void Node::send_tpdo(Tpdo& tpdo, std::int64_t now_ns) {
   frame.fd = settings_.fd;
   frame.size = static_cast<std::uint8_t>(frame.fd ? can::fd_size(pdo.bytes) : pdo.bytes);
   {
-    const Lies lies(*this);
+    const Lies lies(dictionary_, faults_, syncs_);
     frame.data = pack(dictionary_, pdo);
   }
   push_tpdo(tpdo, frame);

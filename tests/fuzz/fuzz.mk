@@ -1,7 +1,7 @@
 # Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
 FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
-# The parsers of CAN are built for fer_can, all others for ur10_emulator.
-FUZZ_CAN   := $(filter fuzz_can_%,$(FUZZ))
+# The parsers of CAN and EtherCAT are built for fer_can, all others for ur10_emulator.
+FUZZ_CAN   := $(filter fuzz_can_% fuzz_ethercat_%,$(FUZZ))
 FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CAN),$(FUZZ)))
 # The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm
 # replaces MuJoCo's.
@@ -9,7 +9,7 @@ FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_s
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp gateway/server/*.cpp) $(KERNEL) \
               $(wildcard hal/serial/*.cpp) tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 ifeq ($(BOARD),fer_can)
-FUZZED     := $(wildcard hal/can/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp) $(KERNEL) tests/wcet/can/can_cycle.cpp \
+FUZZED     := $(wildcard hal/can/*.cpp hal/ethercat/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp sim_plant/ethercat/*.cpp) $(KERNEL) tests/wcet/can/can_cycle.cpp \
               tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 endif
 

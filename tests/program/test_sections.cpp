@@ -99,7 +99,7 @@ void every_printed_section_is_read_with_every_printed_setting(void**) {
 void the_section_of_another_kind_of_board_is_refused(void**) {
   const std::string_view printed = ports();
   int refused = 0;
-  for (const char* name : {"plant", "ur", "can"}) {
+  for (const char* name : {"plant", "ur", "can", "ethercat"}) {
     const Line heading(Line("\n## [") << name << "]\n");
     File text = minimal();
     text << "[" << name << "]\n";
@@ -111,7 +111,7 @@ void the_section_of_another_kind_of_board_is_refused(void**) {
     assert_true(has(said, Line(":5: [") << name << "] this board has no such section; it has "));
     ++refused;
   }
-  assert_int_equal(refused, 2);
+  assert_int_equal(refused, 3);
 }
 
 // Proves RT-6.
@@ -120,7 +120,8 @@ void a_real_robot_does_not_start_without_real_time_unless_the_file_says_so(void*
   constexpr const char* kRefusal = "real time: refused: cpu (Invalid argument: choose a CPU";
   const bool ur = ports().find("\n## [ur]\n") != std::string_view::npos;
   const bool can = ports().find("\n## [can]\n") != std::string_view::npos;
-  const bool real = ur || can;
+  const bool ethercat = ports().find("\n## [ethercat]\n") != std::string_view::npos;
+  const bool real = ur || can || ethercat;
   assert_true(
       has(ports(), real ? "| `required` | word | | refuse |" : "| `required` | word | | warn |"));
   for (const char* required : {"", "required = refuse\n", "required = warn\n"}) {
@@ -128,6 +129,7 @@ void a_real_robot_does_not_start_without_real_time_unless_the_file_says_so(void*
     text << "[realtime]\ncpu = 1023\n" << required;
     if (ur) text << "[ur]\naddress = 127.0.0.1\nrtde_port = 1\n";  // nobody is there
     if (can) text << "[can]\ninterfaces = no_bus\n[cia402]\nrated_torque = 3\n";
+    if (ethercat) text << "[ethercat]\ninterface = no_cable\n[cia402]\nrated_torque = 3\n";
     const Line path = write("start.ini", {text.c_str()}), out = in_folder("start");
     const int code = tactus_run({"run", path.c_str(), "--realtime", "--duration", "0.1",
                                  "--no-figure", "--out", out.c_str()});

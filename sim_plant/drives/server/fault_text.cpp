@@ -10,12 +10,9 @@ namespace {
 
 constexpr double kMaxNode = 127.0, kMaxSyncs = 1e15, kMaxValue = 4294967295.0;
 
-bool parse_kind(std::string_view name, FaultKind& kind) {
-  for (std::size_t i = 0; i < kFaultNames.size(); ++i) {
-    if (name != kFaultNames[i]) continue;
-    kind = static_cast<FaultKind>(i);
-    return true;
-  }
+bool parse_kind(std::string_view text, const FaultNames& names, std::size_t& kind) {
+  for (kind = 0; kind < names.count; ++kind)
+    if (text == names.names[kind]) return true;
   return false;
 }
 
@@ -26,11 +23,12 @@ bool parse_whole(const char* text, std::size_t size, double highest, double& val
   return end == text + size && value >= 0.0 && value <= highest && std::floor(value) == value;
 }
 
-const char* parse_word(std::string_view key, std::string_view text, Fault& fault) {
+const char* parse_word(std::string_view key, std::string_view text, const FaultNames& names,
+                       std::size_t& kind, Fault& fault) {
   double value = 0.0;
   const char* begin = text.data();
   if (key == "kind")
-    return parse_kind(text, fault.kind) ? nullptr : "unknown kind of fault; --help names them";
+    return parse_kind(text, names, kind) ? nullptr : "unknown kind of fault; --help names them";
   if (key == "node") {
     if (!parse_whole(begin, text.size(), kMaxNode, value)) return "node is not from 0 to 127";
     fault.node = static_cast<int>(value);
@@ -54,6 +52,15 @@ const char* parse_word(std::string_view key, std::string_view text, Fault& fault
 }  // namespace
 
 const char* parse_fault(const char* text, Fault& fault) {
+  std::size_t kind = 0;
+  const char* const wrong =
+      parse_fault(text, {kFaultNames.data(), kFaultNames.size()}, kind, fault);
+  fault.kind = static_cast<FaultKind>(kind);
+  return wrong;
+}
+
+const char* parse_fault(const char* text, const FaultNames& names, std::size_t& kind,
+                        Fault& fault) {
   bool has_kind = false;
   std::string_view rest = text;
   while (!rest.empty()) {
@@ -67,7 +74,7 @@ const char* parse_fault(const char* text, Fault& fault) {
     if (equals == std::string_view::npos || equals + 1 == word.size())
       return "expected words like key=value";
     const std::string_view key = word.substr(0, equals);
-    const char* wrong = parse_word(key, word.substr(equals + 1), fault);
+    const char* wrong = parse_word(key, word.substr(equals + 1), names, kind, fault);
     if (wrong != nullptr) return wrong;
     has_kind = has_kind || key == "kind";
     rest.remove_prefix(size);

@@ -1,0 +1,27 @@
+// fer_ethercat: a Franka FER as seven CiA 402 drives on an EtherCAT segment; the computer's clock,
+// in step with that of the segment, starts every cycle.
+#include "boards/fer_ethercat/ethercat_sections.hpp"
+#include "hal/ethercat/ethercat_hal.hpp"
+#include "program/run_board.hpp"
+#include "program/scan_segment/scan_segment.hpp"
+
+namespace tactus {
+namespace {
+
+ethercat::EthercatHal hal;
+
+Status configure(const EthercatSections& sections, const Pipeline& pipeline, const Options&) {
+  const RobotSection& robot = pipeline.robot;
+  Tool tool{robot.tool_mass, robot.tool_com, {}};
+  tool.tip.p = robot.tool_tip;
+  return hal.configure(sections.ethercat, sections.cia402, tool, robot.mode(), robot.period_us);
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main(int argc, char** argv) {
+  using namespace tactus;
+  return run_board<EthercatSections>(
+      argc, argv, {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment});
+}

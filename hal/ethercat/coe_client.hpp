@@ -1,0 +1,73 @@
+// CoeClient: reads and writes one object of one slave at a time by SDO over CoE: expedited, normal
+// and segmented transfers (ETG.1000.6; the bodies are those of CiA 301). Mailbox messages in,
+// mailbox messages out; MailboxPort carries them.
+#pragma once
+
+#include "hal/can/protocol_canopen.hpp"
+#include "hal/can/protocol_sdo.hpp"
+#include "hal/ethercat/protocol_coe.hpp"
+#include "hal/ethercat/protocol_frame.hpp"
+#include "kernel/core/text.hpp"
+
+namespace tactus::ethercat {
+
+class CoeClient {
+ public:
+  static constexpr std::size_t kCapacity = 128;  ///< bytes of the longest object
+
+  enum class Progress : std::uint8_t { kIdle, kBusy, kDone, kAborted };
+
+  /// Longest time for each answer. [init]
+  void set_time(std::int64_t answer_ns) { answer_ns_ = answer_ns; }
+  /// Begins to read an object; `out_bytes` is the length of the slave's mailbox. [any]
+  void upload(std::size_t out_bytes, std::uint16_t index, std::uint8_t sub, std::int64_t now_ns);
+  /// Begins to write the lowest `bytes`, 1 to 4, of `value`. [any]
+  void download(std::size_t out_bytes, std::uint16_t index, std::uint8_t sub, std::uint32_t value,
+                std::size_t bytes, std::int64_t now_ns);
+  /// Begins to write any bytes, at most kCapacity, which are copied. [any]
+  void download_bytes(std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
+                      const std::uint8_t* bytes, std::size_t size, std::int64_t now_ns);
+
+  /// Writes the next message into `mailbox`, of `size` bytes; false: there is none. [any]
+  bool take(std::uint8_t* mailbox, std::size_t size);
+  /// Takes a message of the slave; what is no answer to the transfer is ignored. Returns true, and
+  /// the emergency, if it is one. [any]
+  bool receive(const std::uint8_t* mailbox, std::size_t size, can::Emergency& emergency,
+               std::int64_t now_ns);
+  void advance(std::int64_t now_ns);  ///< ends a transfer that waits too long [any]
+  void cancel() { end(Progress::kIdle, can::SdoAbort::kNone); }
+
+  Progress progress() const { return progress_; }
+  can::SdoAbort abort() const { return abort_; }
+  const std::uint8_t* data() const { return data_.data(); }
+  std::size_t size() const { return size_; }
+  /// The first four bytes as an integer; bytes that the object does not have are 0. [any]
+  std::uint32_t value() const { return get<std::uint32_t>(data_.data()); }
+  /// "object 6060h:0: value out of range (06090030h)". [any]
+  Message describe() const;
+
+ private:
+  enum class Phase : std::uint8_t { kNone, kRead, kReadSegment, kWrite, kWriteSegment };
+
+  void begin(Phase phase, std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
+             std::int64_t now_ns);
+  void end(Progress progress, can::SdoAbort abort);
+  void fail(can::SdoAbort abort) { end(Progress::kAborted, abort); }
+  std::size_t write_body(std::uint8_t* body);
+  void take_answer(const std::uint8_t* body, std::size_t size);
+  void take_upload(const std::uint8_t* body, std::size_t size);
+  void take_segment(const std::uint8_t* body, std::size_t size);
+
+  Progress progress_ = Progress::kIdle;
+  Phase phase_ = Phase::kNone;
+  can::SdoAbort abort_ = can::SdoAbort::kNone;
+  std::int64_t answer_ns_ = 500'000'000, heard_ns_ = 0;
+  bool to_send_ = false, toggle_ = false, silent_ = false;
+  std::uint8_t counter_ = 0, sub_ = 0;
+  std::uint16_t index_ = 0;
+  std::size_t room_ = 0;             // bytes of a body in the slave's mailbox
+  std::size_t size_ = 0, done_ = 0;  // of the object, and transferred
+  std::array<std::uint8_t, kCapacity> data_{};
+};
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,71 @@
+// CyclicFrame: the one frame of a cycle and what comes back of it.
+//
+//   LRW   the process data of all drives
+//   FRMW  0910h: the reference clock, which all others follow
+//   FPRD  0130h: state and status code of one slave after the other
+//   ...   one datagram to a mailbox, or to request a state
+//
+// The inputs are taken only if the working counter says that every drive has read and written: a
+// drive that has not leaves the bytes that were sent, which would pass for inputs.
+#pragma once
+
+#include "hal/ethercat/exchange.hpp"
+#include "hal/ethercat/startup.hpp"
+
+namespace tactus::ethercat {
+
+/// What is wrong with the exchange, counted since the start.
+struct LineCounts {
+  std::int64_t frames = 0;   ///< sent
+  std::int64_t lost = 0;     ///< did not come back before the next
+  std::int64_t late = 0;     ///< came back after the next was sent
+  std::int64_t counter = 0;  ///< came back with a wrong working counter of the process data
+  std::int64_t strange = 0;  ///< were none of these, or not whole
+};
+
+class CyclicFrame {
+ public:
+  enum class Came : std::uint8_t { kNothing, kWrongCounter, kInputs };
+
+  void start(std::size_t image_bytes, bool has_clock, const std::uint8_t* source);
+  std::uint8_t* image() { return image_.data(); }
+  const std::uint8_t* inputs() const { return received_.data(); }
+
+  /// Composes the next frame; `asked` is the station whose state is read. [cyclic]
+  void compose(std::uint16_t asked, const Request& extra, Frame& frame);
+  /// Takes any frame. [cyclic]
+  void receive(Frame& frame);
+  bool awaits() const { return sent_ && !came_; }
+  /// Closes the cycle: what has come of its frame. [cyclic]
+  Came close();
+
+  // Of the frame that came, after close() was not kNothing. [cyclic]
+  std::int64_t reference_ns() const { return reference_ns_; }
+  bool has_reference() const { return has_reference_; }
+  int asked_counter() const { return asked_counter_; }
+  std::uint16_t asked_status() const { return asked_status_; }
+  std::uint16_t asked_code() const { return asked_code_; }
+  Answer extra() const { return {extra_counter_, extra_.data()}; }
+
+  /// Of the working counter: reading adds 1 and writing 2, for each slave.
+  static constexpr int kExpected = 3 * kDof;
+  int counter() const { return counter_; }
+  const LineCounts& counts() const { return counts_; }
+
+ private:
+  bool take(const Datagram& datagram, int place);
+
+  std::uint8_t source_[6] = {};
+  std::size_t image_bytes_ = 0, extra_bytes_ = 0;
+  bool has_clock_ = false, sent_ = false, came_ = false;
+  std::uint8_t index_ = 0;
+  std::array<std::uint8_t, kMostImage> image_{}, received_{};
+  std::array<std::uint8_t, Request::kMostBytes> extra_{};
+  std::int64_t reference_ns_ = 0;
+  bool has_reference_ = false;
+  std::uint16_t asked_status_ = 0, asked_code_ = 0;
+  int asked_counter_ = 0, extra_counter_ = 0, counter_ = 0;
+  LineCounts counts_;
+};
+
+}  // namespace tactus::ethercat

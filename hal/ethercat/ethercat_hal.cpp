@@ -1,0 +1,102 @@
+#include "hal/ethercat/ethercat_hal.hpp"
+
+#include "hal/net/deadline.hpp"
+#include "kernel/core/loop_bound.hpp"
+
+namespace tactus::ethercat {
+namespace {
+
+constexpr std::int64_t kAnswer_ns = 200'000;  // between two looks at the interface while connecting
+
+}  // namespace
+
+Status EthercatHal::configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
+                              const Tool& tool, CommandMode mode, int period_us) {
+  ethercat_ = &ethercat;
+  mode_ = mode;
+  return master_.configure(ethercat, drive, tool, mode, period_us);
+}
+
+Capabilities EthercatHal::capabilities() const {
+  Capabilities offered;
+  offered.position = offered.velocity = offered.effort = true;
+  offered.velocity_feed_forward = offered.effort_feed_forward = true;
+  offered.min_period_us = 500;
+  offered.max_period_us = 20000;
+  return offered;
+}
+
+Status EthercatHal::connect(CommandMode mode) {
+  static_cast<void>(disconnect());
+  if (ethercat_ == nullptr || mode != mode_) return fault_ = Status::kNotStarted;
+  fault_ = socket_.open(master_.interface(), master_.why());
+  if (fault_ == Status::kOk) fault_ = start_up();
+  if (fault_ != Status::kOk) {
+    const Message why = master_.why();
+    master_.leave();
+    master_.why() = why;
+    socket_.close();
+  }
+  return fault_;
+}
+
+Status EthercatHal::start_up() {
+  const Deadline deadline(ethercat_->connect_ms);
+  const std::int64_t whole_ns = deadline.left_ns();
+  master_.connect(socket_.address(), 0);
+  while (deadline.left_ns() > 0) {
+    receive();
+    TRY(judge_link());
+    const Status status = master_.connecting(whole_ns - deadline.left_ns());
+    send();
+    if (status != Status::kArming) return status;
+    if (socket_.wait(kAnswer_ns)) continue;
+    master_.why() = Message("a signal ended the start-up; no drive was enabled");
+    return Status::kHalted;
+  }
+  master_.why() = Message("the drives are not ready after [ethercat] connect_ms, ");
+  master_.why() << ethercat_->connect_ms << " ms";
+  return Status::kBusTimeout;
+}
+
+/// What is not for the frame that is awaited is counted, and more of it waits for the next cycle.
+void EthercatHal::receive() {
+  LoopBound<kMostFrames> frames;
+  for (int i = 0; i < kMostFrames && socket_.receive(frame_); ++i) {
+    frames.tick();
+    master_.receive(frame_);
+    if (!master_.awaits()) return;
+  }
+}
+
+/// A frame that could not be sent does not come back, and is counted as lost.
+void EthercatHal::send() {
+  if (master_.take(frame_)) (void)socket_.send(frame_);
+}
+
+Status EthercatHal::judge_link() {
+  if (!socket_.lost()) return Status::kOk;
+  master_.why() = Message("interface ");
+  master_.why() << master_.interface()
+                << ": it is down or gone; check the cable, set the interface up again";
+  return Status::kConnectionLost;
+}
+
+Status EthercatHal::read(const CycleTime& now, RobotState& state) {
+  now_ns_ = now.stamp_ns;
+  receive();
+  if (fault_ == Status::kOk) fault_ = judge_link();
+  const Status status = master_.read(now, state);
+  if (fault_ == Status::kOk) fault_ = status;
+  return fault_;
+}
+
+Status EthercatHal::write(const RobotCommand& command) {
+  RobotCommand sent = command;
+  if (fault_ != Status::kOk) sent.request = DriveRequest::kDisable;
+  master_.write(sent);
+  send();
+  return fault_;
+}
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,237 @@
+#include "hal/ethercat/ethercat_master.hpp"
+
+#include "hal/cia402/hex.hpp"
+#include "kernel/core/loop_bound.hpp"
+
+namespace tactus::ethercat {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr auto kOperational = static_cast<std::uint16_t>(AlState::kOp);
+
+}  // namespace
+
+Status EthercatMaster::configure(const EthercatSettings& ethercat,
+                                 const cia402::Cia402Settings& drive, const Tool& tool,
+                                 CommandMode mode, int period_us) {
+  ethercat_ = &ethercat;
+  drive_ = &drive;
+  mode_ = mode;
+  period_us_ = period_us;
+  phase_ = Phase::kOff;
+  TRY(judge_places());
+  return drives_.configure(drive, tool, period_us, why_);
+}
+
+Status EthercatMaster::judge_places() {
+  why_ = Message("[ethercat] ");
+  if (ethercat_->interface.empty()) {
+    why_ << "interface is missing; `ip link` lists the network interfaces";
+    return Status::kMissingKey;
+  }
+  std::array<bool, kDof> taken{};
+  for (int j = 0; j < kDof; ++j) {
+    const double place = ethercat_->slave[j];
+    const int number = static_cast<int>(place);
+    const bool whole = number == place && number >= 1 && number <= kDof;
+    if (!whole || taken[static_cast<std::size_t>(number - 1)]) {
+      why_ << "slave of joint " << j + 1 << " is " << place
+           << "; the joints' slaves are the numbers 1 to " << kDof << " in any order";
+      return Status::kBadValue;
+    }
+    taken[static_cast<std::size_t>(number - 1)] = true;
+  }
+  const int timeout_ms = ethercat_->timeout_ms(period_us_);
+  if (1000 * timeout_ms <= 2 * period_us_) {
+    why_ << "watchdog_ms is " << timeout_ms << ", which must be more than two periods of "
+         << period_us_ << " us";
+    return Status::kBadValue;
+  }
+  why_ = {};
+  return Status::kOk;
+}
+
+void EthercatMaster::connect(const std::uint8_t* source, std::int64_t now_ns) {
+  why_ = {};
+  phase_ = Phase::kStartsUp;
+  now_ns_ = -1;
+  has_out_ = arrived_ = own_extra_ = asks_ = false;
+  steady_ = cycles_ = asked_ = boxed_ = checked_ = 0;
+  commands_ = {};
+  startup_.exchange().set_source(source);
+  startup_.begin(*ethercat_, *drive_, mode_, period_us_, now_ns);
+}
+
+Status EthercatMaster::connecting(std::int64_t now_ns) {
+  if (phase_ == Phase::kOperates) return operating(now_ns);
+  const Status status = startup_.advance(now_ns);
+  if (status != Status::kOk) return status;
+  phase_ = Phase::kOperates;
+  since_ns_ = now_ns;
+  sent_ns_ = now_ns - std::int64_t{1000} * period_us_;
+  cyclic_.start(startup_.image_bytes(), startup_.has_clocks(), startup_.exchange().source());
+  steer_.start(std::int64_t{1000} * period_us_);
+  port_.reset();
+  coe_.cancel();
+  return Status::kArming;
+}
+
+/// Cycles with outputs that move nothing; then OP is requested, and awaited.
+Status EthercatMaster::operating(std::int64_t now_ns) {
+  if (now_ns - sent_ns_ < std::int64_t{1000} * period_us_) return Status::kArming;
+  sent_ns_ = now_ns;
+  const CyclicFrame::Came came = cyclic_.close();
+  arrived_ = came != CyclicFrame::Came::kNothing;
+  if (arrived_) take_state();
+  bool all = true;
+  for (const Slave& slave : slaves_) all = all && slave.al_status == kOperational;
+  steady_ = came == CyclicFrame::Came::kInputs && all ? steady_ + 1 : 0;
+  if (came == CyclicFrame::Came::kInputs)
+    for (Slave& slave : slaves_) slave.data.decode(cyclic_.inputs(), slave.feedback);
+  if (steady_ >= kSteady) {
+    cia402::Feedbacks feedbacks;
+    for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = slaves_[j].feedback;
+    TRY(drives_.attach(mode_, feedbacks, why_));
+    phase_ = Phase::kRuns;
+    return Status::kOk;
+  }
+  if (now_ns - since_ns_ > ethercat_->state_ms * kMillisecond_ns) return not_operating();
+  const Request op = Request::number(Command::kBwr, address_of(0, kAlControlReg), kOperational);
+  compose(commands_, cycles_++ % kAgain == kBeforeOp ? &op : nullptr);
+  return Status::kArming;
+}
+
+/// Names the first slave that is not in OP, and why.
+Status EthercatMaster::not_operating() {
+  for (int j = 0; j < kDof; ++j) {
+    const Slave& slave = slaves_[static_cast<std::size_t>(j)];
+    if (slave.al_status == kOperational) continue;
+    why_ = label(j, slave);
+    why_ << ": is in " << name(static_cast<AlState>(slave.al_status & kAlStateBits))
+         << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
+         << " ms: " << al_code_text(slave.al_code) << " ("
+         << std::string_view(cia402::hex(slave.al_code)) << ")";
+    return Status::kRefusedByRobot;
+  }
+  why_ = Message("the working counter is ");
+  why_ << cyclic_.counter() << ", expected " << CyclicFrame::kExpected
+       << ": a drive does not read or write its process data";
+  return Status::kBusTimeout;
+}
+
+void EthercatMaster::receive(Frame& frame) {
+  if (phase_ == Phase::kStartsUp) return startup_.exchange().receive(frame);
+  if (phase_ != Phase::kOff) cyclic_.receive(frame);
+}
+
+bool EthercatMaster::take(Frame& frame) {
+  if (phase_ == Phase::kStartsUp && startup_.exchange().take(frame)) return true;
+  if (!has_out_) return false;
+  has_out_ = false;
+  frame = out_;
+  return true;
+}
+
+/// What the frame says of the slave that was asked for its state, and of all together. A slave that
+/// has left OP can be used again after the next connect().
+void EthercatMaster::take_state() {
+  Slave& slave = slaves_[static_cast<std::size_t>(asked_)];
+  const bool answered = cyclic_.asked_counter() == 1;
+  slave.unanswered = answered ? 0 : slave.unanswered + (slave.unanswered < kMostUnanswered);
+  if (answered) {
+    slave.al_status = cyclic_.asked_status();
+    slave.al_code = cyclic_.asked_code();
+  }
+  const bool left = answered && slave.al_status != kOperational;
+  if (phase_ == Phase::kRuns && (left || slave.unanswered == kMostUnanswered))
+    slave.feedback.lost = Status::kConnectionLost;
+  asked_ = asked_ + 1 == kDof ? 0 : asked_ + 1;
+}
+
+void EthercatMaster::take_mailbox() {
+  if (own_extra_) return;
+  Slave& slave = slaves_[static_cast<std::size_t>(boxed_)];
+  can::Emergency emergency;
+  const Answer answer = arrived_ ? cyclic_.extra() : Answer{};
+  if (port_.take(slave.boxes, answer, emergency, now_ns_)) {
+    slave.feedback.error_code = emergency.code;
+    slave.feedback.emergency = slave.feedback.emergency || emergency.code != 0;
+  }
+  // Without its frame, or with a mailbox that was full, the drive is asked again.
+  if (answer.counter != 1) asks_ = false;
+  coe_.advance(now_ns_);
+  const bool waits = coe_.progress() == CoeClient::Progress::kBusy || port_.full();
+  if (!waits) boxed_ = boxed_ + 1 == kDof ? 0 : boxed_ + 1;
+}
+
+void EthercatMaster::take_cycle() {
+  const CyclicFrame::Came came = cyclic_.close();
+  arrived_ = came != CyclicFrame::Came::kNothing;
+  if (arrived_) take_state();
+  take_mailbox();
+  if (arrived_ && cyclic_.has_reference()) steer_.take(cyclic_.reference_ns());
+  LoopBound<kDof> slaves;
+  for (Slave& slave : slaves_) {
+    slaves.tick();
+    slave.feedback.fresh = came == CyclicFrame::Came::kInputs;
+    if (slave.feedback.fresh) slave.data.decode(cyclic_.inputs(), slave.feedback);
+  }
+}
+
+Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
+  if (phase_ != Phase::kRuns) return Status::kNotStarted;
+  const bool first = now_ns_ < 0;
+  now_ns_ = now.stamp_ns;
+  if (first) sampled_ns_ = now_ns_;  // what it holds is of the start-up
+  if (!first) take_cycle();
+  cia402::Feedbacks feedbacks;
+  LoopBound<kDof> slaves;
+  for (std::size_t j = 0; j < kDof; ++j) {
+    slaves.tick();
+    if (first) slaves_[j].feedback.fresh = true;
+    feedbacks[j] = slaves_[j].feedback;
+    slaves_[j].feedback.emergency = false;
+  }
+  drives_.watch(feedbacks, sampled_ns_);
+  check_modes();
+  drives_.show(state);
+  return Status::kOk;
+}
+
+void EthercatMaster::write(const RobotCommand& command) {
+  if (phase_ != Phase::kRuns) return;
+  drives_.hold_back(checked_ < kDof);
+  drives_.step(command, commands_, now_ns_);
+  compose(commands_, nullptr);
+  sampled_ns_ = now_ns_;
+}
+
+/// `extra` takes the place of the mailbox's datagram.
+void EthercatMaster::compose(const cia402::DriveCommands& commands, const Request* extra) {
+  LoopBound<kDof> slaves;
+  for (std::size_t j = 0; j < kDof; ++j) {
+    slaves.tick();
+    slaves_[j].data.encode(commands[j], cyclic_.image());
+  }
+  own_extra_ = extra != nullptr;
+  const Slave& boxed = slaves_[static_cast<std::size_t>(boxed_)];
+  const Slave& asked = slaves_[static_cast<std::size_t>(asked_)];
+  cyclic_.compose(asked.boxes.station, own_extra_ ? *extra : port_.next(boxed.boxes), out_);
+  has_out_ = true;
+}
+
+void EthercatMaster::leave() {
+  if (phase_ != Phase::kRuns) {
+    phase_ = Phase::kOff;
+    return;
+  }
+  RobotCommand stop;
+  stop.mode = mode_;
+  drives_.step(stop, commands_, now_ns_);
+  const Request init = Request::number(Command::kBwr, address_of(0, kAlControlReg),
+                                       static_cast<std::uint16_t>(AlState::kInit));
+  compose(commands_, &init);
+  phase_ = Phase::kOff;
+}
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,103 @@
+// EthercatMaster: seven drives on one segment, without the interface: frames in, frames out, time
+// passed in. EthercatHal carries the frames.
+//
+// A cycle: receive() takes what has come since the last one; read() judges it; write() composes the
+// frame of this cycle. A drive gives its newest samples into that frame and takes its command out
+// of it, so a command acts exactly one period after the sample that it answers.
+#pragma once
+
+#include "hal/cia402/drives.hpp"
+#include "hal/ethercat/clock_steer.hpp"
+#include "hal/ethercat/cyclic_frame.hpp"
+#include "hal/ethercat/startup.hpp"
+
+namespace tactus::ethercat {
+
+class EthercatMaster {
+ public:
+  EthercatMaster() : port_(coe_), startup_(slaves_, coe_, why_) {}
+
+  /// Takes the settings, which must outlive the master. kMissingKey, kBadValue, kTooLarge; `why`
+  /// names key, value and limit. [init]
+  Status configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
+                   const Tool& tool, CommandMode mode, int period_us);
+  const char* interface() const { return ethercat_->interface.c_str(); }
+
+  /// Begins the start-up with the sender's Ethernet address; connecting() is called until it does
+  /// not return kArming. [init]
+  void connect(const std::uint8_t* source, std::int64_t now_ns);
+  Status connecting(std::int64_t now_ns);
+
+  /// Takes a frame that has come. [init, cyclic]
+  void receive(Frame& frame);
+  /// True while a frame is to come back. [any]
+  bool awaits() const { return phase_ == Phase::kStartsUp || cyclic_.awaits(); }
+  /// Judges what has come since the last cycle. [cyclic]
+  Status read(const CycleTime& now, RobotState& state);
+  /// Composes the frame of this cycle. [cyclic]
+  void write(const RobotCommand& command);
+  /// Copies the frame to send; false: there is none. [init, cyclic]
+  bool take(Frame& frame);
+
+  /// True from connecting to leave(). [any]
+  bool connected() const { return phase_ == Phase::kRuns; }
+  int period_us() const { return period_us_; }
+  int stop_ms() const { return drive_->stop_ms; }
+  bool confirmed(int joint) const { return drives_.confirmed(joint); }
+  bool lost(int joint) const { return slave(joint).feedback.lost != Status::kOk; }
+  const Slave& slave(int joint) const { return slaves_[static_cast<std::size_t>(joint)]; }
+  const LineCounts& counts() const { return cyclic_.counts(); }
+  const ClockSteer& steer() const { return steer_; }
+  cia402::Phase phase() const { return drives_.phase(); }
+  /// Leaves a frame that takes all slaves to INIT; the exchange is over. [any]
+  void leave();
+
+  Message& why() { return why_; }
+  /// The last Status in words. [between two cycles]
+  Message trouble() const;
+
+ private:
+  enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };
+
+  static constexpr int kSteady = 5;     // cycles in a row with inputs before it is connected
+  static constexpr int kBeforeOp = 10;  // cycles with outputs before OP is requested
+  static constexpr int kAgain = 100;    // cycles after which it is requested again
+  static constexpr int kMostUnanswered = 2;
+
+  // ethercat_master.cpp
+  Status judge_places();
+  Status operating(std::int64_t now_ns);
+  Status not_operating();
+  void take_cycle();
+  void take_state();
+  void take_mailbox();
+  void compose(const cia402::DriveCommands& commands, const Request* extra);
+  // ethercat_modes.cpp
+  void check_modes();
+
+  const EthercatSettings* ethercat_ = nullptr;
+  const cia402::Cia402Settings* drive_ = nullptr;
+  CommandMode mode_ = CommandMode::kEffort;
+  int period_us_ = 1;
+  Slaves slaves_;
+  CoeClient coe_;
+  MailboxPort port_;
+  Message why_;
+  Startup startup_;
+  CyclicFrame cyclic_;
+  ClockSteer steer_;
+  cia402::Drives drives_;
+  cia402::DriveCommands commands_;
+  Phase phase_ = Phase::kOff;
+  Frame out_;
+  bool has_out_ = false, arrived_ = false, own_extra_ = false;
+  int steady_ = 0, cycles_ = 0;
+  std::int64_t since_ns_ = 0, sent_ns_ = 0;
+  std::int64_t now_ns_ = -1, sampled_ns_ = 0;
+  int asked_ = 0;    // slave whose state is read
+  int boxed_ = 0;    // slave whose mailbox is served
+  int checked_ = 0;  // drives whose mode has been asked for since arming
+  bool asks_ = false;
+};
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,53 @@
+// ProcessData: where the objects of a drive are in the image of a cycle; commands are encoded and
+// feedback is decoded there.
+#pragma once
+
+#include "hal/cia402/drive_wire.hpp"
+#include "hal/ethercat/process_layout.hpp"
+#include "kernel/core/hal.hpp"
+
+namespace tactus::ethercat {
+
+/// The objects that are mapped for commands of a pipeline, in their order. [init]
+struct Wanted {
+  static constexpr int kMost = 6;
+  std::array<cia402::Object, kMost> list{};
+  int count = 0;
+
+  void add(const cia402::Object& object) { list[static_cast<std::size_t>(count++)] = object; }
+};
+Wanted wanted_outputs(CommandMode mode);
+Wanted wanted_inputs();
+
+class ProcessData {
+ public:
+  ProcessLayout outputs, inputs;
+  std::size_t out_at = 0, in_at = 0;  ///< in the image
+
+  /// Finds the objects in the layouts. Returns the one that is missing, or does not begin with a
+  /// byte; null: none. [init]
+  const char* resolve(CommandMode mode);
+  /// Fills in feedback from the image. [cyclic]
+  void decode(const std::uint8_t* image, cia402::DriveFeedback& feedback) const;
+  /// Writes a command, and the mode of operation where it is mapped, into the image. [cyclic]
+  void encode(const cia402::DriveCommand& command, std::uint8_t* image) const;
+
+ private:
+  static constexpr int kOutputs = 7;
+
+  std::array<int, kOutputs> out_{};
+  int status_ = -1, position_ = -1, velocity_ = -1, torque_ = -1, error_ = -1;
+  std::uint8_t mode_ = 0;
+};
+
+/// Returns the drive's mode for commands of a pipeline. [any]
+constexpr cia402::Mode mode_of(CommandMode mode) {
+  switch (mode) {
+    case CommandMode::kPosition: return cia402::Mode::kCyclicPosition;
+    case CommandMode::kVelocity: return cia402::Mode::kCyclicVelocity;
+    case CommandMode::kEffort: break;
+  }
+  return cia402::Mode::kCyclicTorque;
+}
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,132 @@
+#include "hal/ethercat/slave_setup.hpp"
+
+#include "hal/can/protocol_canopen.hpp"
+#include "hal/ethercat/protocol_coe.hpp"
+
+namespace tactus::ethercat {
+namespace {
+
+// Options of a drive (CiA 402): what it does by itself.
+constexpr std::uint32_t kRampThenOff = 2;  // quick stop and fault reaction: the quick-stop ramp
+constexpr std::uint32_t kFaultOnLostMaster = 1;  // abort of the connection
+
+}  // namespace
+
+void SlaveSetup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
+                       int joint, CommandMode mode, int period_us) {
+  count_ = 0;
+  identity(ethercat, mode);
+  scaling(drive, joint);
+  options(mode, period_us);
+  pdo(kRxAssign, kRxMapping, wanted_outputs(mode));
+  pdo(kTxAssign, kTxMapping, wanted_inputs());
+}
+
+void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
+  expect(can::kDeviceType, 0, cia402::kDriveProfile, "profile of the device",
+         "a CiA 402 drive is needed; check [ethercat] slave", 0xFFFF);
+  if (ethercat.vendor != 0)
+    expect(can::kIdentity, 1, static_cast<std::uint32_t>(ethercat.vendor), "vendor",
+           "check [ethercat] vendor");
+  if (ethercat.product != 0)
+    expect(can::kIdentity, 2, static_cast<std::uint32_t>(ethercat.product), "product",
+           "check [ethercat] product");
+  const std::uint32_t bit = 1U << (static_cast<int>(mode_of(mode)) - 1);
+  expect(cia402::kSupportedModes.index, 0, bit, "supported modes",
+         "the drive does not have the mode that [robot] commands", bit);
+}
+
+/// Only an exact match runs: a factor of a thousand in the torque must not be found by the arm.
+void SlaveSetup::scaling(const cia402::Cia402Settings& drive, int joint) {
+  const auto rated_mNm = static_cast<std::uint32_t>(drive.rated_torque[joint] * 1000.0 + 0.5);
+  expect(cia402::kRatedTorque.index, 0, rated_mNm, "rated torque in mN m",
+         "correct [cia402] rated_torque, or the drive");
+  expect(cia402::kEncoderIncrements.index, 1, static_cast<std::uint32_t>(drive.increments[joint]),
+         "increments of the encoder", "correct [cia402] increments, or the drive");
+  expect(cia402::kEncoderRevolutions.index, 2, 1, "revolutions for these increments",
+         "the drive must count per one revolution");
+}
+
+void SlaveSetup::options(CommandMode mode, int period_us) {
+  write(cia402::kAbortConnectionOption, kFaultOnLostMaster, "abort connection option");
+  write(cia402::kQuickStopOption, kRampThenOff, "quick stop option");
+  write(cia402::kFaultReactionOption, kRampThenOff, "fault reaction option");
+  // The period as value * 10^index s.
+  const bool whole_ms = period_us % 1000 == 0;
+  const int value = whole_ms ? period_us / 1000 : period_us / 100;
+  const auto index = static_cast<std::uint8_t>(whole_ms ? -3 : -4);
+  write(cia402::kPeriodValue, static_cast<std::uint32_t>(value), "interpolation time");
+  write(cia402::kPeriodIndex, index, "interpolation time index");
+  // Where it is mapped, the cycle writes it too; arming asks for its display.
+  write(cia402::kModeOfOperation, static_cast<std::uint8_t>(mode_of(mode)), "mode of operation");
+}
+
+void SlaveSetup::pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted) {
+  write(assignment, 0, 1, 0, "number of assigned PDOs");
+  write(mapping, 0, 1, 0, "number of mapped objects");
+  for (int i = 0; i < wanted.count; ++i)
+    write(mapping, static_cast<std::uint8_t>(i + 1), 4,
+          wanted.list[static_cast<std::size_t>(i)].mapping(), "mapped object");
+  write(mapping, 0, 1, static_cast<std::uint32_t>(wanted.count), "number of mapped objects");
+  write(assignment, 1, 2, mapping, "assigned PDO");
+  write(assignment, 0, 1, 1, "number of assigned PDOs");
+}
+
+void SlaveSetup::expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value,
+                        const char* what, const char* remedy, std::uint32_t mask) {
+  steps_[static_cast<std::size_t>(count_++)] = {
+      SetupStep::Kind::kExpect, sub, 0, index, value, mask, what, remedy};
+}
+
+void SlaveSetup::write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes,
+                       std::uint32_t value, const char* what) {
+  steps_[static_cast<std::size_t>(count_++)] = {
+      SetupStep::Kind::kMayWrite, sub, bytes, index, value, 0xFFFFFFFF, what, ""};
+}
+
+void MappingReader::begin(ProcessData& data) {
+  data_ = &data;
+  data.outputs.clear();
+  data.inputs.clear();
+  inputs_ = done_ = false;
+  listed_ = 0;
+  pdo_ = -1;
+}
+
+bool MappingReader::take(std::uint32_t value) {
+  if (pdo_ >= 0) {
+    if (entry_ == 0) {
+      entries_ = static_cast<int>(value & 0xFF);
+    } else {
+      ProcessLayout& layout = inputs_ ? data_->inputs : data_->outputs;
+      if (!layout.add(value)) return false;
+    }
+    return entry_++ < entries_ || next_pdo();
+  }
+  if (listed_ == 0) {
+    pdos_count_ = static_cast<int>(value & 0xFF);
+    if (pdos_count_ > kMostPdos) return false;
+  } else {
+    pdos_[static_cast<std::size_t>(listed_ - 1)] = static_cast<std::uint16_t>(value);
+  }
+  return listed_++ < pdos_count_ || next_pdo();
+}
+
+bool MappingReader::next_pdo() {
+  if (++pdo_ == pdos_count_) {
+    next_direction();
+    return true;
+  }
+  mapped_ = pdos_[static_cast<std::size_t>(pdo_)];
+  entry_ = entries_ = 0;
+  return true;
+}
+
+void MappingReader::next_direction() {
+  done_ = inputs_;
+  inputs_ = true;
+  listed_ = 0;
+  pdo_ = -1;
+}
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,121 @@
+// Startup: takes all slaves of the segment from any state to SAFEOP, with the process data of a
+// cycle configured: a sequence of single datagrams. Frames in, frames out, time passed in.
+//
+// The line is counted and brought to INIT; then one slave after the other gets its address, shows
+// its EEPROM, goes to PREOP, is set up by SDO and gets its process data; then the clocks are set,
+// and the slaves go to SAFEOP.
+#pragma once
+
+#include "hal/ethercat/sii_reader.hpp"
+#include "hal/ethercat/slave.hpp"
+#include "hal/ethercat/slave_setup.hpp"
+
+namespace tactus::ethercat {
+
+inline constexpr std::uint16_t kFirstStation = 0x1001;
+inline constexpr std::uint32_t kImageAddress = 0x00010000;  ///< logical, of the first output
+inline constexpr std::size_t kMostImage = 1024;             ///< bytes
+
+class Startup {
+ public:
+  Startup(Slaves& slaves, CoeClient& coe, Message& why)
+      : slaves_(slaves), coe_(coe), port_(coe), why_(why) {}
+
+  void begin(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
+             CommandMode mode, int period_us, std::int64_t now_ns);
+  /// kArming until it is over. kBusTimeout, kRefusedByRobot, kTooLarge: `why` has the slave, what
+  /// it did and what helps. [init]
+  Status advance(std::int64_t now_ns);
+  Exchange& exchange() { return exchange_; }
+
+  std::size_t image_bytes() const { return image_bytes_; }
+  /// True if all slaves have a clock. [any]
+  bool has_clocks() const { return has_clocks_; }
+
+ private:
+  enum class Stage : std::uint8_t {
+    kCount,
+    kInit,
+    kAwaitInit,
+    kClear,
+    kStation,
+    kFeatures,
+    kEeprom,
+    kCategories,
+    kMailboxes,
+    kPreop,
+    kSetup,
+    kMapping,
+    kProcessData,
+    kLatch,
+    kTimes,
+    kOffsets,
+    kFilter,
+    kSteer,
+    kSafeop,
+    kDone
+  };
+
+  // startup.cpp
+  void enter(Stage stage);
+  void next_slave(Stage again, Stage then);
+  Request request();
+  Request clear_request() const;
+  Request state_request(AlState state) const;
+  Status take(const Answer& answer);
+  Status count(const Answer& answer);
+  Status await_init(const Answer& answer);
+  Status await_state(const Answer& answer, AlState state);
+  Status lost();
+  Status refuse(Status status, std::string_view what);
+  // startup_slave.cpp
+  Request area_request() const;
+  Status take_eeprom();
+  Status take_category();
+  Status judge_eeprom();
+  Request process_request() const;
+  Status take_process_data();
+  Status place_image();
+  // startup_setup.cpp
+  void ask_object(std::int64_t now_ns);
+  Status take_mailbox(const Answer& answer);
+  Status finish_step();
+  Status finish_mapping();
+  // startup_clock.cpp
+  Request clock_request() const;
+  Status take_times(const Answer& answer);
+  void set_delays();
+
+  Slave& at() { return slaves_[static_cast<std::size_t>(order_[static_cast<std::size_t>(at_)])]; }
+  const Slave& at() const {
+    return slaves_[static_cast<std::size_t>(order_[static_cast<std::size_t>(at_)])];
+  }
+  int joint() const { return order_[static_cast<std::size_t>(at_)]; }
+
+  Slaves& slaves_;
+  CoeClient& coe_;
+  MailboxPort port_;
+  Message& why_;
+  const EthercatSettings* ethercat_ = nullptr;
+  const cia402::Cia402Settings* drive_ = nullptr;
+  CommandMode mode_ = CommandMode::kEffort;
+  int period_us_ = 1;
+  std::array<int, kDof> order_{};  // joints in the order of the line
+
+  Stage stage_ = Stage::kCount;
+  int at_ = 0;    // place in the line
+  int step_ = 0;  // of the stage, with this slave
+  int attempts_ = 0;
+  std::int64_t now_ns_ = 0, since_ns_ = 0;
+  std::uint16_t category_ = 0, category_type_ = 0, category_end_ = 0;  // words of the EEPROM
+  int categories_ = 0, sm_ = 0;
+  std::uint32_t sm_half_ = 0;
+  Exchange exchange_;
+  SiiReader eeprom_;
+  SlaveSetup steps_;
+  MappingReader mapping_;
+  std::size_t image_bytes_ = 0;
+  bool has_clocks_ = false;
+};
+
+}  // namespace tactus::ethercat

@@ -1,0 +1,83 @@
+// Startup: the set-up of a drive by SDO.
+#include "hal/cia402/hex.hpp"
+#include "hal/ethercat/startup.hpp"
+
+namespace tactus::ethercat {
+namespace {
+
+constexpr int kAttempts = 2;  // of a transfer that gets no answer: a frame with it may be lost
+
+}  // namespace
+
+/// Begins the transfer of the present step.
+void Startup::ask_object(std::int64_t now_ns) {
+  const std::size_t bytes = at().boxes.out_bytes;
+  if (stage_ == Stage::kMapping)
+    return coe_.upload(bytes, mapping_.index(), mapping_.sub(), now_ns);
+  const SetupStep& step = steps_.step(step_);
+  if (step.kind == SetupStep::Kind::kExpect)
+    coe_.upload(bytes, step.index, step.sub, now_ns);
+  else
+    coe_.download(bytes, step.index, step.sub, step.value, step.bytes, now_ns);
+}
+
+Status Startup::take_mailbox(const Answer& answer) {
+  can::Emergency emergency;
+  (void)port_.take(at().boxes, answer, emergency, now_ns_);  // of the time before: no matter
+  if (coe_.progress() == CoeClient::Progress::kBusy) return Status::kOk;
+  const bool silent = coe_.abort() == can::SdoAbort::kTimeout;
+  if (silent && ++attempts_ < kAttempts) {
+    ask_object(now_ns_);
+    return Status::kOk;
+  }
+  attempts_ = 0;
+  if (silent) return refuse(Status::kBusTimeout, coe_.describe());
+  return stage_ == Stage::kMapping ? finish_mapping() : finish_step();
+}
+
+Status Startup::finish_step() {
+  const SetupStep& step = steps_.step(step_);
+  if (step.kind == SetupStep::Kind::kExpect) {
+    Message what(step.what);
+    if (coe_.progress() != CoeClient::Progress::kDone) {
+      what << ": " << std::string_view(coe_.describe());
+      return refuse(Status::kRefusedByRobot, what);
+    }
+    if ((coe_.value() & step.mask) != (step.value & step.mask)) {
+      what << " (" << std::string_view(cia402::hex(step.index)) << ":" << int{step.sub} << ") is "
+           << static_cast<std::size_t>(coe_.value()) << ", expected "
+           << static_cast<std::size_t>(step.value) << "; " << step.remedy;
+      return refuse(Status::kRefusedByRobot, what);
+    }
+  }
+  if (++step_ == steps_.count()) {
+    stage_ = Stage::kMapping;
+    mapping_.begin(at().data);
+  }
+  ask_object(now_ns_);
+  return Status::kOk;
+}
+
+/// What was read back decides: a drive may have kept a mapping of its own, with all that is needed.
+Status Startup::finish_mapping() {
+  Message what("PDOs: ");
+  if (coe_.progress() != CoeClient::Progress::kDone) {
+    what << std::string_view(coe_.describe());
+    return refuse(Status::kRefusedByRobot, what);
+  }
+  if (!mapping_.take(coe_.value()))
+    return refuse(Status::kTooLarge, "it has more mapped objects than this program has room for");
+  if (!mapping_.done()) {
+    ask_object(now_ns_);
+    return Status::kOk;
+  }
+  if (const char* missing = at().data.resolve(mode_)) {
+    what << "it does not take the mapping, and its own does not have " << missing;
+    return refuse(Status::kRefusedByRobot, what);
+  }
+  if (at_ + 1 == kDof) TRY(place_image());
+  next_slave(Stage::kFeatures, Stage::kProcessData);
+  return Status::kOk;
+}
+
+}  // namespace tactus::ethercat

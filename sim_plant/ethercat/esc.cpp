@@ -1,0 +1,172 @@
+#include "sim_plant/ethercat/esc.hpp"
+
+#include <cstring>
+
+namespace tactus::segment {
+
+using namespace ethercat;
+
+namespace {
+
+constexpr std::uint8_t kType = 0x11, kRevision = 0, kRamKiB = 8;
+constexpr std::uint8_t kPorts = 0x0F;                            // 0 and 1: MII
+constexpr std::uint16_t kLastOfLine = 0x5611, kInLine = 0x5A31;  // DL status
+constexpr std::uint16_t kDefaultWatchdog = 1000;                 // of 100 us
+constexpr std::uint8_t kReads = 1, kWrites = 2;
+
+/// What a command does in a slave that it addresses.
+constexpr std::uint8_t kDoes[kCommands] = {
+    0,      kReads,  kWrites,          kReads | kWrites,  // by position
+    kReads, kWrites, kReads | kWrites,                    // by station
+    kReads, kWrites, kReads | kWrites,                    // all
+    kReads, kWrites, kReads | kWrites,                    // logical
+    kReads, kReads};
+
+}  // namespace
+
+void Esc::power_on(const SiiImage& image, const EscClock& clock) {
+  memory_.fill(0);
+  image_ = &image;
+  clock_ = clock;
+  outputs_ns_ = -1;
+  requested_ = outputs_ = expired_ = latched_ = false;
+  const std::uint8_t head[8] = {kType, kRevision, 0, 0, kFmmus, kSms, kRamKiB, kPorts};
+  std::memcpy(memory_.data(), head, sizeof head);
+  put<std::uint16_t>(&memory_[kFeaturesReg], kHasClock | kHasLongClock);
+  put<std::uint32_t>(&memory_[kDlControlReg], 0x0007C001);
+  put<std::uint16_t>(&memory_[kWatchdogDividerReg], kDivider100us);
+  put<std::uint16_t>(&memory_[kPdiWatchdogReg], kDefaultWatchdog);
+  put<std::uint16_t>(&memory_[kDataWatchdogReg], kDefaultWatchdog);
+  put<std::uint16_t>(&memory_[kPdiControlReg], image.word(0));
+  put<std::uint16_t>(&memory_[kAliasReg], image.word(4));
+  put<std::uint16_t>(&memory_[kEepromControlReg], kEepromReads8);
+  put<std::uint16_t>(&memory_[kTimeSpeedReg], 0x1000);
+  memory_[kWatchdogStatusReg] = 1;
+  show(static_cast<std::uint16_t>(AlState::kInit), 0);
+  set_line(false);
+}
+
+void Esc::set_line(bool last) {
+  put<std::uint16_t>(&memory_[kDlStatusReg], last ? kLastOfLine : kInLine);
+}
+
+bool Esc::addressed(const Datagram& datagram) const {
+  switch (datagram.command) {
+    case Command::kAprd:
+    case Command::kApwr:
+    case Command::kAprw:
+    case Command::kArmw: return datagram.position() == 0;
+    case Command::kFprd:
+    case Command::kFpwr:
+    case Command::kFprw:
+    case Command::kFrmw: {
+      const std::uint16_t station = datagram.position();
+      const bool alias = (memory_[kDlControlReg + 3] & 0x01) != 0 && station == reg16(kAliasReg);
+      return station == reg16(kStationReg) || alias;
+    }
+    default: return true;
+  }
+}
+
+void Esc::process(const Datagram& datagram, std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  const auto code = static_cast<std::uint8_t>(datagram.command);
+  if (code >= kCommands) return;
+  const bool reads = (kDoes[code] & kReads) != 0, writes = (kDoes[code] & kWrites) != 0;
+  const bool mine = addressed(datagram);
+  switch (datagram.command) {
+    case Command::kNop: return;
+    case Command::kLrd:
+    case Command::kLwr:
+    case Command::kLrw: return logical(datagram, reads, writes);
+    case Command::kArmw:
+    case Command::kFrmw: physical(datagram, mine, !mine, false); break;
+    default:
+      if (mine) physical(datagram, reads, writes, code >= static_cast<std::uint8_t>(Command::kBrd));
+  }
+  const bool counts = datagram.command == Command::kArmw || code <= 3 || (code >= 7 && code <= 9);
+  if (counts) datagram.set_position(static_cast<std::uint16_t>(datagram.position() + 1));
+}
+
+/// `joins`: what is read is OR-ed to what others have read.
+void Esc::physical(const Datagram& datagram, bool reads, bool writes, bool joins) {
+  std::array<std::uint8_t, kLengthBits + 1> received;
+  std::memcpy(received.data(), datagram.data, datagram.size);
+  unsigned counter = datagram.counter();
+  if (reads && read(datagram.reg(), datagram.data, datagram.size, joins)) counter += 1;
+  if (writes && write(datagram.reg(), received.data(), datagram.size)) counter += reads ? 2U : 1U;
+  datagram.set_counter(static_cast<std::uint16_t>(counter));
+}
+
+/// The port on which the frame comes back, if there is a slave behind; latched together with the
+/// receive times.
+void Esc::note_return(std::int64_t now_ns, bool last) {
+  if (!latched_) return;
+  latched_ = false;
+  put<std::uint32_t>(&memory_[kPortTimesReg], static_cast<std::uint32_t>(clock_.local(port_ns_)));
+  const std::int64_t back_ns = last ? 0 : clock_.local(now_ns);
+  put<std::uint32_t>(&memory_[kPortTimesReg + 4], static_cast<std::uint32_t>(back_ns));
+  put<std::uint64_t>(&memory_[kUnitTimeReg], static_cast<std::uint64_t>(clock_.local(port_ns_)));
+}
+
+void Esc::advance(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  const SyncManager outputs = sm(2);
+  const bool watched = (outputs.control & kSmWatchdog) != 0 && outputs.enabled();
+  const std::int64_t unit_ns = (std::int64_t{reg16(kWatchdogDividerReg)} + 2) * 40;
+  const std::int64_t limit_ns = unit_ns * reg16(kDataWatchdogReg);
+  if (!watched || limit_ns == 0 || outputs_ns_ < 0 || now_ns - outputs_ns_ <= limit_ns) return;
+  outputs_ns_ = -1;
+  expired_ = true;
+  memory_[kWatchdogStatusReg] = 0;
+  if (memory_[kWatchdogCounterReg] < 0xFF) ++memory_[kWatchdogCounterReg];
+}
+
+bool Esc::take_request(std::uint16_t& control) {
+  if (!requested_) return false;
+  requested_ = false;
+  control = reg16(kAlControlReg);
+  memory_[kAlEventReg] &= 0xFE;
+  return true;
+}
+
+void Esc::show(std::uint16_t status, std::uint16_t code) {
+  put(&memory_[kAlStatusReg], status);
+  put(&memory_[kAlCodeReg], code);
+}
+std::uint16_t Esc::status() const {
+  return reg16(kAlStatusReg);
+}
+std::uint16_t Esc::reg16(std::uint16_t reg) const {
+  return get<std::uint16_t>(&memory_[reg]);
+}
+
+SyncManager Esc::sm(std::size_t i) const {
+  const std::uint8_t* const at = &memory_[kSmReg + kSmBytes * i];
+  return {get<std::uint16_t>(at), get<std::uint16_t>(at + 2), at[4], at[5], at[6]};
+}
+
+std::uint8_t* Esc::bytes(std::size_t i) {
+  const SyncManager manager = sm(i);
+  const bool inside = manager.start >= kRam && manager.start + manager.length <= int{kMemory};
+  return inside ? &memory_[manager.start] : nullptr;
+}
+
+void Esc::set_full(std::size_t i, bool full) {
+  std::uint8_t& status = memory_[kSmReg + kSmBytes * i + 5];
+  status = static_cast<std::uint8_t>(full ? status | kSmFull : status & ~kSmFull);
+}
+
+bool Esc::take_outputs() {
+  const bool came = outputs_;
+  outputs_ = false;
+  return came;
+}
+
+bool Esc::take_expired() {
+  const bool expired = expired_;
+  expired_ = false;
+  return expired;
+}
+
+}  // namespace tactus::segment

@@ -1,0 +1,170 @@
+// The start-up of the master with the emulated segment: OP, and refusals that name the slave.
+#include "tests/ethercat/master_bench.hpp"
+
+namespace tactus::ethercat {
+namespace {
+
+MasterBench& fresh() {
+  static MasterBench* bench = nullptr;
+  delete bench;
+  return *(bench = new MasterBench);
+}
+
+// Proves ECAT-5.
+void seven_drives_are_brought_to_op_and_none_is_enabled(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  const Status status = bench.executive.start();
+  if (status != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
+  ASSERT_OK(status);
+  for (int i = 0; i < kDof; ++i) {
+    assert_int_equal(bench.hal.line.slave(i).state(), AlState::kOp);
+    assert_false(bench.hal.line.slave(i).axis().powered());
+    assert_int_equal(bench.hal.master.slave(i).identity.serial, 1001 + i);
+    assert_int_equal(bench.hal.master.slave(i).data.outputs.bytes(), 4);
+    assert_int_equal(bench.hal.master.slave(i).data.inputs.bytes(), 14);
+  }
+  assert_int_equal(bench.hal.line.malformed(), 0);
+}
+
+void every_mode_gets_its_mapping(void**) {
+  struct Row {
+    CommandMode mode;
+    std::size_t outputs;
+  };
+  for (const Row& row : {Row{CommandMode::kEffort, 4}, Row{CommandMode::kVelocity, 8},
+                         Row{CommandMode::kPosition, 12}}) {
+    MasterBench& bench = fresh();
+    ASSERT_OK(bench.load());
+    ASSERT_OK(bench.hal.master.configure(bench.ethercat, bench.drive, Tool{}, row.mode, 1000));
+    ASSERT_OK(bench.hal.connect(row.mode));
+    assert_int_equal(bench.hal.master.slave(3).data.outputs.bytes(), row.outputs);
+    assert_int_equal(bench.hal.line.slave(3).dictionary().get(drives::slot_of(0x6061)),
+                     static_cast<int>(mode_of(row.mode)));
+  }
+}
+
+void slaves_may_be_in_any_order_and_state(void**) {
+  MasterBench& bench = fresh();
+  bench.ethercat.slave << 4, 3, 2, 1, 7, 6, 5;
+  ASSERT_OK(bench.load());
+  bench.hal.line.slave(2).fall(0x001B);
+  // The joints of the plant are in another order, so that a position may be out of its joint's
+  // range.
+  const Status status = bench.hal.connect(CommandMode::kEffort);
+  assert_true(status == Status::kOk || status == Status::kNotReferenced);
+  constexpr int kSerials[] = {1004, 1003, 1002, 1001, 1007, 1006, 1005};
+  for (int i = 0; i < kDof; ++i) {
+    assert_int_equal(bench.hal.master.slave(i).identity.serial, kSerials[i]);
+    assert_int_equal(bench.hal.line.slave(i).state(), AlState::kOp);
+  }
+}
+
+void a_second_start_up_follows_a_first_one(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
+  ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
+  bench.hal.line.slave(4).fall(0x001B);
+  ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
+}
+
+void lost_frames_of_the_start_up_are_sent_again(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  bench.hal.lose_every = 97;
+  const Status status = bench.hal.connect(CommandMode::kEffort);
+  if (status != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
+  ASSERT_OK(status);
+}
+
+void assert_refused(MasterBench& bench, Status status, const char* words) {
+  ASSERT_STATUS(bench.hal.connect(CommandMode::kEffort), status);
+  const Message said = bench.hal.trouble();
+  if (std::strstr(said.c_str(), words) == nullptr) print_error("%s\n", said.c_str());
+  assert_non_null(std::strstr(said.c_str(), words));
+}
+
+void a_segment_of_another_length_is_refused(void**) {
+  MasterBench& bench = fresh();
+  bench.plant.slaves = 6;
+  ASSERT_OK(bench.load());
+  assert_refused(bench, Status::kBusTimeout, "the segment has 6 slaves, expected 7");
+  MasterBench& open = fresh();
+  ASSERT_OK(open.load());
+  open.add(segment::LineFaultKind::kBreak, 0, 0, 1 << 30);
+  assert_refused(open, Status::kBusTimeout, "no frame came back");
+}
+
+void a_wrong_drive_is_named_with_what_it_says(void**) {
+  MasterBench& bench = fresh();
+  bench.drive.rated_torque[2] = 4.0;
+  ASSERT_OK(bench.load());
+  assert_refused(bench, Status::kRefusedByRobot,
+                 "joint 3 (slave 3): rated torque in mN m (6076h:0) is 3000, expected 4000");
+  MasterBench& other = fresh();
+  other.ethercat.product = 403;
+  ASSERT_OK(other.load());
+  assert_refused(other, Status::kRefusedByRobot, "product (1018h:2) is 402, expected 403");
+}
+
+void mailbox_faults_are_named(void**) {
+  MasterBench& bench = fresh();
+  bench.ethercat.sdo_ms = 50;
+  ASSERT_OK(bench.load());
+  bench.add(drives::FaultKind::kSdoSilence, 5, 0x6502);
+  assert_refused(bench, Status::kBusTimeout,
+                 "joint 5 (slave 5): object 6502h:0: no answer within 50 ms");
+  MasterBench& other = fresh();
+  ASSERT_OK(other.load());
+  other.add(drives::FaultKind::kSdoAbort, 2, 0x6502);
+  assert_refused(other, Status::kRefusedByRobot,
+                 "joint 2 (slave 2): supported modes: object 6502h:0: general");
+}
+
+/// Writes are refused, and what the drive has by itself is enough.
+void a_drive_that_keeps_its_own_mapping_is_used_with_it(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  drives::Fault fault;
+  fault.kind = drives::FaultKind::kSdoAbort;
+  fault.value = 0x1C12;
+  fault.node = 4;
+  fault.abort = 0x06010002;
+  assert_true(bench.hal.line.add(fault));
+  // Reads of it are refused too, so that nothing can be known.
+  assert_refused(bench, Status::kRefusedByRobot, "joint 4 (slave 4): PDOs: object 1C12h:0");
+}
+
+void settings_that_cannot_be_are_refused(void**) {
+  MasterBench& bench = fresh();
+  bench.ethercat.slave[3] = 3;
+  ASSERT_STATUS(bench.load(), Status::kBadValue);
+  assert_non_null(std::strstr(bench.hal.trouble().c_str(), "slave of joint 4 is 3"));
+  MasterBench& other = fresh();
+  other.ethercat.watchdog_ms = 2;
+  ASSERT_STATUS(other.load(), Status::kBadValue);
+  MasterBench& none = fresh();
+  none.ethercat.interface = Value("");
+  ASSERT_STATUS(none.load(), Status::kMissingKey);
+}
+
+}  // namespace
+}  // namespace tactus::ethercat
+
+int main() {
+  using namespace tactus::ethercat;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(seven_drives_are_brought_to_op_and_none_is_enabled),
+      cmocka_unit_test(every_mode_gets_its_mapping),
+      cmocka_unit_test(slaves_may_be_in_any_order_and_state),
+      cmocka_unit_test(a_second_start_up_follows_a_first_one),
+      cmocka_unit_test(lost_frames_of_the_start_up_are_sent_again),
+      cmocka_unit_test(a_segment_of_another_length_is_refused),
+      cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
+      cmocka_unit_test(mailbox_faults_are_named),
+      cmocka_unit_test(a_drive_that_keeps_its_own_mapping_is_used_with_it),
+      cmocka_unit_test(settings_that_cannot_be_are_refused),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
