@@ -14,7 +14,7 @@ RawMessage kp(std::string_view value) {
   return set_of("pd", "kp", value);
 }
 const JointVector& kp_of(TwoClients& two) {
-  return static_cast<const PdGravity*>(two.bench.pipeline.block(0).place)->params.kp;
+  return static_cast<const PdGravity*>(two.bench.pipeline[0].place)->params.kp;
 }
 Status status(const TestClient& client, std::uint32_t number) {
   return static_cast<Status>(client.status[number]);

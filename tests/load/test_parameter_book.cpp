@@ -38,7 +38,7 @@ struct BookBench : LoaderBench {
   const PdGravity& pd(std::string_view name) {
     int i = 0;
     while (std::string_view(pipeline.name(i)) != name) ++i;
-    return *static_cast<const PdGravity*>(pipeline.block(i).place);
+    return *static_cast<const PdGravity*>(pipeline[i].place);
   }
   bool says(const char* part) const {
     return std::string_view(why.message()).find(part) != std::string_view::npos;
