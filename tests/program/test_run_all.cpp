@@ -94,6 +94,17 @@ void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
                    0);
 }
 
+void a_run_that_this_computer_cannot_do_is_named_and_left_out(void**) {
+  write("t/skips", {"#!/bin/sh\necho 'this needs a machine' >&2\nexit 77\n"});
+  assert_int_equal(shell("cd $S/t && chmod +x skips && rm -rf out && "
+                         "$R/scripts/run_all -- ./tactus one -- ./skips two"),
+                   0);
+  assert_true(has(output(), "  RUN   two: SKIPPED\n"));
+  assert_true(has(errors(), "this needs a machine\n"));
+  assert_true(has(output(), "\n1 of 1 runs as expected\n"));
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --only two -- ./skips two"), 0);
+}
+
 void a_program_that_does_not_start_shows_no_earlier_run(void**) {
   assert_int_equal(run_all("--always"), 0);
   assert_int_equal(shell("cd $S/t && mv tactus away; mkdir tactus"), 0);
@@ -151,6 +162,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_script_is_repeated_when_a_program_it_names_has_changed),
       cmocka_unit_test(a_run_that_was_not_as_expected_is_always_repeated),
       cmocka_unit_test(the_last_good_run_is_kept_when_the_next_is_refused),
+      cmocka_unit_test(a_run_that_this_computer_cannot_do_is_named_and_left_out),
       cmocka_unit_test(a_program_that_does_not_start_shows_no_earlier_run),
       cmocka_unit_test(the_runs_that_are_named_are_run_and_the_report_has_all_there_are),
       cmocka_unit_test(runs_that_would_write_into_one_folder_or_into_none_are_refused),
