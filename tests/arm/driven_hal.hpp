@@ -19,7 +19,7 @@ inline Status arm_drives(SimHal& hal, CommandMode mode, RobotState& state) {
 /// Commands the drives for one period; returns the reason if they are then not enabled.
 inline Status follow(SimHal& hal, CommandMode mode, const JointVector& value,
                      const JointVector& dq_ff = JointVector::Zero()) {
-  TRY(hal.write({mode, value, DriveRequest::kFollow, dq_ff}));
+  TRY(hal.write({mode, value, DriveRequest::kFollow, {}, dq_ff}));
   RobotState state;
   TRY(measure(hal, state));
   const Drive& drive = state.drives[0];
