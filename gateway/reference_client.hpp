@@ -69,6 +69,10 @@ class ReferenceClient {
   Verdict set_override(double rate, std::uint32_t& id) {
     return control(ControlKind::kOverride, id, rate);
   }
+  /// The same, but refuses a rate above the one in force.
+  Verdict slow_down(double rate, std::uint32_t& id) {
+    return control(ControlKind::kSlowDown, id, rate);
+  }
   /// pause() stops on the path and keeps the trajectory; resume() continues it.
   Verdict pause(std::uint32_t& id) { return control(ControlKind::kPause, id); }
   Verdict resume(std::uint32_t& id) { return control(ControlKind::kResume, id); }

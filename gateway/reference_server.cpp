@@ -157,6 +157,7 @@ Verdict ReferenceServer<Space>::control(ControlKind kind, double rate, std::uint
     case ControlKind::kOverride: return client_.set_override(rate, id);
     case ControlKind::kPause: return client_.pause(id);
     case ControlKind::kResume: return client_.resume(id);
+    case ControlKind::kSlowDown: return client_.slow_down(rate, id);
   }
   return {Status::kWireFormat};
 }

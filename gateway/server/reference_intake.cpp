@@ -48,11 +48,11 @@ Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTer
 
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate,
-                                        bool by_owner) {
-  if (busy() || (!by_owner && client_.unanswered() >= kControls / 2)) return {Status::kMailboxFull};
+                                        const char* slows) {
+  if (busy() || (slows != nullptr && client_.unanswered() >= kControls / 2)) return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
-  if (verdict.ok()) book_.add({id, from, {}, 0.0});
+  if (verdict.ok()) book_.add({id, from, {}, 0.0, false, slows});
   return verdict;
 }
 
@@ -184,6 +184,7 @@ bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
     told.verdict = entry->failed;
   }
   if (!is_final(report.outcome)) return told.to.slot >= 0;
+  if (report.outcome == Outcome::kExecuted) told.slows = entry->slows;
   if (report.id == id_ && coming_) coming_ = false;
   if (entry->streams && report.outcome == Outcome::kExecuted) stream_ = *entry;
   book_.remove(*entry);

@@ -23,6 +23,7 @@ class ReportBook {
     Verdict failed;  ///< why it is canceled, if the server does so
     double stretch = 0.0;
     bool streams = false;  ///< a chunk or a velocity, which may starve after its final report
+    const char* slows = nullptr;  ///< what a client that does not own the motion did to it; or null
   };
 
   /// True if no more is to be taken; there is still space for the trajectory that comes.

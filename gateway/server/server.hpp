@@ -110,8 +110,8 @@ class Server {
   Reply lease(int slot, std::int64_t now_ns);
   Reply order(CycleOrder what, const Origin& from, std::int64_t now_ns);
   bool raises(pb_size_t what) const;
-  Reply control(const Origin& from, std::int64_t now_ns);
-  void tell_slowed(const Origin& by, ControlKind kind, std::int64_t now_ns);
+  Reply control(const Origin& from);
+  void tell_slowed(const Told& told, std::int64_t now_ns);
   Reply subscribe(int slot, std::int64_t now_ns);
   // server_references.cpp: references
   Reply judge_place(int slot, bool given, const tactus_Place& place);
@@ -160,7 +160,6 @@ class Server {
   CycleMail& mail_;
   Lease lease_;
   std::uint32_t epoch_ = 1;
-  double rate_ = 1.0;  // of the override that was taken last
   GeneratorClock clock_;
   Chunk<JointSpace> joint_chunk_;  // that is being read
   Chunk<TaskSpace> task_chunk_;

@@ -77,7 +77,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     case tactus_ToServer_cancel_tag:
     case tactus_ToServer_override_tag:
     case tactus_ToServer_pause_tag:
-    case tactus_ToServer_resume_tag: return control(from, now_ns);
+    case tactus_ToServer_resume_tag: return control(from);
     case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
     case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
     case tactus_ToServer_parameters_tag:
@@ -90,9 +90,11 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   }
 }
 
-/// True for an override above the rate that was set last: only its owner makes the arm faster.
+/// True for an override above the one that was in force when the newest snapshot was made: only its
+/// owner makes the arm faster. The cycle judges again.
 bool Server::raises(pb_size_t what) const {
-  return what == tactus_ToServer_override_tag && !(request_.request.override.rate <= rate_);
+  return what == tactus_ToServer_override_tag &&
+         !(request_.request.override.rate <= newest_.override);
 }
 
 Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
@@ -175,37 +177,33 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   return {};
 }
 
-/// The owner and the others hear of it if somebody else slows the arm down.
-void Server::tell_slowed(const Origin& by, ControlKind kind, std::int64_t now_ns) {
-  Message text(at(by.slot).name);
-  text << (kind == ControlKind::kCancel  ? " has canceled what runs"
-           : kind == ControlKind::kPause ? " has paused the arm"
-                                         : " has lowered the override");
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("slowed", Status::kOk, text, by.slot, now_ns);
-}
-
-Reply Server::control(const Origin& from, std::int64_t now_ns) {
+Reply Server::control(const Origin& from) {
   if (!takes_references()) return not_offered("references");
   const pb_size_t what = request_.which_request;
-  const ControlKind kind = what == tactus_ToServer_cancel_tag     ? ControlKind::kCancel
-                           : what == tactus_ToServer_override_tag ? ControlKind::kOverride
-                           : what == tactus_ToServer_pause_tag    ? ControlKind::kPause
-                                                                  : ControlKind::kResume;
-  const double rate = kind == ControlKind::kOverride ? request_.request.override.rate : 1.0;
-  const int owner = lease_.owner();
-  const bool by_owner = owner == from.slot;
-  const Verdict verdict =
-      with_intake([&](auto& intake) { return intake.control(from, kind, rate, by_owner); });
-  if (!verdict.ok()) return reply(verdict);
-  if (kind == ControlKind::kOverride && rate >= 0.0 && rate <= 1.0) rate_ = rate;
-  if (kind == ControlKind::kCancel) {
+  const bool by_owner = lease_.owner() == from.slot;
+  ControlKind kind = ControlKind::kResume;
+  const char* slows = "";
+  double rate = 1.0;
+  if (what == tactus_ToServer_cancel_tag) {
+    kind = ControlKind::kCancel;
+    slows = " has canceled what runs";
+  } else if (what == tactus_ToServer_pause_tag) {
+    kind = ControlKind::kPause;
+    slows = " has paused the arm";
+  } else if (what == tactus_ToServer_override_tag) {
+    kind = by_owner ? ControlKind::kOverride : ControlKind::kSlowDown;
+    slows = " has set the override";
+    rate = request_.request.override.rate;
+  }
+  const Verdict verdict = with_intake(
+      [&](auto& intake) { return intake.control(from, kind, rate, by_owner ? nullptr : slows); });
+  if (verdict.ok() && kind == ControlKind::kCancel) {
     ++epoch_;
+    const int owner = lease_.owner();
     if (owner != Lease::kNobody)
       with_intake([&](auto& intake) { intake.give_up(at(owner).session); });
   }
-  if (!by_owner) tell_slowed(from, kind, now_ns);
-  return {};
+  return reply(verdict);
 }
 
 Reply Server::subscribe(int slot, std::int64_t now_ns) {

@@ -162,11 +162,24 @@ void Server::report(const Told& told, std::string_view text, std::int64_t now_ns
     cut(told.to.slot, Status::kClientSlow, "reports were not read; read what is sent", now_ns);
 }
 
+/// The owner and the others hear of it if somebody else has slowed the arm down.
+void Server::tell_slowed(const Told& told, std::int64_t now_ns) {
+  const Connection& by = at(told.to.slot);
+  if (!by.there() || by.session != told.to.session) return;
+  Message text(by.name);
+  text << told.slows;
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("slowed", Status::kOk, text, told.to.slot, now_ns);
+}
+
 void Server::take_reports(std::int64_t now_ns) {
   if (!takes_references()) return;
   with_intake([&](auto& intake) {
     Told told;
-    while (intake.work(told)) report(told, reply(told.verdict).text, now_ns);
+    while (intake.work(told)) {
+      report(told, reply(told.verdict).text, now_ns);
+      if (told.slows != nullptr) tell_slowed(told, now_ns);
+    }
     Granted granted;
     if (!intake.grant(granted)) return;
     told_ = tactus_ToClient_init_zero;

@@ -19,7 +19,6 @@ void Server::take_snapshots(std::int64_t now_ns) {
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
     if (refuses(to) && !refuses(from)) ++epoch_;
-    if (refuses(from) && !refuses(to)) rate_ = 1.0;  // the generator has started anew
     Message text(name(to));
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     tell_events("rung", snapshot.status, text, -1, now_ns);

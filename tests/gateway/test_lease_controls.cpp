@@ -79,6 +79,21 @@ void others_cannot_fill_the_mailbox_of_controls_before_its_owner(void**) {
   assert_int_equal(two.a.status[lower], 0);
 }
 
+/// The server has not yet seen that the owner's override is in force.
+void a_higher_override_of_somebody_else_is_refused_in_the_cycle_too(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.lease(5);
+  two.run(1);
+  two.a.send(ask::kOverride, RawMessage().real(1, 0.2));
+  const std::uint32_t raise = two.b.send(ask::kOverride, RawMessage().real(1, 0.9));
+  two.bench.server.work(two.bench.now_ns);
+  two.run(3);
+  assert_int_equal(two.b.status[raise], 0);
+  assert_int_equal(two.b.finals[raise], 1);
+  ASSERT_NEAR(two.bench.generator.motion_state().override, 0.2, 0.0);
+  assert_true(std::strstr(two.a.event, "override") == nullptr);
+}
+
 void the_override_is_whole_again_after_a_rearm(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease(5, 60000);
@@ -101,6 +116,7 @@ int main() {
       cmocka_unit_test(everybody_may_slow_the_arm_down_and_only_its_owner_makes_it_faster),
       cmocka_unit_test(a_cancel_of_somebody_else_ends_what_still_comes_and_its_owner_hears_of_it),
       cmocka_unit_test(others_cannot_fill_the_mailbox_of_controls_before_its_owner),
+      cmocka_unit_test(a_higher_override_of_somebody_else_is_refused_in_the_cycle_too),
       cmocka_unit_test(the_override_is_whole_again_after_a_rearm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

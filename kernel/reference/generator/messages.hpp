@@ -49,6 +49,7 @@ enum class ControlKind : std::uint8_t {
   kOverride,  ///< pass trajectories at a fraction of their speed
   kPause,     ///< stop on the path and keep the trajectory
   kResume,    ///< go on after a pause
+  kSlowDown,  ///< as kOverride, from whoever may only slow the arm down
 };
 
 /// A command that must never wait for a point, a trajectory or a report that nobody fetches.
@@ -56,7 +57,7 @@ enum class ControlKind : std::uint8_t {
 struct Control {
   std::uint32_t id = 0;
   ControlKind kind = ControlKind::kCancel;
-  double rate = 1.0;  ///< kOverride: 0..1
+  double rate = 1.0;  ///< kOverride, kSlowDown: 0..1
 };
 
 enum class Outcome : std::uint8_t {

@@ -39,6 +39,9 @@ Verdict ReferenceGenerator<Space>::answer(const Control& control, LoopBound<2>& 
   if (refusing_ != Status::kOk) return {refusing_};
   switch (control.kind) {
     case ControlKind::kCancel: return cancel(control.id, cancels);
+    case ControlKind::kSlowDown:
+      if (control.rate > override_) return {Status::kNotOwner};
+      [[fallthrough]];
     case ControlKind::kOverride: return set_override(control.rate);
     case ControlKind::kPause:
     case ControlKind::kResume: break;
