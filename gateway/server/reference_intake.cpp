@@ -49,7 +49,8 @@ Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTer
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate,
                                         const char* slows) {
-  if (busy() || (slows != nullptr && client_.unanswered() >= kControls / 2)) return {Status::kMailboxFull};
+  if (busy() || (slows != nullptr && client_.unanswered() >= kControls / 2))
+    return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
   if (verdict.ok()) book_.add({id, from, {}, 0.0, false, slows});

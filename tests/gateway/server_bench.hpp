@@ -111,6 +111,7 @@ struct ServerBench : BenchClock {
     told.rung = static_cast<std::uint8_t>(rung);
     told.status = refuses(rung) ? Status::kHalted : Status::kOk;
     told.q = generator.reference().q;
+    told.override = generator.motion_state().override;
     told.outputs = generator.outputs();
     mail.snapshots.post(told);
   }
