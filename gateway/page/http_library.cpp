@@ -18,7 +18,9 @@ bool HttpLibrary::load(Message& why) {
   const bool good = library != nullptr && find(library, "MHD_start_daemon", start_daemon) &&
                     find(library, "MHD_stop_daemon", stop_daemon) &&
                     find(library, "MHD_run_wait", run_wait) &&
-                    find(library, "MHD_lookup_connection_value", header) &&
+                    find(library, "MHD_get_connection_values", for_each_header) &&
+                    find(library, "MHD_lookup_connection_value", value) &&
+                    find(library, "MHD_get_connection_info", info) &&
                     find(library, "MHD_create_response_from_buffer", response_from_buffer) &&
                     find(library, "MHD_create_response_from_callback", response_from_callback) &&
                     find(library, "MHD_add_response_header", add_header) &&

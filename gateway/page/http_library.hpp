@@ -12,7 +12,9 @@ struct HttpLibrary {
   decltype(&MHD_start_daemon) start_daemon = nullptr;
   decltype(&MHD_stop_daemon) stop_daemon = nullptr;
   decltype(&MHD_run_wait) run_wait = nullptr;
-  decltype(&MHD_lookup_connection_value) header = nullptr;
+  decltype(&MHD_get_connection_values) for_each_header = nullptr;
+  decltype(&MHD_lookup_connection_value) value = nullptr;
+  decltype(&MHD_get_connection_info) info = nullptr;
   decltype(&MHD_create_response_from_buffer) response_from_buffer = nullptr;
   decltype(&MHD_create_response_from_callback) response_from_callback = nullptr;
   decltype(&MHD_add_response_header) add_header = nullptr;

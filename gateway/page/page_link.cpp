@@ -58,13 +58,26 @@ void PageLink::put_lease(tactus_Lease_Wish wish) {
   put();
 }
 
-std::uint32_t PageLink::send(PageCommand command, double rate) {
+/// Between two Stops with nothing of the page between them, so close that the server may read them
+/// in one turn, no message of another client has an order.
+bool PageLink::stop_goes_on(std::int64_t now_ns) const {
+  return stop_ == number_ && (!stop_answered_ || now_ns - stop_ns_ < kStopPeriod_ns);
+}
+
+std::uint32_t PageLink::send(PageCommand command, double rate, std::int64_t now_ns) {
   if (!there()) return 0;
+  const bool stops = command == PageCommand::kStop;
+  if (stops && stop_goes_on(now_ns)) return stop_;
   if (may_need_lease(command)) put_lease(tactus_Lease_Wish_TAKE);
   asked_ = tactus_ToServer_init_zero;
   write_request(command, rate, asked_);
   put();
   const std::uint32_t number = number_;
+  if (stops) {
+    stop_ = number;
+    stop_ns_ = now_ns;
+    stop_answered_ = false;
+  }
   if (may_need_lease(command)) put_lease(tactus_Lease_Wish_RELEASE);
   return flush() ? number : 0;
 }
@@ -95,9 +108,13 @@ bool PageLink::receive() {
 bool PageLink::next() {
   Bytes bytes;
   if (!in_.next(bytes)) return false;
-  if (decode(bytes, told_)) return true;
-  close();
-  return false;
+  if (!decode(bytes, told_)) {
+    close();
+    return false;
+  }
+  if (told_.which_message == tactus_ToClient_answer_tag && told_.message.answer.number == stop_)
+    stop_answered_ = true;
+  return true;
 }
 
 }  // namespace tactus

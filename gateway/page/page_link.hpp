@@ -28,9 +28,9 @@ class PageLink {
   }
 
   /// Sends a command; one that may need the lease takes it before, with the lowest priority, and
-  /// gives it back behind. Its answer has the number that is returned; 0: it could not be sent.
-  /// [any]
-  std::uint32_t send(PageCommand command, double rate);
+  /// gives it back behind. A Stop right behind a Stop that was sent a moment ago or has no answer
+  /// yet is the same. The answer has the number that is returned; 0: it could not be sent. [any]
+  std::uint32_t send(PageCommand command, double rate, std::int64_t now_ns);
 
  private:
   bool receive();
@@ -39,10 +39,13 @@ class PageLink {
   void put();
   void put_lease(tactus_Lease_Wish wish);
   bool flush();
+  bool stop_goes_on(std::int64_t now_ns) const;
 
   int socket_ = -1;
   std::uint32_t number_ = 0;  // goes on in a later connection
-  std::int64_t ping_ns_ = 0;
+  std::uint32_t stop_ = 0;    // number of the last Stop
+  bool stop_answered_ = false;
+  std::int64_t stop_ns_ = 0, ping_ns_ = 0;
   InputBytes in_;
   std::array<std::uint8_t, 512> out_{};  // messages that are sent at once
   std::size_t out_size_ = 0;

@@ -1,7 +1,10 @@
 #include "gateway/page/page_server.hpp"
 
+#include <cstring>
+
 #include "gateway/page/json.hpp"
 #include "gateway/page/page_files.hpp"
+#include "hal/os/cycle_clock.hpp"
 
 namespace tactus {
 namespace {
@@ -26,7 +29,12 @@ constexpr Header kHeaders[] = {
 };
 
 std::string_view view(const char* text) {
-  return text != nullptr ? std::string_view(text) : std::string_view();
+  return text != nullptr ? std::string_view(text) : std::string_view("");
+}
+
+/// No path of ours has an escape; "%00" would cut it.
+std::size_t leave_escaped(void*, MHD_Connection*, char* text) {
+  return std::strlen(text);
 }
 
 }  // namespace
@@ -41,7 +49,9 @@ bool PageServer::start(int socket, std::string_view description, std::string_vie
       MHD_OPTION_LISTEN_SOCKET, socket, MHD_OPTION_CONNECTION_LIMIT,
       static_cast<unsigned>(kMostPageConnections), MHD_OPTION_CONNECTION_MEMORY_LIMIT,
       kConnectionBytes, MHD_OPTION_CONNECTION_TIMEOUT, kConnectionWait_s,
-      MHD_OPTION_NOTIFY_COMPLETED, completed, this, MHD_OPTION_END);
+      MHD_OPTION_NOTIFY_COMPLETED, completed, this, MHD_OPTION_NOTIFY_CONNECTION,
+      accepted_or_closed, this, MHD_OPTION_UNESCAPE_CALLBACK, leave_escaped, nullptr,
+      MHD_OPTION_END);
   if (daemon_ == nullptr) why << "libmicrohttpd did not start";
   return daemon_ != nullptr;
 }
@@ -52,6 +62,7 @@ void PageServer::run(int wait_ms) {
     browser.suspended = false;
     http_.resume(browser.connection);
   }
+  open_.end_late(monotonic_ns());
   http_.run_wait(daemon_, wait_ms);
 }
 
@@ -79,14 +90,17 @@ MHD_Result PageServer::handle(void* server, MHD_Connection* connection, const ch
     if (*upload_size > 0) return its.take_body(command, upload, *upload_size);
     return its.execute(connection, command);
   }
-  const auto header = [&](MHD_ValueKind kind, const char* name) {
-    return view(its.http_.header(connection, kind, name));
-  };
-  RequestHead head = {method, path, header(MHD_HEADER_KIND, "Host"),
-                      header(MHD_HEADER_KIND, "Origin"), header(MHD_HEADER_KIND, "X-Tactus-Token")};
-  if (head.token.empty() && head.path == "/events")
-    head.token = header(MHD_GET_ARGUMENT_KIND, "token");  // EventSource sends no headers
+  RequestHead head = {method, path};
+  its.http_.for_each_header(connection, MHD_HEADER_KIND, take_one_header, &head);
+  if (head.token.empty() && head.path == "/events")  // EventSource sends no headers
+    head.token = view(its.http_.value(connection, MHD_GET_ARGUMENT_KIND, "token"));
   return its.begin(connection, head, context);
+}
+
+MHD_Result PageServer::take_one_header(void* head, MHD_ValueKind, const char* name,
+                                       const char* value) {
+  take_header(view(name), view(value), *static_cast<RequestHead*>(head));
+  return MHD_YES;
 }
 
 MHD_Result PageServer::begin(MHD_Connection* connection, const RequestHead& head, void** context) {
@@ -105,6 +119,7 @@ MHD_Result PageServer::begin(MHD_Connection* connection, const RequestHead& head
     if (command.used) continue;
     command = {true};
     static_cast<void>(command_of(head.path, command.what));
+    command.seen_ms = read_seen(head.seen);
     *context = &command;
     return MHD_YES;
   }
@@ -129,13 +144,33 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
   if (!read_body(command.what, {command.body.data(), command.size}, rate))
     return send_text(connection, 400,
                      "the body of /override is a number from 0 to 1; the others have none", kPlain);
-  const std::uint32_t number = link_.send(command.what, rate);
+  const std::int64_t now_ns = monotonic_ns();
+  const CommandVerdict verdict =
+      gate_.judge(command.what, command.seen_ms, now_ns / kMillisecond_ns);
+  if (verdict.status != 200) return send_text(connection, verdict.status, verdict.text, kPlain);
+  const std::uint32_t number = link_.send(command.what, rate, now_ns);
   if (number == 0)
     return send_text(connection, 503, "the server has no place for the page", kPlain);
   char bytes[64];
   Json json(bytes, sizeof bytes);
   json.open('{').integer(number, "number").close('}');
   return send_text(connection, 202, json.text(), kJson);
+}
+
+int PageServer::socket_of(MHD_Connection* connection) const {
+  const MHD_ConnectionInfo* const info = http_.info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+  return info != nullptr ? info->connect_fd : -1;
+}
+
+void PageServer::accepted_or_closed(void* server, MHD_Connection* connection, void**,
+                                    MHD_ConnectionNotificationCode what) {
+  PageServer& its = *static_cast<PageServer*>(server);
+  const int socket = its.socket_of(connection);
+  if (socket < 0) return;
+  if (what == MHD_CONNECTION_NOTIFY_STARTED)
+    its.open_.add(socket, monotonic_ns());
+  else
+    its.open_.remove(socket);
 }
 
 void PageServer::completed(void*, MHD_Connection*, void** context, MHD_RequestTerminationCode) {
@@ -157,6 +192,7 @@ MHD_Result PageServer::send_events(MHD_Connection* connection) {
   for (Browser& browser : browsers_) {
     if (browser.connection != nullptr) continue;
     browser = {this, connection, news_.end()};
+    open_.keep(socket_of(connection));
     return queue(
         connection, 200,
         http_.response_from_callback(MHD_SIZE_UNKNOWN, 4096, read_news, &browser, free_browser),

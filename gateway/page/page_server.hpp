@@ -3,13 +3,15 @@
 //
 //   GET /, /page.css, /*.js    the page         GET /robot.json  robot, pipeline and token
 //   GET /events?token=...      server-sent events: the News
-//   POST /stop, /override ...  commands, with the header X-Tactus-Token
+//   POST /stop, /override ...  commands, with the headers X-Tactus-Token and X-Tactus-Seen
 #pragma once
 
 #include <array>
 
+#include "gateway/page/command_gate.hpp"
 #include "gateway/page/http_library.hpp"
 #include "gateway/page/news.hpp"
+#include "gateway/page/open_connections.hpp"
 #include "gateway/page/page_link.hpp"
 #include "gateway/page/request_check.hpp"
 
@@ -42,6 +44,7 @@ class PageServer {
   struct Command {  // a POST whose body is coming
     bool used = false;
     PageCommand what = PageCommand::kStop;
+    std::int64_t seen_ms = -1;
     std::size_t size = 0;
     std::array<char, kLongestBody> body{};
   };
@@ -51,9 +54,14 @@ class PageServer {
                            std::size_t* upload_size, void** context);
   static void completed(void* server, MHD_Connection* connection, void** context,
                         MHD_RequestTerminationCode how);
+  static void accepted_or_closed(void* server, MHD_Connection* connection, void** context,
+                                 MHD_ConnectionNotificationCode what);
+  static MHD_Result take_one_header(void* head, MHD_ValueKind kind, const char* name,
+                                    const char* value);
   static ssize_t read_news(void* browser, std::uint64_t position, char* to, std::size_t size);
   static void free_browser(void* browser);
 
+  int socket_of(MHD_Connection* connection) const;
   MHD_Result begin(MHD_Connection* connection, const RequestHead& head, void** context);
   MHD_Result take_body(Command& command, const char* upload, std::size_t& size);
   MHD_Result execute(MHD_Connection* connection, const Command& command);
@@ -68,6 +76,8 @@ class PageServer {
   HttpLibrary http_;
   MHD_Daemon* daemon_ = nullptr;
   std::string_view description_, token_;
+  CommandGate gate_;
+  OpenConnections open_;
   std::array<Browser, kMostBrowsers> browsers_{};
   std::array<Command, kMostPageConnections> commands_{};
   bool ending_ = false;

@@ -56,10 +56,11 @@ bool draw_token(Text<32>& token) {
 bool parse_page_address(std::string_view text, Address& address, Message& why) {
   Text<127> full("tcp:");
   if (!address.parse(full << text, why)) return false;
-  if (address.loopback()) return true;
+  if (!address.local && address.host.sin_addr.s_addr == htonl(INADDR_LOOPBACK)) return true;
   why << "'" << text
-      << "': programs on other computers would reach it; listen at 127.0.0.1:PORT, and look at it "
-         "from there through ssh -L PORT:127.0.0.1:PORT HOST";
+      << "': the page is served at 127.0.0.1 alone, so that programs on other computers do not "
+         "reach it; give 127.0.0.1:PORT, and look at it from there through "
+         "ssh -L PORT:127.0.0.1:PORT HOST";
   return false;
 }
 
@@ -131,7 +132,10 @@ void PageThread::connect() {
 
 /// Without browsers the messages are read all the same: the server cuts a client that does not.
 void PageThread::tell_news() {
-  link_.work(monotonic_ns(), [this](const tactus_ToClient& message) { tell(message, news_); });
+  const std::int64_t now_ns = monotonic_ns();
+  link_.work(now_ns, [&](const tactus_ToClient& message) {
+    tell(message, now_ns / kMillisecond_ns, news_);
+  });
   bool newer = false;
   while (ports_.values.take(values_)) newer = true;
   if (newer) tell(values_, subject_.pipeline.ports, news_);

@@ -1,5 +1,8 @@
 #include "gateway/page/request_check.hpp"
 
+#include <algorithm>
+#include <charconv>
+
 #include "gateway/page/page_command.hpp"
 #include "gateway/page/page_files.hpp"
 
@@ -18,9 +21,17 @@ bool same_secret(std::string_view a, std::string_view b) {
 }
 
 bool own_origin(std::string_view origin, std::string_view host) {
-  if (origin.empty()) return true;
   if (origin.compare(0, kScheme.size(), kScheme) != 0) return false;
   return origin.substr(kScheme.size()) == host;
+}
+
+constexpr char lower(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char one, char other) { return lower(one) == lower(other); });
 }
 
 PagePath find(std::string_view path) {
@@ -33,6 +44,28 @@ PagePath find(std::string_view path) {
 
 }  // namespace
 
+void take_header(std::string_view name, std::string_view value, RequestHead& head) {
+  if (same_name(name, "Origin")) {
+    head.repeated |= head.origin.has_value();
+    head.origin = value;
+  }
+  const auto take = [&](std::string_view its, std::string_view& to) {
+    if (!same_name(name, its)) return;
+    head.repeated |= to.data() != nullptr;
+    to = value;
+  };
+  take("Host", head.host);
+  take("X-Tactus-Token", head.token);
+  take("X-Tactus-Seen", head.seen);
+}
+
+std::int64_t read_seen(std::string_view text) {
+  std::int64_t seen_ms = -1;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seen_ms);
+  return error == std::errc() && stop == end ? seen_ms : -1;
+}
+
 bool own_host(std::string_view host) {
   const std::size_t colon = host.rfind(':');
   const std::string_view port =
@@ -43,8 +76,10 @@ bool own_host(std::string_view host) {
 }
 
 RequestVerdict judge_request(const RequestHead& head, std::string_view token) {
+  if (head.repeated) return {400, "a header that is checked comes twice"};
   if (!own_host(head.host)) return {403, "the Host is neither 127.0.0.1 nor localhost"};
-  if (!own_origin(head.origin, head.host)) return {403, "the Origin is another page"};
+  if (head.origin && !own_origin(*head.origin, head.host))
+    return {403, "the Origin is another page"};
   const PagePath path = find(head.path);
   if (path == PagePath::kNone) return {404, "there is no such path"};
   const bool command = path == PagePath::kCommand;

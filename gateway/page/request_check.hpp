@@ -3,19 +3,30 @@
 //
 //   Host    a name of this computer's own, so that no name of elsewhere can be made to lead here
 //           (DNS rebinding)
-//   Origin  if given, the page's own
+//   Origin  if given, the page's own; none of the headers twice
 //   token   drawn at the start and told to the page only; whatever acts or takes a place gives it
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace tactus {
 
-/// A header that is missing is empty.
 struct RequestHead {
-  std::string_view method, path, host, origin;
-  std::string_view token;  ///< of the header X-Tactus-Token, or of the query
+  std::string_view method = {}, path = {};
+  std::string_view host = {};                   ///< empty if it is missing
+  std::optional<std::string_view> origin = {};  ///< an empty one is none of ours
+  std::string_view token = {};                  ///< of the header X-Tactus-Token, or of the query
+  std::string_view seen = {};                   ///< of the header X-Tactus-Seen
+  bool repeated = false;                        ///< one of these headers came twice
 };
+
+/// Takes a header of the request; names are compared without case. [any]
+void take_header(std::string_view name, std::string_view value, RequestHead& head);
+
+/// Reads when the state was told, in ms, that a browser has seen; -1: it does not say. [any]
+std::int64_t read_seen(std::string_view text);
 
 enum class PagePath : unsigned char {
   kNone,  ///< refused

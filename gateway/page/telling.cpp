@@ -30,7 +30,14 @@ const char* outcome_word(tactus_Report_Outcome outcome) {
   }
 }
 
-void write(const tactus_State& state, Json& to) {
+struct StateTold {
+  const tactus_State& state;
+  std::int64_t told_ms;
+};
+
+void write(const StateTold& told, Json& to) {
+  const tactus_State& state = told.state;
+  to.integer(told.told_ms, "told_ms");
   const auto status = static_cast<Status>(state.status);
   to.integer(static_cast<std::int64_t>(state.cycle), "cycle").number(state.time_s, "time_s");
   to.number(static_cast<double>(state.server_ns) * 1e-9, "server_s");
@@ -76,9 +83,10 @@ void put(const char* event, const Message& message, News& news) {
 
 }  // namespace
 
-void tell(const tactus_ToClient& message, News& news) {
+void tell(const tactus_ToClient& message, std::int64_t now_ms, News& news) {
   switch (message.which_message) {
-    case tactus_ToClient_state_tag: return put("state", message.message.state, news);
+    case tactus_ToClient_state_tag:
+      return put("state", StateTold{message.message.state, now_ms}, news);
     case tactus_ToClient_answer_tag: return put("answer", message.message.answer, news);
     case tactus_ToClient_report_tag: return put("report", message.message.report, news);
     case tactus_ToClient_event_tag: return put("event", message.message.event, news);

@@ -8,8 +8,9 @@
 
 namespace tactus {
 
-/// Adds a message of the server to the news; those that the page does not show are left out. [any]
-void tell(const tactus_ToClient& message, News& news);
+/// Adds a message of the server to the news; those that the page does not show are left out. A
+/// state is told with the time `now_ms`, which a browser gives with its commands. [any]
+void tell(const tactus_ToClient& message, std::int64_t now_ms, News& news);
 
 /// Adds the values of all outputs. [any]
 void tell(const PortValues& values, const PortTable& ports, News& news);

@@ -1,11 +1,16 @@
 // Tests the parts of the page without HTTP: what a request is judged by, what browsers are told,
 // and the page as a client of the server, in virtual time.
 #include <sys/socket.h>
+#include <unistd.h>
 
+#include <array>
+#include <limits>
 #include <string>
 
+#include "gateway/page/command_gate.hpp"
 #include "gateway/page/json.hpp"
 #include "gateway/page/news.hpp"
+#include "gateway/page/open_connections.hpp"
 #include "gateway/page/page_command.hpp"
 #include "gateway/page/page_thread.hpp"
 #include "gateway/page/request_check.hpp"
@@ -38,7 +43,7 @@ void what_acts_needs_the_method_the_origin_and_the_token(void**) {
   head.origin = {};
   assert_int_equal(status_of(head), 200);
   for (const char* origin : {"http://localhost", "https://localhost:7380", "http://example", "null",
-                             "http://localhost:7380.example", "http:/"}) {
+                             "http://localhost:7380.example", "http:/", ""}) {
     head.origin = origin;
     assert_int_equal(status_of(head), 403);
   }
@@ -55,13 +60,96 @@ void what_acts_needs_the_method_the_origin_and_the_token(void**) {
   assert_int_equal(status_of(head), 404);
 }
 
+void a_header_that_is_checked_comes_once(void**) {
+  for (const char* name : {"Host", "host", "ORIGIN", "X-Tactus-Token", "x-tactus-seen"}) {
+    RequestHead head = {"POST", "/stop"};
+    take_header("Accept", "*", head);
+    take_header("Accept", "*", head);
+    take_header("HOST", "localhost", head);
+    take_header("origin", "http://localhost", head);
+    take_header("x-tactus-token", kToken, head);
+    take_header("X-TACTUS-SEEN", "12", head);
+    assert_int_equal(status_of(head), 200);
+    assert_int_equal(read_seen(head.seen), 12);
+    take_header(name, "", head);
+    assert_int_equal(status_of(head), 400);
+  }
+  RequestHead empty = {"GET", "/"};
+  take_header("Host", "localhost", empty);
+  take_header("Origin", "", empty);
+  assert_int_equal(status_of(empty), 403);
+}
+
+// Proves PAGE-8.
+
+void commands_of_all_browsers_have_a_share_and_stop_has_none(void**) {
+  CommandGate gate;
+  int taken = 0;
+  for (std::int64_t ms = 1000; ms < 3000; ++ms) {
+    taken += gate.judge(PageCommand::kOverride, ms, ms).status == 200 ? 1 : 0;
+    taken += gate.judge(PageCommand::kPause, -1, ms).status == 200 ? 1 : 0;
+    if (ms == 1999) assert_int_equal(taken, 50);
+  }
+  assert_int_equal(taken, 100);
+  assert_int_equal(gate.judge(PageCommand::kCancel, -1, 2999).status, 429);
+  assert_int_equal(gate.judge(PageCommand::kStop, -1, 2999).status, 200);
+}
+
+void what_may_raise_motion_is_refused_if_it_is_late(void**) {
+  for (const PageCommand command :
+       {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm}) {
+    CommandGate gate;
+    constexpr std::int64_t kNow = 100'000, kLeast = std::numeric_limits<std::int64_t>::min();
+    assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, kNow).status, 200);
+    for (const std::int64_t seen : {kNow - kOldestSeen_ms - 1, kNow + 1, kLeast, std::int64_t{-1}})
+      assert_int_equal(gate.judge(command, seen, kNow).status, 409);
+    assert_int_equal(gate.judge(PageCommand::kStop, -1, kNow).status, 200);
+    assert_int_equal(gate.judge(command, kNow, kNow + 1).status, 409);  // sent before the stop
+    assert_int_equal(gate.judge(command, kNow + 1, kNow + 1).status, 200);
+  }
+  for (const PageCommand command : {PageCommand::kPause, PageCommand::kCancel})
+    assert_int_equal(CommandGate().judge(command, -1, 100'000).status, 200);
+  for (const char* text : {"", "x", "1 ", "1.5", "99999999999999999999"})
+    assert_int_equal(read_seen(text), -1);
+}
+
+// Proves PAGE-4.
+
+void a_connection_that_takes_too_long_is_shut_down_and_earlier_if_there_is_no_place(void**) {
+  OpenConnections open;
+  std::array<std::array<int, 2>, kMostPageConnections> pairs;
+  const auto ended = [&](std::size_t i) {
+    char byte;
+    return recv(pairs[i][1], &byte, 1, MSG_DONTWAIT) == 0;
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, pairs[i].data()), 0);
+    if (i + 1 < pairs.size()) open.add(pairs[i][0], static_cast<std::int64_t>(i));
+  }
+  open.keep(pairs[1][0]);
+  open.end_late(kLongestRequest_ns);
+  assert_false(ended(0));
+  open.end_late(kLongestRequest_ns + 1);
+  assert_true(ended(0));
+  assert_false(ended(1) || ended(2));
+  open.add(pairs.back()[0], kLongestRequest_ns);
+  open.end_late(kLongestRequest_ns + 1);
+  assert_false(ended(1) || ended(pairs.size() - 1));
+  assert_true(ended(2) && ended(pairs.size() - 2));
+  open.remove(pairs[3][0]);
+  open.end_late(2 * kLongestRequest_ns);
+  assert_false(ended(pairs.size() - 1) || ended(1));
+  for (const auto& pair : pairs)
+    for (const int socket : pair) close(socket);
+}
+
 // Proves PAGE-2.
 
 void an_address_that_other_computers_reach_is_refused_with_the_remedy(void**) {
   Address address;
   Message why;
   assert_true(parse_page_address("127.0.0.1:7380", address, why));
-  for (const char* text : {"0.0.0.0:7380", "192.168.1.5:7380"}) {
+  for (const char* text : {"0.0.0.0:7380", "192.168.1.5:7380", "127.0.0.2:7380"}) {
     why = {};
     assert_false(parse_page_address(text, address, why));
     assert_non_null(std::strstr(why.c_str(), "ssh -L PORT:127.0.0.1:PORT"));
@@ -134,6 +222,11 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(only_names_of_this_computer_are_hosts),
       cmocka_unit_test(what_acts_needs_the_method_the_origin_and_the_token),
+      cmocka_unit_test(a_header_that_is_checked_comes_once),
+      cmocka_unit_test(commands_of_all_browsers_have_a_share_and_stop_has_none),
+      cmocka_unit_test(what_may_raise_motion_is_refused_if_it_is_late),
+      cmocka_unit_test(
+          a_connection_that_takes_too_long_is_shut_down_and_earlier_if_there_is_no_place),
       cmocka_unit_test(an_address_that_other_computers_reach_is_refused_with_the_remedy),
       cmocka_unit_test(numbers_and_texts_are_json_whatever_they_are),
       cmocka_unit_test(what_does_not_fit_is_not_told_in_part),

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "gateway/page/command_gate.hpp"
 #include "gateway/page/page_link.hpp"
 #include "tests/gateway/client_bench.hpp"
 
@@ -15,6 +16,9 @@ struct PageBench {
   ServerBench server;
   TestClient other;
   PageLink link;
+  std::uint32_t ask(PageCommand command, double rate) {
+    return link.send(command, rate, server.now_ns);
+  }
   int slot = -1, theirs = -1;
   std::uint32_t answers = 0, statuses[64] = {};
   std::string refusal;  // the first
@@ -71,7 +75,7 @@ PageBench& fresh() {
 
 void a_command_leaves_the_lease_as_free_as_it_was(void**) {
   PageBench& bench = fresh();
-  const std::uint32_t number = bench.link.send(PageCommand::kOverride, 0.25);
+  const std::uint32_t number = bench.ask(PageCommand::kOverride, 0.25);
   for (int i = 0; i < 100; ++i) bench.turn();
   for (std::uint32_t i = number - 1; i <= number + 1; ++i) assert_int_equal(bench.statuses[i], 0);
   assert_int_equal(bench.server.server.owner(), Lease::kNobody);
@@ -83,7 +87,7 @@ void another_clients_lease_is_not_taken_away(void**) {
   bench.turn();
   const auto status_of = [&](PageCommand command, double rate) {
     bench.refusal.clear();
-    const std::uint32_t number = bench.link.send(command, rate);
+    const std::uint32_t number = bench.ask(command, rate);
     assert_true(number != 0);
     for (int i = 0; i < 100; ++i) bench.turn();
     return bench.statuses[number % 64];
@@ -103,11 +107,48 @@ void stop_needs_no_lease(void**) {
   PageBench& bench = fresh();
   bench.other.lease(255, 60'000);
   bench.turn();
-  const std::uint32_t number = bench.link.send(PageCommand::kStop, 0.0);
+  const std::uint32_t number = bench.ask(PageCommand::kStop, 0.0);
   for (int i = 0; i < 100; ++i) bench.turn();
   assert_int_equal(bench.statuses[number], 0);
   assert_int_equal(bench.rung, static_cast<int>(Rung::kDisabled));
 }
+
+// Proves PAGE-8.
+
+void stops_in_flight_are_one_and_a_stop_behind_another_command_is_a_new_one(void**) {
+  PageBench& bench = fresh();
+  const std::uint32_t first = bench.ask(PageCommand::kStop, 0.0);
+  for (int i = 0; i < 10'000; ++i) assert_int_equal(bench.ask(PageCommand::kStop, 0.0), first);
+  for (int i = 0; i < 100; ++i) bench.turn();
+  assert_true(bench.link.there());
+  const std::uint32_t second = bench.ask(PageCommand::kStop, 0.0);
+  assert_true(second > first);
+  assert_true(bench.ask(PageCommand::kRearm, 0.0) > second);
+  assert_true(bench.ask(PageCommand::kStop, 0.0) > second);
+  for (int i = 0; i < 100; ++i) bench.turn();
+  assert_int_equal(bench.rung, static_cast<int>(Rung::kDisabled));
+}
+
+void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
+  PageBench& bench = fresh();
+  CommandGate gate;
+  const std::uint32_t begin = bench.ask(PageCommand::kPause, 0.0);
+  constexpr int kTurns = 5000, kTries = 4;
+  const std::int64_t from_ns = bench.server.now_ns;
+  for (int i = 0; i < kTurns; ++i) {
+    for (int k = 0; k < kTries; ++k) {
+      const std::int64_t now_ms = bench.server.now_ns / kMillisecond_ns;
+      const auto command = k % 2 == 0 ? PageCommand::kStop : PageCommand::kOverride;
+      if (gate.judge(command, now_ms, now_ms + 1).status == 200) bench.ask(command, 0.5);
+    }
+    bench.turn();
+  }
+  const double span_s = static_cast<double>(bench.server.now_ns - from_ns) * 1e-9;
+  assert_true(bench.link.there());
+  assert_true((bench.ask(PageCommand::kPause, 0.0) - begin) / span_s < 0.5 * kMessagesPerSecond);
+}
+
+// Proves PAGE-5.
 
 void the_page_is_not_cut_as_silent_and_notices_a_server_that_ends(void**) {
   PageBench& bench = fresh();
@@ -116,7 +157,7 @@ void the_page_is_not_cut_as_silent_and_notices_a_server_that_ends(void**) {
   close(bench.theirs);
   bench.link.work(bench.server.now_ns, [](const tactus_ToClient&) {});
   assert_false(bench.link.there());
-  assert_int_equal(bench.link.send(PageCommand::kStop, 0.0), 0);
+  assert_int_equal(bench.ask(PageCommand::kStop, 0.0), 0);
 }
 
 }  // namespace
@@ -128,6 +169,8 @@ int main() {
       cmocka_unit_test(a_command_leaves_the_lease_as_free_as_it_was),
       cmocka_unit_test(another_clients_lease_is_not_taken_away),
       cmocka_unit_test(stop_needs_no_lease),
+      cmocka_unit_test(stops_in_flight_are_one_and_a_stop_behind_another_command_is_a_new_one),
+      cmocka_unit_test(the_share_of_the_page_does_not_come_near_what_the_server_takes),
       cmocka_unit_test(the_page_is_not_cut_as_silent_and_notices_a_server_that_ends),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

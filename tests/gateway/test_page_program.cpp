@@ -39,7 +39,8 @@ void the_page_comes_with_a_key_and_goes_without_a_port(void**) {
 void an_address_of_the_network_is_refused(void**) {
   const Line pipeline = write("served.ini", {kServed});
   assert_int_equal(tactus_run({"serve", pipeline.c_str(), "--http", "0.0.0.0:7380"}), 2);
-  assert_true(has(errors(), "--http: refused: '0.0.0.0:7380': programs on other computers would"));
+  assert_true(
+      has(errors(), "--http: refused: '0.0.0.0:7380': the page is served at 127.0.0.1 alone"));
   assert_true(has(errors(), "ssh -L"));
 }
 

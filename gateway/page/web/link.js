@@ -2,67 +2,103 @@
 
 const RETRY_MS = 1000;
 const SILENCE_MS = 1500;  // a state comes every 50 ms
+const ANSWER_MS = 1800;  // then the server refuses what may raise motion, for the state is too old
 
-/** Keeps a stream of events open, with a new description after every loss. */
+/** Keeps a stream of events open, with the description of the server that answers. */
 export class Link {
   /** `hear` has describe(description), lost(text) and one function for each kind of event. */
   constructor(hear) {
     this.hear = hear;
     this.token = "";
-    this.heard = 0;
-    this.waits = false;
+    this.seen = "";  // when the newest state was told
+    this.why = "";
+    this.heard = this.opened = performance.now();
+    this.opens = true;  // or will, after a while
+    this.others = new AbortController();
     setInterval(() => this.watch(), 250);
     this.open();
   }
 
   async open() {
-    this.waits = false;
     try {
-      const answer = await fetch("robot.json", { cache: "no-store" });
-      if (!answer.ok) throw new Error(await answer.text());
-      const description = await answer.json();
-      this.token = description.token;
-      this.hear.describe(description);
+      await this.identify();
       this.listen();
+      this.opens = false;
     } catch (error) {
+      this.opens = false;
       this.retry("connection lost: the server does not answer");
     }
   }
 
+  /** Reads the token, and the description if it is another server's. */
+  async identify() {
+    const answer = await fetch("robot.json", { cache: "no-store", signal: AbortSignal.timeout(ANSWER_MS) });
+    if (!answer.ok) throw new Error(await answer.text());
+    const description = await answer.json();
+    if (description.token === this.token) return;
+    this.token = description.token;
+    this.hear.describe(description);
+  }
+
   listen() {
+    this.opened = performance.now();
     this.stream = new EventSource("events?token=" + encodeURIComponent(this.token));
     this.stream.onerror = () => this.retry("connection lost: the server has closed it, or there are too many browsers");
     for (const kind of ["state", "ports", "answer", "report", "event"]) {
       this.stream.addEventListener(kind, (event) => {
-        if (kind === "state") this.heard = performance.now();
-        this.hear[kind](JSON.parse(event.data));
+        const message = JSON.parse(event.data);
+        if (kind === "state") this.alive(message);
+        this.hear[kind](message);
       });
     }
+  }
+
+  alive(state) {
+    this.heard = performance.now();
+    this.seen = String(state.told_ms);
+    this.why = "";
   }
 
   /** Says what is wrong, and begins anew a little later. */
   retry(text) {
     if (this.stream) this.stream.close();
+    this.why = text;
     this.hear.lost(text);
-    if (this.waits) return;
-    this.waits = true;
+    if (this.opens) return;
+    this.opens = true;
     setTimeout(() => this.open(), RETRY_MS);
   }
 
+  /** A stream may be silent without an end, as through a forward that has died: it is opened anew. */
   watch() {
-    const silent = performance.now() - this.heard;
-    if (this.heard > 0 && silent > SILENCE_MS) this.hear.lost(`no state for ${(silent / 1000).toFixed(0)} s`);
+    const now = performance.now(), silent = now - this.heard;
+    if (silent <= SILENCE_MS) return;
+    this.hear.lost(`${this.why || "connection lost"}; no state for ${(silent / 1000).toFixed(0)} s`);
+    if (now - this.opened > SILENCE_MS) this.retry(this.why || "connection lost: the server is silent");
   }
 
   /** Sends a command; returns {number} of the answer to come. Throws the text of a refusal. */
   async send(command, body = "") {
-    let answer;
-    try {
-      answer = await fetch(command, { method: "POST", body, headers: { "X-Tactus-Token": this.token } });
-    } catch (error) {
-      throw new Error("the server does not answer");
+    let answer = await this.post(command, body);
+    if (answer.status === 403 && command === "stop") {  // the server was started anew
+      await this.identify().catch(() => {});
+      answer = await this.post(command, body);
     }
     if (!answer.ok) throw new Error(await answer.text());
     return answer.json();
+  }
+
+  /** A browser has few connections: a stop does not wait for those of other commands. */
+  async post(command, body) {
+    const stops = command === "stop", late = AbortSignal.timeout(ANSWER_MS);
+    if (stops) this.others.abort();
+    if (stops) this.others = new AbortController();
+    const signal = stops ? late : AbortSignal.any([late, this.others.signal]);
+    const headers = { "X-Tactus-Token": this.token, "X-Tactus-Seen": this.seen };
+    try {
+      return await fetch(command, { method: "POST", body, headers, signal });
+    } catch (error) {
+      throw new Error(signal.aborted && !late.aborted ? "given up for the stop" : "not sent: the server does not answer");
+    }
   }
 }

@@ -44,11 +44,16 @@ export class Panel {
     this.takeSlider();
   }
 
-  /** While the slider moves, its newest value is sent ten times a second. */
+  /** While the slider moves, its newest value is sent ten times a second, one after the other. */
   takeSlider() {
     const slider = by("override");
     let waits = false;
-    const send = () => { waits = false; this.command("override", String(slider.value / 100)); };
+    const send = async () => {
+      const value = slider.value;
+      await this.command("override", String(value / 100));
+      waits = performance.now() - this.moved < QUIET_MS && slider.value !== value;
+      if (waits) setTimeout(send, 100);
+    };
     slider.addEventListener("input", () => {
       this.moved = performance.now();
       by("override_value").textContent = `${slider.value} %`;
@@ -59,6 +64,7 @@ export class Panel {
   }
 
   async command(name, body) {
+    this.say(`${name}: sending`, false);
     try {
       const { number } = await this.link.send(name, body);
       this.asked.set(number, { name, number });

@@ -108,8 +108,7 @@ const POSE = [["x", "m"], ["y", "m"], ["z", "m"], ["qw", ""], ["qx", ""], ["qy",
 export class Plots {
   constructor(history) {
     this.history = history;
-    this.select = document.getElementById("quantity");
-    this.select.addEventListener("change", () => this.choose());
+    document.getElementById("quantity").addEventListener("change", () => this.choose());
     this.joints = this.pose = [];
     setInterval(() => this.draw(), 100);
   }
@@ -129,7 +128,7 @@ export class Plots {
   }
 
   choose() {
-    const key = this.select.value, { desired, unit, limits } = JOINT[key];
+    const key = document.querySelector("#quantity :checked").value, { desired, unit, limits } = JOINT[key];
     this.robot.joints.forEach((joint, i) => {
       this.joints[i].set(`${i + 1} ${joint.name}`, unit, (s) => [s[key][i], s[desired][i]], limits(joint));
     });

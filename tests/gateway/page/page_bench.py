@@ -50,7 +50,7 @@ class Served:
                 file.write(try_server.KEY.hex() + "\n")
             command += ["--key", str(key)]
         self.program = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.errors, text=True)
-        self.lines, self.port = [], None
+        self.lines, self.port, self.page_address = [], None, None
         while not self.lines or "serves" not in self.lines[-1]:
             self.lines.append(self.program.stdout.readline())
             assert self.lines[-1], "the program has ended"
@@ -60,7 +60,8 @@ class Served:
         line = self.program.stdout.readline()
         assert line.startswith("page: http://127.0.0.1:"), line
         self.port = int(line.rsplit(":", 1)[1].strip("/\n"))
-        return f"http://127.0.0.1:{self.port}/"
+        self.page_address = f"http://127.0.0.1:{self.port}/"
+        return self.page_address
 
     def client(self, name="me", key=None):
         """Returns a client of the gateway."""
@@ -99,6 +100,14 @@ class Served:
     def describe(self):
         """Returns the description of robot and pipeline."""
         return json.loads(self.ask("GET", "/robot.json")[2])
+
+
+def seen(served, token):
+    """Returns when the newest state was told, which a command gives."""
+    events = Events(served, token)
+    told = str(events.of("state")["told_ms"])
+    events.socket.close()
+    return told
 
 
 class Events:

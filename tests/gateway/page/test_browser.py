@@ -1,6 +1,7 @@
 """Tests the page in Chromium without a window."""
 
 import io
+import signal
 import sys
 import unittest
 
@@ -15,6 +16,17 @@ COLOURS = 200  # of a picture of a shaded arm; a blank one has few
 MOVED = 300  # pixels
 NOMINAL = "document.getElementById('rung').textContent === 'nominal'"
 BOX = "(({x, y, width, height}) => [x + scrollX, y + scrollY, width, height])(document.querySelector('%s').getBoundingClientRect())"
+
+
+# The first stream of a page says nothing, not even that it has ended, like a forward that has died.
+FIRST_IS_MUTE = """
+window.streams = [];
+window.EventSource = class extends EventSource {
+  constructor(address) { super(address); this.mute = streams.push(this) === 1; }
+  addEventListener(kind, hear) { super.addEventListener(kind, (event) => this.mute || hear(event)); }
+  set onerror(hear) { super.onerror = (event) => this.mute || hear(event); }
+};
+"""
 
 
 def picture_of(page, selector):
@@ -90,8 +102,47 @@ class BrowserTest(unittest.TestCase):
         self.page.click("[data-command=rearm]")
         self.client.until(lambda: self.client.state.rung <= 1)
         self.page.until(NOMINAL)
+        self.page.click("#quantity :first-child")
         self.page.press("Escape", 27)
         self.client.until(lambda: self.client.state.rung == 5)
+
+    def test_what_is_pressed_while_the_server_hangs_is_not_carried_out_later(self):
+        self.page.press("Escape", 27)
+        self.page.until("document.getElementById('rung').textContent === 'disabled'")
+        self.served.program.send_signal(signal.SIGSTOP)
+        self.page.click("[data-command=rearm]")
+        self.page.until("document.getElementById('answer').textContent === 'rearm: sending'")
+        self.page.until("document.getElementById('answer').textContent === 'rearm: not sent: the server does not answer'")
+        self.served.program.send_signal(signal.SIGCONT)
+        self.page.until("document.getElementById('lost').hidden")
+        client = self.served.client()
+        client.ask(subscribe=client.pb.Subscribe(state_ms=50))
+        client.until(lambda: client.state)
+        self.assertEqual(client.state.rung, 5)
+        self.page.said.clear()
+
+    def test_a_stream_that_never_speaks_is_named_and_opened_anew(self):
+        self.page.call("Page.addScriptToEvaluateOnNewDocument", source=FIRST_IS_MUTE)
+        self.page.go(self.served.page_address)
+        self.page.until("streams.length === 1 && document.getElementById('lost').textContent.includes('no state for')")
+        self.assertFalse(self.page.value("document.getElementById('lost').hidden"))
+        self.page.until("streams.length > 1 && document.getElementById('lost').hidden")
+        self.page.until(NOMINAL)
+
+    def test_stop_reaches_a_server_that_was_started_anew_unnoticed(self):
+        self.page.call("Page.addScriptToEvaluateOnNewDocument", source=FIRST_IS_MUTE + "setInterval = () => 0;")
+        self.page.go(self.served.page_address)
+        self.page.until("streams.length === 1")
+        self.served.program.kill()
+        self.served.program.wait()
+        again = Served("browser", self.served.port)
+        again.page()
+        client = again.client()
+        client.ready()
+        self.page.press("Escape", 27)
+        client.until(lambda: client.state.rung == 5)
+        self.assertEqual(again.end(), 0)
+        self.page.said.clear()
 
     def test_the_slider_raises_the_override_unless_another_owns_the_motion(self):
         swing(self.client)

@@ -1,6 +1,7 @@
 """Tests that nothing that comes to the page disturbs the server."""
 
 import socket
+import time
 import unittest
 
 from page_bench import Events, Served, wait
@@ -62,6 +63,33 @@ class HostileTest(unittest.TestCase):
             except ConnectionError:
                 pass
             to.close()
+        self.assertEqual(self.served.ask("GET", "/")[0], 200)
+
+    def test_a_flood_of_commands_does_not_cut_the_page_off(self):
+        watching, counts, end = Events(self.served, self.token), {}, time.monotonic() + 3
+        now = str(watching.of("state")["told_ms"])
+        text = (f"POST /override HTTP/1.1\r\nHost: localhost\r\nX-Tactus-Token: {self.token}\r\nX-Tactus-Seen: {now}\r\n"
+                "Content-Length: 1\r\n\r\n1").encode()
+        while time.monotonic() < end:
+            with self.connect(text) as to:
+                status = to.recv(100)[9:12]
+            counts[status] = counts.get(status, 0) + 1
+        self.assertLessEqual(counts[b"202"], 100)
+        self.assertGreater(counts[b"429"], 0)
+        wait(lambda: self.served.ask("POST", "/pause", b"", X_Tactus_Token=self.token)[0] == 202)
+        watching.socket.close()
+
+    def test_senders_that_trickle_leave_a_place_in_time(self):
+        slow = [self.connect(b"GET / HTTP/1.1\r\nX: ") for _ in range(40)]
+        ended, trickling = [], time.monotonic()
+        while len(ended) < len(slow):
+            self.assertLess(time.monotonic(), trickling + 60)
+            for to in [to for to in slow if to not in ended]:
+                try:
+                    to.sendall(b"x")
+                except OSError:
+                    ended.append(to)
+            time.sleep(0.05)
         self.assertEqual(self.served.ask("GET", "/")[0], 200)
 
     def test_one_browser_too_many_is_refused_and_gets_a_place_that_is_left(self):

@@ -5,7 +5,7 @@ import json
 import socket
 import unittest
 
-from page_bench import FOLDER, Events, Served, try_server
+from page_bench import FOLDER, Events, Served, seen, try_server
 
 
 class PageTest(unittest.TestCase):
@@ -31,7 +31,7 @@ class PageTest(unittest.TestCase):
 
     def told(self, events, path, body=b""):
         """Sends a command; returns its answer."""
-        status, _, text = self.post(path, body)
+        status, _, text = self.post(path, body, X_Tactus_Seen=seen(self.served, self.token))
         self.assertEqual(status, 202, text)
         sent = json.loads(text)
         return events.of("answer", lambda m: m["number"] == sent["number"])
@@ -71,6 +71,12 @@ class PageTest(unittest.TestCase):
             (404, "GET", "/nothing", {}),
             (404, "GET", "/../../etc/passwd", {}),
             (404, "POST", "/lease", {"X-Tactus-Token": self.token}),
+            (404, "GET", "/robot.json%00.html", {}),
+            (404, "POST", "/stop%00", {"X-Tactus-Token": self.token}),
+            (403, "GET", "/", {"Origin": ""}),
+            (400, "GET", "/", {"host": "evil.example"}),  # beside ours
+            (409, "POST", "/rearm", {"X-Tactus-Token": self.token}),
+            (409, "POST", "/rearm", {"X-Tactus-Token": self.token, "X-Tactus-Seen": "1"}),
         ):
             status, _, text = self.served.ask(method, path, **{k.replace("-", "_"): v for k, v in headers.items()})
             self.assertEqual(status, expected, (method, path, headers, text))
