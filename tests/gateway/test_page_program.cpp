@@ -44,13 +44,13 @@ void an_address_of_the_network_is_refused(void**) {
   assert_true(has(errors(), "ssh -L"));
 }
 
-// Proves PAGE-4.
+// Proves PAGE-4, PAGE-8.
 
 void hostile_browsers_do_not_disturb_the_server(void**) {
   run_class("test_hostile_browsers");
 }
 
-// Proves PAGE-6.
+// Proves PAGE-6, PAGE-8.
 
 void a_browser_shows_the_arm_and_its_buttons_work(void**) {
   if (shell("command -v chromium") != 0) {
