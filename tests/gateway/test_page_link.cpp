@@ -133,13 +133,13 @@ void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
   PageBench& bench = fresh();
   CommandGate gate;
   const std::uint32_t begin = bench.ask(PageCommand::kPause, 0.0);
-  constexpr int kTurns = 5000, kTries = 4;
+  constexpr int kTurns = 5000, kTries = 12;
   const std::int64_t from_ns = bench.server.now_ns;
   for (int i = 0; i < kTurns; ++i) {
     for (int k = 0; k < kTries; ++k) {
       const std::int64_t now_ms = bench.server.now_ns / kMillisecond_ns;
-      const auto command = k % 2 == 0 ? PageCommand::kStop : PageCommand::kOverride;
-      if (gate.judge(command, now_ms, now_ms + 1).status == 200) bench.ask(command, 0.5);
+      const auto command = k % 2 == 0 ? PageCommand::kStop : PageCommand::kPause;
+      if (gate.judge(command, -1, now_ms).status == 200) bench.ask(command, 0.5);
     }
     bench.turn();
   }
