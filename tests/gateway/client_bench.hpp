@@ -145,7 +145,7 @@ struct TestClient {
         ++welcomes;
         ++answers[of];
         session = value[7];
-        offered = static_cast<std::uint32_t>(value[22]);
+        offered = static_cast<std::uint32_t>(value[23]);
         break;
       case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
       case 3:

@@ -83,18 +83,20 @@ struct Sending {
       until = served.bench.cycles + static_cast<std::uint32_t>(random.uniform(800.0, 1600.0));
     }
   }
-  /// Waypoints that the generator has ahead of the motion.
+  /// Waypoints that the generator has ahead of the motion. Those of a whole path are negative.
   int ahead() const {
     const auto& channel = served.bench.channel;
     int most = 0;
     for (std::size_t i = 0; i < kStores; ++i)
-      most = std::max(most, channel.known[i].load() - channel.needed[i].load());
+      most = std::max(most, std::abs(channel.known[i].load()) - channel.needed[i].load());
     return most;
   }
-  /// True if a cycle would find what a network without delay had brought: half the window, or a
-  /// part of it that the generator has yet to take.
+  /// Waypoints that the motion has yet to pass, but for those of the present segment.
+  int left() const { return waypoints - static_cast<int>(std::lround(1e3 * place_s)) - 2; }
+  /// True if a cycle would find what a network without delay had brought: half the window or all
+  /// that is left, or a part of it that the generator has yet to take.
   bool caught_up() const {
-    return delays || !on_path(phase()) || sent == waypoints || ahead() >= kWindow / 2 ||
+    return delays || !on_path(phase()) || ahead() >= std::min(kWindow / 2, left()) ||
            (served.bench.channel.requests.size() > 0 && takes_requests());
   }
   /// True if the server has fetched enough reports for the generator to take a request.
