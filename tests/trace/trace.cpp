@@ -47,8 +47,10 @@ void Trace::add(const char* name, const Pose& pose) {
   add(name, numbers, 7);
 }
 
+/// Digital outputs are left out: boards without streams have no such ports.
 void Trace::add(const PortEntry& port) {
   static_assert(kDof <= kMostNumbers);
+  if (port.quantity == Quantity::kDigitalOutputs) return;
   Line name;
   if (prints_values()) name << std::string_view(port.block) << "." << port.port;
   if (port.quantity == Quantity::kJacobian) {
