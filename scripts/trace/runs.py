@@ -18,7 +18,7 @@ from machines import make  # noqa: E402
 BUILD = pathlib.Path("build/trace")
 PIPELINES = pathlib.Path("pipelines")
 # Sections of a board's wire. The kernel does not see them, and the player has no wire.
-WIRE = ("can", "cia402", "ur")
+WIRE = ("can", "cia402", "ethercat", "ur")
 HOSTILE = "hostile"
 TO_THE_END = 0xFFFFFFFF
 
