@@ -88,7 +88,8 @@ void help_lists_the_words_and_any_other_is_refused(void**) {
   for (const char* part : {"setup check ", "setup wcet ", "setup report ", "`make film`"})
     assert_true(has(output(), part));
   assert_int_equal(setup("everything", "make\n"), 2);
-  assert_true(has(errors(), "setup: 'everything' is none of check, wcet, report, vm, ethercat, m7, arm64; "));
+  assert_true(has(errors(),
+                  "setup: 'everything' is none of check, wcet, report, vm, ethercat, m7, arm64; "));
   assert_true(file_of("words").empty());
 }
 
