@@ -63,9 +63,11 @@ def kind_of(summary, path):
     """Returns the same from a summary and the path of the pipeline file; an emulated robot is on this machine."""
     if summary["simulated"]:
         return "simulated"
-    if (Settings(path).given("can", "interfaces") or "").startswith("vcan"):
+    settings = Settings(path)
+    wires = ((settings.given("can", "interfaces"), "vcan"), (settings.given("ethercat", "interface"), "veth"))
+    if any((interface or "").startswith(virtual) for interface, virtual in wires):
         return "emulated"
-    address = Settings(path).given("ur", "address")
+    address = settings.given("ur", "address")
     try:
         return "emulated" if address and ipaddress.ip_address(address).is_loopback else "real"
     except ValueError:
