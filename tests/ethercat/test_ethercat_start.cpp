@@ -123,7 +123,7 @@ void mailbox_faults_are_named(void**) {
 }
 
 /// Writes are refused, and what the drive has by itself is enough.
-void a_drive_that_keeps_its_own_mapping_is_used_with_it(void**) {
+void a_drive_whose_mapping_cannot_be_read_is_refused(void**) {
   MasterBench& bench = fresh();
   ASSERT_OK(bench.load());
   drives::Fault fault;
@@ -163,7 +163,7 @@ int main() {
       cmocka_unit_test(a_segment_of_another_length_is_refused),
       cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
       cmocka_unit_test(mailbox_faults_are_named),
-      cmocka_unit_test(a_drive_that_keeps_its_own_mapping_is_used_with_it),
+      cmocka_unit_test(a_drive_whose_mapping_cannot_be_read_is_refused),
       cmocka_unit_test(settings_that_cannot_be_are_refused),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
