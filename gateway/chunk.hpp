@@ -33,6 +33,9 @@ struct Chunk {
   /// The last target is to be reached and held. Otherwise more chunks follow, and the curve ends
   /// with the velocity of its last targets.
   bool ends = false;
+  /// Times are the sender's. If they are those of the arrival, a single target is a point that
+  /// comes with jitter.
+  bool stamped = true;
   /// The targets give velocities, which the curve then has.
   bool velocities = false;
   /// Time in which a disagreement with what is in force fades, 0 to kLongestFade_s, s; longer if

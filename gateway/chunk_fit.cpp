@@ -183,6 +183,7 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   if (chunk.ends) fit.f[n - 1].dx = fit.f[n - 1].ddx = 0.0 * fit.f[n - 1].dx;
   curve.count = chunk.count;
   curve.ends = chunk.ends;
+  curve.stamped = chunk.stamped;
   curve.epoch = chunk.epoch;
   curve.sequence = chunk.sequence;
   curve.header = chunk.header;

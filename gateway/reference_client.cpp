@@ -118,7 +118,7 @@ void ReferenceClient<Space>::settle(std::size_t store) {
 template <class Space>
 Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::uint32_t& id,
                                      const typename Space::Header& header,
-                                     const DigitalOutputs& outputs) {
+                                     const PointDetails& details) {
   const typename Space::Limits limits = Space::known_limits(header, channel_.settings.limits);
   const Verdict verdict =
       judge_online<Space>(Space::placed(point, Space::anywhere(header, limits)), limits);
@@ -127,7 +127,7 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
   request.kind = RequestKind::kPoint;
   request.point = point;
   request.header = header;
-  if constexpr (kStreams) request.outputs = outputs;
+  if constexpr (kStreams) request.details = details;
   return post(request, id);
 }
 

@@ -49,9 +49,8 @@ class ReferenceClient {
   /// Returns what trajectories are judged by.
   const AdmissionSettings<Space>& settings() const { return channel_.settings; }
   /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
-  /// `outputs` are set when it takes effect.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
-               const typename Space::Header& header = {}, const DigitalOutputs& outputs = {});
+               const typename Space::Header& header = {}, const PointDetails& details = {});
   /// Judges, fits and sends a chunk (gateway/chunk.hpp). kReferenceTime also for relative targets
   /// whose observation is not in the history; kNoFreeStore while all chunks are in use. Its report
   /// is executed, superseded, or refused: kChunkLate, kEpochVoid.

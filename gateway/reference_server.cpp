@@ -137,10 +137,10 @@ Verdict ReferenceServer<Space>::end(std::uint32_t& id) {
 template <class Space>
 Verdict ReferenceServer<Space>::point(const TrajectoryTerms& terms,
                                       const typename Space::Point& point, std::uint32_t& id,
-                                      const DigitalOutputs& outputs) {
+                                      const PointDetails& details) {
   typename Space::Header header;
   const Verdict verdict = place(terms, header);
-  return verdict.ok() ? client_.send(point, id, header, outputs) : verdict;
+  return verdict.ok() ? client_.send(point, id, header, details) : verdict;
 }
 
 template <class Space>

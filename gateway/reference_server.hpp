@@ -37,7 +37,7 @@ class ReferenceServer {
   Verdict place(const TrajectoryTerms& terms, typename Space::Header& header) const;
   /// Sends a point.
   Verdict point(const TrajectoryTerms& terms, const typename Space::Point& point, std::uint32_t& id,
-                const DigitalOutputs& outputs = {});
+                const PointDetails& details = {});
   /// Sends a point whose numbers are behind its terms in a frame.
   Verdict point(const TrajectoryTerms& terms, ByteReader& numbers, std::uint32_t& id);
   Verdict control(ControlKind kind, double rate, std::uint32_t& id);

@@ -1387,11 +1387,14 @@ class Stream(_References):
         acceleration: Optional[ArrayLike] = None,
         wrench: Optional[ArrayLike] = None,
         outputs: Optional[Mapping[int, bool]] = None,
+        sent_ns: int = 0,
     ) -> None:
         """Sends a point: q and what goes with it, [joints], or pose and what goes with it, [7] and [6].
 
         With dq or twist the arm passes the point at that velocity and comes to rest if no other follows.
         outputs -- digital outputs, set when the point takes effect; the others are left alone
+        sent_ns -- when the device was read, by any clock that does not step, `time.monotonic_ns()` for example: the arm
+            follows the stream smoothly although some of its points come late or not at all
         """
         targets = self._arm._targets(
             dict(q=q, dq=dq, ddq=ddq, tau=tau),
@@ -1399,7 +1402,7 @@ class Stream(_References):
             self._joints,
             rows=(),
         )
-        point = pb.Point()
+        point = pb.Point(sent_ns=sent_ns)
         for output, on in self._arm._known_outputs(outputs or {}).items():
             point.outputs_mask |= 1 << output
             point.outputs |= int(on) << output

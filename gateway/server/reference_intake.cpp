@@ -7,10 +7,10 @@ namespace tactus {
 template <class Space>
 Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms& terms,
                                       const typename Space::Point& point,
-                                      const DigitalOutputs& outputs) {
+                                      const PointDetails& details) {
   if (busy()) return {Status::kMailboxFull};
   std::uint32_t id = 0;
-  const Verdict verdict = server_.point(terms, point, id, outputs);
+  const Verdict verdict = server_.point(terms, point, id, details);
   if (verdict.ok()) book_.add({id, from, {}, 0.0});
   return verdict;
 }

@@ -32,7 +32,7 @@ class ReferenceIntake {
       : client_(client), server_(client, ports) {}
 
   Verdict point(const Origin& from, const TrajectoryTerms& terms,
-                const typename Space::Point& point, const DigitalOutputs& outputs);
+                const typename Space::Point& point, const PointDetails& details);
   /// Sends a chunk, whose header the terms give; it is newer than all before.
   Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
   /// Sends a velocity; it is newer than all before.

@@ -90,9 +90,11 @@ Reply Server::point(int slot, const Origin& from) {
     return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: give Point.task"
                                                : "the pipeline takes joints: give Point.joint"};
   Message why;
-  const DigitalOutputs outputs = {given.outputs, given.outputs_mask};
+  const PointDetails details = {
+      {given.outputs, given.outputs_mask},
+      given.sent_ns == 0 ? kNoStamp : 1e-9 * static_cast<double>(given.sent_ns)};
   const Status offered =
-      judge_outputs(outputs.mask, setup_.loaded->robot.offered, "Point.outputs_mask", why);
+      judge_outputs(given.outputs_mask, setup_.loaded->robot.offered, "Point.outputs_mask", why);
   if (offered != Status::kOk) return {offered, why};
   const Reply placed = judge_place(slot, given.has_place, given.place);
   if (placed.status != Status::kOk) return placed;
@@ -100,11 +102,11 @@ Reply Server::point(int slot, const Origin& from) {
   if (poses) {
     TaskSpace::Point point;
     if (!read_point(given.target.task, point, why)) return {Status::kBadValue, why};
-    return reply(poses_.point(from, terms, point, outputs));
+    return reply(poses_.point(from, terms, point, details));
   }
   JointSpace::Point point;
   if (!read_point(given.target.joint, point, why)) return {Status::kBadValue, why};
-  return reply(joints_.point(from, terms, point, outputs));
+  return reply(joints_.point(from, terms, point, details));
 }
 
 Reply Server::begin(const Origin& from, std::int64_t now_ns) {

@@ -15,6 +15,9 @@ inline constexpr int kChunkTargets = TACTUS_CHUNK_TARGETS;
 inline constexpr bool kStreams = kChunkTargets > 0;
 static_assert(kChunkTargets >= 0 && kChunkTargets <= 1 << 8, "a knot is found in 8 halvings");
 
+/// The stamp of a point that has none.
+inline constexpr double kNoStamp = -1e300;
+
 /// Takes the place of what a board without streams does not have.
 struct NoStream {};
 template <class Type>

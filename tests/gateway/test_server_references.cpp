@@ -22,6 +22,41 @@ void a_point_moves_the_reference_in_the_next_cycle(void**) {
   assert_true(two.bench.generator.reference().q[0] > ServerBench::home().q[0]);
 }
 
+/// Returns by how much the velocity differs from a ramp of 0.3 rad/s, of which every third point is
+/// lost, once it is followed, rad/s.
+double off_ramp(std::int64_t first_ns) {
+  TwoClients& two = fresh_clients();
+  two.a.lease(0, 60000);
+  two.run(1);
+  double off = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    JointVector q = ServerBench::home().q;
+    q[0] += 0.3 * 0.02 * k;
+    RawMessage point;
+    point.message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof)));
+    if (first_ns != 0) point.time(7, first_ns + 20'000'000 * k);
+    if (k % 3 != 2) two.a.send(ask::kPoint, point);
+    for (int cycle = 0; cycle < 20; ++cycle) {
+      two.run(1);
+      if (k > 30) off = std::max(off, std::abs(two.bench.generator.reference().dq[0] - 0.3));
+    }
+  }
+  print_message("%.5f rad/s off\n", off);
+  return off;
+}
+
+// Proves RG-22.
+
+void points_with_stamps_are_followed_evenly(void**) {
+  using Limits = std::numeric_limits<std::int64_t>;
+  for (const std::int64_t first_ns : {std::int64_t{1}, std::int64_t{-500'000'001}})
+    assert_true(off_ramp(first_ns) < 1e-3);
+  // 2 us is the resolution of so large a number of seconds.
+  for (const std::int64_t first_ns : {Limits::min(), Limits::max() - 2'000'000'000})
+    assert_true(off_ramp(first_ns) < 1e-3);
+  assert_true(off_ramp(0) > 0.05);
+}
+
 void what_a_stop_voids_does_not_move_the_arm(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease();
@@ -158,6 +193,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_flood_of_rearms_leaves_places_for_stops),
       cmocka_unit_test(a_point_moves_the_reference_in_the_next_cycle),
+      cmocka_unit_test(points_with_stamps_are_followed_evenly),
       cmocka_unit_test(what_a_stop_voids_does_not_move_the_arm),
       cmocka_unit_test(what_does_not_belong_to_this_robot_is_refused_by_name),
       cmocka_unit_test(a_velocity_that_is_not_renewed_comes_to_rest_and_is_told),

@@ -25,11 +25,17 @@ enum class RequestKind : std::uint8_t {
   kVelocity,    ///< move at a velocity
 };
 
+/// What comes with a point on a board with streams.
+struct PointDetails {
+  DigitalOutputs outputs;     ///< set when it takes effect
+  double stamp_s = kNoStamp;  ///< when it was made, s, by a clock of its sender
+};
+
 /// What a request has besides on a board with streams.
 template <class Space>
 struct StreamRequest {
   Velocity<Space> velocity;  ///< kVelocity
-  DigitalOutputs outputs;    ///< kPoint: set together with it
+  PointDetails details;      ///< kPoint
 };
 
 template <class Space>

@@ -158,10 +158,12 @@ void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
       Space::placed(request.point, Space::latch(request.header, reference(), limits));
   const Verdict verdict = judge_point(point);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
-  params_.online == OnlineMode::kLimit ? motion_.reach(point) : motion_.forward(point);
+  double stamp_s = kNoStamp;
+  if constexpr (kStreams) stamp_s = request.details.stamp_s;
+  params_.online == OnlineMode::kLimit ? motion_.reach(point, stamp_s) : motion_.forward(point);
   end_running(Outcome::kAborted, !motion_.on_path());
   point_age_s_ = 0.0;
-  if constexpr (kStreams) stream_.outputs.ask(request.outputs, time_s());
+  if constexpr (kStreams) stream_.outputs.ask(request.details.outputs, time_s());
   report(request.id, Outcome::kExecuted);
 }
 

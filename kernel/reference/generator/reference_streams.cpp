@@ -96,7 +96,8 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       Request<Space> point = request;
       point.point = chunk.knots[0].point;
       point.header = chunk.header;
-      point.outputs = {chunk.outputs[0], chunk.outputs_mask};
+      point.details = {{chunk.outputs[0], chunk.outputs_mask},
+                       chunk.stamped ? chunk.first_s() : kNoStamp};
       chunk.release();
       return take_point(point);
     }

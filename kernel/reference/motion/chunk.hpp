@@ -34,8 +34,9 @@ struct Knot {
 template <class Space>
 struct ChunkCurve {
   std::array<Knot<Space>, static_cast<std::size_t>(kChunkTargets)> knots;
-  int count = 0;      ///< one: a target of teleoperation, whose stamp does not count
-  bool ends = false;  ///< at rest at the last knot; else more chunks are to follow
+  int count = 0;        ///< one: a target of teleoperation, a point of a stream
+  bool stamped = true;  ///< its time is the sender's; else it is that of its arrival
+  bool ends = false;    ///< at rest at the last knot; else more chunks are to follow
   std::uint32_t epoch = 0, sequence = 0;
   typename Space::Header header;  ///< joints left out, or frames the knots are given in
   /// Time in which a disagreement fades; longer if limits ask for it. 0: closed as fast as limits

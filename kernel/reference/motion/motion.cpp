@@ -131,8 +131,8 @@ void Motion<Space>::forward(const Point& point) {
 }
 
 template <class Space>
-void Motion<Space>::reach(const Point& point) {
-  stream_.push(point, time_s_ - settings_->period_s);  // it was sent before this cycle
+void Motion<Space>::reach(const Point& point, double stamp_s) {
+  stream_.push(point, time_s_ - settings_->period_s, stamp_s);  // it was sent before this cycle
   held_ = point.stopped();
   if (can_leave()) return go();
   if (!given_up()) braking_s_ = 0.0;

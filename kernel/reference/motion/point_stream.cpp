@@ -9,13 +9,16 @@
 namespace tactus {
 namespace {
 
-constexpr double kSlowest_s = 0.25;   // points farther apart are no stream
-constexpr double kLeastGain = 0.05;   // of the smoothed times
-constexpr double kEarlyGain = 0.2;    // for an early point, which was delayed less than the others
-constexpr double kFadePeriods = 3.0;  // duration of the fading of a jump
-// Silence that ends a stream: three periods, but at least the delay of a busy sender and at most
-// kMostPatience_s more than one period.
-constexpr double kSilentPeriods = 3.0, kLeastPatience_s = 0.02, kMostPatience_s = 0.1;
+constexpr double kSlowest_s = 0.25;  // points farther apart are no stream,
+constexpr double kNearest_s = 1e-4;  // nor are those with stamps closer together
+constexpr double kLeastGain = 0.05;  // of the smoothed times
+constexpr double kEarlyGain = 0.2;   // for an early point, which was delayed less than the others
+// A jump fades in three periods, but slowly enough for the noise of fast streams.
+constexpr double kFadePeriods = 3.0, kLeastFade_s = 0.08;
+// Silence that ends a stream: three periods, but at least the delay of a busy sender, or, with
+// stamps, of a network that loses and delays points, and at most kMostPatience_s more than one
+// period.
+constexpr double kSilentPeriods = 3.0, kSender_s = 0.02, kNetwork_s = 0.08, kMostPatience_s = 0.1;
 constexpr int kMost = 1000;
 
 /// Returns the difference t seconds later, with its second derivative constant.
@@ -29,7 +32,8 @@ Difference moved(const Difference& from, double t) {
 template <class Space>
 double PointStream<Space>::patience_s() const {
   if (count_ < 2) return kSlowest_s;
-  return std::clamp(kSilentPeriods * period_s_, kLeastPatience_s, period_s_ + kMostPatience_s);
+  return std::clamp(kSilentPeriods * period_s_, stamped_ ? kNetwork_s : kSender_s,
+                    period_s_ + kMostPatience_s);
 }
 
 template <class Space>
@@ -43,54 +47,101 @@ bool PointStream<Space>::silent(double now_s) const {
 }
 
 template <class Space>
-void PointStream<Space>::keep_time(double now_s) {
-  const double interval = now_s - arrival_s_;
-  if (count_ == 0 || interval > kSlowest_s || (count_ > 1 && silent(now_s))) {
+bool PointStream<Space>::continues(double now_s, double stamp_s) const {
+  if (count_ == 0 || now_s - arrival_s_ > kSlowest_s || (count_ > 1 && silent(now_s))) return false;
+  if constexpr (kStreams) {
+    if (stamped_ != (stamp_s != kNoStamp)) return false;
+    const double distance_s = stamp_s - stamps_s_[0];
+    return !stamped_ || (distance_s >= kNearest_s && distance_s <= kSlowest_s);
+  }
+  return true;
+}
+
+template <class Space>
+void PointStream<Space>::keep_time(double now_s, double stamp_s) {
+  if (!continues(now_s, stamp_s)) {
     count_ = 0;
     given_ = false;
+    stamped_ = stamp_s != kNoStamp;
     time_s_ = now_s;
     period_s_ = 0.0;
   } else {
     const double gain = std::max(1.0 / count_, kLeastGain);
-    period_s_ += gain * (interval - period_s_);
-    time_s_ += period_s_;
+    period_s_ += gain * (now_s - arrival_s_ - period_s_);
+    time_s_ += distance_s(stamp_s);
     const double late_s = now_s - time_s_;
     time_s_ += std::max(1.0 / (count_ + 1), late_s < 0.0 ? kEarlyGain : kLeastGain) * late_s;
   }
   arrival_s_ = now_s;
 }
 
+/// Returns how much later than the newest point one with this stamp was sent.
 template <class Space>
-typename Space::Difference PointStream<Space>::fit() const {
-  const Point origin = points_[0].at_rest();
-  std::array<Difference, kFitted> p;
-  for (std::size_t i = 0; i < kFitted; ++i) p[i] = Space::difference(points_[i], origin);
-  const double D = period_s_;
-  if (given_) {
-    Difference now = {p[0].x, p[0].dx, 0.0 * p[0].dx};
-    if (count_ > 1) now.ddx = (p[0].dx - p[1].dx) / D;
-    return now;
-  }
-  return {(3.0 * p[1].x - 3.0 * p[2].x + p[3].x) / 20.0,
-          (-13.0 * p[1].x - 17.0 * p[2].x + 9.0 * p[3].x) / (20.0 * D),
-          (p[3].x - p[1].x - p[2].x) / (2.0 * D * D)};
+double PointStream<Space>::distance_s(double stamp_s) const {
+  if constexpr (kStreams)
+    if (stamped_) return stamp_s - stamps_s_[0];
+  return period_s_;
+}
+
+/// Returns by how much a point is older than the newest.
+template <class Space>
+double PointStream<Space>::age_s(std::size_t point) const {
+  if constexpr (kStreams)
+    if (stamped_) return stamps_s_[0] - stamps_s_[point];
+  return period_s_ * static_cast<double>(point);
 }
 
 template <class Space>
-void PointStream<Space>::push(const Point& point, double now_s) {
-  const bool moved_before = moves(now_s);
-  const Point old = moved_before ? target(now_s) : point;
-  if (count_ == 0 || now_s > arrival_s_) {  // else the point replaces the newest
-    keep_time(now_s);
-    for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
-    count_ = std::min(count_ + 1, kMost);
+void PointStream<Space>::keep(const Point& point, double stamp_s) {
+  for (std::size_t i = kFitted - 1; i > 0; --i) {
+    points_[i] = points_[i - 1];
+    if constexpr (kStreams) stamps_s_[i] = stamps_s_[i - 1];
   }
   points_[0] = point;
+  if constexpr (kStreams) stamps_s_[0] = stamp_s;
+  count_ = std::min(count_ + 1, kMost);
+}
+
+template <class Space>
+typename Space::Difference PointStream<Space>::fit() const {
+  const Point origin = points_[0].at_rest();
+  const Difference newest = Space::difference(points_[0], origin);
+  const Difference before = Space::difference(points_[1], origin);
+  if (given_) {
+    Difference now = {newest.x, newest.dx, 0.0 * newest.dx};
+    if (count_ > 1) now.ddx = (newest.dx - before.dx) / age_s(1);
+    return now;
+  }
+  std::array<double, kFitted> times;
+  for (std::size_t i = 0; i < kFitted; ++i) times[i] = -age_s(i);
+  const ParabolaFit weights = fit_parabola(times);
+  Difference now = {0.0 * newest.x, 0.0 * newest.x, 0.0 * newest.x};
+  for (std::size_t i = 1; i < kFitted; ++i) {  // the newest is the origin
+    const auto x = Space::difference(points_[i], origin).x;
+    now.x += weights.x[i] * x;
+    now.dx += weights.dx[i] * x;
+    now.ddx += weights.ddx[i] * x;
+  }
+  return now;
+}
+
+template <class Space>
+void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) {
+  const bool moved_before = moves(now_s);
+  const Point old = moved_before ? target(now_s) : point;
+  if (count_ == 0 || now_s > arrival_s_) {
+    keep_time(now_s, stamp_s);
+    keep(point, stamp_s);
+  } else {
+    points_[0] = point;
+    if constexpr (kStreams) stamps_s_[0] = stamp_s;
+  }
   given_ = given_ || !point.standing();
   jump_ = {};
   if (!streams()) return;
   fit_ = fit();
-  if (moved_before && count_ > kFitted) jump_ = Space::difference(old, predicted(now_s));
+  if (moved_before && count_ > static_cast<int>(kFitted))
+    jump_ = Space::difference(old, predicted(now_s));
   jump_s_ = now_s;
 }
 
@@ -101,7 +152,7 @@ typename Space::Point PointStream<Space>::predicted(double now_s) const {
 
 template <class Space>
 typename Space::Point PointStream<Space>::target(double now_s) const {
-  const double T = kFadePeriods * period_s_, x = now_s - jump_s_;
+  const double T = std::max(kFadePeriods * period_s_, kLeastFade_s), x = now_s - jump_s_;
   const Point point = predicted(now_s);
   return jump_.zero() || !(x < T) ? point : Space::sum(point, faded(jump_, x / T, T));
 }

@@ -1,14 +1,13 @@
 // PointStream: turns online points that arrive as a stream into a target that moves smoothly.
 //
 // Points arrive about every D seconds, with jitter. Their times are smoothed,
-//   t_k = t_(k-1) + D + g (arrival - t_(k-1) - D),   g = 1/k, at least 0.05,
+//   t_k = t_(k-1) + d + g (arrival - t_(k-1) - d),   g = 1/k, at least 0.05,
 // with g at least 0.2 for a point that is early, as points are delayed but never sent early. D is
-// smoothed in the same way.
-// The target is the parabola that fits the newest four points best; for a stream that gives
-// velocities, the one through the newest point with the change of velocity since the point before.
-// In the chart of the newest point, where p_k is the difference from it,
-//   p = (19 p0 + 3 p1 - 3 p2 + p3) / 20,   v = (21 p0 - 13 p1 - 17 p2 + 9 p3) / (20 D),
-//   a = (p0 - p1 - p2 + p3) / (2 D^2).
+// smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
+// neither delay nor loss of points with stamps bends the motion.
+// The target is the parabola that fits the newest four points best (parabola_fit.hpp), in the chart
+// of the newest; for a stream that gives velocities, the one through the newest point with the
+// change of velocity since the point before.
 // The jump from the old prediction to the new one fades over 3 D by a quintic, so that the target
 // is continuous up to its acceleration.
 //
@@ -18,6 +17,8 @@
 
 #include <array>
 
+#include "kernel/core/streams.hpp"
+#include "kernel/reference/motion/parabola_fit.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
 
 namespace tactus {
@@ -27,9 +28,10 @@ class PointStream {
  public:
   using Point = typename Space::Point;
 
-  /// Takes a point that arrives at `now_s`; if several arrive at one time, the last counts.
+  /// Takes a point that arrives at `now_s`; if several arrive at one time, the last counts. Stamps
+  /// count seconds by any clock; a stamp that is not later than the last begins a new stream.
   /// [cyclic]
-  void push(const Point& point, double now_s);
+  void push(const Point& point, double now_s, double stamp_s);
   /// Forgets all points. [cyclic]
   void clear() { count_ = 0; }
 
@@ -45,18 +47,23 @@ class PointStream {
 
  private:
   using Difference = typename Space::Difference;
-  static constexpr int kFitted = 4;
 
-  bool streams() const { return count_ >= kFitted || (given_ && count_ >= 1); }
+  bool streams() const { return count_ >= static_cast<int>(kFitted) || (given_ && count_ >= 1); }
   double patience_s() const;
-  void keep_time(double now_s);
+  bool continues(double now_s, double stamp_s) const;
+  void keep_time(double now_s, double stamp_s);
+  void keep(const Point& point, double stamp_s);
+  double distance_s(double stamp_s) const;
+  double age_s(std::size_t point) const;
   Difference fit() const;
   Point predicted(double now_s) const;
 
-  std::array<Point, kFitted> points_;  // newest first
-  int count_ = 0;                      // points, at most kMost
-  bool given_ = false;                 // velocities are given
-  double arrival_s_ = 0.0;             // arrival of the newest
+  std::array<Point, kFitted> points_;                           // newest first
+  OnlyWithStreams<std::array<double, kFitted>> stamps_s_ = {};  // theirs
+  int count_ = 0;                                               // points, at most kMost
+  bool given_ = false;                                          // velocities are given
+  bool stamped_ = false;                                        // stamps are given
+  double arrival_s_ = 0.0;                                      // arrival of the newest
   double time_s_ = 0.0, period_s_ = 0.0;
   Difference fit_;   // at time_s_, in the chart of the newest point
   Difference jump_;  // at jump_s_, from the prediction to the target

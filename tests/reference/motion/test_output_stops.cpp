@@ -79,7 +79,7 @@ void a_stop_voids_delayed_edges(void**) {
 void a_start_leaves_outputs_alone(void**) {
   ChunkBench<JointSpace> bench;
   std::uint32_t id = 0;
-  assert_true(bench.client.send(bench.home, id, {}, {3, 7}).ok());
+  assert_true(bench.client.send(bench.home, id, {}, {{3, 7}}).ok());
   bench.cycle();
   assert_true((bench.generator.outputs() == DigitalOutputs{3, 7}));
   ASSERT_OK(bench.start(bench.home));
@@ -92,10 +92,10 @@ void a_start_leaves_outputs_alone(void**) {
 void a_point_sets_outputs_at_once(void**) {
   ChunkBench<TaskSpace> bench;
   std::uint32_t id = 0;
-  assert_true(bench.client.send(bench.home, id, {}, {1, 3}).ok());
+  assert_true(bench.client.send(bench.home, id, {}, {{1, 3}}).ok());
   bench.cycle();
   assert_true((bench.generator.outputs() == DigitalOutputs{1, 3}));
-  assert_true(bench.client.send(bench.home, id, {}, {6, 6}).ok());
+  assert_true(bench.client.send(bench.home, id, {}, {{6, 6}}).ok());
   bench.cycle();
   assert_true((bench.generator.outputs() == DigitalOutputs{7, 7}));
   assert_true(bench.client.send(bench.home, id).ok());
