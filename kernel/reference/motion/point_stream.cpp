@@ -32,7 +32,7 @@ Difference moved(const Difference& from, double t) {
 template <class Space>
 double PointStream<Space>::patience_s() const {
   if (count_ < 2) return kSlowest_s;
-  return std::clamp(kSilentPeriods * period_s_, stamped_ ? kNetwork_s : kSender_s,
+  return std::clamp(kSilentPeriods * period_s_, stamps_.given() ? kNetwork_s : kSender_s,
                     period_s_ + kMostPatience_s);
 }
 
@@ -49,12 +49,9 @@ bool PointStream<Space>::silent(double now_s) const {
 template <class Space>
 bool PointStream<Space>::continues(double now_s, double stamp_s) const {
   if (count_ == 0 || now_s - arrival_s_ > kSlowest_s || (count_ > 1 && silent(now_s))) return false;
-  if constexpr (kStreams) {
-    if (stamped_ != (stamp_s != kNoStamp)) return false;
-    const double distance_s = stamp_s - stamps_s_[0];
-    return !stamped_ || (distance_s >= kNearest_s && distance_s <= kSlowest_s);
-  }
-  return true;
+  if (stamps_.given() != (stamp_s != kNoStamp)) return false;
+  const double distance_s = stamps_.since_newest_s(stamp_s);
+  return !stamps_.given() || (distance_s >= kNearest_s && distance_s <= kSlowest_s);
 }
 
 template <class Space>
@@ -62,44 +59,23 @@ void PointStream<Space>::keep_time(double now_s, double stamp_s) {
   if (!continues(now_s, stamp_s)) {
     count_ = 0;
     given_ = false;
-    stamped_ = stamp_s != kNoStamp;
+    stamps_.begin(stamp_s != kNoStamp);
     time_s_ = now_s;
     period_s_ = 0.0;
   } else {
     const double gain = std::max(1.0 / count_, kLeastGain);
     period_s_ += gain * (now_s - arrival_s_ - period_s_);
-    time_s_ += distance_s(stamp_s);
+    time_s_ += stamps_.given() ? stamps_.since_newest_s(stamp_s) : period_s_;
     const double late_s = now_s - time_s_;
     time_s_ += std::max(1.0 / (count_ + 1), late_s < 0.0 ? kEarlyGain : kLeastGain) * late_s;
   }
   arrival_s_ = now_s;
 }
 
-/// Returns how much later than the newest point one with this stamp was sent.
-template <class Space>
-double PointStream<Space>::distance_s(double stamp_s) const {
-  if constexpr (kStreams)
-    if (stamped_) return stamp_s - stamps_s_[0];
-  return period_s_;
-}
-
 /// Returns by how much a point is older than the newest.
 template <class Space>
 double PointStream<Space>::age_s(std::size_t point) const {
-  if constexpr (kStreams)
-    if (stamped_) return stamps_s_[0] - stamps_s_[point];
-  return period_s_ * static_cast<double>(point);
-}
-
-template <class Space>
-void PointStream<Space>::keep(const Point& point, double stamp_s) {
-  for (std::size_t i = kFitted - 1; i > 0; --i) {
-    points_[i] = points_[i - 1];
-    if constexpr (kStreams) stamps_s_[i] = stamps_s_[i - 1];
-  }
-  points_[0] = point;
-  if constexpr (kStreams) stamps_s_[0] = stamp_s;
-  count_ = std::min(count_ + 1, kMost);
+  return stamps_.given() ? stamps_.age_s(point) : period_s_ * static_cast<double>(point);
 }
 
 template <class Space>
@@ -129,13 +105,14 @@ template <class Space>
 void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) {
   const bool moved_before = moves(now_s);
   const Point old = moved_before ? target(now_s) : point;
-  if (count_ == 0 || now_s > arrival_s_) {
+  if (count_ == 0 || now_s > arrival_s_) {  // else the point replaces the newest
     keep_time(now_s, stamp_s);
-    keep(point, stamp_s);
-  } else {
-    points_[0] = point;
-    if constexpr (kStreams) stamps_s_[0] = stamp_s;
+    for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
+    stamps_.shift();
+    count_ = std::min(count_ + 1, kMost);
   }
+  points_[0] = point;
+  stamps_.set_newest(stamp_s);
   given_ = given_ || !point.standing();
   jump_ = {};
   if (!streams()) return;

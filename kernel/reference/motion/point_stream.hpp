@@ -17,8 +17,7 @@
 
 #include <array>
 
-#include "kernel/core/streams.hpp"
-#include "kernel/reference/motion/parabola_fit.hpp"
+#include "kernel/reference/motion/point_stamps.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
 
 namespace tactus {
@@ -52,18 +51,15 @@ class PointStream {
   double patience_s() const;
   bool continues(double now_s, double stamp_s) const;
   void keep_time(double now_s, double stamp_s);
-  void keep(const Point& point, double stamp_s);
-  double distance_s(double stamp_s) const;
   double age_s(std::size_t point) const;
   Difference fit() const;
   Point predicted(double now_s) const;
 
-  std::array<Point, kFitted> points_;                           // newest first
-  OnlyWithStreams<std::array<double, kFitted>> stamps_s_ = {};  // theirs
-  int count_ = 0;                                               // points, at most kMost
-  bool given_ = false;                                          // velocities are given
-  bool stamped_ = false;                                        // stamps are given
-  double arrival_s_ = 0.0;                                      // arrival of the newest
+  std::array<Point, kFitted> points_;  // newest first
+  int count_ = 0;                      // points, at most kMost
+  bool given_ = false;                 // velocities are given
+  PointStamps<> stamps_;
+  double arrival_s_ = 0.0;  // arrival of the newest
   double time_s_ = 0.0, period_s_ = 0.0;
   Difference fit_;   // at time_s_, in the chart of the newest point
   Difference jump_;  // at jump_s_, from the prediction to the target
