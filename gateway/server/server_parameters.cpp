@@ -14,9 +14,9 @@ Message refusal(const Pipeline& pipeline, const TuningVerdict& verdict) {
   if (verdict.block >= 0) text << "[" << std::string_view(pipeline.name(verdict.block)) << "] ";
   switch (verdict.status) {
     case Status::kEffortLimit:
-      return text << "with these parameters the law would now ask for more torque than its joint "
-                     "has, and than it asks for; take smaller steps, or set them with the arm at "
-                     "its reference";
+      return text << "with these parameters the law would now ask for " << verdict.value
+                  << " N m at joint " << verdict.joint + 1 << ", beyond " << verdict.limit
+                  << " N m; take smaller steps, or set them with the arm at its reference";
     case Status::kNotAtRest:
       return text << "the arm is being brought to rest; set them when it rests";
     case Status::kArming: return text << "drives are being armed; set them when that is done";

@@ -10,6 +10,8 @@
 // A board without a server of references has none: TACTUS_TUNING=0.
 #pragma once
 
+#include <cmath>
+
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/status.hpp"
 
@@ -68,14 +70,23 @@ inline double fading_time(const JointVector& difference, const JointLimits& limi
       .maxCoeff();
 }
 
+/// What is wrong with a torque: the joint (-1: none in particular), the torque and its limit, N m.
+struct TorqueVerdict {
+  Status status = Status::kOk;
+  int joint = -1;
+  double value = 0.0, limit = 0.0;
+};
+
 /// Judges the torque that a law would ask for with other parameters. Returns kCommandNotFinite if
 /// it is not finite, and kEffortLimit if a joint's is beyond its limit and beyond the present one:
 /// the difference would then take long to fade, and the guard would limit what follows. [any]
-inline Status judge_torque(const JointVector& next, const JointVector& present,
-                           const JointLimits& limits) {
-  if (!next.allFinite()) return Status::kCommandNotFinite;
+inline TorqueVerdict judge_torque(const JointVector& next, const JointVector& present,
+                                  const JointLimits& limits) {
+  if (!next.allFinite()) return {Status::kCommandNotFinite};
   const JointVector most = limits.tau_max.cwiseMax(present.cwiseAbs());
-  return (next.cwiseAbs().array() <= most.array()).all() ? Status::kOk : Status::kEffortLimit;
+  for (int i = 0; i < kDof; ++i)
+    if (!(std::abs(next[i]) <= most[i])) return {Status::kEffortLimit, i, next[i], most[i]};
+  return {};
 }
 
 }  // namespace tactus

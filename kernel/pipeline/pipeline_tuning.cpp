@@ -15,9 +15,9 @@ const auto& new_params(const Kind& /*block*/, const void* copy) {
 }
 
 template <class Kind>
-Status judge(const Kind& block, const void* copy, const JointLimits& limits) {
+TorqueVerdict judge(const Kind& block, const void* copy, const JointLimits& limits) {
   if constexpr (kJudgesChange<Kind>) return block.judge_change(new_params(block, copy), limits);
-  return Status::kOk;
+  return {};
 }
 
 template <class Kind>
@@ -36,10 +36,10 @@ TuningVerdict Pipeline::retune(const Tuning& tuning, bool runs) {
   for (int i = 0; i < count_ && runs; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (tuning.copies[at] == nullptr) continue;
-    const Status status = with_block(blocks_[at], [&](const auto& block) {
+    const TorqueVerdict verdict = with_block(blocks_[at], [&](const auto& block) {
       return judge(block, tuning.copies[at], guard.limits);
     });
-    if (status != Status::kOk) return {status, i};
+    if (verdict.status != Status::kOk) return {verdict, i};
   }
   for (int i = 0; i < count_; ++i) {
     const auto at = static_cast<std::size_t>(i);

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kernel/core/status.hpp"
+#include "kernel/math/fade.hpp"
 #include "kernel/pipeline/timing.hpp"
 
 namespace tactus {
@@ -14,9 +14,9 @@ struct Tuning {
   std::array<const void*, kMaxBlocks> copies{};
 };
 
-struct TuningVerdict {
-  Status status = Status::kOk;
-  int block = -1;  ///< that refuses the set
+/// kOk, or why a block refuses the set.
+struct TuningVerdict : TorqueVerdict {
+  int block = -1;
 };
 
 }  // namespace tactus

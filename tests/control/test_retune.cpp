@@ -48,7 +48,8 @@ void the_torque_of_pd_goes_on(void**) {
     if (below(random, 200) == 0) {
       PdGravity::Params next = {uniform(random, 0.0, 300.0) * ones,
                                 uniform(random, 0.1, 30.0) * ones};
-      if (b.pd.judge_change(next, b.limits) == Status::kOk) b.pd.retune(now = next, b.limits);
+      if (b.pd.judge_change(next, b.limits).status == Status::kOk)
+        b.pd.retune(now = next, b.limits);
     }
     b.q_d = 0.3 * std::sin(2e-3 * k) * ones;
     b.dq = 0.2 * std::cos(3e-3 * k) * ones;
@@ -88,12 +89,19 @@ void pd_refuses_gains_that_ask_for_more_torque_than_there_is(void**) {
   PdBench b;
   b.q_d.setConstant(0.5);
   ASSERT_OK(b.pd.step(1e-3));
-  ASSERT_OK(b.pd.judge_change({199.0 * ones, 10.0 * ones}, b.limits));
-  ASSERT_STATUS(b.pd.judge_change({201.0 * ones, 10.0 * ones}, b.limits), Status::kEffortLimit);
+  ASSERT_OK(b.pd.judge_change({199.0 * ones, 10.0 * ones}, b.limits).status);
+  JointVector stiff = 199.0 * ones;
+  stiff[3] = 201.0;
+  const TorqueVerdict verdict = b.pd.judge_change({stiff, 10.0 * ones}, b.limits);
+  ASSERT_STATUS(verdict.status, Status::kEffortLimit);
+  assert_int_equal(verdict.joint, 3);
+  ASSERT_NEAR(verdict.value, 100.5, 1e-12);
+  ASSERT_NEAR(verdict.limit, 100.0, 1e-12);
   b.q_d.setConstant(2.0);  // 200 N m by the present gains
   ASSERT_OK(b.pd.step(1e-3));
-  ASSERT_OK(b.pd.judge_change({99.0 * ones, 10.0 * ones}, b.limits));
-  ASSERT_STATUS(b.pd.judge_change({101.0 * ones, 10.0 * ones}, b.limits), Status::kEffortLimit);
+  ASSERT_OK(b.pd.judge_change({99.0 * ones, 10.0 * ones}, b.limits).status);
+  ASSERT_STATUS(b.pd.judge_change({101.0 * ones, 10.0 * ones}, b.limits).status,
+                Status::kEffortLimit);
 }
 
 /// Compares with a twin that keeps its parameters: without the fade the velocities would part by
