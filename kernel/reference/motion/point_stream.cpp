@@ -11,10 +11,11 @@ namespace {
 
 constexpr double kSlowest_s = 0.25;  // points farther apart are no stream,
 constexpr double kNearest_s = 1e-4;  // nor are those with stamps closer together
+constexpr double kApart_s = 0.03;    // least distance of stamps that are kept, against noise
 constexpr double kLeastGain = 0.05;  // of the smoothed times
 constexpr double kEarlyGain = 0.2;   // for an early point, which was delayed less than the others
 // A jump fades in three periods, but slowly enough for the noise of fast streams.
-constexpr double kFadePeriods = 3.0, kLeastFade_s = 0.08;
+constexpr double kFadePeriods = 3.0, kLeastFade_s = 0.12;
 // Silence that ends a stream: three periods, but at least the delay of a busy sender, or, with
 // stamps, of a network that loses and delays points, and at most kMostPatience_s more than one
 // period.
@@ -107,8 +108,11 @@ void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) 
   const Point old = moved_before ? target(now_s) : point;
   if (count_ == 0 || now_s > arrival_s_) {  // else the point replaces the newest
     keep_time(now_s, stamp_s);
-    for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
-    stamps_.shift();
+    if (count_ < static_cast<int>(kFitted) || !stamps_.given() ||
+        stamps_.since_newest_s(stamp_s) + stamps_.age_s(1) >= kApart_s) {
+      for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
+      stamps_.shift();
+    }
     count_ = std::min(count_ + 1, kMost);
   }
   points_[0] = point;

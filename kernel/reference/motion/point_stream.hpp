@@ -5,11 +5,12 @@
 // with g at least 0.2 for a point that is early, as points are delayed but never sent early. D is
 // smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
 // neither delay nor loss of points with stamps bends the motion.
-// The target is the parabola that fits the newest four points best (parabola_fit.hpp), in the chart
-// of the newest; for a stream that gives velocities, the one through the newest point with the
-// change of velocity since the point before.
-// The jump from the old prediction to the new one fades over 3 D by a quintic, so that the target
-// is continuous up to its acceleration.
+// The target is the parabola that fits the newest point and three before it best
+// (parabola_fit.hpp), in the chart of the newest; of a fast stream with stamps, points that are far
+// enough apart for the noise in them; for a stream that gives velocities, the one through the
+// newest point with the change of velocity since the point before. The jump from the old prediction
+// to the new one fades over 3 D, at least 0.12 s, by a quintic, so that the target is continuous up
+// to its acceleration.
 //
 // Fewer than four points without velocity are no stream but places to go to, and so are the points
 // of a stream that has gone silent. A point after the silence begins a new stream.
