@@ -78,6 +78,8 @@ Followed follow(double period_s, double every_s, bool stamped) {
   return result;
 }
 
+// Proves RG-22.
+
 template <class Space>
 void follows_smoothly() {
   for (const double period_s : {1e-3, 2e-3, 8e-3})
