@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "kernel/core/joint_limits.hpp"
-#include "kernel/core/status.hpp"
+#include "kernel/core/torque_verdict.hpp"
 
 #ifndef TACTUS_TUNING
 #define TACTUS_TUNING 1
@@ -69,13 +69,6 @@ inline double fading_time(const JointVector& difference, const JointLimits& limi
       .cwiseMax(kFade_s)
       .maxCoeff();
 }
-
-/// What is wrong with a torque: the joint (-1: none in particular), the torque and its limit, N m.
-struct TorqueVerdict {
-  Status status = Status::kOk;
-  int joint = -1;
-  double value = 0.0, limit = 0.0;
-};
 
 /// Judges the torque that a law would ask for with other parameters. Returns kCommandNotFinite if
 /// it is not finite, and kEffortLimit if a joint's is beyond its limit and beyond the present one:

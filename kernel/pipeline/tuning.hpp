@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kernel/math/fade.hpp"
+#include "kernel/core/torque_verdict.hpp"
 #include "kernel/pipeline/timing.hpp"
 
 namespace tactus {

@@ -128,6 +128,10 @@ class ReferenceGenerator {
   void take_velocity(const Request<Space>& request);
   bool in_order(const Request<Space>& request, std::uint32_t epoch, std::uint32_t sequence);
   void end_epoch();
+  bool outputs_wait() const {
+    if constexpr (kStreams) return stream_.outputs.waits();
+    return false;
+  }
   void void_request(const Request<Space>& request);
   void begin_stream(std::uint32_t id);
   void pass_outputs();

@@ -54,10 +54,11 @@ Verdict ReferenceGenerator<Space>::answer(const Control& control, LoopBound<2>& 
 template <class Space>
 Verdict ReferenceGenerator<Space>::cancel(std::uint32_t id, LoopBound<2>& cancels) {
   assert(refusing_ == Status::kOk);
+  const bool switches = outputs_wait();
   end_epoch();
   const bool goes = running_.any() || waiting_.any() || phase() == Phase::kReaching ||
                     streams(phase()) || phase() == Phase::kLeaving || motion_.holds_effort();
-  if (!goes && channel_->requests.size() == 0) return {Status::kNothingToCancel};
+  if (!goes && !switches && channel_->requests.size() == 0) return {Status::kNothingToCancel};
   canceled_before_ = id;
   end_waiting(Outcome::kCanceled);
   if (!goes) return {};

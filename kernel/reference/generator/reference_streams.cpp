@@ -38,8 +38,8 @@ void ReferenceGenerator<Space>::end_epoch() {
 template <class Space>
 void ReferenceGenerator<Space>::pass_outputs() {
   if constexpr (kStreams) {
-    const PassedOutputs passed = motion_.take_outputs();
-    if (passed.any) stream_.outputs.ask(passed.outputs, time_s() + passed.delay_s);
+    for (const PassedOutputs& passed : motion_.take_outputs())
+      if (passed.any) stream_.outputs.ask(passed.outputs, time_s() + passed.delay_s);
   }
 }
 

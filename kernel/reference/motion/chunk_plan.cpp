@@ -70,7 +70,10 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
   LoopBound<kChunkStores> begun;
   while (due(now_s)) {
     begun.tick();
-    if (entered_) drop_first();
+    if (entered_) {
+      pass_last_targets(now_s);
+      drop_first();
+    }
     entered_ = true;
   }
   stops_ = false;

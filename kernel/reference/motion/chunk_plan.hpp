@@ -33,6 +33,9 @@ struct PassedOutputs {
   double delay_s = 0.0;
 };
 
+/// Of the last target of a chunk that ends, and of its successor.
+using PassedInPeriod = std::array<PassedOutputs, 2>;
+
 /// `streams` is true, or the class below takes its place.
 template <class Space, bool streams = kStreams>
 class ChunkPlan {
@@ -63,8 +66,8 @@ class ChunkPlan {
   /// Finds the digital outputs of the targets passed up to `now_s`. [cyclic]
   void pass_outputs(double now_s);
   /// Hands over what pass_outputs() has found since the last time. [cyclic]
-  PassedOutputs take_outputs() {
-    const PassedOutputs passed = passed_;
+  PassedInPeriod take_outputs() {
+    const PassedInPeriod passed = passed_;
     passed_ = {};
     return passed;
   }
@@ -92,6 +95,7 @@ class ChunkPlan {
 
     double first_s() const { return zero_s + chunk->first_s(); }
     double end_s() const { return zero_s + chunk->end_s(); }
+    double outputs_begin_s() const { return std::max(start_s, first_s()); }
     Point knot(int i) const {
       return Space::placed(chunk->knots[static_cast<std::size_t>(i)].point, placement);
     }
@@ -104,6 +108,8 @@ class ChunkPlan {
   Piece& now() { return pieces_[0]; }
   const Piece& now() const { return pieces_[0]; }
   void drop_first();
+  void pass_last_targets(double now_s);
+  void pass_targets(std::size_t i, double now_s);
   void lead_in(double s, const Point& reference, const Limits& limits);
   void follow(double s);
   static int knot_after(const ChunkCurve<Space>& chunk, double s);
@@ -127,7 +133,7 @@ class ChunkPlan {
   double jump_s_ = 0.0, fade_s_ = 0.0;
   double seam_ = 0.0;
   PassedTarget passed_target_;
-  PassedOutputs passed_;
+  PassedInPeriod passed_;
 };
 
 template <class Space>

@@ -86,7 +86,7 @@ class Motion {
   /// The chunks it goes along with; none outside the phases tracking and expiring.
   const ChunkPlan<Space>& plan() const { return plan_; }
   /// Hands over the digital outputs of the targets that were passed last. [cyclic]
-  PassedOutputs take_outputs();
+  PassedInPeriod take_outputs();
   /// What limits keep the reference off its base.
   const typename Space::Difference& offset() const { return offset_; }
   /// True if no successor of the last chunk or velocity has come in time.

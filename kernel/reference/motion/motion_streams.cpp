@@ -82,7 +82,7 @@ double Motion<Space>::margin_s() const {
 }
 
 template <class Space>
-PassedOutputs Motion<Space>::take_outputs() {
+PassedInPeriod Motion<Space>::take_outputs() {
   return plan_.take_outputs();
 }
 
@@ -91,7 +91,7 @@ PassedOutputs Motion<Space>::take_outputs() {
   template Verdict Motion<Space>::drive(const Velocity<Space>&);     \
   template void Motion<Space>::move_stream(double);                  \
   template bool Motion<Space>::expires() const;                      \
-  template PassedOutputs Motion<Space>::take_outputs();              \
+  template PassedInPeriod Motion<Space>::take_outputs();             \
   template double Motion<Space>::margin_s() const
 TACTUS_MOTION_STREAMS(JointSpace);
 TACTUS_MOTION_STREAMS(TaskSpace);

@@ -44,6 +44,8 @@ class OutputDelay {
     }
   }
   const DigitalOutputs& put_out() const { return put_out_; }
+  /// True if changes wait.
+  bool waits() const { return count_ > 0; }
 
  private:
   static constexpr double kTimeRounding_s = 1e-9;

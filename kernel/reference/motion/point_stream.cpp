@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kSlowest_s = 0.25;  // points farther apart are no stream,
 constexpr double kNearest_s = 1e-4;  // nor are those with stamps closer together
-constexpr double kApart_s = 0.03;    // least distance of stamps that are kept, against noise
+// Least distance of points that are kept, against noise; those without stamps are also sent by
+// programs that compute them in every cycle.
+constexpr double kApartStamped_s = 0.03, kApart_s = 0.01;
 constexpr double kLeastGain = 0.05;  // of the smoothed times
 constexpr double kEarlyGain = 0.2;   // for an early point, which was delayed less than the others
 // A jump fades in three periods, but slowly enough for the noise of fast streams.
@@ -33,7 +35,7 @@ Difference moved(const Difference& from, double t) {
 template <class Space>
 double PointStream<Space>::patience_s() const {
   if (count_ < 2) return kSlowest_s;
-  return std::clamp(kSilentPeriods * period_s_, stamps_.given() ? kNetwork_s : kSender_s,
+  return std::clamp(kSilentPeriods * period_s_, stamped_ ? kNetwork_s : kSender_s,
                     period_s_ + kMostPatience_s);
 }
 
@@ -50,9 +52,9 @@ bool PointStream<Space>::silent(double now_s) const {
 template <class Space>
 bool PointStream<Space>::continues(double now_s, double stamp_s) const {
   if (count_ == 0 || now_s - arrival_s_ > kSlowest_s || (count_ > 1 && silent(now_s))) return false;
-  if (stamps_.given() != (stamp_s != kNoStamp)) return false;
-  const double distance_s = stamps_.since_newest_s(stamp_s);
-  return !stamps_.given() || (distance_s >= kNearest_s && distance_s <= kSlowest_s);
+  if (stamped_ != (stamp_s != kNoStamp)) return false;
+  const double distance_s = stamp_s - stamp_s_;
+  return !stamped_ || (distance_s >= kNearest_s && distance_s <= kSlowest_s);
 }
 
 template <class Space>
@@ -60,23 +62,32 @@ void PointStream<Space>::keep_time(double now_s, double stamp_s) {
   if (!continues(now_s, stamp_s)) {
     count_ = 0;
     given_ = false;
-    stamps_.begin(stamp_s != kNoStamp);
+    stamped_ = stamp_s != kNoStamp;
     time_s_ = now_s;
     period_s_ = 0.0;
   } else {
     const double gain = std::max(1.0 / count_, kLeastGain);
     period_s_ += gain * (now_s - arrival_s_ - period_s_);
-    time_s_ += stamps_.given() ? stamps_.since_newest_s(stamp_s) : period_s_;
+    time_s_ += stamped_ ? stamp_s - stamp_s_ : period_s_;
     const double late_s = now_s - time_s_;
     time_s_ += std::max(1.0 / (count_ + 1), late_s < 0.0 ? kEarlyGain : kLeastGain) * late_s;
   }
   arrival_s_ = now_s;
 }
 
-/// Returns by how much a point is older than the newest.
+/// Makes room for a point, this far from the newest, which it replaces if that is near the one
+/// before.
 template <class Space>
-double PointStream<Space>::age_s(std::size_t point) const {
-  return stamps_.given() ? stamps_.age_s(point) : period_s_ * static_cast<double>(point);
+void PointStream<Space>::keep(double distance) {
+  const auto more = static_cast<float>(distance);
+  const double least_s = stamped_ ? kApartStamped_s : kApart_s;
+  if (count_ >= static_cast<int>(kFitted) && apart_s(0) + distance * unit_s() < least_s) {
+    apart_[0] += more;
+    return;
+  }
+  for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
+  for (std::size_t i = kFitted - 2; i > 0; --i) apart_[i] = apart_[i - 1];
+  apart_[0] = more;
 }
 
 template <class Space>
@@ -86,11 +97,12 @@ typename Space::Difference PointStream<Space>::fit() const {
   const Difference before = Space::difference(points_[1], origin);
   if (given_) {
     Difference now = {newest.x, newest.dx, 0.0 * newest.dx};
-    if (count_ > 1) now.ddx = (newest.dx - before.dx) / age_s(1);
+    if (count_ > 1) now.ddx = (newest.dx - before.dx) / (apart_s(0));
     return now;
   }
   std::array<double, kFitted> times;
-  for (std::size_t i = 0; i < kFitted; ++i) times[i] = -age_s(i);
+  times[0] = 0.0;
+  for (std::size_t i = 1; i < kFitted; ++i) times[i] = times[i - 1] - apart_s(i - 1);
   const ParabolaFit weights = fit_parabola(times);
   Difference now = {0.0 * newest.x, 0.0 * newest.x, 0.0 * newest.x};
   for (std::size_t i = 1; i < kFitted; ++i) {  // the newest is the origin
@@ -107,16 +119,13 @@ void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) 
   const bool moved_before = moves(now_s);
   const Point old = moved_before ? target(now_s) : point;
   if (count_ == 0 || now_s > arrival_s_) {  // else the point replaces the newest
+    const double distance = stamp_s != kNoStamp ? stamp_s - stamp_s_ : 1.0;
     keep_time(now_s, stamp_s);
-    if (count_ < static_cast<int>(kFitted) || !stamps_.given() ||
-        stamps_.since_newest_s(stamp_s) + stamps_.age_s(1) >= kApart_s) {
-      for (std::size_t i = kFitted - 1; i > 0; --i) points_[i] = points_[i - 1];
-      stamps_.shift();
-    }
+    keep(count_ > 0 ? distance : 1.0);
     count_ = std::min(count_ + 1, kMost);
   }
   points_[0] = point;
-  stamps_.set_newest(stamp_s);
+  stamp_s_ = stamp_s;
   given_ = given_ || !point.standing();
   jump_ = {};
   if (!streams()) return;

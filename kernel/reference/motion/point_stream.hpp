@@ -6,8 +6,8 @@
 // smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
 // neither delay nor loss of points with stamps bends the motion.
 // The target is the parabola that fits the newest point and three before it best
-// (parabola_fit.hpp), in the chart of the newest; of a fast stream with stamps, points that are far
-// enough apart for the noise in them; for a stream that gives velocities, the one through the
+// (parabola_fit.hpp), in the chart of the newest; of a fast stream, points that are far enough
+// apart for the noise in them; for a stream that gives velocities, the one through the
 // newest point with the change of velocity since the point before. The jump from the old prediction
 // to the new one fades over 3 D, at least 0.12 s, by a quintic, so that the target is continuous up
 // to its acceleration.
@@ -18,7 +18,8 @@
 
 #include <array>
 
-#include "kernel/reference/motion/point_stamps.hpp"
+#include "kernel/core/streams.hpp"
+#include "kernel/reference/motion/parabola_fit.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
 
 namespace tactus {
@@ -52,15 +53,20 @@ class PointStream {
   double patience_s() const;
   bool continues(double now_s, double stamp_s) const;
   void keep_time(double now_s, double stamp_s);
-  double age_s(std::size_t point) const;
+  void keep(double distance);
+  double unit_s() const { return stamped_ ? 1.0 : period_s_; }
+  double apart_s(std::size_t i) const { return unit_s() * static_cast<double>(apart_[i]); }
   Difference fit() const;
   Point predicted(double now_s) const;
 
   std::array<Point, kFitted> points_;  // newest first
   int count_ = 0;                      // points, at most kMost
   bool given_ = false;                 // velocities are given
-  PointStamps<> stamps_;
-  double arrival_s_ = 0.0;  // arrival of the newest
+  bool stamped_ = false;               // stamps are given
+  /// From a point to the one before: s with stamps, else points, each of which stands for D.
+  std::array<float, kFitted - 1> apart_ = {};
+  double stamp_s_ = kNoStamp;  // of the newest
+  double arrival_s_ = 0.0;     // arrival of the newest
   double time_s_ = 0.0, period_s_ = 0.0;
   Difference fit_;   // at time_s_, in the chart of the newest point
   Difference jump_;  // at jump_s_, from the prediction to the target

@@ -71,6 +71,38 @@ void the_newest_chunk_has_the_outputs(void**) {
   }
 }
 
+/// Two chunks, of which the second, sent while the first runs, begins `gap_s` after its end and
+/// gives another output. Returns by how many cycles the edge at the end of the first is late.
+template <class Space>
+int edge_before_a_gap(double period_s, double gap_s, bool replaces) {
+  constexpr double kEnd_s = 0.451;
+  ChunkBench<Space> bench(period_s);
+  const auto write = [&](double first_s, std::uint32_t mask, int on) {
+    write_targets(bench, first_s, 0.05, 10, 0.0);
+    bench.chunk.outputs_mask = mask;
+    for (int i = 0; i < 10; ++i) bench.chunk.outputs[static_cast<std::size_t>(i)] = i == on;
+    assert_true(bench.send_again() != 0);
+  };
+  write(kEnd_s - 0.45, 1, 9);
+  bench.run(0.3);
+  if (replaces) write(kEnd_s + gap_s + 0.02, 2, -1);
+  if (replaces) bench.run(0.05);
+  write(kEnd_s + gap_s, 2, -1);
+  while (bench.now_s() < kEnd_s + gap_s + 0.3) {
+    bench.cycle();
+    if ((bench.generator.outputs().value & 1) != 0) break;
+  }
+  return static_cast<int>(std::floor((bench.now_s() - kEnd_s) / period_s));
+}
+void the_last_target_before_a_gap_is_passed(void**) {
+  for (const double period_s : kPeriods_s)
+    for (const double gap_s : {0.0003, 0.005, 0.05, 0.055, 0.2})
+      for (const bool replaces : {false, true}) {
+        assert_in_range(edge_before_a_gap<JointSpace>(period_s, gap_s, replaces), 0, 1);
+        assert_in_range(edge_before_a_gap<TaskSpace>(period_s, gap_s, replaces), 0, 1);
+      }
+}
+
 // Proves OUT-3.
 
 /// A line on which the position tells the path time. Without a successor edges keep time with the
@@ -141,6 +173,7 @@ void a_starved_motion_delays_its_edges(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_newest_chunk_has_the_outputs),
+      cmocka_unit_test(the_last_target_before_a_gap_is_passed),
       cmocka_unit_test(edges_keep_time_with_a_motion_that_starves),
       cmocka_unit_test(a_starved_motion_delays_its_edges),
   };

@@ -75,6 +75,28 @@ void a_stop_voids_delayed_edges(void**) {
   assert_int_equal(bench.generator.outputs().value, 0);
 }
 
+/// They are all that is left to cancel when the motion has ended.
+void a_cancel_of_delayed_edges_alone_is_executed(void**) {
+  ChunkBench<JointSpace> bench;
+  bench.chunk.outputs_mask = 1;
+  bench.chunk.outputs_lead_s = -0.5;
+  bench.chunk.ends = true;
+  bench.chunk.count = 0;
+  ++bench.chunk.sequence;
+  for (int i = 0; i <= 6; ++i) bench.chunk.add(i / 30.0, bench.home, i == 6 ? 1 : 0);
+  assert_true(bench.send_again() != 0);
+  bench.run(0.5);
+  assert_true(bench.generator.phase() == Phase::kHolding);
+  std::uint32_t id = 0;
+  assert_true(bench.client.cancel(id).ok());
+  bench.run(1.0);
+  assert_true(bench.last.id == id && bench.last.outcome == Outcome::kExecuted);
+  assert_int_equal(bench.generator.outputs().value, 0);
+  assert_true(bench.client.cancel(id).ok());
+  bench.cycle();
+  assert_true(bench.last.id == id && bench.last.outcome == Outcome::kRefused);
+}
+
 /// A start commands none: an output that people have changed does not change back.
 void a_start_leaves_outputs_alone(void**) {
   ChunkBench<JointSpace> bench;
@@ -153,6 +175,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(whatever_ends_a_chunk_leaves_outputs_as_they_are),
       cmocka_unit_test(a_stop_voids_delayed_edges),
+      cmocka_unit_test(a_cancel_of_delayed_edges_alone_is_executed),
       cmocka_unit_test(a_start_leaves_outputs_alone),
       cmocka_unit_test(a_point_sets_outputs_at_once),
       cmocka_unit_test(what_is_refused_sets_no_outputs),
