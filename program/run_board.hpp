@@ -29,7 +29,8 @@ struct Board {
   /// Hands the settings of a loaded file to the Hal.
   Status (*configure)(const Sections& sections, const Pipeline& pipeline, const Options& options);
   int (*scan)(const Options& options) = nullptr;  ///< the verb `scan`, on a board with a bus
-  Follower* follower = nullptr;  ///< a second machine that runs the same, if there is one
+  Follower* follower = nullptr;      ///< a second machine that runs the same, if there is one
+  WireCounts (*counts)() = nullptr;  ///< after a run; null: its wire counts nothing
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -73,9 +74,10 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   const std::size_t static_bytes = sizeof memory + sizeof sections + board.hal_bytes +
                                    sizeof recorder + sizeof executive + sizeof client +
                                    sizeof task_client + sizeof(TrajectoryInput);
-  Session session{board.name,       !board.real,       static_bytes,    text,          board.hal,
-                  pipeline,         executive,         recorder,        client,        task_client,
-                  sections.gateway, sections.realtime, sections.expect, board.follower};
+  Session session{board.name,      !board.real,    static_bytes,     text,
+                  board.hal,       pipeline,       executive,        recorder,
+                  client,          task_client,    sections.gateway, sections.realtime,
+                  sections.expect, board.follower, board.counts};
   if (board.follower != nullptr) board.follower->prepare(session);
   switch (options.verb) {
     case Verb::kCheck: return check(session, options);

@@ -17,11 +17,21 @@ Status configure(const EthercatSections& sections, const Pipeline& pipeline, con
   return hal.configure(sections.ethercat, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 
+WireCounts counts() {
+  const ethercat::LineCounts& line = hal.master().counts();
+  return {{{"frames", line.frames},
+           {"lost", line.lost},
+           {"late", line.late},
+           {"wrong_counter", line.counter},
+           {"strange", line.strange}}};
+}
+
 }  // namespace
 }  // namespace tactus
 
 int main(int argc, char** argv) {
   using namespace tactus;
   return run_board<EthercatSections>(
-      argc, argv, {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment});
+      argc, argv,
+      {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment, nullptr, counts});
 }

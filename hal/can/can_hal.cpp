@@ -17,15 +17,6 @@ Status CanHal::configure(const CanSettings& can, const cia402::Cia402Settings& d
   return master_.configure(can, drive, tool, mode, period_us);
 }
 
-Capabilities CanHal::capabilities() const {
-  Capabilities offered;
-  offered.position = offered.velocity = offered.effort = true;
-  offered.velocity_feed_forward = offered.effort_feed_forward = true;
-  offered.min_period_us = 500;
-  offered.max_period_us = 20000;
-  return offered;
-}
-
 Status CanHal::connect(CommandMode mode) {
   static_cast<void>(disconnect());
   if (can_ == nullptr || mode != mode_) return fault_ = Status::kNotStarted;

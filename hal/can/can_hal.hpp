@@ -9,6 +9,7 @@
 
 #include "hal/can/can_master.hpp"
 #include "hal/can/can_socket.hpp"
+#include "hal/cia402/drive_hal.hpp"
 
 namespace tactus::can {
 
@@ -19,8 +20,7 @@ class CanHal final : public Hal {
   Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
                    CommandMode mode, int period_us);
 
-  /// Positions, velocities with a torque and torques; 0.5 to 20 ms.
-  Capabilities capabilities() const override;
+  Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the buses and starts the drives up, in all no longer than `connect_ms`. kNotOffered,
   /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() says more. [init]
   Status connect(CommandMode mode) override;
@@ -49,7 +49,6 @@ class CanHal final : public Hal {
   void exchange(std::int64_t& slept_ns);
   bool awaits(int joint) const;
   Status stop_drives(Message& left);
-  Status judge_stop(int waited_ms, Message& left) const;
 
   const CanSettings* can_ = nullptr;
   CommandMode mode_ = CommandMode::kEffort;

@@ -173,7 +173,7 @@ void CanMaster::check_modes() {
   if (sdo_.progress() == Progress::kAborted)
     drives_.fail(checked_, Status::kBusTimeout, 0, kWhat,
                  "cannot be read: ", meaning(sdo_.abort()));
-  else if (mode != mode_of(mode_))
+  else if (mode != cia402::mode_of(mode_))
     drives_.fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
                  name(mode));
   ++checked_;

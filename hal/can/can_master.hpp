@@ -52,6 +52,7 @@ class CanMaster {
   bool confirmed(int joint) const { return drives_.confirmed(joint); }
   bool lost(int joint) const { return node(joint).feedback.lost != Status::kOk; }
   const Node& node(int joint) const { return nodes_[static_cast<std::size_t>(joint)]; }
+  Message label(int joint) const { return can::label(joint, node(joint)); }
   /// From now on every write() ends the watch of a drive over us, or takes one out of operation,
   /// until bids_farewell() is false. [any]
   void bid_farewell() { farewells_ = 2 * kDof; }

@@ -24,7 +24,7 @@ void NodeSetup::begin(const CanSettings& can, const cia402::Cia402Settings& driv
   scaling(drive, joint);
   watchdogs(can, period_us);
   pdos(can, layout, slot, period_us);
-  const auto code = static_cast<std::uint8_t>(mode_of(mode));
+  const auto code = static_cast<std::uint8_t>(cia402::mode_of(mode));
   write(Kind::kWrite, cia402::kModeOfOperation, code, "mode of operation");
   write(Kind::kAwait, cia402::kModeDisplay, code, "display of the mode of operation");
 }
@@ -37,7 +37,7 @@ void NodeSetup::identity(const CanSettings& can, CommandMode mode) {
   if (can.product != 0)
     expect(kIdentity, 2, 4, static_cast<std::uint32_t>(can.product), "product",
            "check [can] product");
-  const std::uint32_t bit = 1U << (static_cast<int>(mode_of(mode)) - 1);
+  const std::uint32_t bit = 1U << (static_cast<int>(cia402::mode_of(mode)) - 1);
   expect(cia402::kSupportedModes.index, 0, 4, bit, "supported modes",
          "the drive does not have the mode that [robot] commands", bit);
 }

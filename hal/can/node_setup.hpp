@@ -59,14 +59,4 @@ class NodeSetup {
   int count_ = 0;
 };
 
-/// Returns the drive's mode for commands of a pipeline. [any]
-constexpr cia402::Mode mode_of(CommandMode mode) {
-  switch (mode) {
-    case CommandMode::kPosition: return cia402::Mode::kCyclicPosition;
-    case CommandMode::kVelocity: return cia402::Mode::kCyclicVelocity;
-    case CommandMode::kEffort: break;
-  }
-  return cia402::Mode::kCyclicTorque;
-}
-
 }  // namespace tactus::can

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
-#include "kernel/core/status.hpp"
-#include "kernel/core/types.hpp"
+#include "hal/cia402/protocol.hpp"
+#include "kernel/core/hal.hpp"
 
 namespace tactus::cia402 {
 
@@ -37,6 +37,16 @@ struct DriveCommand {
   std::int32_t target_position = 0;                       ///< increments
   std::int32_t target_velocity = 0, velocity_offset = 0;  ///< increments/s
 };
+
+/// Returns the drive's mode for commands of a pipeline. [any]
+constexpr Mode mode_of(CommandMode mode) {
+  switch (mode) {
+    case CommandMode::kPosition: return Mode::kCyclicPosition;
+    case CommandMode::kVelocity: return Mode::kCyclicVelocity;
+    case CommandMode::kEffort: break;
+  }
+  return Mode::kCyclicTorque;
+}
 
 using Feedbacks = std::array<DriveFeedback, kDof>;
 using DriveCommands = std::array<DriveCommand, kDof>;

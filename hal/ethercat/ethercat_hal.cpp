@@ -17,15 +17,6 @@ Status EthercatHal::configure(const EthercatSettings& ethercat, const cia402::Ci
   return master_.configure(ethercat, drive, tool, mode, period_us);
 }
 
-Capabilities EthercatHal::capabilities() const {
-  Capabilities offered;
-  offered.position = offered.velocity = offered.effort = true;
-  offered.velocity_feed_forward = offered.effort_feed_forward = true;
-  offered.min_period_us = 500;
-  offered.max_period_us = 20000;
-  return offered;
-}
-
 Status EthercatHal::connect(CommandMode mode) {
   static_cast<void>(disconnect());
   if (ethercat_ == nullptr || mode != mode_) return fault_ = Status::kNotStarted;

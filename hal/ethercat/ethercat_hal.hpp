@@ -10,6 +10,7 @@
 // reference clock of the segment.
 #pragma once
 
+#include "hal/cia402/drive_hal.hpp"
 #include "hal/ethercat/ethercat_master.hpp"
 #include "hal/ethercat/packet_socket.hpp"
 
@@ -22,8 +23,7 @@ class EthercatHal final : public Hal, private Clock {
   Status configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
                    const Tool& tool, CommandMode mode, int period_us);
 
-  /// Positions, velocities with a torque and torques; 0.5 to 20 ms.
-  Capabilities capabilities() const override;
+  Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the interface and starts the slaves up, in all no longer than `connect_ms`. kNotOffered,
   /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() says more. [init]
   Status connect(CommandMode mode) override;

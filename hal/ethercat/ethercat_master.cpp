@@ -106,7 +106,7 @@ Status EthercatMaster::not_operating() {
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.al_status == kOperational) continue;
-    why_ = label(j, slave);
+    why_ = label(j);
     why_ << ": is in " << name(static_cast<AlState>(slave.al_status & kAlStateBits))
          << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
          << " ms: " << al_code_text(slave.al_code) << " ("

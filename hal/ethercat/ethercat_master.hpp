@@ -46,6 +46,7 @@ class EthercatMaster {
   bool confirmed(int joint) const { return drives_.confirmed(joint); }
   bool lost(int joint) const { return slave(joint).feedback.lost != Status::kOk; }
   const Slave& slave(int joint) const { return slaves_[static_cast<std::size_t>(joint)]; }
+  Message label(int joint) const { return ethercat::label(joint, slave(joint)); }
   const LineCounts& counts() const { return cyclic_.counts(); }
   const ClockSteer& steer() const { return steer_; }
   cia402::Phase phase() const { return drives_.phase(); }

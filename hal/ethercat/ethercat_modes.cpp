@@ -27,7 +27,7 @@ void EthercatMaster::check_modes() {
   if (coe_.progress() != CoeClient::Progress::kDone)
     drives_.fail(checked_, Status::kBusTimeout, 0, kWhat,
                  "cannot be read: ", can::meaning(coe_.abort()));
-  else if (mode != mode_of(mode_))
+  else if (mode != cia402::mode_of(mode_))
     drives_.fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
                  cia402::name(mode));
   ++checked_;

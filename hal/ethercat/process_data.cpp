@@ -44,7 +44,7 @@ Wanted wanted_inputs() {
 }
 
 const char* ProcessData::resolve(CommandMode mode) {
-  mode_ = static_cast<std::uint8_t>(mode_of(mode));
+  mode_ = static_cast<std::uint8_t>(cia402::mode_of(mode));
   for (std::size_t i = 0; i < kOutputs; ++i) out_[i] = outputs.find(kOutputObjects[i]);
   status_ = inputs.find(cia402::kStatusword);
   position_ = inputs.find(cia402::kPositionActual);

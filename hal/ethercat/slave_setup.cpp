@@ -31,7 +31,7 @@ void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
   if (ethercat.product != 0)
     expect(can::kIdentity, 2, static_cast<std::uint32_t>(ethercat.product), "product",
            "check [ethercat] product");
-  const std::uint32_t bit = 1U << (static_cast<int>(mode_of(mode)) - 1);
+  const std::uint32_t bit = 1U << (static_cast<int>(cia402::mode_of(mode)) - 1);
   expect(cia402::kSupportedModes.index, 0, bit, "supported modes",
          "the drive does not have the mode that [robot] commands", bit);
 }
@@ -58,7 +58,8 @@ void SlaveSetup::options(CommandMode mode, int period_us) {
   write(cia402::kPeriodValue, static_cast<std::uint32_t>(value), "interpolation time");
   write(cia402::kPeriodIndex, index, "interpolation time index");
   // Where it is mapped, the cycle writes it too; arming asks for its display.
-  write(cia402::kModeOfOperation, static_cast<std::uint8_t>(mode_of(mode)), "mode of operation");
+  write(cia402::kModeOfOperation, static_cast<std::uint8_t>(cia402::mode_of(mode)),
+        "mode of operation");
 }
 
 void SlaveSetup::pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted) {

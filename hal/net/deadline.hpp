@@ -22,14 +22,15 @@ class Deadline {
   /// The whole time, ms, for messages.
   int whole_ms() const { return whole_ms_; }
 
- private:
-  static constexpr std::int64_t kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
-
+  /// Time of the monotonic clock. [any]
   static std::int64_t now_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     return now.tv_sec * kSecond_ns + now.tv_nsec;
   }
+
+ private:
+  static constexpr std::int64_t kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
 
   int whole_ms_;
   std::int64_t end_ns_;

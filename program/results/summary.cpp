@@ -71,6 +71,28 @@ void write_signals(std::FILE* file, const Session& session) {
   std::fprintf(file, "\n  ],\n");
 }
 
+void write_wire(std::FILE* file, const Session& session) {
+  if (session.counts == nullptr) return;
+  const char* separator = "  \"wire\": {";
+  for (const WireCount& count : session.counts()) {
+    if (count.name == nullptr) break;
+    std::fprintf(file, "%s\"%s\": %" PRId64, separator, count.name, count.value);
+    separator = ", ";
+  }
+  std::fprintf(file, "},\n");
+}
+
+void print_wire(const Session& session) {
+  if (session.counts == nullptr) return;
+  const char* separator = "  wire: ";
+  for (const WireCount& count : session.counts()) {
+    if (count.name == nullptr) break;
+    std::printf("%s%" PRId64 " %s", separator, count.value, count.name);
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
 double realtime_factor(const RunResult& result) {
   return result.wall_s > 0.0 ? result.simulated_s / result.wall_s : 0.0;
 }
@@ -106,6 +128,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   std::fprintf(file, "  \"slips\": %" PRIu32 ",\n  \"overruns\": %" PRIu32 ",\n",
                std::uint32_t{telemetry.slips}, std::uint32_t{telemetry.overruns});
   if (result.realtime.asked) write_realtime(file, result.realtime);
+  write_wire(file, session);
   std::fprintf(file, "  \"guard\": {\"limited\": %u, \"tripped\": %d},\n", guard.limited_cycles,
                guard.tripped_joint >= 0 ? 1 : 0);
   std::fprintf(file, "  \"recorder_dropped\": %u,\n", session.recorder.dropped());
@@ -143,6 +166,7 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
               " heap allocations in cycles, %.3g s in %.3g s (%.0f x real time)\n",
               executive.guard().telemetry().limited_cycles, result.heap_allocations,
               result.simulated_s, result.wall_s, realtime_factor(result));
+  print_wire(session);
 }
 
 }  // namespace tactus

@@ -11,6 +11,7 @@
 #include "program/session/expect_section.hpp"
 #include "program/session/follower.hpp"
 #include "program/session/options.hpp"
+#include "program/session/wire_counts.hpp"
 
 namespace tactus {
 
@@ -28,7 +29,8 @@ struct Session {
   const GatewaySection& gateway;
   const RealtimeSettings& realtime;
   const ExpectSection& expect;
-  Follower* follower = nullptr;  ///< null: there is none
+  Follower* follower = nullptr;      ///< null: there is none
+  WireCounts (*counts)() = nullptr;  ///< null: its wire counts nothing
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

@@ -12,15 +12,13 @@
 
 #include "hal/can/can_hal.hpp"
 #include "hal/net/deadline.hpp"
-#include "kernel/cycle/executive.hpp"
-#include "kernel/load/loader.hpp"
 #include "sim_plant/drives/drive_arm.hpp"
 #include "sim_plant/drives/server/bus_socket.hpp"
-#include "tests/support/testing.hpp"
+#include "tests/cia402/loop_bench.hpp"
 
 namespace tactus::can {
 
-struct CanHalBench {
+struct CanHalBench : cia402::LoopRig {
   static constexpr std::int64_t kPeriod_ns = 1'000'000;
 
   CanSettings can;
@@ -29,9 +27,6 @@ struct CanHalBench {
   std::array<std::optional<drives::BusSocket>, kMaxBuses> ends;  ///< of the drives
   std::array<int, kMaxBuses> descriptors{-1, -1, -1, -1};        ///< of the Hal
   CanHal hal;
-  ChannelMemory<JointSpace> channel;
-  std::array<Waypoint<JointSpace>, 16> waypoints;
-  RoomyPipeline pipeline;
   Executive executive{hal, pipeline};
   std::int64_t now_ns = -kPeriod_ns, drives_ns = 0;
   std::vector<CanFrame> sent;  ///< by the Hal in the last cycle, of all buses
@@ -51,17 +46,7 @@ struct CanHalBench {
   }
 
   Status load() {
-    channel.stores[0].waypoints = waypoints.data();
-    channel.stores[0].capacity = static_cast<int>(waypoints.size());
-    Loader loader({&channel}, hal.capabilities());
-    LoadError error;
-    TRY(
-        loader.load("[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
-                    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
-                    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-                    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\n"
-                    "g = model.g\nkp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n",
-                    pipeline, error));
+    TRY(LoopRig::load(cia402::kHoldingPipeline, hal.capabilities()));
     TRY(hal.configure(can, drive, Tool{}, pipeline.robot.mode(), pipeline.robot.period_us));
     drives::DriveArmSettings plant;
     plant.plant.rotor_inertia.setConstant(0.1);

@@ -1,7 +1,8 @@
-// What the tests of faults share: the layouts of the buses, the commands of a cycle as the frames
-// have them, what must hold in every cycle, and one fault from its beginning to the rearm.
+// What the tests of faults share: the layouts of the buses, and the commands of a cycle as the
+// frames have them.
 #pragma once
 
+#include "tests/cia402/safety_watch.hpp"
 #include "tests/drives/master_bench.hpp"
 
 namespace tactus::can {
@@ -105,51 +106,7 @@ inline CanFrame foreign(int id, std::initializer_list<int> bytes) {
   return frame;
 }
 
-/// What must hold after every cycle.
-class SafetyWatch {
- public:
-  explicit SafetyWatch(MasterBench& bench) : bench_(bench) {}
-
-  /// Runs a cycle and judges it: frames that enable or push only while the drives are armed or
-  /// follow, finite values, and no joint faster than its limit.
-  Status cycle() {
-    const Rung before = bench_.executive.rung();
-    const Status status = bench_.cycle();
-    const Rung after = bench_.executive.rung();
-    // A brake that ends, and an arming that takes too long, are found after the frames were sent.
-    Event last;
-    const EventLog& events = bench_.executive.events();
-    const bool late = before != Rung::kDisabled && after == Rung::kDisabled &&
-                      events.read(events.count() - 1, last) &&
-                      (last.cause == Cause::kAtRest || last.cause == Cause::kStopTime ||
-                       last.cause == Cause::kArmTime);
-    if (after == Rung::kDisabled && !late) {
-      assert_false(enables(bench_));
-      assert_false(pushes(bench_));
-    }
-    const JointVector q = bench_.hal.arm.arm().q(), dq = bench_.hal.arm.arm().dq();
-    assert_true(q.allFinite() && dq.allFinite());
-    for (int j = 0; j < kDof; ++j) {
-      const double share = std::abs(dq[j]) / limits_.dq_max[j];
-      if (share > fastest_) fastest_ = share;
-      assert_true(share <= 1.0);
-    }
-    off_ = powered(bench_) ? off_ : 0;
-    if (after == Rung::kDisabled && powered(bench_)) ++off_;
-    if (off_ > longest_off_) longest_off_ = off_;
-    return status;
-  }
-  /// Cycles on "disabled" until no drive had power, at most until now.
-  int longest_off() const { return longest_off_; }
-  /// The fastest joint until now, as a share of its limit.
-  double fastest() const { return fastest_; }
-
- private:
-  MasterBench& bench_;
-  JointLimits limits_;
-  int off_ = 0, longest_off_ = 0;
-  double fastest_ = 0.0;
-};
+using SafetyWatch = cia402::SafetyWatch<MasterBench>;
 
 /// A bench of its own for a run; the last one is deleted, so that a failed test leaves nothing.
 inline MasterBench& fresh_bench(Buses buses = Buses::kFdPacked) {

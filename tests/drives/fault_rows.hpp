@@ -2,22 +2,12 @@
 // what the master is expected to make of it.
 #pragma once
 
+#include "tests/cia402/fault_table.hpp"
 #include "tests/drives/fault_bench.hpp"
 
 namespace tactus::can {
 
-enum class When : std::uint8_t { kSwitchingOn, kReleasing, kFollowing };
-inline constexpr const char* kWhenNames[] = {"switching on", "brakes opening", "following"};
-
-struct FaultRow {
-  const char* fault;
-  void (*begin)(MasterBench& bench, int joint);
-  Status status;            ///< that the executive latches
-  std::array<int, 3> most;  ///< by When: cycles until the stop is sent; 0: nothing happens
-  int off;                  ///< most cycles from there until no drive has power
-  Status arms;              ///< of the next arm(); if it refuses, only start() leads back
-};
-
+using cia402::kFault, cia402::kNever, cia402::kTimeout;
 using drives::FaultKind;
 
 inline int tpdo(int j) {
@@ -33,16 +23,14 @@ void wire_fault(MasterBench& bench, int joint) {
   disturb(bench, wire, to_drive, to_drive ? command_id(bench, joint) : tpdo(joint), count);
 }
 
-inline constexpr std::array<int, 3> kNever = {0, 0, 0};
 inline constexpr int kForGood = 1000;  // cycles
 constexpr Wire kLoses = Wire::kLoses, kDoubles = Wire::kDoubles, kDelays = Wire::kDelays,
                kCuts = Wire::kCuts;
-constexpr Status kTimeout = Status::kBusTimeout, kFault = Status::kDriveFault;
 
 // The cycles: 4 without feedback are one more than max_missed; a command times out after 10 ms, a
 // heartbeat after three times 50 ms; a brake is watched for 500 ms.
 // clang-format off
-inline constexpr FaultRow kFaultRows[] = {
+inline constexpr cia402::FaultRow<MasterBench> kFaultRows[] = {
     {"feedback lost in 1 cycle", wire_fault<kLoses, false, 1>, Status::kOk, kNever, 0, Status::kOk},
     {"feedback lost in 3 cycles", wire_fault<kLoses, false, 3>, Status::kOk, kNever, 0, Status::kOk},
     {"feedback lost", wire_fault<kLoses, false, kForGood>, kTimeout, {4, 4, 4}, 3, Status::kOk},

@@ -33,7 +33,7 @@ void drives_that_carry_the_weight_are_taken_over_without_a_step(void**) {
   MasterBench& bench = fresh();
   bench.plant.gravity_by_drive = true;
   bench.drive.gravity = cia402::Gravity::kDrive;
-  std::string text = kHoldingPipeline;
+  std::string text = cia402::kHoldingPipeline;
   text.erase(text.find("g = model.g\n"), 12);
   ASSERT_OK(bench.load(text.c_str()));
   const JointVector before = bench.hal.arm.arm().q();

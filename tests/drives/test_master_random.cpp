@@ -1,19 +1,12 @@
-// Random faults at random times in every phase, several per run, with random requests of the
-// executive; what must hold in every cycle is judged by SafetyWatch and here.
-#include <cstdlib>
-
+// Random faults of drives, wire and other nodes, on random layouts of the buses.
+#include "tests/cia402/random_faults.hpp"
 #include "tests/drives/fault_bench.hpp"
-#include "tests/support/random.hpp"
 
 namespace tactus::can {
 namespace {
 
 using drives::FaultKind;
 
-constexpr int kCycles = 1000;
-// A quick stop of a drive ends after [cia402] stop_ms by cutting the voltage; before it, a command
-// may be lost until the drive's time-out. A few cycles to see and to send it.
-constexpr int kMostOff = 2000 + 10 + 5;
 constexpr FaultKind kKinds[] = {
     FaultKind::kDropTpdo,         FaultKind::kDuplicateTpdo, FaultKind::kDelayTpdo,
     FaultKind::kTruncateTpdo,     FaultKind::kStopHeartbeat, FaultKind::kEmergency,
@@ -22,135 +15,47 @@ constexpr FaultKind kKinds[] = {
     FaultKind::kSaturatedTorque,  FaultKind::kReboot};
 constexpr Wire kWires[] = {Wire::kLoses, Wire::kDoubles, Wire::kDelays, Wire::kCuts};
 
-std::uint64_t number(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+MasterBench& fresh(Random& random) {
+  return fresh_bench(static_cast<Buses>(random.below(4)));
 }
 
-struct Account {
-  int takeovers = 0, refused = 0, stops = 0, longest_off = 0;
-  double fastest = 0.0, farthest = 0.0;
-};
+void begin_foreign(MasterBench& bench, Random& random, int joint) {
+  const int ids[] = {0x080,         0x000,         0x201,         0x77F, 0x181 + joint,
+                     0x081 + joint, 0x701 + joint, 0x581 + joint, 0x123};
+  CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(ids[random.below(9)]);
+  frame.size = static_cast<std::uint8_t>(random.below(9));
+  for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(random.below(256));
+  bench.hal.strange.push_back(frame);
+  bench.hal.down = random.below(5) == 0;
+}
 
-class RandomRun {
- public:
-  RandomRun(std::uint64_t seed, Account& account)
-      : random_{seed},
-        bench_(fresh_bench(static_cast<Buses>(random_.below(4)))),
-        watch_(bench_),
-        account_(account) {}
-
-  void go() {
-    ASSERT_OK(bench_.load());
-    connect();
-    for (int i = 0; i < kCycles; ++i) {
-      if (random_.below(250) == 0) begin_fault();
-      if (random_.below(80) == 0) heal(bench_);
-      request();
-      const Rung before = bench_.executive.rung();
-      const Status status = watch_.cycle();
-      const Rung after = bench_.executive.rung();
-      if (before != Rung::kDisabled && after == Rung::kDisabled) ++account_.stops;
-      assert_in_range(watch_.longest_off(), 0, kMostOff);
-      if (status == Status::kArming && bench_.executive.arm() == Status::kOk) judge_takeover();
-    }
-    account_.longest_off = std::max(account_.longest_off, watch_.longest_off());
-    account_.fastest = std::max(account_.fastest, watch_.fastest());
-  }
-
- private:
-  void connect() {
-    if (bench_.executive.start() != Status::kOk) ++account_.refused;
-    bench_.now_ns = -bench_.hal.period_ns;
-  }
-
-  void begin_fault() {
-    const int joint = random_.below(kDof);
-    switch (random_.below(4)) {
-      case 0:
-        disturb(bench_, kWires[random_.below(4)], true,
-                command_id(bench_, joint, random_.below(2) == 0), 1 + random_.below(20));
-        break;
-      case 1:
-        disturb(bench_, kWires[random_.below(4)], false, 0x181 + joint, 1 + random_.below(10));
-        break;
-      case 2: begin_foreign(joint); break;
-      default: {
-        drives::Fault fault;
-        fault.kind = kKinds[random_.below(static_cast<int>(std::size(kKinds)))];
-        fault.probability = random_.below(2) == 0 ? 1.0 : 0.1;
-        fault.value = fault.kind == FaultKind::kNonsenseStatus
-                          ? static_cast<std::uint32_t>(random_.below(65536))
-                          : 0U;
-        static_cast<void>(bench_.hal.arm.node(joint).faults().add(fault));  // no room: no fault
-      }
+void begin_fault(MasterBench& bench, Random& random) {
+  const int joint = random.below(kDof);
+  switch (random.below(4)) {
+    case 0:
+      disturb(bench, kWires[random.below(4)], true, command_id(bench, joint, random.below(2) == 0),
+              1 + random.below(20));
+      break;
+    case 1:
+      disturb(bench, kWires[random.below(4)], false, 0x181 + joint, 1 + random.below(10));
+      break;
+    case 2: begin_foreign(bench, random, joint); break;
+    default: {
+      drives::Fault fault;
+      fault.kind = kKinds[random.below(static_cast<int>(std::size(kKinds)))];
+      fault.probability = random.below(2) == 0 ? 1.0 : 0.1;
+      fault.value = fault.kind == FaultKind::kNonsenseStatus
+                        ? static_cast<std::uint32_t>(random.below(65536))
+                        : 0U;
+      static_cast<void>(bench.hal.arm.node(joint).faults().add(fault));  // no room: no fault
     }
   }
-  void begin_foreign(int joint) {
-    const int ids[] = {0x080,         0x000,         0x201,         0x77F, 0x181 + joint,
-                       0x081 + joint, 0x701 + joint, 0x581 + joint, 0x123};
-    CanFrame frame;
-    frame.id = static_cast<std::uint16_t>(ids[random_.below(9)]);
-    frame.size = static_cast<std::uint8_t>(random_.below(9));
-    for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(random_.below(256));
-    bench_.hal.strange.push_back(frame);
-    bench_.hal.down = random_.below(5) == 0;
-  }
-
-  void request() {
-    if (bench_.executive.rung() == Rung::kDisabled && random_.below(10) == 0) {
-      const Status status = bench_.executive.arm();
-      assert_true(status != Status::kOk);
-      if (status != Status::kArming && status != Status::kNotAtRest && random_.below(3) == 0)
-        connect();
-    }
-    if (random_.below(200) == 0) bench_.executive.halt();
-    if (random_.below(1000) == 0) static_cast<void>(bench_.executive.stop());
-    if (random_.below(20) == 0) {
-      JointSpace::Point point;
-      point.q = bench_.hal.arm.arm().q() + JointVector::Constant(random_.uniform(-0.02, 0.02));
-      std::uint32_t id = 0;
-      static_cast<void>(bench_.client.send(point, id));
-    }
-    Report report;
-    while (bench_.client.poll(report)) {
-    }
-  }
-
-  /// The first reference is where the arm is: what was measured a cycle ago, to within what a joint
-  /// at rest moves in a few cycles.
-  void judge_takeover() {
-    ++account_.takeovers;
-    const JointVector error = bench_.pipeline.robot.q.value - bench_.hal.arm.arm().q();
-    account_.farthest = std::max(account_.farthest, error.cwiseAbs().maxCoeff());
-    assert_true(error.cwiseAbs().maxCoeff() < 1e-3);
-  }
-
-  Random random_;
-  MasterBench& bench_;
-  SafetyWatch watch_;
-  Account& account_;
-};
+}
 
 // Proves CAN-12.
 void no_fault_leads_to_a_command_that_is_not_allowed(void**) {
-  const auto runs = static_cast<int>(number("TACTUS_TRIALS", 100));
-  const std::uint64_t seed = number("TACTUS_SEED", 20270101);
-  Account account;
-  for (int i = 0; i < runs; ++i) {
-    static std::uint64_t now = 0;
-    now = seed + static_cast<std::uint64_t>(i);
-    RandomRun run(now, account);
-    if (std::getenv("TACTUS_VERBOSE") != nullptr)
-      print_message("seed %llu\n", static_cast<unsigned long long>(now));
-    run.go();
-  }
-  print_message(
-      "%d runs: %d takeovers, %d stops, %d connections refused, off after %d cycles at most, "
-      "fastest joint %.2f of its limit, takeover within %.1e rad\n",
-      runs, account.takeovers, account.stops, account.refused, account.longest_off, account.fastest,
-      account.farthest);
-  assert_true(account.takeovers > runs / 2);
+  cia402::survive_random_faults(fresh, begin_fault);
 }
 
 }  // namespace

@@ -4,12 +4,9 @@
 
 #include <string>
 
-#include "gateway/reference_client.hpp"
 #include "hal/ethercat/ethercat_master.hpp"
-#include "kernel/cycle/executive.hpp"
-#include "kernel/load/loader.hpp"
 #include "sim_plant/ethercat/segment.hpp"
-#include "tests/support/testing.hpp"
+#include "tests/cia402/loop_bench.hpp"
 
 namespace tactus::ethercat {
 
@@ -23,14 +20,7 @@ class WiredHal final : public Hal {
   int lose_every = 0;  ///< frames of the start-up do not come back: each so many
   Frame sent;          ///< the last one
 
-  Capabilities capabilities() const override {
-    Capabilities offered;
-    offered.position = offered.velocity = offered.effort = true;
-    offered.velocity_feed_forward = offered.effort_feed_forward = true;
-    offered.min_period_us = 500;
-    offered.max_period_us = 20000;
-    return offered;
-  }
+  Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   Status connect(CommandMode) override {
     constexpr std::int64_t kStep_ns = 50'000, kMost_ns = 60'000'000'000;
     static_cast<void>(disconnect());
@@ -87,74 +77,25 @@ class WiredHal final : public Hal {
   Status fault_ = Status::kNotStarted;
 };
 
-inline constexpr const char* kHoldingPipeline =
-    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
-    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\ntool = robot.tool\n"
-    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
-
-struct MasterBench {
+struct MasterBench : cia402::LoopBench<WiredHal> {
   EthercatSettings ethercat;
-  cia402::Cia402Settings drive;
   segment::SegmentSettings plant;
-  WiredHal hal;
-  ChannelMemory<JointSpace> channel;
-  std::array<Waypoint<JointSpace>, 16> waypoints;
-  ReferenceClient<JointSpace> client{channel};
-  RoomyPipeline pipeline;
-  Executive executive{hal, pipeline};
-  std::int64_t now_ns = -1'000'000;
 
   MasterBench() {
     ethercat.interface = Value("eth0");
     ethercat.clock_frames = 100;
-    drive.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
     plant.plant.rotor_inertia.setConstant(0.1);
   }
   /// Builds segment and arm, and loads the pipeline.
-  Status load(const char* text = kHoldingPipeline) {
-    channel.stores[0].waypoints = waypoints.data();
-    channel.stores[0].capacity = static_cast<int>(waypoints.size());
-    Loader loader({&channel}, hal.capabilities());
-    LoadError error;
-    const Status status = loader.load(text, pipeline, error);
-    if (status != Status::kOk) print_error("%s\n", error.message().c_str());
-    TRY(status);
+  Status load(const char* text = cia402::kHoldingPipeline) {
+    TRY(LoopRig::load(text, hal.capabilities()));
     TRY(hal.master.configure(ethercat, drive, Tool{}, pipeline.robot.mode(),
                              pipeline.robot.period_us));
-    hal.period_ns = std::int64_t{1000} * pipeline.robot.period_us;
+    hal.period_ns = period_ns();
     return hal.line.load(plant, 0);
   }
-  Status cycle() { return executive.cycle({now_ns += hal.period_ns}); }
-  Status cycles(int count) {
-    Status status = Status::kOk;
-    for (int i = 0; i < count && status == Status::kOk; ++i) status = cycle();
-    return status;
-  }
-  /// Asks for the drives and runs cycles until they are taken over or refused.
-  Status arm() {
-    Status status = executive.arm();
-    while (status == Status::kArming) {
-      status = cycle();
-      if (status == Status::kArming) status = executive.arm();
-    }
-    return status;
-  }
-  Status start() {
-    TRY(executive.start());
-    now_ns = -hal.period_ns;
-    return arm();
-  }
-  /// Cycles until the drives are disabled, or at most `most`; returns their number.
-  int settle(int most = 3000) {
-    int count = 0;
-    while (count < most && executive.busy()) {
-      (void)cycle();
-      ++count;
-    }
-    return count;
-  }
+  JointVector plant_q() { return hal.line.arm().arm().q(); }
+  JointVector plant_dq() { return hal.line.arm().arm().dq(); }
   void add(segment::LineFaultKind kind, int slave, std::int64_t from, std::int64_t cycles,
            int value = 0) {
     segment::LineFault fault;

@@ -1,22 +1,12 @@
 // Faults while the drives are armed and while they follow: every row of the table of
 // docs/fer-ethercat.md, for the first, a middle and the last joint, in every phase.
+#include "tests/cia402/fault_table.hpp"
 #include "tests/ethercat/fault_bench.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
-enum class When : std::uint8_t { kSwitchingOn, kReleasing, kFollowing };
-constexpr const char* kWhenNames[] = {"switching on", "brakes opening", "following"};
-
-struct FaultRow {
-  const char* fault;
-  void (*begin)(MasterBench& bench, int joint);
-  Status status;                 ///< that the executive latches
-  std::array<int, 3> most;       ///< by When: cycles until the stop is sent; 0: nothing happens
-  int off;                       ///< most cycles from there until no drive has power
-  Status arms;                   ///< of the next arm(); if it refuses, only start() leads back
-  Status instead = Status::kOk;  ///< of `status`, if it is seen first; kOk: nothing else
-};
+using cia402::kFault, cia402::kNever, cia402::kTimeout;
 
 template <LineFaultKind kind, int cycles, int value = 0>
 void line(MasterBench& bench, int joint) {
@@ -31,14 +21,12 @@ void drive(MasterBench& bench, int joint) {
   bench.add(kind, joint + 1, value);
 }
 
-constexpr std::array<int, 3> kNever = {0, 0, 0};
-constexpr Status kTimeout = Status::kBusTimeout, kFault = Status::kDriveFault,
-                 kLost = Status::kConnectionLost;
+constexpr Status kLost = Status::kConnectionLost;
 
 // The cycles: 4 without inputs are one more than max_missed; the watchdog of the outputs is 10 ms;
 // the states of all slaves are read within 7 cycles; a brake is watched for 500 ms.
 // clang-format off
-constexpr FaultRow kRows[] = {
+constexpr cia402::FaultRow<MasterBench> kRows[] = {
     {"frame lost in 1 cycle", line<LineFaultKind::kLose, 1>, Status::kOk, kNever, 0, Status::kOk},
     {"frame lost in 3 cycles", line<LineFaultKind::kLose, 3>, Status::kOk, kNever, 0, Status::kOk},
     {"frames lost", line<LineFaultKind::kLose, kForGood>, kTimeout, {6, 6, 6}, 14, Status::kOk},
@@ -59,109 +47,25 @@ constexpr FaultRow kRows[] = {
 };
 // clang-format on
 
-struct Outcome {
-  Status status = Status::kOk;
-  int reaction = 0;  ///< cycles until the stop is sent; 0: none
-  int off = 0;       ///< cycles from there until no drive has power
-  Status arms = Status::kOk;
-  double moved = 0.0;  ///< by the rearm, rad
-};
-
-/// Takes the drives to where the fault is to begin.
-void lead_to(MasterBench& bench, When when) {
-  ASSERT_OK(bench.load());
-  ASSERT_OK(bench.executive.start());
-  bench.now_ns = -bench.hal.period_ns;
-  if (when == When::kFollowing) {
-    ASSERT_OK(bench.arm());
-    return ASSERT_OK(bench.cycles(50));
-  }
-  ASSERT_STATUS(bench.executive.arm(), Status::kArming);
-  (void)bench.cycle();
-  if (when == When::kSwitchingOn) return;
-  for (int i = 0; i < 100 && bench.hal.master.phase() != cia402::Phase::kReleasing; ++i)
-    (void)bench.cycle();
-  assert_true(bench.hal.master.phase() == cia402::Phase::kReleasing);
-}
-
-/// Runs until the master stops the drives, or long enough to say that it does not.
-void await_stop(MasterBench& bench, SafetyWatch& watch, Outcome& outcome) {
-  for (int i = 1; i <= 700 && outcome.reaction == 0; ++i) {
-    if (bench.executive.rung() == Rung::kArming) (void)bench.executive.arm();
-    outcome.status = watch.cycle();
-    const bool stops = bench.hal.master.phase() == cia402::Phase::kFailed;
-    if (stops || bench.executive.rung() == Rung::kDisabled) outcome.reaction = i;
-  }
-  if (outcome.reaction == 0) return;
-  assert_false(enables(bench));
-  assert_false(pushes(bench));
-  do {
-    if (powered(bench)) ++outcome.off;
-    outcome.status = watch.cycle();
-  } while (powered(bench) && outcome.off < 3000);
-}
-
-/// The cause lasts for longer than the drives wait, then goes; the arm is to be taken over where it
-/// is.
-void rearm(MasterBench& bench, SafetyWatch& watch, Outcome& outcome) {
-  for (int i = 0; i < 20; ++i) (void)watch.cycle();
-  heal(bench);
-  for (int i = 0; i < 300; ++i) (void)watch.cycle();
-  const JointVector before = bench.hal.line.arm().arm().q();
-  outcome.arms = bench.arm();
-  if (outcome.arms != Status::kOk) {
-    const Status starts = bench.start();
-    if (starts != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
-    ASSERT_OK(starts);
-  }
-  for (int i = 0; i < 200; ++i) ASSERT_OK(watch.cycle());
-  outcome.moved = (bench.hal.line.arm().arm().q() - before).cwiseAbs().maxCoeff();
-}
-
-Outcome suffer(const FaultRow& row, When when, int joint) {
+/// The cause lasts for longer than the drives wait.
+cia402::Outcome suffer(const cia402::FaultRow<MasterBench>& row, cia402::When when, int joint) {
   MasterBench& bench = fresh_bench();
   lead_to(bench, when);
   SafetyWatch watch(bench);
-  Outcome outcome;
+  cia402::Outcome outcome;
   row.begin(bench, joint);
   await_stop(bench, watch, outcome);
-  if (outcome.reaction == 0) {
-    ASSERT_OK(outcome.status);
-    return outcome;
-  }
+  if (outcome.reaction == 0) return outcome;
+  for (int i = 0; i < 20; ++i) (void)watch.cycle();
+  heal(bench);
+  for (int i = 0; i < 300; ++i) (void)watch.cycle();
   rearm(bench, watch, outcome);
   return outcome;
 }
 
-void judge(const FaultRow& row, When when, const Outcome& outcome) {
-  const int most = row.most[static_cast<std::size_t>(when)];
-  assert_int_equal(outcome.reaction > 0, most > 0);
-  assert_in_range(outcome.reaction, 0, most);
-  if (most == 0) return;
-  const bool other = row.instead != Status::kOk && outcome.status == row.instead;
-  ASSERT_STATUS(outcome.status, other ? row.instead : row.status);
-  assert_in_range(outcome.off, 0, row.off);
-  ASSERT_STATUS(outcome.arms, row.arms);
-  ASSERT_NEAR(outcome.moved, 0.0, 1e-3);
-}
-
 // Proves ECAT-6.
 void every_fault_stops_all_drives_or_is_bridged(void**) {
-  for (const FaultRow& row : kRows)
-    for (const When when : {When::kSwitchingOn, When::kReleasing, When::kFollowing}) {
-      Outcome worst;
-      for (const int joint : {0, 3, 6}) {
-        const Outcome outcome = suffer(row, when, joint);
-        if (outcome.reaction > worst.reaction) worst.reaction = outcome.reaction;
-        if (outcome.off > worst.off) worst.off = outcome.off;
-        worst.status = outcome.status;
-        worst.arms = outcome.arms;
-        print_message("%s, %s, joint %d: %s after %d, off %d, rearm %s, moved %.1e\n", row.fault,
-                      kWhenNames[static_cast<std::size_t>(when)], joint + 1, name(outcome.status),
-                      outcome.reaction, outcome.off, name(outcome.arms), outcome.moved);
-        judge(row, when, outcome);
-      }
-    }
+  cia402::judge_faults(std::begin(kRows), std::end(kRows), suffer);
 }
 
 /// A slave that is missing leaves the bytes that were sent: they must not pass for inputs.

@@ -40,7 +40,7 @@ void every_mode_gets_its_mapping(void**) {
     ASSERT_OK(bench.hal.connect(row.mode));
     assert_int_equal(bench.hal.master.slave(3).data.outputs.bytes(), row.outputs);
     assert_int_equal(bench.hal.line.slave(3).dictionary().get(drives::slot_of(0x6061)),
-                     static_cast<int>(mode_of(row.mode)));
+                     static_cast<int>(cia402::mode_of(row.mode)));
   }
 }
 

@@ -44,7 +44,11 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
   return doubtful().robot.load(sections.plant, options.seed);
 }
 
-// Proves CAN-15.
+WireCounts counts() {
+  return {{{"frames", 4500}, {"lost", 3}}};
+}
+
+// Proves CAN-15, ECAT-12.
 /// The threads of log and trajectory still run when the wire is closed: drives that watch for
 /// commands do not wait until they have ended.
 void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_1(void**) {
@@ -56,8 +60,9 @@ void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_
   for (std::size_t i = 0; i < std::size(words); ++i) arguments[i] = const_cast<char*>(words[i]);
   const int kept = dup(STDERR_FILENO);
   assert_non_null(std::freopen(in_folder("err").c_str(), "w", stderr));
-  const int code = run_board<SimSections>(static_cast<int>(std::size(words)), arguments,
-                                          {"doubtful", doubtful(), 0, false, configure});
+  const int code = run_board<SimSections>(
+      static_cast<int>(std::size(words)), arguments,
+      {"doubtful", doubtful(), 0, false, configure, nullptr, nullptr, counts});
   std::fflush(stderr);
   assert_int_equal(dup2(kept, STDERR_FILENO), STDERR_FILENO);
   close(kept);
@@ -66,6 +71,7 @@ void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_
   assert_true(has(errors(), ": joint 3: it has not confirmed\n"));
   assert_true(has(file_of("a/summary.json"),
                   "\"result\": {\"code\": 1, \"name\": \"drives not disabled\"}"));
+  assert_true(has(file_of("a/summary.json"), "  \"wire\": {\"frames\": 4500, \"lost\": 3},\n"));
   assert_true(doubtful().threads_at_the_end > 1);
   assert_int_equal(threads(), 1);
 }

@@ -58,12 +58,8 @@ const char* place(const DrivesOptions& options, DriveArmSettings& settings) {
 DriveArmSettings settings_of(const DrivesOptions& options) {
   DriveArmSettings settings;
   settings.fd = options.fd;
-  settings.gravity_by_drive = options.gravity_by_drive;
-  settings.brake_release_s = options.brake_release_ms * 1e-3;
+  options.apply(settings);
   settings.seed = options.seed;
-  settings.plant.friction = options.friction;
-  settings.plant.rotor_inertia.setConstant(options.rotor_inertia);
-  if (options.joints_given) settings.plant.initial_q = JointVector(options.joints);
   return settings;
 }
 

@@ -1,31 +1,12 @@
 #include "sim_plant/drives/server/options.hpp"
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
-#include <cstring>
-#include <string>
-#include <vector>
-
 #include "sim_plant/drives/fault_kinds.hpp"
+#include "sim_plant/drives/server/arm_parser.hpp"
 
 namespace tactus::drives {
 namespace {
 
-constexpr int kRefused = 2, kMaxNode = 127;
-
-/// Accepts finite numbers in range; the library also accepts "nan" and "inf".
-CLI::Validator finite(double lowest, double highest) {
-  return CLI::Validator(
-      [lowest, highest](std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool good = *end == '\0' && !text.empty() && value >= lowest && value <= highest;
-        return good ? std::string()
-                    : "'" + text + "' is not a number from " + std::to_string(lowest) + " to " +
-                          std::to_string(highest);
-      },
-      "");
-}
+constexpr int kMaxNode = 127;
 
 /// Reads nodes like "1,2,3" or "1-7" from `text`. Returns what is wrong with them, "" if nothing.
 std::string parse_nodes(const std::string& text, DrivesOptions::Bus& bus) {
@@ -70,21 +51,14 @@ std::string parse_bus(const std::string& text, bool descriptor, DrivesOptions& o
 }
 
 std::string take(const std::vector<std::string>& buses, const std::vector<std::string>& descriptors,
-                 const std::vector<std::string>& faults, DrivesOptions& options) {
+                 DrivesOptions& options) {
   std::string wrong;
   for (const std::string& bus : buses)
     if (wrong.empty()) wrong = parse_bus(bus, false, options);
   for (const std::string& bus : descriptors)
     if (wrong.empty()) wrong = parse_bus(bus, true, options);
-  if (!wrong.empty()) return wrong;
-  if (options.bus_count == 0 && !options.eds) return "name at least one bus: --bus can0:1-7";
-  for (const std::string& fault : faults) {
-    if (options.fault_count == DrivesOptions::kFaults) return "there are more than 16 faults";
-    if (fault.size() >= sizeof options.faults[0]) return "the text '" + fault + "' is too long";
-    std::strncpy(options.faults[options.fault_count++], fault.c_str(),
-                 sizeof options.faults[0] - 1);
-  }
-  return "";
+  if (!wrong.empty() || options.bus_count > 0 || options.eds) return wrong;
+  return "name at least one bus: --bus can0:1-7";
 }
 
 std::string describe_faults() {
@@ -98,8 +72,8 @@ std::string describe_faults() {
 }  // namespace
 
 bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& exit_code) {
-  std::vector<std::string> buses, descriptors, faults;
-  std::vector<double> q;
+  std::vector<std::string> buses, descriptors;
+  ArmParser parser(options);
   CLI::App app{"Emulated CiA 402 drives of a Franka FER on CAN buses", "fer_drives"};
   app.add_option("--bus", buses, "interface and its nodes, like can0:1,2,3 or can0:1-7; repeatable")
       ->take_all();
@@ -108,40 +82,10 @@ bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& ex
       ->take_all();
   app.add_flag("--eds", options.eds, "print the drives' electronic data sheet (CiA 306) and end");
   app.add_flag("--fd", options.fd, "CAN FD: PDOs of up to 64 bytes");
-  app.add_option("--joints", q, "initial positions of the seven joints, rad (default: ready pose)")
-      ->expected(7)
-      ->check(finite(-6.3, 6.3));
-  app.add_flag("--gravity-by-drive", options.gravity_by_drive,
-               "the drives compensate gravity: target torque 0 holds the arm");
-  app.add_option("--friction", options.friction,
-                 "multiple of the identified joint friction (default 1)")
-      ->check(finite(0.0, 10.0));
-  app.add_option("--rotor-inertia", options.rotor_inertia,
-                 "rotor inertia at each joint, kg m^2 (default 0.1)")
-      ->check(finite(0.0, 10.0));
-  app.add_option("--brake-release-ms", options.brake_release_ms,
-                 "time that a brake takes to open, ms (default 150)")
-      ->check(finite(0.0, 10000.0));
-  app.add_option("--fault", faults, describe_faults())->take_all();
-  app.add_option("--seed", options.seed, "seed of faults by probability (default 1)");
-  app.add_option("--duration", options.duration_s,
-                 "time after which the program ends, s (default: never)")
-      ->check(finite(0.0, 1e7));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    exit_code = app.exit(error) == 0 ? 0 : kRefused;
-    return false;
-  }
-  const std::string wrong = take(buses, descriptors, faults, options);
-  if (!wrong.empty()) {
-    std::fprintf(stderr, "fer_drives: %s\n", wrong.c_str());
-    exit_code = kRefused;
-    return false;
-  }
-  options.joints_given = !q.empty();
-  for (std::size_t i = 0; i < q.size(); ++i) options.joints[i] = q[i];
-  return true;
+  parser.add_arm(app);
+  parser.add_faults_and_duration(app, describe_faults());
+  return parser.parse(app, argc, argv, exit_code,
+                      [&] { return take(buses, descriptors, options); });
 }
 
 }  // namespace tactus::drives

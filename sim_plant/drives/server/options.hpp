@@ -2,11 +2,11 @@
 // which needs exceptions.
 #pragma once
 
+#include "sim_plant/drives/server/arm_options.hpp"
+
 namespace tactus::drives {
 
-struct DrivesOptions {
-  static constexpr int kJoints = 7, kFaults = 16;
-
+struct DrivesOptions : ArmOptions {
   struct Bus {
     char interface[16] = "";  ///< "": `descriptor` instead
     int descriptor = -1;      ///< an open socket that carries frames as packets
@@ -17,16 +17,6 @@ struct DrivesOptions {
   int bus_count = 0;
   bool fd = false;
   bool eds = false;  ///< print the electronic data sheet and end
-  bool gravity_by_drive = false;
-  bool joints_given = false;
-  double joints[kJoints] = {};  ///< initial positions, rad
-  double friction = 1.0;        ///< multiple of the identified friction
-  double rotor_inertia = 0.1;   ///< kg m^2
-  double brake_release_ms = 150.0;
-  double duration_s = 0.0;  ///< 0: without end
-  unsigned seed = 1;        ///< of faults by probability
-  char faults[kFaults][128] = {};
-  int fault_count = 0;
 };
 
 /// Reads the command line. False: the program must end with `exit_code`, because help was requested

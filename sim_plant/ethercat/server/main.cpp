@@ -33,13 +33,9 @@ int refuse(const char* what, const char* why) {
 SegmentSettings settings_of(const SegmentOptions& options) {
   SegmentSettings settings;
   settings.slaves = options.slaves;
-  settings.gravity_by_drive = options.gravity_by_drive;
-  settings.brake_release_s = options.brake_release_ms * 1e-3;
+  options.apply(settings);
   settings.drift_ppb = static_cast<std::int64_t>(options.drift_ppm * 1e3);
   settings.seed = options.seed;
-  settings.plant.friction = options.friction;
-  settings.plant.rotor_inertia.setConstant(options.rotor_inertia);
-  if (options.joints_given) settings.plant.initial_q = JointVector(options.joints);
   return settings;
 }
 

@@ -1,0 +1,55 @@
+// What the Hals of CiA 402 drives share over any wire: what they offer, and how they leave the
+// drives. Frames, cycles and their clock are the wire's.
+#pragma once
+
+#include "kernel/core/hal.hpp"
+
+namespace tactus::cia402 {
+
+/// Positions, velocities with a torque and torques; 0.5 to 20 ms. [any]
+inline Capabilities capabilities_of_drives() {
+  Capabilities offered;
+  offered.position = offered.velocity = offered.effort = true;
+  offered.velocity_feed_forward = offered.effort_feed_forward = true;
+  offered.min_period_us = 500;
+  offered.max_period_us = 20000;
+  return offered;
+}
+
+/// Runs the exchange of a cycle in which the drives are requested to be disabled. [any]
+inline void exchange_stop(Hal& hal, const CycleTime& now, CommandMode mode) {
+  RobotState state;
+  RobotCommand stop;
+  stop.mode = mode;
+  (void)hal.read(now, state);
+  (void)hal.write(stop);
+}
+
+/// The longest time to wait for drives to confirm that they are disabled: that of the longest quick
+/// stop, and cycles to see its end. [any]
+constexpr std::int64_t longest_leaving_ns(int stop_ms, int period_us) {
+  constexpr int kLater = 20;  // cycles
+  return std::int64_t{1'000'000} * stop_ms + std::int64_t{1000} * period_us * kLater;
+}
+
+/// True if `awaits(joint)` is of any joint, from 0. [any]
+template <class Awaits>
+bool any_joint(Awaits awaits) {
+  for (int j = 0; j < kDof; ++j)
+    if (awaits(j)) return true;
+  return false;
+}
+
+/// kBusTimeout: `left` names the joints whose drives may have power. [any]
+template <class Master>
+Status judge_stop(const Master& master, std::int64_t waited_ns, Message& left) {
+  for (int j = 0; j < kDof; ++j)
+    if (!master.confirmed(j)) left << (left.empty() ? "" : ", ") << master.label(j);
+  if (left.empty()) return Status::kOk;
+  left << ": no statusword has confirmed within " << static_cast<int>(waited_ns / 1'000'000)
+       << " ms that the drive is disabled; its motor may have power: cut it by the emergency stop,"
+          " then check power and cabling of the drive";
+  return Status::kBusTimeout;
+}
+
+}  // namespace tactus::cia402
