@@ -9,8 +9,8 @@
 namespace tactus::ctl {
 namespace {
 
-/// Between waypoints. Admission asks for a sixteenth of the period, of 10 ms at most.
-constexpr double kShortestSegment_s = 0.01 / 16.0;
+/// Between waypoints. Admission asks for a sixteenth of the period, of 16 ms at most.
+constexpr double kShortestSegment_s = 0.001;
 constexpr int kFewestSteps = 8;
 constexpr double kShortestWindow_s = 0.004;  // four waypoints of 1 ms
 /// Windows that are tried, each longer than the last by this factor: up to seven times the time in
@@ -65,22 +65,32 @@ void keep_bounds(std::vector<TimedPoint>& points, const RetimeSettings& settings
   }
 }
 
-bool crowded(const std::vector<TimedPoint>& points) {
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (points[i].time_s - points[i - 1].time_s < kShortestSegment_s) return true;
-  return false;
+/// Removes inner waypoints that are too near to another; false: there are none.
+bool thinned(std::vector<TimedPoint>& points) {
+  const double end_s = points.back().time_s;
+  std::vector<TimedPoint> apart = {points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const double to_next_s =
+        std::min(points[i].time_s - apart.back().time_s, end_s - points[i].time_s);
+    if (to_next_s >= kShortestSegment_s) apart.push_back(points[i]);
+  }
+  apart.push_back(points.back());
+  apart.swap(points);
+  return points.size() < apart.size();
 }
 
-/// Returns the fastest motion along a section, from constant accelerations along the path. Its
-/// waypoints are those of the grid, which is made coarser until they are not too near.
+/// Returns the fastest motion along a section, with accelerations that step. Its waypoints are
+/// those of the grid, which is made coarser until they are not too near: what is left out between
+/// waypoints that are far apart costs little time.
 std::vector<TimedPoint> with_steps(const PathSection& section, const RetimeSettings& settings) {
   std::vector<TimedPoint> points;
-  int steps = settings.steps;
-  do {
+  bool crowded = true;
+  for (int steps = settings.steps; crowded && steps >= kFewestSteps; steps /= 2) {
     points = at_nodes(fastest(section, settings.bounds, steps));
+    if (points.empty()) return points;
+    crowded = thinned(points);
     keep_bounds(points, settings);
-    steps /= 2;
-  } while (crowded(points) && steps >= kFewestSteps);
+  }
   return points;
 }
 
