@@ -70,7 +70,8 @@ void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
 void the_server_admits_what_is_retimed_of_the_tip_without_slowing_it_down(void**) {
   assert_int_equal(
       served("ur10_trg_cpc",
-             "late() { awk -F, -v OFS=, '/^[0-9]/ { $1 += 3 } 1' $S/timed.csv >$S/late.csv; }; "
+             "late() { awk -F, -v OFS=, '/^[0-9]/ { $1 = sprintf(\"%.17g\", $1 + 3) } 1' "
+             "$S/timed.csv >$S/late.csv; }; "
              "square=$R/pipelines/trajectories/ur10_square.csv; for how in '' --no-jerk "
              "'--tolerance-m 0.01 --tolerance 0.05' '--tolerance-m 0.05 --tolerance 0.2 --no-jerk' "
              "'--tolerance-m 0.1 --tolerance 1 --velocity 50%'; do "
