@@ -95,15 +95,17 @@ void the_tip_passes_a_blend_at_the_speed_that_its_curvature_allows(void**) {
   const Eigen::Quaterniond turned = exp_so3(Vector3(0.4, 0.9, -0.3));
   const Vector3 first = turned * Vector3::UnitX(), second = turned * Vector3::UnitY();
   const Vector3 zero = Vector3::Zero();
+  const std::vector<Numbers> path = {waypoint(zero, zero), waypoint(first, zero),
+                                     waypoint(first + second, zero)};
   double nearest = 1.0, speed = 0.0;
-  for (const TimedPoint& now : retime(
-           {waypoint(zero, zero), waypoint(first, zero), waypoint(first + second, zero)}, round)) {
+  for (const TimedPoint& now : retime(path, round)) {
     const Vector3 v = now.dq.head<3>();
     const double distance = std::abs(v.dot(first) - v.dot(second)) / v.norm();
     if (!(distance < nearest)) continue;
     nearest = distance;
     speed = v.norm();
   }
+  assert_true(time_of(path, round) < time_of(path, settings(false)));
   ASSERT_NEAR(speed, std::sqrt(0.5 * round.bounds.a[0] * 0.2 / (0.75 * std::sqrt(2.0))), 0.01);
 }
 
