@@ -110,26 +110,6 @@ void every_random_path_is_admitted_as_it_is_and_keeps_every_bound(void**) {
   }
 }
 
-/// By central differences over a grid of time: they are off by the next derivative at most.
-void velocities_and_accelerations_are_derivatives_of_the_poses(void**) {
-  RetimeSettings round = settings(true);
-  round.corners.tolerance = two(0.05, 0.1);
-  const std::vector<TimedPoint> points = retime(kBent, round);
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const TimedPoint &last = points[i - 1], &now = points[i], &next = points[i + 1];
-    const double T = now.time_s - last.time_s;
-    const Eigen::Quaterniond r = orientation(now.q);
-    const auto beside = [&](const TimedPoint& there) {
-      return stacked((there.q - now.q).head<3>(),
-                     r * log_so3(r.conjugate() * orientation(there.q)));
-    };
-    const Vector6 v = (beside(next) - beside(last)) / (2.0 * T);
-    const Vector6 a = (beside(next) + beside(last)) / (T * T);
-    assert_true((v - now.dq.matrix()).norm() < T * T * 1000.0);
-    assert_true((a - now.ddq.matrix()).norm() < T * 1000.0);
-  }
-}
-
 }  // namespace
 }  // namespace tactus::ctl
 
@@ -137,7 +117,6 @@ int main() {
   using namespace tactus::ctl;
   const CMUnitTest tests[] = {
       cmocka_unit_test(every_random_path_is_admitted_as_it_is_and_keeps_every_bound),
-      cmocka_unit_test(velocities_and_accelerations_are_derivatives_of_the_poses),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -109,6 +109,28 @@ void the_tip_passes_a_blend_at_the_speed_that_its_curvature_allows(void**) {
   ASSERT_NEAR(speed, std::sqrt(0.5 * round.bounds.a[0] * 0.2 / (0.75 * std::sqrt(2.0))), 0.01);
 }
 
+// Proves CTL-18.
+
+/// By central differences; those of a rotation are in axes that do not turn.
+void the_derivatives_of_a_rounded_corner_are_those_of_its_poses(void**) {
+  const std::vector<PathSection> sections = blend(kBent, true, {two(0.1, 1.0), 0.0});
+  assert_int_equal(sections.size(), 1);
+  constexpr double h = 1e-4;
+  for (const PathPiece& piece : sections[0]) {
+    for (int i = 0; i <= 20; ++i) {
+      const double s = h + (piece.length - 2.0 * h) * i / 20.0;
+      const PathPlace last = piece.at(s - h), now = piece.at(s), next = piece.at(s + h);
+      const Eigen::Quaterniond r = orientation(last.q);
+      const Vector3 turn = r * log_so3(r.conjugate() * orientation(next.q));
+      ASSERT_NEAR((turn / (2.0 * h) - now.dq.tail<3>().matrix()).norm(), 0.0, 1e-5);
+      const Numbers way = (next.q - last.q).head<3>();
+      ASSERT_NEAR((way / (2.0 * h) - now.dq.head<3>()).matrix().norm(), 0.0, 1e-5);
+      ASSERT_NEAR(((next.dq - last.dq) / (2.0 * h) - now.ddq).matrix().norm(), 0.0, 1e-5);
+      ASSERT_NEAR(((next.ddq - last.ddq) / (2.0 * h) - now.dddq).matrix().norm(), 0.0, 1e-3);
+    }
+  }
+}
+
 // Proves CTL-19.
 
 void a_rounded_corner_is_as_far_as_the_tolerances_of_place_and_orientation_allow(void**) {
