@@ -176,6 +176,7 @@ int main() {
       cmocka_unit_test(the_slower_of_line_and_rotation_decides_from_stop_to_stop),
       cmocka_unit_test(a_jerk_bound_costs_the_tip_little_more_than_the_least_time),
       cmocka_unit_test(the_tip_passes_a_blend_at_the_speed_that_its_curvature_allows),
+      cmocka_unit_test(the_derivatives_of_a_rounded_corner_are_those_of_its_poses),
       cmocka_unit_test(a_rounded_corner_is_as_far_as_the_tolerances_of_place_and_orientation_allow),
       cmocka_unit_test(the_tip_stops_where_its_rotation_changes_and_has_no_tolerance),
   };
