@@ -3,7 +3,9 @@
 CTL          := build/ctl$(HOW)
 CTL_SEAM     := gateway/ctl/options.cpp
 CTL_PARTS    := $(filter-out %/main.cpp,$(wildcard gateway/ctl/*.cpp gateway/ctl/retime/*.cpp)) gateway/csv_cells.cpp \
-                gateway/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp
+                gateway/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp \
+                kernel/math/so3.cpp kernel/reference/space/polynomial.cpp kernel/reference/space/rotation_segment.cpp \
+                kernel/reference/space/vector_bounds.cpp
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))
 CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
@@ -33,8 +35,9 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)install -d $(SHARE)/man/man1 $(SHARE)/bash-completion/completions
 	$(Q)ABOUT="client of the server of references" scripts/manual $(TACTUSCTL) tactusctl > $(SHARE)/man/man1/tactusctl.1
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
-# Its tests are compiled as it is.
-$(CTL_TESTS): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a | $(TACTUSCTL)
+# Its tests are compiled as it is, and judge what it writes by the kernel of their board.
+$(CTL)/tests/%.o: private CTLFLAGS += -DTACTUS_ROBOT=$(ROBOT)
+$(CTL_TESTS): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a $(O)/libkernel.a | $(TACTUSCTL)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lcmocka
 -include $(shell find $(CTL) -name '*.d' 2>/dev/null)

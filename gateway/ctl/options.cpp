@@ -129,14 +129,14 @@ void add_jog(CLI::App& verb, Options& o) {
 }
 
 void add_retime(CLI::App& verb, Options& o) {
-  verb.add_option("path", o.file, "CSV file of joint positions; times are ignored")->required();
+  verb.add_option("path", o.file, "CSV file of positions or poses; times are ignored")->required();
   verb.add_option("--out", o.out, "trajectory file to write (default: standard output)");
   verb.add_option("--robot", o.robot, "robot whose limits hold (default: that of the server)");
-  auto* tolerance = verb.add_option("--tolerance", o.tolerance_rad,
-                                    "round corners; a joint stays within this of them, rad");
-  auto* radius = verb.add_option("--radius", o.radius_rad,
-                                 "round corners, from this distance on, rad (joint space)");
-  for (CLI::Option* option : {tolerance, radius})
+  for (CLI::Option* option :
+       {verb.add_option("--tolerance", o.tolerance_rad,
+                        "round corners; joints, or the tip's orientation, stay so near, rad"),
+        verb.add_option("--tolerance-m", o.tolerance_m, "round corners; the tip stays so near, m"),
+        verb.add_option("--radius", o.radius_rad, "round joints' corners, from so far on, rad")})
     option->check(number(1e-6, 10.0, "a number from 1e-6 to 10"));
   verb.add_option("--velocity", o.velocity_scale, "share of the velocity limits (default 100%)")
       ->transform(share(0.001, "from 0.1% to 100%"));

@@ -65,7 +65,7 @@ struct Options {
 
   // retime
   std::string robot;  ///< empty: the one of the server
-  double tolerance_rad = 0.0, radius_rad = 0.0;
+  double tolerance_rad = 0.0, tolerance_m = 0.0, radius_rad = 0.0;
   double velocity_scale = 1.0, acceleration_scale = 0.98;
   bool jerk = true;
 };

@@ -1,168 +1,165 @@
-// retime: reads a path, writes the fastest trajectory along it. Limits are those of a robot's table
-// or, of the pipeline that is served, of the server.
+// retime: reads a path of joints or of the tip, writes the fastest trajectory along it.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "gateway/ctl/retime/retimer.hpp"
+#include "gateway/ctl/retime_limits.hpp"
 #include "gateway/ctl/row_reader.hpp"
 #include "gateway/ctl/verbs.hpp"
-#include "kernel/robots/fer.hpp"
-#include "kernel/robots/gen3.hpp"
-#include "kernel/robots/ur10.hpp"
+#include "kernel/robots/robot_table.hpp"
 
 namespace tactus::ctl {
 namespace {
 
-struct RobotLimits {
-  std::string robot;
-  std::vector<std::string> joints;
-  MotionBounds bounds;
-  Joints lowest, highest;
+constexpr double kUnitTolerance = 1e-3;  // of a quaternion's length, as admission has it
 
-  void resize(Eigen::Index count) {
-    for (Joints* one : {&bounds.v, &bounds.a, &bounds.j, &lowest, &highest}) one->resize(count);
+/// A path, and what is known when it is read.
+struct PathFile {
+  const Options& options;
+  const RobotLimits& limits;
+  RowReader reader;
+  bool tip = false;
+  std::vector<Numbers> path;
+  std::string error;
+
+  bool refuse(const std::string& text) {
+    error = options.file + text;
+    return false;
+  }
+  bool refuse_row(const std::string& text) {
+    return refuse(":" + std::to_string(reader.line()) + ": " + text);
   }
 };
 
-template <class Robot>
-bool use_table(const std::string& name, RobotLimits& limits) {
-  if (name != Robot::kName) return false;
-  limits.robot = name;
-  limits.resize(Robot::kDof);
-  for (std::size_t i = 0; i < Robot::kLimits.size(); ++i) {
-    const JointLimit& limit = Robot::kLimits[i];
-    const auto k = static_cast<Eigen::Index>(i);
-    limits.joints.emplace_back(Robot::kJointNames[i]);
-    limits.lowest[k] = limit.q_min;
-    limits.highest[k] = limit.q_max;
-    limits.bounds.v[k] = limit.dq_max;
-    limits.bounds.a[k] = limit.ddq_max;
-    limits.bounds.j[k] = limit.dddq_max;
-  }
+bool judge_options(PathFile& file) {
+  if (!file.tip && file.options.tolerance_m > 0.0)
+    return file.refuse(": a path of joints has no --tolerance-m; give --tolerance in rad");
+  if (file.tip && file.options.radius_rad > 0.0)
+    return file.refuse(": a path of the tip has no --radius; give --tolerance-m and --tolerance");
+  if (file.tip && file.limits.tip.v.size() == 0)
+    return file.refuse(
+        ": a path of the tip, and the pipeline that is served takes none; give --robot");
   return true;
 }
 
-bool ask_server(const Options& options, Output& output, RobotLimits& limits, int& exit_code) {
-  Client client(options, output);
-  if (!client.connect()) {
-    exit_code = client.exit_code();
+bool judge_joints(PathFile& file, const Numbers& q) {
+  const RobotLimits& limits = file.limits;
+  for (Eigen::Index k = 0; k < q.size(); ++k)
+    if (!(q[k] >= limits.lowest[k] && q[k] <= limits.highest[k]))
+      return file.refuse_row(
+          limits.joints[static_cast<std::size_t>(k)] + formatted(": %.6g rad is not", q[k]) +
+          formatted(" from %.6g", limits.lowest[k]) +
+          formatted(" to %.6g rad; plan inside of the range", limits.highest[k]));
+  return true;
+}
+
+/// Also makes the quaternion unit, of its two signs the one nearer to that of the last waypoint.
+bool judge_pose(PathFile& file, Numbers& x) {
+  const double farthest = x.head<3>().abs().maxCoeff(), length = x.tail<4>().matrix().norm();
+  if (!(farthest <= kWorkspace_m))
+    return file.refuse_row(formatted("the tip is %.6g m from the base along an axis,", farthest) +
+                           formatted(" more than %.6g m; plan inside of the box", kWorkspace_m));
+  if (!(std::abs(length - 1.0) <= kUnitTolerance))
+    return file.refuse_row(formatted("the quaternion has the length %.6g; normalise it", length));
+  const bool turned = !file.path.empty() && (x * file.path.back()).tail<4>().sum() < 0.0;
+  x.tail<4>() /= turned ? -length : length;
+  return true;
+}
+
+/// Appends the waypoints of the file to the path.
+bool read_path(PathFile& file) {
+  RowReader& reader = file.reader;
+  const auto unreadable = [&file] {
+    file.error = file.reader.error();
     return false;
-  }
-  const Welcome& welcome = client.welcome();
-  limits.robot = welcome.robot();
-  limits.joints = joint_names(welcome);
-  limits.resize(welcome.joints_size());
-  for (int k = 0; k < welcome.joints_size(); ++k) {
-    const Joint& joint = welcome.joints(k);
-    limits.lowest[k] = joint.min_rad();
-    limits.highest[k] = joint.max_rad();
-    limits.bounds.v[k] = joint.velocity();
-    limits.bounds.a[k] = joint.acceleration();
-    limits.bounds.j[k] = joint.jerk();
-  }
-  return true;
-}
-
-bool refuse(Output& output, const std::string& text, int& exit_code) {
-  exit_code = kRefused;
-  output.error(text, exit_code);
-  return false;
-}
-
-bool find_limits(const Options& options, Output& output, RobotLimits& limits, int& exit_code) {
-  if (options.robot.empty() && options.connect.empty())
-    return refuse(output, "retime needs limits; give --robot fer, gen3 or ur10, or --connect",
-                  exit_code);
-  if (options.robot.empty()) return ask_server(options, output, limits, exit_code);
-  if (use_table<Fer>(options.robot, limits) || use_table<Gen3>(options.robot, limits) ||
-      use_table<Ur10>(options.robot, limits))
-    return true;
-  return refuse(output, "--robot " + options.robot + ": unknown robot; write fer, gen3 or ur10",
-                exit_code);
-}
-
-bool read_path(const Options& options, const RobotLimits& limits, Output& output,
-               std::vector<Joints>& path, int& exit_code) {
-  RowReader reader;
-  if (!reader.open(options.file, limits.joints, {true, false}))
-    return refuse(output, reader.error(), exit_code);
-  if (reader.form().poses)
-    return refuse(output, options.file + ": a path of the tip; give positions of the joints",
-                  exit_code);
+  };
+  if (!reader.open(file.options.file, file.limits.joints, {true, false})) return unreadable();
+  file.tip = reader.form().poses;
+  if (!judge_options(file)) return false;
   Row row;
   RowTaken taken = RowTaken::kRow;
   while ((taken = reader.next(row)) == RowTaken::kRow) {
-    const auto count = static_cast<Eigen::Index>(limits.joints.size());
-    path.emplace_back(Eigen::Map<const Eigen::ArrayXd>(row.numbers.data(), count));
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const double q = path.back()[k];
-      if (q >= limits.lowest[k] && q <= limits.highest[k]) continue;
-      return refuse(output,
-                    options.file + ":" + std::to_string(reader.line()) + ": " +
-                        limits.joints[static_cast<std::size_t>(k)] +
-                        formatted(": %.6g rad is not", q) +
-                        formatted(" from %.6g", limits.lowest[k]) +
-                        formatted(" to %.6g rad; plan inside of the range", limits.highest[k]),
-                    exit_code);
-    }
+    Numbers q = Eigen::Map<const Numbers>(row.numbers.data(), reader.form().position());
+    if (!(file.tip ? judge_pose(file, q) : judge_joints(file, q))) return false;
+    file.path.push_back(std::move(q));
   }
-  return taken == RowTaken::kEnd || refuse(output, reader.error(), exit_code);
+  return taken == RowTaken::kEnd || unreadable();
 }
 
-void write_group(std::FILE* file, const Joints& values) {
-  for (const double value : values) std::fprintf(file, ",%.17g", value);
+RetimeSettings settings_for(const PathFile& file) {
+  const Options& options = file.options;
+  const MotionBounds& most = file.tip ? file.limits.tip : file.limits.joint;
+  RetimeSettings settings;
+  settings.tip = file.tip;
+  settings.bounds = {most.v * options.velocity_scale, most.a * options.acceleration_scale,
+                     most.j * options.acceleration_scale};
+  settings.corners.radius = options.radius_rad;
+  settings.jerk = options.jerk;
+  Numbers& tolerance = settings.corners.tolerance;
+  if (options.tolerance_rad > 0.0 || options.tolerance_m > 0.0)
+    tolerance.setConstant(most.v.size(), options.tolerance_rad);
+  if (file.tip && tolerance.size() > 0) tolerance[0] = options.tolerance_m;
+  return settings;
 }
 
-bool write_trajectory(const Options& options, const RobotLimits& limits,
-                      const std::vector<TimedPoint>& points) {
-  std::FILE* file = options.out == "-" ? stdout : std::fopen(options.out.c_str(), "wb");
-  if (file == nullptr) return false;
-  std::fprintf(file, "# %s retimed for %s by tactusctl\ntime_s", options.file.c_str(),
-               limits.robot.c_str());
-  const int count = static_cast<int>(limits.joints.size());
-  for (int k = 1; k <= count; ++k) std::fprintf(file, ",q%d_rad", k);
-  for (int k = 1; k <= count; ++k) std::fprintf(file, ",dq%d_rad_s", k);
-  for (int k = 1; k <= count && options.jerk; ++k) std::fprintf(file, ",ddq%d_rad_s2", k);
-  std::fputc('\n', file);
+void write_group(std::FILE* out, const Numbers& values) {
+  for (const double value : values) std::fprintf(out, ",%.17g", value);
+}
+
+void write_header(std::FILE* out, const PathFile& file) {
+  const bool jerk = file.options.jerk;
+  std::fprintf(out, "# %s retimed for %s by tactusctl\ntime_s", file.options.file.c_str(),
+               file.limits.robot.c_str());
+  if (file.tip) {
+    std::fputs(",x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s", out);
+    if (jerk) std::fputs(",ax_m_s2,ay_m_s2,az_m_s2,alphax_rad_s2,alphay_rad_s2,alphaz_rad_s2", out);
+  } else {
+    const int count = static_cast<int>(file.limits.joints.size());
+    for (int k = 1; k <= count; ++k) std::fprintf(out, ",q%d_rad", k);
+    for (int k = 1; k <= count; ++k) std::fprintf(out, ",dq%d_rad_s", k);
+    for (int k = 1; k <= count && jerk; ++k) std::fprintf(out, ",ddq%d_rad_s2", k);
+  }
+  std::fputc('\n', out);
+}
+
+bool write_trajectory(const PathFile& file, const std::vector<TimedPoint>& points) {
+  const Options& options = file.options;
+  std::FILE* out = options.out == "-" ? stdout : std::fopen(options.out.c_str(), "wb");
+  if (out == nullptr) return false;
+  write_header(out, file);
   for (const TimedPoint& point : points) {
-    std::fprintf(file, "%.17g", point.time_s);
-    write_group(file, point.q);
-    write_group(file, point.dq);
-    if (options.jerk) write_group(file, point.ddq);
-    std::fputc('\n', file);
+    std::fprintf(out, "%.17g", point.time_s);
+    write_group(out, point.q);
+    write_group(out, point.dq);
+    if (options.jerk) write_group(out, point.ddq);
+    std::fputc('\n', out);
   }
-  const bool good = std::ferror(file) == 0;
-  return (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && good;
+  const bool good = std::ferror(out) == 0;
+  return (out == stdout ? std::fflush(out) : std::fclose(out)) == 0 && good;
 }
 
 }  // namespace
 
 int retime_path(const Options& options, Output& output) {
-  int exit_code = kSucceeded;
   RobotLimits limits;
-  std::vector<Joints> path;
-  if (!find_limits(options, output, limits, exit_code) ||
-      !read_path(options, limits, output, path, exit_code))
-    return exit_code;
-  RetimeSettings settings;
-  settings.bounds = {limits.bounds.v * options.velocity_scale,
-                     limits.bounds.a * options.acceleration_scale,
-                     limits.bounds.j * options.acceleration_scale};
-  settings.corners = {options.tolerance_rad, options.radius_rad};
-  settings.jerk = options.jerk;
-  const std::vector<TimedPoint> points = retime(path, settings);
-  if (points.empty()) {
-    refuse(output, options.file + ": no way to go; give at least two different waypoints",
-           exit_code);
-  } else if (!write_trajectory(options, limits, points)) {
-    refuse(output, options.out + ": " + std::strerror(errno) + "; give a file that can be written",
-           exit_code);
-  } else {
-    std::fprintf(stderr, "%s: %zu waypoints, %.4f s for %s\n", options.out.c_str(), points.size(),
-                 points.back().time_s, limits.robot.c_str());
+  const int found = find_limits(options, output, limits);
+  if (found != kSucceeded) return found;
+  PathFile file = {options, limits, {}, false, {}, {}};
+  std::vector<TimedPoint> points;
+  if (read_path(file)) {
+    points = retime(file.path, settings_for(file));
+    if (points.empty()) file.refuse(": no way to go; give at least two different waypoints");
   }
-  return exit_code;
+  if (file.error.empty() && !write_trajectory(file, points))
+    file.error = options.out + ": " + std::strerror(errno) + "; give a file that can be written";
+  if (!file.error.empty()) {
+    output.error(file.error, kRefused);
+    return kRefused;
+  }
+  std::fprintf(stderr, "%s: %zu waypoints, %.4f s for %s\n", options.out.c_str(), points.size(),
+               points.back().time_s, limits.robot.c_str());
+  return kSucceeded;
 }
 
 }  // namespace tactus::ctl

@@ -7,11 +7,6 @@
 
 namespace tactus {
 
-/// Half the edge of the box around the base in which every tip must be, m: the flange of an arm of
-/// 1.3 m reach, whose shoulder is up to 0.4 m above the base, is inside with 0.3 m left for a tool.
-/// The box refuses only absurd positions; a pipeline file gives the box of its task.
-inline constexpr double kWorkspace_m = 2.0;
-
 /// Limits of the tool tip in the base frame. Each maximum bounds the length of a vector.
 struct TaskLimits {
   Vector3 p_min = Vector3::Constant(-kWorkspace_m);  ///< m

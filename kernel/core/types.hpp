@@ -2,29 +2,15 @@
 // its frame.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
+#include "kernel/core/vectors.hpp"
 #include "kernel/robots/robot.hpp"
 
 namespace tactus {
 
 inline constexpr int kDof = Robot::kDof;  ///< joints of the board's robot
 
-using Vector3 = Eigen::Matrix<double, 3, 1>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix3 = Eigen::Matrix<double, 3, 3>;
 using JointVector = Eigen::Matrix<double, kDof, 1>;
 using Jacobian = Eigen::Matrix<double, 6, kDof>;  ///< geometric: [v; w] = J dq
-
-/// Returns a twist, an acceleration or a wrench: linear part or force above angular part or moment.
-/// Of fixed size throughout, unlike Eigen's comma initializer, which a small build would loop over.
-inline Vector6 stacked(const Vector3& linear, const Vector3& angular) {
-  Vector6 both;
-  both.head<3>() = linear;
-  both.tail<3>() = angular;
-  return both;
-}
 
 /// Position and orientation of one frame in another.
 struct Pose {

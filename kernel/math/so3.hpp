@@ -10,7 +10,7 @@
 // sincos().
 #pragma once
 
-#include "kernel/core/types.hpp"
+#include "kernel/core/vectors.hpp"
 
 namespace tactus {
 

@@ -45,4 +45,9 @@ struct TaskLimit {
 /// Gravity that every model and the plant use, m/s^2 along -z of the base frame.
 inline constexpr double kGravity_m_s2 = 9.81;
 
+/// Half the edge of the box around the base in which every tip must be, m: the flange of an arm of
+/// 1.3 m reach, whose shoulder is up to 0.4 m above the base, is inside with 0.3 m left for a tool.
+/// The box refuses only absurd positions; a pipeline file gives the box of its task.
+inline constexpr double kWorkspace_m = 2.0;
+
 }  // namespace tactus

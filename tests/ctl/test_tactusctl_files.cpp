@@ -66,6 +66,45 @@ void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
       0);
 }
 
+/// Paths of the tip likewise; three seconds to come to the first waypoint are added.
+void the_server_admits_what_is_retimed_of_the_tip_without_slowing_it_down(void**) {
+  assert_int_equal(
+      served("ur10_trg_cpc",
+             "late() { awk -F, -v OFS=, '/^[0-9]/ { $1 = sprintf(\"%.17g\", $1 + 3) } 1' "
+             "$S/timed.csv >$S/late.csv; }; "
+             "square=$R/pipelines/trajectories/ur10_square.csv; for how in '' --no-jerk "
+             "'--tolerance-m 0.01 --tolerance 0.05' '--tolerance-m 0.05 --tolerance 0.2 --no-jerk' "
+             "'--tolerance-m 0.1 --tolerance 1 --velocity 50%'; do "
+             "$T retime $square --robot ur10 $how --out $S/timed.csv || exit 81; late; "
+             "$T check $S/late.csv --exact || exit 82; done; "
+             "$T retime $square --connect $TACTUS_SOCKET --out $S/timed.csv || exit 83; late; "
+             "$T send $S/late.csv || exit 84; $T retime $square --robot ur10 "
+             "--acceleration 100% --out $S/timed.csv; late; $T check $S/late.csv --exact; "
+             "test $? = 2"),
+      0);
+}
+
+// Proves CTL-19.
+
+void a_path_of_the_tip_that_cannot_be_passed_is_refused_with_what_to_do(void**) {
+  assert_int_equal(
+      served(
+          kJoints,
+          "no() { printf 'x_m,y_m,z_m,qw,qx,qy,qz\\n0,0,0,1,0,0,0\\n'$1'\\n' >$S/bad.csv; shift; "
+          "$T retime $S/bad.csv --out $S/o.csv \"$@\"; test $? = 2 || exit 81; }; "
+          "no 1,0,0,1,0,0,0.1 --robot ur10; no 1,0,2.5,1,0,0,0 --robot ur10; "
+          "no 1,0,0,1,0,0,0 --robot ur10 --radius 0.1; no 1,0,0,1,0,0,0 --connect "
+          "$TACTUS_SOCKET; no 0,0,0,-1,0,0,0 --robot ur10; $T retime --tolerance-m 0.01 --robot "
+          "ur10 $R/pipelines/trajectories/ur10_five_waypoints.csv; test $? = 2"),
+      0);
+  assert_true(has(errors(), "bad.csv:3: the quaternion has the length 1.00499; normalise it"));
+  assert_true(has(errors(), "bad.csv:3: the tip is 2.5 m from the base along an axis"));
+  assert_true(has(errors(), "has no --radius; give --tolerance-m and --tolerance"));
+  assert_true(has(errors(), "the pipeline that is served takes none; give --robot"));
+  assert_true(has(errors(), "no way to go"));
+  assert_true(has(errors(), "a path of joints has no --tolerance-m; give --tolerance in rad"));
+}
+
 // Proves CTL-4.
 
 void an_address_that_is_given_counts_and_not_the_usual_one(void**) {
@@ -115,6 +154,8 @@ int main(int, char** argv) {
       cmocka_unit_test(without_a_server_the_error_says_what_to_do),
       cmocka_unit_test(what_is_malformed_is_refused_before_it_is_sent),
       cmocka_unit_test(the_server_admits_what_is_retimed_without_slowing_it_down),
+      cmocka_unit_test(the_server_admits_what_is_retimed_of_the_tip_without_slowing_it_down),
+      cmocka_unit_test(a_path_of_the_tip_that_cannot_be_passed_is_refused_with_what_to_do),
       cmocka_unit_test(an_address_that_is_given_counts_and_not_the_usual_one),
       cmocka_unit_test(states_are_recorded_as_a_file_that_can_be_read),
       cmocka_unit_test(an_installed_program_has_a_man_page_and_a_completion),

@@ -1,13 +1,14 @@
 // CornerPath: the way through waypoints without times, as straight lines with blended corners,
 // twice continuously differentiable by its parameter s, which has unit speed on the lines
-// (Euclidean length in the space of the joints, rad).
+// (Euclidean length of all numbers of a direction: rad of the joints; of the tip, a metre counts as
+// a radian).
 //
 // A blend leaves the line of direction d1 at a distance L before its corner and joins that of d2 at
 // L behind it. Over its own parameter u in [0, 1], s = 2 L u, the direction changes by a smooth
-// step:
+// step, in the coordinates x of the chart of the corner (chart.hpp):
 //
-//   q'(s) = d1 + (d2 - d1) (3 u^2 - 2 u^3)       q''(s) = (d2 - d1) 3 u (1 - u) / L
-//   q(s)  = corner - L d1 + 2 L (d1 u + (d2 - d1) (u^3 - u^4 / 2))
+//   x'(s) = d1 + (d2 - d1) (3 u^2 - 2 u^3)       x''(s) = (d2 - d1) 3 u (1 - u) / L
+//   x(s)  = -L d1 + 2 L (d1 u + (d2 - d1) (u^3 - u^4 / 2))
 //
 // It is farthest from the corner at u = 1/2: by 3/16 L (d2 - d1). At a corner without a blend the
 // path stops: it consists of sections, each from rest to rest.
@@ -15,18 +16,14 @@
 
 #include <vector>
 
-#include "gateway/ctl/retime/joints.hpp"
+#include "gateway/ctl/retime/chart.hpp"
 
 namespace tactus::ctl {
 
-/// Position and derivatives by s at one place of a path.
-struct PathPlace {
-  Joints q, dq, ddq, dddq;
-};
-
 struct PathPiece {
   double length = 0.0;
-  Joints start, d1, d2;  ///< a line has d1 = d2
+  Chart chart;
+  Numbers start, d1, d2;  ///< in the chart; a line has d1 = d2
 
   bool straight() const { return (d1 == d2).all(); }
   /// Returns the path at `s` from the beginning of the piece. [any]
@@ -36,15 +33,16 @@ struct PathPiece {
 /// From rest to rest.
 using PathSection = std::vector<PathPiece>;
 
-/// How corners are rounded; 0: the path stops there.
+/// How corners are rounded; without tolerance and radius the path stops there.
 struct Corners {
-  double tolerance_rad = 0.0;  ///< largest distance of a joint from the corner
-  double radius_rad = 0.0;     ///< longest L
+  Numbers tolerance;    ///< largest distance of a channel from the corner, rad or m; empty: any
+  double radius = 0.0;  ///< longest L; 0: any
 };
 
-/// Returns the sections of the way through the waypoints; none if all waypoints are the same. A
-/// blend takes at most half of the line on either side. The path stops where it turns back by more
-/// than 2.7 rad, too: a blend would nearly stand. [any]
-std::vector<PathSection> blend(const std::vector<Joints>& waypoints, const Corners& corners);
+/// Returns the sections of the way through the waypoints, of the tip or of joints; none if all
+/// waypoints are the same. A blend takes at most half of the line on either side. The path stops
+/// where it turns back by more than 2.7 rad, too: a blend would nearly stand. [any]
+std::vector<PathSection> blend(const std::vector<Numbers>& waypoints, bool tip,
+                               const Corners& corners);
 
 }  // namespace tactus::ctl

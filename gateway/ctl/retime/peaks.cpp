@@ -1,87 +1,76 @@
 #include "gateway/ctl/retime/peaks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "gateway/ctl/retime/tip_numbers.hpp"
+#include "kernel/reference/space/rotation_segment.hpp"
 
 namespace tactus::ctl {
 namespace {
 
-/// Velocity, acceleration and jerk of one joint over the time t in [0, T] of a segment.
-struct Segment {
-  double T;
-  std::array<double, 6> c;
-
-  double v(double t) const {
-    return c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * 5.0 * c[5])));
-  }
-  double a(double t) const {
-    return 2.0 * c[2] + t * (6.0 * c[3] + t * (12.0 * c[4] + t * 20.0 * c[5]));
-  }
-  double j(double t) const { return 6.0 * c[3] + t * (24.0 * c[4] + t * 60.0 * c[5]); }
-};
-
-Segment through(const TimedPoint& from, const TimedPoint& to, int k, bool quintic) {
-  const double T = to.time_s - from.time_s;
-  const double way = (to.q[k] - from.q[k]) / T, v0 = from.dq[k], v1 = to.dq[k];
-  if (!quintic)
-    return {T, {from.q[k], v0, (3.0 * way - 2.0 * v0 - v1) / T, (v0 + v1 - 2.0 * way) / (T * T)}};
-  const double a0 = from.ddq[k], a1 = to.ddq[k];
-  return {T,
-          {from.q[k], v0, a0 / 2.0,
-           (20.0 * way - 8.0 * v1 - 12.0 * v0 - (3.0 * a0 - a1) * T) / (2.0 * T * T),
-           (-30.0 * way + 14.0 * v1 + 16.0 * v0 + (3.0 * a0 - 2.0 * a1) * T) / (2.0 * T * T * T),
-           (12.0 * way - 6.0 * (v0 + v1) - (a0 - a1) * T) / (2.0 * T * T * T * T)}};
-}
-
-/// Returns the time at which the acceleration, monotone between two times, is zero; `from` if it is
-/// not.
-double zero_of_a(const Segment& segment, double from, double to) {
-  const bool rising = segment.a(to) > 0.0;
-  if ((segment.a(from) > 0.0) == rising) return from;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (from + to) / 2.0;
-    ((segment.a(middle) > 0.0) == rising ? to : from) = middle;
-  }
-  return to;
-}
-
-/// The times between which the acceleration is monotone: where the jerk, a parabola, is zero.
-std::array<double, 4> turns_of_a(const Segment& segment) {
-  const auto inside = [&](double t) {
-    return std::isfinite(t) ? std::clamp(t, 0.0, segment.T) : 0.0;
+/// Raises `most` to the largest magnitude, as a fraction of the bound. Most segments of a
+/// trajectory are not the worst, which the hull shows at once.
+void raise(double& most, const Polynomial& polynomial, double T, double bound) {
+  const auto fraction = [bound](const Extremes& range) {
+    return std::max(range.max, -range.min) / bound;
   };
-  const double a = 60.0 * segment.c[5], b = 24.0 * segment.c[4], c = 6.0 * segment.c[3];
-  const double root = std::sqrt(std::max(0.0, b * b - 4.0 * a * c));
-  const double sum = -(b + (b < 0.0 ? -root : root)) / 2.0;
-  std::array<double, 4> times = {0.0, inside(sum / a), inside(c / sum), segment.T};
-  std::sort(times.begin(), times.end());
-  return times;
+  if (fraction(hull(polynomial, T)) > most)
+    most = std::max(most, fraction(extremes(polynomial, T)));
+}
+
+void raise_by_joints(Peaks& most, const TimedPoint& from, const TimedPoint& to,
+                     const MotionBounds& bounds, Interpolation order) {
+  const double T = to.time_s - from.time_s;
+  for (Eigen::Index k = 0; k < bounds.v.size(); ++k) {
+    const auto end = [k](const TimedPoint& point) {
+      return Boundary{point.q[k], point.dq[k], point.ddq[k]};
+    };
+    const Polynomial v = join(order, end(from), end(to), T).derivative(), a = v.derivative();
+    raise(most.v, v, T, bounds.v[k]);
+    raise(most.a, a, T, bounds.a[k]);
+    raise(most.j, a.derivative(), T, bounds.j[k]);
+  }
+}
+
+VectorBounds of_translation(const TimedPoint& from, const TimedPoint& to, Interpolation order) {
+  const double T = to.time_s - from.time_s;
+  const auto end = [](const TimedPoint& point) {
+    return BoundaryOf<Vector3>{translation_of(point.q), translation_of(point.dq),
+                               translation_of(point.ddq)};
+  };
+  return translation_bounds(join(order, end(from), end(to), T), T);
+}
+
+VectorBounds of_rotation(const TimedPoint& from, const TimedPoint& to, Interpolation order) {
+  const auto end = [](const TimedPoint& point) {
+    return RotationBoundary{orientation_of(point.q), rotation_of(point.dq), rotation_of(point.ddq)};
+  };
+  return RotationSegment(end(from), end(to), to.time_s - from.time_s, order).bounds();
+}
+
+void raise_by_tip(Peaks& most, const TimedPoint& from, const TimedPoint& to,
+                  const MotionBounds& bounds, Interpolation order) {
+  const VectorBounds found[] = {of_translation(from, to, order), of_rotation(from, to, order)};
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    most.v = std::max(most.v, found[k].v / bounds.v[k]);
+    most.a = std::max(most.a, found[k].a / bounds.a[k]);
+    most.j = std::max(most.j, found[k].j / bounds.j[k]);
+  }
 }
 
 }  // namespace
 
-double Peaks::stretch(double least) const {
-  return std::max({least, v, std::sqrt(a), std::cbrt(j)});
+double Peaks::stretch() const {
+  return std::max({v, std::sqrt(a), std::cbrt(j)});
 }
 
-Peaks peaks(const std::vector<TimedPoint>& points, const MotionBounds& bounds, bool quintic) {
+Peaks peaks(const std::vector<TimedPoint>& points, bool tip, const MotionBounds& bounds,
+            bool quintic) {
+  const Interpolation order = quintic ? Interpolation::kQuintic : Interpolation::kCubic;
   Peaks most;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    for (int k = 0; k < bounds.v.size(); ++k) {
-      const Segment segment = through(points[i - 1], points[i], k, quintic);
-      const std::array<double, 4> times = turns_of_a(segment);
-      for (std::size_t n = 0; n < times.size(); ++n) {
-        const double t = times[n], rest = zero_of_a(segment, n > 0 ? times[n - 1] : t, t);
-        most.v = std::max({most.v, std::abs(segment.v(t)) / bounds.v[k],
-                           std::abs(segment.v(rest)) / bounds.v[k]});
-        most.a = std::max(most.a, std::abs(segment.a(t)) / bounds.a[k]);
-      }
-      const double bend = std::clamp(-24.0 * segment.c[4] / (120.0 * segment.c[5]), 0.0, segment.T);
-      for (const double t : {0.0, std::isfinite(bend) ? bend : 0.0, segment.T})
-        if (quintic) most.j = std::max(most.j, std::abs(segment.j(t)) / bounds.j[k]);
-    }
-  }
+  for (std::size_t i = 1; i < points.size(); ++i)
+    (tip ? raise_by_tip : raise_by_joints)(most, points[i - 1], points[i], bounds, order);
   return most;
 }
 

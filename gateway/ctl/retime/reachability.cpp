@@ -2,24 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "gateway/ctl/retime/half_planes.hpp"
+#include <limits>
 
 namespace tactus::ctl {
 namespace {
 
-constexpr int kStepsOfBlend = 100;
+/// A blend, as a share of the steps of its section, and at least.
+constexpr int kBlendShare = 10, kStepsOfBlend = 4;
+constexpr int kBisections = 60;  // to rounding
 
 /// Path derivatives at a node.
 struct Slopes {
-  Joints d1, d2;
+  Numbers d1, d2;
   double x_max = 0.0;
 };
 
 Slopes slopes_at(const PathNode& node, const MotionBounds& bounds) {
   const PathPlace place = node.piece->at(node.offset);
-  const double by_v = (place.dq.abs() / bounds.v).maxCoeff();
-  const double by_j = std::cbrt((place.dddq.abs() / bounds.j).maxCoeff());
+  const Eigen::Index channels = bounds.v.size();
+  const double by_v = (lengths(place.dq, channels) / bounds.v).maxCoeff();
+  const double by_j = std::cbrt((lengths(place.dddq, channels) / bounds.j).maxCoeff());
   const double speed = 1.0 / std::max(by_v, by_j);
   return {place.dq, place.ddq, speed * speed};
 }
@@ -27,11 +29,12 @@ Slopes slopes_at(const PathNode& node, const MotionBounds& bounds) {
 std::vector<PathNode> grid(const PathSection& section, int steps) {
   double length = 0.0;
   for (const PathPiece& piece : section) length += piece.length;
+  const int in_blend = std::max(kStepsOfBlend, steps / kBlendShare);
   std::vector<PathNode> nodes;
   double begin = 0.0;
   for (const PathPiece& piece : section) {
     const double share = piece.length / length * steps;
-    const int count = std::max(piece.straight() ? 2 : kStepsOfBlend, static_cast<int>(share) + 1);
+    const int count = std::max(piece.straight() ? 2 : in_blend, static_cast<int>(share) + 1);
     for (int i = 0; i < count; ++i) {
       const double offset = piece.length * i / count;
       nodes.push_back({&piece, offset, begin + offset});
@@ -43,39 +46,79 @@ std::vector<PathNode> grid(const PathSection& section, int steps) {
   return nodes;
 }
 
-/// Returns the largest x at a node from which one up to `next_x` can be reached.
-double controllable(const Slopes& here, const Slopes& there, double step, double next_x,
-                    const Joints& a) {
-  const double x = here.x_max, whole = 2.0 * step;
-  HalfPlanes feasible(
-      {{0.0, 0.0}, {next_x / whole, 0.0}, {(next_x - x) / whole, x}, {-x / whole, x}});
-  for (int k = 0; k < a.size(); ++k) {
-    const double slope = there.d1[k] + whole * there.d2[k];
-    for (const double sign : {1.0, -1.0}) {
-      feasible.cut(sign * here.d1[k], sign * here.d2[k], a[k]);
-      feasible.cut(sign * slope, sign * there.d2[k], a[k]);
+struct Interval {
+  double low, high;
+
+  void keep(double least, double most) {
+    low = std::max(low, least);
+    high = std::min(high, most);
+  }
+};
+
+/// |u m + x n| <= a for vectors m and n: along m an interval of u, across it a bound of x.
+class Ball {
+ public:
+  Ball(const Eigen::VectorXd& m, const Eigen::VectorXd& n, double a) : length_(m.norm()), a_(a) {
+    const Eigen::VectorXd axis = m / (length_ > 0.0 ? length_ : 1.0);
+    along_ = axis.dot(n);
+    across_ = (n - along_ * axis).norm();
+  }
+
+  void keep(double x, Interval& u) const {
+    const double left = a_ * a_ - across_ * across_ * (x * x);
+    if (!(left >= 0.0)) {
+      u.high = -std::numeric_limits<double>::infinity();
+    } else if (length_ > 0.0) {
+      const double reach = std::sqrt(left);
+      u.keep((-along_ * x - reach) / length_, (-along_ * x + reach) / length_);
     }
   }
-  return std::max(0.0, feasible.largest_x());
-}
 
-/// Returns the largest u from x here to one up to `next_x`.
-double largest_u(const Slopes& here, const Slopes& there, double step, double x, double next_x,
-                 const Joints& a) {
-  const double whole = 2.0 * step;
-  double low = -x / whole, high = (next_x - x) / whole;
-  const auto keep = [&](double slope, double rest, double bound) {  // |slope u + rest| <= bound
-    if (slope == 0.0) return;
-    const double first = (-bound - rest) / slope, second = (bound - rest) / slope;
-    low = std::max(low, std::min(first, second));
-    high = std::min(high, std::max(first, second));
-  };
-  for (int k = 0; k < a.size(); ++k) {
-    keep(here.d1[k], here.d2[k] * x, a[k]);
-    keep(there.d1[k] + whole * there.d2[k], there.d2[k] * x, a[k]);
+ private:
+  double length_, along_ = 0.0, across_ = 0.0, a_;
+};
+
+/// The bounds of an interval of the grid.
+class Step {
+ public:
+  Step(const Slopes& here, const Slopes& there, double length, const Numbers& a)
+      : whole_(2.0 * length), x_max_(here.x_max) {
+    const Eigen::Index size = here.d1.size() / a.size();
+    const auto channel = [size](const Numbers& vector, Eigen::Index k) {
+      return vector.matrix().segment(k * size, size);
+    };
+    for (Eigen::Index k = 0; k < a.size(); ++k) {
+      balls_.emplace_back(channel(here.d1, k), channel(here.d2, k), a[k]);
+      balls_.emplace_back(channel(there.d1 + whole_ * there.d2, k), channel(there.d2, k), a[k]);
+    }
   }
-  return high >= low ? high : (high + low) / 2.0;  // the interval may be a point, up to rounding
-}
+
+  /// Returns the u that lead from x to one up to `next_x`; none if high < low.
+  Interval from(double x, double next_x) const {
+    Interval u = {-x / whole_, (next_x - x) / whole_};
+    for (const Ball& ball : balls_) ball.keep(x, u);
+    return u;
+  }
+
+  /// Returns the largest x from which one up to `next_x` can be reached.
+  double controllable(double next_x) const {
+    const auto reaches = [&](double x) {
+      const Interval u = from(x, next_x);
+      return u.low <= u.high;
+    };
+    if (reaches(x_max_)) return x_max_;
+    double least = 0.0, beyond = x_max_;
+    for (int i = 0; i < kBisections; ++i) {
+      const double x = 0.5 * (least + beyond);
+      (reaches(x) ? least : beyond) = x;
+    }
+    return least;
+  }
+
+ private:
+  double whole_, x_max_;
+  std::vector<Ball> balls_;
+};
 
 }  // namespace
 
@@ -85,15 +128,18 @@ std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bo
   slopes.reserve(nodes.size());
   for (const PathNode& node : nodes) slopes.push_back(slopes_at(node, bounds));
   const std::size_t last = nodes.size() - 1;
+  std::vector<Step> steps_between;
+  for (std::size_t i = 0; i < last; ++i)
+    steps_between.emplace_back(slopes[i], slopes[i + 1], nodes[i + 1].s - nodes[i].s, bounds.a);
   std::vector<double> most(nodes.size(), 0.0);
-  for (std::size_t i = last; i-- > 0;)
-    most[i] =
-        controllable(slopes[i], slopes[i + 1], nodes[i + 1].s - nodes[i].s, most[i + 1], bounds.a);
+  for (std::size_t i = last; i-- > 0;) most[i] = steps_between[i].controllable(most[i + 1]);
   for (std::size_t i = 0; i < last; ++i) {
     PathNode &node = nodes[i], &next = nodes[i + 1];
     const double step = next.s - node.s;
-    const double u = largest_u(slopes[i], slopes[i + 1], step, node.x, most[i + 1], bounds.a);
-    next.x = std::clamp(node.x + 2.0 * step * u, 0.0, most[i + 1]);
+    const Interval u = steps_between[i].from(node.x, most[i + 1]);
+    // The interval may be a point, up to rounding.
+    const double largest = u.high >= u.low ? u.high : (u.high + u.low) / 2.0;
+    next.x = std::clamp(node.x + 2.0 * step * largest, 0.0, most[i + 1]);
     node.u = (next.x - node.x) / (2.0 * step);
     const double speeds = std::sqrt(node.x) + std::sqrt(next.x);
     if (!(speeds > 0.0)) return {};

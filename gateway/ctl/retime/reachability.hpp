@@ -3,16 +3,19 @@
 // Reachability Analysis", IEEE Transactions on Robotics 34(3), 2018.
 //
 // On a grid of path parameters s_i, with x = (ds/dt)^2 and u = d^2s/dt^2 constant between two of
-// them, x_{i+1} = x_i + 2 (s_{i+1} - s_i) u_i, and velocity and acceleration of every joint are
-// linear in (u, x):
+// them, x_{i+1} = x_i + 2 (s_{i+1} - s_i) u_i, and the velocity and the acceleration of every
+// channel are bounded by
 //
 //   |q'|^2 x <= v^2          |q' u + q'' x| <= a      at s_i, and at s_{i+1} with x_{i+1}
 //
-// Where the path bends, the jerk at constant speed bounds x too: |q'''| x^(3/2) <= j.
+// where || is the length of a vector, of a joint the magnitude. Where the path bends, the jerk at
+// constant speed bounds x too: |q'''| x^(3/2) <= j.
 //
-// Backward, from rest at the end, the largest x_i from which x_{i+1} can be controllable is the
-// maximum of a linear program in (u, x); forward, from rest, the largest u_i is taken. Rest is
-// always controllable, so that each set of controllable x is an interval from 0.
+// All (u, x) within the bounds are a convex set, and those of one x an interval, in closed form: it
+// is what a line has in common with balls. Backward, from rest at the end, the largest x_i from
+// which x_{i+1} can be controllable is found by bisection, where the interval becomes empty;
+// forward, from rest, the largest u_i is taken. Rest is always controllable, so that each set of
+// controllable x is an interval from 0.
 #pragma once
 
 #include <vector>

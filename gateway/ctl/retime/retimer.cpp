@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "gateway/ctl/retime/peaks.hpp"
 #include "gateway/ctl/retime/time_law.hpp"
@@ -10,6 +9,9 @@
 namespace tactus::ctl {
 namespace {
 
+/// Between waypoints. Admission asks for a sixteenth of the period, of 16 ms at most.
+constexpr double kShortestSegment_s = 0.001;
+constexpr int kFewestSteps = 8;
 constexpr double kShortestWindow_s = 0.004;  // four waypoints of 1 ms
 /// Windows that are tried, each longer than the last by this factor: up to seven times the time in
 /// which the acceleration reaches its bound.
@@ -54,8 +56,8 @@ std::vector<TimedPoint> smoothed(const std::vector<PathNode>& nodes, double wind
 
 /// Makes the times longer, so that every bound is kept.
 void keep_bounds(std::vector<TimedPoint>& points, const RetimeSettings& settings) {
-  const Peaks found = peaks(points, settings.bounds, settings.jerk);
-  const double stretch = found.stretch(0.0) * (1.0 + kRounding);
+  const Peaks found = peaks(points, settings.tip, settings.bounds, settings.jerk);
+  const double stretch = found.stretch() * (1.0 + kRounding);
   for (TimedPoint& point : points) {
     point.time_s *= stretch;
     point.dq /= stretch;
@@ -63,12 +65,41 @@ void keep_bounds(std::vector<TimedPoint>& points, const RetimeSettings& settings
   }
 }
 
+/// Removes inner waypoints that are too near to another; false: there are none.
+bool thinned(std::vector<TimedPoint>& points) {
+  const double end_s = points.back().time_s;
+  std::vector<TimedPoint> apart = {points.front()};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const double to_next_s =
+        std::min(points[i].time_s - apart.back().time_s, end_s - points[i].time_s);
+    if (to_next_s >= kShortestSegment_s) apart.push_back(points[i]);
+  }
+  apart.push_back(points.back());
+  apart.swap(points);
+  return points.size() < apart.size();
+}
+
+/// Returns the fastest motion along a section, with accelerations that step. Its waypoints are
+/// those of the grid, which is made coarser until they are not too near: what is left out between
+/// waypoints that are far apart costs little time.
+std::vector<TimedPoint> with_steps(const PathSection& section, const RetimeSettings& settings) {
+  std::vector<TimedPoint> points;
+  bool crowded = true;
+  for (int steps = settings.steps; crowded && steps >= kFewestSteps; steps /= 2) {
+    points = at_nodes(fastest(section, settings.bounds, steps));
+    if (points.empty()) return points;
+    crowded = thinned(points);
+    keep_bounds(points, settings);
+  }
+  return points;
+}
+
 /// Returns the fastest motion along a section whose acceleration does not step.
-std::vector<TimedPoint> with_jerk(const std::vector<PathNode>& nodes,
-                                  const RetimeSettings& settings) {
-  const MotionBounds& bounds = settings.bounds;
-  const double whole_s = (bounds.a / bounds.j).maxCoeff();
+std::vector<TimedPoint> with_jerk(const PathSection& section, const RetimeSettings& settings) {
+  const std::vector<PathNode> nodes = fastest(section, settings.bounds, settings.steps);
   std::vector<TimedPoint> best;
+  if (nodes.empty()) return best;
+  const double whole_s = (settings.bounds.a / settings.bounds.j).maxCoeff();
   double window_s = std::max(kShortestWindow_s, 0.5 * whole_s);
   for (int i = 0; i < kWindows; ++i) {
     std::vector<TimedPoint> points = smoothed(nodes, window_s);
@@ -81,16 +112,12 @@ std::vector<TimedPoint> with_jerk(const std::vector<PathNode>& nodes,
 
 }  // namespace
 
-std::vector<TimedPoint> retime(const std::vector<Joints>& waypoints,
+std::vector<TimedPoint> retime(const std::vector<Numbers>& waypoints,
                                const RetimeSettings& settings) {
   std::vector<TimedPoint> whole;
-  MotionBounds bounds = settings.bounds;
-  if (!settings.jerk) bounds.j.setConstant(std::numeric_limits<double>::infinity());
-  for (const PathSection& section : blend(waypoints, settings.corners)) {
-    const std::vector<PathNode> nodes = fastest(section, bounds, settings.steps);
-    if (nodes.empty()) return {};
-    std::vector<TimedPoint> points = settings.jerk ? with_jerk(nodes, settings) : at_nodes(nodes);
-    if (!settings.jerk) keep_bounds(points, settings);
+  for (const PathSection& section : blend(waypoints, settings.tip, settings.corners)) {
+    std::vector<TimedPoint> points = (settings.jerk ? with_jerk : with_steps)(section, settings);
+    if (points.empty()) return {};
     const double begin_s = whole.empty() ? 0.0 : whole.back().time_s;
     for (std::size_t i = whole.empty() ? 0 : 1; i < points.size(); ++i) {
       points[i].time_s += begin_s;

@@ -14,6 +14,7 @@
 namespace tactus::ctl {
 
 struct RetimeSettings {
+  bool tip = false;  ///< the path is one of the tip, not of joints
   MotionBounds bounds;
   Corners corners;
   bool jerk = true;  ///< keep the bound of jerk; the trajectory then has accelerations
@@ -22,7 +23,7 @@ struct RetimeSettings {
 
 /// Returns the trajectory, from time 0; empty if all waypoints are the same or the path cannot be
 /// passed. [any]
-std::vector<TimedPoint> retime(const std::vector<Joints>& waypoints,
+std::vector<TimedPoint> retime(const std::vector<Numbers>& waypoints,
                                const RetimeSettings& settings);
 
 }  // namespace tactus::ctl

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "kernel/core/types.hpp"
+#include "kernel/core/vectors.hpp"
 #include "kernel/reference/space/interpolation.hpp"
 
 namespace tactus {

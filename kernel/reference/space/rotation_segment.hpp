@@ -7,7 +7,7 @@
 // R (J_r dphi x J_r dphi) = 0 to alpha.
 #pragma once
 
-#include "kernel/core/types.hpp"
+#include "kernel/core/vectors.hpp"
 #include "kernel/reference/space/vector_bounds.hpp"
 
 namespace tactus {

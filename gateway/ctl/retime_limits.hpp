@@ -1,0 +1,25 @@
+// The limits within which retime may move a robot: of its table or, of the pipeline that is served,
+// of the server.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gateway/ctl/options.hpp"
+#include "gateway/ctl/output.hpp"
+#include "gateway/ctl/retime/numbers.hpp"
+
+namespace tactus::ctl {
+
+struct RobotLimits {
+  std::string robot;
+  std::vector<std::string> joints;
+  MotionBounds joint, tip;  ///< tip: empty if the pipeline that is served takes no poses
+  Numbers lowest, highest;  ///< of the joints, rad
+};
+
+/// Finds the limits that the options ask for. Returns the exit code: of one that is not kSucceeded
+/// the output has told the reason.
+int find_limits(const Options& options, Output& output, RobotLimits& limits);
+
+}  // namespace tactus::ctl

@@ -1,0 +1,23 @@
+// Vectors of space, the same for every robot. Linear part or force first; SI units; each value's
+// declaration names its frame.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace tactus {
+
+using Vector3 = Eigen::Matrix<double, 3, 1>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix3 = Eigen::Matrix<double, 3, 3>;
+
+/// Returns a twist, an acceleration or a wrench: linear part or force above angular part or moment.
+/// Of fixed size throughout, unlike Eigen's comma initializer, which a small build would loop over.
+inline Vector6 stacked(const Vector3& linear, const Vector3& angular) {
+  Vector6 both;
+  both.head<3>() = linear;
+  both.tail<3>() = angular;
+  return both;
+}
+
+}  // namespace tactus
