@@ -178,10 +178,11 @@ void gains_that_ask_for_more_torque_than_there_is_are_refused(void**) {
   PidBench b;
   set_in_motion(b);
   const JointLimits limits;
-  ASSERT_OK(b.pid.judge_change(with_gains(b, 50.0, 0.0, 1.0), limits));
-  ASSERT_STATUS(b.pid.judge_change(with_gains(b, 1e6, 0.0, 1.0), limits), Status::kEffortLimit);
+  ASSERT_OK(b.pid.judge_change(with_gains(b, 50.0, 0.0, 1.0), limits).status);
+  ASSERT_STATUS(b.pid.judge_change(with_gains(b, 1e6, 0.0, 1.0), limits).status,
+                Status::kEffortLimit);
   b.q_d *= 100.0;
-  ASSERT_STATUS(b.pid.judge_change(with_gains(b, 1.7e308, 1.0, 1.7e308), limits),
+  ASSERT_STATUS(b.pid.judge_change(with_gains(b, 1.7e308, 1.0, 1.7e308), limits).status,
                 Status::kCommandNotFinite);
 }
 
