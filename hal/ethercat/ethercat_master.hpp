@@ -32,6 +32,9 @@ class EthercatMaster {
   void receive(Frame& frame);
   /// True while a frame is to come back. [any]
   bool awaits() const { return phase_ == Phase::kStartsUp || cyclic_.awaits(); }
+  /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed.
+  /// [cyclic]
+  bool answers() const { return cyclic_.missing() <= drive_->max_missed; }
   /// Judges what has come since the last cycle. [cyclic]
   Status read(const CycleTime& now, RobotState& state);
   /// Composes the frame of this cycle. [cyclic]
