@@ -100,7 +100,7 @@ CyclicFrame::Came CyclicFrame::close() {
     return Came::kNothing;
   }
   missing_ = 0;
-  if (counter_ == kExpected) return Came::kInputs;
+  if (counter_ == kExpected && has_reference_ == has_clock_) return Came::kInputs;
   ++counts_.counter;
   return Came::kWrongCounter;
 }

@@ -19,7 +19,7 @@ struct LineCounts {
   std::int64_t frames = 0;   ///< sent
   std::int64_t lost = 0;     ///< did not come back before the next
   std::int64_t late = 0;     ///< came back after the next was sent
-  std::int64_t counter = 0;  ///< came back with a wrong working counter of the process data
+  std::int64_t counter = 0;  ///< came back with a wrong working counter
   std::int64_t strange = 0;  ///< were none of these, or not whole
 };
 
