@@ -232,6 +232,8 @@ void EthercatMaster::compose(const cia402::DriveCommands& commands, const Reques
 
 void EthercatMaster::leave() {
   if (phase_ != Phase::kRuns) {
+    const bool began = phase_ != Phase::kOff && startup_.give_up();
+    has_out_ = began && startup_.exchange().take(out_);
     phase_ = Phase::kOff;
     return;
   }

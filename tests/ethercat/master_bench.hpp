@@ -18,6 +18,7 @@ class WiredHal final : public Hal {
   segment::Segment line;
   std::int64_t period_ns = 1'000'000;
   int exchanges = 0;                   ///< frames of the start-up and of the cycles
+  int give_up_after = 1 << 30;         ///< exchanges of a start-up
   int lose_every = 0;                  ///< frames of the start-up do not come back: each so many
   Frame sent;                          ///< the last one
   std::function<void(Frame&)> tamper;  ///< with frames that come back
@@ -30,7 +31,8 @@ class WiredHal final : public Hal {
     const std::int64_t began_ns = time_ns_;
     master.connect(source, 0);
     Status status = Status::kArming;
-    while (status == Status::kArming && time_ns_ - began_ns < kMost_ns) {
+    while (status == Status::kArming && time_ns_ - began_ns < kMost_ns &&
+           exchanges < give_up_after) {
       time_ns_ += kStep_ns;
       collect();
       status = master.connecting(time_ns_ - began_ns);
