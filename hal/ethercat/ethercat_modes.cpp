@@ -70,15 +70,17 @@ Message EthercatMaster::trouble() const {
   Message text = drives_.why();
   if (clock_.verdict() != ReferenceClock::Verdict::kRuns)
     text << "; " << std::string_view(clock_text());
-  int first = kDof;  // of the line, that does not answer
-  for (const Slave& slave : slaves_)
-    if (slave.unanswered > 0 && slave.position < first) first = slave.position;
-  if (first < kDof)
-    text << "; slave " << first + 1 << " does not answer: check its power and the cable to it";
+  int first = -1;  // joint whose slave is the first of the line that does not answer
+  for (int j = 0; j < kDof; ++j)
+    if (slave(j).unanswered > 0 && (first < 0 || slave(j).position < slave(first).position))
+      first = j;
+  if (first >= 0)
+    text << "; the first slave that does not answer is that of "
+         << std::string_view(label(first, slave(first))) << ": check its power and the cable to it";
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.feedback.lost == Status::kOk || slave.al_code == 0) continue;
-    text << "; slave " << slave.position + 1 << " is in "
+    text << "; " << std::string_view(label(j, slave)) << " is in "
          << name(static_cast<AlState>(slave.al_status & kAlStateBits)) << ": "
          << al_code_text(slave.al_code) << " (" << cia402::hex(slave.al_code).c_str() << ")";
     break;

@@ -73,6 +73,7 @@ class Startup {
   Status refuse(Status status, std::string_view what);
   // startup_slave.cpp
   Request area_request() const;
+  Status refuse_eeprom();
   Status take_eeprom();
   Status take_category();
   Status judge_eeprom();

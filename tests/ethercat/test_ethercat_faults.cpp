@@ -123,7 +123,7 @@ void a_slave_that_fell_is_named_with_its_code(void**) {
   for (int i = 0; i < 30; ++i) (void)bench.cycle();
   const Message said = bench.hal.trouble();
   print_message("%s\n", said.c_str());
-  assert_non_null(std::strstr(said.c_str(), "slave 5 is in SAFEOP"));
+  assert_non_null(std::strstr(said.c_str(), "joint 5 (slave 5) is in SAFEOP"));
   assert_non_null(std::strstr(said.c_str(), "fatal synchronization error (002Ch)"));
 }
 
