@@ -140,6 +140,28 @@ void a_wrong_drive_is_named_with_what_it_says(void**) {
   assert_refused(other, Status::kRefusedByRobot, "product (1018h:2) is 402, expected 403");
 }
 
+void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {
+  struct Row {
+    std::uint16_t control;
+    const char* words;
+  };
+  for (const Row& row :
+       {Row{0x2000,
+            "its EEPROM cannot be read at word 0008h: it does not acknowledge (NACK) (0502h "
+            "is 2000h)"},
+        Row{0x8000, "its EEPROM cannot be read at word 0008h: it stays busy (0502h is 8000h)"}}) {
+    MasterBench& bench = fresh();
+    ASSERT_OK(bench.load());
+    bench.hal.tamper = [&row](Frame& frame) {
+      FrameReader reader(frame);
+      Datagram datagram;
+      const bool reads = reader.next(datagram) && datagram.command == Command::kFprd;
+      if (reads && datagram.reg() == kEepromControlReg) put(datagram.data, row.control);
+    };
+    assert_refused(bench, Status::kRefusedByRobot, row.words);
+  }
+}
+
 void mailbox_faults_are_named(void**) {
   MasterBench& bench = fresh();
   bench.ethercat.sdo_ms = 50;
@@ -196,6 +218,7 @@ int main() {
       cmocka_unit_test(slaves_that_are_too_few_are_not_touched),
       cmocka_unit_test(a_segment_of_another_length_is_refused),
       cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
+      cmocka_unit_test(an_eeprom_that_cannot_be_read_is_refused_with_the_reason),
       cmocka_unit_test(mailbox_faults_are_named),
       cmocka_unit_test(a_drive_whose_mapping_cannot_be_read_is_refused),
       cmocka_unit_test(settings_that_cannot_be_are_refused),
