@@ -99,7 +99,7 @@ void lost_and_late_frames_are_counted(void**) {
   assert_int_equal(counts.counter, 0);
 }
 
-// Proves ECAT-14.
+// Proves ECAT-15.
 /// By then the clock of the cycles must not wait for frames: drives are given up by the clock.
 void a_wire_that_does_not_answer_is_known_after_max_missed_frames(void**) {
   MasterBench& bench = fresh_bench();

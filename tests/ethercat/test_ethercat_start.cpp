@@ -85,7 +85,7 @@ void assert_refused(MasterBench& bench, Status status, const char* words) {
   assert_non_null(std::strstr(said.c_str(), words));
 }
 
-// Proves ECAT-14.
+// Proves ECAT-15.
 /// However far it has come: by a signal, or a refusal of the last drive.
 void a_start_up_that_is_given_up_leaves_the_slaves_in_init(void**) {
   MasterBench& whole_way = fresh();

@@ -26,7 +26,7 @@ int claim_of_another(const char* interface) {
   return -1;
 }
 
-// Proves ECAT-12.
+// Proves ECAT-13.
 void an_interface_that_another_program_uses_is_refused(void**) {
   PacketSocket socket;
   Message why;

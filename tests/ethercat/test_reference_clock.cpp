@@ -54,7 +54,7 @@ auto clock_of(Time time, int counter = -1) {
   };
 }
 
-// Proves ECAT-13.
+// Proves ECAT-14.
 void a_time_must_go_on_and_by_no_more_than_has_passed(void**) {
   ReferenceClock clock;
   clock.start(true, kSlack_ns);
