@@ -75,12 +75,12 @@ Message EthercatMaster::trouble() const {
     if (slave(j).unanswered > 0 && (first < 0 || slave(j).position < slave(first).position))
       first = j;
   if (first >= 0)
-    text << "; the first slave that does not answer is that of "
-         << std::string_view(label(first, slave(first))) << ": check its power and the cable to it";
+    text << "; the first slave that does not answer is that of " << std::string_view(label(first))
+         << ": check its power and the cable to it";
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.feedback.lost == Status::kOk || slave.al_code == 0) continue;
-    text << "; " << std::string_view(label(j, slave)) << " is in "
+    text << "; " << std::string_view(label(j)) << " is in "
          << name(static_cast<AlState>(slave.al_status & kAlStateBits)) << ": "
          << al_code_text(slave.al_code) << " (" << cia402::hex(slave.al_code).c_str() << ")";
     break;
