@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kSdoHead = 4, kSdoBody = 8;  // command, index, sub-index; and four bytes
 constexpr std::size_t kLeastSegment = 7;
+constexpr const char* kOther = "it names another object";
+constexpr int kMostWrong = 9999;  // more are not counted
 
 }  // namespace
 
@@ -25,7 +27,8 @@ void CoeClient::begin(Phase phase, std::size_t out_bytes, std::uint16_t index, s
   sub_ = sub;
   heard_ns_ = now_ns;
   to_send_ = true;
-  toggle_ = silent_ = false;
+  toggle_ = silent_ = too_large_ = false;
+  wrong_ = 0;
   done_ = 0;
   if (room_ < kSdoBody) fail(SdoAbort::kOutOfMemory);
 }
@@ -111,14 +114,25 @@ std::size_t CoeClient::write_body(std::uint8_t* body) {
   return kSdoBody;
 }
 
+void CoeClient::ignore(const char* why) {
+  wrong_ += wrong_ < kMostWrong;
+  wrong_why_ = why;
+}
+
 bool CoeClient::receive(const std::uint8_t* mailbox, std::size_t size, can::Emergency& emergency,
                         std::int64_t now_ns) {
   if (size < kCoeBody) return false;
   const std::size_t length = get<std::uint16_t>(mailbox);
   const std::uint8_t type = mailbox[5] & kMailboxTypeBits;
-  if (length < kCoeBytes || length > size - kMailboxBytes) return false;
+  if (length < kCoeBytes || length > size - kMailboxBytes) {
+    ignore("its length does not fit into the mailbox");
+    return false;
+  }
   if (type == kMailboxError && progress_ == Progress::kBusy) fail(SdoAbort::kGeneral);
-  if (type != kMailboxCoe) return false;
+  if (type != kMailboxCoe) {
+    ignore("it is not of CoE");
+    return false;
+  }
   const int service = get<std::uint16_t>(mailbox + kMailboxBytes) >> kCoeServiceShift;
   const std::size_t body = length - kCoeBytes;
   if (service == kCoeEmergency && body >= can::kEmergencySize) {
@@ -127,6 +141,7 @@ bool CoeClient::receive(const std::uint8_t* mailbox, std::size_t size, can::Emer
   }
   // Some slaves send an abort under the service of requests.
   const bool aborts = service == kCoeSdoRequest && body > 0 && mailbox[kCoeBody] == can::kAbort;
+  if (service != kCoeSdoAnswer && !aborts) ignore("its service is not that of SDO answers");
   if (progress_ != Progress::kBusy || (service != kCoeSdoAnswer && !aborts)) return false;
   heard_ns_ = now_ns;
   take_answer(mailbox + kCoeBody, body);
@@ -138,19 +153,19 @@ void CoeClient::take_answer(const std::uint8_t* body, std::size_t size) {
   const bool names = get<std::uint16_t>(body + 1) == index_ && body[3] == sub_;
   const std::uint8_t command = body[0], specifier = command & can::kSpecifier;
   if (command == can::kAbort) {
-    if (names) fail(static_cast<SdoAbort>(get<std::uint32_t>(body + kSdoHead)));
-    return;
+    if (!names) return ignore(kOther);
+    return fail(static_cast<SdoAbort>(get<std::uint32_t>(body + kSdoHead)));
   }
   switch (phase_) {
     case Phase::kNone: return;
     case Phase::kRead:
-      if (!names) return;
+      if (!names) return ignore(kOther);
       return specifier == can::kUploaded ? take_upload(body, size) : fail(SdoAbort::kCommand);
     case Phase::kReadSegment:
       return specifier == can::kSegmentUploaded ? take_segment(body, size)
                                                 : fail(SdoAbort::kCommand);
     case Phase::kWrite:
-      if (!names) return;
+      if (!names) return ignore(kOther);
       if (specifier != can::kDownloaded) return fail(SdoAbort::kCommand);
       break;
     case Phase::kWriteSegment:
@@ -172,7 +187,8 @@ void CoeClient::take_upload(const std::uint8_t* body, std::size_t size) {
     return end(Progress::kDone, SdoAbort::kNone);
   }
   size_ = get<std::uint32_t>(body + kSdoHead);
-  if (size_ > kCapacity) return fail(SdoAbort::kOutOfMemory);
+  too_large_ = size_ > kCapacity;
+  if (too_large_) return fail(SdoAbort::kOutOfMemory);
   done_ = std::min(size - kSdoBody, size_);
   std::memcpy(data_.data(), body + kSdoBody, done_);
   if (done_ == size_) return end(Progress::kDone, SdoAbort::kNone);
@@ -204,10 +220,14 @@ void CoeClient::advance(std::int64_t now_ns) {
 Message CoeClient::describe() const {
   Message text("object ");
   text << cia402::hex(index_) << ":" << int{sub_} << ": ";
-  if (silent_)
-    text << "no answer within " << static_cast<int>(answer_ns_ / 1'000'000) << " ms";
-  else
-    text << can::meaning(abort_);
+  if (too_large_) {
+    text << "it has " << size_ << " bytes, and this program takes at most " << kCapacity;
+    return text;
+  }
+  if (silent_) text << "no answer within " << static_cast<int>(answer_ns_ / 1'000'000) << " ms";
+  if (silent_ && wrong_ > 0)
+    text << ", but " << wrong_ << " messages that are none; of the last, " << wrong_why_;
+  if (!silent_) text << can::meaning(abort_);
   text << " (" << cia402::hex(static_cast<std::uint32_t>(abort_)) << ")";
   return text;
 }

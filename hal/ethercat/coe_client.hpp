@@ -52,6 +52,7 @@ class CoeClient {
   void begin(Phase phase, std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
              std::int64_t now_ns);
   void end(Progress progress, can::SdoAbort abort);
+  void ignore(const char* why);
   void fail(can::SdoAbort abort) { end(Progress::kAborted, abort); }
   std::size_t write_body(std::uint8_t* body);
   void take_answer(const std::uint8_t* body, std::size_t size);
@@ -62,7 +63,9 @@ class CoeClient {
   Phase phase_ = Phase::kNone;
   can::SdoAbort abort_ = can::SdoAbort::kNone;
   std::int64_t answer_ns_ = 500'000'000, heard_ns_ = 0;
-  bool to_send_ = false, toggle_ = false, silent_ = false;
+  bool to_send_ = false, toggle_ = false, silent_ = false, too_large_ = false;
+  int wrong_ = 0;               // messages that are no answer to the transfer
+  const char* wrong_why_ = "";  // the last of them
   std::uint8_t counter_ = 0, sub_ = 0;
   std::uint16_t index_ = 0;
   std::size_t room_ = 0;             // bytes of a body in the slave's mailbox

@@ -8,6 +8,7 @@ namespace {
 // Places of the datagrams in the frame; that of the clock is left out where there is none.
 constexpr int kImagePlace = 0, kClockPlace = 1, kAskedPlace = 2, kExtraPlace = 3;
 constexpr int kPlaces = 4;
+constexpr int kMostMissing = 1000;  // more are not counted
 constexpr std::size_t kClockBytes = 8, kAskedBytes = 6;
 
 }  // namespace
@@ -19,6 +20,7 @@ void CyclicFrame::start(std::size_t image_bytes, bool has_clock, const std::uint
   image_.fill(0);
   received_.fill(0);
   sent_ = came_ = has_reference_ = false;
+  missing_ = 0;
   counts_ = {};
 }
 
@@ -94,9 +96,11 @@ CyclicFrame::Came CyclicFrame::close() {
   sent_ = false;
   if (!came_) {
     ++counts_.lost;
+    missing_ += missing_ < kMostMissing;
     return Came::kNothing;
   }
-  if (counter_ == kExpected) return Came::kInputs;
+  missing_ = 0;
+  if (counter_ == kExpected && has_reference_ == has_clock_) return Came::kInputs;
   ++counts_.counter;
   return Came::kWrongCounter;
 }

@@ -19,7 +19,7 @@ struct LineCounts {
   std::int64_t frames = 0;   ///< sent
   std::int64_t lost = 0;     ///< did not come back before the next
   std::int64_t late = 0;     ///< came back after the next was sent
-  std::int64_t counter = 0;  ///< came back with a wrong working counter of the process data
+  std::int64_t counter = 0;  ///< came back with a wrong working counter
   std::int64_t strange = 0;  ///< were none of these, or not whole
 };
 
@@ -36,6 +36,8 @@ class CyclicFrame {
   /// Takes any frame. [cyclic]
   void receive(Frame& frame);
   bool awaits() const { return sent_ && !came_; }
+  /// Frames in a row that did not come back before the next. [any]
+  int missing() const { return missing_; }
   /// Closes the cycle: what has come of its frame. [cyclic]
   Came close();
 
@@ -65,6 +67,7 @@ class CyclicFrame {
   bool has_reference_ = false;
   std::uint16_t asked_status_ = 0, asked_code_ = 0;
   int asked_counter_ = 0, extra_counter_ = 0, counter_ = 0;
+  int missing_ = 0;
   LineCounts counts_;
 };
 

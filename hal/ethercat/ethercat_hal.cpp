@@ -25,6 +25,7 @@ Status EthercatHal::connect(CommandMode mode) {
   if (fault_ != Status::kOk) {
     const Message why = master_.why();
     master_.leave();
+    send();
     master_.why() = why;
     socket_.close();
   }

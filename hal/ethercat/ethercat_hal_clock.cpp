@@ -27,7 +27,9 @@ Status EthercatHal::wait(CycleTime& now) {
   if (result != 0) return Status::kClock;
   now.stamp_ns = Deadline::now_ns();
   if (ethercat_->frame_wait_ms == 0) return Status::kOk;
-  if (master_.awaits()) (void)socket_.wait(std::int64_t{1'000'000} * ethercat_->frame_wait_ms);
+  // A wire that does not answer is not waited for: the drives are given up by the clock.
+  const bool waits = master_.awaits() && master_.answers();
+  if (waits) (void)socket_.wait(std::int64_t{1'000'000} * ethercat_->frame_wait_ms);
   if (now_ns_ >= 0) now.stamp_ns = now_ns_ + period_ns;
   return Status::kOk;
 }

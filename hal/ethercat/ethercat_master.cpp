@@ -7,6 +7,7 @@ namespace tactus::ethercat {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kAnyTime_ns = std::int64_t{1} << 62;
 constexpr auto kOperational = static_cast<std::uint16_t>(AlState::kOp);
 
 }  // namespace
@@ -71,6 +72,7 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
   sent_ns_ = now_ns - std::int64_t{1000} * period_us_;
   cyclic_.start(startup_.image_bytes(), startup_.has_clocks(), startup_.exchange().source());
   steer_.start(std::int64_t{1000} * period_us_);
+  start_clock(slack_ns());
   port_.reset();
   coe_.cancel();
   return Status::kArming;
@@ -79,10 +81,8 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
 /// Cycles with outputs that move nothing; then OP is requested, and awaited.
 Status EthercatMaster::operating(std::int64_t now_ns) {
   if (now_ns - sent_ns_ < std::int64_t{1000} * period_us_) return Status::kArming;
+  const CyclicFrame::Came came = close_cycle(sent_ns_, now_ns);
   sent_ns_ = now_ns;
-  const CyclicFrame::Came came = cyclic_.close();
-  arrived_ = came != CyclicFrame::Came::kNothing;
-  if (arrived_) take_state();
   bool all = true;
   for (const Slave& slave : slaves_) all = all && slave.al_status == kOperational;
   steady_ = came == CyclicFrame::Came::kInputs && all ? steady_ + 1 : 0;
@@ -93,6 +93,8 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
     for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = slaves_[j].feedback;
     TRY(drives_.attach(mode_, feedbacks, why_));
     phase_ = Phase::kRuns;
+    // Stamps of cycles that wait for their frames say nothing of the time that passes.
+    start_clock(ethercat_->frame_wait_ms > 0 ? kAnyTime_ns : slack_ns());
     return Status::kOk;
   }
   if (now_ns - since_ns_ > ethercat_->state_ms * kMillisecond_ns) return not_operating();
@@ -101,8 +103,12 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
   return Status::kArming;
 }
 
-/// Names the first slave that is not in OP, and why.
+/// Names the clock that does not run, or the first slave that is not in OP, and why.
 Status EthercatMaster::not_operating() {
+  if (clock_.verdict() != ReferenceClock::Verdict::kRuns) {
+    why_ = clock_text();
+    return Status::kRefusedByRobot;
+  }
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.al_status == kOperational) continue;
@@ -111,6 +117,10 @@ Status EthercatMaster::not_operating() {
          << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
          << " ms: " << al_code_text(slave.al_code) << " ("
          << std::string_view(cia402::hex(slave.al_code)) << ")";
+    return Status::kRefusedByRobot;
+  }
+  if (cyclic_.counter() == CyclicFrame::kExpected) {
+    why_ = Message("slave 1 does not show its clock (0910h): the working counter of FRMW is 0");
     return Status::kRefusedByRobot;
   }
   why_ = Message("the working counter is ");
@@ -165,16 +175,16 @@ void EthercatMaster::take_mailbox() {
 }
 
 void EthercatMaster::take_cycle() {
-  const CyclicFrame::Came came = cyclic_.close();
-  arrived_ = came != CyclicFrame::Came::kNothing;
-  if (arrived_) take_state();
+  const CyclicFrame::Came came = close_cycle(sampled_ns_, now_ns_);
   take_mailbox();
-  if (arrived_ && cyclic_.has_reference()) steer_.take(cyclic_.reference_ns());
   LoopBound<kDof> slaves;
   for (Slave& slave : slaves_) {
     slaves.tick();
     slave.feedback.fresh = came == CyclicFrame::Came::kInputs;
-    if (slave.feedback.fresh) slave.data.decode(cyclic_.inputs(), slave.feedback);
+    if (!slave.feedback.fresh) continue;
+    const std::uint16_t told = slave.feedback.emergency ? slave.feedback.error_code : 0;
+    slave.data.decode(cyclic_.inputs(), slave.feedback);
+    if (slave.feedback.error_code == 0) slave.feedback.error_code = told;  // 603Fh comes later
   }
 }
 
@@ -222,6 +232,8 @@ void EthercatMaster::compose(const cia402::DriveCommands& commands, const Reques
 
 void EthercatMaster::leave() {
   if (phase_ != Phase::kRuns) {
+    const bool began = phase_ != Phase::kOff && startup_.give_up();
+    has_out_ = began && startup_.exchange().take(out_);
     phase_ = Phase::kOff;
     return;
   }

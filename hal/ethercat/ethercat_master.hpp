@@ -9,6 +9,7 @@
 #include "hal/cia402/drives.hpp"
 #include "hal/ethercat/clock_steer.hpp"
 #include "hal/ethercat/cyclic_frame.hpp"
+#include "hal/ethercat/reference_clock.hpp"
 #include "hal/ethercat/startup.hpp"
 
 namespace tactus::ethercat {
@@ -32,6 +33,9 @@ class EthercatMaster {
   void receive(Frame& frame);
   /// True while a frame is to come back. [any]
   bool awaits() const { return phase_ == Phase::kStartsUp || cyclic_.awaits(); }
+  /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed.
+  /// [cyclic]
+  bool answers() const { return cyclic_.missing() <= drive_->max_missed; }
   /// Judges what has come since the last cycle. [cyclic]
   Status read(const CycleTime& now, RobotState& state);
   /// Composes the frame of this cycle. [cyclic]
@@ -65,6 +69,9 @@ class EthercatMaster {
   static constexpr int kAgain = 100;    // cycles after which it is requested again
   static constexpr int kMostUnanswered = 2;
 
+  std::int64_t slack_ns() const {
+    return std::int64_t{1000} * period_us_ * (drive_->max_missed + 1);
+  }
   // ethercat_master.cpp
   Status judge_places();
   Status operating(std::int64_t now_ns);
@@ -75,6 +82,9 @@ class EthercatMaster {
   void compose(const cia402::DriveCommands& commands, const Request* extra);
   // ethercat_modes.cpp
   void check_modes();
+  void start_clock(std::int64_t slack_ns);
+  CyclicFrame::Came close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
+  Message clock_text() const;
 
   const EthercatSettings* ethercat_ = nullptr;
   const cia402::Cia402Settings* drive_ = nullptr;
@@ -87,6 +97,7 @@ class EthercatMaster {
   Startup startup_;
   CyclicFrame cyclic_;
   ClockSteer steer_;
+  ReferenceClock clock_;
   cia402::Drives drives_;
   cia402::DriveCommands commands_;
   Phase phase_ = Phase::kOff;

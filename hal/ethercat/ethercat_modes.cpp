@@ -1,4 +1,5 @@
-// EthercatMaster: what it asks the drives while their brakes open, and what it says of a fault.
+// EthercatMaster: what it asks the drives while their brakes open, how it judges the clock of the
+// segment, and what it says of a fault.
 #include "hal/cia402/hex.hpp"
 #include "hal/ethercat/ethercat_master.hpp"
 
@@ -34,18 +35,52 @@ void EthercatMaster::check_modes() {
   asks_ = false;
 }
 
+void EthercatMaster::start_clock(std::int64_t slack_ns) {
+  bool has_64_bits = true;
+  for (const Slave& slave : slaves_)
+    if (slave.position == 0) has_64_bits = (slave.features & kHasLongClock) != 0;
+  clock_.start(has_64_bits, slack_ns);
+}
+
+/// Closes the cycle of a frame that was sent after `sent_ns`. One whose clock does not run is
+/// an old one: its inputs are none.
+CyclicFrame::Came EthercatMaster::close_cycle(std::int64_t sent_ns, std::int64_t now_ns) {
+  const CyclicFrame::Came came = cyclic_.close();
+  arrived_ = came != CyclicFrame::Came::kNothing;
+  if (arrived_) take_state();
+  if (!arrived_ || !cyclic_.has_reference()) return came;
+  if (clock_.take(cyclic_.reference_ns(), sent_ns, now_ns) != ReferenceClock::Verdict::kRuns)
+    return CyclicFrame::Came::kNothing;
+  if (phase_ == Phase::kRuns) steer_.take(clock_.time_ns());
+  return came;
+}
+
+/// The frames and the time of the reference clock go through its slave, the first of the line.
+Message EthercatMaster::clock_text() const {
+  Message text("the clock of slave 1 (0910h) ");
+  text << (clock_.verdict() == ReferenceClock::Verdict::kStands ? "stands still" : "jumps")
+       << ", its last good time is " << static_cast<std::size_t>(clock_.time_ns())
+       << " ns: frames come back with old or wrong contents; check this drive, and what is between "
+          "it and the computer";
+  return text;
+}
+
 Message EthercatMaster::trouble() const {
   if (!why_.empty()) return why_;
   Message text = drives_.why();
-  int first = kDof;  // of the line, that does not answer
-  for (const Slave& slave : slaves_)
-    if (slave.unanswered > 0 && slave.position < first) first = slave.position;
-  if (first < kDof)
-    text << "; slave " << first + 1 << " does not answer: check its power and the cable to it";
+  if (clock_.verdict() != ReferenceClock::Verdict::kRuns)
+    text << "; " << std::string_view(clock_text());
+  int first = -1;  // joint whose slave is the first of the line that does not answer
+  for (int j = 0; j < kDof; ++j)
+    if (slave(j).unanswered > 0 && (first < 0 || slave(j).position < slave(first).position))
+      first = j;
+  if (first >= 0)
+    text << "; the first slave that does not answer is that of " << std::string_view(label(first))
+         << ": check its power and the cable to it";
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.feedback.lost == Status::kOk || slave.al_code == 0) continue;
-    text << "; slave " << slave.position + 1 << " is in "
+    text << "; " << std::string_view(label(j)) << " is in "
          << name(static_cast<AlState>(slave.al_status & kAlStateBits)) << ": "
          << al_code_text(slave.al_code) << " (" << cia402::hex(slave.al_code).c_str() << ")";
     break;

@@ -8,9 +8,11 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 
 namespace tactus::ethercat {
 namespace {
@@ -34,12 +36,34 @@ Status PacketSocket::open(const char* interface, Message& why) {
   system_calls_ = 0;
   why = Message("interface ");
   why << interface << ": ";
+  TRY(claim(interface, why));
   errno = 0;
   socket_ = ::socket(AF_PACKET, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (socket_ < 0)
     return refuse(Status::kNotOffered, "no packet socket",
                   "run as root, or give the program CAP_NET_RAW", why);
   return bind_to(interface, why);
+}
+
+/// Binds an abstract name: it is of the network namespace, as the interface, and goes with the
+/// process, however that ends.
+Status PacketSocket::claim(const char* interface, Message& why) {
+  errno = 0;
+  claim_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  Text<sizeof name.sun_path - 2> text("tactus-ethercat-");
+  text << interface;
+  const std::string_view shown = text;
+  std::memcpy(name.sun_path + 1, shown.data(), shown.size());  // after a zero: abstract
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + shown.size());
+  if (claim_ >= 0 && bind(claim_, reinterpret_cast<const sockaddr*>(&name), size) == 0)
+    return Status::kOk;
+  const bool taken = errno == EADDRINUSE;
+  if (taken) errno = 0;
+  return taken ? refuse(Status::kBusConflict, "another Tactus program uses it", "end it first", why)
+               : refuse(Status::kNotOffered, "no socket that claims it",
+                        "see the limit of open files (`ulimit -n`)", why);
 }
 
 Status PacketSocket::bind_to(const char* interface, Message& why) {
@@ -85,7 +109,8 @@ bool PacketSocket::adopt(int descriptor) {
 
 void PacketSocket::close() {
   if (socket_ >= 0) ::close(socket_);
-  socket_ = -1;
+  if (claim_ >= 0) ::close(claim_);
+  socket_ = claim_ = -1;
 }
 
 /// A copy of an own frame, from a kernel that cannot leave it out, counts as none.

@@ -15,8 +15,9 @@ class PacketSocket {
   PacketSocket(const PacketSocket&) = delete;
   PacketSocket& operator=(const PacketSocket&) = delete;
 
-  /// Opens an interface that is up. kNotOffered: this program or kernel may not; kBadValue: there
-  /// is no such interface, or it is none of Ethernet; kConnectionLost: it is down. [init]
+  /// Opens an interface that is up, and keeps other programs that do so off it. kBusConflict: one
+  /// has it; kNotOffered: this program or kernel may not; kBadValue: there is no such interface, or
+  /// it is none of Ethernet; kConnectionLost: it is down. [init]
   Status open(const char* interface, Message& why);
   /// Takes over an open socket that carries a frame in each packet. False: it is none. [init]
   bool adopt(int descriptor);
@@ -40,9 +41,11 @@ class PacketSocket {
 
  private:
   Status refuse(Status status, const char* what, const char* remedy, Message& why);
+  Status claim(const char* interface, Message& why);
   Status bind_to(const char* interface, Message& why);
 
   int socket_ = -1;
+  int claim_ = -1;  // a socket whose name says that the interface is in use
   bool lost_ = false;
   int system_calls_ = 0;
   std::array<std::uint8_t, 6> address_{{0x02, 0, 0, 0, 0, 0x01}};

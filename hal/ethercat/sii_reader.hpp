@@ -37,23 +37,40 @@ class SiiReader {
   void take(const Answer& answer) {
     if (!asked_) {
       asked_ = answer.counter == 1;
-      if (!asked_) progress_ = Progress::kFailed;
+      if (!asked_) fail("the slave does not answer");
       return;
     }
     const std::uint16_t control = answer.word();
     const bool failed = answer.counter != 1 || (control & kEepromErrorBits) != 0;
     const bool busy = (control & kEepromBusy) != 0;
-    if (failed || (busy && ++polls_ == kPolls)) progress_ = Progress::kFailed;
+    control_ = answer.counter == 1 ? control : std::uint16_t{0};
+    if (failed) fail(cause_of(answer.counter, control));
+    if (!failed && busy && ++polls_ == kPolls) fail("it stays busy");
     if (failed || busy) return;
     value_ = get<std::uint32_t>(answer.data + 6);
     progress_ = Progress::kDone;
   }
+  /// Why it failed; the word, and what its control register (0502h) shows. [any]
+  const char* cause() const { return cause_; }
+  std::uint16_t word() const { return word_; }
+  std::uint16_t control() const { return control_; }
   Progress progress() const { return progress_; }
   /// The word at the lower address is the lower half. [any]
   std::uint32_t value() const { return value_; }
 
  private:
-  std::uint16_t station_ = 0, word_ = 0;
+  static const char* cause_of(int counter, std::uint16_t control) {
+    if (counter != 1) return "the slave does not answer";
+    if ((control & kEepromError) != 0) return "it does not acknowledge (NACK)";
+    return "writing to it is not enabled";
+  }
+  void fail(const char* cause) {
+    cause_ = cause;
+    progress_ = Progress::kFailed;
+  }
+
+  std::uint16_t station_ = 0, word_ = 0, control_ = 0;
+  const char* cause_ = "";
   bool asked_ = false, by_position_ = false;
   int polls_ = 0;
   std::uint32_t value_ = 0;

@@ -75,6 +75,14 @@ Status Startup::advance(std::int64_t now_ns) {
   return Status::kArming;
 }
 
+bool Startup::give_up() {
+  if (stage_ == Stage::kCount) return false;
+  exchange_.ask(Request::number(Command::kBwr, address_of(0, kAlControlReg),
+                                static_cast<std::uint16_t>(AlState::kInit)),
+                now_ns_);
+  return true;
+}
+
 Status Startup::refuse(Status status, std::string_view what) {
   why_ = label(joint(), at());
   why_ << ": " << what;

@@ -27,6 +27,9 @@ class Startup {
   /// it did and what helps. [init]
   Status advance(std::int64_t now_ns);
   Exchange& exchange() { return exchange_; }
+  /// Takes back what has begun: the next frame takes all slaves to INIT. False: no slave's state
+  /// was changed, and there is no such frame. [init]
+  bool give_up();
 
   std::size_t image_bytes() const { return image_bytes_; }
   /// True if all slaves have a clock. [any]
@@ -70,6 +73,7 @@ class Startup {
   Status refuse(Status status, std::string_view what);
   // startup_slave.cpp
   Request area_request() const;
+  Status refuse_eeprom();
   Status take_eeprom();
   Status take_category();
   Status judge_eeprom();

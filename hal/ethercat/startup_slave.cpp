@@ -45,9 +45,15 @@ Request fmmu_request(std::uint16_t station, int fmmu, std::size_t logical, std::
 
 }  // namespace
 
+Status Startup::refuse_eeprom() {
+  Message what("its EEPROM cannot be read at word ");
+  what << std::string_view(cia402::hex(eeprom_.word())) << ": " << eeprom_.cause() << " (0502h is "
+       << std::string_view(cia402::hex(eeprom_.control())) << ")";
+  return refuse(Status::kRefusedByRobot, what);
+}
+
 Status Startup::take_eeprom() {
-  if (eeprom_.progress() == SiiReader::Progress::kFailed)
-    return refuse(Status::kRefusedByRobot, "its EEPROM cannot be read");
+  if (eeprom_.progress() == SiiReader::Progress::kFailed) return refuse_eeprom();
   if (eeprom_.progress() == SiiReader::Progress::kBusy) return Status::kOk;
   Slave& slave = at();
   const std::uint32_t value = eeprom_.value();
@@ -82,15 +88,16 @@ Status Startup::take_eeprom() {
 
 /// Walks from category to category until that of the sync managers, and reads it.
 Status Startup::take_category() {
-  if (eeprom_.progress() == SiiReader::Progress::kFailed)
-    return refuse(Status::kRefusedByRobot, "its EEPROM cannot be read");
+  if (eeprom_.progress() == SiiReader::Progress::kFailed) return refuse_eeprom();
   if (eeprom_.progress() == SiiReader::Progress::kBusy) return Status::kOk;
   Slave& slave = at();
   const std::uint32_t value = eeprom_.value();
   if (category_end_ == 0) {  // a head: type and words
     const std::uint16_t type = low(value), words = high(value);
-    if (type == kSiiEnd || ++categories_ > kMostCategories || category_ + words > 0xFFF0)
-      return judge_eeprom();
+    if (type == kSiiEnd) return judge_eeprom();
+    if (++categories_ > kMostCategories || category_ + words > 0xFFF0)
+      return refuse(Status::kRefusedByRobot,
+                    "the list of categories in its EEPROM has no end (FFFFh); is it empty?");
     category_ = static_cast<std::uint16_t>(category_ + 2);
     if (type == kSiiSms && words >= kSmWords) {
       category_end_ = static_cast<std::uint16_t>(category_ + words);

@@ -2,6 +2,7 @@
 // and master here, the emulated segment and its arm there.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "hal/ethercat/ethercat_master.hpp"
@@ -16,9 +17,11 @@ class WiredHal final : public Hal {
   EthercatMaster master;
   segment::Segment line;
   std::int64_t period_ns = 1'000'000;
-  int exchanges = 0;   ///< frames of the start-up and of the cycles
-  int lose_every = 0;  ///< frames of the start-up do not come back: each so many
-  Frame sent;          ///< the last one
+  int exchanges = 0;                   ///< frames of the start-up and of the cycles
+  int give_up_after = 1 << 30;         ///< exchanges of a start-up
+  int lose_every = 0;                  ///< frames of the start-up do not come back: each so many
+  Frame sent;                          ///< the last one
+  std::function<void(Frame&)> tamper;  ///< with frames that come back
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   Status connect(CommandMode) override {
@@ -28,7 +31,8 @@ class WiredHal final : public Hal {
     const std::int64_t began_ns = time_ns_;
     master.connect(source, 0);
     Status status = Status::kArming;
-    while (status == Status::kArming && time_ns_ - began_ns < kMost_ns) {
+    while (status == Status::kArming && time_ns_ - began_ns < kMost_ns &&
+           exchanges < give_up_after) {
       time_ns_ += kStep_ns;
       collect();
       status = master.connecting(time_ns_ - began_ns);
@@ -69,8 +73,10 @@ class WiredHal final : public Hal {
   void collect() {
     line.advance(time_ns_);
     Frame frame;
-    while (line.take(frame))
+    while (line.take(frame)) {
+      if (tamper) tamper(frame);
       if (lose_every == 0 || exchanges % lose_every != 0) master.receive(frame);
+    }
   }
 
   std::int64_t time_ns_ = 0, begin_ns_ = 0;

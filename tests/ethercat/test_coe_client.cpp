@@ -72,6 +72,34 @@ void an_abort_of_the_drive_ends_the_transfer_with_its_code(void**) {
                       "object 1234h:1: the object does not exist (06020000h)");
 }
 
+/// A refusal of this program does not pass for one of the drive.
+void an_object_that_is_too_large_is_refused_by_us(void**) {
+  Bench bench;
+  bench.client.upload(kBox, 0x1008, 0, 0);
+  (void)bench.client.take(bench.box.data(), kBox);
+  const std::uint8_t answer[] = {10,   0,    0,    0, 0,    0x13, 0,    0x30,
+                                 0x41, 0x08, 0x10, 0, 0x40, 0x42, 0x0F, 0};
+  bench.answer(answer, sizeof answer);
+  assert_string_equal(bench.client.describe().c_str(),
+                      "object 1008h:0: it has 1000000 bytes, and this program takes at most 128");
+}
+
+void messages_that_are_no_answer_are_told_with_their_number(void**) {
+  Bench bench;
+  bench.client.set_time(1'000'000'000);
+  bench.client.upload(kBox, 0x1000, 0, 0);
+  (void)bench.client.take(bench.box.data(), kBox);
+  const std::uint8_t other[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x43, 0, 0x11, 0, 0, 0, 0, 0};
+  const std::uint8_t longer[] = {0xFF, 0, 0, 0, 0, 0x13, 0, 0x30, 0x43, 0, 0x10, 0, 0, 0, 0, 0};
+  bench.answer(other, sizeof other);
+  bench.answer(longer, sizeof longer);
+  bench.client.advance(1'000'000'001);
+  assert_string_equal(
+      bench.client.describe().c_str(),
+      "object 1000h:0: no answer within 1000 ms, but 2 messages that are none; of the "
+      "last, its length does not fit into the mailbox (05040000h)");
+}
+
 void an_emergency_is_no_answer(void**) {
   Bench bench;
   bench.client.upload(kBox, 0x1000, 0, 0);
@@ -186,6 +214,8 @@ int main() {
       cmocka_unit_test(reading_the_device_type_is_the_known_message),
       cmocka_unit_test(one_to_four_bytes_are_written_in_one_message),
       cmocka_unit_test(an_abort_of_the_drive_ends_the_transfer_with_its_code),
+      cmocka_unit_test(an_object_that_is_too_large_is_refused_by_us),
+      cmocka_unit_test(messages_that_are_no_answer_are_told_with_their_number),
       cmocka_unit_test(an_emergency_is_no_answer),
       cmocka_unit_test(a_silent_drive_ends_the_transfer_in_time),
       cmocka_unit_test(answers_that_break_the_protocol_end_the_transfer),

@@ -99,6 +99,22 @@ void lost_and_late_frames_are_counted(void**) {
   assert_int_equal(counts.counter, 0);
 }
 
+// Proves ECAT-15.
+/// By then the clock of the cycles must not wait for frames: drives are given up by the clock.
+void a_wire_that_does_not_answer_is_known_after_max_missed_frames(void**) {
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  ASSERT_OK(bench.cycles(20));
+  bench.add(LineFaultKind::kBreak, 0, 0, 10);
+  for (int i = 0; i < bench.drive.max_missed; ++i) (void)bench.cycle();
+  assert_true(bench.hal.master.answers());
+  for (int i = 0; i < 3; ++i) (void)bench.cycle();
+  assert_false(bench.hal.master.answers());
+  for (int i = 0; i < 20; ++i) (void)bench.cycle();
+  assert_true(bench.hal.master.answers());
+}
+
 void a_slave_that_fell_is_named_with_its_code(void**) {
   MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
@@ -107,7 +123,7 @@ void a_slave_that_fell_is_named_with_its_code(void**) {
   for (int i = 0; i < 30; ++i) (void)bench.cycle();
   const Message said = bench.hal.trouble();
   print_message("%s\n", said.c_str());
-  assert_non_null(std::strstr(said.c_str(), "slave 5 is in SAFEOP"));
+  assert_non_null(std::strstr(said.c_str(), "joint 5 (slave 5) is in SAFEOP"));
   assert_non_null(std::strstr(said.c_str(), "fatal synchronization error (002Ch)"));
 }
 
@@ -120,6 +136,7 @@ int main() {
       cmocka_unit_test(every_fault_stops_all_drives_or_is_bridged),
       cmocka_unit_test(inputs_are_not_taken_with_a_wrong_working_counter),
       cmocka_unit_test(lost_and_late_frames_are_counted),
+      cmocka_unit_test(a_wire_that_does_not_answer_is_known_after_max_missed_frames),
       cmocka_unit_test(a_slave_that_fell_is_named_with_its_code),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

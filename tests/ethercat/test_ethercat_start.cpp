@@ -85,6 +85,38 @@ void assert_refused(MasterBench& bench, Status status, const char* words) {
   assert_non_null(std::strstr(said.c_str(), words));
 }
 
+// Proves ECAT-15.
+/// However far it has come: by a signal, or a refusal of the last drive.
+void a_start_up_that_is_given_up_leaves_the_slaves_in_init(void**) {
+  MasterBench& whole_way = fresh();
+  ASSERT_OK(whole_way.load());
+  ASSERT_OK(whole_way.hal.connect(CommandMode::kEffort));
+  const int all = whole_way.hal.exchanges;
+  for (const int frames : {all / 10, all / 3, all - 120, all - 3}) {
+    MasterBench& bench = fresh();
+    ASSERT_OK(bench.load());
+    bench.hal.give_up_after = frames;
+    ASSERT_STATUS(bench.hal.connect(CommandMode::kEffort), Status::kArming);
+    int beyond = 0;
+    for (int i = 0; i < kDof; ++i) beyond += bench.hal.line.slave(i).state() != AlState::kInit;
+    print_message("%d of %d frames: %d slaves are beyond INIT\n", frames, all, beyond);
+    ASSERT_OK(bench.hal.disconnect());
+    for (int i = 0; i < kDof; ++i)
+      assert_int_equal(bench.hal.line.slave(i).state(), AlState::kInit);
+  }
+}
+
+/// A line that is not ours is left as it is.
+void slaves_that_are_too_few_are_not_touched(void**) {
+  MasterBench& bench = fresh();
+  bench.plant.slaves = 6;
+  ASSERT_OK(bench.load());
+  ASSERT_STATUS(bench.hal.connect(CommandMode::kEffort), Status::kBusTimeout);
+  const int exchanges = bench.hal.exchanges;
+  ASSERT_OK(bench.hal.disconnect());
+  assert_int_equal(bench.hal.exchanges, exchanges);
+}
+
 void a_segment_of_another_length_is_refused(void**) {
   MasterBench& bench = fresh();
   bench.plant.slaves = 6;
@@ -106,6 +138,28 @@ void a_wrong_drive_is_named_with_what_it_says(void**) {
   other.ethercat.product = 403;
   ASSERT_OK(other.load());
   assert_refused(other, Status::kRefusedByRobot, "product (1018h:2) is 402, expected 403");
+}
+
+void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {
+  struct Row {
+    std::uint16_t control;
+    const char* words;
+  };
+  for (const Row& row :
+       {Row{0x2000,
+            "its EEPROM cannot be read at word 0008h: it does not acknowledge (NACK) (0502h "
+            "is 2000h)"},
+        Row{0x8000, "its EEPROM cannot be read at word 0008h: it stays busy (0502h is 8000h)"}}) {
+    MasterBench& bench = fresh();
+    ASSERT_OK(bench.load());
+    bench.hal.tamper = [&row](Frame& frame) {
+      FrameReader reader(frame);
+      Datagram datagram;
+      const bool reads = reader.next(datagram) && datagram.command == Command::kFprd;
+      if (reads && datagram.reg() == kEepromControlReg) put(datagram.data, row.control);
+    };
+    assert_refused(bench, Status::kRefusedByRobot, row.words);
+  }
 }
 
 void mailbox_faults_are_named(void**) {
@@ -160,8 +214,11 @@ int main() {
       cmocka_unit_test(slaves_may_be_in_any_order_and_state),
       cmocka_unit_test(a_second_start_up_follows_a_first_one),
       cmocka_unit_test(lost_frames_of_the_start_up_are_sent_again),
+      cmocka_unit_test(a_start_up_that_is_given_up_leaves_the_slaves_in_init),
+      cmocka_unit_test(slaves_that_are_too_few_are_not_touched),
       cmocka_unit_test(a_segment_of_another_length_is_refused),
       cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
+      cmocka_unit_test(an_eeprom_that_cannot_be_read_is_refused_with_the_reason),
       cmocka_unit_test(mailbox_faults_are_named),
       cmocka_unit_test(a_drive_whose_mapping_cannot_be_read_is_refused),
       cmocka_unit_test(settings_that_cannot_be_are_refused),
