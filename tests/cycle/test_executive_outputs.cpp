@@ -25,7 +25,7 @@ void set_outputs(ExecutiveBench& bench, const DigitalOutputs& outputs) {
   JointSpace::Point here;
   here.q = bench.hal.state.q;
   std::uint32_t id = 0;
-  assert_true(bench.client.send(here, id, {}, outputs).ok());
+  assert_true(bench.client.send(here, id, {}, {outputs}).ok());
 }
 
 // Proves OUT-4.

@@ -145,7 +145,7 @@ void a_stop_keeps_the_outputs_of_the_robot(void**) {
   std::uint32_t id = 0;
   JointSpace::Point here;
   here.q = bench.hal.state().q;
-  assert_true(bench.client.send(here, id, {}, {kMask, kMask}).ok());
+  assert_true(bench.client.send(here, id, {}, {{kMask, kMask}}).ok());
   for (int k = 0; k < 10; ++k) ASSERT_OK(bench.run_cycle());
   assert_int_equal(observer.newest().bits & kMask, kMask);
   bench.executive.halt();
