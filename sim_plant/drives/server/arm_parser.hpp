@@ -9,22 +9,9 @@
 #include <vector>
 
 #include "sim_plant/drives/server/arm_options.hpp"
+#include "sim_plant/server/finite.hpp"
 
 namespace tactus::drives {
-
-/// Accepts finite numbers in range; the library also accepts "nan" and "inf".
-inline CLI::Validator finite(double lowest, double highest) {
-  return CLI::Validator(
-      [lowest, highest](std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool good = *end == '\0' && !text.empty() && value >= lowest && value <= highest;
-        return good ? std::string()
-                    : "'" + text + "' is not a number from " + std::to_string(lowest) + " to " +
-                          std::to_string(highest);
-      },
-      "");
-}
 
 class ArmParser {
  public:

@@ -43,7 +43,7 @@ bool parse_segment_options(int argc, char** argv, SegmentOptions& options, int& 
   parser.add_arm(app);
   app.add_option("--drift-ppm", options.drift_ppm,
                  "rate of the slaves' clocks, alternately fast and slow (default 20)")
-      ->check(drives::finite(-200.0, 200.0));
+      ->check(finite(-200.0, 200.0));
   parser.add_faults_and_duration(app, describe_faults());
   return parser.parse(app, argc, argv, exit_code, [&] { return take(interface, options); });
 }

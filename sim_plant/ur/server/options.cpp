@@ -7,24 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "sim_plant/server/finite.hpp"
+
 namespace tactus::ur {
 namespace {
 
 constexpr int kRefused = 2;
-
-/// Accepts finite numbers in range; the library also accepts "nan" and "inf".
-CLI::Validator finite(double lowest, double highest) {
-  return CLI::Validator(
-      [lowest, highest](std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool good = *end == '\0' && !text.empty() && value >= lowest && value <= highest;
-        return good ? std::string()
-                    : "'" + text + "' is not a number from " + std::to_string(lowest) + " to " +
-                          std::to_string(highest);
-      },
-      "");
-}
 
 CLI::Validator shorter_than(std::size_t size) {
   return CLI::Validator(
