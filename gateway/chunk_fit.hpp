@@ -10,8 +10,8 @@
 #pragma once
 
 #include "gateway/chunk.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

@@ -49,6 +49,7 @@ class ReferenceClient {
   /// Returns what trajectories are judged by.
   const AdmissionSettings<Space>& settings() const { return channel_.settings; }
   /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
+  /// kReferenceNotFinite also for its stamp.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
                const typename Space::Header& header = {}, const PointDetails& details = {});
   /// Judges, fits and sends a chunk (gateway/chunk.hpp). kReferenceTime also for relative targets

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/core/load_error.hpp"
-#include "kernel/reference/space/verdict.hpp"
+#include "kernel/core/verdict.hpp"
 
 namespace tactus {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "gateway/server/limits.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

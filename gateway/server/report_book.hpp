@@ -4,7 +4,7 @@
 #include <array>
 
 #include "gateway/server/limits.hpp"
-#include "kernel/reference/space/verdict.hpp"
+#include "kernel/core/verdict.hpp"
 
 namespace tactus {
 

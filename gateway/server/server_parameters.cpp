@@ -8,15 +8,20 @@ namespace {
 
 constexpr int kPerPage = 3;  // tactus.options
 
+template <class Field>
+std::string_view text_of(const Field& field) {
+  return {reinterpret_cast<const char*>(field.bytes), field.size};
+}
+
 /// Why the cycle refuses a set, and what to do.
 Message refusal(const Pipeline& pipeline, const TuningVerdict& verdict) {
   Message text;
   if (verdict.block >= 0) text << "[" << std::string_view(pipeline.name(verdict.block)) << "] ";
   switch (verdict.status) {
     case Status::kEffortLimit:
-      return text << "with these parameters the law would now ask for " << verdict.value
-                  << " N m at joint " << verdict.joint + 1 << ", beyond " << verdict.limit
-                  << " N m; take smaller steps, or set them with the arm at its reference";
+      return text << "with these parameters the law would now ask for too much: "
+                  << describe(verdict, VerdictAxes::kJoints)
+                  << "; take smaller steps, or set them with the arm at its reference";
     case Status::kNotAtRest:
       return text << "the arm is being brought to rest; set them when it rests";
     case Status::kArming: return text << "drives are being armed; set them when that is done";
@@ -35,7 +40,8 @@ Reply Server::parameters(const Origin& from) {
             "a set of parameters is under way; send it again after its Report"};
   std::array<ParameterText, sizeof request.set / sizeof request.set[0]> set;
   for (pb_size_t i = 0; i < request.set_count; ++i)
-    set[i] = {request.set[i].section, request.set[i].key, request.set[i].value};
+    set[i] = {text_of(request.set[i].section), text_of(request.set[i].key),
+              text_of(request.set[i].value)};
   LoadError error;
   if (book.prepare(set.data(), request.set_count, error) != Status::kOk)
     return {error.status, error.message()};

@@ -58,7 +58,7 @@ struct PdGravity {
   void brake(Status /*why*/, BrakeWay /*way*/) {}
 
   /// Judges a change of the gains as judge_torque(). [between two cycles], after a step
-  TorqueVerdict judge_change(const Params& next, const JointLimits& limits) const {
+  Verdict judge_change(const Params& next, const JointLimits& limits) const {
     return judge_torque(torque(next), torque(params), limits);
   }
   /// Changes the gains: the torque goes on from the last one, and the difference fades with at most

@@ -129,7 +129,7 @@ JointVector Pid::torque(const Params& with) const {
   return other_terms(with, error(with.dead_band), de_) + integral_;
 }
 
-TorqueVerdict Pid::judge_change(const Params& next, const JointLimits& limits) const {
+Verdict Pid::judge_change(const Params& next, const JointLimits& limits) const {
   return judge_torque(torque(next), torque(params), limits);
 }
 

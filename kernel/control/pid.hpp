@@ -134,7 +134,7 @@ class Pid {
 
   /// Judges a change of the parameters as judge_torque(), before the output limit.
   /// [between two cycles], after a step
-  TorqueVerdict judge_change(const Params& next, const JointLimits& limits) const;
+  Verdict judge_change(const Params& next, const JointLimits& limits) const;
   /// Changes the tunable parameters. The integral keeps its torque, also where the new ki is 0; the
   /// torque goes on from the last one, and the difference fades with at most half of
   /// limits.dtau_max. [between two cycles], after a step

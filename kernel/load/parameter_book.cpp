@@ -153,7 +153,7 @@ Status ParameterBook::judge(int i, LoadError& error) {
 }
 
 Status ParameterBook::refuse_unknown(std::string_view section, LoadError& error) {
-  Message reason("no section of this name can be asked for parameters; these can:");
+  Message reason("no section of this name has parameters here; these have:");
   const char* before = " ";
   each_section(Copy::kPresent, [&](std::string_view name, auto& /*described*/) {
     reason << before << name;

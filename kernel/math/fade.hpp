@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "kernel/core/joint_limits.hpp"
-#include "kernel/core/torque_verdict.hpp"
+#include "kernel/core/verdict.hpp"
 
 #ifndef TACTUS_TUNING
 #define TACTUS_TUNING 1
@@ -73,12 +73,12 @@ inline double fading_time(const JointVector& difference, const JointLimits& limi
 /// Judges the torque that a law would ask for with other parameters. Returns kCommandNotFinite if
 /// it is not finite, and kEffortLimit if a joint's is beyond its limit and beyond the present one:
 /// the difference would then take long to fade, and the guard would limit what follows. [any]
-inline TorqueVerdict judge_torque(const JointVector& next, const JointVector& present,
-                                  const JointLimits& limits) {
+inline Verdict judge_torque(const JointVector& next, const JointVector& present,
+                            const JointLimits& limits) {
   if (!next.allFinite()) return {Status::kCommandNotFinite};
   const JointVector most = limits.tau_max.cwiseMax(present.cwiseAbs());
   for (int i = 0; i < kDof; ++i)
-    if (!(std::abs(next[i]) <= most[i])) return {Status::kEffortLimit, i, next[i], most[i]};
+    if (!(std::abs(next[i]) <= most[i])) return {Status::kEffortLimit, -1, i, next[i], most[i]};
   return {};
 }
 

@@ -15,7 +15,7 @@ const auto& new_params(const Kind& /*block*/, const void* copy) {
 }
 
 template <class Kind>
-TorqueVerdict judge(const Kind& block, const void* copy, const JointLimits& limits) {
+Verdict judge(const Kind& block, const void* copy, const JointLimits& limits) {
   if constexpr (kJudgesChange<Kind>) return block.judge_change(new_params(block, copy), limits);
   return {};
 }
@@ -36,7 +36,7 @@ TuningVerdict Pipeline::retune(const Tuning& tuning, bool runs) {
   for (int i = 0; i < count_ && runs; ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (tuning.copies[at] == nullptr) continue;
-    const TorqueVerdict verdict = with_block(blocks_[at], [&](const auto& block) {
+    const Verdict verdict = with_block(blocks_[at], [&](const auto& block) {
       return judge(block, tuning.copies[at], guard.limits);
     });
     if (verdict.status != Status::kOk) return {verdict, i};

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kernel/core/torque_verdict.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/pipeline/timing.hpp"
 
 namespace tactus {
@@ -15,7 +15,7 @@ struct Tuning {
 };
 
 /// kOk, or why a block refuses the set.
-struct TuningVerdict : TorqueVerdict {
+struct TuningVerdict : Verdict {
   int block = -1;
 };
 

@@ -92,9 +92,9 @@ void pd_refuses_gains_that_ask_for_more_torque_than_there_is(void**) {
   ASSERT_OK(b.pd.judge_change({199.0 * ones, 10.0 * ones}, b.limits).status);
   JointVector stiff = 199.0 * ones;
   stiff[3] = 201.0;
-  const TorqueVerdict verdict = b.pd.judge_change({stiff, 10.0 * ones}, b.limits);
+  const Verdict verdict = b.pd.judge_change({stiff, 10.0 * ones}, b.limits);
   ASSERT_STATUS(verdict.status, Status::kEffortLimit);
-  assert_true(verdict.joint == 3 && verdict.value == 100.5 && verdict.limit == 100.0);
+  assert_true(verdict.axis == 3 && verdict.value == 100.5 && verdict.limit == 100.0);
   b.q_d.setConstant(2.0);  // 200 N m by the present gains
   ASSERT_OK(b.pd.step(1e-3));
   ASSERT_OK(b.pd.judge_change({99.0 * ones, 10.0 * ones}, b.limits).status);

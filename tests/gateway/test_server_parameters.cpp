@@ -66,6 +66,19 @@ void a_set_is_reported_once_after_it_took_effect_and_everybody_is_told(void**) {
   assert_int_equal(log_lines, 1);
 }
 
+/// Not only what stands before the zero is judged.
+void a_text_that_contains_a_zero_is_refused(void**) {
+  using namespace std::literals;
+  TwoClients& two = owned();
+  for (const RawMessage& set : {set_of("pd\0"sv, "kp", "50"), set_of("pd", "kp\0"sv, "50"),
+                                set_of("pd", "kp", "50\0"sv), set_of("pd", "kp", "50\0 20"sv)}) {
+    const std::uint32_t number = two.a.send(ask::kParameters, set);
+    two.run(5);
+    assert_true(status(two.a, number) != Status::kOk);
+    assert_true(kp_of(two)[0] == 100.0);
+  }
+}
+
 void a_page_tells_how_many_sets_have_taken_effect(void**) {
   TwoClients& two = owned();
   two.a.send(ask::kListParameters);
@@ -112,13 +125,17 @@ void a_second_set_is_refused_while_the_first_is_under_way(void**) {
 void a_set_that_the_cycle_refuses_is_reported_as_refused(void**) {
   for (const Status why : {Status::kEffortLimit, Status::kNotAtRest, Status::kArming}) {
     TwoClients& two = owned();
-    two.bench.refused_by_cycle = {why, why == Status::kEffortLimit ? 0 : -1};
+    two.bench.refused_by_cycle = {{why}, -1};
+    if (why == Status::kEffortLimit) two.bench.refused_by_cycle = {{why, -1, 3, 120.0, 87.0}, 0};
     const std::uint32_t number = two.a.send(ask::kParameters, kp("50"));
     two.run(5);
     assert_true(status(two.a, number) == Status::kOk);
     assert_int_equal(two.a.finals[number], 1);
     assert_int_equal(two.a.outcome[number], 16);  // REFUSED
     assert_true(std::strlen(two.a.text) > 20);
+    if (why == Status::kEffortLimit)
+      assert_non_null(
+          std::strstr(two.a.text, "joint 4 (fer_joint4): effort 120 N m exceeds 87 N m (38)"));
     two.bench.refused_by_cycle = {};
     two.a.send(ask::kParameters, set_of("pd", "kd", "20"));
     two.run(5);
@@ -172,6 +189,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(only_the_owner_changes_parameters_and_everybody_may_check_and_read),
       cmocka_unit_test(a_set_is_reported_once_after_it_took_effect_and_everybody_is_told),
+      cmocka_unit_test(a_text_that_contains_a_zero_is_refused),
       cmocka_unit_test(a_page_tells_how_many_sets_have_taken_effect),
       cmocka_unit_test(a_second_set_is_refused_while_the_first_is_under_way),
       cmocka_unit_test(a_set_that_the_cycle_refuses_is_reported_as_refused),

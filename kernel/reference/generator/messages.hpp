@@ -8,12 +8,12 @@
 
 #include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/generator/feedback.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
 #include "kernel/reference/motion/chunk.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
 #include "kernel/reference/motion/velocity.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

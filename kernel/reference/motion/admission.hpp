@@ -3,9 +3,9 @@
 // (space.hpp).
 #pragma once
 
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

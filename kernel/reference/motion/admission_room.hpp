@@ -14,10 +14,10 @@
 // cycle that reads a mixture of old and new values can keep them too.
 #pragma once
 
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
 #include "kernel/reference/space/peaks.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

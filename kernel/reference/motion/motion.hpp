@@ -34,7 +34,7 @@ class Motion {
   void forward(const Point& point);
   /// Goes to `point` within limits, or along with the stream that it belongs to. Leaves at once
   /// what it followed, but brakes on a path until a stop stays inside position limits. [cyclic]
-  void reach(const Point& point, double stamp_s = kNoStamp);
+  void reach(const Point& point, double stamp_s);
   /// Leaves what it follows for a trajectory that began `elapsed_s` ago: by one segment to its
   /// first waypoint if that is still ahead, else at the point where its path is now. Refuses, with
   /// no effect, if the placed trajectory or that segment breaks a limit, if a path that begins now

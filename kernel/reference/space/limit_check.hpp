@@ -1,9 +1,9 @@
 // Comparison of values with limits, the same in every space.
 #pragma once
 
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/space/peaks.hpp"
 #include "kernel/reference/space/polynomial.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

@@ -30,9 +30,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/space/interpolation.hpp"
 #include "kernel/reference/space/peaks.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

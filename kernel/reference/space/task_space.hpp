@@ -6,13 +6,13 @@
 #pragma once
 
 #include "kernel/core/task_limits.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/reference/space/interpolation.hpp"
 #include "kernel/reference/space/offset_law.hpp"
 #include "kernel/reference/space/peaks.hpp"
 #include "kernel/reference/space/rotation_segment.hpp"
 #include "kernel/reference/space/space.hpp"
 #include "kernel/reference/space/tolerance.hpp"
-#include "kernel/reference/space/verdict.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-// Verdict: the result of judging a reference, with the reason of a refusal.
+// Verdict: the result of judging a reference or parameters, with the reason of a refusal.
 #pragma once
 
 #include "kernel/core/status.hpp"
