@@ -1,6 +1,7 @@
 #include "gateway/reference_client.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "kernel/reference/space/joint_space.hpp"
@@ -119,6 +120,7 @@ template <class Space>
 Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::uint32_t& id,
                                      const typename Space::Header& header,
                                      const PointDetails& details) {
+  if (!std::isfinite(details.stamp_s)) return {Status::kReferenceNotFinite};
   const typename Space::Limits limits = Space::known_limits(header, channel_.settings.limits);
   const Verdict verdict =
       judge_online<Space>(Space::placed(point, Space::anywhere(header, limits)), limits);

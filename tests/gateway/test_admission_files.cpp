@@ -122,6 +122,17 @@ void a_number_that_is_not_finite_is_refused_wherever_it_stands(void**) {
   }
 }
 
+void a_stamp_that_is_not_finite_is_refused(void**) {
+  ReferenceClient<JointSpace>& client = start();
+  std::uint32_t id = 0;
+  const JointSpace::Point point = {state_at(0.0, 0.0).q};
+  PointDetails details;
+  for (const double bad : {kRequired, kInfinity, -kInfinity}) {
+    details.stamp_s = bad;
+    ASSERT_STATUS(client.send(point, id, {}, details).status, Status::kReferenceNotFinite);
+  }
+}
+
 // Proves RG-6.
 
 void what_touches_its_limits_and_no_more_is_admitted(void**) {
@@ -147,6 +158,7 @@ int main() {
       cmocka_unit_test(a_count_that_is_none_or_more_than_the_store_holds_is_refused),
       cmocka_unit_test(a_store_in_which_a_waypoint_is_not_found_in_time_is_refused),
       cmocka_unit_test(a_number_that_is_not_finite_is_refused_wherever_it_stands),
+      cmocka_unit_test(a_stamp_that_is_not_finite_is_refused),
       cmocka_unit_test(what_touches_its_limits_and_no_more_is_admitted),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -6,7 +6,7 @@
 
 namespace tactus {
 
-inline constexpr std::size_t kFitted = 4;
+inline constexpr int kFitted = 4;
 
 /// Weights of points, whose sum is the parabola's value and derivatives at the first point.
 struct ParabolaFit {

@@ -81,7 +81,7 @@ template <class Space>
 void PointStream<Space>::keep(double distance) {
   const auto more = static_cast<float>(distance);
   const double least_s = stamped_ ? kApartStamped_s : kApart_s;
-  if (count_ >= static_cast<int>(kFitted) && apart_s(0) + distance * unit_s() < least_s) {
+  if (count_ >= kFitted && apart_s(0) + distance * unit_s() < least_s) {
     apart_[0] += more;
     return;
   }
@@ -97,7 +97,7 @@ typename Space::Difference PointStream<Space>::fit() const {
   const Difference before = Space::difference(points_[1], origin);
   if (given_) {
     Difference now = {newest.x, newest.dx, 0.0 * newest.dx};
-    if (count_ > 1) now.ddx = (newest.dx - before.dx) / (apart_s(0));
+    if (count_ > 1) now.ddx = (newest.dx - before.dx) / apart_s(0);
     return now;
   }
   std::array<double, kFitted> times;
@@ -118,7 +118,8 @@ template <class Space>
 void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) {
   const bool moved_before = moves(now_s);
   const Point old = moved_before ? target(now_s) : point;
-  if (count_ == 0 || now_s > arrival_s_) {  // else the point replaces the newest
+  const bool replaces = now_s == arrival_s_ && stamp_s == stamp_s_;
+  if (count_ == 0 || !replaces) {
     const double distance = stamp_s != kNoStamp ? stamp_s - stamp_s_ : 1.0;
     keep_time(now_s, stamp_s);
     keep(count_ > 0 ? distance : 1.0);
@@ -130,8 +131,7 @@ void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) 
   jump_ = {};
   if (!streams()) return;
   fit_ = fit();
-  if (moved_before && count_ > static_cast<int>(kFitted))
-    jump_ = Space::difference(old, predicted(now_s));
+  if (moved_before && count_ > kFitted) jump_ = Space::difference(old, predicted(now_s));
   jump_s_ = now_s;
 }
 

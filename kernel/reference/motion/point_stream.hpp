@@ -6,11 +6,11 @@
 // smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
 // neither delay nor loss of points with stamps bends the motion.
 // The target is the parabola that fits the newest point and three before it best
-// (parabola_fit.hpp), in the chart of the newest; of a fast stream, points that are far enough
-// apart for the noise in them; for a stream that gives velocities, the one through the
-// newest point with the change of velocity since the point before. The jump from the old prediction
-// to the new one fades over 3 D, at least 0.12 s, by a quintic, so that the target is continuous up
-// to its acceleration.
+// (parabola_fit.hpp), in the chart of the newest. Of a fast stream only points are kept that are
+// far enough apart for the noise in them. For a stream that gives velocities it is the parabola
+// through the newest point with the change of velocity since the point before.
+// The jump from the old prediction to the new one fades over 3 D, at least 0.12 s, by a quintic, so
+// that the target is continuous up to its acceleration.
 //
 // Fewer than four points without velocity are no stream but places to go to, and so are the points
 // of a stream that has gone silent. A point after the silence begins a new stream.
@@ -29,8 +29,9 @@ class PointStream {
  public:
   using Point = typename Space::Point;
 
-  /// Takes a point that arrives at `now_s`; if several arrive at one time, the last counts. Stamps
-  /// count seconds by any clock; a stamp that is not later than the last begins a new stream.
+  /// Takes a point that arrives at `now_s`; of several without stamps that arrive at one time the
+  /// last counts. Stamps are finite, in s by any clock that does not step, or kNoStamp; one that is
+  /// not 0.1 ms to 0.25 s later than the last begins a new stream.
   /// [cyclic]
   void push(const Point& point, double now_s, double stamp_s);
   /// Forgets all points. [cyclic]
@@ -49,7 +50,7 @@ class PointStream {
  private:
   using Difference = typename Space::Difference;
 
-  bool streams() const { return count_ >= static_cast<int>(kFitted) || (given_ && count_ >= 1); }
+  bool streams() const { return count_ >= kFitted || (given_ && count_ >= 1); }
   double patience_s() const;
   bool continues(double now_s, double stamp_s) const;
   void keep_time(double now_s, double stamp_s);
