@@ -41,15 +41,15 @@ double ramp_s(const Limits& limits) {
 /// Returns the limits that remain for the path while the reference closes an offset to it. [cyclic]
 template <class Space>
 typename Space::Peaks left_to_path(const typename Space::Limits& limits,
-                                   const typename Space::Difference& offset) {
-  constexpr double kBetweenSamples = 0.997;  // of the acceleration, so that it is kept there too
-  constexpr double kPathJerk = 0.5;          // of the jerk, while an offset is closed
+                                   const typename Space::Difference& offset, double dt_s) {
+  constexpr double kBetweenSamples = 4.0;  // 1/s: of the acceleration, so that it is kept there too
+  constexpr double kPathJerk = 0.5;        // of the jerk, while an offset is closed
   constexpr int n = Space::kChannelSize;
   typename Space::Peaks left = Space::peaks(limits);
   const bool closes = !offset.zero();
   for (std::size_t c = 0; c < left.a.size(); ++c) {
     const double taken = length<n>(&offset.ddx[n * static_cast<int>(c)]);
-    left.a[c] = std::max(kBetweenSamples * left.a[c] - taken, 0.0);
+    left.a[c] = std::max((1.0 - kBetweenSamples * dt_s) * left.a[c] - taken, 0.0);
     if (closes) left.j[c] *= kPathJerk;
   }
   return left;

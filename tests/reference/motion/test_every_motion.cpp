@@ -23,13 +23,14 @@ constexpr int kRequestsPerRun = 40;
 /// Least share of the trajectories and points requested that must be executed.
 constexpr double kLeastTrajectories = 0.45, kLeastPoints = 0.85;
 /// Seeds of runs that failed once: a way too long for a period, a velocity step between two parts
-/// of a path, a room too large for its segment, a stop that released its brake or its jerk.
+/// of a path, a room too large for its segment, a stop that released its brake or its jerk, a mean
+/// acceleration above its limit at 8 ms.
 constexpr std::uint64_t kOnceFailed[] = {
     5837284900634983, 8966911129746203, 3822219617711525, 4532017089412264, 2326809090656525,
     974891226305610,  3896111652972576, 3757579784762086, 4254753371693082, 10046943909538,
     7976923023495404, 3821820824316394, 3874442284727342, 5746173847033107, 2375753774344428,
     8965252895867855, 7496752964883497, 8440048193347518, 4337744664004659, 3773540480588548,
-    408396910347955};
+    408396910347955,  8718023624014234, 4477897108905867};
 /// Longest stop, as a multiple of the time in which the slowest track stops from its fastest.
 constexpr double kStopTimes = 6.0;
 /// Cycles after the last request in which a full mailbox empties at one request per cycle.
