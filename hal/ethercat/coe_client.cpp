@@ -28,6 +28,7 @@ void CoeClient::begin(Phase phase, std::size_t out_bytes, std::uint16_t index, s
   heard_ns_ = now_ns;
   to_send_ = true;
   toggle_ = silent_ = too_large_ = false;
+  refused_ = 0;
   wrong_ = 0;
   done_ = 0;
   if (room_ < kSdoBody) fail(SdoAbort::kOutOfMemory);
@@ -128,7 +129,11 @@ bool CoeClient::receive(const std::uint8_t* mailbox, std::size_t size, can::Emer
     ignore("its length does not fit into the mailbox");
     return false;
   }
-  if (type == kMailboxError && progress_ == Progress::kBusy) fail(SdoAbort::kGeneral);
+  if (type == kMailboxError && progress_ == Progress::kBusy) {
+    fail(SdoAbort::kGeneral);
+    refused_ = get<std::uint16_t>(mailbox + kMailboxBytes + 2);
+    return false;
+  }
   if (type != kMailboxCoe) {
     ignore("it is not of CoE");
     return false;
@@ -222,6 +227,11 @@ Message CoeClient::describe() const {
   text << cia402::hex(index_) << ":" << int{sub_} << ": ";
   if (too_large_) {
     text << "it has " << size_ << " bytes, and this program takes at most " << kCapacity;
+    return text;
+  }
+  if (refused_ != 0) {
+    text << "the slave's mailbox refuses the request, error " << cia402::hex(refused_)
+         << " of ETG.1000.4";
     return text;
   }
   if (silent_) text << "no answer within " << static_cast<int>(answer_ns_ / 1'000'000) << " ms";

@@ -68,6 +68,7 @@ class CoeClient {
   const char* wrong_why_ = "";  // the last of them
   std::uint8_t counter_ = 0, sub_ = 0;
   std::uint16_t index_ = 0;
+  std::uint16_t refused_ = 0;        // detail of the slave's mailbox error; 0: there was none
   std::size_t room_ = 0;             // bytes of a body in the slave's mailbox
   std::size_t size_ = 0, done_ = 0;  // of the object, and transferred
   std::array<std::uint8_t, kCapacity> data_{};

@@ -75,8 +75,12 @@ void CyclicFrame::receive(Frame& frame) {
     ++counts_.strange;
     return;
   }
-  if (datagram.index != index_ || !sent_ || came_) {
+  if (datagram.index != index_) {
     ++counts_.late;
+    return;
+  }
+  if (!sent_ || came_) {  // a copy
+    ++counts_.strange;
     return;
   }
   bool right = take(datagram, kImagePlace);

@@ -41,7 +41,7 @@ class EthercatHal final : public Hal, private Clock {
   int system_calls() const { return socket_.system_calls(); }
 
  private:
-  static constexpr int kMostFrames = 8;  // taken in a cycle: one, and late ones
+  static constexpr int kMostFrames = 8;  // taken at once: one, and late ones
 
   Status wait(CycleTime& now) override;
   Status start_up();

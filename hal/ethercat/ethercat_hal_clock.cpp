@@ -4,11 +4,13 @@
 
 #include "hal/ethercat/ethercat_hal.hpp"
 #include "hal/net/deadline.hpp"
+#include "kernel/core/loop_bound.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr int kMostWaits = 100;  // for the frame of a cycle, as others may come
 
 }  // namespace
 
@@ -28,8 +30,13 @@ Status EthercatHal::wait(CycleTime& now) {
   now.stamp_ns = Deadline::now_ns();
   if (ethercat_->frame_wait_ms == 0) return Status::kOk;
   // A wire that does not answer is not waited for: the drives are given up by the clock.
-  const bool waits = master_.awaits() && master_.answers();
-  if (waits) (void)socket_.wait(std::int64_t{1'000'000} * ethercat_->frame_wait_ms);
+  const Deadline deadline(ethercat_->frame_wait_ms);
+  LoopBound<kMostWaits> waits;
+  for (int i = 0; i < kMostWaits && master_.awaits() && master_.answers(); ++i) {
+    waits.tick();
+    if (deadline.left_ns() <= 0 || !socket_.wait(deadline.left_ns())) break;
+    receive();
+  }
   if (now_ns_ >= 0) now.stamp_ns = now_ns_ + period_ns;
   return Status::kOk;
 }

@@ -1,14 +1,13 @@
 #include "hal/ethercat/ethercat_master.hpp"
 
-#include "hal/cia402/hex.hpp"
 #include "kernel/core/loop_bound.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::int64_t kSilence_ns = 100'000'000;  // before OP, as that of the start-up
 constexpr std::int64_t kAnyTime_ns = std::int64_t{1} << 62;
-constexpr auto kOperational = static_cast<std::uint16_t>(AlState::kOp);
 
 }  // namespace
 
@@ -83,6 +82,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
   if (now_ns - sent_ns_ < std::int64_t{1000} * period_us_) return Status::kArming;
   const CyclicFrame::Came came = close_cycle(sent_ns_, now_ns);
   sent_ns_ = now_ns;
+  if (cyclic_.missing() * std::int64_t{1000} * period_us_ > kSilence_ns) return startup_.silent();
   bool all = true;
   for (const Slave& slave : slaves_) all = all && slave.al_status == kOperational;
   steady_ = came == CyclicFrame::Came::kInputs && all ? steady_ + 1 : 0;
@@ -101,32 +101,6 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
   const Request op = Request::number(Command::kBwr, address_of(0, kAlControlReg), kOperational);
   compose(commands_, cycles_++ % kAgain == kBeforeOp ? &op : nullptr);
   return Status::kArming;
-}
-
-/// Names the clock that does not run, or the first slave that is not in OP, and why.
-Status EthercatMaster::not_operating() {
-  if (clock_.verdict() != ReferenceClock::Verdict::kRuns) {
-    why_ = clock_text();
-    return Status::kRefusedByRobot;
-  }
-  for (int j = 0; j < kDof; ++j) {
-    const Slave& slave = slaves_[static_cast<std::size_t>(j)];
-    if (slave.al_status == kOperational) continue;
-    why_ = label(j);
-    why_ << ": is in " << name(static_cast<AlState>(slave.al_status & kAlStateBits))
-         << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
-         << " ms: " << al_code_text(slave.al_code) << " ("
-         << std::string_view(cia402::hex(slave.al_code)) << ")";
-    return Status::kRefusedByRobot;
-  }
-  if (cyclic_.counter() == CyclicFrame::kExpected) {
-    why_ = Message("slave 1 does not show its clock (0910h): the working counter of FRMW is 0");
-    return Status::kRefusedByRobot;
-  }
-  why_ = Message("the working counter is ");
-  why_ << cyclic_.counter() << ", expected " << CyclicFrame::kExpected
-       << ": a drive does not read or write its process data";
-  return Status::kBusTimeout;
 }
 
 void EthercatMaster::receive(Frame& frame) {
@@ -210,6 +184,7 @@ Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
 
 void EthercatMaster::write(const RobotCommand& command) {
   if (phase_ != Phase::kRuns) return;
+  stops_ = command.request == DriveRequest::kDisable;
   drives_.hold_back(checked_ < kDof);
   drives_.step(command, commands_, now_ns_);
   compose(commands_, nullptr);

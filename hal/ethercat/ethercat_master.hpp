@@ -33,9 +33,12 @@ class EthercatMaster {
   void receive(Frame& frame);
   /// True while a frame is to come back. [any]
   bool awaits() const { return phase_ == Phase::kStartsUp || cyclic_.awaits(); }
-  /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed.
-  /// [cyclic]
-  bool answers() const { return cyclic_.missing() <= drive_->max_missed; }
+  /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed, or
+  /// than two where drives are to be disabled. [cyclic]
+  bool answers() const {
+    const int most = drive_->max_missed;
+    return cyclic_.missing() <= (stops_ ? std::min(most, kMostUnanswered) : most);
+  }
   /// Judges what has come since the last cycle. [cyclic]
   Status read(const CycleTime& now, RobotState& state);
   /// Composes the frame of this cycle. [cyclic]
@@ -64,6 +67,7 @@ class EthercatMaster {
  private:
   enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };
 
+  static constexpr auto kOperational = static_cast<std::uint16_t>(AlState::kOp);
   static constexpr int kSteady = 5;     // cycles in a row with inputs before it is connected
   static constexpr int kBeforeOp = 10;  // cycles with outputs before OP is requested
   static constexpr int kAgain = 100;    // cycles after which it is requested again
@@ -75,7 +79,6 @@ class EthercatMaster {
   // ethercat_master.cpp
   Status judge_places();
   Status operating(std::int64_t now_ns);
-  Status not_operating();
   void take_cycle();
   void take_state();
   void take_mailbox();
@@ -85,6 +88,7 @@ class EthercatMaster {
   void start_clock(std::int64_t slack_ns);
   CyclicFrame::Came close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
   Message clock_text() const;
+  Status not_operating();
 
   const EthercatSettings* ethercat_ = nullptr;
   const cia402::Cia402Settings* drive_ = nullptr;
@@ -103,6 +107,7 @@ class EthercatMaster {
   Phase phase_ = Phase::kOff;
   Frame out_;
   bool has_out_ = false, arrived_ = false, own_extra_ = false;
+  bool stops_ = false;  // the drives are to be disabled
   int steady_ = 0, cycles_ = 0;
   std::int64_t since_ns_ = 0, sent_ns_ = 0;
   std::int64_t now_ns_ = -1, sampled_ns_ = 0;

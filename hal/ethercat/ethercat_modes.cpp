@@ -65,22 +65,50 @@ Message EthercatMaster::clock_text() const {
   return text;
 }
 
+/// Names the clock that does not run, or the first slave that is not in OP, and why.
+Status EthercatMaster::not_operating() {
+  if (clock_.verdict() != ReferenceClock::Verdict::kRuns) {
+    why_ = clock_text();
+    return Status::kRefusedByRobot;
+  }
+  for (int j = 0; j < kDof; ++j) {
+    const Slave& slave = slaves_[static_cast<std::size_t>(j)];
+    if (slave.al_status == kOperational) continue;
+    why_ = label(j);
+    why_ << ": is in " << name(static_cast<AlState>(slave.al_status & kAlStateBits))
+         << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
+         << " ms: " << al_code_text(slave.al_code) << " ("
+         << std::string_view(cia402::hex(slave.al_code)) << ")";
+    return Status::kRefusedByRobot;
+  }
+  if (cyclic_.counter() == CyclicFrame::kExpected) {
+    why_ = Message("slave 1 does not show its clock (0910h): the working counter of FRMW is 0");
+    return Status::kRefusedByRobot;
+  }
+  why_ = Message("the working counter is ");
+  why_ << cyclic_.counter() << ", expected " << CyclicFrame::kExpected
+       << ": a drive does not read or write its process data";
+  return Status::kBusTimeout;
+}
+
 Message EthercatMaster::trouble() const {
   if (!why_.empty()) return why_;
   Message text = drives_.why();
+  if (text.empty() && cyclic_.missing() > kMostUnanswered)
+    text << "no frame came back in the last " << cyclic_.missing() << " cycles" << Startup::kCheck;
   if (clock_.verdict() != ReferenceClock::Verdict::kRuns)
-    text << "; " << std::string_view(clock_text());
+    text << (text.empty() ? "" : "; ") << std::string_view(clock_text());
   int first = -1;  // joint whose slave is the first of the line that does not answer
   for (int j = 0; j < kDof; ++j)
     if (slave(j).unanswered > 0 && (first < 0 || slave(j).position < slave(first).position))
       first = j;
   if (first >= 0)
-    text << "; the first slave that does not answer is that of " << std::string_view(label(first))
-         << ": check its power and the cable to it";
+    text << (text.empty() ? "" : "; ") << "the first slave that does not answer is that of "
+         << std::string_view(label(first)) << ": check its power and the cable to it";
   for (int j = 0; j < kDof; ++j) {
     const Slave& slave = slaves_[static_cast<std::size_t>(j)];
     if (slave.feedback.lost == Status::kOk || slave.al_code == 0) continue;
-    text << "; " << std::string_view(label(j)) << " is in "
+    text << (text.empty() ? "" : "; ") << std::string_view(label(j)) << " is in "
          << name(static_cast<AlState>(slave.al_status & kAlStateBits)) << ": "
          << al_code_text(slave.al_code) << " (" << cia402::hex(slave.al_code).c_str() << ")";
     break;

@@ -6,7 +6,6 @@ namespace tactus::ethercat {
 namespace {
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
-constexpr const char* kCheck = "; check power, cabling and [ethercat] interface";
 
 /// Registers that are cleared in all slaves: what an earlier master has left. A slave need not have
 /// all of them.
@@ -68,7 +67,7 @@ Status Startup::advance(std::int64_t now_ns) {
   exchange_.advance(now_ns);
   coe_.advance(now_ns);
   if (exchange_.progress() == Exchange::Progress::kBusy) return Status::kArming;
-  if (exchange_.progress() == Exchange::Progress::kLost) return lost();
+  if (exchange_.progress() == Exchange::Progress::kLost) return silent();
   TRY(take(exchange_.answer()));
   if (stage_ == Stage::kDone) return Status::kOk;
   exchange_.ask(request(), now_ns);
@@ -89,7 +88,7 @@ Status Startup::refuse(Status status, std::string_view what) {
   return status;
 }
 
-Status Startup::lost() {
+Status Startup::silent() {
   why_ = Message("no frame came back from the segment");
   why_ << kCheck;
   return Status::kBusTimeout;

@@ -18,6 +18,9 @@ inline constexpr std::size_t kMostImage = 1024;             ///< bytes
 
 class Startup {
  public:
+  /// What to do where frames do not come back.
+  static constexpr const char* kCheck = "; check power, cabling and [ethercat] interface";
+
   Startup(Slaves& slaves, CoeClient& coe, Message& why)
       : slaves_(slaves), coe_(coe), port_(coe), why_(why) {}
 
@@ -30,6 +33,8 @@ class Startup {
   /// Takes back what has begun: the next frame takes all slaves to INIT. False: no slave's state
   /// was changed, and there is no such frame. [init]
   bool give_up();
+  /// kBusTimeout, and the reason: no frame comes back. [init]
+  Status silent();
 
   std::size_t image_bytes() const { return image_bytes_; }
   /// True if all slaves have a clock. [any]
@@ -69,7 +74,6 @@ class Startup {
   Status count(const Answer& answer);
   Status await_init(const Answer& answer);
   Status await_state(const Answer& answer, AlState state);
-  Status lost();
   Status refuse(Status status, std::string_view what);
   // startup_slave.cpp
   Request area_request() const;

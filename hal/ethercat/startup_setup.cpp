@@ -5,6 +5,7 @@
 namespace tactus::ethercat {
 namespace {
 
+constexpr const char* kManual = "; see this object in the drive's manual";
 constexpr int kAttempts = 2;  // of a transfer that gets no answer: a frame with it may be lost
 
 }  // namespace
@@ -31,7 +32,11 @@ Status Startup::take_mailbox(const Answer& answer) {
     return Status::kOk;
   }
   attempts_ = 0;
-  if (silent) return refuse(Status::kBusTimeout, coe_.describe());
+  if (silent) {
+    Message what = coe_.describe();
+    what << "; power the drive off and on, or raise [ethercat] sdo_ms";
+    return refuse(Status::kBusTimeout, what);
+  }
   return stage_ == Stage::kMapping ? finish_mapping() : finish_step();
 }
 
@@ -40,7 +45,7 @@ Status Startup::finish_step() {
   if (step.kind == SetupStep::Kind::kExpect) {
     Message what(step.what);
     if (coe_.progress() != CoeClient::Progress::kDone) {
-      what << ": " << std::string_view(coe_.describe());
+      what << ": " << std::string_view(coe_.describe()) << kManual;
       return refuse(Status::kRefusedByRobot, what);
     }
     if ((coe_.value() & step.mask) != (step.value & step.mask)) {
@@ -62,7 +67,7 @@ Status Startup::finish_step() {
 Status Startup::finish_mapping() {
   Message what("PDOs: ");
   if (coe_.progress() != CoeClient::Progress::kDone) {
-    what << std::string_view(coe_.describe());
+    what << std::string_view(coe_.describe()) << kManual;
     return refuse(Status::kRefusedByRobot, what);
   }
   if (!mapping_.take(coe_.value()))
@@ -72,7 +77,8 @@ Status Startup::finish_mapping() {
     return Status::kOk;
   }
   if (const char* missing = at().data.resolve(mode_)) {
-    what << "it does not take the mapping, and its own does not have " << missing;
+    what << "it does not take the mapping, and its own does not have " << missing
+         << "; map it with the drive's maker's tool";
     return refuse(Status::kRefusedByRobot, what);
   }
   if (at_ + 1 == kDof) TRY(place_image());

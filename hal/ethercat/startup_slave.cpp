@@ -11,6 +11,8 @@ constexpr int kWordCount = static_cast<int>(std::size(kWords));
 constexpr int kMostCategories = 64;
 constexpr std::uint16_t kSmWords = 4;  // of one sync manager in its category
 constexpr int kProcessSteps = 6;
+constexpr const char* kEeprom =
+    "; power the drive off and on; if it stays so, write its EEPROM with its maker's tool";
 
 std::uint16_t low(std::uint32_t value) {
   return static_cast<std::uint16_t>(value);
@@ -48,7 +50,7 @@ Request fmmu_request(std::uint16_t station, int fmmu, std::size_t logical, std::
 Status Startup::refuse_eeprom() {
   Message what("its EEPROM cannot be read at word ");
   what << std::string_view(cia402::hex(eeprom_.word())) << ": " << eeprom_.cause() << " (0502h is "
-       << std::string_view(cia402::hex(eeprom_.control())) << ")";
+       << std::string_view(cia402::hex(eeprom_.control())) << ")" << kEeprom;
   return refuse(Status::kRefusedByRobot, what);
 }
 
@@ -72,7 +74,10 @@ Status Startup::take_eeprom() {
       break;
     default:
       if ((value & kSiiCoe) == 0)
-        return refuse(Status::kRefusedByRobot, "has no CoE mailbox; it is no CiA 402 drive");
+        return refuse(
+            Status::kRefusedByRobot,
+            "by its EEPROM (word 001Ch) it has no CoE mailbox and is no CiA 402 drive; if "
+            "it is one, write its EEPROM with its maker's tool");
   }
   if (++step_ < kWordCount) {
     eeprom_.begin(slave.boxes.station, kWords[step_]);
@@ -133,15 +138,16 @@ Status Startup::judge_eeprom() {
   const Slave& slave = at();
   if (slave.outputs.sm < 0 || slave.inputs.sm < 0)
     return refuse(Status::kRefusedByRobot,
-                  "its EEPROM names no sync managers of outputs and inputs");
+                  "its EEPROM names no sync managers of outputs and inputs; if it is empty, write "
+                  "it with the drive's maker's tool");
   const auto fits = [](std::uint16_t bytes) {
     return bytes >= kCoeBody + 8 && bytes <= Request::kMostBytes;
   };
   if (!fits(slave.boxes.out_bytes) || !fits(slave.boxes.in_bytes)) {
     Message what("its mailboxes have ");
     what << int{slave.boxes.out_bytes} << " and " << int{slave.boxes.in_bytes}
-         << " bytes, expected 16 to " << Request::kMostBytes;
-    return refuse(Status::kTooLarge, what);
+         << " bytes, expected 16 to " << Request::kMostBytes << kEeprom;
+    return refuse(Status::kRefusedByRobot, what);
   }
   stage_ = Stage::kMailboxes;
   step_ = 0;

@@ -19,6 +19,7 @@ class WiredHal final : public Hal {
   std::int64_t period_ns = 1'000'000;
   int exchanges = 0;                   ///< frames of the start-up and of the cycles
   int give_up_after = 1 << 30;         ///< exchanges of a start-up
+  int silent_after = 1 << 30;          ///< exchanges after which no frame comes back
   int lose_every = 0;                  ///< frames of the start-up do not come back: each so many
   Frame sent;                          ///< the last one
   std::function<void(Frame&)> tamper;  ///< with frames that come back
@@ -75,6 +76,7 @@ class WiredHal final : public Hal {
     Frame frame;
     while (line.take(frame)) {
       if (tamper) tamper(frame);
+      if (exchanges >= silent_after) continue;
       if (lose_every == 0 || exchanges % lose_every != 0) master.receive(frame);
     }
   }

@@ -84,6 +84,19 @@ void an_object_that_is_too_large_is_refused_by_us(void**) {
                       "object 1008h:0: it has 1000000 bytes, and this program takes at most 128");
 }
 
+/// No abort of the drive: its mailbox has not passed the request on.
+void an_error_of_the_mailbox_is_told_as_that(void**) {
+  Bench bench;
+  bench.client.upload(kBox, 0x1000, 0, 0);
+  (void)bench.client.take(bench.box.data(), kBox);
+  const std::uint8_t error[] = {4, 0, 0, 0, 0, 0x10, 1, 0, 2, 0};
+  bench.answer(error, sizeof error);
+  assert_true(bench.client.progress() == CoeClient::Progress::kAborted);
+  assert_string_equal(
+      bench.client.describe().c_str(),
+      "object 1000h:0: the slave's mailbox refuses the request, error 0002h of ETG.1000.4");
+}
+
 void messages_that_are_no_answer_are_told_with_their_number(void**) {
   Bench bench;
   bench.client.set_time(1'000'000'000);
@@ -215,6 +228,7 @@ int main() {
       cmocka_unit_test(one_to_four_bytes_are_written_in_one_message),
       cmocka_unit_test(an_abort_of_the_drive_ends_the_transfer_with_its_code),
       cmocka_unit_test(an_object_that_is_too_large_is_refused_by_us),
+      cmocka_unit_test(an_error_of_the_mailbox_is_told_as_that),
       cmocka_unit_test(messages_that_are_no_answer_are_told_with_their_number),
       cmocka_unit_test(an_emergency_is_no_answer),
       cmocka_unit_test(a_silent_drive_ends_the_transfer_in_time),

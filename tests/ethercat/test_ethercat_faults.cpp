@@ -115,6 +115,38 @@ void a_wire_that_does_not_answer_is_known_after_max_missed_frames(void**) {
   assert_true(bench.hal.master.answers());
 }
 
+/// Where drives are to be disabled nothing is gained by waiting longer.
+void a_stop_waits_for_two_frames_at_most(void**) {
+  MasterBench& bench = fresh_bench();
+  bench.drive.max_missed = 100;
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  ASSERT_OK(bench.cycles(20));
+  bench.add(LineFaultKind::kBreak, 0, 0, kForGood);
+  for (int i = 0; i < 20; ++i) (void)bench.cycle();  // [guard] max_age is over
+  assert_true(bench.hal.master.slave(0).feedback.lost == Status::kOk);
+  assert_false(bench.hal.master.answers());
+  const Message said = bench.hal.trouble();
+  print_message("%s\n", said.c_str());
+  assert_non_null(std::strstr(said.c_str(), "no frame came back in the last"));
+}
+
+/// A reply that comes twice is used once.
+void copies_of_frames_are_strange(void**) {
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  int copies = 3;
+  bench.hal.tamper = [&](Frame& frame) {
+    if (copies-- > 0) bench.hal.master.receive(frame);
+  };
+  ASSERT_OK(bench.cycles(10));
+  const LineCounts& counts = bench.hal.master.counts();
+  assert_int_equal(counts.strange, 3);
+  assert_int_equal(counts.late, 0);
+  assert_int_equal(counts.lost, 0);
+}
+
 void a_slave_that_fell_is_named_with_its_code(void**) {
   MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
@@ -137,6 +169,8 @@ int main() {
       cmocka_unit_test(inputs_are_not_taken_with_a_wrong_working_counter),
       cmocka_unit_test(lost_and_late_frames_are_counted),
       cmocka_unit_test(a_wire_that_does_not_answer_is_known_after_max_missed_frames),
+      cmocka_unit_test(a_stop_waits_for_two_frames_at_most),
+      cmocka_unit_test(copies_of_frames_are_strange),
       cmocka_unit_test(a_slave_that_fell_is_named_with_its_code),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -128,6 +128,21 @@ void a_segment_of_another_length_is_refused(void**) {
   assert_refused(open, Status::kBusTimeout, "no frame came back");
 }
 
+/// Also in the cycles before OP, when the states of the slaves are known.
+void a_wire_that_falls_silent_is_named_wherever_the_start_up_is(void**) {
+  MasterBench& whole_way = fresh();
+  ASSERT_OK(whole_way.load());
+  ASSERT_OK(whole_way.hal.connect(CommandMode::kEffort));
+  const int all = whole_way.hal.exchanges;
+  for (const int frames : {all / 3, all - 100, all - 30, all - 3}) {
+    MasterBench& bench = fresh();
+    ASSERT_OK(bench.load());
+    bench.hal.silent_after = frames;
+    assert_refused(bench, Status::kBusTimeout, "no frame came back from the segment; check power");
+    assert_true(bench.hal.exchanges < frames + 400);
+  }
+}
+
 void a_wrong_drive_is_named_with_what_it_says(void**) {
   MasterBench& bench = fresh();
   bench.drive.rated_torque[2] = 4.0;
@@ -217,6 +232,7 @@ int main() {
       cmocka_unit_test(a_start_up_that_is_given_up_leaves_the_slaves_in_init),
       cmocka_unit_test(slaves_that_are_too_few_are_not_touched),
       cmocka_unit_test(a_segment_of_another_length_is_refused),
+      cmocka_unit_test(a_wire_that_falls_silent_is_named_wherever_the_start_up_is),
       cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
       cmocka_unit_test(an_eeprom_that_cannot_be_read_is_refused_with_the_reason),
       cmocka_unit_test(mailbox_faults_are_named),
