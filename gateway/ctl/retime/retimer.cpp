@@ -8,7 +8,7 @@ namespace tactus::ctl {
 namespace {
 
 /// Of the stretch of the worst corner: what others need to be tried as stops with it.
-constexpr double kNearlyWorst = 0.8;
+constexpr double kNearlyWorst = 0.98;
 
 using Path = std::vector<Numbers>;
 using Motion = std::vector<TimedPoint>;
