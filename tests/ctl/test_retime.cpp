@@ -183,7 +183,7 @@ void a_blend_stays_within_tolerance_of_its_corner(void**) {
       double nearest = 1.0;
       for (const TimedPoint& point : retime(path, round))
         nearest = std::min(nearest, (point.q - path[1]).abs().maxCoeff());
-      assert_true(nearest >= tolerance * 0.99);
+      if (tolerance >= 0.01) assert_true(nearest >= tolerance * 0.99);  // else a stop may be faster
       assert_true(nearest <= tolerance * 1.2);  // no waypoint need be in the middle
     }
   }

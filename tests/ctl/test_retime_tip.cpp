@@ -116,7 +116,7 @@ void the_derivatives_of_a_rounded_corner_are_those_of_its_poses(void**) {
   const std::vector<PathSection> sections = blend(kBent, true, {two(0.1, 1.0), 0.0});
   assert_int_equal(sections.size(), 1);
   constexpr double h = 1e-4;
-  for (const PathPiece& piece : sections[0]) {
+  for (const PathPiece& piece : sections[0].pieces) {
     for (int i = 0; i <= 20; ++i) {
       const double s = h + (piece.length - 2.0 * h) * i / 20.0;
       const PathPlace last = piece.at(s - h), now = piece.at(s), next = piece.at(s + h);

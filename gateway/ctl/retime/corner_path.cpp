@@ -14,7 +14,8 @@ struct Line {
   Chart chart;  // of its first waypoint
   Numbers direction;
   double length = 0.0;
-  double begin = 0.0, end = 0.0;  // of what the blends leave
+  double begin = 0.0, end = 0.0;    // of what the blends leave
+  std::size_t first = 0, last = 0;  // waypoints at its ends
 };
 
 std::vector<Line> lines_through(const std::vector<Numbers>& waypoints, bool tip) {
@@ -24,7 +25,7 @@ std::vector<Line> lines_through(const std::vector<Numbers>& waypoints, bool tip)
     const Numbers way = chart.to(waypoints[i]);
     const double length = way.matrix().norm();
     if (!(length > kShortest)) continue;
-    lines.push_back({chart, way / length, length, 0.0, length});
+    lines.push_back({chart, way / length, length, 0.0, length, last, i});
     last = i;
   }
   return lines;
@@ -60,7 +61,7 @@ std::vector<PathSection> blend(const std::vector<Numbers>& waypoints, bool tip,
   std::vector<Line> lines = lines_through(waypoints, tip);
   std::vector<PathSection> sections;
   if (lines.empty()) return sections;
-  sections.emplace_back();
+  sections.push_back({lines.front().first, 0, {}});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     Line& line = lines[i];
     const Numbers& direction = line.direction;
@@ -68,16 +69,17 @@ std::vector<PathSection> blend(const std::vector<Numbers>& waypoints, bool tip,
     const double cut = last ? 0.0 : blend_length(line, lines[i + 1], corners);
     line.end = line.length - cut;
     if (line.end - line.begin > kShortest)
-      sections.back().push_back(
-          {line.end - line.begin, line.chart, line.begin * direction, direction, direction});
+      sections.back().pieces.push_back(
+          {line.end - line.begin, line.chart, line.begin * direction, direction, direction, 0});
+    sections.back().last = line.last;
     if (last) break;
     if (cut > 0.0) {
       Line& next = lines[i + 1];
       next.begin = cut;
-      sections.back().push_back(
-          {2.0 * cut, next.chart, -cut * direction, direction, next.direction});
+      sections.back().pieces.push_back(
+          {2.0 * cut, next.chart, -cut * direction, direction, next.direction, line.last});
     } else {
-      sections.emplace_back();
+      sections.push_back({line.last, 0, {}});
     }
   }
   return sections;

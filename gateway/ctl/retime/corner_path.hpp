@@ -23,7 +23,8 @@ namespace tactus::ctl {
 struct PathPiece {
   double length = 0.0;
   Chart chart;
-  Numbers start, d1, d2;  ///< in the chart; a line has d1 = d2
+  Numbers start, d1, d2;   ///< in the chart; a line has d1 = d2
+  std::size_t corner = 0;  ///< waypoint that a blend rounds; 0: a line
 
   bool straight() const { return (d1 == d2).all(); }
   /// Returns the path at `s` from the beginning of the piece. [any]
@@ -31,7 +32,10 @@ struct PathPiece {
 };
 
 /// From rest to rest.
-using PathSection = std::vector<PathPiece>;
+struct PathSection {
+  std::size_t first = 0, last = 0;  ///< waypoints at its ends
+  std::vector<PathPiece> pieces;
+};
 
 /// How corners are rounded; without tolerance and radius the path stops there.
 struct Corners {

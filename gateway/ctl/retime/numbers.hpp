@@ -28,6 +28,7 @@ struct MotionBounds {
 struct TimedPoint {
   double time_s = 0.0;
   Numbers q, dq, ddq;
+  double s = 0.0;  ///< from the beginning of its section of the path
 };
 
 }  // namespace tactus::ctl

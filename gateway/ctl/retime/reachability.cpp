@@ -28,11 +28,11 @@ Slopes slopes_at(const PathNode& node, const MotionBounds& bounds) {
 
 std::vector<PathNode> grid(const PathSection& section, int steps) {
   double length = 0.0;
-  for (const PathPiece& piece : section) length += piece.length;
+  for (const PathPiece& piece : section.pieces) length += piece.length;
   const int in_blend = std::max(kStepsOfBlend, steps / kBlendShare);
   std::vector<PathNode> nodes;
   double begin = 0.0;
-  for (const PathPiece& piece : section) {
+  for (const PathPiece& piece : section.pieces) {
     const double share = piece.length / length * steps;
     const int count = std::max(piece.straight() ? 2 : in_blend, static_cast<int>(share) + 1);
     for (int i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ std::vector<PathNode> grid(const PathSection& section, int steps) {
     }
     begin += piece.length;
   }
-  const PathPiece& last = section.back();
+  const PathPiece& last = section.pieces.back();
   nodes.push_back({&last, last.length, begin});
   return nodes;
 }

@@ -1,28 +1,19 @@
 // Turns a path without times into a trajectory that passes it in the least time within bounds.
 //
-// Velocity and acceleration: the method of TOPP-RA (reachability.hpp), per section from rest to
-// rest. Jerk: the position along the path over time is smoothed (time_law.hpp), over the width for
-// which the motion becomes shortest. Each section is then stretched by the largest violation of a
-// bound that its own output, polynomials between waypoints, still has: the result keeps every bound
-// between waypoints too, whatever grid and smoothing have left.
+// A section is stretched as a whole for its worst corner (section_motion.hpp), so that one corner
+// with a small blend may cost more than a stop in it. The corners that need most of the stretch are
+// therefore tried as stops, too, and in the sections between them the next ones, down to a stop in
+// every waypoint; of each section, the shorter is kept.
 #pragma once
 
 #include <vector>
 
-#include "gateway/ctl/retime/corner_path.hpp"
+#include "gateway/ctl/retime/section_motion.hpp"
 
 namespace tactus::ctl {
 
-struct RetimeSettings {
-  bool tip = false;  ///< the path is one of the tip, not of joints
-  MotionBounds bounds;
-  Corners corners;
-  bool jerk = true;  ///< keep the bound of jerk; the trajectory then has accelerations
-  int steps = 1000;  ///< least number of grid intervals of a section
-};
-
-/// Returns the trajectory, from time 0; empty if all waypoints are the same or the path cannot be
-/// passed. [any]
+/// Returns the trajectory, from time 0, never longer than with a stop in every waypoint; empty if
+/// all waypoints are the same or the path cannot be passed. [any]
 std::vector<TimedPoint> retime(const std::vector<Numbers>& waypoints,
                                const RetimeSettings& settings);
 

@@ -70,7 +70,7 @@ TimedPoint moved(const std::vector<PathNode>& nodes, const Progress& progress, d
   const PathNode& node = before(nodes, s, &PathNode::s);
   const PathPlace place = node.piece->at(node.offset + s - node.s);
   return {time_s, place.q, place.dq * progress.ds,
-          place.dq * progress.dds + place.ddq * (progress.ds * progress.ds)};
+          place.dq * progress.dds + place.ddq * (progress.ds * progress.ds), s};
 }
 
 }  // namespace tactus::ctl

@@ -21,6 +21,8 @@ class TimeLaw {
   /// `smoothing_s`: T; 0: none. The nodes must outlive the law. [any]
   TimeLaw(const std::vector<PathNode>& nodes, double smoothing_s);
 
+  /// Time from when a place is reached at the earliest to when it is at the latest. [any]
+  double window_s() const { return 2.0 * reach_s_; }
   double duration_s() const { return nodes_.back().time_s + 2.0 * reach_s_; }
   /// Returns the progress at a time from 0 to the duration. [any]
   Progress at(double time_s) const;
