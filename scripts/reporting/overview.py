@@ -79,7 +79,7 @@ def sheet(sections):
     for section in sections:
         if section.still is not None:
             found = section.judgement
-            told = f"{found.seen}, expected {found.expected}" if found else section.verdict
+            told = f"{found.seen}\nexpected {found.expected}" if found else section.verdict
             yield section.still, f"{section.name}\n{section.kind}: {told}"
 
 

@@ -85,13 +85,12 @@ def still(run):
     return np.array(canvas.buffer_rgba())
 
 
-def write_sheet(path, heading, pictures):
-    """Writes one picture of all runs, five in a row; `pictures` are pixels and lines of text."""
+def sheet(heading, pictures):
+    """Returns one figure of all runs, five in a row; `pictures` are pixels and lines of text."""
     across = min(5, len(pictures))
     down = -(-len(pictures) // across)
     with rc_context({"font.size": 8}):
-        figure = Figure(figsize=(2.55 * across, 2.5 * down + 0.5), dpi=110)
-        canvas = FigureCanvasAgg(figure)
+        figure = Figure(figsize=(2.55 * across, 2.6 * down + 0.5), dpi=110)
         parts = figure.subplots(down, across, squeeze=False).ravel()
         for axes in parts:
             axes.set_axis_off()
@@ -99,5 +98,10 @@ def write_sheet(path, heading, pictures):
             axes.imshow(pixels)
             axes.set_title(text, fontsize=7.5, pad=3)
         figure.suptitle(heading, fontweight="bold", fontsize=11)
-        figure.subplots_adjust(0.01, 0.01, 0.99, 1 - 0.85 / (2.5 * down + 0.5), 0.03, 0.25)
-        canvas.print_png(path)
+        figure.subplots_adjust(0.01, 0.01, 0.99, 1 - 0.95 / (2.6 * down + 0.5), 0.03, 0.3)
+    return figure
+
+
+def write_sheet(path, heading, pictures):
+    """Writes the figure of all runs."""
+    FigureCanvasAgg(sheet(heading, pictures)).print_png(path)
