@@ -131,7 +131,7 @@ bool CoeClient::receive(const std::uint8_t* mailbox, std::size_t size, can::Emer
   }
   if (type == kMailboxError && progress_ == Progress::kBusy) {
     fail(SdoAbort::kGeneral);
-    refused_ = get<std::uint16_t>(mailbox + kMailboxBytes + 2);
+    if (length >= kMailboxErrorBytes) refused_ = get<std::uint16_t>(mailbox + kMailboxBytes + 2);
     return false;
   }
   if (type != kMailboxCoe) {

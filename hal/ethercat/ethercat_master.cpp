@@ -55,7 +55,7 @@ void EthercatMaster::connect(const std::uint8_t* source, std::int64_t now_ns) {
   why_ = {};
   phase_ = Phase::kStartsUp;
   now_ns_ = -1;
-  has_out_ = arrived_ = own_extra_ = asks_ = false;
+  has_out_ = arrived_ = own_extra_ = asks_ = stops_ = false;
   steady_ = cycles_ = asked_ = boxed_ = checked_ = 0;
   commands_ = {};
   startup_.exchange().set_source(source);

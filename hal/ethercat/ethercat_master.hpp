@@ -6,6 +6,8 @@
 // of it, so a command acts exactly one period after the sample that it answers.
 #pragma once
 
+#include <algorithm>
+
 #include "hal/cia402/drives.hpp"
 #include "hal/ethercat/clock_steer.hpp"
 #include "hal/ethercat/cyclic_frame.hpp"

@@ -32,7 +32,8 @@ inline constexpr std::uint8_t kCompleteAccess = 0x10;
 inline constexpr std::uint16_t kSmTypes = 0x1C00, kRxAssign = 0x1C12, kTxAssign = 0x1C13;
 inline constexpr std::uint16_t kRxMapping = 0x1600, kTxMapping = 0x1A00;
 
-// Codes of an error reply of the mailbox itself.
+// An error reply of the mailbox itself: type u16, code u16.
+inline constexpr std::size_t kMailboxErrorBytes = 4;
 inline constexpr std::uint16_t kMailboxUnsupported = 0x0002, kMailboxBadHeader = 0x0004,
                                kMailboxTooShort = 0x0005;
 
