@@ -36,6 +36,11 @@ inline constexpr const char* kPipeline =
     "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
     "[recorder]\ndivisor = 10\ntracking = jrg.q_d robot.q\n";
+/// Tolerates what a busy host does to a run in real time: late cycles, overruns, and a second
+/// without a cycle.
+inline constexpr const char* kBusyHost =
+    "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
+    "overrun_window = 1\n";
 inline constexpr const char* kWithoutGenerator =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
 inline constexpr const char* kHeader = "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,q7_rad\n";
@@ -176,6 +181,13 @@ inline int shell(const char* command) {
   Text<4095> line("{ ");
   line << command << "; } >" << in_folder("out") << " 2>" << in_folder("err");
   return WEXITSTATUS(std::system(line.c_str()));
+}
+
+/// Asserts that a shell command exits with 0; shows what it wrote to standard error otherwise.
+inline void assert_succeeds(const char* command) {
+  const int code = shell(command);
+  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
+  assert_int_equal(code, 0);
 }
 
 }  // namespace tactus

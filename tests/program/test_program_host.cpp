@@ -24,11 +24,10 @@ bool complains(const RealtimeReport& steps, const HostTree& tree, std::string_vi
   return false;
 }
 
-/// A pipeline that goes on after a second without a cycle, with a watchdog of this name.
+/// A pipeline that goes on on a busy host, with a watchdog of this name.
 Line pipeline(const Line& device, const char* timeout) {
-  return write("watched.ini",
-               {kPipeline, "[executive]\nmax_slip = 1000\noverrun_window = 1\n[realtime]\n",
-                "watchdog = ", device.c_str(), "\nwatchdog_timeout_s = ", timeout, "\n"});
+  return write("watched.ini", {kPipeline, kBusyHost, "[realtime]\n", "watchdog = ", device.c_str(),
+                               "\nwatchdog_timeout_s = ", timeout, "\n"});
 }
 
 /// The watchdog's driver, before that of the system: it takes every timeout up to 60 s of any file.

@@ -68,9 +68,7 @@ void a_run_whose_time_has_passed_brakes_the_arm_before_it_ends(void**) {
 }
 
 void an_interrupt_brakes_the_arm_before_the_run_ends(void**) {
-  const Line pipeline = write("slow.ini",
-                              {kPositions, "[executive]\nmax_slip = 1000\noverrun_window = 1\n"}),
-             out = in_folder("i");
+  const Line pipeline = write("slow.ini", {kPositions, kBusyHost}), out = in_folder("i");
   const Line trajectory = write("slow.csv", {kHeader, kSlow});
   const pid_t child = spawn({"run", pipeline.c_str(), "--trajectory", trajectory.c_str(),
                              "--realtime", "--no-figure", "--out", out.c_str()});

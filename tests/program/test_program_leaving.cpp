@@ -52,7 +52,7 @@ WireCounts counts() {
 /// The threads of log and trajectory still run when the wire is closed: drives that watch for
 /// commands do not wait until they have ended.
 void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_1(void**) {
-  Line file = write("rt.ini", {kPipeline, "[executive]\nmax_slip = 1000\noverrun_window = 1\n"});
+  Line file = write("rt.ini", {kPipeline, kBusyHost});
   Line out = in_folder("a");
   const char* words[] = {"tactus", "run",         file.c_str(), "--realtime", "--duration",
                          "0.1",    "--no-figure", "--out",      out.c_str()};

@@ -14,12 +14,8 @@ std::string_view file_of(const char* name) {
   return content(in_folder(name).c_str(), text);
 }
 
-/// A pipeline that tolerates a second without a cycle and overruns, so that a loaded host does not
-/// end it.
 Line pipeline(const char* realtime) {
-  return write(
-      "rt.ini",
-      {kPipeline, "[executive]\nmax_slip = 1000\noverrun_window = 1\n[realtime]\n", realtime});
+  return write("rt.ini", {kPipeline, kBusyHost, "[realtime]\n", realtime});
 }
 
 int run_into(const char* name, const Line& file, const char* duration = "0.2") {
