@@ -3,6 +3,7 @@ BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
 ARCH  ?= host
+JOBS  ?= $(shell nproc)
 HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)
 B     := build/$(BOARD)$(HOW)
 
@@ -35,19 +36,24 @@ robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
 # Each board has its programs; boards with the same robot share objects.
 robot := $(robot)
-# The kinds of block that the board has, if not all; its objects are then its own.
+O     := build/$(robot)$(HOW)
+# The kinds of block that the board has, if not all.
 KINDS := $(KINDS_$(ARCH))
-O     := build/$(robot)$(HOW)$(if $(KINDS),-$(BOARD))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
-SEAMS     := program/session/options.cpp sim_plant/ur/server/options.cpp sim_plant/drives/server/options.cpp sim_plant/ethercat/server/options.cpp $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
+# CLI11 takes three times as long to optimise as to compile, for what runs once.
+OPTION    := -O0
+OPTIONS   := $(addsuffix /options.cpp,program/session sim_plant/ur/server sim_plant/drives/server sim_plant/ethercat/server)
+SEAMS     := $(OPTIONS) $(wildcard tests/oracles/kdl*.cpp) tests/bench/kdl_peer.cpp
 # GCC 12 sees reads beyond a string_view where its header is precompiled, and none without.
 WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror -Wno-stringop-overread
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
 NUMERICS  := $(OPTIMISED) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
-# One build for sanitized tests and fuzzers. clang has no libquadmath of its own.
-SANITIZED := SANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow CXX=clang++ WARNINGS=
+# Fuzzers have objects of their own: counting branches for them would make every sanitized test half as fast.
+SANITIZERS := address,undefined,float-cast-overflow
+SANITIZED  := SANITIZE=$(SANITIZERS) CXX=clang++ WARNINGS=
+# clang has no libquadmath of its own.
 QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-name=include))
 # Back traces, profiles and bounds need line tables. To track variables too (DEBUG=-g) takes twice as long to compile,
 # with sanitizers three times.
@@ -77,10 +83,11 @@ ifneq ($(and $(CROSS_$(ARCH)),$(filter command line,$(origin CXX))),)
 $(if $(findstring $(firstword $(subst -, ,$(CROSS_$(ARCH)))),$(shell $(CXX) -dumpmachine)),,$(error CXX=$(CXX) does not compile for ARCH=$(ARCH); name a $(CROSS_$(ARCH))g++))
 endif
 # A program without libraries of its own needs the C library and no other.
+LINK     := $(if $(filter host,$(ARCH)),-fuse-ld=lld) $(SANITIZER)
 LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
-CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
+CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
 
 # `make run` runs the pipelines of every board that is this computer; with BOARD=... those of that board.
 RUN_BOARDS  := $(if $(filter command,$(origin BOARD)),$(BOARD),$(filter-out $(BARE_BOARDS),$(BOARDS)))
@@ -94,27 +101,35 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
               kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
+# What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
+OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/page gateway/server gateway/sockets hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
-# Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them.
-SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,check_steps checks expected loop_bounds refuted report report_folders \
-                  report_labels run_all setup static_bounds tools wcet)
-TESTS    := $(if $(SANITIZE),$(filter-out $(SCRIPT_TESTS),$(TESTS)),$(TESTS))
-TESTS    := $(TESTS:%.cpp=$(B)/%)
-# These run together in a virtual machine that has CAN buses.
-VM_TESTS := $(filter $(B)/tests/vm/%,$(TESTS))
-LONG     := $(addprefix $(B)/tests/reference/motion/,test_motion test_admission_oracle test_every_motion)
-TESTLIBS := -Wl,--as-needed -lcmocka -lmujoco -lorocos-kdl -lquadmath -Lbuild -lfcl_oracle -Wl,-rpath,$(CURDIR)/build
+# The tests of threads take the kernel and the frames of references, no more.
+ifeq ($(SANITIZE),thread)
+PROGRAM := $(wildcard gateway/reference_*.cpp)
+ORACLES :=
+endif
 # The drives on CAN at both ends, without sockets and arm: for benches and bounds.
 CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp can_plan_names.cpp \
                node_setup.cpp pdo_layout.cpp sdo_client.cpp sdo_client_text.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
                $(filter-out %/drive_arm.cpp %/driven_arm.cpp,$(wildcard sim_plant/drives/*.cpp))
 CAN_LINK  := $(addprefix hal/can/,can_socket.cpp can_socket_open.cpp link_health.cpp)
-PCH      := $(O)/precompiled.hpp
-QUICK    := $(filter-out $(SEAMS),$(ORACLES) $(TESTS:$(B)/%=%.cpp))
+PCH       = $(O)/precompiled.hpp
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
 say       = @mkdir -p $(@D) && echo "  $(1)"
+# Writes what a command prints into the target if it differs, so that only a change makes what depends on it anew.
+kept      = @mkdir -p $(@D) && $(1) | cmp -s - $@ || $(1) > $@
+# Runs a command and adds a row to build/times.csv: what, name or target, seconds of wall, user and system.
+TIME     := $(wildcard /usr/bin/time)
+timed     = $(TIME:%=% -q -a -o build/times.csv -f '$(1),$(or $(2),$@),%e,%U,%S')
+# The same for every board of BOARDS: one after the other what they print; robots side by side what they build, because
+# boards of one robot share objects.
 each      = set -e; for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board $(1); done
+build     = mkdir -p build && $(call timed,step,build $(1)) $(MAKE) --no-print-directory -j$(JOBS) $(2) robots GOALS="$(1)" BOARDS="$(BOARDS)"
+
+include gateway/gateway.mk
+include scripts/units.mk
 
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
 all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
@@ -122,15 +137,15 @@ all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the progr
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
 	$(Q)$(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),scripts/setup m7)
-	$(Q)$(call each,-j2 all trajectories)
+	$(Q)$(call build,all)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
-test: setup                                   ## build and run all tests of every board
-	$(Q)scripts/setup vm
-	$(Q)scripts/setup m7
-	$(Q)$(call each,-j2 tests)
-	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
+test: setup                                   ## build and run all tests of every board; ONLY="control guard" those of tests/control and tests/guard
+	$(Q)scripts/setup test
+	$(Q)$(call build,tests)
+	$(Q)set -e; tests=$$($(call each,list-tests)); $(call timed,step,run tests) scripts/run_tests $$tests
+	$(Q)scripts/times
 test-long: setup                              ## run the long random tests at full count
-	$(Q)$(MAKE) --no-print-directory -j2 $(LONG)
+	$(Q)$(MAKE) --no-print-directory -j$(JOBS) $(LONG)
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
 check: test                                   ## run all tests and checks that a change must pass
 	$(Q)scripts/check
@@ -153,79 +168,56 @@ setup-%:
 	$(Q)scripts/setup $*
 format:                                       ## clang-format every source
 	$(Q)clang-format -i $$(git ls-files -co --exclude-standard '*.[ch]pp' '*.[ch]')
-compile_commands.json:                        ## for editors and clang-tidy
-	$(Q)bear -- $(MAKE) -B all $(TESTS)
+compile_commands.json:                        ## for editors: every source by itself
+	$(Q)bear -- $(MAKE) -B UNITS= all $(TESTS)
 clean:                                        ## remove everything that make has built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## list the targets
 	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: sanitized-tests trajectories list-runs tests list-tests run-tests run-thread-tests kernel each-board
-each-board:
-	$(Q)$(call each,$(TARGETS))
+.PHONY: trajectories list-runs list-units kernel robots shared always
+robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(board)))))
+robot_of = $(shell sed -n 's/^ROBOT *:= *//p' boards/$(1)/board.mk)
+robot-%: shared
+	$(Q)set -e; for board in $(foreach board,$(BOARDS),$(if $(filter $*,$(call robot_of,$(board))),$(board))); do \
+	  $(MAKE) --no-print-directory BOARD=$$board $(GOALS); done
+# What boards of several robots take.
+shared: $(MESSAGES).h $(if $(filter all tests,$(GOALS)),trajectories $(TACTUSCTL)) $(if $(filter tests,$(GOALS)),python build/libfcl_oracle.so)
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
-list-tests:
-	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline) $(SCRIPTED)
-kernel: $(O)/libkernel.a $(if $(filter m7,$(ARCH)),$(B)/board.elf)
+list-units:
+	@$(foreach unit,$(UNITS),echo $(unit) $(SOURCES_$(unit));)
+kernel: $(KERNEL_LIB) $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
 trajectories: build/trajectories/fer_excitation.csv
 build/trajectories/fer_excitation.csv: scripts/excitation
 	@mkdir -p $(@D)
 	$(Q)scripts/excitation --out $@
-sanitized-tests:
-	$(Q)$(call each,-j2 $(SANITIZED) run-tests)
-run-thread-tests: $(addprefix $(B)/tests/,core/test_mailbox core/test_histogram pipeline/test_recorder \
-                    reference/generator/test_reference_threads cycle/test_ladder)
-	$(Q)scripts/run_tests $^
-tests: trajectories $(B)/$(NAME) $(TESTS)
-	@:
-run-tests: tests
-	$(Q)$(if $(filter-out $(VM_TESTS),$(TESTS)),scripts/run_tests $(filter-out $(VM_TESTS),$(TESTS)))
 
 # Where flash is short it is compiled for size.
-$(if $(BARE),$(call obj,$(NOT_CYCLIC))): private CXXFLAGS += -Os
-$(if $(BARE),$(call obj,$(NOT_CYCLIC))): private PCH :=
+SMALL := -Os
+$(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC))): private CXXFLAGS += $(SMALL)
+$(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC))): private PCH :=
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
+$(call obj,$(OPTIONS)): private CXXFLAGS := $(SEAMFLAGS) $(OPTION)
 $(call obj,$(SEAMS)): private PCH :=
-$(call obj,$(QUICK)) $(O)/quick.hpp.gch: private CXXFLAGS += -O1
-$(call obj,$(QUICK)): private PCH := $(O)/quick.hpp
-$(O)/tests/pipeline/test_pipelines.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
-$(O)/tests/pipeline/test_pipelines.o: boards/$(BOARD)/board.mk
-# Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
-$(O)/libkernel.a: $(call obj,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
-WHOLE_KERNEL = -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
-$(B)/libprogram.a: $(call obj,$(PROGRAM)) $(O)/gateway/tactus.pb.o
-$(O)/liboracles.a: $(call obj,$(ORACLES))
+$(KERNEL_LIB): $(KERNEL_OBJECTS)
+WHOLE_KERNEL = -Wl,--whole-archive $(KERNEL_LIB) -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
+$(B)/libprogram.a: $(call objects,$(PROGRAM)) $(O)/gateway/tactus.pb.o
 build/%.a:
 	$(call say,AR    $@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $^
-$(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(O)/libkernel.a
+$(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(GATEWAY_LIBS)
-# Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
-build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
+	$(Q)$(call timed,link) $(CXX) $(LINK) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(GATEWAY_LIBS)
+$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
-$(TESTS): | build/libfcl_oracle.so
-$(filter-out $(B)/tests/ctl/%,$(TESTS)): $(B)/%: $(O)/%.o $(O)/liboracles.a $(B)/libprogram.a $(O)/libkernel.a
-	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(TESTLIBS) $(GATEWAY_LIBS)
-$(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(O)/libkernel.a
-	$(call say,LD    $@)
-	$(Q)$(CXX) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
-$(O)/%.o: %.cpp Makefile | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch
-	$(call say,CXX   $<)
-	$(Q)$(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
-# Eigen and the standard library, parsed once for what is shipped and once for tests, which need not be fast.
-$(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp Makefile
-	$(call say,PCH   $@)
-	$(Q)cp $< $(@:.gch=) && $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
 
-include gateway/gateway.mk
 include program/install.mk
 include gateway/ctl/ctl.mk
 include program/package/package.mk
+include tests/tests.mk
 include tests/fuzz/fuzz.mk
 include tests/wcet/wcet.mk
 include tests/bare_metal/bare_metal.mk
@@ -236,6 +228,6 @@ include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
 include gateway/python/python.mk
 
-.PRECIOUS: $(O)/%.o
+.PRECIOUS: $(O)/%.o $(O)/units/%.cpp
 .DELETE_ON_ERROR:
--include $(shell find $(O) -name '*.d' 2>/dev/null)
+-include $(shell find $(O) $(B) -name '*.d' 2>/dev/null)

@@ -1,8 +1,6 @@
 # The version, and `make install`. The Makefile includes this file and defines B, O, NAME and obj.
 VERSION := 0.1$(shell git describe --always --dirty 2>/dev/null | sed 's/^/-/')
 PREFIX  ?= /usr/local
-# A word of the shell, whatever it contains.
-quote    = '$(subst ','\'',$(1))'
 ROOT    := $(call quote,$(DESTDIR)$(PREFIX))
 LIB     := $(ROOT)/lib/tactus
 SHARE   := $(ROOT)/share
@@ -29,10 +27,9 @@ install: setup $(B)/$(NAME) trajectories                       ## install the pr
 	$(Q)scripts/completion $(B)/$(NAME) $(COMMAND) $(RUN) > $(SHARE)/bash-completion/completions/$(COMMAND)
 	$(Q)chmod 644 $(SHARE)/man/man1/$(COMMAND).1 $(SHARE)/bash-completion/completions/$(COMMAND)
 
-OPTIONS := $(call obj,program/session/options.cpp)
-$(OPTIONS): private CXXFLAGS += -DTACTUS_VERSION='"$(VERSION)"'
-$(OPTIONS): build/version
+$(call obj,gateway/version.cpp): private CXXFLAGS += -DTACTUS_VERSION='"$(VERSION)"'
+$(call obj,gateway/version.cpp): build/version
 build/version: always
-	@mkdir -p $(@D) && echo '$(VERSION)' | cmp -s - $@ || echo '$(VERSION)' > $@
+	$(call kept,echo '$(VERSION)')
 .PHONY: always
 always:

@@ -1,10 +1,10 @@
-# Units of several sources: docs/decisions/0024-units-of-several-sources.md. The Makefile includes this file and defines
-# O, SEAMS and obj.
+# How sources become objects: docs/decisions/0024-units-of-several-sources.md. The Makefile includes this file and
+# defines O, B, CXXFLAGS, SEAMS and the rest. `make UNITS=` compiles every source by itself.
 # What costs time in a source is Eigen's templates, so that sources which people change together are compiled together.
-in_folders = $(filter-out $(SEAMS) %/main.cpp,$(call of_robot,$(1:%=%/*.cpp)))
+in_folders = $(filter-out $(SEAMS) %/main.cpp %/version.cpp,$(call of_robot,$(1:%=%/*.cpp)))
 
-UNITS := numerics control executive reference gateway server program reach arm pil cia402 can ethercat scan \
-         ur ur_hal ur_plant ur_server drives drives_server segment segment_server
+UNITS := numerics control executive reference gateway server program reach arm pil serial cia402 can ethercat scan \
+         ur ur_hal ur_plant ur_server drives drives_server segment
 SOURCES_numerics  := $(call in_folders,kernel/core kernel/math kernel/model)
 SOURCES_control   := $(call in_folders,kernel/control)
 SOURCES_executive := $(call in_folders,kernel/guard kernel/pipeline kernel/load kernel/cycle)
@@ -14,7 +14,8 @@ SOURCES_server    := $(call in_folders,gateway/server gateway/page)
 SOURCES_program   := $(call in_folders,program program/session program/results hal/os)
 SOURCES_reach     := $(call in_folders,program/reach)
 SOURCES_arm       := $(call in_folders,sim_plant/arm)
-SOURCES_pil       := $(call in_folders,program/pil hal/serial)
+SOURCES_pil       := $(call in_folders,program/pil)
+SOURCES_serial    := $(call in_folders,hal/serial)
 SOURCES_cia402    := $(call in_folders,hal/cia402)
 SOURCES_can       := $(call in_folders,hal/can)
 SOURCES_ethercat  := $(call in_folders,hal/ethercat)
@@ -23,7 +24,54 @@ SOURCES_ur_hal    := $(filter-out hal/ur/ur_state.cpp,$(wildcard hal/net/*.cpp h
 SOURCES_ur        := $(filter-out $(SOURCES_ur_hal),$(call in_folders,hal/ur))
 SOURCES_ur_plant  := $(call in_folders,$(addprefix sim_plant/ur/,controller motion parts programs scene script wire))
 SOURCES_ur_server := $(call in_folders,sim_plant/ur/server)
-SOURCES_drives         := $(call in_folders,sim_plant/drives)
-SOURCES_drives_server  := $(call in_folders,sim_plant/drives/server)
-SOURCES_segment        := $(call in_folders,sim_plant/ethercat)
-SOURCES_segment_server := $(call in_folders,sim_plant/ethercat/server)
+SOURCES_drives    := $(call in_folders,sim_plant/drives)
+SOURCES_drives_server := $(call in_folders,sim_plant/drives/server)
+SOURCES_segment   := $(call in_folders,sim_plant/ethercat)
+
+# What is linked for a bare core is counted and bounded object by object.
+ifneq ($(BARE),)
+UNITS :=
+else ifeq ($(UNITS),)
+O := $(O)-single
+B := $(B)-single
+endif
+
+# $(call objects,SOURCES): the units that are among them as a whole, and an object for each other source.
+units_in = $(foreach unit,$(UNITS),$(if $(filter-out $(1),$(SOURCES_$(unit))),,$(unit)))
+objects  = $(call joined,$(1),$(call units_in,$(1)))
+joined   = $(2:%=$(O)/units/%.o) $(call obj,$(filter-out $(foreach unit,$(2),$(SOURCES_$(unit))),$(1)))
+
+# A board without all kinds of block has its own objects of what sees them, and a kernel of its own.
+KERNEL_LIB     := $(if $(KINDS),$(B),$(O))/libkernel.a
+kernel_objects  = $(if $(KINDS),$(foreach source,$(1),$(patsubst %.cpp,$(if $(filter $(OF_KINDS),$(source)),$(B),$(O))/%.o,$(source))),$(call objects,$(1)))
+
+# Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
+KERNEL_OBJECTS := $(call kernel_objects,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
+
+compile = $(Q)$(call timed,compile) $(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
+# A word of the shell, whatever it contains.
+quote   = '$(subst ','\'',$(1))'
+$(O)/flags: always
+	$(call kept,echo $(call quote,$(CXX) $(CXXFLAGS) $(SMALL) $(QUICK) $(OPTION)))
+$(O)/units/%.cpp: always
+	$(call kept,printf '#include "%s"\n' $(sort $(SOURCES_$*)))
+$(O)/units/%.o: $(O)/units/%.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
+	$(call say,CXX   $<)
+	$(compile)
+$(O)/%.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch $(MESSAGES).h
+	$(call say,CXX   $<)
+	$(compile)
+$(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): private CXXFLAGS += -DTACTUS_KINDS='$(KINDS)'
+$(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): $(B)/%.o: %.cpp $(O)/flags $(B)/kinds | $(O)/precompiled.hpp.gch
+	$(call say,CXX   $<)
+	$(compile)
+$(B)/kinds: always
+	$(call kept,echo $(call quote,$(KINDS)))
+$(if $(KINDS),$(KERNEL_LIB)): | $(B)/kinds_checked
+$(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS))
+	$(Q)! grep -l 'kernel/pipeline/kinds[.]hpp' $(^:.o=.d) || { echo '$@: these see the kinds of block; name them in OF_KINDS' >&2; exit 1; }
+	$(Q)mkdir -p $(@D) && touch $@
+# Eigen and the standard library, parsed once for what is shipped and once for tests, which need not be fast.
+$(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp $(O)/flags
+	$(call say,PCH   $@)
+	$(Q)cp $< $(@:.gch=) && $(call timed,compile) $(CXX) $(CXXFLAGS) -x c++-header $< -o $@

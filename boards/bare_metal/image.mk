@@ -11,16 +11,16 @@ $(O)/boards/bare_metal/startup.o: private CXXFLAGS += -fno-tree-loop-distribute-
 image: $(B)/image.elf $(B)/image-faults.elf   ## build the image of a board without an operating system: BOARD=fer_m7
 $(B)/image.elf: $(O)/boards/bare_metal/provoke_nothing.o
 $(B)/image-faults.elf: $(O)/tests/bare_metal/provoke_faults.o
-$(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(O)/libkernel.a $(IMAGE_LD)
+$(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(KERNEL_LIB) $(IMAGE_LD)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_$(ARCH)) -nostartfiles -nostdlib -Wl,--gc-sections $(IMAGE_LD:%=-T %) -o $@ \
-	  -Wl,--whole-archive $(O)/libkernel.a -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc
+	  -Wl,--whole-archive $(KERNEL_LIB) -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc
 	$(Q)$(CROSS_$(ARCH))size $@
 $(O)/boards/bare_metal/embedded_text.o: private CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(PIPELINE).ini"'
 $(O)/boards/bare_metal/embedded_text.o: pipelines/$(PIPELINE).ini
 # The stacks of cycles, of background work and of a fault, as the linker script has them.
-image-certificate: $(B)/image.elf             ## check RAM, flash and stacks of that image: BOARD=fer_m7 ARCH=m7
-	$(Q)scripts/certificate $(BOARD) --callgraph $(addprefix $(O)/,boards gateway hal kernel sim_plant) --image $< \
+image-certificate: $(B)/image.elf $(call obj,$(BARE_SRCS) boards/bare_metal/provoke_nothing.cpp)             ## check RAM, flash and stacks of that image: BOARD=fer_m7 ARCH=m7
+	$(Q)scripts/certificate $(BOARD) --objects $(filter %.o,$^) $(KERNEL_OBJECTS) --image $< \
 	  --tools $(CROSS_$(ARCH)) --rules boards/bare_metal/stack.txt --exception $(EXCEPTION) --static-budget $(RAM_BUDGET) \
 	  --flash-budget $(IMAGE_BUDGET) --roots 'on_timer=16384,void program(=24576,keep_fault=8192' > $(B)/certificate.txt
 	@grep -E '^(memory|RAM|flash|stack)' $(B)/certificate.txt

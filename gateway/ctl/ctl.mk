@@ -2,31 +2,46 @@
 # The Makefile includes this file and defines say, Q, SEAMFLAGS, VERSION and the rest.
 CTL          := build/ctl$(HOW)
 CTL_SEAM     := gateway/ctl/options.cpp
-CTL_PARTS    := $(filter-out %/main.cpp,$(wildcard gateway/ctl/*.cpp gateway/ctl/retime/*.cpp)) gateway/csv_cells.cpp \
-                gateway/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp \
-                kernel/math/so3.cpp kernel/reference/space/polynomial.cpp kernel/reference/space/rotation_segment.cpp \
-                kernel/reference/space/vector_bounds.cpp
+CTL_CLIENT   := $(filter-out $(CTL_SEAM) %/main.cpp,$(wildcard gateway/ctl/*.cpp gateway/ctl/retime/*.cpp))
+# What it shares with the programs of robots.
+CTL_SHARED   := gateway/csv_cells.cpp gateway/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp \
+                kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp kernel/math/so3.cpp \
+                $(addprefix kernel/reference/space/,polynomial.cpp rotation_segment.cpp vector_bounds.cpp)
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))
+CTL_OBJECTS  := $(if $(UNITS),$(CTL)/units/client.o $(CTL)/units/shared.o,$(call ctl_obj,$(CTL_CLIENT) $(CTL_SHARED))) \
+                $(call ctl_obj,$(CTL_SEAM) gateway/version.cpp) $(CTL)/proto/tactus.pb.o
 CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
 TACTUSCTL    := build/tactusctl$(HOW)
 
-CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS))
+CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS:%.cpp=$(B)/%))
 
 $(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lprotobuf -lsodium
-$(CTL)/libctl.a: $(call ctl_obj,$(CTL_PARTS)) $(CTL)/proto/tactus.pb.o
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lprotobuf -lsodium
+$(CTL)/libctl.a: $(CTL_OBJECTS)
 $(CTL)/proto/tactus.pb.cc: gateway/tactus.proto
 	$(call say,PROTO $<)
 	$(Q)protoc -Igateway --cpp_out=$(@D) $<
 $(CTL)/proto/tactus.pb.o: $(CTL)/proto/tactus.pb.cc
-	$(Q)$(CXX) -std=c++17 $(SANITIZER) -O1 -c $< -o $@
+	$(Q)$(call timed,compile) $(CXX) -std=c++17 $(SANITIZER) -O1 -c $< -o $@
+$(CTL)/flags: always
+	$(call kept,echo $(call quote,$(CXX) $(CTLFLAGS) $(OPTION)))
+$(CTL)/units/client.cpp: always
+	$(call kept,printf '#include "%s"\n' $(CTL_CLIENT))
+$(CTL)/units/shared.cpp: always
+	$(call kept,printf '#include "%s"\n' $(CTL_SHARED))
+ctl_compile = $(Q)$(call timed,compile) $(CXX) $(CTLFLAGS) -c $< -o $@
 # The messages are a system header, which dependency files leave out.
-$(CTL)/%.o: %.cpp Makefile gateway/ctl/ctl.mk $(CTL)/proto/tactus.pb.cc
+$(CTL)/units/%.o: $(CTL)/units/%.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
-	$(Q)$(CXX) $(if $(filter $(CTL_SEAM),$<),$(CTL_SEAMFLAGS) -DTACTUS_VERSION='"$(VERSION)"',$(CTLFLAGS)) -c $< -o $@
-$(call ctl_obj,$(CTL_SEAM)): build/version
+	$(ctl_compile)
+$(CTL)/%.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
+	$(call say,CXX   $<)
+	$(ctl_compile)
+$(call ctl_obj,$(CTL_SEAM)): private CTLFLAGS := $(CTL_SEAMFLAGS) $(OPTION)
+$(CTL)/gateway/version.o: private CTLFLAGS += -DTACTUS_VERSION='"$(VERSION)"'
+$(CTL)/gateway/version.o: build/version
 # A program for the computer at which people sit; boards for other machines are built without it.
 all: $(if $(filter host,$(ARCH)),$(TACTUSCTL))
 .PHONY: install-tactusctl
@@ -36,8 +51,14 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)ABOUT="client of the server of references" scripts/manual $(TACTUSCTL) tactusctl > $(SHARE)/man/man1/tactusctl.1
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
 # Its tests are compiled as it is, and judge what it writes by the kernel of their board.
-$(CTL)/tests/%.o: private CTLFLAGS += -DTACTUS_ROBOT=$(ROBOT)
-$(CTL_TESTS): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a $(O)/libkernel.a | $(TACTUSCTL)
+$(CTL)/tests/%.o $(B)/tests/ctl/unit.o: private CTLFLAGS += -DTACTUS_ROBOT=$(ROBOT)
+$(B)/tests/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
+	$(call say,CXX   $<)
+	$(ctl_compile)
+$(B)/tests/ctl/tests: $(B)/tests/ctl/unit.o $(CTL)/libctl.a $(KERNEL_LIB) | $(TACTUSCTL)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lcmocka
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lcmocka
+$(if $(UNITS),,$(CTL_TESTS)): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a $(KERNEL_LIB) | $(TACTUSCTL)
+	$(call say,LD    $@)
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lcmocka
 -include $(shell find $(CTL) -name '*.d' 2>/dev/null)

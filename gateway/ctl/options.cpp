@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "gateway/version.hpp"
+
 namespace tactus::ctl {
 namespace {
 
@@ -216,7 +218,7 @@ void fill(Verb verb, CLI::App& app, Options& o) {
 
 bool parse_options(int argc, char** argv, Options& options, int& exit_code) {
   CLI::App app{"Client of the server of references of Tactus", "tactusctl"};
-  app.set_version_flag("--version", std::string("tactusctl ") + TACTUS_VERSION);
+  app.set_version_flag("--version", std::string("tactusctl ") + kVersion);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("tactusctl: ") + error.what() +

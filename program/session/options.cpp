@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "gateway/version.hpp"
+
 namespace tactus {
 namespace {
 
@@ -125,7 +127,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   std::string pipeline, trajectory, out, root, interface, listen, key, http;
   std::vector<std::string> load, buses;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
-  app.set_version_flag("--version", std::string("tactus ") + TACTUS_VERSION + ", board " + board);
+  app.set_version_flag("--version", std::string("tactus ") + kVersion + ", board " + board);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("tactus: ") + error.what() + "; tactus --help-all lists what there is\n";

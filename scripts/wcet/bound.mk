@@ -17,18 +17,18 @@ certificate:                                  ## check static bytes, worst-case 
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory certificate-host)
 	$(Q)$(if $(STATIC_BUDGET),$(MAKE) --no-print-directory ARCH=m7 certificate-m7)
 	$(Q)$(if $(RAM_BUDGET),$(MAKE) --no-print-directory ARCH=$(CORE) image-certificate)
-certificate-m7: $(O)/libkernel.a $(B)/board.elf
-	$(Q)scripts/certificate $(BOARD)-m7 --callgraph $(O)/kernel --image $(B)/board.elf --tools $(CROSS_m7) \
+certificate-m7: $(KERNEL_LIB) $(B)/board.elf
+	$(Q)scripts/certificate $(BOARD)-m7 --objects $(KERNEL_OBJECTS) --image $(B)/board.elf --tools $(CROSS_m7) \
 	  --static-budget $(STATIC_BUDGET) --flash-budget $(FLASH_BUDGET) --stack-budget $(STACK_BUDGET) --exception $(EXCEPTION) > $(B)/certificate.txt
 	@grep -E '^(memory|RAM|flash|stack)' $(B)/certificate.txt
 	$(Q)qemu-system-arm -M mps2-an500 -nographic -monitor none -serial none -semihosting-config enable=on,target=native \
 	  -kernel $(B)/board.elf
-certificate-host: $(O)/libkernel.a $(B)/stack_painter
-	$(Q)scripts/certificate $(BOARD) --callgraph $(O)/kernel --stack-budget $(HOST_STACK_BUDGET) \
+certificate-host: $(KERNEL_LIB) $(B)/stack_painter
+	$(Q)scripts/certificate $(BOARD) --objects $(KERNEL_OBJECTS) --stack-budget $(HOST_STACK_BUDGET) \
 	  --painted $(B)/stack_painter > $(B)/certificate.txt
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
-$(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(O)/libkernel.a
+$(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) -o $@ $^
+	$(Q)$(CXX) $(LINK) -o $@ $^
 $(O)/tests/wcet/stack_painter.o: private CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
 $(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=pipelines/%.ini)

@@ -4,7 +4,7 @@ BARE_PIPELINE := $(firstword $(WCET_PIPELINES:%=pipelines/%.ini) $(wildcard pipe
 BARE_BOARD    := $(call obj,tests/bare_metal/board.cpp gateway/reference_client.cpp sim_plant/arm/$(robot)_mjcf.cpp $(BARE_START))
 
 ifeq ($(ARCH),m7)
-$(B)/board.elf: $(BARE_BOARD) $(O)/libkernel.a
+$(B)/board.elf: $(BARE_BOARD) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $(WHOLE_KERNEL) -lm -lgcc
 	$(Q)$(CROSS_m7)size $@

@@ -6,7 +6,7 @@ FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CA
 # The whole kernel, and both ends of the UR's protocols. A tape replaces the sockets, and a light arm
 # replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
-              $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard gateway/*.cpp gateway/server/*.cpp) $(KERNEL) \
+              $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(wildcard $(addsuffix /*.cpp,gateway gateway/page gateway/server gateway/sockets)) $(KERNEL) \
               $(wildcard hal/serial/*.cpp) tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 ifeq ($(BOARD),fer_can)
 FUZZED     := $(wildcard hal/can/*.cpp hal/ethercat/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp sim_plant/ethercat/*.cpp) $(KERNEL) tests/wcet/can/can_cycle.cpp \
@@ -18,17 +18,17 @@ fuzz: fuzz-built                              ## fuzz every parser for SECONDS e
 	$(Q)nice scripts/fuzz --seconds $(or $(SECONDS),600) $(FUZZ)
 fuzz-short: fuzz-built                        ## fuzz every parser briefly and reproducibly
 	$(Q)scripts/fuzz $(FUZZ)
+fuzz-built: BOARDS := ur10_emulator fer_can
 fuzz-built: wcet-setup
-	$(Q)for board in ur10_emulator fer_can; do \
-	  $(MAKE) --no-print-directory -j2 BOARD=$$board $(SANITIZED) fuzz-targets || exit 1; done
+	$(Q)$(call build,fuzz-targets,SANITIZE=fuzzer-no-link$(comma)$(SANITIZERS) CXX=clang++ WARNINGS=)
 
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
 CXXFLAGS += -fsanitize-ignorelist=tests/fuzz/eigen.ignore \
             -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
 fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
-$(O)/libfuzzed.a: $(call obj,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)
+$(O)/libfuzzed.a: $(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)
 $(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(subst fuzzer-no-link,fuzzer,$(SANITIZER)) -o $@ $^ $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(subst fuzzer-no-link,fuzzer,$(LINK)) -o $@ $^ $(GATEWAY_LIBS)
 endif

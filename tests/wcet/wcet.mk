@@ -13,8 +13,8 @@ MEASURE_LD     := boards/$(ARCH)/memory.ld tests/wcet/m7/measure.ld
 
 .PHONY: wcet wcet-boards wcet-count wcet-search wcet-setup wcet-built
 wcet: wcet-built                              ## measure, count and bound the worst case of every stage; build/wcet
-	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
-	$(Q)$(call each,-j2 wcet-bound) > /dev/null
+	$(Q)$(call each,-j$(JOBS) $(WCET_SEARCH) wcet-searches)
+	$(Q)$(call each,-j$(JOBS) wcet-bound) > /dev/null
 	$(Q)scripts/wcet/measure $(WCET_ALL)
 	$(Q)scripts/wcet/count $(WCET_ALL) > /dev/null
 	$(Q)nice scripts/wcet/search $(WCET_ALL)
@@ -27,36 +27,36 @@ wcet-boards:                                  ## count the instructions of every
 wcet-count: wcet-built                        ## count the instructions of every stage
 	$(Q)scripts/wcet/count $(WCET_ALL)
 wcet-search: wcet-built                       ## search SECONDS for cycles longer than the known worst, and keep them
-	$(Q)$(call each,-j2 $(WCET_SEARCH) wcet-searches)
+	$(Q)$(call each,-j$(JOBS) $(WCET_SEARCH) wcet-searches)
 	$(Q)nice scripts/wcet/search --keep --seconds $(or $(SECONDS),600) $(WCET_ALL)
 wcet-built: wcet-setup
-	$(Q)$(call each,-j2 wcet-host)
-	$(Q)$(call each,-j2 ARCH=m7 wcet-images)
+	$(Q)$(call each,-j$(JOBS) wcet-host)
+	$(Q)$(call each,-j$(JOBS) ARCH=m7 wcet-images)
 wcet-setup:
 	$(Q)scripts/setup wcet
 
 ifeq ($(ARCH),m7)
 .PHONY: wcet-images
 wcet-images: $(WCET_PIPELINES:%=$(B)/wcet-%.elf) ;
-$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE_START) $(PLAYER)) $(O)/libkernel.a
+$(WCET_PIPELINES:%=$(B)/wcet-%.elf): $(B)/wcet-%.elf: $(O)/tests/wcet/m7/main-%.o $(call obj,$(BARE_START) $(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_m7) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $(WHOLE_KERNEL) -lm -lgcc
-$(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini Makefile
+$(O)/tests/wcet/m7/main-%.o: tests/wcet/m7/main.cpp pipelines/%.ini $(O)/flags
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(CXXFLAGS) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@
 endif
 ifeq ($(ARCH),host)
 .PHONY: wcet-host
 wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) ;
-$(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(O)/libkernel.a
+$(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^ -lmujoco
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lmujoco
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
 $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
 $(O)/tests/wcet/replay.o: private CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
-$(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(O)/libkernel.a
+$(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
@@ -68,10 +68,10 @@ endif
 ifeq ($(SANITIZE),fuzzer-no-link)
 .PHONY: wcet-searches
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
-$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(O)/libkernel.a
+$(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
-$(O)/tests/wcet/search-%.o: tests/wcet/search.cpp pipelines/%.ini Makefile
+$(O)/tests/wcet/search-%.o: tests/wcet/search.cpp pipelines/%.ini $(O)/flags
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@
 endif

@@ -7,7 +7,7 @@ bench-policies:                               ## replay chunks of a policy throu
 	$(Q)set -e; for board in $(POLICY_BOARDS); do \
 	  $(MAKE) --no-print-directory BOARD=$$board build/$$board/policy_replay; done
 	$(Q)scripts/policies/bench $(POLICY_BOARDS:%=build/%/policy_replay)
-$(B)/policy_replay: $(call obj,$(POLICIES)) $(B)/libprogram.a $(O)/libkernel.a
+$(B)/policy_replay: $(call obj,$(POLICIES)) $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(SANITIZER) -o $@ $^
 $(B)/tests/bench/policies/test_policies: | $(B)/policy_replay
