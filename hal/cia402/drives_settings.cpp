@@ -1,10 +1,10 @@
 // Drives: their settings, and which of them cannot be.
 #include "hal/cia402/drives.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::cia402 {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
 constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
 
