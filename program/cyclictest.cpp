@@ -6,11 +6,11 @@
 #include <cstdio>
 
 #include "hal/os/small_file.hpp"
+#include "program/shell.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr int kNotFound = 127;        // the shell's exit code
 constexpr int kHistogram_us = 20000;  // a longer latency counts as the maximum
 
 bool take_prefix(std::string_view& text, std::string_view prefix) {
@@ -61,7 +61,7 @@ bool run_cyclictest(const CyclictestSettings& settings, Histogram& latency, Text
   const int status = pclose(pipe);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == 0 && latency.count() > 0) return true;
-  if (code == kNotFound)
+  if (code == kProgramNotFound)
     complaint << "not installed (Debian: rt-tests)";
   else
     complaint << "failed: "

@@ -11,7 +11,7 @@ void print(const HostItem& item) {
   constexpr int kIndent = 26;
   std::printf("%-8s %-16s %-9s %s\n", name(item.finding), item.name, name(item.need),
               item.value.c_str());
-  if (item.finding == Finding::kOk) return;
+  if (item.finding == HostFinding::kOk) return;
   std::printf("%*s%s: %s\n%*s-> %s\n", kIndent, "", item.place, item.reason, kIndent, "",
               item.remedy);
 }

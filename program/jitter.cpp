@@ -14,7 +14,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kDefaultDuration_s = 5.0;
+constexpr double kMeasurement_s = 5.0;
 
 /// What one host made of the same cycles, twice.
 struct Measurement {
@@ -92,7 +92,7 @@ void print(const Measurement& measurement) {
 }  // namespace
 
 int jitter(const Options& options) {
-  const double duration_s = options.duration_s > 0.0 ? options.duration_s : kDefaultDuration_s;
+  const double duration_s = options.duration_s > 0.0 ? options.duration_s : kMeasurement_s;
   const int cycles =
       static_cast<int>(std::fmax(1.0, std::fmin(1e9, duration_s * 1e6 / options.period_us)));
   static Measurement idle, loaded;

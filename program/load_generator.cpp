@@ -12,10 +12,10 @@
 #include <ctime>
 #include <initializer_list>
 
+#include "program/shell.hpp"
+
 namespace tactus {
 namespace {
-
-constexpr int kNotFound = 127;  // the exit code, as a shell's
 
 /// The command line of stress-ng.
 class Command {
@@ -38,7 +38,7 @@ class Command {
   dup2(nothing, STDOUT_FILENO);
   dup2(nothing, STDERR_FILENO);
   execvp(words[0], words);
-  _exit(kNotFound);
+  _exit(kProgramNotFound);
 }
 
 /// Returns the process, or -1 and fills in the reason.
@@ -76,7 +76,7 @@ bool LoadGenerator::installed(Text<127>& complaint) {
   const pid_t process = start_process(command, complaint);
   if (process < 0 || waitpid(process, &status, 0) != process) return false;
   const int code = exit_code(status);
-  if (code == kNotFound)
+  if (code == kProgramNotFound)
     complaint << "stress-ng is not there: install stress-ng (Debian: apt-get install stress-ng)";
   else if (code != 0)
     complaint << "stress-ng --version: exit code " << code;

@@ -16,12 +16,12 @@
 namespace tactus {
 namespace {
 
-constexpr double kDefaultDuration_s = 10.0;  // without a trajectory
+constexpr double kUntimedRun_s = 10.0;  // without a trajectory
 
 double planned_duration(const Session& session, const Options& options,
                         const TrajectoryInput& input) {
   if (options.duration_s > 0.0) return options.duration_s;
-  if (!input.given()) return kDefaultDuration_s;
+  if (!input.given()) return kUntimedRun_s;
   if (!input.whole_known()) return kInfinity;
   return input.start_s + input.duration_s() + session.gateway.settle_s;
 }

@@ -9,7 +9,7 @@
 namespace tactus {
 namespace {
 
-constexpr timespec kBetween = {0, 2 * 1000 * 1000};  // the window holds many times as long
+constexpr timespec kBetweenFeeds = {0, 2 * 1000 * 1000};  // the window holds many times as long
 constexpr int kThreadWait_ms = 2, kLoopWait_ms = 100;
 
 }  // namespace
@@ -57,7 +57,7 @@ void* TrajectoryFeed::run(void* feed) {
 void TrajectoryFeed::work() {
   State state = State::kIdle;
   while (state == State::kIdle) {
-    nanosleep(&kBetween, nullptr);
+    nanosleep(&kBetweenFeeds, nullptr);
     state = state_.load(std::memory_order_acquire);
   }
   if (state == State::kFeeding && !send_input(session_, input_))
@@ -69,7 +69,7 @@ void TrajectoryFeed::work() {
       fed = feed_input(session_, input_, kThreadWait_ms);
       fed_.store(fed, std::memory_order_release);
     }
-    if (fed != Fed::kMore) nanosleep(&kBetween, nullptr);
+    if (fed != Fed::kMore) nanosleep(&kBetweenFeeds, nullptr);
   }
 }
 

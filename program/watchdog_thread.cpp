@@ -9,7 +9,7 @@
 namespace tactus {
 namespace {
 
-constexpr timespec kBetween = {0, 100 * 1000 * 1000};  // a tenth of the shortest timeout
+constexpr timespec kBetweenWatches = {0, 100 * 1000 * 1000};  // a tenth of the shortest timeout
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void WatchdogThread::kick() {
   while (state != State::kEnd) {
     state = state_.load(std::memory_order_acquire);
     if (state == State::kKicking) watchdog_.kick();
-    nanosleep(&kBetween, nullptr);
+    nanosleep(&kBetweenWatches, nullptr);
   }
 }
 

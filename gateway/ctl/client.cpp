@@ -7,12 +7,12 @@
 #include <ctime>
 
 #include "gateway/sockets/address.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ctl {
 namespace {
 
 constexpr int kSilence_ms = 2000;  // of the 5 s after which a client should have said something
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 }  // namespace
 

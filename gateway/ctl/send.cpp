@@ -9,6 +9,7 @@
 #include "gateway/ctl/raw_terminal.hpp"
 #include "gateway/ctl/row_reader.hpp"
 #include "gateway/ctl/verbs.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ctl {
 namespace {
@@ -17,7 +18,6 @@ constexpr const char* kKeys =
     "p pauses, r resumes, + and - change the speed; Ctrl-C cancels on the path";
 constexpr int kWaitForRows_ms = 20;
 constexpr int kRest_ms = 10000;  // longest time that an arm takes to stop on its path
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 Begin::Interpolation interpolation(const std::string& name) {
   if (name == "linear") return Begin::LINEAR;

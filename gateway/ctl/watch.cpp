@@ -7,11 +7,11 @@
 
 #include "gateway/ctl/interrupt.hpp"
 #include "gateway/ctl/verbs.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ctl {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr const char* kHome = "\x1b[H\x1b[2J";
 
 std::string per_joint(const char* format, const google::protobuf::RepeatedField<double>& values) {

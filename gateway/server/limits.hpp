@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace tactus {
+#include "kernel/core/nanoseconds.hpp"
 
-inline constexpr std::int64_t kMillisecond_ns = 1'000'000, kSecond_ns = 1'000'000'000;
+namespace tactus {
 
 inline constexpr int kMostClients = 8;                    ///< connections at once
 inline constexpr std::size_t kLengthBytes = 4;            ///< before each message

@@ -1,6 +1,7 @@
 // CanMaster: the frames that it sends in a cycle.
 #include "hal/can/can_master.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::can {
 
@@ -35,7 +36,6 @@ void CanMaster::send_commands() {
 }
 
 void CanMaster::send_heartbeat() {
-  constexpr std::int64_t kMillisecond_ns = 1'000'000;
   if (now_ns_ - heartbeat_ns_ < can_->heartbeat_ms * kMillisecond_ns) return;
   heartbeat_ns_ = now_ns_;
   const auto node = static_cast<std::uint8_t>(can_->master_node);

@@ -4,11 +4,10 @@
 
 #include "hal/can/can_hal.hpp"
 #include "hal/net/deadline.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::can {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Sleeps until a period after `from_ns`, and returns this time, or now if it has passed for long.
 std::int64_t sleep_from(std::int64_t from_ns, std::int64_t period_ns) {

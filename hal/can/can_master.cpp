@@ -5,6 +5,7 @@
 
 #include "hal/cia402/hex.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::can {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using cia402::hex;
 using cia402::Phase;
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kLostHeartbeats = 3;    // after which a node is lost
 constexpr int kMostUnanswered = 100;  // SYNCs whose feedback may come late, all at once
 constexpr int kMostSurplus = 10;      // cycles in a row with a frame of feedback too many

@@ -12,10 +12,10 @@
 #include <cstring>
 #include <ctime>
 
+#include "kernel/core/nanoseconds.hpp"
+
 namespace tactus::can {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 static_assert(sizeof(can_frame) == CAN_MTU && sizeof(canfd_frame) == CANFD_MTU);
 static_assert(kErrorData == CAN_MAX_DLEN && kMaxData == CANFD_MAX_DLEN);

@@ -15,11 +15,11 @@
 #include <string_view>
 
 #include "hal/can/can_socket.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::can {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::string_view kInherited = "fd:";
 // The kernel charges about 800 bytes for a frame, doubles this number, and limits it to
 // net.core.rmem_max, usually 208 KiB: some 500 frames.

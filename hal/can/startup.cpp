@@ -1,11 +1,11 @@
 #include "hal/can/startup.hpp"
 
 #include "hal/cia402/hex.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::can {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr const char* kCheck = "; check power, cabling, bit rate and [can] node and bus";
 constexpr const char* kCheckBus =
     "; check power of the drives, cabling, termination, bit rate and [can] interfaces";

@@ -11,8 +11,8 @@
 namespace tactus::cia402 {
 namespace {
 
-constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
-constexpr auto kSmallest = std::numeric_limits<std::int16_t>::min();
+constexpr auto kLargestTorque = std::numeric_limits<std::int16_t>::max();
+constexpr auto kSmallestTorque = std::numeric_limits<std::int16_t>::min();
 
 }  // namespace
 
@@ -171,7 +171,8 @@ void Drives::show(RobotState& state) const {
 /// is found the other drives are still enabled: only the one at fault is to be named.
 Drive Drives::drive_of(const Joint& joint) const {
   Drive drive;
-  const bool saturated = joint.last.torque == kLargest || joint.last.torque == kSmallest;
+  const bool saturated =
+      joint.last.torque == kLargestTorque || joint.last.torque == kSmallestTorque;
   const State shown = state_of(joint.last.statusword);
   const bool heard = joint.missed <= settings_->max_missed;
   const bool unharmed = phase_ == Phase::kFailed && joint.reason == Status::kOk && heard &&

@@ -2,6 +2,7 @@
 #include "hal/cia402/drives.hpp"
 #include "hal/cia402/protocol_errors.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::cia402 {
 
@@ -110,7 +111,6 @@ void Drives::judge_steadiness() {
 
 /// Goes to the next phase when all drives have done the present one.
 void Drives::advance(std::int64_t now_ns) {
-  constexpr std::int64_t kMillisecond_ns = 1'000'000;
   switch (phase_) {
     case Phase::kSwitchingOn:
       if (!all_reached() || since_ns_ < 0) since_ns_ = now_ns;

@@ -1,12 +1,12 @@
 // Drives: their settings, and which of them cannot be.
 #include "hal/cia402/drives.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::cia402 {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
-constexpr auto kLargest = std::numeric_limits<std::int16_t>::max();
+constexpr auto kMostPermille = std::numeric_limits<std::int16_t>::max();
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Status Drives::judge_torque(int j, Message& why) const {
     why << "referenced_bit is " << bit << ", which is of the state; 7 to 15 or -1";
     return Status::kBadValue;
   }
-  const double most_Nm = kLargest * units.torque_step();
+  const double most_Nm = kMostPermille * units.torque_step();
   if (limits_.tau_max[j] <= most_Nm) return Status::kOk;
   why << "rated_torque is " << units.rated_Nm << " N m, of which 32767 permille are " << most_Nm
       << " N m, less than the joint's torque limit of " << limits_.tau_max[j]

@@ -5,11 +5,11 @@
 #include "hal/ethercat/ethercat_hal.hpp"
 #include "hal/net/deadline.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kMostWaits = 100;  // for the frame of a cycle, as others may come
 
 }  // namespace

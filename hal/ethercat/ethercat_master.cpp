@@ -1,11 +1,11 @@
 #include "hal/ethercat/ethercat_master.hpp"
 
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kSilence_ns = 100'000'000;  // before OP, as that of the start-up
 constexpr std::int64_t kAnyTime_ns = std::int64_t{1} << 62;
 

@@ -14,6 +14,8 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "kernel/core/nanoseconds.hpp"
+
 namespace tactus::ethercat {
 namespace {
 
@@ -141,7 +143,6 @@ bool PacketSocket::send(const Frame& frame) {
 }
 
 bool PacketSocket::wait(std::int64_t longest_ns) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   pollfd polled{socket_, POLLIN, 0};
   const timespec longest = {longest_ns / kSecond_ns, longest_ns % kSecond_ns};
   return ppoll(&polled, 1, &longest, nullptr) >= 0 || errno != EINTR;

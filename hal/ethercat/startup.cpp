@@ -1,11 +1,10 @@
 #include "hal/ethercat/startup.hpp"
 
 #include "hal/cia402/hex.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ethercat {
 namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 /// Registers that are cleared in all slaves: what an earlier master has left. A slave need not have
 /// all of them.

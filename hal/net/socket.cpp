@@ -11,10 +11,10 @@
 #include <cstring>
 #include <ctime>
 
+#include "kernel/core/nanoseconds.hpp"
+
 namespace tactus::ur {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// Returns false after the time-out or a signal.
 bool wait_for(int socket, short events, std::int64_t timeout_ns) {

@@ -3,12 +3,9 @@
 #include <cerrno>
 #include <ctime>
 
+#include "kernel/core/nanoseconds.hpp"
+
 namespace tactus {
-namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
-}  // namespace
 
 std::int64_t monotonic_ns() {
   timespec now{};

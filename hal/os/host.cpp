@@ -89,13 +89,13 @@ constexpr std::array<Check, 22> kChecks = {{
 
 bool HostReport::fit() const {
   return std::none_of(items.begin(), items.end(), [](const HostItem& item) {
-    return item.need != Need::kBetter && item.finding == Finding::kHurts;
+    return item.need != Need::kBetter && item.finding == HostFinding::kHurts;
   });
 }
 
 int HostReport::unknown() const {
   return static_cast<int>(std::count_if(items.begin(), items.end(), [](const HostItem& item) {
-    return item.finding == Finding::kUnknown;
+    return item.finding == HostFinding::kUnknown;
   }));
 }
 

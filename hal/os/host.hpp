@@ -10,13 +10,13 @@
 
 namespace tactus {
 
-enum class Finding : std::uint8_t { kOk, kHurts, kUnknown };
+enum class HostFinding : std::uint8_t { kOk, kHurts, kUnknown };
 
-constexpr const char* name(Finding finding) {
+constexpr const char* name(HostFinding finding) {
   switch (finding) {
-    case Finding::kOk: return "ok";
-    case Finding::kHurts: return "hurts";
-    case Finding::kUnknown: return "unknown";
+    case HostFinding::kOk: return "ok";
+    case HostFinding::kHurts: return "hurts";
+    case HostFinding::kUnknown: return "unknown";
   }
   return nullptr;
 }
@@ -48,7 +48,7 @@ struct HostQuery {
 struct HostItem {
   const char* name = "";
   Need need = Need::kBetter;
-  Finding finding = Finding::kUnknown;
+  HostFinding finding = HostFinding::kUnknown;
   Text<127> value;          ///< the present setting, or why it is unknown
   const char* place = "";   ///< where it is read
   const char* reason = "";  ///< what it does to a cycle when it hurts

@@ -40,7 +40,7 @@ bool named(const HostQuery& query) {
 }
 
 Content no_interface() {
-  return {Finding::kUnknown, Text<127>("no interface is named")};
+  return {HostFinding::kUnknown, Text<127>("no interface is named")};
 }
 
 /// Finds the interrupts: several by messages, of the device or of the bus device that a virtual one
@@ -74,7 +74,7 @@ int realtime_priority(const HostQuery& query, int thread) {
 
 Content card_affinity(const HostQuery& query) {
   if (!named(query)) return no_interface();
-  if (query.cpu < 0) return {Finding::kUnknown, Text<127>(kNoCpu)};
+  if (query.cpu < 0) return {HostFinding::kUnknown, Text<127>(kNoCpu)};
   const Interrupts card = find_interrupts(query);
   Interrupts here;
   int readable = 0;
@@ -111,7 +111,8 @@ Content card_priority(const HostQuery& query) {
     interrupt = number;
   });
   if (!listed || !readable) return unreadable(0);
-  if (lowest < 0) return {Finding::kHurts, Text<127>("no thread for interrupts") << card.text()};
+  if (lowest < 0)
+    return {HostFinding::kHurts, Text<127>("no thread for interrupts") << card.text()};
   return judge(lowest > kThreadedInterrupt, Text<127>("priority ")
                                                 << lowest << " for interrupt " << interrupt);
 }
@@ -120,7 +121,7 @@ Content card_priority(const HostQuery& query) {
 Content card_coalescing(const HostQuery& query) {
   if (!named(query)) return no_interface();
   if (query.ethtool == nullptr)
-    return {Finding::kUnknown, Text<127>("not readable: below a root of files")};
+    return {HostFinding::kUnknown, Text<127>("not readable: below a root of files")};
   ethtool_coalesce told{};
   told.cmd = ETHTOOL_GCOALESCE;
   ifreq request{};

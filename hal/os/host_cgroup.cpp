@@ -59,7 +59,7 @@ Content judge_groups(const HostQuery& query, const char* controller, const char*
   Group group;
   if (!read(query, "/proc/self/cgroup", groups)) return unreadable(groups);
   if (!find_group(groups.text(), controller, group))
-    return {Finding::kUnknown, Text<127>("not readable: no control group")};
+    return {HostFinding::kUnknown, Text<127>("not readable: no control group")};
   const char* name = group.unified ? unified : legacy;
   Path mount(kMount);
   if (!group.unified) mount << "/" << controller;
@@ -69,8 +69,8 @@ Content judge_groups(const HostQuery& query, const char* controller, const char*
     const Path folder = Path(mount) << path;
     if (*name != '\0' && read(query, Path(folder) << "/" << name, file)) {
       const Text<127> value = Text<127>(name) << " " << file.text() << " of " << folder;
-      if (!good(file.text(), folder)) return {Finding::kHurts, value};
-      if (content.finding == Finding::kUnknown) content = {Finding::kOk, value};
+      if (!good(file.text(), folder)) return {HostFinding::kHurts, value};
+      if (content.finding == HostFinding::kUnknown) content = {HostFinding::kOk, value};
     }
     if (path.empty()) return content;
   }
@@ -98,7 +98,7 @@ Content realtime_quota(const HostQuery& query) {
 }
 
 Content cpuset(const HostQuery& query) {
-  if (query.cpu < 0) return {Finding::kUnknown, Text<127>(kNoCpu)};
+  if (query.cpu < 0) return {HostFinding::kUnknown, Text<127>(kNoCpu)};
   return judge_groups(
       query, "cpuset", "cpuset.cpus.effective", "cpuset.effective_cpus",
       [&](std::string_view cpus, const Path&) { return lists_cpu(cpus, query.cpu); });

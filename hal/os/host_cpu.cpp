@@ -28,10 +28,10 @@ Content governor(const HostQuery& query) {
     if (!read(query, Path(kCpus) << "cpu" << cpu << "/cpufreq/scaling_governor", file)) continue;
     any = true;
     if (file.text() != "performance")
-      return {Finding::kHurts, Text<127>("cpu") << cpu << " " << file.text()};
+      return {HostFinding::kHurts, Text<127>("cpu") << cpu << " " << file.text()};
   }
   if (!any) return unreadable(0);
-  return {Finding::kOk, Text<127>("performance")};
+  return {HostFinding::kOk, Text<127>("performance")};
 }
 
 Content isolated(const HostQuery& query) {
@@ -43,7 +43,7 @@ Content tickless(const HostQuery& query) {
 
 /// Counts the interrupts that the cycle's CPU may serve and names the first of them.
 Content interrupts(const HostQuery& query) {
-  if (query.cpu < 0) return {Finding::kUnknown, Text<127>(kNoCpu)};
+  if (query.cpu < 0) return {HostFinding::kUnknown, Text<127>(kNoCpu)};
   int readable = 0, here = 0;
   Text<127> names;
   for_each_number(query, "/proc/irq", [&](int interrupt) {

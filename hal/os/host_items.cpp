@@ -9,13 +9,13 @@ bool read(const HostQuery& query, std::string_view path, SmallFile& file) {
 }
 
 Content judge(bool good, const Text<127>& value) {
-  return {good ? Finding::kOk : Finding::kHurts, value};
+  return {good ? HostFinding::kOk : HostFinding::kHurts, value};
 }
 
 Content unreadable(int error) {
   Text<127> why("not readable");
   if (error != 0) why << ": " << std::strerror(error);
-  return {Finding::kUnknown, why};
+  return {HostFinding::kUnknown, why};
 }
 
 bool has(std::string_view text, std::string_view part) {

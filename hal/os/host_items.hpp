@@ -13,7 +13,7 @@ using Path = Text<511>;
 
 /// Result of inspecting one item.
 struct Content {
-  Finding finding = Finding::kUnknown;
+  HostFinding finding = HostFinding::kUnknown;
   Text<127> value;
 };
 

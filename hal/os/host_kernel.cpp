@@ -51,19 +51,19 @@ Content swap(const HostQuery& query) {
   SmallFile file;
   if (!read(query, "/proc/swaps", file)) return unreadable(file);
   const std::size_t header = file.text().find('\n');  // a line of titles, then one per swap area
-  if (header == std::string_view::npos) return {Finding::kOk, Text<127>("none")};
-  return {Finding::kHurts, Text<127>(first_word(file.text().substr(header + 1)))};
+  if (header == std::string_view::npos) return {HostFinding::kOk, Text<127>("none")};
+  return {HostFinding::kHurts, Text<127>(first_word(file.text().substr(header + 1)))};
 }
 
 Content machine(const HostQuery& query) {
   SmallFile cpu, vendor;
   if (!read(query, "/proc/cpuinfo", cpu)) return unreadable(cpu);
   const std::string_view flags = cpu.line("flags");
-  if (flags.empty()) return {Finding::kUnknown, Text<127>("not readable: no flags, as on x86")};
-  if (!has(flags, " hypervisor")) return {Finding::kOk, Text<127>("no hypervisor")};
+  if (flags.empty()) return {HostFinding::kUnknown, Text<127>("not readable: no flags, as on x86")};
+  if (!has(flags, " hypervisor")) return {HostFinding::kOk, Text<127>("no hypervisor")};
   Text<127> value("virtual");
   if (read(query, "/sys/class/dmi/id/sys_vendor", vendor)) value << " (" << vendor.text() << ")";
-  return {Finding::kHurts, value};
+  return {HostFinding::kHurts, value};
 }
 
 }  // namespace tactus::host

@@ -21,10 +21,10 @@ bool capable(const HostQuery& query, int capability) {
 Content priority(const HostQuery& query) {
   constexpr int kSysNice = 23;  // CAP_SYS_NICE, linux/capability.h
   SmallFile limits;
-  if (capable(query, kSysNice)) return {Finding::kOk, Text<127>("CAP_SYS_NICE")};
+  if (capable(query, kSysNice)) return {HostFinding::kOk, Text<127>("CAP_SYS_NICE")};
   if (!read(query, "/proc/self/limits", limits)) return unreadable(limits);
   const std::string_view limit = first_word(limits.line("Max realtime priority"));
-  if (limit.empty()) return {Finding::kUnknown, Text<127>("not readable: no RLIMIT_RTPRIO")};
+  if (limit.empty()) return {HostFinding::kUnknown, Text<127>("not readable: no RLIMIT_RTPRIO")};
   return judge(limit == "unlimited" || leading_int(limit) >= query.priority,
                Text<127>("RLIMIT_RTPRIO ") << limit << ", wanted " << query.priority);
 }
@@ -32,10 +32,10 @@ Content priority(const HostQuery& query) {
 Content memory_lock(const HostQuery& query) {
   constexpr int kIpcLock = 14;  // CAP_IPC_LOCK
   SmallFile limits;
-  if (capable(query, kIpcLock)) return {Finding::kOk, Text<127>("CAP_IPC_LOCK")};
+  if (capable(query, kIpcLock)) return {HostFinding::kOk, Text<127>("CAP_IPC_LOCK")};
   if (!read(query, "/proc/self/limits", limits)) return unreadable(limits);
   const std::string_view limit = first_word(limits.line("Max locked memory"));
-  if (limit.empty()) return {Finding::kUnknown, Text<127>("not readable: no RLIMIT_MEMLOCK")};
+  if (limit.empty()) return {HostFinding::kUnknown, Text<127>("not readable: no RLIMIT_MEMLOCK")};
   return judge(limit == "unlimited", Text<127>("RLIMIT_MEMLOCK ") << limit);
 }
 

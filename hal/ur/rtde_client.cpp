@@ -1,5 +1,7 @@
 #include "hal/ur/rtde_client.hpp"
 
+#include "hal/ur/refuse.hpp"
+
 namespace tactus::ur {
 namespace {
 
@@ -8,11 +10,6 @@ void write_names(const RecipeField* fields, std::size_t count, ByteWriter& packe
     if (i > 0) packet.text(",");
     packet.text(fields[i].name);
   }
-}
-
-Status refuse(Message& why, Status status, std::string_view text) {
-  why = Message(text);
-  return status;
 }
 
 }  // namespace

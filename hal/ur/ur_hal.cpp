@@ -4,11 +4,10 @@
 #include <ctime>
 
 #include "hal/ur/flange_wrench.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ur {
 namespace {
-
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 void pause(std::int64_t time_ns) {
   const timespec time = {time_ns / kSecond_ns, time_ns % kSecond_ns};

@@ -1,5 +1,6 @@
 #include "hal/ur/ur_state.hpp"
 
+#include "hal/ur/refuse.hpp"
 #include "hal/ur/servo_program.hpp"
 
 namespace tactus::ur {
@@ -37,11 +38,6 @@ class FieldReader {
   ByteReader& data_;
   int field_ = 0, not_finite_ = -1;
 };
-
-Status refuse(Message& why, Status status, std::string_view text) {
-  why = Message(text);
-  return status;
-}
 
 struct SafetyRow {
   std::uint32_t bits;

@@ -10,7 +10,7 @@ namespace tactus {
 namespace {
 
 /// Share of the robot's limits of the tip, so that three axes together stay within them.
-constexpr double kBrakingShare = 0.5;
+constexpr double kAxisShare = 0.5;
 
 }  // namespace
 
@@ -25,8 +25,7 @@ Admittance::Axis Admittance::axis_of(int i) const {
   axis.stiffness = linear ? params.stiffness[k] : params.rotational_stiffness[k];
   axis.max_displacement = linear ? params.max_displacement : params.max_rotation;
   axis.max_velocity = linear ? params.max_velocity : params.max_angular_velocity;
-  axis.deceleration =
-      kBrakingShare * (linear ? Robot::kTaskLimit.a_max : Robot::kTaskLimit.alpha_max);
+  axis.deceleration = kAxisShare * (linear ? Robot::kTaskLimit.a_max : Robot::kTaskLimit.alpha_max);
   axis.max_force = linear ? params.max_force : params.max_moment;
   if (params.damping_given == DampingGiven::kAsRatio)
     axis.damping *= 2.0 * std::sqrt(axis.mass * axis.stiffness);

@@ -3,7 +3,7 @@
 namespace tactus {
 namespace {
 
-struct Place {
+struct CollisionPlace {
   const Ini& ini;
   const IniSection& section;
   LoadError& error;
@@ -14,7 +14,7 @@ struct Place {
   }
 };
 
-Status add_boxes(const PortTable& ports, CollisionScene& scene, const Place& place) {
+Status add_boxes(const PortTable& ports, CollisionScene& scene, const CollisionPlace& place) {
   for (int i = 0; i < ports.count(); ++i) {
     if (ports[i].quantity != Quantity::kBox) continue;
     const Name& name = ports[i].block;
@@ -40,7 +40,7 @@ Message bodies(const CollisionScene& scene) {
   return words;
 }
 
-Status find_body(std::string_view name, const CollisionScene& scene, const Place& place,
+Status find_body(std::string_view name, const CollisionScene& scene, const CollisionPlace& place,
                  std::size_t& body) {
   for (body = 0; body < static_cast<std::size_t>(scene.body_count); ++body)
     if (name == scene.names[body]) return Status::kOk;
@@ -59,7 +59,7 @@ std::string_view take_pair(std::string_view& list, bool& more) {
 }
 
 /// Reads "tool table": two names and nothing else.
-Status allow_pair(std::string_view pair, CollisionScene& scene, const Place& place) {
+Status allow_pair(std::string_view pair, CollisionScene& scene, const CollisionPlace& place) {
   std::string_view rest = pair;
   const std::string_view first = take_word(rest), second = take_word(rest);
   if (second.empty() || !trim(rest).empty())
@@ -77,7 +77,7 @@ Status allow_pair(std::string_view pair, CollisionScene& scene, const Place& pla
 }
 
 /// Takes the braking the file gives, or the most there is; refuses more than that.
-Status check_braking(const JointVector& most, const Place& place, JointVector& braking) {
+Status check_braking(const JointVector& most, const CollisionPlace& place, JointVector& braking) {
   if (place.ini.find(place.section, "braking") == nullptr) braking = most;
   for (int i = 0; i < kDof; ++i) {
     if (braking[i] <= most[i]) continue;
@@ -94,7 +94,7 @@ Status check_braking(const JointVector& most, const Place& place, JointVector& b
 Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   const IniSection* section = ini.find("collision");
   if (section == nullptr) return Status::kOk;
-  const Place place{ini, *section, error};
+  const CollisionPlace place{ini, *section, error};
   CollisionSection& collision = pipeline.collision;
   collision.present = true;
   if (kCheckedPositions % collision.cycles != 0)

@@ -3,7 +3,7 @@
 namespace tactus {
 namespace {
 
-struct Place {
+struct RecorderPlace {
   const Ini& ini;
   LoadError& error;
 
@@ -19,7 +19,7 @@ struct Place {
 };
 
 Status find_output(const PortTable& ports, std::string_view name, const char* key,
-                   const Place& place, const PortEntry*& port) {
+                   const RecorderPlace& place, const PortEntry*& port) {
   port = ports.find(name);
   if (port == nullptr)
     return place.refuse(Status::kUnknownPort, key,
@@ -35,7 +35,7 @@ Status find_output(const PortTable& ports, std::string_view name, const char* ke
   return Status::kOk;
 }
 
-Status add_signal(Recording& recording, const PortEntry* port, const Place& place) {
+Status add_signal(Recording& recording, const PortEntry* port, const RecorderPlace& place) {
   if (recording.signal_count == kMaxSignals)
     return place.refuse(Status::kTooLarge, "signals",
                         Message("more than ") << kMaxSignals << " outputs to record");
@@ -49,7 +49,7 @@ Status add_signal(Recording& recording, const PortEntry* port, const Place& plac
 }
 
 Status read_signals(std::string_view list, const PortTable& ports, Recording& recording,
-                    const Place& place) {
+                    const RecorderPlace& place) {
   for (std::string_view word = take_word(list); !word.empty(); word = take_word(list)) {
     const PortEntry* port = nullptr;
     TRY(find_output(ports, word, "signals", place, port));
@@ -59,7 +59,8 @@ Status read_signals(std::string_view list, const PortTable& ports, Recording& re
 }
 
 /// Digital outputs are among them only if the pipeline puts them out.
-Status read_all_signals(const Pipeline& pipeline, Recording& recording, const Place& place) {
+Status read_all_signals(const Pipeline& pipeline, Recording& recording,
+                        const RecorderPlace& place) {
   const PortTable& ports = pipeline.ports;
   for (int i = 0; i < ports.count(); ++i) {
     const bool unused =
@@ -70,7 +71,7 @@ Status read_all_signals(const Pipeline& pipeline, Recording& recording, const Pl
   return Status::kOk;
 }
 
-Status check_pair(const Tracking& pair, const Place& place) {
+Status check_pair(const Tracking& pair, const RecorderPlace& place) {
   const PortEntry &reference = *pair.reference, &measured = *pair.measured;
   Message reason;
   reason << reference.block << "." << reference.port;
@@ -85,7 +86,7 @@ Status check_pair(const Tracking& pair, const Place& place) {
 }
 
 Status read_tracking(std::string_view list, const PortTable& ports, Recording& recording,
-                     const Place& place) {
+                     const RecorderPlace& place) {
   for (std::string_view word = take_word(list); !word.empty(); word = take_word(list)) {
     Tracking pair;
     TRY(find_output(ports, word, "tracking", place, pair.reference));
@@ -106,7 +107,7 @@ Status read_tracking(std::string_view list, const PortTable& ports, Recording& r
 }  // namespace
 
 Status read_recording(const Ini& ini, Pipeline& pipeline, LoadError& error) {
-  const Place place{ini, error};
+  const RecorderPlace place{ini, error};
   const RecorderSection& section = pipeline.recorder;
   Recording& recording = pipeline.recording;
   if (section.signals.empty()) {

@@ -4,7 +4,7 @@ namespace tactus {
 namespace {
 
 /// Refuses a row at the line of `key` in the row's own section.
-struct Place {
+struct RowPlace {
   const Ini& ini;
   LoadError& error;
 
@@ -32,7 +32,7 @@ Message overflow(const Schedule& schedule, const Row& last, const ScheduleVerdic
   return text;
 }
 
-Status add(Pipeline& pipeline, const Row& row, const char* section, const Place& place) {
+Status add(Pipeline& pipeline, const Row& row, const char* section, const RowPlace& place) {
   const int period_us = pipeline.robot.period_us;
   const ScheduleVerdict verdict = pipeline.schedule.add(row, period_us);
   switch (verdict.status) {
@@ -60,7 +60,7 @@ Status check_collision(void* collision, const RobotState& measured, double) {
 }  // namespace
 
 Status read_schedule(const Ini& ini, Pipeline& pipeline, LoadError& error) {
-  const Place place{ini, error};
+  const RowPlace place{ini, error};
   const RecorderSection& recorder = pipeline.recorder;
   const int budget_us = pipeline.executive.budget(pipeline.robot.period_us);
   TRY(add(pipeline, {"control", 1, 0, budget_us}, "executive", place));

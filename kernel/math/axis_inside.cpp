@@ -13,9 +13,8 @@
 namespace tactus {
 namespace {
 
-constexpr int kHalvings = 24;            // of the braking time
-constexpr double kAlmostTwo = 1.999999;  // as in axis_return.cpp
-constexpr double kRounding = 1e-14;      // of the range
+constexpr int kHalvings = 24;             // of the braking time
+constexpr double kRangeRounding = 1e-14;  // of the range
 
 /// The hardest braking of an ascent.
 class Brake {
@@ -80,7 +79,7 @@ AxisPlan plan_inside(const AxisState& from, double p, const AxisLimits& limits, 
   plan.start(from, end, 0.0);
   const AxisRange stop = stop_range(from, limits);
   // A stop that was planned to end on a limit misses it by rounding.
-  const double rounding = kRounding * (p_hi - p_lo) + rounding_of_way(p_lo, p_hi);
+  const double rounding = kRangeRounding * (p_hi - p_lo) + rounding_of_way(p_lo, p_hi);
   const bool over = stop.highest > p_hi + rounding, under = stop.lowest < p_lo - rounding;
   AxisState state = from;
   if (over || under) {

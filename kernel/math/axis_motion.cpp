@@ -8,7 +8,7 @@ namespace tactus {
 namespace {
 
 /// Relative to the distances added: two units of rounding for each of about fifty operations.
-constexpr double kTolerance = 2e-14;
+constexpr double kMotionTolerance = 2e-14;
 
 }  // namespace
 
@@ -34,8 +34,9 @@ void append_motion(AxisPlan& plan, const AxisState& from, double p, double v,
   plan.end_lead();
   const double distance = p - inside.p;
   const DirectChange direct = direct_change(inside, v, limits);
-  const double tolerance = kTolerance * (std::abs(distance) + std::abs(direct.change.distance)) +
-                           rounding_of_way(inside.p, p);
+  const double tolerance =
+      kMotionTolerance * (std::abs(distance) + std::abs(direct.change.distance)) +
+      rounding_of_way(inside.p, p);
   const double missing = distance - direct.change.distance;
   if (std::abs(missing) <= tolerance) {
     append(plan, direct.change, direct.jerk);

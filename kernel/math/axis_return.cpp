@@ -4,9 +4,7 @@ namespace tactus {
 namespace {
 
 /// Share of the span of velocities that rounding may leave outside.
-constexpr double kRounding = 1e-14;
-/// A little less than 2, so that the velocity runs out inside the other limit even after rounding.
-constexpr double kAlmostTwo = 1.999999;
+constexpr double kSpanRounding = 1e-14;
 
 /// In the frame in which the velocity is above v_hi; `side` is -1 if that frame is mirrored.
 class Return {
@@ -24,7 +22,7 @@ class Return {
   void velocity(const AxisLimits& limits) {
     const double j = limits.j, hi = limits.v_hi, span = hi - limits.v_lo;
     const double highest = state_.a > 0.0 ? rest_velocity(state_.v, state_.a, j) : state_.v;
-    if (!(highest - hi > kRounding * span)) return;
+    if (!(highest - hi > kSpanRounding * span)) return;
     const double b = std::min(limits.a_dn, std::sqrt(kAlmostTwo * j * span));
     if (state_.a >= -b)
       brake(b, hi, j);

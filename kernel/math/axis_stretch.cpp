@@ -17,16 +17,17 @@
 namespace tactus {
 namespace {
 
-constexpr int kSteps = 20;
+constexpr int kParabolaSteps = 20;
 /// Relative to the distance plus a thousandth of (v_hi - v_lo) T.
-constexpr double kTolerance = 1e-12;
+constexpr double kStretchTolerance = 1e-12;
 
 class Stretched {
  public:
   Stretched(const Ascent& ascent, double duration) : ascent_(ascent), duration_(duration) {
     const AxisLimits& limits = ascent.limits;
-    tolerance_ = ascent.tolerance + kTolerance * (std::abs(ascent.distance) +
-                                                  1e-3 * (limits.v_hi - limits.v_lo) * duration);
+    tolerance_ = ascent.tolerance +
+                 kStretchTolerance *
+                     (std::abs(ascent.distance) + 1e-3 * (limits.v_hi - limits.v_lo) * duration);
   }
 
   /// Finds w; `slope` is dL/dw at vf. False if there is no such motion.
@@ -93,8 +94,8 @@ class Stretched {
   /// is no time, the search continues above if `time_above`, else below.
   bool meet(double low, double high, bool time_above, double first) {
     double w = first;
-    LoopBound<kSteps> steps;
-    for (int i = 0; i < kSteps; ++i) {
+    LoopBound<kParabolaSteps> steps;
+    for (int i = 0; i < kParabolaSteps; ++i) {
       steps.tick();
       evaluate(w);
       if (cruise_ >= 0.0 && std::abs(beyond_) <= tolerance_) return true;

@@ -20,8 +20,8 @@
 namespace tactus {
 namespace {
 
-constexpr int kSteps = 16;
-constexpr double kRounding = 1e-15;  // of w times the duration
+constexpr int kVelocitySteps = 16;
+constexpr double kDistanceRounding = 1e-15;  // of w times the duration
 
 /// Returns the cube root within 6 percent, for a trial: a third of the exponent, the rest on a
 /// line. The constant is two thirds of the bits of one, less 0.03 of a unit of the exponent, which
@@ -67,7 +67,8 @@ class OverVelocity {
         rise_of_radicand(j_ * square + rise_constant_, ascent_.v, ascent_.a, w_, limits.a_up, j_);
     fall_ = change_from_rest(j_ * square + fall_constant_, w_, ascent_.vf, limits.a_dn, j_);
     beyond_ = rise_.distance + fall_.distance - ascent_.distance;
-    close_ = ascent_.tolerance + kRounding * std::abs(w_) * (rise_.duration() + fall_.duration());
+    close_ = ascent_.tolerance +
+             kDistanceRounding * std::abs(w_) * (rise_.duration() + fall_.duration());
   }
 
   /// Finds x by Newton's method within a bracket whose upper end is beyond the target.
@@ -77,8 +78,8 @@ class OverVelocity {
     double x = x_most_;
     const double trial = trial_x();
     if (trial < x_most_) evaluate(x = trial);
-    LoopBound<kSteps> steps;
-    for (int i = 0; i < kSteps; ++i) {
+    LoopBound<kVelocitySteps> steps;
+    for (int i = 0; i < kVelocitySteps; ++i) {
       steps.tick();
       (beyond_ > 0.0 ? high_ : low_) = x;
       if (std::abs(beyond_) <= close_) return;

@@ -31,6 +31,10 @@
 
 namespace tactus {
 
+/// A little less than 2: a deceleration of sqrt(2 j (v_hi - v_lo)) at one limit of velocity could
+/// just be run out above the other, and this one after rounding too.
+inline constexpr double kAlmostTwo = 1.999999;
+
 struct VelocityChange {
   double on, hold, off;  ///< s
   double peak;           ///< magnitude of the acceleration held

@@ -9,7 +9,7 @@
 namespace tactus {
 namespace {
 
-constexpr timespec kBetween = {0, 5 * 1000 * 1000};  // the ring holds many times as long
+constexpr timespec kBetweenWrites = {0, 5 * 1000 * 1000};  // the ring holds many times as long
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void LogWriter::write() {
       log_.drain(*recorder_);
       progress_->update(wall_s() - begin_s);
     }
-    nanosleep(&kBetween, nullptr);
+    nanosleep(&kBetweenWrites, nullptr);
   }
 }
 

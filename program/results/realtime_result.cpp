@@ -14,7 +14,7 @@ Complaint complain(const RealtimeReport& steps, const HostReport& host) {
     text << ": " << step.remedy << ")";
   }
   for (const HostItem& item : host.items) {
-    if (item.need != Need::kHost || item.finding == Finding::kOk) continue;
+    if (item.need != Need::kHost || item.finding == HostFinding::kOk) continue;
     text << (text.empty() ? "" : ", ") << item.name << " (" << item.value << ": " << item.remedy;
     text << ")";
   }

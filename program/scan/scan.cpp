@@ -5,12 +5,11 @@
 #include "hal/can/can_socket.hpp"
 #include "hal/can/node_scan.hpp"
 #include "hal/os/cycle_clock.hpp"
+#include "kernel/core/nanoseconds.hpp"
 #include "program/scan/node_text.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 /// Runs a scan to its end. False: the bus broke down; the reason was printed.
 bool run_scan(const char* interface, can::CanSocket& socket, can::NodeScan& scan,

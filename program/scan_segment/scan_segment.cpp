@@ -5,13 +5,12 @@
 #include "hal/ethercat/packet_socket.hpp"
 #include "hal/ethercat/slave_scan.hpp"
 #include "hal/os/cycle_clock.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus {
 namespace {
 
 using namespace ethercat;
-
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
 
 /// Carries the frames of a scan until it has something, or has failed.
 SlaveScan::Progress carry(PacketSocket& socket, SlaveScan& scan) {

@@ -14,7 +14,7 @@ namespace {
 
 static_assert(std::is_same_v<mjtNum, double>, "MuJoCo of double precision");
 
-constexpr double kMaxInnerStep_s = 1e-3;
+constexpr double kMaxFreeStep_s = 1e-3;
 constexpr double kMaxContactStep_s = 0.25e-3;
 
 /// Visitor of PlantParams::describe that checks whether all settings are in their ranges.
@@ -130,7 +130,7 @@ JointVector Arm::stand() {
 
 void Arm::step(const JointVector& tau, double dt_s) {
   // The small term makes 1 ms with a rounding error one inner step, not two.
-  const double longest_s = contact_.none() ? kMaxInnerStep_s : kMaxContactStep_s;
+  const double longest_s = contact_.none() ? kMaxFreeStep_s : kMaxContactStep_s;
   const int steps = static_cast<int>(std::ceil(dt_s / longest_s - 1e-9));
   model_->opt.timestep = dt_s / steps;
   Eigen::Map<JointVector>(data_->ctrl) = tau;

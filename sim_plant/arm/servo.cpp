@@ -6,7 +6,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kMaxInnerStep_s = 0.25e-3;
+constexpr double kMaxServoStep_s = 0.25e-3;
 constexpr int kMinInnerSteps = 4;
 constexpr double kFastest_s = 0.1e-3;  // a time constant below this counts as zero
 
@@ -28,7 +28,7 @@ Status Servo::move(Arm& arm, const RobotCommand& target, double period_s, JointV
     return Status::kDriveFault;
   if (target.mode == CommandMode::kPosition) q_before_ = target.value;
 
-  double longest_s = std::min(kMaxInnerStep_s, period_s / kMinInnerSteps);
+  double longest_s = std::min(kMaxServoStep_s, period_s / kMinInnerSteps);
   if (time_constant_s_ > 0.0) longest_s = std::min(longest_s, 0.125 * time_constant_s_);
   const int steps = static_cast<int>(std::ceil(period_s / longest_s - 1e-9));
   step_s_ = period_s / steps;

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim_plant/drives/slots.hpp"
+
 namespace tactus::drives {
 namespace {
 
 using cia402::State;
 
-constexpr Slot kControlword = slot_of(0x6040), kMode = slot_of(0x6060), kDisplay = slot_of(0x6061),
-               kAbortOption = slot_of(0x6007), kQuickStopOption = slot_of(0x605A),
+constexpr Slot kAbortOption = slot_of(0x6007), kQuickStopOption = slot_of(0x605A),
                kShutdownOption = slot_of(0x605B), kDisableOption = slot_of(0x605C),
                kFaultOption = slot_of(0x605E), kProfileDeceleration = slot_of(0x6084),
-               kQuickDeceleration = slot_of(0x6085), kMaxTorque = slot_of(0x6072),
-               kRatedTorque = slot_of(0x6076), kMaxSpeed = slot_of(0x6080),
+               kQuickDeceleration = slot_of(0x6085),
+
                kPeriodValue = slot_of(0x60C2, 1), kPeriodIndex = slot_of(0x60C2, 2);
 constexpr std::int64_t kCoast = 0, kSlowRamp = 1, kFirstThatStays = 5;
 constexpr std::uint16_t kResetBit = 0x0080;

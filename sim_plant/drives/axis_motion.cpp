@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim_plant/drives/axis.hpp"
+#include "sim_plant/drives/slots.hpp"
 
 namespace tactus::drives {
 namespace {
@@ -14,16 +15,15 @@ constexpr double kBrakeMonitor_s = 0.5;  // a brake that has not opened by then 
 constexpr std::uint16_t kBlocked = 0x7121, kOverspeed = 0x8400, kFollowingError = 0x8611;
 constexpr std::int64_t kNoWindow = 0xFFFFFFFF;
 constexpr std::int64_t kCsp = 8, kCsv = 9, kCst = 10;
-constexpr Slot kDisplay = slot_of(0x6061), kPosition = slot_of(0x6064), kWindow = slot_of(0x6065),
+constexpr Slot kPosition = slot_of(0x6064), kWindow = slot_of(0x6065),
                kWindowTime = slot_of(0x6066), kVelocity = slot_of(0x606C),
-               kTarget = slot_of(0x6071), kMaxTorque = slot_of(0x6072), kDemand = slot_of(0x6074),
-               kRated = slot_of(0x6076), kActual = slot_of(0x6077), kCurrent = slot_of(0x6078),
-               kTargetPosition = slot_of(0x607A), kMaxSpeed = slot_of(0x6080),
+               kTarget = slot_of(0x6071), kDemand = slot_of(0x6074), kActual = slot_of(0x6077),
+               kCurrent = slot_of(0x6078), kTargetPosition = slot_of(0x607A),
                kResolution = slot_of(0x608F, 1), kRevolutions = slot_of(0x608F, 2),
                kGearMotor = slot_of(0x6091, 1), kGearShaft = slot_of(0x6091, 2),
-               kPositionOffset = slot_of(0x60B0), kVelocityOffset = slot_of(0x60B1),
-               kTorqueOffset = slot_of(0x60B2), kError = slot_of(0x60F4),
-               kOutputs = slot_of(0x60FE, 1), kTargetVelocity = slot_of(0x60FF);
+               kPositionOffset = slot_of(0x60B0), kTorqueOffset = slot_of(0x60B2),
+               kError = slot_of(0x60F4), kOutputs = slot_of(0x60FE, 1),
+               kTargetVelocity = slot_of(0x60FF);
 
 /// Rounds and keeps within the integers of `bits` bits.
 std::int64_t rounded(double value, int bits) {
@@ -44,7 +44,7 @@ double Axis::rad_per_increment() const {
 }
 
 double Axis::torque_unit() const {
-  return real(dictionary_.get(kRated)) * 1e-6;
+  return real(dictionary_.get(kRatedTorque)) * 1e-6;
 }
 
 double Axis::torque_limit() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim_plant/drives/lies.hpp"
+#include "sim_plant/drives/slots.hpp"
 
 namespace tactus::drives {
 
@@ -12,9 +13,8 @@ using can::NmtState;
 
 namespace {
 
-constexpr Slot kControlword = slot_of(0x6040), kSyncCob = slot_of(can::kSyncIdObject),
-               kHeartbeat = slot_of(can::kHeartbeatProducer), kStatus = slot_of(0x6041),
-               kVelocityOffset = slot_of(0x60B1);
+constexpr Slot kSyncCob = slot_of(can::kSyncIdObject),
+               kHeartbeat = slot_of(can::kHeartbeatProducer), kStatus = slot_of(0x6041);
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include "sim_plant/drives/lies.hpp"
 #include "sim_plant/drives/node.hpp"
+#include "sim_plant/drives/slots.hpp"
 
 namespace tactus::drives {
 
@@ -10,8 +11,7 @@ using can::CanFrame;
 
 namespace {
 
-constexpr Slot kControlword = slot_of(0x6040), kMode = slot_of(0x6060),
-               kSyncPeriod = slot_of(can::kSyncPeriod), kSyncWindow = slot_of(can::kSyncWindow),
+constexpr Slot kSyncPeriod = slot_of(can::kSyncPeriod), kSyncWindow = slot_of(can::kSyncWindow),
                kCounter = slot_of(can::kSyncCounter);
 
 }  // namespace

@@ -104,6 +104,14 @@ struct Judge {
     WaypointRooms& to = trajectory.rooms((index + 1) / 2);
     return index % 2 == 0 ? to.room : to.halfway;
   }
+  /// Sets the room at place `index`; false if it `only_rises` and would not.
+  bool write(int index, double value, bool only_rises) const {
+    Published<float>& now = room(index);
+    const float wanted = rounded_down(value);
+    if (only_rises && wanted <= now) return false;
+    now = wanted;
+    return true;
+  }
   PartRooms parts(const typename Space::Segment& segment, double least) const {
     PartRooms rooms;
     rooms.least = least;
@@ -143,13 +151,6 @@ template <class Space>
 float set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Space>& settings,
                 int first, int fresh, int last, double end) {
   const Judge<Space> judge{trajectory, settings};
-  const auto write = [&](int index, double room) {
-    Published<float>& now = judge.room(index);
-    const float wanted = rounded_down(room);
-    if (index < 2 * fresh && wanted <= now) return false;
-    now = wanted;
-    return true;
-  };
   double room = end;
   for (int k = 2 * last; k > 2 * first; --k) {
     const typename Space::Segment half = judge.half(k);
@@ -160,7 +161,7 @@ float set_rooms(const Trajectory<Space>& trajectory, const AdmissionSettings<Spa
     // The room published for the beginning stays valid.
     const double begin = k <= 2 * fresh ? static_cast<double>(static_cast<float>(judge.room(k - 1)))
                                         : own.low_begin(rise);
-    if (!write(k, std::min(room, own.at_end(begin)))) return 0.0F;
+    if (!judge.write(k, std::min(room, own.at_end(begin)), k < 2 * fresh)) return 0.0F;
     const double after = static_cast<float>(judge.room(k));
     const double before = room_across(after, measure.peaks.v, measure.slowing, judge.slowing.a, T);
     // At the least room of the segment no slowing down is needed.

@@ -4,6 +4,7 @@
 
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/reference/motion/fading_time.hpp"
+#include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 /// A pause of the plan up to which it is bridged; before a longer one it comes to rest.
 constexpr double kBridged_s = 0.25;
-constexpr double kTimeRounding_s = 1e-9;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/motion/time_rounding.hpp"
 
 namespace tactus {
 
@@ -48,8 +49,6 @@ class OutputDelay {
   bool waits() const { return count_ > 0; }
 
  private:
-  static constexpr double kTimeRounding_s = 1e-9;
-
   struct Change {
     double due_s = 0.0;
     DigitalOutputs outputs;  // all that is commanded from then on

@@ -5,18 +5,12 @@
 #include <new>
 
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/limit_check.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {
-namespace {
-
-// Times are sums of periods; a billionth of a second is far below any period and far above the
-// rounding of the sum.
-constexpr double kTimeRounding_s = 1e-9;
-
-}  // namespace
 
 template <class Space>
 Path<Space>::Path(const Trajectory<Space>& trajectory, const Point& reference,

@@ -15,8 +15,8 @@ constexpr int kAhead = 4;           // places whose limits are used, from the ne
 constexpr int kRooms = 8;           // intervals between places whose room is used
 constexpr double kUnsure = 0.005;   // uncertainty of the next sample, as a fraction of a period
 constexpr int kCorrections = 4;
-constexpr double kRounding = 1e-11;  // as a fraction of a limit
-constexpr double kThere = 1e-10;     // distance of a rate from its target
+constexpr double kAccelerationRounding = 1e-11;  // as a fraction of a limit
+constexpr double kThere = 1e-10;                 // distance of a rate from its target
 constexpr Interval kAnySlope = {-kFastest, kFastest};
 
 /// Returns the slope one period ahead from which the bend takes the rate `way` farther without
@@ -204,7 +204,7 @@ double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Li
     for (std::size_t c = 0; c < limits.a.size(); ++c) {
       const Eigen::Index k = static_cast<Eigen::Index>(c) * n;
       const double most = std::max(limits.a[c], length<n>(&own[k]));
-      within = within && length<n>(&all[k]) <= most * (1.0 + kRounding);
+      within = within && length<n>(&all[k]) <= most * (1.0 + kAccelerationRounding);
     }
     if (within) return slope;
     Interval hard = about(at, there, limits, dt_s).hard;

@@ -9,8 +9,6 @@
 namespace tactus {
 namespace {
 
-/// Rounding allowed to a state at a limit, as a fraction of the limit.
-constexpr double kRounding = 3e-10;
 /// Distance kept from the ends of a position range while following a moving base, rad: the rounding
 /// of many periods.
 constexpr double kInset = 1e-8;
@@ -39,7 +37,7 @@ bool derived(const AxisState& before, const AxisState& after, double j, double d
 /// the base may step, as the acceleration of a cubic does; the reference may follow such a step.
 bool within_limits(const AxisState& before, const AxisState& after, const AxisLimits& limits,
                    const AxisRange& range, bool steps, double dt_s) {
-  const double most = 1.0 + kRounding, change = limits.j * dt_s * most;
+  const double most = 1.0 + kStateRounding, change = limits.j * dt_s * most;
   const double run_out = after.v + 0.5 * after.a * std::abs(after.a) / limits.j;
   const double gap = after.p - before.p - 0.5 * dt_s * (before.v + after.v);
   const AxisRange stop = stop_range(after, limits);

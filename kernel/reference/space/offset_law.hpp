@@ -38,6 +38,8 @@ struct Offset {
 /// for the position the corrected one, by at most kVelocityGap j dt^2 and kPositionGap j dt^3.
 inline constexpr double kVelocityGap = 0.25, kPositionGap = 0.0320751;  // 1/4, 1/(18 sqrt(3))
 inline constexpr double kPositionRounding = 1e-13;                      // m or rad
+/// Rounding allowed to a state at a limit, as a fraction of the limit.
+inline constexpr double kStateRounding = 3e-10;
 
 /// An unbounded position range, as large as a plan can use.
 inline constexpr AxisRange kAnywhere = {-1e9, 1e9};

@@ -8,11 +8,11 @@
 namespace tactus {
 namespace {
 
-BoundaryOf<Vector3> translation_of(const TaskSpace::Point& point) {
+BoundaryOf<Vector3> translation_boundary(const TaskSpace::Point& point) {
   return {point.x.p, point.v.head<3>(), point.a.head<3>()};
 }
 
-RotationBoundary rotation_of(const TaskSpace::Point& point) {
+RotationBoundary rotation_boundary(const TaskSpace::Point& point) {
   return {point.x.r, point.v.tail<3>(), point.a.tail<3>()};
 }
 
@@ -71,8 +71,8 @@ TaskSpace::Point TaskSpace::Point::at_rate(double rate, double slope) const {
 TaskSpace::Segment::Segment(const Point& from, const Point& to, double T, Interpolation how,
                             Fields fields)
     : order_(order_of(how, fields)),
-      p_(join(order_, translation_of(from), translation_of(to), T)),
-      rotation_(rotation_of(from), rotation_of(to), T, order_),
+      p_(join(order_, translation_boundary(from), translation_boundary(to), T)),
+      rotation_(rotation_boundary(from), rotation_boundary(to), T, order_),
       h_(from.h),
       dh_((to.h - from.h) / T) {}
 

@@ -15,7 +15,6 @@
 namespace tactus {
 namespace {
 
-constexpr double kRounding = 3e-10;      // allowed to a state at a limit; fraction of the limit
 constexpr double kRoomRounding = 1e-10;  // m, for a target on a side of the workspace
 
 /// Limits of lengths, of a translation or a rotation: m/s, m/s^2, m/s^3, or in rad.
@@ -72,7 +71,7 @@ NormLimits line_beside(const NormLimits& most, double w) {
 /// period, as for a joint; position and angle are not judged.
 bool within(const VectorState& before, const VectorState& after, const NormLimits& most, bool steps,
             double dt_s) {
-  const double rounding = 1.0 + kRounding, change = most.j * dt_s * rounding;
+  const double rounding = 1.0 + kStateRounding, change = most.j * dt_s * rounding;
   const Vector3 run_out = after.v + 0.5 * after.a * after.a.norm() / most.j;
   const Vector3 gap = after.v - before.v - 0.5 * dt_s * (before.a + after.a);
   const bool smooth = (after.a - before.a).norm() <= change &&
@@ -92,7 +91,7 @@ bool derived(const VectorState& before, const VectorState& after, const NormLimi
 
 /// True if the position changes by no more than v_max allows in a period.
 bool moved_within(const VectorState& before, const VectorState& after, double v_max, double dt_s) {
-  return (after.p - before.p).norm() <= v_max * dt_s * (1.0 + kRounding);
+  return (after.p - before.p).norm() <= v_max * dt_s * (1.0 + kStateRounding);
 }
 
 /// True if the orientation changes by no more than w_max allows in a period. The angle is computed
@@ -101,7 +100,7 @@ bool turned_within(const TaskSpace::Point& before, const TaskSpace::Point& after
                    bool steps, double dt_s) {
   if (!steps && (before.v + after.v).tail<3>().norm() < 1.9 * w_max) return true;
   const double angle = log_so3(before.x.r.conjugate() * after.x.r).norm();
-  return angle <= w_max * dt_s * (1.0 + kRounding);
+  return angle <= w_max * dt_s * (1.0 + kStateRounding);
 }
 
 /// True if the tip can stop inside its workspace, or, from outside, goes no further out.

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kSlider_s = 0.2;  // time in which the slider takes effect
 constexpr int kCommandsPerCycle = 32;
-constexpr double kNothing_s = 1e-9;
 constexpr double kLimiter = 0.95;  // fraction of a safety limit at which slowing down begins
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 constexpr int kSamples = 64, kMostSamples = 2048;
 constexpr double kBetween = 0.95;  // fraction of a limit, as a margin between two samples
 constexpr double kAlike = 0.97;    // agreement with twice as many samples that is enough
-constexpr double kNothing = 1e-12;
+constexpr double kFlat = 1e-12;    // a smaller slope or bend limits nothing
 
 bool sampled(const Curve& curve, int samples, double share, const MotionLimits& limits, Joints& q,
              Rates& rates) {
@@ -23,10 +23,10 @@ bool sampled(const Curve& curve, int samples, double share, const MotionLimits& 
     if (!curve.at(i * step, q, q, slope)) return false;
     const double steep = slope.cwiseAbs().maxCoeff();
     const double slow = slope.cwiseAbs().cwiseQuotient(limits.speed).maxCoeff();
-    if (slow > kNothing) rates.v = std::min(rates.v, 1.0 / slow);
-    if (steep > kNothing) rates.a = std::min(rates.a, (1.0 - share) * limits.acceleration / steep);
+    if (slow > kFlat) rates.v = std::min(rates.v, 1.0 / slow);
+    if (steep > kFlat) rates.a = std::min(rates.a, (1.0 - share) * limits.acceleration / steep);
     const double bend = i > 0 ? (slope - before).cwiseAbs().maxCoeff() / step : 0.0;
-    if (bend > kNothing) rates.v = std::min(rates.v, std::sqrt(share * limits.acceleration / bend));
+    if (bend > kFlat) rates.v = std::min(rates.v, std::sqrt(share * limits.acceleration / bend));
     before = slope;
   }
   return true;

@@ -7,7 +7,6 @@
 namespace tactus::ur {
 namespace {
 
-constexpr DhTable kDh;
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kSteps = 60;            // of Newton's method
 constexpr double kLongestStep = 0.4;  // rad

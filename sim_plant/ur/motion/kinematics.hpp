@@ -12,6 +12,8 @@
 
 namespace tactus::ur {
 
+inline constexpr double kDegree = 3.14159265358979323846 / 180.0;  ///< rad
+
 using Joints = Vector6;  ///< rad, rad/s or N m of six joints
 
 struct DhTable {
@@ -20,6 +22,7 @@ struct DhTable {
   std::array<double, 6> alpha = {1.5707963267948966,  0, 0, 1.5707963267948966,  // rad
                                  -1.5707963267948966, 0};
 };
+inline constexpr DhTable kDh;
 
 /// Converts a matrix to a rotation vector, with an angle from 0 to pi, and back.
 Vector3 rotation_vector(const Matrix3& r);

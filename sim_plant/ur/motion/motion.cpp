@@ -6,8 +6,7 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kNothing_s = 1e-9;  // a shorter time counts as zero
-constexpr double kTooFast = 1.05;    // fraction of a joint's speed limit
+constexpr double kTooFast = 1.05;  // fraction of a joint's speed limit
 
 }  // namespace
 

@@ -22,6 +22,8 @@
 
 namespace tactus::ur {
 
+inline constexpr double kNothing_s = 1e-9;  ///< a shorter time counts as zero
+
 class Motion {
  public:
   explicit Motion(const MotionLimits& limits = {}, const ForceSettings& force = {})

@@ -5,11 +5,6 @@
 #include "sim_plant/ur/motion/motion.hpp"
 
 namespace tactus::ur {
-namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-}  // namespace
 
 MotionLimits::MotionLimits() {
   speed << 120.0, 120.0, 180.0, 180.0, 180.0, 180.0;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kSettle_s = 0.064;  // a move returns after the arm has settled too
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-constexpr double kNothing = 1e-9;
 
 }  // namespace
 
@@ -54,9 +53,9 @@ bool MovePath::fit_blend(const Frame& tool) {
   const double r = now().move().r, r_next = segment.move().r, whole = segment.length();
   double left = 0.0, gone = 0.0, end = 0.0;
   overlap_ = !now().way_within(r, true, left) || !segment.way_within(r, false, gone) ||
-             gone > (1.0 - kNothing) * whole;
+             gone > (1.0 - kNoLength) * whole;
   if (overlap_) return false;
-  if (r_next > 0.0 && segment.way_within(r_next, true, end) && gone + end > whole + kNothing) {
+  if (r_next > 0.0 && segment.way_within(r_next, true, end) && gone + end > whole + kNoLength) {
     segment.leave_out_blend();
     overlap_ = true;
   }
@@ -69,7 +68,7 @@ bool MovePath::fit_blend(const Frame& tool) {
 /// Goes on into the blend, whose entry is at `x_in`.
 MovePath::Next MovePath::blend_into(double x_in) {
   const double x = x0_ + law_.position(time_s_), v = law_.speed(time_s_);
-  if (x > x_in + kNothing) return Next::kStops;
+  if (x > x_in + kNoLength) return Next::kStops;
   const double way = std::max(0.0, x_in - x);
   if (!choose_rate(way, v)) return Next::kStops;
   stage_ = Stage::kToBlend;

@@ -12,7 +12,6 @@
 namespace tactus::ur {
 
 struct SafetyLimits {
-  static constexpr double kDegree = 3.14159265358979323846 / 180.0;
   Joints speed;                       ///< rad/s
   double position = 363.0 * kDegree;  ///< rad
   double tcp_speed = 1.5;             ///< m/s
@@ -32,7 +31,6 @@ class LimitWatch {
   /// violation. [cyclic]
   std::int32_t check(const Joints& q, const Joints& dq, double tcp_speed, double momentum,
                      double h_s) {
-    constexpr double kDegree = SafetyLimits::kDegree;
     const bool within[] = {q.cwiseAbs().maxCoeff() <= limits_.position + 1.15 * kDegree,
                            (dq.cwiseAbs().array() <= limits_.speed.array() + 1.15 * kDegree).all(),
                            tcp_speed <= limits_.tcp_speed + 0.05,

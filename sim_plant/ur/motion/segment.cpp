@@ -7,7 +7,6 @@ namespace tactus::ur {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958648;
-constexpr double kNothing = 1e-9;
 constexpr double kLongest_s = 1e6;
 
 }  // namespace
@@ -27,7 +26,7 @@ bool Segment::start(const Move& move, const Joints& from, const Frame& tool,
     length_ = (to_ - from_).cwiseAbs().maxCoeff();
   else
     measure_tool();
-  if (length_ < kNothing) length_ = 0.0;
+  if (length_ < kNoLength) length_ = 0.0;
   // The path in tool space determines the posture at its end.
   Joints q = from;
   if (length_ > 0.0 && !fastest(*this, in_joints() ? 0.0 : 0.5, limits, q, most_)) return false;
@@ -50,7 +49,7 @@ void Segment::measure_tool() {
 /// Fits the circle through three points; if they are on a line, the tool moves straight.
 bool Segment::fit_circle() {
   const Vector3 a = move_.via.p - tip_from_.p, b = way_, n = a.cross(b);
-  if (!(n.norm() > 1e-6 * a.norm() * b.norm()) || a.norm() < kNothing) return false;
+  if (!(n.norm() > 1e-6 * a.norm() * b.norm()) || a.norm() < kNoLength) return false;
   center_ =
       tip_from_.p + (a.squaredNorm() * b - b.squaredNorm() * a).cross(n) / (2.0 * n.squaredNorm());
   axis_ = n.normalized();

@@ -14,6 +14,8 @@
 
 namespace tactus::ur {
 
+inline constexpr double kNoLength = 1e-9;  ///< m or rad; a shorter way counts as none
+
 class Segment final : public Curve {
  public:
   /// `tool` is the tip in the flange. False: the arm cannot follow, or the target is too far. [any]

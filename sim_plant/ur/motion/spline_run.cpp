@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kFastest = 6.283185, kDeceleration = 15.0;  // rad/s, rad/s^2
 constexpr double kStopping_s = kFastest / kDeceleration;
-constexpr double kNothing_s = 1e-5;
+constexpr double kShortestStep_s = 1e-5;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void SplineRun::step(double to_s, double step_s, Motion& motion) {
   const Joints before = dq_;
   dq_ = scale_ * speed(to_s);
   ddq_ = acceleration(to_s);
-  if (step_s < kNothing_s) return;
+  if (step_s < kShortestStep_s) return;
   motion.speed_j(dq_, (dq_ - before).cwiseAbs().maxCoeff() / step_s, step_s);
 }
 
@@ -81,7 +81,7 @@ bool SplineRun::command(Motion& motion, double cycle_s) {
     phase_ = slowing_ ? Phase::kSlowing : Phase::kLast;
   }
   if (phase_ == Phase::kSlowing) {
-    if (left_s >= kNothing_s) {
+    if (left_s >= kShortestStep_s) {
       scale_ = left_s / slowing_s_;
       step(time_s_ + cycle_s * scale_, cycle_s, motion);
       return true;

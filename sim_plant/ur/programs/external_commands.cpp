@@ -5,29 +5,28 @@
 namespace tactus::ur {
 namespace {
 
-using Command = std::array<std::int32_t, kScriptCommandInts>;
+using ScriptInts = std::array<std::int32_t, kScriptCommandInts>;
 
-constexpr std::string_view kSocket = "script_command_socket";
-constexpr double kStop = 4.0;     // rad/s^2
+constexpr std::string_view kCommandSocket = "script_command_socket";
 constexpr double kContact = 0.3;  // fraction of the torque that counts as a collision
 constexpr int kCommandsAtOnce = 8;
 enum Contact : std::int32_t { kTouched = 0, kEndedWithout = 1 };
 
-double value(const Command& command, std::size_t i) {
+double value(const ScriptInts& command, std::size_t i) {
   return command[i] / kFixedPoint;
 }
 
-Vector3 three(const Command& command, std::size_t first) {
+Vector3 three(const ScriptInts& command, std::size_t first) {
   return {value(command, first), value(command, first + 1), value(command, first + 2)};
 }
 
-Vector6 six(const Command& command, std::size_t first) {
+Vector6 six(const ScriptInts& command, std::size_t first) {
   Vector6 values;
   values << three(command, first), three(command, first + 3);
   return values;
 }
 
-void start_force_mode(const Command& command, Machine& machine) {
+void start_force_mode(const ScriptInts& command, Machine& machine) {
   ForceMode force;
   force.task_frame = six(command, 1);
   force.selection = six(command, 7);
@@ -46,21 +45,21 @@ bool touches(const Machine& machine) {
 }  // namespace
 
 void ExternalControl::read_commands(Machine& machine) {
-  Link* link = machine.links.find(kSocket);
+  Link* link = machine.links.find(kCommandSocket);
   if (link == nullptr) return;
-  Command command;
+  ScriptInts command;
   for (int n = 0; n < kCommandsAtOnce && link->read_ints(command.data(), command.size()); ++n)
     obey_command(command, *link, machine);
   const bool watches = tool_contact_ && mode_ != ControlMode::kToolInContact;
   if (!watches || trajectory_.clearing() || !touches(machine)) return;
   trajectory_.drop(machine);
   machine.freedrive = false;
-  machine.motion.stop_j(kStop);
+  machine.motion.stop_j(kStopDeceleration);
   mode_ = ControlMode::kToolInContact;
   link->send_int(kTouched);
 }
 
-void ExternalControl::obey_command(const Command& command, Link& link, Machine& machine) {
+void ExternalControl::obey_command(const ScriptInts& command, Link& link, Machine& machine) {
   switch (static_cast<ScriptCommand>(command[0])) {
     case ScriptCommand::kSetTargetPayload:
     case ScriptCommand::kSetPayload:

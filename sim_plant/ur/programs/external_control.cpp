@@ -3,8 +3,7 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kStop = 4.0, kSpeedAcceleration = 40.0;  // rad/s^2
-constexpr double kIgnoreSpeed = 20.0;                     // rad/s
+constexpr double kSpeedAcceleration = 40.0;  // rad/s^2
 constexpr int kAttempts = 5;
 constexpr double kRetry_s = 0.2;
 constexpr double kLog_s = 5.0;  // between two log messages of the same kind
@@ -95,7 +94,7 @@ void ExternalControl::take(const Message& message, Machine& machine) {
   if (mode == mode_) return obey(message, machine);
   // The old motion ends before the new one begins.
   if (mode_ == ControlMode::kForward) trajectory_.leave(machine);
-  if (!trajectory_.active() && !machine.motion.resting()) machine.motion.stop_j(kStop);
+  if (!trajectory_.active() && !machine.motion.resting()) machine.motion.stop_j(kStopDeceleration);
   if (mode_ == ControlMode::kFreedrive) machine.freedrive = false;
   mode_ = ControlMode::kIdle;
   if (machine.motion.busy() || trajectory_.active()) {
@@ -174,7 +173,7 @@ void ExternalControl::leave(bool halts, Machine& machine) {
   mode_ = ControlMode::kStopped;
   halts_ = halts;
   phase_ = Phase::kEnding;
-  machine.motion.stop_j(kStop);
+  machine.motion.stop_j(kStopDeceleration);
 }
 
 ProgramStep ExternalControl::command(Machine& machine) {

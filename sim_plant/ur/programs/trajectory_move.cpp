@@ -5,14 +5,6 @@
 namespace tactus::ur {
 namespace {
 
-using Point = std::array<std::int32_t, kTrajectoryInts>;
-
-Vector6 six(const Point& point, std::size_t first) {
-  Vector6 values;
-  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / kFixedPoint;
-  return values;
-}
-
 /// Returns a pose that is given directly or by joint positions.
 Frame frame(const Vector6& values, bool joints, const Motion& motion) {
   return joints ? forward(values) * motion.tool() : Frame::of(values);
@@ -40,6 +32,12 @@ void find_scale(std::string_view text, std::string_view variable, double& scale)
 
 }  // namespace
 
+Vector6 six_numbers(const TrajectoryPoint& point, std::size_t first, double scale) {
+  Vector6 values;
+  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / scale;
+  return values;
+}
+
 PointFormat find_point_format(std::string_view text) {
   PointFormat format;
   format.moves = format.circles = find_places(text, format.moves);
@@ -61,9 +59,10 @@ bool is_move(std::int32_t type) {
          (type >= kPointMoveJPose && type <= kPointMoveCPoseJoints);
 }
 
-bool read_move(const Point& point, const PointFormat& format, const Machine& machine, Move& move) {
+bool read_move(const TrajectoryPoint& point, const PointFormat& format, const Machine& machine,
+               Move& move) {
   const Motion& motion = machine.motion;
-  const Vector6 target = six(point, 0), second = six(point, 6);
+  const Vector6 target = six_numbers(point, 0), second = six_numbers(point, 6);
   const auto set_speed = [&](const PointFormat::Places& places) {
     move.v = point[places.v] / kFixedPoint;
     move.a = point[places.a] / kFixedPoint;

@@ -5,6 +5,11 @@
 
 namespace tactus::ur {
 
+/// A point as it comes over the wire.
+using TrajectoryPoint = std::array<std::int32_t, kTrajectoryInts>;
+/// Returns six numbers from `first` on, which are integers of 1 / `scale`.
+Vector6 six_numbers(const TrajectoryPoint& point, std::size_t first, double scale = kFixedPoint);
+
 /// How a text reads a point, which differs between releases of the client library: the places of a
 /// move's speed and acceleration among its integers, and the units of time, blend radius, and
 /// speeds and accelerations of a spline.
@@ -21,8 +26,8 @@ PointFormat find_point_format(std::string_view text);
 bool is_move(std::int32_t type);
 
 /// Reads the move of a point. False: no posture reaches its pose.
-bool read_move(const std::array<std::int32_t, kTrajectoryInts>& point, const PointFormat& format,
-               const Machine& machine, Move& move);
+bool read_move(const TrajectoryPoint& point, const PointFormat& format, const Machine& machine,
+               Move& move);
 
 /// True for a move that this generation of controllers does not have; texts show a popup instead.
 bool is_optimove(std::int32_t type);

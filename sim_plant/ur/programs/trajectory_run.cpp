@@ -6,26 +6,17 @@
 namespace tactus::ur {
 namespace {
 
-constexpr std::string_view kSocket = "trajectory_socket";
-constexpr double kStop = 4.0;          // rad/s^2
-constexpr double kIgnoreSpeed = 20.0;  // rad/s
-constexpr double kPatience_s = 0.5;    // longest wait for a point while the robot is at rest
-constexpr double kSamePlace = 0.01;    // rad
+constexpr std::string_view kTrajectorySocket = "trajectory_socket";
+constexpr double kPatience_s = 0.5;  // longest wait for a point while the robot is at rest
+constexpr double kSamePlace = 0.01;  // rad
 constexpr std::int64_t kEndless = std::numeric_limits<std::int32_t>::max();
-
-Vector6 six(const std::array<std::int32_t, kTrajectoryInts>& point, std::size_t first,
-            double scale = kFixedPoint) {
-  Vector6 values;
-  for (int i = 0; i < 6; ++i) values[i] = point[first + static_cast<std::size_t>(i)] / scale;
-  return values;
-}
 
 }  // namespace
 
 /// Discards points. True: none is left, or none has come for a while.
 bool TrajectoryRun::read_away(Machine& machine) {
-  std::array<std::int32_t, kTrajectoryInts> point;
-  Link* link = machine.links.find(kSocket);
+  TrajectoryPoint point;
+  Link* link = machine.links.find(kTrajectorySocket);
   while (left_ > 0 && link != nullptr && link->read_ints(point.data(), point.size())) {
     --left_;
     waited_s_ = 0.0;
@@ -79,7 +70,7 @@ void TrajectoryRun::drop(Machine& machine) {
 }
 
 void TrajectoryRun::clear(Then then, Machine& machine) {
-  if (!machine.motion.resting()) machine.motion.stop_j(kStop);
+  if (!machine.motion.resting()) machine.motion.stop_j(kStopDeceleration);
   phase_ = Phase::kClearing;
   then_ = then;
   waited_s_ = 0.0;
@@ -99,12 +90,12 @@ ProgramStep TrajectoryRun::cleared(Machine& machine) {
 
 void TrajectoryRun::tell(Machine& machine) {
   if (result_ == kCancelled && !features_.tells_cancelled) return;
-  if (Link* link = machine.links.find(kSocket)) link->send_int(result_);
+  if (Link* link = machine.links.find(kTrajectorySocket)) link->send_int(result_);
 }
 
 void TrajectoryRun::finish(TrajectoryResult result, Machine& machine) {
   result_ = result;
-  machine.motion.stop_j(kStop);
+  machine.motion.stop_j(kStopDeceleration);
   phase_ = Phase::kStopping;
 }
 
@@ -146,8 +137,8 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
     finish(kSucceeded, machine);
     return ProgramStep::kRunning;
   }
-  std::array<std::int32_t, kTrajectoryInts> point;
-  Link* link = machine.links.find(kSocket);
+  TrajectoryPoint point;
+  Link* link = machine.links.find(kTrajectorySocket);
   if (link != nullptr && link->read_ints(point.data(), point.size())) {
     --left_;
     waited_s_ = 0.0;
@@ -166,8 +157,7 @@ ProgramStep TrajectoryRun::next_point(Machine& machine) {
   return ProgramStep::kWaiting;
 }
 
-void TrajectoryRun::take_point(const std::array<std::int32_t, kTrajectoryInts>& point,
-                               Machine& machine) {
+void TrajectoryRun::take_point(const TrajectoryPoint& point, Machine& machine) {
   if (point[20] == kPointSpline) {
     take_spline(point, left_ == 0, machine);
     return;
@@ -177,9 +167,8 @@ void TrajectoryRun::take_point(const std::array<std::int32_t, kTrajectoryInts>& 
   if (!take_move(point, machine)) finish(kFailed, machine);
 }
 
-void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>& point, bool last,
-                                Machine& machine) {
-  const Joints q = machine.motion.q(), q_end = six(point, 0);
+void TrajectoryRun::take_spline(const TrajectoryPoint& point, bool last, Machine& machine) {
+  const Joints q = machine.motion.q(), q_end = six_numbers(point, 0);
   const double duration_s = point[18] / features_.format.time_scale;
   const double way = (q_end - q).cwiseAbs().maxCoeff();
   if (point[19] != kCubic && point[19] != kQuintic) {
@@ -200,13 +189,13 @@ void TrajectoryRun::take_spline(const std::array<std::int32_t, kTrajectoryInts>&
   }
   const bool quintic = point[19] == kQuintic;
   const double scale = features_.format.rate_scale;
-  spline_.start(q, q_end, six(point, 6, scale), six(point, 12, scale), duration_s, quintic, last);
+  spline_.start(q, q_end, six_numbers(point, 6, scale), six_numbers(point, 12, scale), duration_s,
+                quintic, last);
   if (!quintic) spline_.forget_acceleration();
   phase_ = Phase::kSpline;
 }
 
-bool TrajectoryRun::take_move(const std::array<std::int32_t, kTrajectoryInts>& point,
-                              Machine& machine) {
+bool TrajectoryRun::take_move(const TrajectoryPoint& point, Machine& machine) {
   if (is_optimove(point[20])) {
     machine.messages.popup("", "Optimoves are only supported from software 5.21.0", false, true);
     return true;

@@ -9,6 +9,9 @@
 
 namespace tactus::ur {
 
+/// Of the script: how it brakes, rad/s^2, and the speed, rad/s, from which a command is ignored.
+inline constexpr double kStopDeceleration = 4.0, kIgnoreSpeed = 20.0;
+
 class TrajectoryRun {
  public:
   /// Features in which the texts of the script differ.
@@ -50,10 +53,9 @@ class TrajectoryRun {
   void tell(Machine& machine);
   bool spline_step(Machine& machine);
   ProgramStep next_point(Machine& machine);
-  void take_point(const std::array<std::int32_t, kTrajectoryInts>& point, Machine& machine);
-  void take_spline(const std::array<std::int32_t, kTrajectoryInts>& point, bool last,
-                   Machine& machine);
-  bool take_move(const std::array<std::int32_t, kTrajectoryInts>& point, Machine& machine);
+  void take_point(const TrajectoryPoint& point, Machine& machine);
+  void take_spline(const TrajectoryPoint& point, bool last, Machine& machine);
+  bool take_move(const TrajectoryPoint& point, Machine& machine);
   bool read_away(Machine& machine);
   void finish(TrajectoryResult result, Machine& machine);
 

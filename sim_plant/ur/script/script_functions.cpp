@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "sim_plant/ur/motion/kinematics.hpp"
 #include "sim_plant/ur/script/script_operators.hpp"
 
 namespace tactus::ur {
 namespace {
 
 using Kind = ScriptValue::Kind;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 ScriptValue six_value(Kind kind, const Vector6& six) {
   ScriptValue value;

@@ -1,10 +1,8 @@
+#include "sim_plant/ur/motion/kinematics.hpp"
 #include "sim_plant/ur/wire/state_messages.hpp"
 
 namespace tactus::ur {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr DhTable kDh;
 
 void put(const std::array<double, 6>& values, ByteWriter& writer) {
   for (const double value : values) writer.f64(value);

@@ -3,13 +3,13 @@
 namespace tactus::ur {
 namespace {
 
-struct Row {
+struct InputRow {
   std::string_view name;
   FieldType type;
 };
 
 /// In the order of Input.
-constexpr Row kRows[] = {
+constexpr InputRow kInputRows[] = {
     {"speed_slider_mask", FieldType::kUint32},
     {"speed_slider_fraction", FieldType::kDouble},
     {"standard_digital_output_mask", FieldType::kUint8},
@@ -29,10 +29,10 @@ constexpr Row kRows[] = {
 
 InputField find_input(std::string_view name, const Version& version) {
   InputField field;
-  for (const Row& row : kRows) {
+  for (const InputRow& row : kInputRows) {
     if (row.name != name) continue;
     field.type = row.type;
-    field.input = static_cast<Input>(&row - kRows);
+    field.input = static_cast<Input>(&row - kInputRows);
     return field;
   }
   RegisterName parsed;
@@ -47,7 +47,7 @@ InputField find_input(std::string_view name, const Version& version) {
 }
 
 std::size_t InputField::variable() const {
-  constexpr std::size_t kSingles = std::size(kRows);
+  constexpr std::size_t kSingles = std::size(kInputRows);
   switch (input) {
     case Input::kBits: return kSingles + index;
     case Input::kBit: return kSingles + 4 + index;

@@ -14,13 +14,13 @@ constexpr FieldType kTypes[] = {FieldType::kDouble,      FieldType::kVector6d, F
                                 FieldType::kInt32,       FieldType::kUint32,   FieldType::kUint64,
                                 FieldType::kVector6Int32};
 
-struct Row {
+struct OutputRow {
   std::string_view name;
   Member member;
   std::uint32_t minor = 0, bugfix = 0;  ///< of the software 3.x that introduced it
 };
 
-constexpr Row kRows[] = {
+constexpr OutputRow kOutputRows[] = {
     {"timestamp", &Image::timestamp},
     {"target_q", &Image::target_q},
     {"target_qd", &Image::target_qd},
@@ -123,11 +123,11 @@ void write_register(const Registers& registers, Input kind, std::size_t i, ByteW
 
 OutputField find_output(std::string_view name, const Version& version) {
   OutputField field;
-  for (const Row& row : kRows) {
+  for (const OutputRow& row : kOutputRows) {
     if (row.name != name) continue;
     if (!version.at_least(3, row.minor, row.bugfix)) return field;
     field.type = kTypes[row.member.index()];
-    field.row = static_cast<std::uint16_t>(&row - kRows);
+    field.row = static_cast<std::uint16_t>(&row - kOutputRows);
     return field;
   }
   RegisterName parsed;
@@ -145,7 +145,7 @@ void OutputField::write(const Image& image, ByteWriter& writer) const {
     write_register(registers, static_cast<Input>(row & 0xff), index, writer);
     return;
   }
-  std::visit([&](auto member) { Writer{writer}(image.*member); }, kRows[row].member);
+  std::visit([&](auto member) { Writer{writer}(image.*member); }, kOutputRows[row].member);
 }
 
 }  // namespace tactus::ur

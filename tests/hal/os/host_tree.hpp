@@ -97,7 +97,7 @@ class HostTree {
   }
   const char* root() const { return root_; }
   /// Asserts finding and value of the item called `name` on the host that is asked about.
-  static void expect(const HostQuery& query, const char* name, Finding finding,
+  static void expect(const HostQuery& query, const char* name, HostFinding finding,
                      std::string_view value) {
     const HostReport report = inspect_host(query);
     for (const HostItem& item : report.items) {

@@ -46,7 +46,7 @@ class CardTree : public HostTree {
     put("/proc/78/comm", "irq/31-ahci\n");
     put("/proc/sys/net/core/busy_poll", "50\n");
   }
-  void expect(const char* name, Finding finding, std::string_view value, int cpu = kCpu) const {
+  void expect(const char* name, HostFinding finding, std::string_view value, int cpu = kCpu) const {
     HostTree::expect({root(), cpu, 80, "eth1", ask}, name, finding, value);
   }
 };
@@ -57,8 +57,8 @@ void a_card_in_order_leaves_nothing_unknown(void**) {
   const CardTree tree;
   const HostReport report = inspect_host({tree.root(), kCpu, 80, "eth1", ask});
   for (const HostItem& item : report.items) {
-    if (item.finding != Finding::kOk) print_error("%s: %s\n", item.name, item.value.c_str());
-    assert_true(item.finding == Finding::kOk);
+    if (item.finding != HostFinding::kOk) print_error("%s: %s\n", item.name, item.value.c_str());
+    assert_true(item.finding == HostFinding::kOk);
   }
   assert_int_equal(report.unknown(), 0);
   tree.remove_all();
@@ -66,58 +66,58 @@ void a_card_in_order_leaves_nothing_unknown(void**) {
 
 void the_interrupt_thread_must_be_above_those_of_other_devices(void**) {
   CardTree tree;
-  tree.expect("card priority", Finding::kOk, "priority 70 for interrupt 30");
+  tree.expect("card priority", HostFinding::kOk, "priority 70 for interrupt 30");
   tree.put("/proc/79/comm", "irq/32-eth1\n");
   tree.put("/proc/79/stat", kStat50);  // of another card's interrupt
-  tree.expect("card priority", Finding::kOk, "priority 70 for interrupt 30");
+  tree.expect("card priority", HostFinding::kOk, "priority 70 for interrupt 30");
   tree.put("/sys/class/net/eth1/device/msi_irqs/32", "msi\n");
-  tree.expect("card priority", Finding::kHurts, "priority 50 for interrupt 32");
+  tree.expect("card priority", HostFinding::kHurts, "priority 50 for interrupt 32");
   tree.put("/proc/79/stat", "79 (irq/32-eth1) S 2\n");
-  tree.expect("card priority", Finding::kUnknown, "not readable");
+  tree.expect("card priority", HostFinding::kUnknown, "not readable");
   tree.remove("/proc/77/comm");
   tree.remove("/proc/79/comm");
-  tree.expect("card priority", Finding::kHurts, "no thread for interrupts 30 32");
+  tree.expect("card priority", HostFinding::kHurts, "no thread for interrupts 30 32");
   tree.remove_all();
 }
 
 void no_interrupt_of_the_card_may_be_on_the_cycles_cpu(void**) {
   CardTree tree;
-  tree.expect("card affinity", Finding::kOk, "0 of 1 on cpu2");
+  tree.expect("card affinity", HostFinding::kOk, "0 of 1 on cpu2");
   tree.put("/proc/irq/30/smp_affinity_list", "0-3\n");
-  tree.expect("card affinity", Finding::kHurts, "1 of 1 on cpu2: 30");
+  tree.expect("card affinity", HostFinding::kHurts, "1 of 1 on cpu2: 30");
   tree.put("/proc/irq/30/effective_affinity_list", "1\n");
-  tree.expect("card affinity", Finding::kOk, "0 of 1 on cpu2");
-  tree.expect("card affinity", Finding::kUnknown, "no CPU is chosen", -1);
+  tree.expect("card affinity", HostFinding::kOk, "0 of 1 on cpu2");
+  tree.expect("card affinity", HostFinding::kUnknown, "no CPU is chosen", -1);
   tree.remove_all();
 }
 
 void a_card_may_have_its_interrupts_at_the_bus_or_one_by_a_line(void**) {
   CardTree tree;
   tree.remove("/sys/class/net/eth1/device/msi_irqs/30");
-  tree.expect("card affinity", Finding::kUnknown, "not readable");
-  tree.expect("card priority", Finding::kUnknown, "not readable");
+  tree.expect("card affinity", HostFinding::kUnknown, "not readable");
+  tree.expect("card priority", HostFinding::kUnknown, "not readable");
   tree.put("/sys/class/net/eth1/device/irq", "30\n");
-  tree.expect("card affinity", Finding::kOk, "0 of 1 on cpu2");
+  tree.expect("card affinity", HostFinding::kOk, "0 of 1 on cpu2");
   tree.put("/sys/class/net/eth1/msi_irqs/24", "msi\n");  // the folder above that of the device
   tree.put("/proc/irq/24/smp_affinity_list", "2\n");
-  tree.expect("card affinity", Finding::kHurts, "1 of 1 on cpu2: 24");
+  tree.expect("card affinity", HostFinding::kHurts, "1 of 1 on cpu2: 24");
   tree.remove_all();
 }
 
 void an_interrupt_that_waits_for_more_packets_hurts(void**) {
   struct Row {
     unsigned adaptive, usecs, frames;
-    Finding finding;
+    HostFinding finding;
     const char* value;
   };
   const Row rows[] = {
-      {0, 0, 0, Finding::kOk, "adaptive-rx off, rx-usecs 0, rx-frames 0"},
-      {0, 0, 1, Finding::kOk, "adaptive-rx off, rx-usecs 0, rx-frames 1"},
-      {0, 8, 1, Finding::kOk, "adaptive-rx off, rx-usecs 8, rx-frames 1"},
-      {0, 8, 0, Finding::kHurts, "adaptive-rx off, rx-usecs 8, rx-frames 0"},
-      {0, 8, 32, Finding::kHurts, "adaptive-rx off, rx-usecs 8, rx-frames 32"},
-      {0, 0, 32, Finding::kHurts, "adaptive-rx off, rx-usecs 0, rx-frames 32"},
-      {1, 0, 0, Finding::kHurts, "adaptive-rx on, rx-usecs 0, rx-frames 0"},
+      {0, 0, 0, HostFinding::kOk, "adaptive-rx off, rx-usecs 0, rx-frames 0"},
+      {0, 0, 1, HostFinding::kOk, "adaptive-rx off, rx-usecs 0, rx-frames 1"},
+      {0, 8, 1, HostFinding::kOk, "adaptive-rx off, rx-usecs 8, rx-frames 1"},
+      {0, 8, 0, HostFinding::kHurts, "adaptive-rx off, rx-usecs 8, rx-frames 0"},
+      {0, 8, 32, HostFinding::kHurts, "adaptive-rx off, rx-usecs 8, rx-frames 32"},
+      {0, 0, 32, HostFinding::kHurts, "adaptive-rx off, rx-usecs 0, rx-frames 32"},
+      {1, 0, 0, HostFinding::kHurts, "adaptive-rx on, rx-usecs 0, rx-frames 0"},
   };
   const CardTree tree;
   for (const Row& row : rows) {
@@ -127,16 +127,16 @@ void an_interrupt_that_waits_for_more_packets_hurts(void**) {
     tree.expect("coalescing", row.finding, row.value);
   }
   error = EOPNOTSUPP;
-  tree.expect("coalescing", Finding::kUnknown, "not readable: Operation not supported");
+  tree.expect("coalescing", HostFinding::kUnknown, "not readable: Operation not supported");
   tree.remove_all();
 }
 
 void a_kernel_that_does_not_look_for_packets_hurts(void**) {
   CardTree tree;
   tree.put("/proc/sys/net/core/busy_poll", "0\n");
-  tree.expect("busy poll", Finding::kHurts, "busy_poll 0");
+  tree.expect("busy poll", HostFinding::kHurts, "busy_poll 0");
   tree.remove("/proc/sys/net/core/busy_poll");
-  tree.expect("busy poll", Finding::kUnknown, "not readable: No such file or directory");
+  tree.expect("busy poll", HostFinding::kUnknown, "not readable: No such file or directory");
   tree.remove_all();
 }
 

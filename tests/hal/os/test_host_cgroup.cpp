@@ -16,7 +16,7 @@ class GroupTree : public HostTree {
       remove(file);
     put("/proc/self/cgroup", groups);
   }
-  void expect(const char* name, Finding finding, std::string_view value) const {
+  void expect(const char* name, HostFinding finding, std::string_view value) const {
     HostTree::expect({root(), kCpu, 80}, name, finding, value);
   }
 };
@@ -25,15 +25,16 @@ class GroupTree : public HostTree {
 
 void a_quota_of_version_2_hurts_in_the_group_and_in_every_group_above(void**) {
   GroupTree tree("0::/robots.slice/arm.service\n");
-  tree.expect("CPU quota", Finding::kUnknown, "not readable");
+  tree.expect("CPU quota", HostFinding::kUnknown, "not readable");
   tree.put("/sys/fs/cgroup/robots.slice/arm.service/cpu.max", "max 100000\n");
-  tree.expect("CPU quota", Finding::kOk,
+  tree.expect("CPU quota", HostFinding::kOk,
               "cpu.max max 100000 of /sys/fs/cgroup/robots.slice/arm.service");
   tree.put("/sys/fs/cgroup/robots.slice/cpu.max", "150000 100000\n");
-  tree.expect("CPU quota", Finding::kHurts, "cpu.max 150000 100000 of /sys/fs/cgroup/robots.slice");
+  tree.expect("CPU quota", HostFinding::kHurts,
+              "cpu.max 150000 100000 of /sys/fs/cgroup/robots.slice");
   tree.put("/sys/fs/cgroup/robots.slice/cpu.max", "max 100000\n");
   tree.put("/sys/fs/cgroup/robots.slice/arm.service/cpu.max", "20000 100000\n");
-  tree.expect("CPU quota", Finding::kHurts,
+  tree.expect("CPU quota", HostFinding::kHurts,
               "cpu.max 20000 100000 of /sys/fs/cgroup/robots.slice/arm.service");
   tree.remove_all();
 }
@@ -42,25 +43,29 @@ void a_group_that_only_the_host_sees_is_that_of_the_mount(void**) {
   GroupTree tree("3:cpuset:/docker/0a1b\n2:cpu,cpuacct:/docker/0a1b\n");
   tree.put("/sys/fs/cgroup/cpuset/cpuset.effective_cpus", "0-1\n");
   tree.put("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
-  tree.expect("cpuset", Finding::kHurts, "cpuset.effective_cpus 0-1 of /sys/fs/cgroup/cpuset");
-  tree.expect("CPU quota", Finding::kOk, "cpu.cfs_quota_us -1 of /sys/fs/cgroup/cpu");
+  tree.expect("cpuset", HostFinding::kHurts, "cpuset.effective_cpus 0-1 of /sys/fs/cgroup/cpuset");
+  tree.expect("CPU quota", HostFinding::kOk, "cpu.cfs_quota_us -1 of /sys/fs/cgroup/cpu");
   tree.remove_all();
 }
 
 void a_real_time_quota_is_in_order_if_it_is_the_whole_period(void**) {
   GroupTree tree("1:cpu:/\n");
   tree.put("/sys/fs/cgroup/cpu/cpu.rt_runtime_us", "950000\n");
-  tree.expect("real-time quota", Finding::kHurts, "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
+  tree.expect("real-time quota", HostFinding::kHurts,
+              "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
   tree.put("/sys/fs/cgroup/cpu/cpu.rt_period_us", "1000000\n");
-  tree.expect("real-time quota", Finding::kHurts, "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
+  tree.expect("real-time quota", HostFinding::kHurts,
+              "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
   tree.put("/sys/fs/cgroup/cpu/cpu.rt_period_us", "none\n");
-  tree.expect("real-time quota", Finding::kHurts, "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
+  tree.expect("real-time quota", HostFinding::kHurts,
+              "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
   tree.put("/sys/fs/cgroup/cpu/cpu.rt_period_us", "950000\n");
-  tree.expect("real-time quota", Finding::kOk, "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
+  tree.expect("real-time quota", HostFinding::kOk,
+              "cpu.rt_runtime_us 950000 of /sys/fs/cgroup/cpu");
   tree.put("/sys/fs/cgroup/cpu/cpu.rt_runtime_us", "-1\n");
-  tree.expect("real-time quota", Finding::kOk, "cpu.rt_runtime_us -1 of /sys/fs/cgroup/cpu");
+  tree.expect("real-time quota", HostFinding::kOk, "cpu.rt_runtime_us -1 of /sys/fs/cgroup/cpu");
   tree.put("/proc/self/cgroup", "0::/\n");
-  tree.expect("real-time quota", Finding::kUnknown, "not readable");
+  tree.expect("real-time quota", HostFinding::kUnknown, "not readable");
   tree.remove_all();
 }
 
@@ -68,7 +73,7 @@ void lines_that_are_none_of_the_kernel_are_left_out(void**) {
   for (const char* lines : {"", "\n", ":", "::", "cpu\n", "5:cpu\n", "5:cpux,xcpu:/\n"}) {
     GroupTree tree(lines);
     const bool unified = std::string_view(lines) == "::";
-    tree.expect("CPU quota", Finding::kUnknown,
+    tree.expect("CPU quota", HostFinding::kUnknown,
                 unified ? "not readable" : "not readable: no control group");
     tree.remove_all();
   }

@@ -3,14 +3,13 @@
 
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/reference/motion/chunk_plan.hpp"
+#include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
 namespace {
-
-constexpr double kTimeRounding_s = 1e-9;
 
 /// Time by which outputs come before their targets; a delay begins once the target is passed.
 template <class Space>
@@ -67,6 +66,7 @@ void ChunkPlan<Space, streams>::pass_targets(std::size_t i, double now_s) {
       std::max(chunk.knots[at].time_s - s - chunk.outputs_lead_s, 0.0)};
 }
 
+// In a unit these come after the instantiations of the class, in chunk_plan.cpp.
 template void ChunkPlan<JointSpace>::pass_last_targets(double);
 template void ChunkPlan<TaskSpace>::pass_last_targets(double);
 template void ChunkPlan<JointSpace>::pass_outputs(double);
