@@ -2,18 +2,13 @@
 #pragma once
 
 #include "kernel/control/admittance.hpp"
+#include "tests/control/force_and_moment.hpp"
 #include "tests/support/rotation_cases.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
 
 inline const Vector3 kOnes = Vector3::Ones();
-
-inline Vector6 wrench(const Vector3& f, const Vector3& m) {
-  Vector6 both;
-  both << f, m;
-  return both;
-}
 
 /// The law wired to the values of a test, with wide bounds.
 struct AdmittanceBench {

@@ -6,13 +6,13 @@
 
 namespace tactus {
 
-inline const JointVector kZero = JointVector::Zero(), kOnes = JointVector::Ones();
+inline const JointVector kJointZero = JointVector::Zero(), kJointOnes = JointVector::Ones();
 
 /// Gains 100, 0 and 10, limits that are never reached. dq, dq_d and g are wired, the other optional
 /// inputs are not.
 struct PidBench {
-  JointVector q_d = kZero, q = kZero, dq_d = kZero, dq = kZero, ddq_d = kZero, tau_d = kZero,
-              g = kZero, tau_measured = kZero;
+  JointVector q_d = kJointZero, q = kJointZero, dq_d = kJointZero, dq = kJointZero,
+              ddq_d = kJointZero, tau_d = kJointZero, g = kJointZero, tau_measured = kJointZero;
   Pid pid;
 
   PidBench() {
@@ -26,7 +26,7 @@ struct PidBench {
     pid.g.source = &g;
   }
   void gains(double kp, double ki, double kd) {
-    pid.params.gains = {kp * kOnes, ki * kOnes, kd * kOnes};
+    pid.params.gains = {kp * kJointOnes, ki * kJointOnes, kd * kJointOnes};
   }
   void torque_is(const JointVector& expected) const {
     ASSERT_NEAR((pid.tau.value - expected).cwiseAbs().maxCoeff(), 0.0, 1e-12);
@@ -44,7 +44,7 @@ struct PidAndInertia : PidBench {
 
   void cycle(double dt_s) {
     step(dt_s);
-    const JointVector ddq = pid.tau.value - load * kOnes;
+    const JointVector ddq = pid.tau.value - load * kJointOnes;
     q += dt_s * (dq + 0.5 * dt_s * ddq);
     dq += dt_s * ddq;
   }

@@ -29,7 +29,7 @@ inline double sigma_at(const JointVector& q) {
 }
 
 /// Returns random joints within `share` of their ranges around the middle.
-inline JointVector random_joints(Random& random, double share) {
+inline JointVector random_joints(RandomVectors& random, double share) {
   const JointLimits limits;
   JointVector q;
   for (int i = 0; i < kDof; ++i)
@@ -39,7 +39,7 @@ inline JointVector random_joints(Random& random, double share) {
 }
 
 /// Returns random joints far from a singularity.
-inline JointVector regular_joints(Random& random) {
+inline JointVector regular_joints(RandomVectors& random) {
   JointVector q = random_joints(random, 0.7);
   while (!(sigma_at(q) > 0.12)) q = random_joints(random, 0.7);
   return q;
@@ -47,7 +47,7 @@ inline JointVector regular_joints(Random& random) {
 
 /// Returns the joints of a number, far from a singularity, the same in every run.
 inline JointVector regular(int number) {
-  Random random;
+  RandomVectors random;
   JointVector q = regular_joints(random);
   for (int i = 0; i < number; ++i) q = regular_joints(random);
   return q;

@@ -87,7 +87,7 @@ void stiffness_is_meant_in_the_compliant_frames_axes(void**) {
 
 /// About a constant axis the rotation is that of a torsion spring, at any angle.
 void a_moment_turns_the_tool_on_so3_up_to_its_bound(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 20; ++i) {
     AdmittanceBench bench;
     bench.ac.params.frame = kFrames[i % 2];
@@ -132,7 +132,7 @@ void a_ratio_cannot_damp_an_axis_without_stiffness(void**) {
 void the_pose_at_an_instant_does_not_depend_on_the_period(void**) {
   AdmittanceBench slow, middle, fast;
   for (AdmittanceBench* bench : {&slow, &middle, &fast}) ASSERT_OK(bench->ac.start());
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 250; ++i) {
     if (i % 25 == 0) slow.h = wrench(30.0 * random.vector(), 5.0 * random.vector());
     middle.h = fast.h = slow.h;

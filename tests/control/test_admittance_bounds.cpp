@@ -28,7 +28,7 @@ void axes_that_are_not_in_the_set_do_not_yield(void**) {
 }
 
 void bounds_are_kept_over_random_wrenches(void**) {
-  Random random;
+  RandomVectors random;
   for (int trial = 0; trial < 60; ++trial) {
     AdmittanceBench bench;
     Admittance::Params& p = bench.ac.params;

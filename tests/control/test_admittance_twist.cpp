@@ -54,7 +54,7 @@ struct Bench {
 };
 
 /// Returns the wrench of an interval of half a second: random, and zero every third time.
-Vector6 push(Random& random, int interval) {
+Vector6 push(RandomVectors& random, int interval) {
   Vector6 h;
   h << 20.0 * random.vector(), 2.0 * random.vector();
   return interval % 3 == 2 ? Vector6(Vector6::Zero()) : h;
@@ -74,7 +74,7 @@ Vector6 difference(const std::array<Pose, 9>& poses) {
 /// Runs three seconds and compares where the wrench is constant over nine poses.
 void compare(CompliantFrame frame, const Motion& motion) {
   Bench bench(frame);
-  Random random;
+  RandomVectors random;
   std::array<Pose, 9> poses;
   std::array<Vector6, 9> twists;
   bench.x_d = motion.pose(0.0);

@@ -87,7 +87,7 @@ void on_the_path_an_error_that_is_left_is_given_up(void**) {
 /// must not start to move again.
 void on_the_path_an_arm_at_rest_stays_at_rest(void**) {
   constexpr double kRest = 0.01;  // rad/s
-  Random random;
+  RandomVectors random;
   for (int trial = 0; trial < 60; ++trial) {
     PoseBench bench;
     ASSERT_OK(bench.start(random_joints(random, 0.8)));

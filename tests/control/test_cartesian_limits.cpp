@@ -9,7 +9,7 @@ namespace {
 // Proves CP-4.
 
 void the_speed_limits_scale_the_twist_and_keep_its_direction(void**) {
-  Random random;
+  RandomVectors random;
   for (int number = 0; number < 20; ++number) {
     PoseBench bench;
     bench.law.params.posture_gain = 0.0;
@@ -27,7 +27,7 @@ void the_speed_limits_scale_the_twist_and_keep_its_direction(void**) {
 
 void the_tip_keeps_its_speed_limits(void**) {
   PoseBench bench;
-  Random random;
+  RandomVectors random;
   bench.law.params.max_speed = 0.1;
   bench.law.params.max_angular_speed = 0.2;
   ASSERT_OK(bench.start(regular_joints(random)));
@@ -41,7 +41,7 @@ void the_tip_keeps_its_speed_limits(void**) {
 }
 
 void whatever_the_reference_does_no_limit_is_exceeded(void**) {
-  Random random;
+  RandomVectors random;
   for (const double dt_s : {1e-3, 2e-3, 8e-3})
     for (const int delay : {0, 2}) {
       PoseBench bench;
@@ -62,7 +62,7 @@ void whatever_the_reference_does_no_limit_is_exceeded(void**) {
 }
 
 void a_large_step_of_the_reference_is_reached_without_overshoot(void**) {
-  Random random;
+  RandomVectors random;
   for (int number = 0; number < 10; ++number) {
     PoseBench bench;
     const JointVector q0 = regular_joints(random);
@@ -82,7 +82,7 @@ void a_large_step_of_the_reference_is_reached_without_overshoot(void**) {
 /// Puts a joint close to its limit and sends the tip to a place for which the joint would have to
 /// go further, then back.
 void a_joint_at_its_limit_stops_there_and_can_leave(void**) {
-  Random random;
+  RandomVectors random;
   int at_limit = 0;
   for (int number = 0; number < 4 * kDof; ++number) {
     const int joint = number % kDof;
@@ -113,7 +113,7 @@ void a_joint_at_its_limit_stops_there_and_can_leave(void**) {
 /// the tip in the same way as far as they can.
 void the_others_take_the_share_of_a_joint_at_its_limit(void**) {
   if (kDof <= 6) return;  // there are no others
-  Random random;
+  RandomVectors random;
   int taken = 0;
   for (int number = 0; number < 4 * kDof; ++number) {
     const int joint = number % kDof;
@@ -140,7 +140,7 @@ void the_others_take_the_share_of_a_joint_at_its_limit(void**) {
 // Proves CP-7.
 
 void a_blocked_arm_is_not_run_away_from_and_released_without_a_jump(void**) {
-  Random random;
+  RandomVectors random;
   for (int number = 0; number < 2 * kDof; ++number) {
     PoseBench bench;
     bench.delay = number % 3;

@@ -188,7 +188,7 @@ void the_response_is_the_same_at_every_rate(void**) {
 
 void the_posture_is_approached_without_moving_the_tip(void**) {
   if (kDof <= 6) return;  // no null space
-  Random random;
+  RandomVectors random;
   for (int number = 0; number < 5; ++number) {
     PoseBench bench;
     ASSERT_OK(bench.start(regular(number)));

@@ -7,7 +7,7 @@ namespace tactus {
 namespace {
 
 /// Returns joints with the smallest sigma that a seeded descent finds.
-JointVector singular_joints(Random& random) {
+JointVector singular_joints(RandomVectors& random) {
   JointVector q = random_joints(random, 0.8);
   double sigma = sigma_at(q), reach = 0.3;
   while (reach > 1e-6 && sigma > 1e-5) {
@@ -34,7 +34,7 @@ double out_and_back(double t, double& rate) {
 // Proves CP-5.
 
 void it_passes_through_singularities(void**) {
-  Random random;
+  RandomVectors random;
   int passed = 0;
   for (int number = 0; number < 60; ++number) {
     JointVector from = singular_joints(random), way;
@@ -65,7 +65,7 @@ void it_passes_through_singularities(void**) {
 }
 
 void it_goes_out_of_reach_along_the_edge_and_comes_back(void**) {
-  Random random;
+  RandomVectors random;
   int edges = 0;
   for (int number = 0; number < 60; ++number) {
     PoseBench bench;
@@ -92,7 +92,7 @@ void it_goes_out_of_reach_along_the_edge_and_comes_back(void**) {
 }
 
 void out_of_reach_it_comes_to_rest(void**) {
-  Random random;
+  RandomVectors random;
   for (int number = 0; number < 10; ++number) {
     PoseBench bench;
     bench.dt_s = number % 2 == 0 ? 1e-3 : 8e-3;

@@ -14,24 +14,24 @@ constexpr unsigned kSeed = 20260311;
 void without_an_error_there_is_no_torque(void**) {
   PidBench b;
   ASSERT_OK(b.pid.start());
-  b.torque_is(kZero);
-  b.step_gives(kPeriod_s, kZero);
+  b.torque_is(kJointZero);
+  b.step_gives(kPeriod_s, kJointZero);
 }
 
 void every_term_is_its_gain_times_its_input(void**) {
   for (const double sign : {1.0, -1.0}) {
     PidBench b;
     ASSERT_OK(b.pid.start());
-    b.q_d = sign * kOnes;
-    b.step_gives(kPeriod_s, 100.0 * sign * kOnes);
+    b.q_d = sign * kJointOnes;
+    b.step_gives(kPeriod_s, 100.0 * sign * kJointOnes);
     b.q = b.q_d;
-    b.step_gives(kPeriod_s, kZero);
-    b.dq_d = sign * kOnes;
-    b.step_gives(kPeriod_s, 10.0 * sign * kOnes);
+    b.step_gives(kPeriod_s, kJointZero);
+    b.dq_d = sign * kJointOnes;
+    b.step_gives(kPeriod_s, 10.0 * sign * kJointOnes);
     b.dq = 3.0 * b.dq_d;
-    b.step_gives(kPeriod_s, -20.0 * sign * kOnes);
-    b.g = 7.0 * sign * kOnes;
-    b.step_gives(kPeriod_s, -13.0 * sign * kOnes);
+    b.step_gives(kPeriod_s, -20.0 * sign * kJointOnes);
+    b.g = 7.0 * sign * kJointOnes;
+    b.step_gives(kPeriod_s, -13.0 * sign * kJointOnes);
   }
 }
 
@@ -40,8 +40,8 @@ void every_joint_has_its_own_gains(void**) {
   const JointVector numbers = JointVector::LinSpaced(1.0, kDof);
   b.pid.params.gains = {numbers, 10.0 * numbers, 2.0 * numbers};
   ASSERT_OK(b.pid.start());
-  b.q_d = 3.0 * kOnes;
-  b.dq = kOnes;
+  b.q_d = 3.0 * kJointOnes;
+  b.dq = kJointOnes;
   b.step(kPeriod_s);  // 3 - 2, and the integral of an error that grew from 0 to 3
   b.torque_is((3.0 - 2.0 + 10.0 * 0.5 * 3.0 * kPeriod_s) * numbers);
 }
@@ -49,11 +49,11 @@ void every_joint_has_its_own_gains(void**) {
 void a_constant_error_is_integrated_as_time_passes(void**) {
   PidBench b;
   b.gains(0.0, 50.0, 0.0);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   for (int k = 0; k < 100; ++k) b.step(kPeriod_s);
   ASSERT_NEAR(b.pid.tau.value[0], 50.0, 1e-10);
-  b.q_d = -kOnes;
+  b.q_d = -kJointOnes;
   for (int k = 0; k < 100; ++k) b.step(kPeriod_s);
   ASSERT_NEAR(b.pid.tau.value[0], 0.5, 1e-10);  // the change from 1 to -1 took half a period
 }
@@ -62,22 +62,22 @@ void the_integral_stops_at_its_limit_and_leaves_it_at_once(void**) {
   PidBench b;
   b.gains(0.0, 50.0, 0.0);
   b.pid.params.integral_limit.setConstant(2.0);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   for (int k = 0; k < 100; ++k) b.step(kPeriod_s);
-  b.torque_is(2.0 * kOnes);
-  b.q_d = -kOnes;
+  b.torque_is(2.0 * kJointOnes);
+  b.q_d = -kJointOnes;
   b.step(kPeriod_s);
-  b.step_gives(kPeriod_s, 1.5 * kOnes);
+  b.step_gives(kPeriod_s, 1.5 * kJointOnes);
 }
 
 void the_torque_stops_at_its_limit(void**) {
   PidBench b;
   b.pid.params.output_limit = JointVector::LinSpaced(1.0, kDof);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   b.torque_is(b.pid.params.output_limit);
-  b.q_d = -kOnes;
+  b.q_d = -kJointOnes;
   b.step_gives(kPeriod_s, -b.pid.params.output_limit);
 }
 
@@ -86,12 +86,12 @@ void the_dead_band_is_taken_off_the_error(void**) {
     PidBench b;
     b.gains(100.0, 50.0, 0.0);
     b.pid.params.dead_band.setConstant(0.1);
-    b.q_d = sign * 0.1 * kOnes;
+    b.q_d = sign * 0.1 * kJointOnes;
     ASSERT_OK(b.pid.start());
     for (int k = 0; k < 100; ++k) b.step(kPeriod_s);
-    b.torque_is(kZero);
-    b.q_d = sign * 0.3 * kOnes;
-    b.step_gives(kPeriod_s, sign * (100.0 * 0.2 + 50.0 * 0.5 * 0.2 * kPeriod_s) * kOnes);
+    b.torque_is(kJointZero);
+    b.q_d = sign * 0.3 * kJointOnes;
+    b.step_gives(kPeriod_s, sign * (100.0 * 0.2 + 50.0 * 0.5 * 0.2 * kPeriod_s) * kJointOnes);
   }
 }
 
@@ -104,12 +104,12 @@ void feed_forward_is_gain_times_reference(void**) {
   b.pid.params.acceleration_gain.setConstant(3.0);
   b.pid.params.effort_gain.setConstant(0.5);
   ASSERT_OK(b.pid.start());
-  b.dq_d = kOnes;
-  b.step_gives(kPeriod_s, 2.0 * kOnes);
-  b.ddq_d = kOnes;
-  b.step_gives(kPeriod_s, 5.0 * kOnes);
-  b.tau_d = kOnes;
-  b.step_gives(kPeriod_s, 5.5 * kOnes);
+  b.dq_d = kJointOnes;
+  b.step_gives(kPeriod_s, 2.0 * kJointOnes);
+  b.ddq_d = kJointOnes;
+  b.step_gives(kPeriod_s, 5.0 * kJointOnes);
+  b.tau_d = kJointOnes;
+  b.step_gives(kPeriod_s, 5.5 * kJointOnes);
 }
 
 void a_feed_forward_gain_without_its_input_is_refused(void**) {
@@ -126,10 +126,10 @@ void the_derivative_on_measurement_knows_nothing_of_the_reference(void**) {
   b.gains(0.0, 0.0, 10.0);
   b.pid.params.derivative = Derivative::kMeasurement;
   ASSERT_OK(b.pid.start());
-  b.q_d = b.dq_d = kOnes;
-  b.step_gives(kPeriod_s, kZero);
-  b.dq = kOnes;
-  b.step_gives(kPeriod_s, -10.0 * kOnes);
+  b.q_d = b.dq_d = kJointOnes;
+  b.step_gives(kPeriod_s, kJointZero);
+  b.dq = kJointOnes;
+  b.step_gives(kPeriod_s, -10.0 * kJointOnes);
 }
 
 void a_velocity_that_is_not_wired_is_the_difference_of_the_position(void**) {
@@ -137,14 +137,14 @@ void a_velocity_that_is_not_wired_is_the_difference_of_the_position(void**) {
   b.gains(0.0, 0.0, 10.0);
   b.pid.dq = {};
   b.pid.dq_d = {};
-  b.q = 5.0 * kOnes;
+  b.q = 5.0 * kJointOnes;
   ASSERT_OK(b.pid.start());
-  b.torque_is(kZero);
-  b.q += 0.02 * kOnes;
-  b.step_gives(kPeriod_s, -20.0 * kOnes);
-  b.q_d += 0.03 * kOnes;
-  b.step_gives(kPeriod_s, 30.0 * kOnes);
-  b.step_gives(kPeriod_s, kZero);
+  b.torque_is(kJointZero);
+  b.q += 0.02 * kJointOnes;
+  b.step_gives(kPeriod_s, -20.0 * kJointOnes);
+  b.q_d += 0.03 * kJointOnes;
+  b.step_gives(kPeriod_s, 30.0 * kJointOnes);
+  b.step_gives(kPeriod_s, kJointZero);
 }
 
 // Proves PI-5.
@@ -163,7 +163,7 @@ void a_number_that_is_not_finite_never_becomes_a_torque_nor_stays_in_the_law(voi
           each->pid.params.derivative_time_constant.setConstant(0.1);
           each->pid.ddq_d.source = &each->ddq_d;
           each->pid.tau_d.source = &each->tau_d;
-          each->q_d = kOnes;
+          each->q_d = kJointOnes;
           ASSERT_OK(each->pid.start());
           each->step(kPeriod_s);
         }
@@ -207,9 +207,9 @@ void gains_of_which_any_are_zero_give_finite_torques_in_every_mode(void**) {
         for (JointVector* input : {&b.q_d, &b.q, &b.dq_d, &b.dq})
           for (int i = 0; i < kDof; ++i) (*input)[i] = normal(bits) * (k % 50 == 0 ? 1e6 : 1.0);
         b.step(kPeriod_s);
-        assert_true((b.pid.tau.value.cwiseAbs() - 20.0 * kOnes).maxCoeff() <= 0.0);
-        assert_true((b.pid.integral().cwiseAbs() - 15.0 * kOnes).maxCoeff() <= 0.0);
-        if (zeros & 2) assert_true(b.pid.integral() == kZero);
+        assert_true((b.pid.tau.value.cwiseAbs() - 20.0 * kJointOnes).maxCoeff() <= 0.0);
+        assert_true((b.pid.integral().cwiseAbs() - 15.0 * kJointOnes).maxCoeff() <= 0.0);
+        if (zeros & 2) assert_true(b.pid.integral() == kJointZero);
       }
     }
   }

@@ -19,7 +19,7 @@ Recovery recover(AntiWindup mode, double dt_s) {
   b.load = 1.0;
   b.pid.params.anti_windup = mode;
   b.pid.params.output_limit.setConstant(3.0);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   Recovery seen;
   for (int k = 1; k * dt_s < 20.0; ++k) {
@@ -48,17 +48,17 @@ void wind_up(PidBench& b, AntiWindup mode, double dt_s) {
   b.gains(0.0, 50.0, 0.0);
   b.pid.params.anti_windup = mode;
   b.pid.params.output_limit.setConstant(20.0);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   for (int k = 0; k * dt_s < 10.0; ++k) b.step(dt_s);
-  b.torque_is(20.0 * kOnes);
+  b.torque_is(20.0 * kJointOnes);
 }
 
 /// Returns the time after which an error of -1 then brings the torque below its limit, s.
 double unwinding_s(AntiWindup mode, double dt_s) {
   PidBench b;
   wind_up(b, mode, dt_s);
-  b.q_d = -kOnes;
+  b.q_d = -kJointOnes;
   double t = 0.0;
   for (; b.pid.tau.value[0] >= 20.0 && t < 20.0; t += dt_s) b.step(dt_s);
   return t;
@@ -79,10 +79,10 @@ void with_anti_windup_the_torque_leaves_its_limit_at_once(void**) {
 void what_saturates_without_the_integral_does_not_move_a_conditional_one(void**) {
   PidBench b;
   wind_up(b, AntiWindup::kConditional, 1e-3);
-  b.g = 30.0 * kOnes;
+  b.g = 30.0 * kJointOnes;
   for (int k = 0; k < 100; ++k) b.step(1e-3);
   ASSERT_NEAR(b.pid.integral()[0], 20.0, 1e-12);
-  b.q_d = -kOnes;  // but it goes back
+  b.q_d = -kJointOnes;  // but it goes back
   for (int k = 0; k < 100; ++k) b.step(1e-3);
   ASSERT_NEAR(b.pid.integral()[0], 20.0 - 50.0 * 0.099, 1e-9);
 }
@@ -93,7 +93,7 @@ void back_calculation_takes_the_excess_away_with_its_time_constant(void**) {
     wind_up(b, AntiWindup::kNone, dt_s);
     b.pid.params.anti_windup = AntiWindup::kBackCalculation;
     b.pid.params.tracking_time_constant.setConstant(0.1);
-    b.q_d = kZero;
+    b.q_d = kJointZero;
     b.step(dt_s);
     const double excess = b.pid.integral()[0] - 20.0;
     for (int k = 1; k * dt_s < 0.5; ++k) {
@@ -109,7 +109,7 @@ void its_time_constant_is_by_default_between_integral_and_derivative(void**) {
   b.pid.params.anti_windup = AntiWindup::kBackCalculation;
   b.pid.params.output_limit.setConstant(20.0);
   ASSERT_OK(b.pid.start());
-  b.g = 30.0 * kOnes;
+  b.g = 30.0 * kJointOnes;
   b.step(1e-3);
   ASSERT_NEAR(b.pid.integral()[0], -10.0 * (1.0 - std::exp(-0.01)), 1e-9);
   b.gains(5.0, 50.0, 0.0);  // 5 / 50
@@ -125,7 +125,7 @@ void braked_the_integral_stays_until_the_next_start(void**) {
     PidBench b;
     b.gains(100.0, 50.0, 10.0);
     ASSERT_OK(b.pid.start());
-    b.q_d = kOnes;
+    b.q_d = kJointOnes;
     for (int k = 0; k < 100; ++k) b.step(1e-2);
     const JointVector before = b.pid.integral();
     assert_true(before[0] > 1.0);
@@ -134,7 +134,7 @@ void braked_the_integral_stays_until_the_next_start(void**) {
       b.step(1e-2);
     }
     assert_true(b.pid.integral() == before);
-    b.torque_is(100.0 * kOnes + before);  // the other terms continue
+    b.torque_is(100.0 * kJointOnes + before);  // the other terms continue
     ASSERT_OK(b.pid.start());
     b.step(1e-2);
     assert_true(b.pid.integral()[0] > 0.0 && b.pid.integral()[0] < before[0]);

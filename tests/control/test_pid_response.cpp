@@ -10,7 +10,7 @@ namespace {
 double deviation(double dt_s) {
   PidAndInertia b;
   place_poles(b);
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   ASSERT_OK(b.pid.start());
   double largest = 0.0;
   for (int k = 1; k * dt_s < 4.0; ++k) {
@@ -35,7 +35,7 @@ void the_integral_of_a_smooth_error_is_that_of_calculus_at_every_period(void**) 
     ASSERT_OK(b.pid.start());
     for (int k = 1; k * dt_s < 3.0; ++k) {
       const double t = k * dt_s;
-      b.q_d = std::sin(4.0 * t) * kOnes;
+      b.q_d = std::sin(4.0 * t) * kJointOnes;
       b.step(dt_s);
       // Error of the trapezoidal rule: dt^2 / 12 times the change of slope, at most 8, and a
       // margin.
@@ -51,7 +51,7 @@ void a_step_of_the_velocity_passes_the_filter_with_its_time_constant(void**) {
     b.gains(0.0, 0.0, 1.0);
     b.pid.params.derivative_time_constant.setConstant(0.02);
     ASSERT_OK(b.pid.start());
-    b.dq_d = kOnes;
+    b.dq_d = kJointOnes;
     for (int k = 1; k < 20; ++k) {
       b.step(dt_s);
       ASSERT_NEAR(b.pid.tau.value[0], 1.0 - std::exp(-k * dt_s / 0.02), 1e-12);
@@ -70,8 +70,8 @@ void the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period(voi
       ASSERT_OK(b.pid.start());
       for (int k = 1; k * dt_s < 2.0; ++k) {
         const double t = k * dt_s;
-        b.q = std::sin(w * t) * kOnes;
-        b.dq = w * std::cos(w * t) * kOnes;
+        b.q = std::sin(w * t) * kJointOnes;
+        b.dq = w * std::cos(w * t) * kJointOnes;
         b.step(dt_s);
         if (t < 0.5) continue;  // 25 time constants: the start has no effect any more
         const double filtered =
@@ -87,11 +87,11 @@ void the_filtered_rate_is_that_of_the_continuous_filter_within_half_a_period(voi
 void the_first_torque_on_the_reference_is_gravity(void**) {
   PidBench b;
   b.gains(100.0, 50.0, 10.0);
-  b.q_d = b.q = kOnes;
-  b.g = 3.0 * kOnes;
+  b.q_d = b.q = kJointOnes;
+  b.g = 3.0 * kJointOnes;
   ASSERT_OK(b.pid.start());
-  b.torque_is(3.0 * kOnes);
-  b.step_gives(1e-3, 3.0 * kOnes);
+  b.torque_is(3.0 * kJointOnes);
+  b.step_gives(1e-3, 3.0 * kJointOnes);
 }
 
 void the_first_torque_is_the_measured_one_where_there_is_an_integral(void**) {
@@ -100,12 +100,12 @@ void the_first_torque_is_the_measured_one_where_there_is_an_integral(void**) {
   b.gains(100.0, 50.0, 10.0);
   b.pid.params.gains.ki[0] = 0.0;
   b.pid.params.integral_limit[1] = 2.0;
-  b.q_d = 1.05 * kOnes;
-  b.q = kOnes;
-  b.g = 3.0 * kOnes;
-  b.tau_measured = 4.0 * kOnes;
+  b.q_d = 1.05 * kJointOnes;
+  b.q = kJointOnes;
+  b.g = 3.0 * kJointOnes;
+  b.tau_measured = 4.0 * kJointOnes;
   ASSERT_OK(b.pid.start());
-  JointVector expected = 4.0 * kOnes;
+  JointVector expected = 4.0 * kJointOnes;
   expected[0] = 8.0;  // no integral: 100 0.05 + 3
   expected[1] = 6.0;  // 4 N m less were needed, 2 are allowed
   b.torque_is(expected);
@@ -115,11 +115,11 @@ void a_new_start_forgets_the_past(void**) {
   PidBench b;
   b.gains(100.0, 50.0, 10.0);
   ASSERT_OK(b.pid.start());
-  b.q_d = kOnes;
+  b.q_d = kJointOnes;
   for (int k = 0; k < 100; ++k) b.step(1e-3);
   b.q = b.q_d;
   ASSERT_OK(b.pid.start());
-  b.torque_is(kZero);
+  b.torque_is(kJointZero);
 }
 
 /// Brings the law into a motion in which every term contributes.
@@ -137,7 +137,7 @@ void set_in_motion(PidBench& b) {
 /// The parameters of the law with other gains.
 Pid::Params with_gains(const PidBench& b, double kp, double ki, double kd) {
   Pid::Params next = b.pid.params;
-  next.gains = {kp * kOnes, ki * kOnes, kd * kOnes};
+  next.gains = {kp * kJointOnes, ki * kJointOnes, kd * kJointOnes};
   return next;
 }
 

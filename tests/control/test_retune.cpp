@@ -12,10 +12,10 @@ namespace {
 const JointVector zeros = JointVector::Zero(), ones = JointVector::Ones();
 
 /// Returns a whole number from 0 to `count` - 1, or a number from `lowest` to `highest`.
-int below(Random& random, int count) {
+int below(RandomVectors& random, int count) {
   return std::min(count - 1, static_cast<int>(0.5 * (1.0 + random.unit()) * count));
 }
-double uniform(Random& random, double lowest, double highest) {
+double uniform(RandomVectors& random, double lowest, double highest) {
   return lowest + 0.5 * (1.0 + random.unit()) * (highest - lowest);
 }
 
@@ -37,11 +37,12 @@ struct PdBench {
 
 // Proves PAR-4.
 
-/// Random gains at random moments, also while others fade. The torque changes from one period to
-/// the next as the law of the present gains does, plus the fade: at most half of 1000 N m/s.
+/// RandomVectors gains at random moments, also while others fade. The torque changes from one
+/// period to the next as the law of the present gains does, plus the fade: at most half of 1000 N
+/// m/s.
 void the_torque_of_pd_goes_on(void**) {
   PdBench b;
-  Random random;
+  RandomVectors random;
   PdGravity::Params now = b.pd.params;
   for (int k = 0; k < 50000; ++k) {
     const JointVector tau = b.pd.tau.value, q_d = b.q_d, dq = b.dq;
@@ -106,7 +107,7 @@ void pd_refuses_gains_that_ask_for_more_torque_than_there_is(void**) {
 /// the difference of spring and damper times a period.
 void the_force_on_an_admittances_mass_goes_on(void**) {
   constexpr double kShort_s = 1e-5;
-  Random random;
+  RandomVectors random;
   for (int trial = 0; trial < 100; ++trial) {
     AdmittanceBench b;
     ASSERT_OK(b.ac.start());
@@ -141,7 +142,7 @@ void an_admittance_with_the_extremes_of_its_parameters_keeps_its_bounds(void**) 
   b.ac.params.max_displacement = 0.1;
   b.ac.params.max_velocity = 0.25;
   ASSERT_OK(b.ac.start());
-  Random random;
+  RandomVectors random;
   for (int k = 0; k < 100000; ++k) {
     b.h.head<3>() = 50.0 * Vector3(std::sin(0.01 * k), std::cos(0.02 * k), 1.0);
     const Vector3 before = b.moved();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/control/wrench_front_end.hpp"
+#include "tests/control/force_and_moment.hpp"
 #include "tests/oracles/mujoco.hpp"
 #include "tests/support/rotation_cases.hpp"
 #include "tests/support/testing.hpp"
@@ -12,12 +13,6 @@ namespace tactus {
 inline constexpr double kPeriod_s = 1e-3;
 inline const Vector6 kNone = Vector6::Zero();
 
-inline Vector6 wrench(const Vector3& f, const Vector3& m) {
-  Vector6 both;
-  both << f, m;
-  return both;
-}
-
 inline void assert_same(const Vector6& actual, const Vector6& expected, double tolerance) {
   ASSERT_NEAR((actual - expected).cwiseAbs().maxCoeff(), 0.0, tolerance);
 }
@@ -25,7 +20,7 @@ inline void assert_same(const Vector6& actual, const Vector6& expected, double t
 /// Position and axes of the flange at random joint angles of the FER.
 struct Flange {
   double q[7], p[3], r[3][3];
-  explicit Flange(Random& random) {
+  explicit Flange(RandomVectors& random) {
     constexpr double kMiddle[7] = {0.0, 0.0, 0.0, -1.6, 0.0, 1.8, 0.0};
     for (int i = 0; i < 7; ++i) q[i] = kMiddle[i] + random.unit();
     mujoco_flange(q, p, r);
@@ -34,7 +29,7 @@ struct Flange {
 
 /// A front end and the sensor it reads.
 struct WrenchBench {
-  Random random;
+  RandomVectors random;
   Flange flange{random};
   Tool tool;
   Pose x;

@@ -17,10 +17,10 @@
 namespace tactus {
 
 inline constexpr int kMostRows = 2048;
-inline constexpr double kPeriod_s = 1e-3;
+inline constexpr double kStreamPeriod_s = 1e-3;
 
 /// A file of this process; each test that uses it writes it again.
-inline const char* scratch() {
+inline const char* stream_file() {
   static char path[64];
   std::snprintf(path, sizeof path, "/tmp/tactus-stream-%d.csv", static_cast<int>(getpid()));
   return path;
@@ -53,8 +53,8 @@ struct StreamBench {
 
   /// Opens a file with a window of `capacity` waypoints. False: refused.
   bool open(int capacity, bool exact = false, Interpolation how = Interpolation::kByFields,
-            const char* path = scratch()) {
-    channel.settings.period_s = kPeriod_s;
+            const char* path = stream_file()) {
+    channel.settings.period_s = kStreamPeriod_s;
     for (Trajectory<Space>& store : channel.stores) {
       store.waypoints = waypoints.data();
       store.capacity = capacity;
@@ -70,7 +70,7 @@ struct StreamBench {
   /// Feeds what there is space for, runs one cycle and takes the reports.
   Fed step() {
     const Fed fed = stream.feed(client, 0);
-    ASSERT_OK(generator.step(kPeriod_s, generator.reference()));
+    ASSERT_OK(generator.step(kStreamPeriod_s, generator.reference()));
     ++cycles;
     Report report;
     while (client.poll(report)) {
@@ -165,10 +165,11 @@ inline void write_row(std::FILE* file, Fields fields, double t, const TaskSpace:
   std::fprintf(file, "\n");
 }
 
-/// Writes a swing of `rows` waypoints to the scratch file; damage(row, time, point) may change one.
+/// Writes a swing of `rows` waypoints to the stream's file; damage(row, time, point) may change
+/// one.
 template <class Space, class Damage>
 void write_swing(const Swing& swing, int rows, Fields fields, Damage damage) {
-  std::FILE* file = std::fopen(scratch(), "wb");
+  std::FILE* file = std::fopen(stream_file(), "wb");
   assert_non_null(file);
   write_header(file, fields, Space());
   for (int i = 0; i < rows; ++i) {
@@ -186,8 +187,8 @@ void write_swing(const Swing& swing, int rows, Fields fields) {
   write_swing<Space>(swing, rows, fields, [](int, double&, typename Space::Point&) {});
 }
 
-inline int remove_scratch(void**) {
-  std::remove(scratch());
+inline int remove_stream_file(void**) {
+  std::remove(stream_file());
   return 0;
 }
 

@@ -36,7 +36,7 @@ void semicolons_and_tabs_separate_too(void**) {
   assert_false(
       read_text("time_s\tq1_rad\tq2_rad\tq3_rad\tq4_rad\tq5_rad\tq6_rad\tq7_rad\n"
                 "\t0\t0\t0\t-2\t0\t1\t0\n"));
-  assert_string_equal(error.message().c_str(), "2:1: time_s: the cell is empty");
+  assert_string_equal(g_error.message().c_str(), "2:1: time_s: the cell is empty");
 }
 
 }  // namespace
@@ -48,5 +48,5 @@ int main() {
       cmocka_unit_test(degrees_and_milliseconds_are_converted),
       cmocka_unit_test(semicolons_and_tabs_separate_too),
   };
-  return cmocka_run_group_tests(tests, nullptr, remove_scratch);
+  return cmocka_run_group_tests(tests, nullptr, remove_csv_file);
 }

@@ -87,7 +87,7 @@ int count(const char* what) {
 
 // --- the tests ---
 
-char self[PATH_MAX];
+const char* self = nullptr;  ///< the path that this program is called by
 
 struct Counts {
   std::array<long, kCycles> instructions{};
@@ -150,7 +150,7 @@ void the_mail_of_an_owner_costs_a_cycle_what_it_costs_without_seven_hostile_clie
 int main(int argc, char** argv) {
   using namespace tactus;
   if (argc == 2) return count(argv[1]);
-  if (realpath(argv[0], self) == nullptr) return 1;
+  self = argv[0];
   const CMUnitTest tests[] = {
       cmocka_unit_test(eight_hostile_clients_cost_the_cycle_no_instruction),
       cmocka_unit_test(

@@ -57,7 +57,7 @@ void write_header(std::FILE* file, int column, bool names) {
 
 /// Writes `count` waypoints with the columns in the given order, and reads them back.
 bool write_and_read(const int* columns, int width, int count, bool names) {
-  std::FILE* file = std::fopen(scratch(), "wb");
+  std::FILE* file = std::fopen(csv_file(), "wb");
   assert_non_null(file);
   for (int c = 0; c < width; ++c) {
     if (c > 0) std::fputc(',', file);
@@ -70,15 +70,15 @@ bool write_and_read(const int* columns, int width, int count, bool names) {
   }
   std::fputc('\n', file);
   std::fclose(file);
-  return read(scratch());
+  return read(csv_file());
 }
 
 void assert_same_bits(int count) {
-  assert_int_equal(trajectory.count, count);
+  assert_int_equal(g_trajectory.count, count);
   for (int i = 0; i < count; ++i) {
     for (int c = 0; c <= 4 * kDof; ++c) {
       const double a = value_of(written[static_cast<std::size_t>(i)], c);
-      const double b = value_of(trajectory.waypoints[i], c);
+      const double b = value_of(g_trajectory.waypoints[i], c);
       assert_memory_equal(&a, &b, sizeof a);
     }
   }
@@ -97,7 +97,7 @@ void columns_in_any_order_by_number_or_name_come_back_to_the_last_bit(void**) {
     randomize(random, 50);
     assert_true(write_and_read(columns, kColumns, 50, trial % 2 == 0));
     assert_same_bits(50);
-    assert_int_equal(trajectory.fields, kAllFields);
+    assert_int_equal(g_trajectory.fields, kAllFields);
   }
 }
 
@@ -109,8 +109,8 @@ void a_trajectory_of_20001_waypoints_comes_back_whole_and_one_more_is_refused(vo
   randomize(random, kCapacity);
   assert_true(write_and_read(columns, kColumns, kCapacity, false));
   assert_same_bits(kCapacity);
-  assert_false(read(scratch(), kCapacity - 1));
-  assert_string_equal(error.message().c_str(), "20002: too many waypoints; at most 20000 fit");
+  assert_false(read(csv_file(), kCapacity - 1));
+  assert_string_equal(g_error.message().c_str(), "20002: too many waypoints; at most 20000 fit");
 }
 
 constexpr const char* kHeader = "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,q7_rad";
@@ -121,9 +121,9 @@ void a_group_left_out_is_zero_and_not_among_the_fields(void**) {
   char text[256];
   std::snprintf(text, sizeof text, "%s\n1,1,2,3,4,5,6,7\n", kHeader);
   assert_true(read_text(text));
-  assert_int_equal(trajectory.count, 1);
-  assert_int_equal(trajectory.fields, 0);
-  const JointSpace::Point& point = trajectory.waypoints[0].point;
+  assert_int_equal(g_trajectory.count, 1);
+  assert_int_equal(g_trajectory.fields, 0);
+  const JointSpace::Point& point = g_trajectory.waypoints[0].point;
   assert_true(point.q[6] == 7.0);
   assert_true(point.dq.isZero(0.0) && point.ddq.isZero(0.0) && point.tau.isZero(0.0));
 }
@@ -137,9 +137,9 @@ void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
     char text[256];
     std::snprintf(text, sizeof text, form, kHeader);
     assert_true(read_text(text));
-    assert_int_equal(trajectory.count, 2);
+    assert_int_equal(g_trajectory.count, 2);
     for (int c = 0; c <= kDof; ++c)
-      assert_true(value_of(trajectory.waypoints[0], c) == (c == 0 ? 1.0 : c));
+      assert_true(value_of(g_trajectory.waypoints[0], c) == (c == 0 ? 1.0 : c));
   }
 }
 
@@ -147,20 +147,20 @@ void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
 
 void every_file_with_a_mistake_is_refused_with_its_message(void**) {
   const int count = judge_refused_files("tests/refused", ".csv", [](const RefusedFile& file) {
-    return !read(file.path.data()) && file.expects(error.message());
+    return !read(file.path.data()) && file.expects(g_error.message());
   });
   assert_true(count >= 60);
 }
 
 void what_is_no_file_is_refused_with_the_reason_of_the_system(void**) {
   assert_false(read("/tmp"));
-  assert_string_equal(error.message().c_str(),
+  assert_string_equal(g_error.message().c_str(),
                       "Is a directory; give the path of a trajectory file");
   assert_false(read("tests/refused/there_is_none.csv"));
-  assert_string_equal(error.message().c_str(),
+  assert_string_equal(g_error.message().c_str(),
                       "No such file or directory; give the path of a trajectory file");
   assert_false(read_text(""));
-  assert_string_equal(error.message().c_str(), "the file has no header");
+  assert_string_equal(g_error.message().c_str(), "the file has no header");
 }
 
 void no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite(void**) {
@@ -178,10 +178,10 @@ void no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite(void*
           random() % 2 == 0 ? "0123456789.,-+eEn\n#"[random() % 19] : static_cast<char>(random());
     const bool good = read_text({work, random() % 4 == 0 ? random() % size : size});
     loaded += good ? 1 : 0;
-    assert_true(good || !error.reason.empty());
-    for (int k = 0; good && k < trajectory.count; ++k)
-      assert_true(trajectory.waypoints[k].point.finite() &&
-                  std::isfinite(trajectory.waypoints[k].time_s));
+    assert_true(good || !g_error.reason.empty());
+    for (int k = 0; good && k < g_trajectory.count; ++k)
+      assert_true(g_trajectory.waypoints[k].point.finite() &&
+                  std::isfinite(g_trajectory.waypoints[k].time_s));
   }
   assert_true(loaded > 20);
 }
@@ -200,5 +200,5 @@ int main() {
       cmocka_unit_test(what_is_no_file_is_refused_with_the_reason_of_the_system),
       cmocka_unit_test(no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite),
   };
-  return cmocka_run_group_tests(tests, nullptr, remove_scratch);
+  return cmocka_run_group_tests(tests, nullptr, remove_csv_file);
 }

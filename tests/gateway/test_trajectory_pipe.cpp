@@ -10,7 +10,7 @@ namespace {
 constexpr int kRows = 600, kWindow = 100;
 constexpr Fields kCubic = kVelocityField;
 
-std::array<char, 1 << 20> text;  // of the scratch file
+std::array<char, 1 << 20> text;  // of the stream's file
 std::size_t text_size = 0;
 
 /// A pipe that holds a whole file; its path is that of its reading end.
@@ -42,7 +42,7 @@ template <class Damage>
 void make_text(Damage damage) {
   Random random{11};
   write_swing<JointSpace>(Swing(random, 0.1, 3.0), kRows, kCubic, damage);
-  std::FILE* file = std::fopen(scratch(), "rb");
+  std::FILE* file = std::fopen(stream_file(), "rb");
   assert_non_null(file);
   text_size = std::fread(text.data(), 1, text.size(), file);
   std::fclose(file);
@@ -161,5 +161,5 @@ int main() {
       cmocka_unit_test(a_later_waypoint_of_a_pipe_is_refused_on_the_way_with_its_line),
       cmocka_unit_test(a_pipe_that_does_not_move_the_arm_is_judged_to_its_end),
   };
-  return cmocka_run_group_tests(tests, nullptr, remove_scratch);
+  return cmocka_run_group_tests(tests, nullptr, remove_stream_file);
 }

@@ -36,7 +36,7 @@ void assert_same(int rows, int window) {
   assert_int_equal(streamed.stream.count(), rows);
   assert_true(streamed.stream.end_s() == whole.stream.end_s());
   assert_true(whole.stream.stretch() == 0.0 && streamed.stream.stretch() == 0.0);
-  const int last = static_cast<int>(whole.stream.end_s() / kPeriod_s) + 100;
+  const int last = static_cast<int>(whole.stream.end_s() / kStreamPeriod_s) + 100;
   for (int k = 0; k < last; ++k) {
     whole.step();
     streamed.step();
@@ -83,8 +83,8 @@ void a_file_that_is_slowed_down_ends_when_it_is_said_to(void**) {
       ASSERT_STATUS(bench->outcome, Outcome::kSucceeded);
     }
     const double said_s = streamed.stream.end_s() + streamed.stream.longer_s();
-    ASSERT_NEAR(streamed.cycles * kPeriod_s, said_s, 0.01 * said_s);
-    ASSERT_NEAR(streamed.cycles * kPeriod_s, whole.cycles * kPeriod_s, 0.01 * said_s);
+    ASSERT_NEAR(streamed.cycles * kStreamPeriod_s, said_s, 0.01 * said_s);
+    ASSERT_NEAR(streamed.cycles * kStreamPeriod_s, whole.cycles * kStreamPeriod_s, 0.01 * said_s);
   }
   assert_true(slowed >= 5);
 }
@@ -144,7 +144,7 @@ void a_task_file_is_refused_before_it_moves_as_if_it_fitted(void**) {
 void a_row_that_cannot_be_read_is_refused_before_anything_moves(void**) {
   Random random{6};
   write_swing<JointSpace>(Swing(random, 0.1, 3.0), 200, kVelocityField);
-  std::FILE* file = std::fopen(scratch(), "a");
+  std::FILE* file = std::fopen(stream_file(), "a");
   std::fputs("nothing\n", file);
   std::fclose(file);
   StreamBench<JointSpace>& streamed = fresh<JointSpace>(1);
@@ -183,8 +183,8 @@ void a_file_that_changes_after_it_was_judged_is_refused_on_the_way(void**) {
     StreamBench<JointSpace>& streamed = fresh<JointSpace>(1);
     assert_true(streamed.open(60));
     struct stat before = {};
-    assert_int_equal(stat(scratch(), &before), 0);
-    std::FILE* file = std::fopen(scratch(), "r+");
+    assert_int_equal(stat(stream_file(), &before), 0);
+    std::FILE* file = std::fopen(stream_file(), "r+");
     std::fseek(file, -16, SEEK_END);  // the last digit of the last position
     const int digit = std::fgetc(file);
     std::fseek(file, -16, SEEK_END);
@@ -192,7 +192,7 @@ void a_file_that_changes_after_it_was_judged_is_refused_on_the_way(void**) {
     std::fclose(file);
     const timespec times[2] = {before.st_atim, before.st_mtim};
     const timespec later[2] = {before.st_atim, {before.st_mtim.tv_sec + 1, 0}};
-    assert_int_equal(utimensat(AT_FDCWD, scratch(), hidden ? times : later, 0), 0);
+    assert_int_equal(utimensat(AT_FDCWD, stream_file(), hidden ? times : later, 0), 0);
     Fed fed = Fed::kAhead;
     while (fed != Fed::kRefused && streamed.outcome == Outcome::kStarted && streamed.cycles < 20000)
       fed = streamed.step();
@@ -218,5 +218,5 @@ int main() {
       cmocka_unit_test(a_long_file_cannot_be_monotone),
       cmocka_unit_test(a_file_that_changes_after_it_was_judged_is_refused_on_the_way),
   };
-  return cmocka_run_group_tests(tests, nullptr, remove_scratch);
+  return cmocka_run_group_tests(tests, nullptr, remove_stream_file);
 }

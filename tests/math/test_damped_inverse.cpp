@@ -17,7 +17,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Six orthonormal columns of n numbers, by Gram-Schmidt, applied twice for accuracy.
 template <int n>
-Eigen::Matrix<double, n, 6> orthonormal(Random& random) {
+Eigen::Matrix<double, n, 6> orthonormal(RandomVectors& random) {
   Eigen::Matrix<double, n, 6> m;
   for (int c = 0; c < 6; ++c) {
     for (int r = 0; r < n; ++r) m(r, c) = random.unit();
@@ -35,7 +35,7 @@ struct Known {
   Eigen::Matrix<double, n, 6> V;
   Vector6 s;
 
-  Known(Random& random, const Vector6& values)
+  Known(RandomVectors& random, const Vector6& values)
       : U(orthonormal<6>(random)), V(orthonormal<n>(random)), s(values) {}
   Eigen::Matrix<double, 6, n> J() const { return U * s.asDiagonal() * V.transpose(); }
   DampedInverse<n> inverse() const { return DampedInverse<n>(J(), kOnset); }
@@ -46,14 +46,14 @@ struct Known {
   }
 };
 
-Vector6 random_six(Random& random) {
+Vector6 random_six(RandomVectors& random) {
   Vector6 v;
   v << random.vector(), random.vector();
   return v;
 }
 
 /// Six singular values of an arm, the last of them given.
-Vector6 values(Random& random, double last) {
+Vector6 values(RandomVectors& random, double last) {
   Vector6 s;
   for (int i = 0; i < 5; ++i) s[i] = random.between(0.3, 2.0);
   s[5] = last;
@@ -62,7 +62,7 @@ Vector6 values(Random& random, double last) {
 
 template <class Check>
 void over_arms(Check check) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 200; ++i) {
     check(random, std::integral_constant<int, 6>());
     check(random, std::integral_constant<int, 7>());
@@ -72,7 +72,7 @@ void over_arms(Check check) {
 // Proves CP-6.
 
 void away_from_singularities_it_is_the_pseudoinverse(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     const Known<n()> known(random, values(random, random.between(0.06, 0.3)));
     const auto inverse = known.inverse();
     const Vector6 v = random_six(random);
@@ -83,7 +83,7 @@ void away_from_singularities_it_is_the_pseudoinverse(void**) {
 }
 
 void sigma_is_one_over_the_frobenius_norm_of_the_pseudoinverse(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     const double last = std::pow(10.0, random.between(-3.0, -0.5));
     const Known<n()> known(random, values(random, last));
     const double expected = 1.0 / std::sqrt(known.s.array().square().inverse().sum());
@@ -94,7 +94,7 @@ void sigma_is_one_over_the_frobenius_norm_of_the_pseudoinverse(void**) {
 }
 
 void below_the_onset_it_is_damped_by_what_is_missing(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     const Known<n()> known(random, values(random, random.between(0.0, 0.049)));
     const auto inverse = known.inverse();
     const Vector6 v = random_six(random);
@@ -104,10 +104,10 @@ void below_the_onset_it_is_damped_by_what_is_missing(void**) {
 }
 
 void damping_sets_in_without_a_step_or_a_kink(void**) {
-  Random random;
+  RandomVectors random;
   const Vector6 regular = values(random, 0.0);
   const auto squared = [&](double last) {
-    Random again;
+    RandomVectors again;
     Vector6 s = regular;
     s[5] = last;
     return std::pow(Known<7>(again, s).inverse().lambda(), 2);
@@ -125,7 +125,7 @@ void damping_sets_in_without_a_step_or_a_kink(void**) {
 }
 
 void however_many_singular_values_vanish_it_stays_bounded(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     Vector6 s;
     for (int i = 0; i < 6; ++i)
       s[i] = random.unit() > 0.0 ? std::pow(10.0, random.between(-9.0, 0.0)) : 0.0;
@@ -139,7 +139,7 @@ void however_many_singular_values_vanish_it_stays_bounded(void**) {
 }
 
 void what_is_in_the_null_space_does_not_move_the_task(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     Eigen::Matrix<double, n(), 1> dq;
     for (int i = 0; i < n(); ++i) dq[i] = random.unit();
     const Known<n()> known(random, values(random, random.between(0.1, 0.3)));
@@ -156,7 +156,7 @@ void what_is_in_the_null_space_does_not_move_the_task(void**) {
 }
 
 void a_column_of_zeros_leaves_its_joint_out(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     auto J = Known<n()>(random, values(random, 0.3)).J();
     J.col(2).setZero();
     const DampedInverse<n()> inverse(J, kOnset);
@@ -167,7 +167,7 @@ void a_column_of_zeros_leaves_its_joint_out(void**) {
 
 /// One joint after the other, against the formula by a general solver.
 void joints_are_left_out_one_after_the_other(void**) {
-  over_arms([](Random& random, auto n) {
+  over_arms([](RandomVectors& random, auto n) {
     using Joints = Eigen::Matrix<double, n(), 1>;
     auto J = Known<n()>(random, values(random, random.between(0.01, 0.3))).J();
     const double floor = random.between(0.0, 0.02);

@@ -20,7 +20,7 @@ JointIntegrator at(const JointVector& q) {
   return motion;
 }
 
-JointVector random_joints(Random& random, double most) {
+JointVector random_joints(RandomVectors& random, double most) {
   JointVector v;
   for (int i = 0; i < kDof; ++i) v[i] = most * random.unit();
   return v;
@@ -49,7 +49,7 @@ void from_rest_the_motion_has_the_wanted_direction(void**) {
 }
 
 void whatever_is_wanted_no_bound_is_exceeded(void**) {
-  Random random;
+  RandomVectors random;
   const JointIntegrator::Bounds most = bounds();
   for (const double dt_s : {1e-3, 8e-3}) {
     JointIntegrator motion = at(zero);

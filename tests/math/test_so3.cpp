@@ -46,7 +46,7 @@ void the_stumpff_functions_are_those_of_quad_precision(void**) {
 }
 
 void the_exponential_is_eigens_rotation_about_the_axis(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : kAngles) {
     const Vector3 axis = random.axis();
     const Eigen::Quaterniond expected(Eigen::AngleAxisd(angle, axis));
@@ -57,7 +57,7 @@ void the_exponential_is_eigens_rotation_about_the_axis(void**) {
 }
 
 void the_logarithm_takes_back_the_exponential_to_rounding(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : kAngles) {
     if (angle > 3.0) continue;
     for (int i = 0; i < 100; ++i) {
@@ -68,7 +68,7 @@ void the_logarithm_takes_back_the_exponential_to_rounding(void**) {
 }
 
 void next_to_half_a_turn_the_logarithm_is_exact(void**) {
-  Random random;
+  RandomVectors random;
   for (double less = 0.1; less > 1e-18; less *= 0.1) {
     const Vector3 axis = random.axis();
     assert_close(log_so3(exp_so3((kPi - less) * axis)), (kPi - less) * axis, 2e-15);
@@ -79,7 +79,7 @@ void next_to_half_a_turn_the_logarithm_is_exact(void**) {
 }
 
 void of_more_than_half_a_turn_the_logarithm_is_the_shorter_way_round(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : {3.5, 5.0, 6.0, 2.0 * kPi - 1e-3, 2.0 * kPi - 1e-9}) {
     const Vector3 axis = random.axis();
     assert_close(log_so3(exp_so3(angle * axis)), (angle - 2.0 * kPi) * axis, 3e-15);
@@ -88,7 +88,7 @@ void of_more_than_half_a_turn_the_logarithm_is_the_shorter_way_round(void**) {
 }
 
 void the_logarithm_is_that_of_quad_precision_and_never_beyond_pi(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 20000; ++i) {
     const double small = std::pow(10.0, -9.0 * std::abs(random.unit()));
     Vector3 v = random.vector();
@@ -107,7 +107,7 @@ void the_logarithm_is_that_of_quad_precision_and_never_beyond_pi(void**) {
 }
 
 void the_sign_of_the_quaternion_does_not_matter(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Quaterniond r = exp_so3(3.0 * random.vector());
     assert_true(log_so3(r) == log_so3(negative(r)));
@@ -160,7 +160,7 @@ void what_is_no_rotation_has_no_logarithm_and_no_exponential(void**) {
 }
 
 void the_right_jacobian_gives_the_angular_velocity_in_the_rotated_frame(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : kAngles) {
     for (int i = 0; i < 20; ++i) {
       const Vector3 phi = angle * random.axis(), dphi = random.vector();
@@ -174,7 +174,7 @@ void the_right_jacobian_gives_the_angular_velocity_in_the_rotated_frame(void**) 
 }
 
 void the_inverse_takes_back_the_right_jacobian(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : kAngles) {
     if (angle > 6.0) continue;
     for (int i = 0; i < 20; ++i) {
@@ -187,7 +187,7 @@ void the_inverse_takes_back_the_right_jacobian(void**) {
 }
 
 void the_rate_of_the_right_jacobian_is_its_derivative_in_time(void**) {
-  Random random;
+  RandomVectors random;
   for (const double angle : kAngles) {
     for (int i = 0; i < 20; ++i) {
       const Vector3 phi = angle * random.axis(), dphi = random.vector(), v = random.vector();
@@ -199,7 +199,7 @@ void the_rate_of_the_right_jacobian_is_its_derivative_in_time(void**) {
 }
 
 void the_rates_are_the_derivatives_of_the_angular_velocity(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 20; ++i) {
     for (const double angle : kAngles) {
       const Vector3 phi = angle * random.axis();

@@ -17,7 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr unsigned kSeed = 20260410;
 inline const Eigen::Quaterniond kIdentity(1.0, 0.0, 0.0, 0.0);
 
-struct Random {
+struct RandomVectors {
   std::mt19937_64 bits{kSeed};
   double unit() { return std::uniform_real_distribution<double>(-1.0, 1.0)(bits); }
   double between(double a, double b) { return a + 0.5 * (1.0 + unit()) * (b - a); }
@@ -70,7 +70,7 @@ struct Ends {
 };
 
 /// Returns a turn between two ends: any, or one whose shortest arc is hard to find or very short.
-inline Eigen::Quaterniond hard_turn(Random& random, int kind) {
+inline Eigen::Quaterniond hard_turn(RandomVectors& random, int kind) {
   const Vector3 axis = random.axis();
   switch (kind % 8) {
     case 0: return kIdentity;
@@ -84,7 +84,7 @@ inline Eigen::Quaterniond hard_turn(Random& random, int kind) {
 }
 
 /// Returns ends that turn at up to `rate` radians per duration about each axis.
-inline Ends random_ends(Random& random, int kind, double rate) {
+inline Ends random_ends(RandomVectors& random, int kind, double rate) {
   Ends ends;
   ends.T = std::pow(10.0, random.unit());
   ends.from.r = exp_so3(kPi * random.vector());
@@ -100,7 +100,7 @@ inline Ends random_ends(Random& random, int kind, double rate) {
 template <class Check>
 void over_ends(double rate, Check check) {
   constexpr int kCases = 200;
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < kCases; ++i) check(random_ends(random, i, rate));
 }
 

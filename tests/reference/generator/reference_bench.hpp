@@ -7,14 +7,10 @@
 #include "gateway/reference_client.hpp"
 #include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/joint_space.hpp"
+#include "tests/support/middle_of_range.hpp"
 #include "tests/support/random.hpp"
 
 namespace tactus {
-
-inline JointVector middle_of_range() {
-  const JointLimits limits;
-  return 0.5 * (limits.q_min + limits.q_max);
-}
 
 struct ReferenceBench {
   static constexpr int kWaypoints = 64;

@@ -13,7 +13,7 @@ constexpr int kWhole = 20;   // whole waypoints that a store holds
 constexpr int kTotal = 400;  // waypoints of the swing, the last at rest like the first
 
 /// Returns waypoint `index` of a swing of all joints about home, from rest, with velocities.
-Waypoint<JointSpace> swing(const ReferenceBench& bench, int index) {
+Waypoint<JointSpace> swing_waypoint(const ReferenceBench& bench, int index) {
   constexpr double kSpacing_s = 0.05;
   constexpr double kRate = 13.0 * 3.14159265358979323846 / (kSpacing_s * (kTotal - 1));  // rad/s
   Waypoint<JointSpace> waypoint;
@@ -40,12 +40,12 @@ struct StoreBench : ReferenceBench {
     stream->count = 0;
   }
   void fill(int count) {
-    for (; sent < count; ++sent) stream->set(stream->count++, swing(*this, sent));
+    for (; sent < count; ++sent) stream->set(stream->count++, swing_waypoint(*this, sent));
   }
   /// Appends until the window is full or `total` are sent, and sends what was appended.
   void feed(int total) {
     const int before = sent;
-    while (sent < total && client.append(*stream, swing(*this, sent)).ok()) ++sent;
+    while (sent < total && client.append(*stream, swing_waypoint(*this, sent)).ok()) ++sent;
     std::uint32_t id = 0;
     if (sent > before) ASSERT_OK(client.flush(*stream, sent == total, id).status);
   }
@@ -99,9 +99,9 @@ void a_waypoint_comes_out_as_it_went_in_and_touches_no_other(void**) {
   bench.channel.stores[0].capacity = kWhole;
   Trajectory<JointSpace>& packed = *bench.client.acquire(kVelocityField);
   for (int round = 0; round < 2; ++round)
-    for (int i = 0; i < packed.capacity; ++i) packed.set(i, swing(bench, i + round));
+    for (int i = 0; i < packed.capacity; ++i) packed.set(i, swing_waypoint(bench, i + round));
   for (int i = 0; i < packed.capacity; ++i) {
-    const Waypoint<JointSpace> out = packed.at(i), in = swing(bench, i + 1);
+    const Waypoint<JointSpace> out = packed.at(i), in = swing_waypoint(bench, i + 1);
     assert_true(out.time_s == in.time_s && out.point.q == in.point.q);
     assert_true(out.point.dq == in.point.dq && out.point.ddq == JointVector::Zero());
     assert_true(out.room == 1.0F && out.halfway == 1.0F);
@@ -112,8 +112,8 @@ void more_fields_than_the_store_holds_are_refused(void**) {
   ReferenceBench bench;
   Trajectory<JointSpace>& packed = *bench.client.acquire(0);
   packed.count = 2;
-  packed.set(0, swing(bench, 0));
-  packed.set(1, swing(bench, 1));
+  packed.set(0, swing_waypoint(bench, 0));
+  packed.set(1, swing_waypoint(bench, 1));
   packed.interpolation = Interpolation::kMonotone;  // chooses velocities
   assert_int_equal(static_cast<int>(bench.client.admit(packed).status),
                    static_cast<int>(Status::kReferenceSize));

@@ -161,7 +161,7 @@ void a_cancel_stops_on_the_straight_line(void**) {
   assert_true(cycles > 10 && cycles < 500 && bench.out().x.p.x() < bench.x.p.x() + 0.3);
 }
 
-bool ask_something(TaskBench& bench, Random& random) {
+bool ask_something(TaskBench& bench, RandomVectors& random) {
   std::uint32_t id = 0;
   const int kind = static_cast<int>(random.between(0.0, 6.0));
   if (kind == 0) return bench.client.cancel(id).ok();
@@ -185,7 +185,7 @@ bool ask_something(TaskBench& bench, Random& random) {
 /// Makes requests of every kind at random times; returns the number of trajectories started.
 int ask_at_random(TaskBench& bench, int requests) {
   const TaskLimits& limits = bench.channel.settings.limits;
-  Random random;
+  RandomVectors random;
   int started = 0;
   for (int request = 0; request < requests; ++request) {
     ask_something(bench, random);

@@ -9,6 +9,7 @@
 #include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "tests/support/middle_of_range.hpp"
 
 namespace tactus {
 
@@ -28,11 +29,6 @@ struct Dice {
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
   Vector3 vector() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
 };
-
-inline JointVector middle_of_range() {
-  const JointLimits limits;
-  return 0.5 * (limits.q_min + limits.q_max);
-}
 
 /// The point at which a test begins: the middle of every joint's range; a pose in front of the arm.
 template <class Space>

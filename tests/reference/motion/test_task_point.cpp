@@ -45,7 +45,7 @@ void a_number_that_is_not_finite_is_refused_and_named(void**) {
 // Proves RG-6, RG-10.
 
 void a_quaternion_further_from_unit_than_a_thousandth_is_refused(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Quaterniond r = exp_so3(kPi * random.vector());
     TaskPoint point;

@@ -20,7 +20,7 @@ inline Vector6 six(const Vector3& linear, const Vector3& angular) {
 }
 
 /// Returns a point with this rotation, which moves about as fast.
-inline TaskPoint task_point(Random& random, const RotationBoundary& rotation) {
+inline TaskPoint task_point(RandomVectors& random, const RotationBoundary& rotation) {
   TaskPoint point;
   point.x = {random.vector(), rotation.r};
   point.v = six(rotation.w.norm() * random.vector(), rotation.w);
@@ -36,7 +36,7 @@ struct TaskEnds {
   TaskSegment join(Interpolation how) const { return {from, to, T, how, 0}; }
 };
 
-inline TaskEnds task_ends(Random& random, int kind, double rate) {
+inline TaskEnds task_ends(RandomVectors& random, int kind, double rate) {
   const Ends ends = random_ends(random, kind, rate);
   return {task_point(random, ends.from), task_point(random, ends.to), ends.T};
 }
@@ -46,7 +46,7 @@ inline TaskEnds task_ends(Random& random, int kind, double rate) {
 template <class Check>
 void over_task_ends(double rate, Check check) {
   constexpr int kCases = 200;
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < kCases; ++i) check(task_ends(random, i, rate));
 }
 

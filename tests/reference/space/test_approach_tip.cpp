@@ -9,14 +9,14 @@ namespace {
 
 const TaskLimits kLimits;
 
-TaskPoint random_pose(Random& random) {
+TaskPoint random_pose(RandomVectors& random) {
   TaskPoint point;
   point.x = {0.5 * random.vector(), exp_so3(1.5 * random.vector())};
   return point;
 }
 
 /// Returns a state in motion at up to `share` of the limits.
-TaskPoint random_state(Random& random, double share) {
+TaskPoint random_state(RandomVectors& random, double share) {
   TaskPoint point = random_pose(random);
   const auto size = [&] { return share * random.between(0.0, 1.0); };
   point.v = six(size() * kLimits.v_max * random.axis(), size() * kLimits.w_max * random.axis());
@@ -80,14 +80,14 @@ void sum_undoes_difference(void**) {
 }
 
 void from_any_motion_any_pose_is_reached(void**) {
-  Random random;
+  RandomVectors random;
   for (const double dt : {1e-3, 2e-3, 8e-3})
     for (int trial = 0; trial < 60; ++trial)
       cycles_to(random_pose(random), random_state(random, 0.9), dt);
 }
 
 void from_rest_the_way_is_straight_and_as_short_as_the_limits_allow(void**) {
-  Random random;
+  RandomVectors random;
   for (int trial = 0; trial < 100; ++trial) {
     const TaskPoint from = random_pose(random), to = random_pose(random);
     const double way = (to.x.p - from.x.p).norm(), angle = angle_between(from.x.r, to.x.r);
@@ -100,7 +100,7 @@ void from_rest_the_way_is_straight_and_as_short_as_the_limits_allow(void**) {
 }
 
 void every_stop_comes_to_rest_on_a_line(void**) {
-  Random random;
+  RandomVectors random;
   for (const double dt : {1e-3, 8e-3}) {
     for (int trial = 0; trial < 200; ++trial) {
       TaskPoint point = random_state(random, 0.95);
@@ -133,7 +133,7 @@ TaskPoint circling(double t, double share) {
 }
 
 void a_moving_base_is_joined_within_the_limits_of_the_sum(void**) {
-  Random random;
+  RandomVectors random;
   const double dt = 1e-3;
   for (const double share : {0.1, 0.3, 0.5}) {
     for (int trial = 0; trial < 20; ++trial) {

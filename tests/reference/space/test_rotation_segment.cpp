@@ -132,7 +132,7 @@ void the_sign_of_the_last_end_does_not_matter(void**) {
 }
 
 void turned_ends_make_the_same_motion_turned(void**) {
-  Random random;
+  RandomVectors random;
   over_ends(kRate, [&random](const Ends& ends) {
     // For half a turn both directions are right.
     if (angle_between(ends.from.r, ends.to.r) > kPi - 1e-3) return;
@@ -151,7 +151,7 @@ void turned_ends_make_the_same_motion_turned(void**) {
 }
 
 void a_number_that_is_not_finite_makes_every_result_nan(void**) {
-  Random random;
+  RandomVectors random;
   const Ends good = random_ends(random, 6, kRate);
   for (const double bad : {kNaN, kInfinity, -kInfinity}) {
     for (int i = 0; i < 20; ++i) {

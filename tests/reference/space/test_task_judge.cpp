@@ -71,7 +71,7 @@ struct Sampled {
 };
 
 /// Returns ends near the limits, so that about half of the segments keep them.
-TaskEnds close_ends(Random& random, int kind) {
+TaskEnds close_ends(RandomVectors& random, int kind) {
   TaskEnds ends = task_ends(random, 6 + kind % 2, random.between(0.0, 3.0));
   const double shorter = random.between(0.1, 1.0);
   ends.to.x.p = ends.from.x.p + shorter * (ends.to.x.p - ends.from.x.p);
@@ -96,7 +96,7 @@ TaskLimits limits_of(int i) {
 // Proves RG-6.
 
 void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
-  Random random;
+  RandomVectors random;
   int accepted = 0;
   for (int i = 0; i < 6000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
@@ -111,7 +111,7 @@ void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
 }
 
 void a_refused_segment_is_hardly_below_the_limit(void**) {
-  Random random;
+  RandomVectors random;
   double loosest[2][3] = {};  // by vector and derivative
   for (int i = 0; i < 6000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
@@ -189,7 +189,7 @@ void a_segment_that_leaves_the_workspace_between_its_ends_is_refused(void**) {
 }
 
 void what_a_segment_takes_is_what_occurs_on_it_or_more(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 2000; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const TaskSpace::Peaks taken =

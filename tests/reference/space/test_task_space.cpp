@@ -60,7 +60,7 @@ void linear_is_a_straight_line_and_slerp(void**) {
 }
 
 void the_fields_decide_unless_the_order_is_forced(void**) {
-  Random random;
+  RandomVectors random;
   const TaskEnds ends = task_ends(random, 7, kRate);
   const auto same = [&](Fields fields, Interpolation how) {
     const TaskSegment by_fields(ends.from, ends.to, ends.T, Interpolation::kByFields, fields);
@@ -74,7 +74,7 @@ void the_fields_decide_unless_the_order_is_forced(void**) {
 }
 
 void a_corner_leaves_out_what_steps_by_nature(void**) {
-  Random random;
+  RandomVectors random;
   const TaskEnds ends = task_ends(random, 7, kRate);
   const TaskPoint line = ends.join(Interpolation::kLinear).corner();
   assert_true(line.standing() && line.h == ends.from.h);
@@ -88,7 +88,7 @@ void a_corner_leaves_out_what_steps_by_nature(void**) {
 /// Walks along 20 waypoints whose quaternions have random signs. With `follow` each segment begins
 /// where the previous one ended; else it begins at the waypoint, and unit_beside() keeps the sign.
 void walk(Interpolation how, bool follow) {
-  Random random;
+  RandomVectors random;
   TaskPoint from = task_ends(random, 7, kRate).from;
   Eigen::Quaterniond last = from.x.r;
   TaskPoint end = from;
@@ -139,7 +139,7 @@ void a_quaternion_nearly_unit_is_used_as_a_unit_one(void**) {
 }
 
 void a_unit_quaternion_keeps_its_bits_beside_the_last(void**) {
-  Random random;
+  RandomVectors random;
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Quaterniond r = exp_so3(kPi * random.vector()), last(r * exp_so3(random.vector()));
     assert_true(unit_beside(r, last).coeffs() == r.coeffs());
@@ -169,7 +169,7 @@ void at_a_rate_the_motion_is_that_of_the_path_at_its_time(void**) {
 }
 
 void at_rest_and_stopped_stand_and_only_stopped_keeps_the_wrench(void**) {
-  Random random;
+  RandomVectors random;
   const TaskPoint point = task_ends(random, 7, kRate).from;
   const TaskPoint rest = point.at_rest(), stopped = point.stopped();
   assert_true(rest.standing() && rest.idle() && stopped.standing() && !stopped.idle());

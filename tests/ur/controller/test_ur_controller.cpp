@@ -8,7 +8,7 @@ namespace {
 // Proves URE-5.
 
 void the_first_packets_have_the_lengths_of_the_version(void**) {
-  connect();
+  connect_clients();
   const std::string_view first = g_bench.take(g_primary);
   ByteReader head(reinterpret_cast<const std::uint8_t*>(first.data()), first.size());
   assert_int_equal(head.u32(), first.size());  // for clients that take each read for a packet
@@ -43,7 +43,7 @@ void the_first_packets_have_the_lengths_of_the_version(void**) {
 }
 
 void the_real_time_port_sends_a_packet_every_cycle(void**) {
-  connect();
+  connect_clients();
   const int client = g_bench->open(Service::kRealtime);
   g_bench.ticks(3);
   const std::string_view got = g_bench.take(client);
@@ -67,7 +67,7 @@ void the_real_time_port_sends_a_packet_every_cycle(void**) {
                          Row{{5, 11, 1, 108318}, 1220}}) {
     Settings other;
     other.version = row.version;
-    connect(other);
+    connect_clients(other);
     const int second = g_bench->open(Service::kRealtime);
     g_bench.ticks(1);
     assert_int_equal(g_bench.take(second).size(), row.size);
@@ -79,7 +79,7 @@ void the_real_time_port_sends_a_packet_every_cycle(void**) {
 void power_comes_and_goes_in_its_own_time(void**) {
   Settings settings;
   settings.switched_on = false;
-  connect(settings);
+  connect_clients(settings);
   expect_reply("robotmode", "Robotmode: POWER_OFF");
   expect_reply("brake release", "Brake releasing");
   g_bench.ticks(1);
@@ -99,7 +99,7 @@ void power_comes_and_goes_in_its_own_time(void**) {
 }
 
 void the_dashboard_answers_line_by_line(void**) {
-  connect();
+  connect_clients();
   expect_reply("PolyscopeVersion", "URSoftware 3.15.8.106339 (Jan 01 2022)");
   expect_reply("play", "Failed to execute: play");
   expect_reply("load nothing.urp", "File not found: nothing.urp");
@@ -124,7 +124,7 @@ void the_dashboard_answers_line_by_line(void**) {
 void an_e_series_has_an_operational_mode(void**) {
   Settings settings;
   settings.version = {5, 11, 1, 108318};
-  connect(settings);
+  connect_clients(settings);
   expect_reply("get operational mode", "NONE");
   expect_reply("is in remote control", "true");
   expect_reply("set operational mode manual", "Operational mode MANUAL is set");
@@ -134,7 +134,7 @@ void an_e_series_has_an_operational_mode(void**) {
   expect_reply("clear operational mode",
                "No longer controlling the operational mode. Current operational mode: "
                "'AUTOMATIC'.");
-  connect();
+  connect_clients();
   for (const char* line :
        {"set operational mode manual", "clear operational mode", "get operational mode"}) {
     std::array<char, 96> reply{};

@@ -7,13 +7,13 @@ namespace {
 
 /// Opens a client that receives packets and writes a register.
 void close_loop() {
-  connect();
-  send('I', "input_int_register_24", g_client);
+  connect_rtde();
+  send_packet('I', "input_int_register_24", g_client);
   g_bench.send(g_client, session_stream());
   g_bench.take(g_client);
 }
 void answer() {
-  send('U', bytes("01 00 00 00 07"), g_client);
+  send_packet('U', bytes("01 00 00 00 07"), g_client);
 }
 void tick() {
   g_bench.ticks(1);
@@ -43,14 +43,14 @@ void an_answer_lets_the_next_cycle_begin(void**) {
 }
 
 void without_a_client_that_closes_a_loop_cycles_keep_their_time(void**) {
-  connect();
+  connect_rtde();
   assert_pace(Pace::kByTime);
   g_bench.send(g_client, session_stream());  // only listens
   tick();
   assert_pace(Pace::kByTime);
   const int writer = g_bench->open(Service::kRtde);  // writes once, and receives nothing
-  send('I', "input_int_register_24", writer);
-  send('U', bytes("01 00 00 00 07"), writer);
+  send_packet('I', "input_int_register_24", writer);
+  send_packet('U', bytes("01 00 00 00 07"), writer);
   assert_pace(Pace::kByTime);
 }
 
@@ -90,12 +90,12 @@ void a_client_is_no_more_than_some_cycles_ahead(void**) {
 void all_that_close_a_loop_must_have_answered(void**) {
   close_loop();
   const int other = g_bench->open(Service::kRtde);
-  send('I', "input_int_register_25", other);
+  send_packet('I', "input_int_register_25", other);
   g_bench.send(other, session_stream());
   tick();
   answer();
   assert_pace(Pace::kByTime);
-  send('U', bytes("01 00 00 00 07"), other);
+  send_packet('U', bytes("01 00 00 00 07"), other);
   assert_pace(Pace::kAtOnce);
   tick();
   answer();
@@ -109,7 +109,7 @@ void a_new_client_in_the_place_of_another_begins_anew(void**) {
   g_bench->close(g_client);
   assert_pace(Pace::kByTime);
   assert_int_equal(g_bench->open(Service::kRtde), g_client);
-  send('I', "input_int_register_24", g_client);
+  send_packet('I', "input_int_register_24", g_client);
   g_bench.send(g_client, session_stream());
   tick();
   assert_pace(Pace::kByTime);
@@ -118,8 +118,8 @@ void a_new_client_in_the_place_of_another_begins_anew(void**) {
 void a_package_that_cannot_be_read_is_no_answer(void**) {
   close_loop();
   tick();
-  send('U', bytes("01 00 00"), g_client);
-  send('U', bytes("09 00 00 00 07"), g_client);
+  send_packet('U', bytes("01 00 00"), g_client);
+  send_packet('U', bytes("09 00 00 00 07"), g_client);
   assert_pace(Pace::kByTime);
 }
 

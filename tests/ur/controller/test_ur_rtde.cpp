@@ -8,14 +8,14 @@ namespace {
 // Proves URE-1.
 
 void a_session_is_answered_byte_for_byte(void**) {
-  connect();
+  connect_rtde();
   g_bench.send(g_client, session_stream());
   expect_text(g_bench.take(g_client), bytes(kReplies));
 }
 
 void a_stream_cut_at_every_byte_is_the_same_stream(void**) {
   for (std::size_t cut = 0; cut <= session_stream().size(); ++cut) {
-    connect();
+    connect_rtde();
     g_bench.send(g_client, session_stream().substr(0, cut));
     g_bench.send(g_client, session_stream().substr(cut));
     expect_text(g_bench.take(g_client), bytes(kReplies));
@@ -43,28 +43,28 @@ void a_data_package_holds_the_fields_in_their_order(void**) {
 }
 
 void version_1_has_no_frequency_and_no_recipe_number(void**) {
-  connect();
-  send('O', "timestamp,robot_mode", g_client);
+  connect_rtde();
+  send_packet('O', "timestamp,robot_mode", g_client);
   expect_text(g_bench.take(g_client).substr(3), "DOUBLE,INT32");
-  send('S', "", g_client);
+  send_packet('S', "", g_client);
   g_bench.take(g_client);
   g_bench.ticks(1);
   assert_int_equal(g_bench.take(g_client).size(), 3 + 8 + 4);
-  send('V', std::string_view("\0\3", 2), g_client);
+  send_packet('V', std::string_view("\0\3", 2), g_client);
   expect_text(g_bench.take(g_client), bytes("00 04 56 00"));
 }
 
 // Proves URE-2.
 
 void samples_stand_on_the_grid_of_their_rate(void**) {
-  connect();
+  connect_rtde();
   g_bench.send(g_client, bytes(kVersion2));
   std::array<char, 32> setup{};
   ByteWriter writer(reinterpret_cast<std::uint8_t*>(setup.data()), setup.size());
   writer.f64(25.0);
   writer.text("timestamp");
-  send('O', {setup.data(), writer.size()}, g_client);
-  send('S', "", g_client);
+  send_packet('O', {setup.data(), writer.size()}, g_client);
+  send_packet('S', "", g_client);
   g_bench.take(g_client);
   double last = 0.0;
   int samples = 0;
@@ -83,7 +83,7 @@ void samples_stand_on_the_grid_of_their_rate(void**) {
 }
 
 void pause_is_answered_while_data_flow_and_start_goes_on(void**) {
-  connect();
+  connect_rtde();
   g_bench.send(g_client, session_stream());
   g_bench.ticks(3);
   g_bench.take(g_client);

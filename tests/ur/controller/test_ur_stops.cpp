@@ -8,12 +8,12 @@ namespace {
 // Proves URE-20.
 
 void a_push_is_a_collision_and_a_wrong_encoder_a_deviation(void**) {
-  connect();
+  connect_clients();
   g_bench.ticks(10);
   g_bench.controller().faults().push[2] = -100.0;
   assert_true(g_bench.until(protective_stopped, 50));
   assert_true(heard(MessageType::kErrorCode, stop_bytes(Code::kCollision, 2)));
-  connect();
+  connect_clients();
   g_bench.ticks(10);
   g_bench.controller().faults().encoder_offset[4] = 0.2;
   assert_true(g_bench.until(protective_stopped, 2));
@@ -21,7 +21,7 @@ void a_push_is_a_collision_and_a_wrong_encoder_a_deviation(void**) {
 }
 
 void a_script_that_goes_silent_at_speed_is_a_sudden_stop(void**) {
-  connect();
+  connect_clients();
   std::array<char, 1024> script;
   std::size_t size = 0;
   size += static_cast<std::size_t>(std::snprintf(script.data(), script.size(), "def late():\n"));
@@ -43,7 +43,7 @@ void a_script_that_goes_silent_at_speed_is_a_sudden_stop(void**) {
 // Proves URE-21.
 
 void a_protective_stop_is_told_and_unlocked_when_it_may_be(void**) {
-  connect();
+  connect_clients();
   g_bench.take(g_primary);
   g_bench.send(g_primary, "protective_stop()\n");
   g_bench.ticks(1);
@@ -81,7 +81,7 @@ void a_stop_is_unlocked_exactly_five_seconds_after_it(void**) {
 }
 
 void the_safety_system_steps_in_at_its_limits(void**) {
-  connect();
+  connect_clients();
   g_bench.controller().faults().encoder_offset[0] = 7.0;  // rad: beyond 363 degrees
   g_bench.ticks(14);
   assert_int_equal(g_bench.image().safety_mode, static_cast<int>(SafetyMode::kViolation));
@@ -98,7 +98,7 @@ void the_safety_system_steps_in_at_its_limits(void**) {
 void the_tool_stays_below_its_speed_limit(void**) {
   Settings settings;
   settings.initial_q << 0.0, -0.3, 0.0, 0.0, 0.0, 0.0;  // stretched out, at a singularity
-  connect(settings);
+  connect_clients(settings);
   g_bench.send(g_primary, "movej([2.5,-0.3,0,0,0,0],a=3.0,v=2.0)\n");
   double fastest = 0.0, scaling = 1.0;
   for (int i = 0; i < 500; ++i) {
@@ -114,7 +114,7 @@ void the_tool_stays_below_its_speed_limit(void**) {
 }
 
 void what_a_test_breaks_is_broken(void**) {
-  connect();
+  connect_clients();
   g_bench.controller().faults().frozen_stamp = true;
   const double stamp = g_bench.image().timestamp;
   g_bench.ticks(2);

@@ -61,4 +61,6 @@ class Bench {
   std::size_t size_ = 0;
 };
 
+inline Bench g_bench;  ///< that of a process
+
 }  // namespace tactus::ur

@@ -9,7 +9,6 @@
 
 namespace tactus::ur {
 
-inline Bench g_bench;
 inline int g_client = -1;
 
 /// Bytes of a hexadecimal text, blanks ignored.
@@ -28,7 +27,7 @@ inline std::string_view bytes(const char* hex) {
   return {out.data(), size};
 }
 
-inline void connect() {
+inline void connect_rtde() {
   g_bench.start();
   assert_true(g_bench.started());
   g_client = g_bench->open(Service::kRtde);
@@ -36,7 +35,7 @@ inline void connect() {
 }
 
 /// A packet: its type, and its payload.
-inline void send(char type, std::string_view payload, int client) {
+inline void send_packet(char type, std::string_view payload, int client) {
   std::array<char, 16384> packet;
   const std::size_t size = payload.size() + 3;
   packet[0] = static_cast<char>(size >> 8);

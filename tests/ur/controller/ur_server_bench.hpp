@@ -16,7 +16,6 @@ namespace tactus::ur {
 inline constexpr const char* kAddress = "127.0.0.77";
 inline const int kOffset = -10000 - 20 * (getpid() % 400);  // below the ports of clients
 
-inline Bench g_bench;
 alignas(Server) inline unsigned char g_memory[sizeof(Server)];
 inline Server* g_server = nullptr;
 

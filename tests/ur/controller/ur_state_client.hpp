@@ -8,10 +8,9 @@
 
 namespace tactus::ur {
 
-inline Bench g_bench;
 inline int g_primary = -1, g_dashboard = -1;
 
-inline void connect(const Settings& settings = {}) {
+inline void connect_clients(const Settings& settings = {}) {
   g_bench.start(settings);
   assert_true(g_bench.started());
   g_primary = g_bench->open(Service::kPrimary);

@@ -4,8 +4,6 @@
 namespace tactus::ur {
 namespace {
 
-std::optional<UrHalBench> g_bench;
-
 UrHalBench& fresh() {
   return g_bench.emplace();
 }

@@ -61,7 +61,7 @@ void assert_starts_at_rest(UrArmBench& bench) {
 
 // Proves URH-18.
 void a_trajectory_is_followed_to_its_goal(void**) {
-  UrArmBench& bench = fresh();
+  UrArmBench& bench = fresh_arm();
   ASSERT_OK(start(bench));
   const double begin = bench.hal.state().q[0];
   const std::uint32_t id = bench.send_line();
@@ -83,7 +83,7 @@ void a_trajectory_is_followed_to_its_goal(void**) {
 void a_robot_without_power_is_switched_on(void**) {
   Settings settings;
   settings.switched_on = false;
-  UrArmBench& bench = fresh(settings);
+  UrArmBench& bench = fresh_arm(settings);
   ASSERT_STATUS(start(bench), Status::kRobotMode);
   assert_true(bench.says("POWER_OFF"));
   bench.settings.on_power_off = OnPowerOff::kPowerOn;
@@ -92,7 +92,7 @@ void a_robot_without_power_is_switched_on(void**) {
 
 // Proves URH-19.
 void a_protective_stop_is_seen_told_and_never_resumed(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   upload("sec stop():\n  protective_stop()\nend\n");
   assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kProtectiveStop);
@@ -103,7 +103,7 @@ void a_protective_stop_is_seen_told_and_never_resumed(void**) {
 }
 
 void a_protective_stop_is_released_on_the_same_wire(void**) {
-  UrArmBench& bench = moving(OnProtectiveStop::kRelease);
+  UrArmBench& bench = moving_arm(OnProtectiveStop::kRelease);
   upload("sec stop():\n  protective_stop()\nend\n");
   assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kProtectiveStop);
@@ -111,7 +111,7 @@ void a_protective_stop_is_released_on_the_same_wire(void**) {
 }
 
 void a_program_stopped_at_the_pendant_is_not_started_by_itself(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   tell("stop", "Stopped");
   assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kProgramStopped);
@@ -119,7 +119,7 @@ void a_program_stopped_at_the_pendant_is_not_started_by_itself(void**) {
 }
 
 void power_cut_at_the_pendant_ends_the_motion(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   tell("power off", "Powering off");
   assert_stops_in_the_cycle_of_its_packet(bench, 50);
   assert_true(bench.executive.latched() == Status::kRobotMode ||
@@ -130,7 +130,7 @@ void power_cut_at_the_pendant_ends_the_motion(void**) {
 }
 
 void a_second_client_cannot_have_the_registers(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   RtdeClient second;
   Message why;
   ASSERT_STATUS(second.start("127.0.0.1", kRtdePort + kOffset, 125.0, false, Deadline(2000), why),
@@ -140,7 +140,7 @@ void a_second_client_cannot_have_the_registers(void**) {
 }
 
 void a_controller_that_goes_away_is_seen_at_once(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   g_robot.reset();
   assert_stops_in_the_cycle_of_its_packet(bench, 20);
   ASSERT_STATUS(bench.executive.latched(), Status::kConnectionLost);
@@ -153,7 +153,7 @@ void a_controller_that_goes_away_is_seen_at_once(void**) {
 
 // Proves URH-20.
 void a_cycle_loop_that_ends_leaves_an_arm_at_rest(void**) {
-  UrArmBench& bench = moving();
+  UrArmBench& bench = moving_arm();
   static_cast<void>(bench.executive.stop());
   g_robot->pass(200);
   RobotState state;
@@ -182,7 +182,7 @@ void set_slider(double fraction) {
 }
 
 void the_slider_to_zero_and_back_loses_nothing_of_the_path(void**) {
-  UrArmBench& bench = fresh();
+  UrArmBench& bench = fresh_arm();
   ASSERT_OK(start(bench));
   const double begin = bench.hal.state().q[0];
   bench.send_line();
@@ -216,7 +216,7 @@ int main() {
       cmocka_unit_test(the_slider_to_zero_and_back_loses_nothing_of_the_path),
   };
   const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
+  g_arm.reset();
   g_robot.reset();
   return failed;
 }

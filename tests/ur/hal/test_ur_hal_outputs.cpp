@@ -98,7 +98,7 @@ void send_chunk(UrArmBench& bench, double lead_s) {
 // Proves OUT-9.
 
 void outputs_change_with_the_set_points_of_their_targets(void**) {
-  UrArmBench& bench = fresh({}, 8000, true);
+  UrArmBench& bench = fresh_arm({}, 8000, true);
   Observer observer;
   observer.start();
   ASSERT_OK(start(bench));
@@ -138,7 +138,7 @@ void outputs_change_with_the_set_points_of_their_targets(void**) {
 // Proves OUT-10.
 
 void a_stop_keeps_the_outputs_of_the_robot(void**) {
-  UrArmBench& bench = fresh({}, 8000, true);
+  UrArmBench& bench = fresh_arm({}, 8000, true);
   Observer observer;
   observer.start();
   ASSERT_OK(start(bench));
@@ -162,21 +162,21 @@ void a_stop_keeps_the_outputs_of_the_robot(void**) {
 // Proves OUT-11.
 
 void outputs_of_another_client_are_claimed_only_where_they_are_put_out(void**) {
-  fresh({}, 8000, false);
+  fresh_arm({}, 8000, false);
   Observer other;
   other.start("configurable_digital_output_mask,configurable_digital_output");
-  ASSERT_OK(start(*g_bench));
-  static_cast<void>(g_bench->executive.stop());
+  ASSERT_OK(start(*g_arm));
+  static_cast<void>(g_arm->executive.stop());
   Tool tool;
-  g_bench->hal.configure(g_bench->settings, tool, 8000, true);
-  ASSERT_STATUS(g_bench->executive.start(), Status::kRegistersInUse);
-  assert_true(g_bench->says("configurable_digital_output_mask is IN_USE"));
-  assert_true(g_bench->says("or remove outputs from [robot]"));
+  g_arm->hal.configure(g_arm->settings, tool, 8000, true);
+  ASSERT_STATUS(g_arm->executive.start(), Status::kRegistersInUse);
+  assert_true(g_arm->says("configurable_digital_output_mask is IN_USE"));
+  assert_true(g_arm->says("or remove outputs from [robot]"));
   other.close();
 }
 
 void every_output_has_a_name(void**) {
-  UrArmBench& bench = fresh();
+  UrArmBench& bench = fresh_arm();
   const std::uint32_t offered = bench.hal.capabilities().outputs;
   for (int i = 0; i < kMostOutputs; ++i)
     assert_int_equal(bench.hal.output_name(i) != nullptr, (offered >> i & 1u) != 0);
@@ -195,7 +195,7 @@ int main() {
       cmocka_unit_test(every_output_has_a_name),
   };
   const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
+  g_arm.reset();
   g_robot.reset();
   return failed;
 }

@@ -41,19 +41,19 @@ Followed follow_line(UrArmBench& bench, double period_s) {
 // Proves URH-25.
 
 void five_hundred_cycles_in_a_second(void**) {
-  const Followed followed = follow_line(fresh(e_series(), 2000), 0.002);
+  const Followed followed = follow_line(fresh_arm(e_series(), 2000), 0.002);
   assert_true(followed.error < 1e-3);
   assert_true(followed.largest < 0.625 * (0.1 + 5 * 0.002));  // top speed: lookahead, transport
 }
 
 void an_e_series_at_125_hz_is_given_a_set_point_for_four_of_its_cycles(void**) {
-  const Followed followed = follow_line(fresh(e_series(), 8000), 0.008);
+  const Followed followed = follow_line(fresh_arm(e_series(), 8000), 0.008);
   assert_true(followed.error < 1e-3);
   assert_true(followed.largest < 0.625 * (0.1 + 5 * 0.008));
 }
 
 void a_cb3_is_not_asked_for_500_hz(void**) {
-  UrArmBench& bench = fresh({}, 2000);
+  UrArmBench& bench = fresh_arm({}, 2000);
   ASSERT_STATUS(bench.executive.start(), Status::kRefusedByRobot);
   assert_true(
       bench.says("software 3.15: at most 125 Hz, not 500 Hz; set [robot] period_us = 8000"));
@@ -70,7 +70,7 @@ int main() {
       cmocka_unit_test(a_cb3_is_not_asked_for_500_hz),
   };
   const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
+  g_arm.reset();
   g_robot.reset();
   return failed;
 }

@@ -6,8 +6,6 @@
 namespace tactus::ur {
 namespace {
 
-std::optional<UrHalBench> g_bench;
-
 UrHalBench& started() {
   UrHalBench& bench = g_bench.emplace();
   ASSERT_OK(bench.start());

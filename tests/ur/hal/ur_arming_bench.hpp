@@ -5,8 +5,6 @@
 
 namespace tactus::ur {
 
-inline std::optional<UrHalBench> g_bench;
-
 inline UrHalBench& fresh() {
   return g_bench.emplace();
 }

@@ -61,15 +61,15 @@ class EmulatedRobot {
   std::atomic<int> ticks_{0};
 };
 
-inline std::optional<UrArmBench> g_bench;
+inline std::optional<UrArmBench> g_arm;
 inline std::optional<EmulatedRobot> g_robot;
 
-inline UrArmBench& fresh(const Settings& settings = {}, int period_us = 8000,
-                         bool outputs = false) {
-  g_bench.reset();
+inline UrArmBench& fresh_arm(const Settings& settings = {}, int period_us = 8000,
+                             bool outputs = false) {
+  g_arm.reset();
   g_robot.reset();
   g_robot.emplace(settings);
-  UrArmBench& bench = g_bench.emplace(period_us, outputs);
+  UrArmBench& bench = g_arm.emplace(period_us, outputs);
   bench.pipeline.executive.max_slip = 1000;  // lateness of the host is not tested here
   bench.settings.packet_wait = 500.0;
   bench.settings.connect_ms = bench.settings.program_ms = 2000;
@@ -95,8 +95,8 @@ inline Status start(UrArmBench& bench) {
 }
 
 /// An arm on its way.
-inline UrArmBench& moving(OnProtectiveStop reaction = OnProtectiveStop::kRefuse) {
-  UrArmBench& bench = fresh();
+inline UrArmBench& moving_arm(OnProtectiveStop reaction = OnProtectiveStop::kRefuse) {
+  UrArmBench& bench = fresh_arm();
   bench.settings.on_protective_stop = reaction;
   ASSERT_OK(start(bench));
   bench.send_line();

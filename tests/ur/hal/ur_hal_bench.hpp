@@ -152,4 +152,7 @@ struct UrHalBench : UrArmBench {
   }
 };
 
+/// That of a process: a failed assertion would not destroy one on the stack.
+inline std::optional<UrHalBench> g_bench;
+
 }  // namespace tactus::ur

@@ -5,8 +5,6 @@
 
 namespace tactus::ur {
 
-inline std::optional<UrHalBench> g_bench;
-
 /// A bench whose arm is moving.
 inline UrHalBench& moving() {
   UrHalBench& bench = g_bench.emplace();

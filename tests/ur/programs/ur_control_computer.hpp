@@ -8,7 +8,6 @@
 
 namespace tactus::ur {
 
-inline Bench g_bench;
 inline int g_primary = -1, g_rtde = -1;
 
 inline void connect() {
