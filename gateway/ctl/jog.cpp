@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kRepeat_ms = 50;  // between two velocities of a joystick
 constexpr int kIdle_ms = 200;
-constexpr const char* kKeys =
+constexpr const char* kJogKeys =
     "1..9 choose a joint; + and - (or arrows) move it while held; [ and ] change the speed; "
     "space stops; q ends";
 
@@ -112,7 +112,7 @@ bool Jogger::press(const std::string& keys) {
 
 bool Jogger::by_keys() {
   const RawTerminal raw;
-  s_.output.say(kKeys);
+  s_.output.say(kJogKeys);
   std::string keys;
   while (!ends_ && !refused_ && interrupts() == 0) {
     if (!s_.client.wait(kIdle_ms, STDIN_FILENO)) return false;

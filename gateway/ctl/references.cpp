@@ -10,7 +10,7 @@ namespace tactus::ctl {
 namespace {
 
 constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
-constexpr int kWaitForRows_ms = 5;
+constexpr int kRowWait_ms = 5;
 constexpr int kStarted_ms = 200;  // in which a point has begun to be reached
 
 /// Returns the target of a row; its form says what the numbers are.
@@ -122,7 +122,7 @@ bool Streamer::run() {
     if (taken == RowTaken::kEnd) break;
     if (taken == RowTaken::kRefused) return s_.client.refuse(reader_.error());
     if (taken == RowTaken::kRow && (!send(row) || !pace())) return false;
-    if (!s_.client.wait(taken == RowTaken::kNotYet ? kWaitForRows_ms : 0)) return false;
+    if (!s_.client.wait(taken == RowTaken::kNotYet ? kRowWait_ms : 0)) return false;
   }
   while (executed_ + superseded_ < sent_ && !refused_ && interrupts() < 2)
     if (!s_.client.wait(100)) return false;

@@ -14,9 +14,9 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr const char* kKeys =
+constexpr const char* kPlaybackKeys =
     "p pauses, r resumes, + and - change the speed; Ctrl-C cancels on the path";
-constexpr int kWaitForRows_ms = 20;
+constexpr int kRowsWait_ms = 20;
 constexpr int kRest_ms = 10000;  // longest time that an arm takes to stop on its path
 
 Begin::Interpolation interpolation(const std::string& name) {
@@ -163,7 +163,7 @@ bool Sender::follow() {
   const bool by_keys = !check_ && s_.options.file != "-" && isatty(STDIN_FILENO) != 0;
   const std::optional<RawTerminal> raw(by_keys ? std::optional<RawTerminal>(std::in_place)
                                                : std::nullopt);
-  if (by_keys) s_.output.say(kKeys);
+  if (by_keys) s_.output.say(kPlaybackKeys);
   std::string keys;
   while (!view_.ended() && !detaches()) {
     if (interrupts() > 1 || (canceled_ && now_ns() > give_up_ns_)) return false;
@@ -173,7 +173,7 @@ bool Sender::follow() {
     }
     if (!canceled_ && !feed()) return false;
     const bool waits_for_rows = !all_sent_ && credit_ > 0 && !canceled_;
-    if (!s_.client.wait(waits_for_rows ? kWaitForRows_ms : -1, by_keys ? STDIN_FILENO : -1))
+    if (!s_.client.wait(waits_for_rows ? kRowsWait_ms : -1, by_keys ? STDIN_FILENO : -1))
       return false;
     if (by_keys && (!take_keys(keys) || !press(keys))) return false;
   }

@@ -1,11 +1,10 @@
 """Draws what a run did besides following its reference: force, path in a plane, joint limits, torque, flags."""
 
 import numpy as np
-from matplotlib.lines import Line2D
 
 from reporting import panels
 from reporting.plots import GREY, LIMIT, MARGINS, MEASURED, PREDICTED, REFERENCE, THIN, WAYPOINT
-from reporting.plots import colour, darker, legend, thin_out
+from reporting.plots import colour, darker, entry, legend, thin_out
 
 
 def draw_force(part, run, found):
@@ -22,7 +21,7 @@ def draw_force(part, run, found):
                 handles += axes.plot(*thin_out(t, values), color=colour(i), label=axis, **THIN)
     if found is not None:
         axes.plot(*thin_out(t, found.force), color="#222222", linewidth=0.6, alpha=0.6)
-        handles += [Line2D([], [], label="normal", color="#222222", linewidth=0.8, alpha=0.6)]
+        handles += [entry("normal", color="#222222", linewidth=0.8, alpha=0.6)]
         handles += axes.plot(*thin_out(t, found.expected), color="black", label="expected", **PREDICTED)
         largest = 1.6 * found.expected.max()
         if np.abs(found.force).max() > largest > 0:
@@ -37,13 +36,13 @@ def draw_force(part, run, found):
 
 def draw_path(part, run):
     """Draws the path of the tip in the plane of the two base axes along which it moves most."""
-    entry = panels.task_entry(run)
-    reference, measured = (values[:, :3] for values in panels.pair(run, entry))
+    tracked = panels.task_entry(run)
+    reference, measured = (values[:, :3] for values in panels.pair(run, tracked))
     across, up = sorted(np.argsort(np.ptp(reference, axis=0))[1:])
     axes = part.subplots(gridspec_kw={"top": 0.96, "bottom": 0.14, "left": 0.105, "right": 0.84})
     axes.plot(measured[:, across], measured[:, up], color=colour(0), label="measured", **MEASURED)
     axes.plot(reference[:, across], reference[:, up], color=darker(colour(0)), label="reference", **REFERENCE)
-    points = panels.points_of(run, entry, entry)
+    points = panels.points_of(run, tracked, tracked)
     if points is not None:
         axes.plot(points[1][:, across], points[1][:, up], color=colour(0), label="waypoint", **WAYPOINT)
     axes.set_aspect("equal", adjustable="datalim")
@@ -94,7 +93,7 @@ def draw_shares(part, run):
         axes.tick_params(labelbottom=True)
     for axes in plots[len(found) :]:
         axes.set_axis_off()
-    handles = plots[0].get_legend_handles_labels()[0] + [Line2D([], [], label="limit", **LIMIT)]
+    handles = plots[0].get_legend_handles_labels()[0] + [entry("limit", **LIMIT)]
     legend(plots[1], handles)
 
 
@@ -118,7 +117,7 @@ def draw_torque_limits(axes, run, largest):
             axes.axhline(side, **style)
         joints = np.flatnonzero(limits == limit) + 1
         name = f"{joints[0]}–{joints[-1]}" if len(joints) > 1 else f"{joints[0]}"
-        handles.append(Line2D([], [], label=f"limit of {name}", **style))
+        handles.append(entry(f"limit of {name}", **style))
     return handles
 
 

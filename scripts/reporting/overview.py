@@ -62,15 +62,16 @@ def row(section):
     return f'{start}<td class="picture">{picture(section)}</td>{text}</tr>'
 
 
-def first_screen(sections):
+def first_screen(sections, pictures):
     head = "".join(f"<th>{cell}</th>" for cell in HEADS)
     rows = "\n".join(map(row, sections))
     well = "all" if all(section.met for section in sections) else "some"
+    made_how = made() if pictures else f"{made()}, without pictures"
     return (
         f'<p class="headline {well}">{table.headline(sections)}</p>{provenance(sections)}\n'
-        f'<p class="note">{made()}</p>\n'
+        f'<p class="note">{made_how}</p>\n'
         f'<div class="first"><div><table class="runs"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
-        f'<p class="note">{LEGEND}</p></div>\n{animation.VIEWER}</div>'
+        f'<p class="note">{LEGEND}</p></div>\n{animation.VIEWER if pictures else ""}</div>'
     )
 
 

@@ -1,18 +1,16 @@
-"""Draws the figures of a run from the panels that panels.py chose."""
+"""Draws the figures of a run from the panels that panels.py chose.
+
+matplotlib, which takes longer to import than a report without pictures takes in all, is imported where something is drawn.
+"""
 
 import io
 import re
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_svg import FigureCanvasSVG
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from reporting import expected, panels
 from reporting.inputs import InputError
-from reporting.runs import result_words
+from reporting.result import result_words
 
 SMALL_UNITS = {"rad": ("mrad", 1e3), "m": ("mm", 1e3)}  # for errors
 # After Paul Tol's "bright" scheme, which colour-blind readers can tell apart.
@@ -63,6 +61,19 @@ def darker(of):
     return [0.4 * int(of[i : i + 2], 16) / 255 for i in (1, 3, 5)]
 
 
+def prepare():
+    """Imports what draws, once for the processes that begin after it."""
+    import matplotlib.backends.backend_agg  # noqa: F401
+    import matplotlib.backends.backend_svg  # noqa: F401
+
+
+def entry(label, **style):
+    """Returns an entry of a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], label=label, **style)
+
+
 def legend(axes, handles):
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.005, 1.02))
 
@@ -85,16 +96,20 @@ def draw_panel(part, panel, predicted=None):
     below.set_ylabel(f"error [{small_unit}]")
     below.set_xlabel("time [s]")
     handles = axes.get_legend_handles_labels()[0]
-    handles += [Line2D([], [], label="reference", **GREY, **REFERENCE)]
-    handles += [Line2D([], [], label="measured", **GREY, **MEASURED)]
-    handles += [Line2D([], [], label="waypoint", **GREY, **WAYPOINT)] if panel.points else []
-    handles += [Line2D([], [], label="expected", **GREY, **PREDICTED)] if predicted is not None else []
+    handles += [entry("reference", **GREY, **REFERENCE)]
+    handles += [entry("measured", **GREY, **MEASURED)]
+    handles += [entry("waypoint", **GREY, **WAYPOINT)] if panel.points else []
+    handles += [entry("expected", **GREY, **PREDICTED)] if predicted is not None else []
     legend(axes, handles)
     part.align_ylabels()
 
 
 def svg(height, draw, *arguments, width=8):
     """Returns the SVG text of what `draw` draws; sizes in inches, the page is 8 wide."""
+    from matplotlib import rc_context
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.figure import Figure
+
     with rc_context(STYLE):
         figure = Figure(figsize=(width, height), facecolor="none")
         draw(figure, *arguments)
@@ -111,6 +126,10 @@ def title(run):
 
 def write_figures(run):
     """Draws all tracking panels, one below the other, into figure.png, .pdf and .svg of the run's folder."""
+    from matplotlib import rc_context
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     chosen = panels.tracking_panels(run)
     if not chosen:
         raise InputError(f"{run.folder}/summary.json: nothing to draw, because tracking is empty")

@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import math
-import re
 
 import numpy as np
 
@@ -128,20 +127,6 @@ def read_json(path, form):
 
 def read_summary(path):
     return read_json(path, FORM)
-
-
-def result_words(summary):
-    """Returns the result of a run for a reader: "succeeded", or a Status in words and its code."""
-    name, code = summary["result"]["name"], summary["result"]["code"]
-    if not re.match("k[A-Z]", name):
-        return name
-    return re.sub("(?=[A-Z])", " ", name[1:]).strip().lower() + f" ({code})"
-
-
-def why(summary):
-    """Returns ": " and why a goal was not reached, as the run said it; empty if it did not."""
-    words = summary["result"].get("why")
-    return f": {words}" if isinstance(words, str) else ""
 
 
 BEGUN = ("summary.json", "log.csv", "incomplete.txt", "refused.txt")  # a folder with one of them is that of a run

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from reporting import animation, expected, more_plots, page, panels, plots, runs, table, thumbnails
+from reporting import animation, expected, more_plots, page, panels, plots, result, runs, table, thumbnails
 from reporting.inputs import InputError, shown
 from reporting.screen import screen
 from reporting.units import words
@@ -130,15 +130,15 @@ def scalar_words(run, name):
     return f"{name} was between {np.nanmin(values):.4g} and {np.nanmax(values):.4g}"
 
 
-def limit_parts(run):
-    """Says whether limits were reached, and draws the recorded scalars and flags if they changed."""
+def limit_parts(run, pictures):
+    """Says whether limits were reached, and draws the recorded scalars and flags if they changed and pictures are wanted."""
     flags, scalars = panels.signals_of(run, "flag"), panels.signals_of(run, "scalar")
     words = [scalar_words(run, name) for name in scalars] + [flag_words(run, name) for name in flags]
     words.insert(0, f"the guard limited {run.summary['guard']['limited']} of {run.summary['cycles']} cycles")
     said = page.escape("; ".join(words))
     yield f"<h3>Limits</h3><p>{said[0].upper()}{said[1:]}.</p>"
     scalars = [name for name in scalars if np.ptp(run.values(name))]
-    if scalars or any(run.values(name).any() for name in flags):
+    if pictures and (scalars or any(run.values(name).any() for name in flags)):
         caption = f"Recorded scalars (lines) and flags (bands where set): {', '.join(scalars + flags)}."
         yield page.figure(plots.svg(2.0, more_plots.draw_flags, run, flags, scalars), caption)
 
@@ -174,11 +174,11 @@ def timing_table(summary):
 
 
 def figures_of(run):
-    """Yields the figures and tables of a run; where something was to be touched, the force comes first."""
+    """Yields the figures of a run; where something was to be touched, the force comes first."""
     groups = [tracking_figures, path_figures, force_figures]
     if expected.contact(run) is not None:
         groups = [force_figures, path_figures, tracking_figures]
-    for group in (*groups, joint_figures, limit_parts, error_tables):
+    for group in (*groups, joint_figures):
         yield from group(run)
 
 
@@ -189,7 +189,7 @@ def verdict_of(summary, judgement, folder):
         return ("incomplete" if begun else table.REFUSED), False
     if summary["result"]["code"] != 0:
         refused = f"{table.REFUSED}: " if runs.is_refused(summary) else ""
-        return refused + runs.result_words(summary), False
+        return refused + result.result_words(summary), False
     if judgement is None:
         return "succeeded", True
     return ("as expected" if judgement.met else "not as expected"), judgement.met
@@ -200,17 +200,20 @@ def moment_of(path):
     return f"{datetime.datetime.fromtimestamp(path.stat().st_mtime).astimezone():{table.MOMENT}}"
 
 
-def drawn(section, run):
-    """Judges and draws a run; returns the parts of its section."""
+def judged(section, run, pictures):
+    """Judges a run, and draws it if pictures are wanted; returns the parts of its section."""
     section.chain, section.touched = run.settings.chain(), expected.touched(run)
     section.judgement = expected.judge(run)
-    section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
-    section.still = thumbnails.still(run)
-    section.animation = animation.data(run)
-    return [purpose(section), facts(section), *figures_of(run), timing_table(section.summary)]
+    parts = [purpose(section), facts(section)]
+    if pictures:
+        section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
+        section.still = thumbnails.still(run)
+        section.animation = animation.data(run)
+        parts += figures_of(run)
+    return [*parts, *limit_parts(run, pictures), *error_tables(run), timing_table(section.summary)]
 
 
-def section_of(out, name):
+def section_of(out, name, pictures=True):
     """Returns the section of one run; a file that cannot be read or drawn is named in its place."""
     folder, parts, section = runs.folder_of(out, name), [], Section(shown(name))
     try:
@@ -220,14 +223,14 @@ def section_of(out, name):
         section.written = moment_of(folder / "summary.json")
         section.kind = expected.kind_of(section.summary, folder / "pipeline.ini")
         if section.summary["result"]["code"] != 0:
-            result = page.escape(runs.result_words(section.summary))
-            why = page.escape(runs.why(section.summary))
-            parts += [f'<div class="failure"><p>This run did not succeed: <b>{result}</b>{why}.</p>']
+            said = page.escape(result.result_words(section.summary))
+            why = page.escape(result.why(section.summary))
+            parts += [f'<div class="failure"><p>This run did not succeed: <b>{said}</b>{why}.</p>']
             parts += [screen(folder), "</div>"]
         if runs.is_refused(section.summary):
             parts += [facts(section)]
         else:
-            parts += drawn(section, runs.read_run(folder, section.name))
+            parts += judged(section, runs.read_run(folder, section.name), pictures)
     except (InputError, OSError, ValueError) as error:
         section.problem = f"{folder}: {error}" if isinstance(error, ValueError) else str(error)
         what = "This run wrote no result." if section.summary is None else "Not everything could be drawn."

@@ -1,6 +1,6 @@
 """The tables of all runs: what was seen and expected, for the screen and the page, and the counters of the cycles."""
 
-from reporting.runs import result_words
+from reporting.result import result_words
 
 HEADERS = ("run", "robot", "touched", "what", "seen", "expected", "verdict")
 REFUSED = "refused"  # without a summary and a log, or without a cycle, the run did not begin

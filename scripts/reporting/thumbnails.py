@@ -1,9 +1,6 @@
 """Small pictures of the runs: the arm half way, the path of its tip, and what is around it, seen from the side."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
 from reporting import arm, expected, panels, view
 
@@ -78,6 +75,9 @@ def draw_boxes(axes, run, to_view):
 
 def still(run):
     """Returns a picture of a run as an array of pixels."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=(2.5, 2.0), dpi=110)
     canvas = FigureCanvasAgg(figure)
     draw_alone(figure, run)
@@ -87,6 +87,9 @@ def still(run):
 
 def sheet(heading, pictures):
     """Returns one figure of all runs, five in a row; `pictures` are pixels and lines of text."""
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
     across = min(5, len(pictures))
     down = -(-len(pictures) // across)
     with rc_context({"font.size": 8}):
@@ -104,4 +107,6 @@ def sheet(heading, pictures):
 
 def write_sheet(path, heading, pictures):
     """Writes the figure of all runs."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
     FigureCanvasAgg(sheet(heading, pictures)).print_png(path)

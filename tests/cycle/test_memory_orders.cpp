@@ -28,7 +28,11 @@ void assert_orders_are_enough_and_needed(Run run, std::initializer_list<Weakened
 
 // Proves LAD-8.
 
+#ifdef TACTUS_SANITIZED
+constexpr std::uint32_t kEvents = 4;
+#else
 constexpr std::uint32_t kEvents = 6;
+#endif
 constexpr std::size_t kWords = sizeof(Event) / sizeof(std::uint32_t);
 
 /// No two events have a word in common.
@@ -89,7 +93,12 @@ void an_event_that_is_read_is_whole_and_the_one_asked_for(void**) {
 // A ring constructs the writer's position first, then the reader's.
 constexpr std::initializer_list<Weakened> kPositions = {
     {0, 1, true}, {0, 1, false}, {1, 2, true}, {1, 2, false}};
-constexpr int kCalls = 9;  // of writer and reader, in every order
+// Calls of writer and reader, in every order; six show every weakened order too.
+#ifdef TACTUS_SANITIZED
+constexpr int kCalls = 6;
+#else
+constexpr int kCalls = 9;
+#endif
 
 // Proves REC-1.
 

@@ -52,7 +52,7 @@ def wide_titles():
 
 
 def main():
-    found, count, draw_svg = [], [], plots.svg
+    found, count = [], []
 
     def svg(height, draw, *arguments, width=8):
         with rc_context(plots.STYLE):
@@ -60,7 +60,7 @@ def main():
             draw(figure, *arguments)
             found.extend(f"{draw.__name__}: {text}" for text in cut_labels(figure))
         count.append(draw)
-        return draw_svg(height, draw, *arguments, width=width)
+        return "<svg/>"
 
     plots.svg = svg
     for name in sys.argv[2:]:

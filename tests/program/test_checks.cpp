@@ -149,6 +149,39 @@ void a_program_that_is_missing_and_no_program_at_all_fail(void**) {
   assert_true(has(errors(), "run_tests: no test program; name at least one"));
 }
 
+/// On one processor; a program that is in no row comes first, then what took longest.
+void the_longest_begins_first_and_the_times_of_the_last_run_are_kept(void**) {
+  assert_int_equal(
+      shell(
+          "mkdir -p $S/w/build && cd $S/w && for p in a b c d; do ln -sf ../x $p; done && printf "
+          "'unit,a,7.5\ntest,./a,1.500,1,1\ntest,./b,2.5,1.0,1.0\nsmall\n' "
+          ">build/times.csv && printf 'test,./c,10.000,1.000,0.250\ntest,./a,3.5,1.0,1.0\n' "
+          ">>build/times.csv && taskset -c $(($(nproc) - 1)) $R/scripts/run_tests ./a ./b ./c ./d "
+          "$S/x | grep -o '/[a-d]: 3' | tr -d '\n'"),
+      0);
+  assert_true(output() == "/d: 3/c: 3/a: 3/b: 3");
+  const std::string_view times = file_of("w/build/times.csv");
+  assert_true(has(times, "unit,a,7.5\nsmall\ntest,./a,"));
+  for (const char* program : {"./a", "./b", "./c", "./d"})
+    assert_int_equal(shell((Line("test 1 = $(grep -cE '^test,")
+                            << program << "(,[0-9]+[.][0-9]{3}){3}$' $S/w/build/times.csv)")
+                               .c_str()),
+                     0);
+  assert_true(times.find(scratch) == std::string_view::npos);
+}
+
+/// Only a child of the program computes, for a moment.
+void the_processor_time_of_a_program_includes_that_of_its_children(void**) {
+  write("w/busy", {"#!/bin/sh\nwork() { i=0; while [ $i -lt 200000 ]; do i=$((i + 1)); done; }\n",
+                   "(work)\necho '[==========] Running 1 test'\n", "echo '[       OK ] x'\n"});
+  assert_int_equal(shell("cd $S/w && chmod +x busy && $R/scripts/run_tests ./busy"), 0);
+  assert_int_equal(shell("grep '^test,./busy,' $S/w/build/times.csv"), 0);
+  double wall_s = 0.0, user_s = 0.0, sys_s = 0.0;
+  assert_int_equal(
+      std::sscanf(Line(output()).c_str(), "test,./busy,%lf,%lf,%lf", &wall_s, &user_s, &sys_s), 3);
+  assert_true(user_s + sys_s > 0.03);  // the program alone takes 0.003 s
+}
+
 void make_test_ends_with_one_line_of_totals_over_all_boards(void**) {
   assert_int_equal(make("test"), 0);
   assert_true(output() == "programs: 2 passed, 0 failed; tests: 6 passed, 0 failed, 0 skipped\n");
@@ -185,6 +218,8 @@ int main(int, char** argv) {
                              plant_program),
       cmocka_unit_test(a_program_that_fails_in_any_way_is_told_with_all_that_it_said),
       cmocka_unit_test(a_program_that_is_missing_and_no_program_at_all_fail),
+      cmocka_unit_test(the_longest_begins_first_and_the_times_of_the_last_run_are_kept),
+      cmocka_unit_test(the_processor_time_of_a_program_includes_that_of_its_children),
       cmocka_unit_test_setup(make_test_ends_with_one_line_of_totals_over_all_boards, plant_boards),
       cmocka_unit_test(make_test_fails_if_a_test_of_any_board_fails_and_runs_the_others),
   };

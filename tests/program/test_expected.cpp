@@ -19,14 +19,14 @@ constexpr const char* kLag =
 
 /// Joint 1 moves at 0.3 rad/s with kd / kp = 0.1 s; then the file claims half of its kp.
 void a_lag_is_expected_as_the_gains_say(void**) {
-  assert_int_equal(shell("mkdir -p $S/t/pipelines/trajectories"), 0);
+  assert_int_equal(shell("mkdir -p $S/t/pipelines/trajectories && cp $P $S/t/tactus"), 0);
   write("t/pipelines/lag.ini", {kLag});
   write("t/pipelines/trajectories/lag.csv",
         {kHeader, kReady, "1.02,0.3,-0.785398,0,-2.356194,0,1.570796,0.785398\n"});
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P lag"), 0);
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus lag"), 0);
   assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad ± 10 mrad  as expected\n"));
   assert_int_equal(shell("cd $S/t && sed -i 's/kp = 500/kp = 250/' out/lag/pipeline.ini && "
-                         "$R/scripts/report out lag"),
+                         "$R/scripts/report --no-pictures out lag"),
                    1);
   assert_true(has(output(), "  max joint error  30.0 mrad  60 mrad ± 10 mrad  not as expected\n"));
   assert_true(has(output(), "\n0 of 1 runs as expected\n"));
@@ -38,7 +38,8 @@ void a_pid_lags_only_if_it_damps_the_measured_velocity(void**) {
       shell("cd $S/t && sed 's/pd_gravity/pid\\nki = 0\\ndq_d = jrg.dq_d\\nderivative = "
             "measurement/' "
             "pipelines/lag.ini >pipelines/slow.ini && sed 's/pd_gravity/pid\\nki = 0/' "
-            "pipelines/lag.ini >pipelines/fast.ini && $R/scripts/run_all -- $P slow fast"),
+            "pipelines/lag.ini >pipelines/fast.ini && $R/scripts/run_all --no-pictures -- "
+            "./tactus slow fast"),
       0);
   assert_true(has(output(), "  max joint error  30.0 mrad  30 mrad ± 10 mrad  as expected\n"));
   assert_true(has(output(), " mrad  0 ± 10 mrad        as expected\n"));

@@ -152,9 +152,14 @@ void figure_and_report_say_what_they_lack(void**) {
 // Proves RUN-5.
 
 void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good"), 0);
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- $P good"), 0);
   assert_true(has(output(), "\nout/report.html: "));
-  assert_true(has(file_of("t/out/report.html"), "No real robot moved: 1 run of a robot arm simu"));
+  const std::string_view page = file_of("t/out/report.html");
+  assert_true(has(page, "No real robot moved: 1 run of a robot arm simu"));
+  assert_true(has(page, ", without pictures</p>"));
+  for (const char* picture : {"<img", "<figure", "<script"})
+    assert_int_equal(count(page, picture), 0);
+  assert_false(exists("t/out/runs.png"));
   write("t/pipelines/good.ini", {"[robot]\n"});
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P good -- ./none weak"), 1);
   assert_true(has(errors(), "./none: No such file or directory\n"));

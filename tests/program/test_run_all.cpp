@@ -18,7 +18,7 @@ int plant(void**) {
 
 /// Runs one, two and two:u with a copy of the program, which finds no script that draws figures.
 int run_all(const char* options) {
-  Line line("cd $S/t && $R/scripts/run_all ");
+  Line line("cd $S/t && $R/scripts/run_all --no-pictures ");
   return shell((line << options << " -- ./tactus one two two:u").c_str());
 }
 
@@ -65,7 +65,7 @@ void a_script_is_repeated_when_a_program_it_names_has_changed(void**) {
                          "printf '#!/bin/sh\\nexec build/b/tactus \"$@\"\\n' >$S/t/beside && chmod "
                          "+x $S/t/beside"),
                    0);
-  constexpr const char* kRun = "cd $S/t && $R/scripts/run_all -- ./beside two";
+  constexpr const char* kRun = "cd $S/t && $R/scripts/run_all --no-pictures -- ./beside two";
   assert_int_equal(shell(kRun), 0);
   assert_int_equal(shell(kRun), 0);
   assert_true(has(output(), "  RUN   two: unchanged, run of "));
@@ -76,7 +76,7 @@ void a_script_is_repeated_when_a_program_it_names_has_changed(void**) {
 
 void a_run_that_was_not_as_expected_is_always_repeated(void**) {
   for (int i = 0; i < 2; ++i) {
-    assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- ./tactus weak"), 1);
+    assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus weak"), 1);
     assert_true(has(output(), "  RUN   weak: measured velocity limit (68)\n"));
   }
 }
@@ -97,7 +97,7 @@ void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
 void a_run_that_this_computer_cannot_do_is_named_and_left_out(void**) {
   write("t/skips", {"#!/bin/sh\necho 'this needs a machine' >&2\nexit 77\n"});
   assert_int_equal(shell("cd $S/t && chmod +x skips && rm -rf out && "
-                         "$R/scripts/run_all -- ./tactus one -- ./skips two"),
+                         "$R/scripts/run_all --no-pictures -- ./tactus one -- ./skips two"),
                    0);
   assert_true(has(output(), "  RUN   two: SKIPPED\n"));
   assert_true(has(errors(), "this needs a machine\n"));

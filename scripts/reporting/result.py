@@ -1,0 +1,17 @@
+"""The result of a run in words, for a reader."""
+
+import re
+
+
+def result_words(summary):
+    """Returns the result of a run for a reader: "succeeded", or a Status in words and its code."""
+    name, code = summary["result"]["name"], summary["result"]["code"]
+    if not re.match("k[A-Z]", name):
+        return name
+    return re.sub("(?=[A-Z])", " ", name[1:]).strip().lower() + f" ({code})"
+
+
+def why(summary):
+    """Returns ": " and why a goal was not reached, as the run said it; empty if it did not."""
+    words = summary["result"].get("why")
+    return f": {words}" if isinstance(words, str) else ""
