@@ -125,8 +125,7 @@ run: setup                                    ## run what has changed; ONLY="run
 	$(Q)$(call each,-j2 all trajectories)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board
-	$(Q)scripts/setup vm
-	$(Q)scripts/setup m7
+	$(Q)scripts/setup test
 	$(Q)$(call each,-j2 tests)
 	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests $$tests
 test-long: setup                              ## run the long random tests at full count
