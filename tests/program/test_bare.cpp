@@ -59,6 +59,8 @@ void what_cannot_run_is_refused_with_reason_and_remedy(void**) {
   assert_true(has(errors(), "bare: '--keeps' is no option; bare --help says what there is"));
   assert_int_equal(bare("--keep $S/bin true"), 2);
   assert_true(has(errors(), "/bin exists; name a folder that does not"));
+  assert_int_equal(bare("--keep $S/none/kept true"), 2);
+  assert_true(has(errors(), "there is no folder "));
   assert_int_equal(bare("--help"), 0);
   assert_true(has(output(), "bare --keep ../bare make "));
   assert_nothing_is_left();

@@ -94,6 +94,8 @@ void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
                    0);
 }
 
+// Proves RUN-28.
+
 void a_run_that_this_computer_cannot_do_is_named_counted_and_no_success(void**) {
   write("t/skips", {"#!/bin/sh\necho 'this needs a machine' >&2\nexit 77\n"});
   assert_int_equal(shell("cd $S/t && chmod +x skips && rm -rf out && "
@@ -125,6 +127,8 @@ void a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible(voi
                    0);
   assert_true(has(output(), "\n1 of 1 runs as expected\n"));
 }
+
+// Proves RUN-11.
 
 void a_program_that_does_not_start_shows_no_earlier_run(void**) {
   assert_int_equal(run_all("--always"), 0);
