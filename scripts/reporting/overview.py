@@ -23,9 +23,11 @@ LEGEND = (
 
 
 def provenance(sections):
-    """Says what moved: how many runs are of which kind."""
+    """Says what moved: how many runs are of which kind; in a skipped one nothing did."""
+    sections = [section for section in sections if section.verdict != table.SKIPPED]
     counts = collections.Counter(section.kind for section in sections)
     told = [f"{count} {'run' if count == 1 else 'runs'} {KINDS[kind]}" for kind, count in counts.items()]
+    told = told or ["nothing was run"]
     none = "" if counts["real"] or counts[""] else "No real robot moved: "
     names = sorted({section.summary["robot"] for section in sections if section.summary})
     arms = ", ".join(page.escape(f"{name}: {ARMS[name]}" if name in ARMS else name) for name in names)

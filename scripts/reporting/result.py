@@ -2,6 +2,8 @@
 
 import re
 
+SKIPPED_FILE = "skipped.txt"  # why a run was skipped; left by run_all
+
 
 def result_words(summary):
     """Returns the result of a run for a reader: "succeeded", or a Status in words and its code."""

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from reporting.inputs import InputError, read_text
+from reporting.result import SKIPPED_FILE
 from reporting.settings import Settings
 
 
@@ -129,13 +130,20 @@ def read_summary(path):
     return read_json(path, FORM)
 
 
-BEGUN = ("summary.json", "log.csv", "incomplete.txt", "refused.txt")  # a folder with one of them is that of a run
+BEGUN = ("summary.json", "log.csv", "incomplete.txt", "refused.txt", SKIPPED_FILE)  # a folder with one of them is that of a run
+
+
+def is_skipped(folder):
+    """Returns whether the last run in a folder was skipped, as the computer lacks what it needs."""
+    return (folder / SKIPPED_FILE).exists() and not (folder / "summary.json").exists()
 
 
 def without_result(folder):
     """Says why a folder holds no run that has ended; None if a run has ended, or has not begun, in it."""
     if (folder / "summary.json").exists():
         return None
+    if is_skipped(folder):
+        return f"{folder}: skipped: {read_text(folder / SKIPPED_FILE).strip()}"
     if (folder / "refused.txt").exists():
         return f"{folder}: refused: {read_text(folder / 'refused.txt').strip()}"
     if (folder / "log.csv").exists() or (folder / "incomplete.txt").exists():

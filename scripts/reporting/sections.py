@@ -184,6 +184,8 @@ def figures_of(run):
 
 def verdict_of(summary, judgement, folder):
     """Returns the verdict in words and whether all was as expected."""
+    if runs.is_skipped(folder):
+        return table.SKIPPED, False
     if summary is None:
         begun = any((folder / file).exists() for file in ("log.csv", "incomplete.txt"))
         return ("incomplete" if begun else table.REFUSED), False

@@ -4,6 +4,7 @@ from reporting.result import result_words
 
 HEADERS = ("run", "robot", "touched", "what", "seen", "expected", "verdict")
 REFUSED = "refused"  # without a summary and a log, or without a cycle, the run did not begin
+SKIPPED = "skipped"  # the computer lacks what the run needs
 MOMENT = "%Y-%m-%d %H:%M:%S %Z"  # of a time that the report shows
 COUNTERS = ("run", "board", "Hz", "result", "limited", "slips", "heap", "step [µs]", "× real")
 COUNTERS_TEXT = ("run", "board", "result")
@@ -25,8 +26,10 @@ def cells(section):
 
 
 def headline(sections):
-    """Counts the runs that were as expected."""
-    return f"{sum(section.met for section in sections)} of {len(sections)} runs as expected"
+    """Counts the runs that were as expected, and those that were skipped."""
+    skipped = sum(section.verdict == SKIPPED for section in sections)
+    met = f"{sum(section.met for section in sections)} of {len(sections)} runs as expected"
+    return met + (f", {skipped} skipped" if skipped else "")
 
 
 def as_text(sections):

@@ -107,7 +107,7 @@ void share_and_window_are_the_files(void**) {
 
 /// The paper's gains times ten: the torque rate is limited in almost every cycle.
 void gains_that_are_much_too_high_do_not_succeed(void**) {
-  if (!is_of_this_robot("fer_jrg_pdgc")) return;
+  need_one_of({"fer_jrg_pdgc"});
   static PipelineBench bench;
   bench.start("fer_jrg_pdgc", "kp   = 500 400 400 300 20 20 10  # N m/rad\nkd   = 50 40 40 5 2 2 1",
               "kp = 5000 4000 4000 3000 200 200 100\nkd = 500 400 400 50 20 20 10",

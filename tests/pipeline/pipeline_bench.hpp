@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 
 #include "program/session/files.hpp"
@@ -19,6 +20,13 @@ namespace tactus {
 /// Whether the pipeline's name begins with that of the robot.
 inline bool is_of_this_robot(const std::string& pipeline) {
   return pipeline.rfind(std::string(Robot::kName) + "_", 0) == 0;
+}
+
+/// Skips the test, by its name, if none of its pipelines is of this robot.
+inline void need_one_of(std::initializer_list<const char*> pipelines) {
+  for (const char* pipeline : pipelines)
+    if (is_of_this_robot(pipeline)) return;
+  _skip(__FILE__, __LINE__);
 }
 
 /// Names of files that every robot has: the pipeline "_jrg_pdgc" and its trajectory

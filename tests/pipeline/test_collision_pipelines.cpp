@@ -56,7 +56,7 @@ void free_motion_is_free(void**) {
 /// This trajectory is too long for the bench; the test supplies waypoints of its own, one every
 /// millisecond.
 void the_excitation_is_free(void**) {
-  if (!is_of_this_robot("fer_excitation")) return;
+  need_one_of({"fer_excitation"});
   std::FILE* file = std::fopen("build/trajectories/fer_excitation.csv", "r");
   assert_non_null(file);
   Collision collision;
@@ -78,6 +78,7 @@ void the_excitation_is_free(void**) {
 }
 
 void only_the_tool_touches(void**) {
+  need_one_of({"fer_trg_ac_cpc_pid", "ur10_trg_ac_cpc", "ur10_trg_ac_cpc_pid"});
   assert_free({"fer_trg_ac_cpc_pid", 16.0});
   assert_free({"ur10_trg_ac_cpc", 18.0});
   assert_free({"ur10_trg_ac_cpc_pid", 15.0});
@@ -85,7 +86,7 @@ void only_the_tool_touches(void**) {
 
 /// Repeats a run with a tool that must not touch: the arm is at rest before contact.
 void a_touch_that_is_not_allowed_stops_the_arm_before_it(void**) {
-  if (!is_of_this_robot("fer_trg_ac_cpc_pid")) return;
+  need_one_of({"fer_trg_ac_cpc_pid"});
   static PipelineBench bench;
   bench.start("fer_trg_ac_cpc_pid", "allow ", "# ");
   const Executive& executive = bench.executive;
@@ -107,7 +108,7 @@ void a_touch_that_is_not_allowed_stops_the_arm_before_it(void**) {
 
 /// The UR10 starts within the margin of its blackboard.
 void an_arm_that_touches_is_not_armed(void**) {
-  if (!is_of_this_robot("ur10_trg_ac_cpc")) return;
+  need_one_of({"ur10_trg_ac_cpc"});
   static PipelineBench bench;
   ASSERT_STATUS(bench.refused("ur10_trg_ac_cpc", "allow ", "# "), Status::kCollision);
   assert_int_equal(bench.executive.rung(), Rung::kDisabled);

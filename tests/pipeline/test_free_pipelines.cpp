@@ -11,7 +11,7 @@ namespace {
 
 /// Compares the reference of a cycle with the joints measured in that cycle.
 void five_waypoints_are_followed_by_jrg_and_pid(void**) {
-  if (!is_of_this_robot("ur10_jrg_pid")) return;
+  need_one_of({"ur10_jrg_pid"});
   for (const char* trajectory : {"", "pipelines/trajectories/ur10_five_waypoints_quintic.csv"}) {
     static PipelineBench benches[2];
     PipelineBench& bench = benches[trajectory[0] == '\0' ? 0 : 1];
@@ -42,7 +42,7 @@ struct Square {
 /// reference of a cycle is compared with the flange's true pose in that cycle by KDL. The law cpc
 /// works towards the pose one period ahead, so the two have no phase difference.
 void the_square_is_followed_by_trg_and_cpc(void**) {
-  if (!is_of_this_robot("ur10_trg_cpc")) return;
+  need_one_of({"ur10_trg_cpc"});
   constexpr const char* kAtRest = "pipelines/trajectories/ur10_square_at_rest.csv";
   // Where straight lines meet, the twist steps by 33 mm/s; the joints follow it within 30 ms.
   constexpr Square kSquares[] = {{"ur10_trg_cpc", "", 0.1e-3, 1e-3},

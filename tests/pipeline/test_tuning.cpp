@@ -68,8 +68,8 @@ void no_command_steps_when_gains_change_at_any_moment(void**) {
 
 /// The joint velocities that the pose law commands, in every cycle, whatever gains are set.
 void the_pose_law_keeps_its_acceleration_limit_with_the_extremes_of_its_gains(void**) {
+  need_one_of({"fer_trg_cpc", "ur10_trg_cpc"});
   const std::string name = of_this_robot("_trg_cpc");
-  if (!std::ifstream("pipelines/" + name + ".ini").good()) return;
   const auto run = std::make_unique<TuningBench>();
   run->start(name);
   const JointVector most = run->bench.pipeline.guard.limits.ddq_max *

@@ -42,15 +42,6 @@ void a_tree_in_which_nothing_is_wrong_passes(void**) {
     assert_true(has(output(), step));
 }
 
-void a_step_whose_time_is_over_is_left_out_and_named(void**) {
-  assert_int_equal(check("sizes", "export CHECK_UNTIL=9999999999"), 0);
-  assert_true(has(output(), "== sizes\n"));
-  assert_int_equal(check("sizes tidy", "seq 251 > kernel/long.cpp; export CHECK_UNTIL=1"), 0);
-  assert_false(has(output(), "=="));
-  assert_true(has(errors(), "check: SKIPPED, the time for checks is over: sizes\n"));
-  assert_true(has(errors(), "check: SKIPPED, the time for checks is over: tidy\n"));
-}
-
 void a_step_that_does_not_exist_is_refused(void**) {
   assert_int_equal(check("sizes size"), 1);
   assert_true(has(errors(), "check: failed: no step is called size\n"));
@@ -202,7 +193,6 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(a_tree_in_which_nothing_is_wrong_passes, plant_tree),
-      cmocka_unit_test_setup(a_step_whose_time_is_over_is_left_out_and_named, plant_tree),
       cmocka_unit_test_setup(a_step_that_does_not_exist_is_refused, plant_tree),
       cmocka_unit_test(a_source_of_any_suffix_is_judged_whether_git_knows_it_or_not),
       cmocka_unit_test(long_scripts_are_found_and_what_make_writes_is_not_judged),

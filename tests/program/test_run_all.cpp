@@ -94,16 +94,46 @@ void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
                    0);
 }
 
-void a_run_that_this_computer_cannot_do_is_named_and_left_out(void**) {
+// Proves RUN-28.
+
+void a_run_that_this_computer_cannot_do_is_named_counted_and_no_success(void**) {
   write("t/skips", {"#!/bin/sh\necho 'this needs a machine' >&2\nexit 77\n"});
   assert_int_equal(shell("cd $S/t && chmod +x skips && rm -rf out && "
                          "$R/scripts/run_all --no-pictures -- ./tactus one -- ./skips two"),
-                   0);
+                   1);
   assert_true(has(output(), "  RUN   two: SKIPPED\n"));
   assert_true(has(errors(), "this needs a machine\n"));
+  assert_true(has(output(), "  skipped\n\n1 of 2 runs as expected, 1 skipped\n"));
+  assert_true(has(errors(), "report: out/two: skipped: this needs a machine\n"));
+  assert_true(has(file_of("t/out/report.html"), "1 of 2 runs as expected, 1 skipped"));
+  assert_true(has(file_of("t/out/report.html"), "No real robot moved: 1 run of a robot arm"));
+  assert_int_equal(
+      shell(
+          "cd $S/t && $R/scripts/run_all --no-pictures --only two -- ./tactus one -- ./skips two"),
+      1);
+  assert_int_equal(
+      shell(
+          "cd $S/t && $R/scripts/run_all --no-pictures --only one -- ./tactus one -- ./skips two"),
+      0);
   assert_true(has(output(), "\n1 of 1 runs as expected\n"));
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --only two -- ./skips two"), 0);
 }
+
+/// Its results are set aside, so that nobody takes them for this run's.
+void a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible(void**) {
+  assert_int_equal(
+      shell("cd $S/t && rm -rf out && $R/scripts/run_all --no-pictures -- ./tactus two"), 0);
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures --always -- ./skips two"), 1);
+  assert_true(has(output(), "\n0 of 1 runs as expected, 1 skipped\n"));
+  assert_int_equal(shell("cd $S/t/out/two && test -f earlier_run/summary.json && ! test -e "
+                         "summary.json && grep -q 'needs a machine' output.txt"),
+                   0);
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus two && ! test -e "
+                         "out/two/skipped.txt"),
+                   0);
+  assert_true(has(output(), "\n1 of 1 runs as expected\n"));
+}
+
+// Proves RUN-11.
 
 void a_program_that_does_not_start_shows_no_earlier_run(void**) {
   assert_int_equal(run_all("--always"), 0);
@@ -130,11 +160,12 @@ void the_runs_that_are_named_are_run_and_the_report_has_all_there_are(void**) {
 // Proves RUN-12.
 
 void runs_that_would_write_into_one_folder_or_into_none_are_refused(void**) {
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- ./tactus a:b -- ./other a_b"), 1);
+  assert_int_equal(
+      shell("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus a:b -- ./other a_b"), 1);
   assert_true(has(errors(), "run_all: a:b and a_b would both be written to out/a_b; rename a "));
   write("t/summary.json", {"not of a run"});
   for (const char* name : {"..", ".", "''", "../t/pipelines/one", "one:", "one:../t"}) {
-    Line line("cd $S/t && $R/scripts/run_all -- ./tactus ");
+    Line line("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus ");
     assert_int_equal(shell((line << name).c_str()), 1);
     assert_true(has(errors(), "' is not the name of a pipeline, or of pipeline:trajectory; "));
   }
@@ -162,7 +193,8 @@ int main(int, char** argv) {
       cmocka_unit_test(a_script_is_repeated_when_a_program_it_names_has_changed),
       cmocka_unit_test(a_run_that_was_not_as_expected_is_always_repeated),
       cmocka_unit_test(the_last_good_run_is_kept_when_the_next_is_refused),
-      cmocka_unit_test(a_run_that_this_computer_cannot_do_is_named_and_left_out),
+      cmocka_unit_test(a_run_that_this_computer_cannot_do_is_named_counted_and_no_success),
+      cmocka_unit_test(a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible),
       cmocka_unit_test(a_program_that_does_not_start_shows_no_earlier_run),
       cmocka_unit_test(the_runs_that_are_named_are_run_and_the_report_has_all_there_are),
       cmocka_unit_test(runs_that_would_write_into_one_folder_or_into_none_are_refused),

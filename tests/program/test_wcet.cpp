@@ -1,6 +1,5 @@
 // Tests the tools that measure and count the worst case against known answers. Runs from the root
-// of the project; a test that needs the emulator or its compiler is skipped where it is not
-// installed.
+// of the project.
 #include <cstdlib>
 
 #include "tests/support/testing.hpp"
@@ -11,10 +10,6 @@ namespace {
 
 bool passes(const char* command) {
   return std::system(command) == 0;
-}
-
-void need(const char* command) {
-  if (!passes(command)) _skip(__FILE__, __LINE__);
 }
 
 // Proves TIM-1.
@@ -59,7 +54,6 @@ void what_breaks_an_assumption_is_not_quoted_and_named(void**) {
 /// mov, a hundred times sub and branch, return: 202 instructions; its caller adds a call and a
 /// return.
 void a_loop_counted_by_hand_has_the_plugins_count(void**) {
-  need("command -v qemu-system-arm arm-none-eabi-gcc >/dev/null");
   assert_true(passes(
       "d=$(mktemp -d) && printf '.syntax unified\\n.thumb\\n.cpu cortex-m7\\n.word 0x20008000, "
       "start+1\\n"
@@ -85,7 +79,6 @@ void a_loop_counted_by_hand_has_the_plugins_count(void**) {
 // Proves TIM-3.
 
 void twice_the_same_tapes_give_the_same_counts(void**) {
-  need("command -v qemu-system-arm arm-none-eabi-g++ >/dev/null");
   assert_true(passes("env -u MAKEFLAGS make -s BOARD=fer_sim ARCH=m7 SANITIZE= wcet-images"));
   assert_true(
       passes("mkdir -p build/wcet && gcc -O2 -shared -fPIC -o build/wcet/test_plugin.so "
