@@ -1,7 +1,10 @@
 #include "program/heap_count.hpp"
 
+#include <malloc.h>
+
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
 
 namespace {
 

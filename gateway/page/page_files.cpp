@@ -20,6 +20,8 @@ PAGE_FILE(plots, "plots.js")
 PAGE_FILE(wires, "wires.js")
 PAGE_FILE(panel, "panel.js")
 
+#undef PAGE_FILE
+
 namespace tactus {
 namespace {
 
