@@ -10,6 +10,11 @@ namespace {
 
 constexpr double kRun_s = 9.0;
 constexpr double kMoving_s = 3.0;  // from here on the arms are on their way
+#ifdef TACTUS_SANITIZED
+constexpr std::uint64_t kSeeds = 1;
+#else
+constexpr std::uint64_t kSeeds = 3;
+#endif
 
 /// Largest step of each joint's command from one cycle to the next in a run without changes.
 JointVector own_steps(const std::string& name, std::uint32_t& limited) {
@@ -37,7 +42,7 @@ void no_command_steps_when_gains_change_at_any_moment(void**) {
   for (const std::string& name : tuned_pipelines()) {
     std::uint32_t limited = 0;
     const JointVector own = own_steps(name, limited);
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
       Random random{seed};
       const auto run = std::make_unique<TuningBench>();
       run->start(name);

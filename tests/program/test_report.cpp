@@ -20,9 +20,10 @@ int count(std::string_view text, std::string_view part) {
   return found;
 }
 
-/// A tree in the scratch folder with a pipeline that succeeds and one that does not.
+/// A tree in the scratch folder with a pipeline that succeeds and one that does not, and a copy of
+/// the program, which finds no script that draws figures.
 int plant_pipelines(void**) {
-  shell("mkdir -p $S/t/pipelines/trajectories");
+  shell("mkdir -p $S/t/pipelines/trajectories && cp $P $S/t/tactus");
   write("t/pipelines/good.ini", {kPipeline, "[gateway]\ntrajectory = trajectories/t.csv\n"});
   write("t/pipelines/trajectories/t.csv", {kHeader, kReady});
   write("t/pipelines/weak.ini", {kWeak});
@@ -32,7 +33,7 @@ int plant_pipelines(void**) {
 // Proves RUN-4, RUN-5.
 
 void a_run_that_fails_stops_no_other_and_the_table_says_so(void**) {
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- $P weak nowhere good"), 1);
+  assert_int_equal(shell("cd $S/t && $R/scripts/run_all -- ./tactus weak nowhere good"), 1);
   assert_true(has(output(), "  RUN   weak: measured velocity limit (68)\n"));
   assert_true(has(output(), "  RUN   nowhere: refused\n"));
   assert_true(has(output(), "  RUN   good: succeeded\n"));

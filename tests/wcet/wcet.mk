@@ -62,6 +62,11 @@ $(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(KERNEL_LIB)
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	$(call say,LD    $@)
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
+# What test_wcet runs.
+.PHONY: tested-images
+tests: $(if $(filter %/tests/program/test_wcet,$(TESTS)),tested-images)
+tested-images: build/wcet/count_plugin.so
+	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images
 endif
 # Built by make SANITIZE=fuzzer-no-link CXX=clang++ WARNINGS= wcet-searches. The search target itself is compiled without
 # coverage, so that libFuzzer does not count it.
