@@ -1,4 +1,5 @@
 # Tactus. `make help` lists the targets; BOARD=... chooses the board, V=1 shows the commands.
+MAKEFLAGS += --no-builtin-rules
 BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
@@ -176,8 +177,8 @@ help:                                         ## list the targets
 	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories list-runs list-units kernel robots shared always
-robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(board)))))
 robot_of = $(shell sed -n 's/^ROBOT *:= *//p' boards/$(1)/board.mk)
+robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(board)))))
 robot-%: shared
 	$(Q)set -e; for board in $(foreach board,$(BOARDS),$(if $(filter $*,$(call robot_of,$(board))),$(board))); do \
 	  $(MAKE) --no-print-directory BOARD=$$board $(GOALS); done

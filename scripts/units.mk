@@ -54,9 +54,9 @@ compile = $(Q)$(call timed,compile) $(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $<
 quote   = '$(subst ','\'',$(1))'
 $(O)/flags: always
 	$(call kept,echo $(call quote,$(CXX) $(CXXFLAGS) $(SMALL) $(QUICK) $(OPTION)))
-$(O)/units/%.cpp: always
+$(UNITS:%=$(O)/units/%.cpp): $(O)/units/%.cpp: always
 	$(call kept,printf '#include "%s"\n' $(sort $(SOURCES_$*)))
-$(O)/units/%.o: $(O)/units/%.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
+$(UNITS:%=$(O)/units/%.o): %.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
 $(O)/%.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch $(MESSAGES).h

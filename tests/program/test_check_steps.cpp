@@ -36,9 +36,9 @@ int check(const char* step, const char* before = "true") {
 // Proves CHK-3.
 
 void a_tree_in_which_nothing_is_wrong_passes(void**) {
-  assert_int_equal(check("formatted sizes lines scripts/statements tidy ports"), 0);
+  assert_int_equal(check("formatted sizes lines statements tidy ports"), 0);
   for (const char* step :
-       {"== formatted\n", "== sizes\n", "== scripts/statements\n", "== tidy\n", "== ports\n"})
+       {"== formatted\n", "== sizes\n", "== statements\n", "== tidy\n", "== ports\n"})
     assert_true(has(output(), step));
 }
 
@@ -133,7 +133,7 @@ void a_fuzz_target_that_runs_nothing_is_a_finding(void**) {
 /// The tree with one source more, whose second line is the statement.
 int check_statement(const char* statement) {
   write("c/tests/y.hpp", {"int x;\n", statement});
-  return check("scripts/statements");
+  return check("statements");
 }
 
 void a_comma_that_joins_two_statements_is_found(void**) {
@@ -179,7 +179,7 @@ void a_comma_that_joins_no_statements_is_not_complained_of(void**) {
 }
 
 void sources_whose_statements_cannot_be_read_are_refused(void**) {
-  const char* const step = "scripts/statements";
+  const char* const step = "statements";
   assert_int_equal(check(step, "printf '// \\377\\n' > kernel/x.cpp"), 1);
   assert_true(has(errors(), "kernel/x.cpp:1: cannot be read: "));
   assert_int_equal(check(step, "rm -r kernel gateway hal program sim_plant boards"), 1);
