@@ -77,11 +77,11 @@ int count(const char* what) {
       if (floods && !owner) flood_with_everything(hostile, client);
     }
     hear(hostile);
-    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_TOGGLE_COLLECT;
     CALLGRIND_ZERO_STATS;
     bench.cycle();
+    CALLGRIND_TOGGLE_COLLECT;
     CALLGRIND_DUMP_STATS_AT("cycle");
-    CALLGRIND_STOP_INSTRUMENTATION;
     hear(hostile);
   }
   return 0;
@@ -99,7 +99,8 @@ struct Counts {
 /// Counts every cycle in a process of its own.
 Counts counts_of(const char* what) {
   Line command("mkdir -p $S/");
-  command << what << " && valgrind -q --tool=callgrind --instr-atstart=no --callgrind-out-file=$S/"
+  command << what
+          << " && valgrind -q --tool=callgrind --collect-atstart=no --callgrind-out-file=$S/"
           << what << "/dump " << self << " " << what << " && cd $S/" << what
           << " && sed -n 's/^totals: //p' $(seq -f dump.%g " << kCycles << ")";
   const int code = shell(command.c_str());

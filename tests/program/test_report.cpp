@@ -115,14 +115,6 @@ void a_damaged_file_is_named_and_the_rest_is_drawn(void**) {
 
 // Proves RUN-10.
 
-void a_folder_without_a_summary_is_incomplete(void**) {
-  assert_int_equal(shell("cd $S/t && mkdir out/half && cp out/good/log.csv out/half/ && "
-                         "$R/scripts/report out half"),
-                   1);
-  assert_true(has(errors(), "report: out/half: incomplete: the run has ended without a summary"));
-  assert_true(has(output(), "  incomplete\n\n0 of 1 runs as expected\n"));
-}
-
 /// The first ended before its first cycle, the second has a FIFO, the third no name in UTF-8.
 void a_folder_is_shown_whatever_it_is_called_and_holds(void**) {
   assert_int_equal(
@@ -244,7 +236,6 @@ int main(int, char** argv) {
       cmocka_unit_test(the_report_shows_every_run_and_what_failed),
       cmocka_unit_test(the_images_of_the_report_are_well_formed),
       cmocka_unit_test(a_damaged_file_is_named_and_the_rest_is_drawn),
-      cmocka_unit_test(a_folder_without_a_summary_is_incomplete),
       cmocka_unit_test(a_folder_is_shown_whatever_it_is_called_and_holds),
       cmocka_unit_test(figure_and_report_say_what_they_lack),
       cmocka_unit_test(an_interrupt_while_figures_are_drawn_is_quiet),

@@ -18,6 +18,15 @@ void a_folder_without_a_log_is_listed_too(void**) {
   assert_true(has(errors(), "report: refused: refused: The run of x\n"));
 }
 
+void a_folder_without_a_summary_is_incomplete(void**) {
+  assert_int_equal(
+      shell("mkdir -p $S/part/out/half && cd $S/part && echo time_s >out/half/log.csv && "
+            "$R/scripts/report out half"),
+      1);
+  assert_true(has(errors(), "report: out/half: incomplete: the run has ended without a summary"));
+  assert_true(has(output(), "  incomplete\n\n0 of 1 runs as expected\n"));
+}
+
 void output_that_is_older_than_the_run_is_not_shown_as_its_own(void**) {
   const Line weak = write("weak.ini", {"[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
                                        "[pd]\ntype = pd_gravity\nq_d = robot.q\nq = robot.q\n"
@@ -40,6 +49,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_folder_without_a_log_is_listed_too),
+      cmocka_unit_test(a_folder_without_a_summary_is_incomplete),
       cmocka_unit_test(output_that_is_older_than_the_run_is_not_shown_as_its_own),
   };
   return run_program_tests(argv[0], tests);
