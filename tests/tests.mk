@@ -65,7 +65,7 @@ $(JOINED:%=$(B)/%/sources): $(B)/%/sources: always
 
 .SECONDEXPANSION:
 $(JOINED:%=$(B)/%/unit.cpp): $(B)/%/unit.cpp: $$(call of,$$*) $(B)/%/sources scripts/test_unit
-	$(Q)scripts/test_unit $@ $(call of,$*)
+	$(Q)scripts/test_unit $@ $(call of,$*) && touch $@
 $(LINKED): %: $$(@D)/tests
 	$(Q)ln -sf tests $@
 # `make BOARD=fer_sim tests/control` builds and runs the tests of one folder.
