@@ -143,8 +143,7 @@ run: setup                                    ## run what has changed; ONLY="run
 test: setup                                   ## build and run all tests of every board; ONLY="control guard" those of tests/control and tests/guard
 	$(Q)scripts/setup test
 	$(Q)$(call build,tests)
-	$(Q)set -e; tests=$$($(call each,list-tests)); $(call timed,step,run tests) scripts/run_tests $$tests
-	$(Q)scripts/times
+	$(Q)set -e; tests=$$($(call each,list-tests)); scripts/run_tests --table $$tests
 test-long: setup                              ## run the long random tests at full count
 	$(Q)$(MAKE) --no-print-directory -j$(JOBS) $(LONG)
 	$(Q)TACTUS_TRIALS=100000 scripts/run_tests $(LONG)
@@ -182,8 +181,6 @@ robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(bo
 robot-%: shared
 	$(Q)set -e; for board in $(foreach board,$(BOARDS),$(if $(filter $*,$(call robot_of,$(board))),$(board))); do \
 	  $(MAKE) --no-print-directory BOARD=$$board $(GOALS); done
-# What boards of several robots take.
-shared: $(MESSAGES).h $(if $(filter all tests,$(GOALS)),trajectories $(TACTUSCTL)) $(if $(filter tests,$(GOALS)),python build/libfcl_oracle.so)
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
 list-units:
@@ -228,6 +225,10 @@ include tests/bench/policies/policies.mk
 include tests/wcet/can/can.mk
 include boards/bare_metal/image.mk
 include gateway/python/python.mk
+
+# What boards of several robots take.
+SHARED = $(MESSAGES).h $(if $(filter all tests,$(GOALS)),trajectories $(TACTUSCTL)) $(if $(filter tests,$(GOALS)),python build/libfcl_oracle.so)
+shared: $(SHARED)
 
 .PRECIOUS: $(O)/%.o $(O)/units/%.cpp
 .DELETE_ON_ERROR:

@@ -38,7 +38,7 @@ B := $(B)-single
 endif
 
 # $(call objects,SOURCES): the units that are among them as a whole, and an object for each other source.
-units_in = $(foreach unit,$(UNITS),$(if $(filter-out $(1),$(SOURCES_$(unit))),,$(unit)))
+units_in = $(foreach unit,$(UNITS),$(if $(SOURCES_$(unit)),$(if $(filter-out $(1),$(SOURCES_$(unit))),,$(unit))))
 objects  = $(call joined,$(1),$(call units_in,$(1)))
 joined   = $(2:%=$(O)/units/%.o) $(call obj,$(filter-out $(foreach unit,$(2),$(SOURCES_$(unit))),$(1)))
 

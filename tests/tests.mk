@@ -1,6 +1,6 @@
 # The tests. The Makefile includes this file and defines B, O, TESTS and the rest.
 # Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them.
-SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,check_steps checks expected loop_bounds refuted report report_folders \
+SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,bare check_steps checks expected loop_bounds refuted report report_folders \
                   report_labels run_all setup static_bounds tools wcet)
 OF_THREADS   := $(addprefix tests/,core/test_mailbox.cpp core/test_histogram.cpp pipeline/test_recorder.cpp \
                   reference/generator/test_reference_threads.cpp cycle/test_ladder.cpp)

@@ -8,7 +8,7 @@ CTL_SHARED   := gateway/csv_cells.cpp gateway/line_reader.cpp gateway/sockets/ad
                 kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp kernel/math/so3.cpp \
                 $(addprefix kernel/reference/space/,polynomial.cpp rotation_segment.cpp vector_bounds.cpp)
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))
-CTL_OBJECTS  := $(if $(UNITS),$(CTL)/units/client.o $(CTL)/units/shared.o,$(call ctl_obj,$(CTL_CLIENT) $(CTL_SHARED))) \
+CTL_OBJECTS  := $(if $(UNITS),$(CTL)/units/client.o,$(call ctl_obj,$(CTL_CLIENT))) \
                 $(call ctl_obj,$(CTL_SEAM) gateway/version.cpp) $(CTL)/proto/tactus.pb.o
 CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
@@ -16,7 +16,7 @@ TACTUSCTL    := build/tactusctl$(HOW)
 
 CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS:%.cpp=$(B)/%))
 
-$(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a
+$(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a $(if $(UNITS),$(CTL)/units/shared.o,$(call ctl_obj,$(CTL_SHARED)))
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lprotobuf -lsodium
 $(CTL)/libctl.a: $(CTL_OBJECTS)
@@ -50,15 +50,16 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)install -d $(SHARE)/man/man1 $(SHARE)/bash-completion/completions
 	$(Q)ABOUT="client of the server of references" scripts/manual $(TACTUSCTL) tactusctl > $(SHARE)/man/man1/tactusctl.1
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
-# Its tests are compiled as it is, and judge what it writes by the kernel of their board.
+# Its tests are compiled as it is, and judge what it writes by the kernel of their board, from which they have what is shared.
+CTL_LIBS := $(CTL)/libctl.a $(B)/libprogram.a $(KERNEL_LIB)
 $(CTL)/tests/%.o $(B)/tests/ctl/unit.o: private CTLFLAGS += -DTACTUS_ROBOT=$(ROBOT)
 $(B)/tests/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(ctl_compile)
-$(B)/tests/ctl/tests: $(B)/tests/ctl/unit.o $(CTL)/libctl.a $(KERNEL_LIB) | $(TACTUSCTL)
+$(B)/tests/ctl/tests: $(B)/tests/ctl/unit.o $(CTL_LIBS) | $(TACTUSCTL)
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lcmocka
-$(if $(UNITS),,$(CTL_TESTS)): $(B)/%: $(CTL)/%.o $(CTL)/libctl.a $(KERNEL_LIB) | $(TACTUSCTL)
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lcmocka -lprotobuf $(GATEWAY_LIBS)
+$(if $(UNITS),,$(CTL_TESTS)): $(B)/%: $(CTL)/%.o $(CTL_LIBS) | $(TACTUSCTL)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^ -lcmocka
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lcmocka -lprotobuf $(GATEWAY_LIBS)
 -include $(shell find $(CTL) -name '*.d' 2>/dev/null)

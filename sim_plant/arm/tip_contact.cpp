@@ -8,11 +8,11 @@ namespace tactus {
 namespace {
 
 /// Pose of a body in the base frame.
-struct Frame {
+struct BodyFrame {
   Vector3 p;
   Matrix3 r;
 
-  Frame(const mjData* data, int body)
+  BodyFrame(const mjData* data, int body)
       : p(Eigen::Map<const Vector3>(data->xpos + 3 * body)),
         r(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data->xmat + 9 * body)) {}
   Vector3 to_base(const Vector3& point) const { return p + r * point; }
@@ -49,7 +49,7 @@ void TipContact::begin(const mjModel* model, mjData* data, double h_s) {
   if (none()) return;
   mj_kinematics(model, data);
   mj_comPos(model, data);
-  const Frame frame(data, body_);
+  const BodyFrame frame(data, body_);
   const Vector3 centre = frame.to_base(centre_);
   for (int i = 0; i < scene_.count; ++i) {
     Contact& contact = contacts_[static_cast<std::size_t>(i)];
@@ -73,7 +73,7 @@ void TipContact::slip(const Touch& touch, const Force& force, double h_s, Contac
 TipContact::Force TipContact::find_force(const mjModel* model, const mjData* data, int i) const {
   const Contact& contact = contacts_[static_cast<std::size_t>(i)];
   const Box& box = scene_.boxes[static_cast<std::size_t>(i)];
-  const Frame frame(data, body_);
+  const BodyFrame frame(data, body_);
   const Touch touch = find_touch(box, frame.to_base(centre_), radius_);
   Force result;
   if (touch.depth <= 0.0) return result;
@@ -100,7 +100,7 @@ Vector6 TipContact::wrench(const mjModel* model, const mjData* data) const {
   for (int i = 0; i < scene_.count; ++i) {
     const Force contact = find_force(model, data, i);
     result.head<3>() += contact.force;
-    result.tail<3>() += (contact.at - Frame(data, body_).p).cross(contact.force);
+    result.tail<3>() += (contact.at - BodyFrame(data, body_).p).cross(contact.force);
   }
   return result;
 }

@@ -51,11 +51,11 @@ void a_source_of_any_suffix_is_judged_whether_git_knows_it_or_not(void**) {
   for (const char* name : {"kernel/bad.hpp", "tests/bad.c", "bad.inl", "boards/new/bad.cpp"}) {
     setenv("NAME", name, 1);
     plant_tree(nullptr);
-    const char* const plant = "mkdir -p $(dirname $NAME); seq 251 > $NAME";
+    const char* const plant = "mkdir -p $(dirname $NAME); seq 401 > $NAME";
     assert_true(check("formatted", plant) != 0);
     assert_true(has(errors(), "check: failed: formatted"));
     assert_int_equal(check("sizes"), 1);
-    assert_true(has(errors(), (Line("251 ./") << name << "\n").c_str()));
+    assert_true(has(errors(), (Line("401 ./") << name << "\n").c_str()));
   }
 }
 
@@ -63,10 +63,10 @@ void long_scripts_are_found_and_what_make_writes_is_not_judged(void**) {
   for (const char* name : {"scripts/new", "tests/new.mk", "Makefile"}) {
     setenv("NAME", name, 1);
     plant_tree(nullptr);
-    assert_int_equal(check("sizes", "mkdir -p tests; seq 251 > $NAME"), 1);
+    assert_int_equal(check("sizes", "mkdir -p tests; seq 401 > $NAME"), 1);
   }
   plant_tree(nullptr);
-  assert_int_equal(check("sizes formatted", "seq 251 > build/bad.cpp"), 0);
+  assert_int_equal(check("sizes formatted", "seq 401 > build/bad.cpp"), 0);
   assert_true(check("formatted", "rm -r kernel gateway hal program sim_plant boards") != 0);
   assert_true(has(errors(), "no source below this folder"));
 }

@@ -42,7 +42,7 @@ int plant_boards(void**) {
   return shell(
       "mkdir -p $S/m/tests/oracles/fcl $S/m/tests/core $S/m/scripts $S/m/build && "
       "cp --parents Makefile $(sed -n 's/^include \\([^$]*\\.mk\\)$/\\1/p' Makefile) "
-      "scripts/run_tests kernel/core/precompiled.hpp tests/support/testing.hpp "
+      "scripts/run_tests scripts/times kernel/core/precompiled.hpp tests/support/testing.hpp "
       "gateway/tactus.proto gateway/tactus.options $S/m && cp $S/x.cpp "
       "$S/m/tests/core/test_x.cpp "
       "&& cd "
@@ -62,7 +62,8 @@ int make(const char* arguments, const char* environment = "X=1") {
   setenv("WITH", arguments, 1);
   setenv("WAY", environment, 1);
   return shell(
-      "(cd $S/m && env -i PATH=\"$PATH\" $WAY make BOARD=one TESTLIBS=-lcmocka $WITH) > $S/made; "
+      "(cd $S/m && env -i PATH=\"$PATH\" $WAY make BOARD=one SHARED= TESTLIBS=-lcmocka $WITH) > "
+      "$S/made; "
       "code=$?; tail -n 1 $S/made; (exit $code)");
 }
 

@@ -8,8 +8,7 @@ namespace {
 
 int certificate(const char* name) {
   build(name);
-  return shell(
-      "scripts/certificate $NAME --callgraph $S/$NAME --roots planted --stack-budget 2048");
+  return shell("scripts/certificate $NAME --objects $S/$NAME --roots planted --stack-budget 2048");
 }
 
 // Proves BND-1.
@@ -92,7 +91,7 @@ void a_frame_of_four_kilobytes_is_over_the_budget(void**) {
 void a_stack_that_was_not_painted_is_no_certificate(void**) {
   build("fine");
   const char* const command =
-      "scripts/certificate fine --callgraph $S/fine --roots planted --painted ";
+      "scripts/certificate fine --objects $S/fine --roots planted --painted ";
   assert_int_equal(shell((Text<1023>(command) << "/bin/true").c_str()), 1);
   assert_true(has(errors(), "/bin/true painted no stack; "));
 }
@@ -110,7 +109,7 @@ void a_call_of_the_heap_is_refused_by_its_place(void**) {
 void ram_and_flash_over_the_budget_are_refused(void**) {
   build("fine");
   const char* const command =
-      "scripts/certificate fine --callgraph $S/fine --image $S/fine/planted.elf --tools "
+      "scripts/certificate fine --objects $S/fine --image $S/fine/planted.elf --tools "
       "arm-none-eabi- --roots planted ";
   assert_int_equal(shell((Text<1023>(command) << "--static-budget 0").c_str()), 0);
   assert_int_equal(shell((Text<1023>(command) << "--static-budget -1").c_str()), 1);

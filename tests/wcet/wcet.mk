@@ -50,7 +50,7 @@ ifeq ($(ARCH),host)
 wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) ;
 $(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^ -lmujoco
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lmujoco $(GATEWAY_LIBS)
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
