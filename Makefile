@@ -232,4 +232,4 @@ shared: $(SHARED)
 
 .PRECIOUS: $(O)/%.o $(O)/units/%.cpp
 .DELETE_ON_ERROR:
--include $(shell find $(O) $(B) -name '*.d' 2>/dev/null)
+-include $(shell find $(O) $(B) -type f -name '*.d' 2>/dev/null)

@@ -26,7 +26,7 @@ SINGLE  := $(foreach folder,$(filter-out $(JOINED),$(FOLDERS)),$(call of,$(folde
 LINKED  := $(filter-out $(SINGLE:%.cpp=$(B)/%),$(TESTS))
 
 .PHONY: tests list-tests run-tests sanitized-tests thread-tests $(FOLDERS)
-tests: trajectories $(if $(TESTS)$(SCRIPTED),$(B)/$(NAME)) $(TESTS)
+tests: trajectories $(if $(filter thread,$(SANITIZE)),,$(if $(TESTS)$(SCRIPTED),$(B)/$(NAME))) $(TESTS)
 	@:
 list-tests:
 	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS)$(SANITIZE),$(if $(SANITIZE),,tests/vm/run tests/vm/repeat tests/vm/pipeline)) $(if $(SANITIZE),,$(SCRIPTED))
