@@ -25,11 +25,11 @@ JOINED  := $(if $(UNITS),$(foreach folder,$(filter-out $(APART),$(FOLDERS)),$(if
 SINGLE  := $(foreach folder,$(filter-out $(JOINED),$(FOLDERS)),$(call of,$(folder)))
 LINKED  := $(filter-out $(SINGLE:%.cpp=$(B)/%),$(TESTS))
 
-.PHONY: tests list-tests run-tests sanitized-tests thread-tests $(FOLDERS)
+.PHONY: tests list-tests sanitized-tests thread-tests $(FOLDERS)
 tests: trajectories $(if $(filter thread,$(SANITIZE)),,$(if $(TESTS)$(SCRIPTED),$(B)/$(NAME))) $(TESTS)
 	@:
 list-tests:
-	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(VM_TESTS)$(SANITIZE),$(if $(SANITIZE),,tests/vm/run tests/vm/repeat tests/vm/pipeline)) $(if $(SANITIZE),,$(SCRIPTED))
+	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(SANITIZE),,$(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline) $(SCRIPTED))
 sanitized-tests:                              ## build and run the tests of BOARDS with sanitizers
 	$(Q)$(call build,tests,$(SANITIZED))
 	$(Q)set -e; tests=$$($(call each,$(SANITIZED) list-tests)); scripts/run_tests $$tests

@@ -188,7 +188,7 @@ void make_test_ends_with_one_line_of_totals_over_all_boards(void**) {
   assert_true(output() == "programs: 2 passed, 0 failed; tests: 6 passed, 0 failed, 0 skipped\n");
   assert_int_equal(shell("grep programs: $S/made | wc -l"), 0);
   assert_true(output() == "1\n");
-  assert_int_equal(make("BOARD=none run-tests"), 0);
+  assert_int_equal(make("BOARD=none tests"), 0);
   assert_true(output().find("programs:") == std::string_view::npos);
 }
 
