@@ -1,11 +1,12 @@
 # Tactus. `make help` lists the targets; BOARD=... chooses the board, V=1 shows the commands.
 MAKEFLAGS += --no-builtin-rules
+.DEFAULT_GOAL := all
 BOARD ?= fer_sim
 Q     := $(if $(V),,@)
 comma := ,
 ARCH  ?= host
 JOBS  ?= $(shell nproc)
-HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)
+HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)$(if $(filter command,$(origin UNITS)),$(if $(UNITS),,-single))
 B     := build/$(BOARD)$(HOW)
 
 # Of the files named after a robot, only those of the board's robot are compiled.
@@ -169,7 +170,7 @@ setup-%:
 format:                                       ## clang-format every source
 	$(Q)clang-format -i $$(git ls-files -co --exclude-standard '*.[ch]pp' '*.[ch]')
 compile_commands.json:                        ## for editors: every source by itself
-	$(Q)bear -- $(MAKE) -B UNITS= all $(TESTS)
+	$(Q)bear -- $(MAKE) -B UNITS= all tests
 clean:                                        ## remove everything that make has built
 	$(Q)rm -rf build out compile_commands.json
 help:                                         ## list the targets
@@ -199,15 +200,19 @@ $(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC))): private PCH :=
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
 $(call obj,$(OPTIONS)): private CXXFLAGS := $(SEAMFLAGS) $(OPTION)
 $(call obj,$(SEAMS)): private PCH :=
-$(KERNEL_LIB): $(KERNEL_OBJECTS)
+$(eval $(call archive,$(KERNEL_LIB),$(KERNEL_OBJECTS)))
+$(eval $(call archive,$(B)/libprogram.a,$(call objects,$(PROGRAM)) $(O)/gateway/tactus.pb.o))
 WHOLE_KERNEL = -Wl,--whole-archive $(KERNEL_LIB) -Wl,--no-whole-archive $(filter-out %/libkernel.a,$^)
-$(B)/libprogram.a: $(call objects,$(PROGRAM)) $(O)/gateway/tactus.pb.o
 build/%.a:
 	$(call say,AR    $@)
-	$(Q)rm -f $@ && $(AR) rcs $@ $^
-$(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(KERNEL_LIB)
+	$(Q)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
+build/%.members: always
+	$(call kept,echo $(MEMBERS))
+$(B)/linked: always
+	$(call kept,echo $(call quote,$(CXX) $(LINK) $(LDFLAGS) $(SRCS) $(LDLIBS) $(TESTLIBS) $(GATEWAY_LIBS)))
+$(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(KERNEL_LIB) $(B)/linked
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) $(LDFLAGS) -o $@ $^ $(LDLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS) $(GATEWAY_LIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(LINK) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread

@@ -32,9 +32,6 @@ SOURCES_segment   := $(call in_folders,sim_plant/ethercat)
 # What is linked for a bare core is counted and bounded object by object.
 ifneq ($(BARE),)
 UNITS :=
-else ifeq ($(UNITS),)
-O := $(O)-single
-B := $(B)-single
 endif
 
 # $(call objects,SOURCES): the units that are among them as a whole, and an object for each other source.
@@ -48,6 +45,12 @@ kernel_objects  = $(if $(KINDS),$(foreach source,$(1),$(patsubst %.cpp,$(if $(fi
 
 # Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
 KERNEL_OBJECTS := $(call kernel_objects,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
+
+# $(call archive,FILE,OBJECTS): it is made anew when it has other members, too.
+define archive
+$(1): $(2) $(1).members
+$(1).members: private MEMBERS := $(2)
+endef
 
 compile = $(Q)$(call timed,compile) $(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
 # A word of the shell, whatever it contains.

@@ -8,6 +8,9 @@ TEST_SOURCES := $(if $(SANITIZE),$(filter-out $(SCRIPT_TESTS),$(TESTS)),$(TESTS)
 TEST_SOURCES := $(if $(filter thread,$(SANITIZE)),$(OF_THREADS),$(TEST_SOURCES))
 # `make test ONLY="control guard"` builds and runs the tests of these folders.
 chosen       := $(strip $(if $(filter command,$(origin ONLY)),$(subst $(comma), ,$(ONLY))))
+ifneq ($(filter test,$(MAKECMDGOALS)),)
+$(foreach word,$(chosen),$(if $(wildcard tests/$(word)/.),,$(error ONLY: there is no folder tests/$(word); name folders of tests/)))
+endif
 TEST_SOURCES := $(if $(chosen),$(filter $(chosen:%=tests/%/%),$(TEST_SOURCES)),$(TEST_SOURCES))
 SCRIPTED     := $(if $(chosen),$(filter $(chosen:%=tests/%/%),$(SCRIPTED)),$(SCRIPTED))
 TESTS        := $(TEST_SOURCES:%.cpp=$(B)/%)
@@ -25,7 +28,10 @@ JOINED  := $(if $(UNITS),$(foreach folder,$(filter-out $(APART),$(FOLDERS)),$(if
 SINGLE  := $(foreach folder,$(filter-out $(JOINED),$(FOLDERS)),$(call of,$(folder)))
 LINKED  := $(filter-out $(SINGLE:%.cpp=$(B)/%),$(TESTS))
 
-.PHONY: tests list-tests sanitized-tests thread-tests $(FOLDERS)
+# Folders in which this board has no tests.
+WITHOUT := $(filter-out $(FOLDERS),$(patsubst %/.,%,$(wildcard tests/*/. tests/*/*/.)))
+
+.PHONY: tests list-tests sanitized-tests thread-tests $(FOLDERS) $(WITHOUT) $(addsuffix /,$(FOLDERS) $(WITHOUT))
 tests: trajectories $(if $(filter thread,$(SANITIZE)),,$(if $(TESTS)$(SCRIPTED),$(B)/$(NAME))) $(TESTS)
 	@:
 list-tests:
@@ -43,20 +49,20 @@ $(call obj,$(IN_TESTS)) $(JOINED:%=$(B)/%/unit.o) $(O)/quick.hpp.gch: private CX
 $(call obj,$(IN_TESTS)) $(JOINED:%=$(B)/%/unit.o): private PCH := $(O)/quick.hpp
 $(O)/tests/pipeline/test_pipelines.o $(B)/tests/pipeline/unit.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
 $(O)/tests/pipeline/test_pipelines.o $(B)/tests/pipeline/unit.o: boards/$(BOARD)/board.mk
-$(O)/liboracles.a: $(call obj,$(ORACLES))
+$(eval $(call archive,$(O)/liboracles.a,$(call obj,$(ORACLES))))
 # Debian's FCL is compiled with vectorised Eigen, so its caller is too, in a library that hides its symbols.
 build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 	$(call say,LD    $@)
 	$(Q)$(call timed,compile) $(CXX) -std=c++17 -O1 -fPIC -shared -fvisibility=hidden $(WARNINGS) -I. -isystem /usr/include/eigen3 -o $@ $< -lfcl
 $(TESTS): | build/libfcl_oracle.so
 
-OF_PRODUCT := $(O)/liboracles.a $(B)/libprogram.a $(KERNEL_LIB)
+OF_PRODUCT := $(O)/liboracles.a $(B)/libprogram.a $(KERNEL_LIB) $(B)/linked
 $(filter-out $(B)/tests/ctl/%,$(SINGLE:%.cpp=$(B)/%)): $(B)/%: $(O)/%.o $(OF_PRODUCT)
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ $(TESTLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(GATEWAY_LIBS)
 $(patsubst %,$(B)/%/tests,$(filter-out tests/ctl,$(JOINED))): %/tests: %/unit.o $(OF_PRODUCT) | build/libfcl_oracle.so
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ $(TESTLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(GATEWAY_LIBS)
 $(patsubst %,$(B)/%/unit.o,$(filter-out tests/ctl,$(JOINED))): %/unit.o: %/unit.cpp $(O)/flags | $(O)/quick.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
@@ -71,3 +77,6 @@ $(LINKED): %: $$(@D)/tests
 # `make BOARD=fer_sim tests/control` builds and runs the tests of one folder.
 $(FOLDERS): trajectories $(B)/$(NAME) $$(patsubst %.cpp,$(B)/%,$$(call of,$$@))
 	$(Q)scripts/run_tests $(patsubst %.cpp,$(B)/%,$(call of,$@))
+$(WITHOUT):
+	@echo '$@: $(BOARD) has no tests there; it has some in $(FOLDERS)' >&2; exit 2
+$(addsuffix /,$(FOLDERS) $(WITHOUT)): %/: % ;

@@ -19,7 +19,7 @@ CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS:%.cpp=$(B)/%))
 $(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a $(if $(UNITS),$(CTL)/units/shared.o,$(call ctl_obj,$(CTL_SHARED)))
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lprotobuf -lsodium
-$(CTL)/libctl.a: $(CTL_OBJECTS)
+$(eval $(call archive,$(CTL)/libctl.a,$(CTL_OBJECTS)))
 $(CTL)/proto/tactus.pb.cc: gateway/tactus.proto
 	$(call say,PROTO $<)
 	$(Q)protoc -Igateway --cpp_out=$(@D) $<

@@ -27,7 +27,7 @@ ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 CXXFLAGS += -fsanitize-ignorelist=tests/fuzz/eigen.ignore \
             -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
 fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
-$(O)/libfuzzed.a: $(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)
+$(eval $(call archive,$(O)/libfuzzed.a,$(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)))
 $(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(subst fuzzer-no-link,fuzzer,$(LINK)) -o $@ $^ $(GATEWAY_LIBS)

@@ -135,6 +135,17 @@ void a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible(voi
 
 // Proves RUN-11.
 
+/// Whatever its summary says.
+void a_program_that_fails_after_its_summary_has_not_succeeded(void**) {
+  for (const char* end : {"exit 1", "exit 77", "kill -SEGV $$"}) {
+    write("t/late", {"#!/bin/sh\n./tactus \"$@\"\n", end, "\n"});
+    assert_int_equal(shell("cd $S/t && chmod +x late && rm -rf out && "
+                           "$R/scripts/run_all --no-pictures -- ./late one"),
+                     1);
+    assert_int_equal(shell("cd $S/t/out/one && ! test -e stamp.json && ! test -e summary.json"), 0);
+  }
+}
+
 void a_program_that_does_not_start_shows_no_earlier_run(void**) {
   assert_int_equal(run_all("--always"), 0);
   assert_int_equal(shell("cd $S/t && mv tactus away; mkdir tactus"), 0);
@@ -195,6 +206,7 @@ int main(int, char** argv) {
       cmocka_unit_test(the_last_good_run_is_kept_when_the_next_is_refused),
       cmocka_unit_test(a_run_that_this_computer_cannot_do_is_named_counted_and_no_success),
       cmocka_unit_test(a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible),
+      cmocka_unit_test(a_program_that_fails_after_its_summary_has_not_succeeded),
       cmocka_unit_test(a_program_that_does_not_start_shows_no_earlier_run),
       cmocka_unit_test(the_runs_that_are_named_are_run_and_the_report_has_all_there_are),
       cmocka_unit_test(runs_that_would_write_into_one_folder_or_into_none_are_refused),

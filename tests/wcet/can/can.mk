@@ -7,7 +7,7 @@ CAN_IMAGE := $(CAN_BENCH) tests/wcet/can/library.cpp tests/wcet/can/main.cpp $(B
 .PHONY: can-symbols wcet-can wcet-can-image
 can-symbols: $(B)/libcan.a                    ## check that the wires to drives, CAN and EtherCAT, have no heap, exceptions or locks
 	$(Q)scripts/no_heap $< $(NM) '$(CAN_SYSTEM)'
-$(B)/libcan.a: $(call objects,$(KERNEL) $(wildcard hal/cia402/*.cpp hal/can/*.cpp hal/ethercat/*.cpp))
+$(eval $(call archive,$(B)/libcan.a,$(call objects,$(KERNEL) $(wildcard hal/cia402/*.cpp hal/can/*.cpp hal/ethercat/*.cpp))))
 wcet-can:                                     ## count and bound the CAN part of a cycle
 	$(Q)$(MAKE) --no-print-directory BOARD=fer_sim build/wcet/count_plugin.so
 	$(Q)$(MAKE) --no-print-directory BOARD=fer_sim ARCH=m7 wcet-can-image
