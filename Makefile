@@ -176,7 +176,7 @@ clean:                                        ## remove everything that make has
 help:                                         ## list the targets
 	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
-.PHONY: trajectories list-runs list-units kernel robots shared always
+.PHONY: trajectories list-runs kernel robots shared always
 robot_of = $(shell sed -n 's/^ROBOT *:= *//p' boards/$(1)/board.mk)
 robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(board)))))
 robot-%: shared
@@ -184,8 +184,6 @@ robot-%: shared
 	  $(MAKE) --no-print-directory BOARD=$$board $(GOALS); done
 list-runs:
 	@echo -- $(RUNNER) $(RUNS)
-list-units:
-	@$(foreach unit,$(UNITS),echo $(unit) $(SOURCES_$(unit));)
 kernel: $(KERNEL_LIB) $(if $(filter m7,$(ARCH)),$(B)/board.elf)
 	$(Q)scripts/no_heap $< $(NM)
 trajectories: build/trajectories/fer_excitation.csv

@@ -37,9 +37,8 @@ struct PdBench {
 
 // Proves PAR-4.
 
-/// RandomVectors gains at random moments, also while others fade. The torque changes from one
-/// period to the next as the law of the present gains does, plus the fade: at most half of 1000 N
-/// m/s.
+/// Random gains at random moments, also while others fade. The torque changes from one period to
+/// the next as the law of the present gains does, plus the fade: at most half of 1000 N m/s.
 void the_torque_of_pd_goes_on(void**) {
   PdBench b;
   RandomVectors random;
