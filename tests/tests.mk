@@ -31,11 +31,13 @@ LINKED  := $(filter-out $(SINGLE:%.cpp=$(B)/%),$(TESTS))
 # Folders in which this board has no tests.
 WITHOUT := $(filter-out $(FOLDERS),$(patsubst %/.,%,$(wildcard tests/*/. tests/*/*/.)))
 
-.PHONY: tests list-tests sanitized-tests thread-tests $(FOLDERS) $(WITHOUT) $(addsuffix /,$(FOLDERS) $(WITHOUT))
+.PHONY: tests list-tests list-sources sanitized-tests thread-tests $(FOLDERS) $(WITHOUT) $(addsuffix /,$(FOLDERS) $(WITHOUT))
 tests: trajectories $(if $(filter thread,$(SANITIZE)),,$(if $(TESTS)$(SCRIPTED),$(B)/$(NAME))) $(TESTS)
 	@:
 list-tests:
 	@echo $(filter-out $(VM_TESTS),$(TESTS)) $(if $(SANITIZE),,$(if $(VM_TESTS),tests/vm/run tests/vm/repeat tests/vm/pipeline) $(SCRIPTED))
+list-sources:
+	@echo $(TEST_SOURCES)
 sanitized-tests:                              ## build and run the tests of BOARDS with sanitizers
 	$(Q)$(call build,tests,$(SANITIZED))
 	$(Q)set -e; tests=$$($(call each,$(SANITIZED) list-tests)); scripts/run_tests $$tests
