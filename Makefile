@@ -52,6 +52,7 @@ WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
 NUMERICS  := $(OPTIMISED) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
+UNJUDGED  := $(if $(findstring undefined,$(SANITIZE)),-fsanitize-ignorelist=tests/eigen.ignore)
 # Fuzzers have objects of their own: counting branches for them would make every sanitized test half as fast.
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED  := SANITIZE=$(SANITIZERS) CXX=clang++ WARNINGS=
@@ -61,7 +62,7 @@ QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-
 # with sanitizers three times.
 DEBUG     ?= -g1
 SEAMFLAGS := -std=c++17 $(DEBUG) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -Ibuild/generated -isystem /usr/include/eigen3 \
-             $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED) \
+             $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED $(UNJUDGED)) \
              -DTACTUS_ROBOT=$(ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
@@ -192,9 +193,11 @@ build/trajectories/fer_excitation.csv: scripts/excitation
 	$(Q)scripts/excitation --out $@
 
 # Where flash is short it is compiled for size.
-SMALL := -Os
-$(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC))): private CXXFLAGS += $(SMALL)
-$(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC))): private PCH :=
+SMALL    := -Os
+IN_SMALL := $(call kernel_objects,$(if $(BARE),$(NOT_CYCLIC)))
+$(IN_SMALL) $(O)/small.hpp.gch: private CXXFLAGS += $(SMALL)
+$(IN_SMALL): private PCH := $(O)/small.hpp
+$(IN_SMALL): | $(O)/small.hpp.gch
 $(call obj,$(SEAMS)): private CXXFLAGS := $(SEAMFLAGS)
 $(call obj,$(OPTIONS)): private CXXFLAGS := $(SEAMFLAGS) $(OPTION)
 $(call obj,$(SEAMS)): private PCH :=

@@ -62,7 +62,7 @@ $(UNITS:%=$(O)/units/%.cpp): $(O)/units/%.cpp: always
 $(UNITS:%=$(O)/units/%.o): %.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
-$(O)/%.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(O)/quick.hpp.gch $(MESSAGES).h
+$(O)/%.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
 $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): private CXXFLAGS += -DTACTUS_KINDS='$(KINDS)'
@@ -75,7 +75,8 @@ $(if $(KINDS),$(KERNEL_LIB)): | $(B)/kinds_checked
 $(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS))
 	$(Q)! grep -l 'kernel/pipeline/kinds[.]hpp' $(^:.o=.d) || { echo '$@: these see the kinds of block; name them in OF_KINDS' >&2; exit 1; }
 	$(Q)mkdir -p $(@D) && touch $@
-# Eigen and the standard library, parsed once for what is shipped and once for tests, which need not be fast.
-$(O)/precompiled.hpp.gch $(O)/quick.hpp.gch: kernel/core/precompiled.hpp $(O)/flags
+# Eigen and the standard library, parsed once for what is shipped, once for what is small, and once for tests, which need
+# not be fast.
+$(addprefix $(O)/,precompiled.hpp.gch small.hpp.gch quick.hpp.gch): kernel/core/precompiled.hpp $(O)/flags
 	$(call say,PCH   $@)
 	$(Q)cp $< $(@:.gch=) && $(call timed,compile) $(CXX) $(CXXFLAGS) -x c++-header $< -o $@

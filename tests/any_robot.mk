@@ -6,7 +6,7 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   control/test_cartesian_singularities control/test_pid control/test_retune \
   guard/test_collision guard/test_collision_rules guard/test_collision_spread guard/test_collision_timing \
   guard/test_guard_motion guard/test_separation guard/test_stopping \
-  load/test_board_sections load/test_collision_file math/test_damped_inverse math/test_joint_integrator \
+  load/test_board_sections load/test_collision_file math/test_joint_integrator \
   pipeline/test_closed_loop pipeline/test_collision_pipelines pipeline/test_contact_pipelines \
   pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_stops pipeline/test_tuning program/test_reach program/test_sections \
   reference/generator/test_start_times reference/motion/test_chunk_properties reference/motion/test_every_motion \

@@ -49,6 +49,7 @@ QUICK := -O1
 IN_TESTS := $(filter-out $(SEAMS),$(ORACLES) $(SINGLE))
 $(call obj,$(IN_TESTS)) $(JOINED:%=$(B)/%/unit.o) $(O)/quick.hpp.gch: private CXXFLAGS += $(QUICK)
 $(call obj,$(IN_TESTS)) $(JOINED:%=$(B)/%/unit.o): private PCH := $(O)/quick.hpp
+$(call obj,$(IN_TESTS)): | $(O)/quick.hpp.gch
 $(O)/tests/pipeline/test_pipelines.o $(B)/tests/pipeline/unit.o: private CXXFLAGS += -DRUNS='"$(RUNS)"'
 $(O)/tests/pipeline/test_pipelines.o $(B)/tests/pipeline/unit.o: boards/$(BOARD)/board.mk
 $(eval $(call archive,$(O)/liboracles.a,$(call obj,$(ORACLES))))

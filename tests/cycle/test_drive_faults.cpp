@@ -5,6 +5,7 @@
 
 #include "tests/cycle/executive_bench.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
@@ -13,8 +14,7 @@ constexpr int kCycles = 300;
 constexpr double kPeriod_s = ExecutiveBench::kPeriod_s;
 
 int runs() {
-  const char* trials = std::getenv("TACTUS_TRIALS");
-  return trials != nullptr ? std::atoi(trials) : 1000;
+  return trials(1000);
 }
 
 constexpr const char* kEnds[] = {"q_c = jrg.q_d\ndq_ff = jrg.dq_d\ntau_ff = pd.tau\n",

@@ -6,17 +6,13 @@
 #include "tests/cycle/executive_bench.hpp"
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
 
 constexpr std::uint64_t kSeed = 20261121;
-#ifdef TACTUS_SANITIZED
-constexpr int kRuns = 100;  // a thousand take ten times as long as without sanitizers
-#else
-constexpr int kRuns = 1000;
-#endif
-constexpr int kCycles = 400;
+constexpr int kRuns = tries(1000, 100), kCycles = 400;
 constexpr double kPeriod_s = ExecutiveBench::kPeriod_s;
 constexpr auto kPeriod_ns = static_cast<double>(ExecutiveBench::kPeriod_ns);
 constexpr double kSpeed = 0.5;  // rad/s, of the line that is sent

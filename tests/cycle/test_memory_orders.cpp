@@ -4,6 +4,7 @@
 #include "kernel/core/mailbox.hpp"
 #include "kernel/core/ring_positions.hpp"
 #include "kernel/cycle/event_log.hpp"
+#include "tests/support/trials.hpp"
 #include "tests/support/weak_memory.hpp"
 
 namespace tactus {
@@ -28,11 +29,7 @@ void assert_orders_are_enough_and_needed(Run run, std::initializer_list<Weakened
 
 // Proves LAD-8.
 
-#ifdef TACTUS_SANITIZED
-constexpr std::uint32_t kEvents = 4;
-#else
-constexpr std::uint32_t kEvents = 6;
-#endif
+constexpr std::uint32_t kEvents = tries(6, 4);
 constexpr std::size_t kWords = sizeof(Event) / sizeof(std::uint32_t);
 
 /// No two events have a word in common.
@@ -94,11 +91,7 @@ void an_event_that_is_read_is_whole_and_the_one_asked_for(void**) {
 constexpr std::initializer_list<Weakened> kPositions = {
     {0, 1, true}, {0, 1, false}, {1, 2, true}, {1, 2, false}};
 // Calls of writer and reader, in every order; six show every weakened order too.
-#ifdef TACTUS_SANITIZED
-constexpr int kCalls = 6;
-#else
-constexpr int kCalls = 9;
-#endif
+constexpr int kCalls = tries(9, 6);
 
 // Proves REC-1.
 

@@ -24,8 +24,7 @@ fuzz-built: wcet-setup
 
 ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
-CXXFLAGS += -fsanitize-ignorelist=tests/fuzz/eigen.ignore \
-            -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
+CXXFLAGS += -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
 fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
 $(eval $(call archive,$(O)/libfuzzed.a,$(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)))
 $(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a

@@ -4,17 +4,14 @@
 #include <cstring>
 
 #include "tests/pipeline/tuning_bench.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
 
 constexpr double kRun_s = 9.0;
 constexpr double kMoving_s = 3.0;  // from here on the arms are on their way
-#ifdef TACTUS_SANITIZED
-constexpr std::uint64_t kSeeds = 1;
-#else
-constexpr std::uint64_t kSeeds = 3;
-#endif
+constexpr std::uint64_t kSeeds = tries(3, 1);
 
 /// Largest step of each joint's command from one cycle to the next in a run without changes.
 JointVector own_steps(const std::string& name, std::uint32_t& limited) {

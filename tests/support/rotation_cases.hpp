@@ -10,6 +10,7 @@
 #include "kernel/math/so3.hpp"
 #include "kernel/reference/space/rotation_segment.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 
@@ -99,11 +100,7 @@ inline Ends random_ends(RandomVectors& random, int kind, double rate) {
 /// Calls check(ends) for random ends of every kind, the same in every run.
 template <class Check>
 void over_ends(double rate, Check check) {
-#ifdef TACTUS_SANITIZED
-  constexpr int kCases = 40;  // of every kind five
-#else
-  constexpr int kCases = 200;
-#endif
+  constexpr int kCases = tries(200, 40);  // of eight kinds
   RandomVectors random;
   for (int i = 0; i < kCases; ++i) check(random_ends(random, i, rate));
 }

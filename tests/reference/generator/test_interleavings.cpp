@@ -1,9 +1,9 @@
 // All orders in which up to three requests can arrive, within a cycle and across cycles, and some
 // of four, from every state: checks the outcome of each request, each store and the reference.
-#include <cstdlib>
 
 #include "tests/reference/generator/interleaving_rehearsal.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
@@ -111,19 +111,8 @@ bool play_some(OnlineMode mode, const Game& game, int size, int count) {
   return true;
 }
 
-/// The number of cases of four requests to play: TACTUS_TRIALS or `ordinary`, as all are too many.
-int trials(int ordinary) {
-  const char* more = std::getenv("TACTUS_TRIALS");
-  return more != nullptr ? std::atoi(more) : ordinary;
-}
-
-#ifdef TACTUS_SANITIZED
-constexpr int kMost = 2;  // three would take minutes
-constexpr int kCases = 1 + 8 * 3 + 64 * 6;
-#else
-constexpr int kMost = 3;
-constexpr int kCases = 1 + 8 * 3 + 64 * 6 + 512 * 10;
-#endif
+constexpr int kMost = tries(3, 2);
+constexpr int kCases = 1 + 8 * 3 + 64 * 6 + tries(512 * 10, 0);
 
 // n requests have 8^n kinds times (n+1)(n+2)/2 ways to place them in three cycles.
 

@@ -1,20 +1,17 @@
 // Admission against an oracle that samples: random trajectories of two to five waypoints, three
 // quarters of them stretched in time until they just about touch a limit.
-#include <cstdlib>
 
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/reference/motion/hermite_oracle.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
 using namespace tactus;
 
-/// The number of trajectories to judge; `make test-long` sets it to a hundred thousand.
-int trials() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : 2000;
-}
+/// Trajectories to judge.
+constexpr int kUsual = 2000;
 
 const HermiteOracle& oracle() {
   static const HermiteOracle oracle;
@@ -185,7 +182,7 @@ void what_is_admitted_keeps_every_limit_and_what_is_refused_breaks_the_one_named
   Random random{20261122};
   int admitted = 0;
   std::array<int, 64> refused{};
-  for (int n = trials(); n > 0; --n) {
+  for (int n = trials(kUsual); n > 0; --n) {
     Trajectory<JointSpace>& motion = random_motion(bench, random);
     const Verdict verdict = admit(motion, bench.channel.settings);
     // Times are judged first.
@@ -202,13 +199,13 @@ void what_is_admitted_keeps_every_limit_and_what_is_refused_breaks_the_one_named
     }
   }
   print_message("  %d admitted\n", admitted);
-  assert_true(admitted > trials() / 5);
+  assert_true(admitted > trials(kUsual) / 5);
   for (const Status code :
        {Status::kPositionLimit, Status::kVelocityLimit, Status::kAccelerationLimit,
         Status::kJerkLimit, Status::kVelocityStep}) {
     const int count = refused[static_cast<std::size_t>(code)];
     print_message("  %d refused by %s\n", count, name(code));
-    assert_true(count > trials() / 100);
+    assert_true(count > trials(kUsual) / 100);
   }
 }
 

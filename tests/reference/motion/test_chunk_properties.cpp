@@ -8,20 +8,15 @@
 
 #include "tests/reference/motion/chunk_run.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
 using namespace tactus;
 
-#ifdef TACTUS_SANITIZED
-constexpr int kTrials = 20;
-#else
-constexpr int kTrials = 240;
-#endif
 constexpr int kTests = 2;
-int trials() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return (wanted != nullptr ? std::atoi(wanted) : kTrials) / kTests + 1;
+int runs() {
+  return trials(tries(240, 20)) / kTests + 1;
 }
 
 template <class Space>
@@ -31,7 +26,7 @@ void check() {
   Told all;
   int failed = 0;
   static std::aligned_storage_t<sizeof(ChunkRun<Space>), alignof(ChunkRun<Space>)> place, other;
-  for (int i = 0; i < trials(); ++i) {
+  for (int i = 0; i < runs(); ++i) {
     const std::uint64_t seed =
         wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : seeds.bits();
     auto* const run = new (&place) ChunkRun<Space>(seed);

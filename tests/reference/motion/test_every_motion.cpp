@@ -7,16 +7,12 @@
 
 #include "tests/reference/motion/motion_requests.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
 using namespace tactus;
 
-#ifdef TACTUS_SANITIZED
-constexpr int kTrials = 1000;  // the usual number would take minutes
-#else
-constexpr int kTrials = 20000;
-#endif
 constexpr std::uint64_t kSeed = 20261122;
 constexpr int kTests = 8;
 constexpr int kRequestsPerRun = 40;
@@ -37,8 +33,7 @@ constexpr double kStopTimes = 6.0;
 constexpr int kSettling = 64;
 
 int requests() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return (wanted != nullptr ? std::atoi(wanted) : kTrials) / kTests + 1;
+  return trials(tries(20000, 1000)) / kTests + 1;
 }
 std::uint64_t first_seed() {
   const char* wanted = std::getenv("TACTUS_SEED");

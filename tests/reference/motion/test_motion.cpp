@@ -3,6 +3,7 @@
 
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
@@ -142,11 +143,8 @@ void an_override_that_is_no_fraction_is_refused(void**) {
   }
 }
 
-/// The number of requests of the property below; `make test-long` sets it to a hundred thousand.
-int trials() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : 10000;
-}
+/// Requests of the property below.
+constexpr int kRequests = 10000;
 
 std::uint32_t ask_something(ReferenceBench& bench, Random& random, Fields fields) {
   std::uint32_t id = 0;
@@ -187,7 +185,7 @@ void stay_within_limits(Fields fields) {
   Random random{20261121};
   int started = 0;
   ASSERT_OK(bench.step());
-  for (int request = trials(); request > 0; --request) {
+  for (int request = trials(kRequests); request > 0; --request) {
     ask_something(bench, random, fields);
     for (int k = 1 + random.below(600); k > 0; --k) {
       const JointSpace::Point before = bench.out();
@@ -197,7 +195,7 @@ void stay_within_limits(Fields fields) {
     Report report;
     while (bench.client.poll(report)) started += report.outcome == Outcome::kStarted;
   }
-  assert_true(started > trials() / 8);
+  assert_true(started > trials(kRequests) / 8);
 }
 
 void no_request_at_any_instant_of_a_quintic_breaks_a_limit(void**) {

@@ -1,12 +1,12 @@
 // PathLaw: keeps the limits for any requested rate, and stops nearly as fast as acceleration
 // allows. The oracle (path_cases.hpp) differentiates the paths by itself.
-#include <cstdlib>
 #include <vector>
 
 #include "kernel/reference/motion/admission_room.hpp"
 #include "kernel/reference/motion/path_law.hpp"
 #include "tests/reference/motion/path_cases.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
@@ -14,16 +14,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3, kShare = 0.98;
 
 /// The number of paths of each kind to try.
-#ifdef TACTUS_SANITIZED
-constexpr int kTrials = 40;
-#else
-constexpr int kTrials = 200;
-#endif
-
-int trials() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : kTrials;
-}
+constexpr int kPaths = tries(200, 40);
 
 /// A random path with its law, and the largest use of the limits.
 struct Runner {
@@ -95,7 +86,7 @@ void stops_of(PathKind kind) {
   std::vector<double> ratios, jerks, times;
   double v = 0.0, a = 0.0;
   int never = 0;
-  for (int n = trials(); n > 0; --n) {
+  for (int n = trials(kPaths); n > 0; --n) {
     Runner runner(kind, random);
     const double begin = random.uniform(0.02, 0.7) * runner.own.end_s();
     runner.start(begin, 1.0);
@@ -147,7 +138,7 @@ void a_path_keeps_limits_whatever_rate_is_asked_for_and_when(void**) {
     Random random{7 + static_cast<std::uint64_t>(kind)};
     std::vector<double> jerks;
     double v = 0.0, a = 0.0;
-    for (int n = trials() / 4; n > 0; --n) {
+    for (int n = trials(kPaths) / 4; n > 0; --n) {
       Runner runner(kind, random);
       runner.start(0.0, 1.0);
       double target = 1.0;
@@ -179,7 +170,7 @@ void an_open_path_is_never_run_to_its_end(void**) {
     Random random{99 + static_cast<std::uint64_t>(kind)};
     double v = 0.0, a = 0.0, least_s = kInfinity, rates = 0.0, jerk = 0.0;
     int cycles = 0;
-    for (int n = trials() / 4; n > 0; --n) {
+    for (int n = trials(kPaths) / 4; n > 0; --n) {
       Runner runner(kind, random);
       int known = 1 + random.below(3);
       const bool cut_off = random.below(10) < 3, targets = random.below(2) != 0;

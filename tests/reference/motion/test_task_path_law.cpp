@@ -1,6 +1,5 @@
 // PathLaw on a path of the tip: keeps the limits of velocity and acceleration, of translation and
 // rotation, for any requested rate. The test differentiates the output numerically.
-#include <cstdlib>
 
 #include "kernel/math/so3.hpp"
 #include "kernel/reference/motion/admission_room.hpp"
@@ -8,6 +7,7 @@
 #include "kernel/reference/space/task_space.hpp"
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
@@ -15,16 +15,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3, kShare = 0.98;
 constexpr int kPieces = 12;
 
-#ifdef TACTUS_SANITIZED
-constexpr int kTrials = 20;
-#else
-constexpr int kTrials = 60;
-#endif
-
-int trials() {
-  const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : kTrials;
-}
+constexpr int kPaths = tries(60, 20);
 
 Vector3 any(Random& random) {
   const double x = random.uniform(-1.0, 1.0), y = random.uniform(-1.0, 1.0);
@@ -135,7 +126,7 @@ void the_tip_keeps_limits_whatever_rate_is_asked_for_and_when(void**) {
     Random random{5};
     Shares all;
     double jerk = 0.0, derivative = 0.0;
-    for (int n = trials(); n > 0; --n) {
+    for (int n = trials(kPaths); n > 0; --n) {
       Runner runner(fields, random);
       runner.start(0.0, 1.0);
       double target = 1.0;
@@ -167,7 +158,7 @@ void an_open_path_of_the_tip_is_never_run_to_its_end(void**) {
     Random random{6};
     Shares all;
     double least_s = kInfinity;
-    for (int n = trials(); n > 0; --n) {
+    for (int n = trials(kPaths); n > 0; --n) {
       Runner runner(fields, random);
       int known = 1;
       runner.open_until(known);
