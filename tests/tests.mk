@@ -1,10 +1,12 @@
 # The tests. The Makefile includes this file and defines B, O, TESTS and the rest.
-# Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them.
+# Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them; nor in what another robot
+# does in the same lines.
 SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,bare check_steps checks expected loop_bounds refuted report report_folders \
                   report_labels run_all setup static_bounds tools wcet)
 OF_THREADS   := $(addprefix tests/,core/test_mailbox.cpp core/test_histogram.cpp pipeline/test_recorder.cpp \
                   reference/generator/test_reference_threads.cpp cycle/test_ladder.cpp)
-TEST_SOURCES := $(if $(SANITIZE),$(filter-out $(SCRIPT_TESTS),$(TESTS)),$(TESTS))
+UNSEEN       := $(SCRIPT_TESTS) $(if $(filter fer,$(robot)),,$(filter-out $(OF_EACH),$(ANY_ROBOT)))
+TEST_SOURCES := $(if $(SANITIZE),$(filter-out $(UNSEEN),$(TESTS)),$(TESTS))
 TEST_SOURCES := $(if $(filter thread,$(SANITIZE)),$(OF_THREADS),$(TEST_SOURCES))
 # `make test ONLY="control guard"` builds and runs the tests of these folders.
 chosen       := $(strip $(if $(filter command,$(origin ONLY)),$(subst $(comma), ,$(ONLY))))

@@ -29,6 +29,7 @@ class Peer:
         self.taken = []
         self.epoch = 1
         self.cycle = 0
+        self.differs = {}
         self.trajectory = None  # number of its Begin
         self.waypoints = 0
         self.numbers = []
@@ -144,7 +145,9 @@ class Peer:
         self.write(report=pb.Report(number=number, outcome=outcome, server_ns=self.now(), **fields))
 
     def state(self, **fields):
+        """Sends the state; what differs from a robot at rest stays so, as messages are answered with a state too."""
         self.cycle += 1
+        self.differs.update(fields)
         self.write(
             state=pb.State(
                 server_ns=self.now(),
@@ -154,7 +157,7 @@ class Peer:
                 q=[0.5] * JOINTS,
                 dq=[0] * JOINTS,
                 tau=[0] * JOINTS,
-                **fields,
+                **self.differs,
             )
         )
 
