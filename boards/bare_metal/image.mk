@@ -27,7 +27,7 @@ image-certificate: $(B)/image.elf $(call obj,$(BARE_SRCS) boards/bare_metal/prov
 endif
 ifeq ($(ARCH),host)
 ifneq ($(CORE),)
-all tests: image
+all $(if $(TEST_SOURCES)$(SCRIPTED),tests): image
 image:
 	$(Q)$(MAKE) --no-print-directory ARCH=$(CORE) SANITIZE= CXX=$(CROSS_$(CORE))g++ image
 endif

@@ -9,7 +9,7 @@ namespace tactus {
 
 inline constexpr const char* kServe =
     "d=$(dirname $P); export T=$R/build/tactusctl${d##*/ur10_sim} TACTUS_SOCKET=unix:$S/socket; "
-    "serve() { : >$S/server.log; { sed 's|reference_generator$|&\\nonline = limit|; "
+    "serve() { : >$S/server.log; rm -f $S/all; { sed 's|reference_generator$|&\\nonline = limit|; "
     "s|trajectories/|'$R'/pipelines/&|' "
     "$R/pipelines/$1.ini; printf "
     "'\\n[executive]\\nmax_slip=1000\\nmax_late=16\\nlate_window=1\\n'; } "
@@ -23,14 +23,16 @@ inline constexpr const char* kServe =
     ">$S/there.csv; }; "
     // Prints the phase of the reference now.
     "phase() { $T watch --every-ms 10 --duration 0.2 | tail -1 | awk '{print $4}'; }; "
-    "until_says() { n=0; until grep -q \"$2\" $1; do n=$((n+1)); test $n -lt 600 || return 1; "
+    "until_says() { n=0; until grep -qs \"$2\" $1; do n=$((n+1)); test $n -lt 600 || return 1; "
     "sleep 0.1; done; }; ";
 
 /// Runs a script against a fresh server of a pipeline; returns the exit code of the script. The
-/// server must end by itself.
+/// server must end by itself. The last of what it and $S/all say is told if the code is not 0.
 inline int served(const char* pipeline, const char* script) {
   Text<8191> whole(kServe);
-  whole << "serve " << pipeline << " || exit 90; ( " << script << " ); code=$?; end; exit $code";
+  whole << "serve " << pipeline << " || exit 90; ( " << script
+        << " ); code=$?; end; "
+           "test $code = 0 || tail -n 3 $S/server.log $S/all >&2; exit $code";
   const Line path = write("script", {whole.c_str()});
   const int code = shell((Line("bash ") << path).c_str());
   if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());

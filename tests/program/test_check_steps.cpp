@@ -43,8 +43,9 @@ void a_tree_in_which_nothing_is_wrong_passes(void**) {
 }
 
 void a_step_that_does_not_exist_is_refused(void**) {
-  assert_int_equal(check("sizes size"), 1);
-  assert_true(has(errors(), "check: failed: no step is called size\n"));
+  assert_int_equal(check("sizes size"), 2);
+  assert_true(has(errors(), "check: no step is called 'size'; there are quick and formatted "));
+  assert_true(output().empty());
 }
 
 void a_source_of_any_suffix_is_judged_whether_git_knows_it_or_not(void**) {

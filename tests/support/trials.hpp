@@ -1,6 +1,7 @@
 // How often tests with random or enumerated cases try.
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace tactus {
@@ -15,10 +16,18 @@ constexpr int tries(int usual, [[maybe_unused]] int sanitized) {
 #endif
 }
 
-/// The number that TACTUS_TRIALS asks for; `ordinary` without it. `make test-long` sets it.
+/// The number that TACTUS_TRIALS asks for, at least 1; `ordinary` without it. `make test-long` sets
+/// it.
 inline int trials(int ordinary) {
   const char* wanted = std::getenv("TACTUS_TRIALS");
-  return wanted != nullptr ? std::atoi(wanted) : ordinary;
+  if (wanted == nullptr) return ordinary;
+  char* end = nullptr;
+  const long number = std::strtol(wanted, &end, 10);
+  if (*wanted == '\0' || *end != '\0' || number < 1 || number > 1'000'000'000) {
+    std::fprintf(stderr, "TACTUS_TRIALS is '%s'; it must be a whole number, 1 to 10^9\n", wanted);
+    std::exit(2);
+  }
+  return static_cast<int>(number);
 }
 
 }  // namespace tactus
