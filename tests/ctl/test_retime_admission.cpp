@@ -6,6 +6,7 @@
 #include "kernel/reference/space/task_space.hpp"
 #include "tests/ctl/tip_paths.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus::ctl {
 namespace {
@@ -88,7 +89,7 @@ std::array<double, 3> sampled(const std::vector<TimedPoint>& points,
 
 void every_random_path_is_admitted_as_it_is_and_keeps_every_bound(void**) {
   Random random(31);
-  for (int trial = 0; trial < 150; ++trial) {
+  for (int trial = 0; trial < tries(150, 40); ++trial) {
     const std::vector<Numbers> path = random_path(random, trial);
     const RetimeSettings one = random_settings(random, trial);
     const std::vector<TimedPoint> points = retime(path, one);

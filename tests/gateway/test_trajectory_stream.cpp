@@ -4,6 +4,7 @@
 
 #include "tests/gateway/stream_bench.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
@@ -50,7 +51,7 @@ void assert_same(int rows, int window) {
 
 void a_joint_file_gives_the_same_references_bit_for_bit_through_a_window(void**) {
   Random random{1};
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < tries(30, 9); ++trial) {
     const Fields fields = kKinds[trial % 3];
     const int rows = fields == 0 ? 1500 + random.below(500) : 200 + random.below(1000);
     write_swing<JointSpace>(Swing(random, 0.2, fields == 0 ? 1.0 : 2.0), rows, fields);
@@ -60,7 +61,7 @@ void a_joint_file_gives_the_same_references_bit_for_bit_through_a_window(void**)
 
 void a_task_file_gives_the_same_references_bit_for_bit_through_a_window(void**) {
   Random random{2};
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < tries(30, 9); ++trial) {
     const Fields fields = kKinds[trial % 3];
     const int rows = fields == 0 ? 1500 + random.below(500) : 200 + random.below(1000);
     write_swing<TaskSpace>(Swing(random, 0.1, fields == 0 ? 1.0 : 2.0), rows, fields);
@@ -113,7 +114,7 @@ void damage<TaskSpace>(Random& random, double& t, TaskSpace::Point& point) {
 template <class Space>
 void assert_same_refusals(std::uint64_t seed) {
   Random random{seed};
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < tries(60, 20); ++trial) {
     const int rows = 200, broken = 1 + random.below(rows - 1);
     write_swing<Space>(Swing(random, 0.1, 3.0), rows, kQuintic,
                        [&](int row, double& t, typename Space::Point& point) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRun_s = 9.0;
 constexpr double kMoving_s = 3.0;  // from here on the arms are on their way
-constexpr std::uint64_t kSeeds = tries(3, 1);
+constexpr std::uint64_t kSeeds = tries(2, 1);
 
 /// Largest step of each joint's command from one cycle to the next in a run without changes.
 JointVector own_steps(const std::string& name, std::uint32_t& limited) {

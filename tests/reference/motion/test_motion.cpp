@@ -144,7 +144,7 @@ void an_override_that_is_no_fraction_is_refused(void**) {
 }
 
 /// Requests of the property below.
-constexpr int kRequests = 10000;
+constexpr int kRequests = tries(10000, 2000);
 
 std::uint32_t ask_something(ReferenceBench& bench, Random& random, Fields fields) {
   std::uint32_t id = 0;

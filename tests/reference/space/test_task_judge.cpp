@@ -6,12 +6,14 @@
 #include "kernel/reference/space/vector_bounds.hpp"
 #include "tests/reference/space/task_cases.hpp"
 #include "tests/support/testing.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tactus {
 namespace {
 
 const TaskLimits kLimits;
 const double kNaN = std::nan("");
+constexpr int kSegments = tries(6000, 1200);
 
 void assert_refused(const Verdict& verdict, Status status, int axis, double value, double limit) {
   ASSERT_STATUS(verdict.status, status);
@@ -98,7 +100,7 @@ TaskLimits limits_of(int i) {
 void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
   RandomVectors random;
   int accepted = 0;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < kSegments; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const double share = i % 2 == 0 ? 1.0 : 0.9;
     const TaskLimits limits = limits_of(i / 7);
@@ -106,14 +108,14 @@ void no_segment_is_accepted_that_leaves_a_limit_anywhere(void**) {
     ++accepted;
     assert_true(Sampled(segment).within(limits, share));
   }
-  print_message("%d of 6000 segments accepted\n", accepted);
-  assert_true(accepted > 1000 && accepted < 5000);
+  print_message("%d of %d segments accepted\n", accepted, kSegments);
+  assert_true(accepted > kSegments / 6 && accepted < kSegments * 5 / 6);
 }
 
 void a_refused_segment_is_hardly_below_the_limit(void**) {
   RandomVectors random;
   double loosest[2][3] = {};  // by vector and derivative
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < kSegments; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const Verdict verdict = judge(segment, limits_of(i / 7), 1.0);
     if (verdict.ok() || verdict.status == Status::kWorkspace) continue;
@@ -190,7 +192,7 @@ void a_segment_that_leaves_the_workspace_between_its_ends_is_refused(void**) {
 
 void what_a_segment_takes_is_what_occurs_on_it_or_more(void**) {
   RandomVectors random;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < kSegments / 3; ++i) {
     const TaskSegment segment = close_ends(random, i).join(kJoins[static_cast<std::size_t>(i % 3)]);
     const TaskSpace::Peaks taken =
         TaskSpace::measure(segment, kLimits, TaskSpace::peaks(kLimits)).peaks;
