@@ -78,7 +78,7 @@ INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
 # Streams of chunks, and parameters that change at run time, take memory that they do not have.
 BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
-              -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf $(INLINING)
+              -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf -Wno-psabi $(INLINING)
 FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
 # Its vectors have no double precision, so they gain nothing.
 FLAGS_m55  := -mcpu=cortex-m55+nomve $(BARE_FLAGS)
@@ -137,7 +137,7 @@ include gateway/gateway.mk
 include scripts/units.mk
 
 .PHONY: docs all run test test-long check bench setup format clean help report-check film
-all: $(if $(filter arm64,$(ARCH)),setup-arm64) $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
+all: $(if $(filter arm64,$(ARCH)),setup-arm64) trajectories $(B)/$(NAME)   ## build the program of BOARD, ARCH=arm64: for a board
 
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html

@@ -106,7 +106,7 @@ RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& erro
     }
     const int line = lines_.line();
     if (!is_text(row)) {
-      refuse(error, line, 0, {}, "the line contains bytes that are not text");
+      refuse(error, line, 0, {}, kNotText);
       return RowTaken::kRefused;
     }
     if (line == 1) row = without_byte_order_mark(row);

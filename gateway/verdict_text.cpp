@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "kernel/core/types.hpp"
+#include "kernel/reference/motion/admission.hpp"
 
 namespace tactus {
 namespace {
@@ -15,7 +16,7 @@ enum class Relation : std::uint8_t {
   kOutside,    // the limit is the end of a range that was left
   kNotFinite,  // the limit says nothing
   kNotZero,    // must be zero
-  kTooEarly,   // the limit is the earliest time
+  kTime,       // the limit is the earliest or the latest time
   kNotUpTo,    // the limit is the end of a range from 0 or, for a number of waypoints, 1
 };
 
@@ -35,7 +36,7 @@ constexpr Measured kMeasured[] = {
     {Status::kReferenceSize, Relation::kNotUpTo, true, "number of waypoints", "", "", ""},
     {Status::kReferenceNotFinite, Relation::kNotFinite, false, "value", "", "", ""},
     {Status::kPositionLimit, kOutside, false, "position", " rad", " m", " rad"},
-    {Status::kReferenceTime, Relation::kTooEarly, true, "time", " s", " s", " s"},
+    {Status::kReferenceTime, Relation::kTime, true, "time", " s", " s", " s"},
     {Status::kVelocityLimit, kExceeds, true, "velocity", " rad/s", " m/s", " rad/s"},
     {Status::kAccelerationLimit, kExceeds, true, "acceleration", " rad/s^2", " m/s^2", " rad/s^2"},
     {Status::kEffortLimit, kExceeds, true, "effort", " N m", " N", " N m"},
@@ -115,12 +116,25 @@ void add_numbers(Message& text, const Verdict& verdict, const Measured& measured
       break;
     case Relation::kNotFinite: text << " is not finite"; break;
     case Relation::kNotZero: text << " is not zero"; break;
-    case Relation::kTooEarly: text << " is earlier than " << limit << unit; break;
+    case Relation::kTime:
+      text << (verdict.value < verdict.limit ? " is earlier than " : " is later than ") << limit
+           << unit;
+      break;
     case Relation::kNotUpTo:
       text << " is not from " << (verdict.status == Status::kReferenceSize ? "1" : "0") << " to "
            << limit;
       break;
   }
+}
+
+/// Of waypoints and of the targets of chunks.
+const char* remedy_of_time(const Verdict& verdict) {
+  if (verdict.waypoint < 0) return "";
+  if (verdict.limit == kLongestTrajectory_s)
+    return "; subtract the first time from all: is it a date?";
+  if (verdict.value > verdict.limit) return "; leave out what is farther ahead";
+  if (verdict.waypoint == 0) return "; begin at t = 0 or later";
+  return "; give each a later time than the one before: sort them, leave out what is double";
 }
 
 Message& add_code(Message& text, Status status) {
@@ -129,12 +143,12 @@ Message& add_code(Message& text, Status status) {
 
 }  // namespace
 
-const char* remedy(Status status) {
-  switch (status) {
+const char* remedy(const Verdict& verdict) {
+  switch (verdict.status) {
     case Status::kPositionLimit: return "; keep within the range of the joint: are these degrees?";
     case Status::kCannotLeave: return "; send it again a little later";
     case Status::kWorkspace: return "; keep within [task_limits]: are these millimetres?";
-    case Status::kReferenceTime: return "; sort the waypoints by time";
+    case Status::kReferenceTime: return remedy_of_time(verdict);
     case Status::kVelocityLimit:
     case Status::kAccelerationLimit:
     case Status::kJerkLimit: return "; give this part more time";

@@ -19,7 +19,7 @@ Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfi
 
 /// What a person does about a refused reference: "; give this part more time"; empty if nothing is
 /// known to help. [any]
-const char* remedy(Status status);
+const char* remedy(const Verdict& verdict);
 /// What to do about a goal that was not followed or reached: settings of the reference generator
 /// and of the law. Null for any other Status. [any]
 const char* goal_remedy(Status status, VerdictAxes axes);

@@ -205,6 +205,7 @@ int run(Session& session, const Options& options) {
 
   judge(options, result);
   const bool written = log.close() && write_results(folder, session, input, pipeline, result);
+  if (!written && result.code == 0) end_with(result, kEndedOtherwise, "not recorded");
   print_table(pipeline, session, result);
   if (options.figure && written) draw_figure(folder.path().c_str());
   print_files(input, result, folder.path(), written);

@@ -19,8 +19,7 @@ void on_signal(int) {
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int brakes : {SIGINT, SIGTERM, SIGQUIT, SIGTSTP}) std::signal(brakes, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
   std::signal(SIGXFSZ, SIG_IGN);  // a log that becomes too large is an error of its file
   std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading the messages stops no arm
@@ -138,7 +137,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
   commanded_ += commanded ? 1 : 0;
-  if (desk_ != nullptr) return served(now, status);
+  if (desk_ != nullptr) return served(status);
   if (status == Status::kArming && !halted_) return arm();
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
@@ -150,9 +149,9 @@ bool RunLoop::cycle(const CycleTime& now) {
 }
 
 /// True until a signal has come, and the arm is at rest and its drives are disabled.
-bool RunLoop::served(const CycleTime& now, Status status) {
+bool RunLoop::served(Status status) {
   if (!halted_) desk_->work(status);
-  desk_->tell(now);
+  desk_->tell({began_ns_});
   armed_ = armed_ || commands(session_.executive.rung());
   return session_.executive.busy() || !halted_;
 }
@@ -216,6 +215,7 @@ void RunLoop::in_real_time(LogWriter& writer, Progress& progress) {
       Wake wake;
       status = clock.wait(wake);
       realtime.latency.add(static_cast<std::uint64_t>(wake.latency_ns()));
+      began_ns_ = wake.stamp_ns;
       if (status == Status::kOk) goes_on = cycle({wake.stamp_ns});
     }
   }
@@ -235,6 +235,7 @@ void RunLoop::at_robots_pace(Clock& clock, LogWriter& writer, Progress& progress
     while (goes_on && status == Status::kOk) {
       CycleTime now;
       status = clock.wait(now);
+      began_ns_ = monotonic_ns();
       if (status == Status::kOk) goes_on = cycle(now);
     }
   }

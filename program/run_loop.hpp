@@ -14,8 +14,9 @@
 
 namespace tactus {
 
-/// Makes SIGINT, SIGTERM and SIGHUP end the loop instead of the program, and writing to a closed
-/// pipe or beyond a limit of size an error instead of its end.
+/// Makes SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGTSTP, which would stop the cycles of an arm that
+/// moves, end the loop instead of the program, and writing to a closed pipe or beyond a limit of
+/// size an error instead of its end.
 void catch_interrupts();
 
 void end_with(RunResult& result, int code, const char* name);
@@ -92,7 +93,7 @@ class RunLoop {
   void take_result(Status status);
   bool time_has_passed() const;
   bool over(Status status);
-  bool served(const CycleTime& now, Status status);
+  bool served(Status status);
   CycleTime time_of(const CycleTime& now);
 
   Session& session_;
@@ -105,9 +106,10 @@ class RunLoop {
   CycleDesk* desk_ = nullptr;  // of a server; null: none
   bool virtual_ = false;
   std::int64_t virtual_ns_ = 0;
-  Verdict end_;           // of the goal's final report
-  double ended_s_ = 0.0;  // when the time of the run had passed
-  bool pending_ = false;  // the goal was sent, and its final report has not come
+  std::int64_t began_ns_ = 0;  // the present cycle, by the monotonic clock, whatever triggers it
+  Verdict end_;                // of the goal's final report
+  double ended_s_ = 0.0;       // when the time of the run had passed
+  bool pending_ = false;       // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
   Status latched_ = Status::kOk, left_ = Status::kOk;
   Message trouble_, left_trouble_;

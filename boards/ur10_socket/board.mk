@@ -8,4 +8,5 @@ RUNS   += ur10_trg_cpc_real ur10_trg_ac_cpc_real
 RUNNER := scripts/beside_emulator
 
 # All other tests need a controller: they are those of ur10_emulator.
+SCRIPTED := tests/ur/served
 TESTS  := $(addprefix tests/program/,test_mistakes.cpp test_sections.cpp test_virtual_time.cpp)

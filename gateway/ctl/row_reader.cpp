@@ -83,7 +83,7 @@ RowTaken RowReader::next_line(std::string_view& line, int wait_ms) {
         return RowTaken::kRefused;
     }
     if (!is_text(line)) {
-      refuse(lines_->line(), 0, {}, "the line contains bytes that are not text");
+      refuse(lines_->line(), 0, {}, kNotText);
       return RowTaken::kRefused;
     }
     if (lines_->line() == 1) line = without_byte_order_mark(line);

@@ -24,7 +24,7 @@ Reply Server::reply(const Verdict& verdict) const {
   if (verdict.ok()) return {};
   Message text =
       describe(verdict, takes_poses() ? VerdictAxes::kTip : VerdictAxes::kJoints, kInfinity);
-  Reply reply(verdict.status, text << remedy(verdict.status));
+  Reply reply(verdict.status, text << remedy(verdict));
   reply.verdict = verdict;
   return reply;
 }

@@ -62,7 +62,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     if (lease_.owner() != Lease::kNobody)
       text << ": " << std::string_view(at(lease_.owner()).name) << ", with priority "
            << static_cast<int>(lease_.priority());
-    return {Status::kNotOwner, text << remedy(Status::kNotOwner)};
+    return {Status::kNotOwner, text << remedy({Status::kNotOwner})};
   }
   const Reply foreign = judge_fields();
   if (foreign.status != Status::kOk) return foreign;

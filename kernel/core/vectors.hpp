@@ -7,6 +7,10 @@
 
 namespace tactus {
 
+// Where Eigen vectorises, its types are aligned otherwise, and every struct has another layout than
+// in the library.
+static_assert(alignof(Eigen::Vector4d) == alignof(double), "compile with -DEIGEN_DONT_VECTORIZE");
+
 using Vector3 = Eigen::Matrix<double, 3, 1>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix3 = Eigen::Matrix<double, 3, 3>;

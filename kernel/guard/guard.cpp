@@ -17,8 +17,7 @@ JointLimits Guard::Params::effective() const {
 Status Guard::start(const Params& params, CommandMode mode, const RobotState& state,
                     double period_s, const CycleTime& now) {
   limits_ = params.effective();
-  q_min_ = limits_.q_min - params.position_allowance;
-  q_max_ = limits_.q_max + params.position_allowance;
+  allowance_ = params.position_allowance;
   dq_max_ = limits_.dq_max + limits_.dq_max.cwiseProduct(params.velocity_allowance);
   following_error_ = params.following_error;
   following_time_ = params.following_time;
@@ -30,6 +29,7 @@ Status Guard::start(const Params& params, CommandMode mode, const RobotState& st
   telemetry_ = {};
   for (int i = 0; i < kDof; ++i) {
     const StepLimits steps = StepLimits::of(limits_, i, period_s);
+    outside_[i] = std::min(kLedBack, beyond(i, state.q[i]));
     positions_[static_cast<std::size_t>(i)].start(steps, state.q[i]);
     velocities_[static_cast<std::size_t>(i)].start(steps, period_s, state.dq[i]);
     torques_[static_cast<std::size_t>(i)].start(limits_.tau_max[i], limits_.dtau_max[i] * period_s,
@@ -69,7 +69,8 @@ Status Guard::check_age(const RobotState& state, const CycleTime& now) {
 
 Status Guard::check_joint(int joint, const RobotState& state) {
   const double q = state.q[joint], dq = state.dq[joint], tau = state.tau[joint];
-  const double lo = q_min_[joint], hi = q_max_[joint], most = dq_max_[joint];
+  const double play = allowance_[joint] + outside_[joint], most = dq_max_[joint];
+  const double lo = limits_.q_min[joint] - play, hi = limits_.q_max[joint] + play;
   if (!state.drives[static_cast<std::size_t>(joint)].valid)
     return trip(Status::kStateInvalid, joint, q, 0.0);
   for (const double value : {q, dq, tau})
@@ -77,7 +78,13 @@ Status Guard::check_joint(int joint, const RobotState& state) {
   if (q < lo) return trip(Status::kMeasuredPositionLimit, joint, q, lo);
   if (q > hi) return trip(Status::kMeasuredPositionLimit, joint, q, hi);
   if (std::abs(dq) > most) return trip(Status::kMeasuredVelocityLimit, joint, dq, most);
+  outside_[joint] = std::min(outside_[joint], beyond(joint, q));
   return Status::kOk;
+}
+
+/// Returns how far a position is outside of the joint's range, rad; 0 inside.
+double Guard::beyond(int joint, double q) const {
+  return std::max({0.0, limits_.q_min[joint] - q, q - limits_.q_max[joint]});
 }
 
 /// A robot that is sent velocities is compared with the way that they would have taken it.

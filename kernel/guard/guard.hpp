@@ -92,8 +92,9 @@ class Guard {
 
   /// Checks that the measured state is young, measured at every joint, finite, within position and
   /// velocity limits and their allowances and, if positions or velocities are commanded, near what
-  /// was sent. Returns kStateStale, kStateInvalid, kStateNotFinite, kMeasuredPositionLimit,
-  /// kMeasuredVelocityLimit or kFollowingError. [cyclic]
+  /// was sent. An arm that starts up to kLedBack beyond a position limit may go back inside, with
+  /// the allowance as its play. Returns kStateStale, kStateInvalid, kStateNotFinite,
+  /// kMeasuredPositionLimit, kMeasuredVelocityLimit or kFollowingError. [cyclic]
   Status check(const RobotState& state, const CycleTime& now);
 
   /// Brings a command within the limits named in the file comment, but for the allowances of
@@ -120,10 +121,12 @@ class Guard {
 
  private:
   static constexpr double kFading_s = 1.0;  // so that small errors of a velocity do not add up
+  static constexpr double kLedBack = 0.1;   // rad
 
   Status trip(Status status, int joint, double value, double limit);
   Status check_age(const RobotState& state, const CycleTime& now);
   Status check_joint(int joint, const RobotState& state);
+  double beyond(int joint, double q) const;
   Status check_following(const RobotState& state);
   double allowed(int joint, double wanted, const RobotState& state);
   bool limit_feed_forward(int joint, bool limited, RobotCommand& command);
@@ -131,8 +134,9 @@ class Guard {
   bool jerky(int joint) const;
 
   JointLimits limits_;
-  // Limits of what is measured, rad and rad/s.
-  JointVector q_min_ = JointVector::Zero(), q_max_ = q_min_, dq_max_ = q_min_;
+  JointVector dq_max_ = JointVector::Zero();     // of what is measured, rad/s
+  JointVector allowance_ = JointVector::Zero();  // of a measured position, rad
+  JointVector outside_ = JointVector::Zero();    // how far it may still be outside, rad
   CommandMode mode_ = CommandMode::kEffort;
   std::array<PositionLimiter, kDof> positions_;
   std::array<VelocityLimiter, kDof> velocities_;

@@ -107,8 +107,7 @@ Status Ini::parse_line(std::string_view line, int number, LoadError& error) {
     return error.refuse(Status::kTooLarge, number, {}, {}, reason);
   }
   if (!is_text(line)) {
-    return error.refuse(Status::kBadSyntax, number, {}, {},
-                        "the line contains bytes that are not text");
+    return error.refuse(Status::kBadSyntax, number, {}, {}, kNotText);
   }
   line = trim(without_comment(line));
   if (line.empty()) return Status::kOk;

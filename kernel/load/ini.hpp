@@ -51,6 +51,10 @@ class Ini {
 
 /// False if the line contains a control character; UTF-8 is allowed. [any]
 bool is_text(std::string_view line);
+/// What is said of a line that is not.
+inline constexpr const char* kNotText =
+    "the line contains bytes that are not text; save the file as UTF-8, its line ends those of "
+    "Linux or Windows";
 
 /// Returns the text without the byte order mark with which some editors begin a file. [any]
 std::string_view without_byte_order_mark(std::string_view text);

@@ -122,7 +122,7 @@ void print_verdict(const TrajectoryInput& input, const Verdict& verdict, int lin
   FilePath place = input.path;
   if (line > 0) place << ":" << line;
   std::fprintf(stderr, "%s: refused: %s%s\n", place.c_str(),
-               describe(verdict, axes, time_s).c_str(), remedy(verdict.status));
+               describe(verdict, axes, time_s).c_str(), remedy(verdict));
 }
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {

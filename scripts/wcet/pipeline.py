@@ -47,7 +47,8 @@ def tell(facts, path):
     for command, limiter in (("q_c", "PositionLimiter"), ("dq_c", "VelocityLimiter")):
         if command not in keys.get("robot", {}):  # the guard limits only this kind of command
             facts.add("calls", r"tactus::Guard::", rf"{limiter}::(next|brake|follows)\(", "0")
-    if not any(section.get("online") == "limit" for section in keys.values()):  # points are not shaped
+    modes = [section.get("online", "limit") for section in keys.values() if "reference_generator" in section.get("type", "")]
+    if "limit" not in modes:  # points are not shaped
         facts.add("calls", r"ReferenceGenerator<.*>::(take_requests|take_point)\(", r"Motion<.*>::reach\(", "0")
         facts.add("calls", r"Motion<.*>::", r"PointStream<.*>::target\(", "0")  # to which only reach() adds
         facts.add("calls", r"Motion<.*>::move_on\(", r"Motion<.*>::can_leave\(", "0")  # what only reach() makes it ask

@@ -136,8 +136,7 @@ def main():
         with open("pipelines/ur10_jrg_pid.ini", encoding="utf-8") as source, open(
             pipeline, "w", encoding="utf-8"
         ) as file:
-            text = source.read().replace("reference_generator\n", "reference_generator\nonline = limit\n")
-            file.write(text.replace("trajectories/", os.path.abspath("pipelines") + "/trajectories/"))
+            file.write(source.read().replace("trajectories/", os.path.abspath("pipelines") + "/trajectories/"))
         command = [program, "serve", "--virtual-time", pipeline, "--listen", "unix:" + path]
         with subprocess.Popen(command, stdout=subprocess.PIPE) as serve:
             serve.stdout.readline()

@@ -9,8 +9,7 @@ namespace tactus {
 
 inline constexpr const char* kServe =
     "d=$(dirname $P); export T=$R/build/tactusctl${d##*/ur10_sim} TACTUS_SOCKET=unix:$S/socket; "
-    "serve() { : >$S/server.log; rm -f $S/all; { sed 's|reference_generator$|&\\nonline = limit|; "
-    "s|trajectories/|'$R'/pipelines/&|' "
+    "serve() { : >$S/server.log; rm -f $S/all; { sed 's|trajectories/|'$R'/pipelines/&|' "
     "$R/pipelines/$1.ini; printf "
     "'\\n[executive]\\nmax_slip=1000\\nmax_late=16\\nlate_window=1\\n'; } "
     ">$S/served.ini; $P serve $S/served.ini --listen $TACTUS_SOCKET >$S/server.log 2>&1 & "

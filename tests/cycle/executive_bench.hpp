@@ -117,6 +117,7 @@ limiting_share = 1
 [jrg]
 type = joint_reference_generator
 q    = robot.q
+online = forward
 )";
 
 struct ExecutiveBench {

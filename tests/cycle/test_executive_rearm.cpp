@@ -1,5 +1,7 @@
 // Tests the way up from disabled and from a hold: what is taken over, what is void, and what a hold
 // watches while it lasts.
+#include <string>
+
 #include "tests/cycle/ladder_bench.hpp"
 #include "tests/support/random.hpp"
 
@@ -65,7 +67,9 @@ void from_a_hold_no_command_changes_and_old_targets_are_void(void**) {
 
 /// A point a radian away, forwarded at once, is followed by the guard at its own pace.
 void a_target_that_the_guard_had_not_reached_is_void_after_a_rearm(void**) {
-  Bench& b = started(kPositions);
+  std::string text(kPositions);
+  text.insert(text.find("[jrg]\n") + 6, "online = forward\n");
+  Bench& b = started(text);
   FollowingArm arm{b};
   JointSpace::Point point;
   point.q = b.hal.state.q + JointVector::Unit(0);
@@ -118,7 +122,6 @@ dq   = robot.dq
 [jrg]
 type = joint_reference_generator
 q    = robot.q
-online = limit
 [cpc]
 type = cartesian_pose
 x_d  = jrg.x_d

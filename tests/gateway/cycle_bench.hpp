@@ -53,7 +53,7 @@ struct CycleBench : BenchClock {
   void start() {
     static constexpr std::string_view kText =
         "[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n"
-        "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n";
+        "[jrg]\ntype = joint_reference_generator\nq = robot.q\n";
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = kBenchWaypoints;

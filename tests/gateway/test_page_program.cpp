@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kServed =
     "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
     "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
-    "[jrg]\ntype = joint_reference_generator\nq = robot.q\nonline = limit\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
     "goal_tolerance = 0.2\nstopped_velocity = 0\n"
     "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";

@@ -67,6 +67,8 @@ void a_verdict_on_one_direction_names_it(void**) {
 void a_verdict_without_joint_or_value_says_what_it_knows(void**) {
   assert_joints({Status::kReferenceTime, 1, -1, 2.0, 2.000062},
                 "waypoint 2: time 2 s is earlier than 2.000062 s (35)");
+  assert_joints({Status::kReferenceTime, -1, -1, 90000.0, 86400.0},
+                "time 90000 s is later than 86400 s (35)");
   assert_joints({Status::kBadOverride, -1, -1, 1.5, 1.0}, "override 1.5 is not from 0 to 1 (52)");
   assert_joints({Status::kNothingToCancel}, "no reference to cancel (42)");
   assert_joints({Status::kReferenceSize}, "number of waypoints not allowed (32)");

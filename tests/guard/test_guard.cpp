@@ -88,6 +88,31 @@ void an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_bac
   }
 }
 
+/// Its bound follows it inwards, with the allowance as its play.
+void an_arm_a_little_outside_its_range_may_go_nowhere_but_back(void**) {
+  for (const double side : {1.0, -1.0}) {
+    GuardBench bench;
+    const double middle = bench.state.q[3];
+    const double end = side > 0.0 ? bench.params.limits.q_max[3] : bench.params.limits.q_min[3];
+    double& q = bench.state.q[3];
+    const auto beyond = [&](double rad) { q = end + side * rad; };
+    beyond(0.111);
+    ASSERT_STATUS(bench.start(kPeriod_s), Status::kMeasuredPositionLimit);
+    beyond(0.05);
+    bench.start();
+    for (const double rad : {0.059, 0.04, 0.049, 0.03, 0.02, 0.029}) {
+      beyond(rad);
+      ASSERT_OK(bench.check());
+    }
+    beyond(0.0301);
+    bench.trips_on(Status::kMeasuredPositionLimit, 3);
+    q = middle;
+    ASSERT_OK(bench.check());
+    beyond(0.0101);
+    bench.trips_on(Status::kMeasuredPositionLimit, 3);
+  }
+}
+
 // Proves GRD-2.
 
 void a_command_that_is_not_finite_trips_in_every_mode_and_names_the_joint(void**) {
@@ -229,6 +254,7 @@ int main() {
       cmocka_unit_test(a_position_or_velocity_beyond_limit_and_allowance_trips_and_names_both),
       cmocka_unit_test(
           an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_back),
+      cmocka_unit_test(an_arm_a_little_outside_its_range_may_go_nowhere_but_back),
       cmocka_unit_test(a_command_that_is_not_finite_trips_in_every_mode_and_names_the_joint),
       cmocka_unit_test(a_torque_within_its_limits_is_sent_as_it_came),
       cmocka_unit_test(a_torque_step_is_sent_at_the_rate_limit),

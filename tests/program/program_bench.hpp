@@ -88,7 +88,7 @@ inline pid_t spawn(std::initializer_list<const char*> arguments) {
   posix_spawn_file_actions_addopen(&files, 2, in_folder("err").c_str(), kFlags, 0666);
   sigset_t kills;  // nohup and a shell's & let tests begin without them
   sigemptyset(&kills);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&kills, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) sigaddset(&kills, signal);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setsigdefault(&attributes, &kills);

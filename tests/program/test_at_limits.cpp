@@ -74,6 +74,25 @@ void without_its_margins_it_is(void**) {
   assert_true(has(errors(), "(67)\n"));
 }
 
+/// Joint 1 stands 0.05 rad beyond its range, where a fault has left it.
+void an_arm_that_stands_outside_its_range_is_led_back_by_torques_and_by_positions(void**) {
+  for (const char* chain :
+       {"q_c = jrg.q_d\n[jrg]\ntype = joint_reference_generator\nq = robot.q\n",
+        "tau_c = pd.tau\n[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+        "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+        "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+        "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"}) {
+    const Line pipeline =
+        write("at.ini", {"[robot]\nname = fer\nperiod_us = 1000\n", chain,
+                         "[plant]\ninitial_q = 2.9473 -0.785398 0 -2.35619 0 1.5708 0.785398\n"});
+    const Line csv = write("in.csv", {kHeader, "2,2.5,-0.785398,0,-2.35619,0,1.5708,0.785398\n"});
+    const Line out = in_folder("at");
+    assert_int_equal(tactus_run({"run", pipeline.c_str(), "--trajectory", csv.c_str(),
+                                 "--no-figure", "--out", out.c_str()}),
+                     0);
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -82,6 +101,8 @@ int main(int, char** argv) {
   const CMUnitTest tests[] = {
       cmocka_unit_test(an_arm_at_its_limits_with_noisy_sensors_is_not_stopped),
       cmocka_unit_test(without_its_margins_it_is),
+      cmocka_unit_test(
+          an_arm_that_stands_outside_its_range_is_led_back_by_torques_and_by_positions),
   };
   return run_program_tests(argv[0], tests);
 }

@@ -46,9 +46,9 @@ void check_says_accepted_moves_nothing_and_writes_nothing(void**) {
 }
 
 void run_and_check_refuse_the_same_start_in_the_same_words(void**) {
-  const Line path = write("start.ini", {kWithoutGenerator, "[plant]\ninitial_q = 0\n"});
-  const Line expected = Line(path) << ": refused: joint 4 (fer_joint4): measured position 0 rad "
-                                      "exceeds -0.0598 rad (67)\n";
+  const Line path = write("start.ini", {kWithoutGenerator, "[plant]\ninitial_q = 1\n"});
+  const Line expected = Line(path) << ": refused: joint 4 (fer_joint4): measured position 1 rad "
+                                      "exceeds 0.0402 rad (67)\n";
   assert_int_equal(tactus_run({"check", path.c_str()}), 2);
   assert_true(errors() == std::string_view(expected));
   assert_int_equal(run_into("start", path.c_str()), 2);
@@ -186,7 +186,7 @@ void a_folder_holds_one_run_and_what_is_needed_to_draw_it(void**) {
 
 void a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("c");
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) {
     std::remove(in_folder("c/log.csv").c_str());
     const pid_t child = spawn(
         {"run", pipeline.c_str(), "--duration", "1000000", "--no-figure", "--out", out.c_str()});

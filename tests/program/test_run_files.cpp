@@ -22,7 +22,8 @@ void a_log_that_cannot_be_written_is_named_with_the_reason_and_its_rows(void**) 
   assert_true(has(said, "/full/log.csv: File too large after "));
   assert_true(has(said, " of 1000 rows; make room or choose another --out\n"));
   assert_int_equal(std::count(said.begin(), said.end(), '\n'), 1);
-  assert_true(has(output(), "  incomplete: "));
+  assert_true(has(output(), "  incomplete: ") && has(output(), " Hz: not recorded\n"));
+  assert_false(has(output(), "succeeded"));
   assert_false(exists("full/summary.json") || exists("full/summary.json.part"));
   assert_true(exists("full/incomplete.txt"));
   assert_int_equal(shell("$P run $S/p.ini --no-figure --out $S/whole >$S/said && "

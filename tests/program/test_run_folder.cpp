@@ -101,7 +101,7 @@ void a_refused_run_sets_the_run_before_it_aside_and_says_so(void**) {
 
 void a_run_refused_by_the_robot_keeps_the_run_before_it(void**) {
   run_before("x");
-  const Line far = write("far.ini", {kWithoutGenerator, "[plant]\ninitial_q = 0\n"});
+  const Line far = write("far.ini", {kWithoutGenerator, "[plant]\ninitial_q = 1\n"});
   assert_int_equal(run_into("x", far.c_str()), 2);
   assert_true(has(file_of("x/summary.json"), "\"cycles\": 0,"));
   assert_true(has_results("x/earlier_run"));

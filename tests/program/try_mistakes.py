@@ -45,6 +45,8 @@ CHANGES = {
     "not a number": ("t.csv", r"4,0\.1", "4,nan"),
     "degrees": ("t.csv", r"-0\.785,0,-2\.356,0,1\.571,0\.785", "-45,0,-135,0,90,45"),
     "times": ("t.csv", r"\n6,", "\n3,"),
+    "a date": ("t.csv", r"(?m)^(\d),", r"179500000\1,"),
+    "negative times": ("t.csv", r"\n2,", "\n-2,"),
     "too fast": ("t.csv", r"4,0\.1", "2.1,1.5"),
     "wrong start": ("t.csv", r"2,0,", "0,1,"),
     "unknown key": ("p.ini", r"(?m)^kp ", "Kp "),

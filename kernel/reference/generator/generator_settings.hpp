@@ -7,7 +7,7 @@
 namespace tactus {
 
 struct GeneratorSettings {
-  OnlineMode online = OnlineMode::kForward;
+  OnlineMode online = OnlineMode::kLimit;
   double timeout_ms = 0.0;  ///< longest silence of a stream of online points; 0: no limit
   double stopped_velocity =
       0.01;                   ///< at the goal: rad/s of each joint, m/s of the tip; 0: not checked

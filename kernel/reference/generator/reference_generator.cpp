@@ -108,7 +108,7 @@ void ReferenceGenerator<Space>::watch_goal(double dt_s, const Point& measured) {
   if (!running_.any()) return;
   using Arrival = typename ToleranceMonitor<Space>::Arrival;
   Verdict why = monitor_.follows(measured);
-  if (why.ok() && phase() != Phase::kSettling) return;
+  if (why.ok() && !motion_.at_goal()) return;
   const Arrival arrival = why.ok() ? monitor_.arrived(measured, dt_s, why) : Arrival::kLate;
   if (arrival == Arrival::kWaiting) return;
   arrival == Arrival::kArrived ? motion_.complete() : motion_.stop_inside();

@@ -181,9 +181,11 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
     return report(request.id, Outcome::kRefused, -1, {Status::kReferenceSize});
   const double start_s = trajectory(goal).start_s, elapsed_s = time_s() - start_s;
   const bool now = start_s == kStartAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
-  if (!now && !(std::isfinite(elapsed_s) && elapsed_s < trajectory(goal).end_s()))
-    return report(request.id, Outcome::kRefused, request.store,
-                  {Status::kReferenceTime, -1, -1, start_s, time_s()});
+  const double latest_s = time_s() + kLongestTrajectory_s;
+  if (!now && !(start_s <= latest_s && elapsed_s < trajectory(goal).end_s()))
+    return report(
+        request.id, Outcome::kRefused, request.store,
+        {Status::kReferenceTime, -1, -1, start_s, start_s < time_s() ? time_s() : latest_s});
   const bool later = !now && elapsed_s < 0.0;
   if (!later && !begin(goal, now ? 0.0 : elapsed_s)) return;
   end_waiting(Outcome::kSuperseded);

@@ -35,8 +35,11 @@ Verdict admit_time(const Trajectory<Space>& trajectory, int index, double time_s
   const double earliest =
       index == 0 ? 0.0 : trajectory.time_s(index - 1) + period_s / kMaxSegmentsPerCycle;
   if (!std::isfinite(time_s)) return {Status::kReferenceNotFinite, index, -1, time_s, 0.0};
-  if (time_s >= earliest - kRounding_s) return {};
-  return {Status::kReferenceTime, index, -1, time_s, earliest};
+  if (!(time_s >= earliest - kRounding_s))
+    return {Status::kReferenceTime, index, -1, time_s, earliest};
+  if (time_s > kLongestTrajectory_s)
+    return {Status::kReferenceTime, index, -1, time_s, kLongestTrajectory_s};
+  return {};
 }
 
 template <class Space>
@@ -54,7 +57,7 @@ Verdict admit_waypoint(const Trajectory<Space>& trajectory, int index,
   const typename Space::Measure measure = Space::measure(segment, limits, most);
   const double pause_s =
       index > 1 ? trajectory.time_s(index - 1) - trajectory.time_s(index - 2) : 0.0;
-  verdict = Space::judge_room(measure, limits);
+  verdict = Space::judge_room(measure, limits, point);  // within them
   if (verdict.ok() && trajectory.exact) verdict = judge(measure.peaks, most, Space::kChannelSize);
   if (verdict.ok())
     verdict = Space::judge_step(so_far.end, segment.at(0.0), limits, pause_s, so_far.steps);

@@ -47,7 +47,8 @@ Admitted<Space> nothing_yet(const Trajectory<Space>& trajectory,
                             const AdmissionSettings<Space>& settings);
 
 /// Judges the time of waypoint `index`: at least a sixteenth of the period after the one before it,
-/// the first not before zero. [any]
+/// the first not before zero, none after
+/// kLongestTrajectory_s. [any]
 template <class Space>
 Verdict admit_time(const Trajectory<Space>& trajectory, int index, double time_s, double period_s);
 

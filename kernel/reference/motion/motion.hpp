@@ -74,6 +74,8 @@ class Motion {
   bool holds_effort() const { return phase_ == Phase::kHolding && !held_.idle(); }
   /// True if the motion still reads the waypoints of a trajectory.
   bool on_path() const { return tactus::on_path(phase_); }
+  /// True if the path has ended and the reference is at rest at its end.
+  bool at_goal() const { return phase_ == Phase::kSettling && offset_.zero(); }
   /// True if braking on the path took longer than kLongestBrake_s, so that it was left.
   bool lost_path() const { return lost_path_; }
   /// Index of the first waypoint that is still needed.

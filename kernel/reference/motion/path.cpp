@@ -71,7 +71,7 @@ Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& set
       Space::peaks(settings.limits).reserved(1.0 - 0.5 * settings.stop_reserve);
   const typename Space::Measure measure =
       Space::measure(present_.segment, settings.limits, most, care);
-  Verdict verdict = Space::judge_room(measure, settings.limits);
+  Verdict verdict = Space::judge_room(measure, settings.limits, reference);
   if (verdict.ok()) verdict = judge(measure.peaks, most, Space::kChannelSize);
   if (verdict.ok() && !smooth()) verdict = judge_corners(reference, settings);
   if (verdict.ok())

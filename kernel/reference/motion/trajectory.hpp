@@ -44,7 +44,7 @@ struct Tolerances {
   typename Space::Band goal;      ///< largest error at the end
   double stopped_velocity = 0.0;  ///< largest velocity at the end, rad/s or m/s
   double dwell_s = 0.0;           ///< time for which the end must be kept
-  double goal_time_s = 0.0;       ///< time after the last waypoint in which the end must be reached
+  double goal_time_s = 0.0;  ///< time after the end of the reference in which it must be reached
 
   /// Returns the tolerances of a goal, completed by the defaults. [cyclic]
   static Tolerances merged(const Tolerances& goal, const Tolerances& defaults) {
@@ -55,6 +55,9 @@ struct Tolerances {
             merge_tolerance(goal.goal_time_s, defaults.goal_time_s)};
   }
 };
+
+/// The time of the last waypoint, and the wait for a start, at most: a day. Dates are beyond.
+inline constexpr double kLongestTrajectory_s = 86'400.0;
 
 /// A start time that means now.
 inline constexpr double kStartAtOnce = -kInfinity;

@@ -104,7 +104,7 @@ struct JointSpace {
   /// position limit, unless `care` is kQuick.
   static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most,
                          Care care = Care::kFine);
-  static Verdict judge_room(const Measure& measure, const Limits& limits);
+  static Verdict judge_room(const Measure& measure, const Limits& limits, const Point& from);
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
   static Verdict judge_step(const Point& before, const Point& after, const Limits& limits,
                             double dt_s, Levels& level);

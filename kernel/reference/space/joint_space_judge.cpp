@@ -77,12 +77,12 @@ JointSpace::Measure JointSpace::measure(const Segment& segment, const Limits& li
   return measure;
 }
 
-Verdict JointSpace::judge_room(const Measure& measure, const Limits& limits) {
+Verdict JointSpace::judge_room(const Measure& measure, const Limits& limits, const Point& from) {
   for (int j = 0; j < kDof; ++j) {
     const double lowest = measure.q_min[j], highest = measure.q_max[j];
-    if (exceeds(highest, limits.q_max[j]))
+    if (exceeds(highest, std::max(limits.q_max[j], from.q[j])))
       return {Status::kPositionLimit, -1, j, highest, limits.q_max[j]};
-    if (exceeds(-lowest, -limits.q_min[j]))
+    if (exceeds(-lowest, -std::min(limits.q_min[j], from.q[j])))
       return {Status::kPositionLimit, -1, j, lowest, limits.q_min[j]};
   }
   return {};

@@ -148,8 +148,10 @@ struct SpaceContract : std::true_type {
   /// given peaks or a position limit. [cyclic, some microseconds]
   static_assert(
       kSame<decltype(S::measure), Measure(const Segment&, const Limits&, const Peaks&, Care)>);
-  /// Judges the position range of a measured segment. [cyclic]
-  static_assert(kSame<decltype(S::judge_room), Verdict(const Measure&, const Limits&)>);
+  /// Judges the position range of a measured segment. Where `from` is outside of a limit, that is
+  /// the limit: an arm that stands there is led back. [cyclic]
+  static_assert(
+      kSame<decltype(S::judge_room), Verdict(const Measure&, const Limits&, const Point& from)>);
   /// Judges the distance of two positions: kStartTolerance. [cyclic]
   static_assert(
       kSame<decltype(S::judge_near), Verdict(const Point&, const Point&, const Tolerance&)>);

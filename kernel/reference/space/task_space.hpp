@@ -135,7 +135,7 @@ struct TaskSpace {
   /// no violation is missed; `most` is not used. The wrench is linear and so largest at an end.
   static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most,
                          Care care = Care::kFine);
-  static Verdict judge_room(const Measure& measure, const Limits& limits);
+  static Verdict judge_room(const Measure& measure, const Limits& limits, const Point& from);
   /// Judges distance and angle.
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
   static Verdict judge_step(const Point& before, const Point& after, const Limits& limits,

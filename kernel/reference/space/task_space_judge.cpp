@@ -57,10 +57,13 @@ Verdict judge_unit(const Eigen::Quaterniond& r) {
   return {};
 }
 
-Verdict judge_place(const Vector3& p, const TaskLimits& limits) {
+/// Judges a place on the way from `from`, which may be outside of the workspace.
+Verdict judge_place(const Vector3& p, const TaskLimits& limits, const Vector3& from) {
   for (int i = 0; i < 3; ++i) {
-    if (exceeds(p[i], limits.p_max[i])) return {Status::kWorkspace, -1, i, p[i], limits.p_max[i]};
-    if (exceeds(-p[i], -limits.p_min[i])) return {Status::kWorkspace, -1, i, p[i], limits.p_min[i]};
+    if (exceeds(p[i], std::max(limits.p_max[i], from[i])))
+      return {Status::kWorkspace, -1, i, p[i], limits.p_max[i]};
+    if (exceeds(-p[i], -std::min(limits.p_min[i], from[i])))
+      return {Status::kWorkspace, -1, i, p[i], limits.p_min[i]};
   }
   return {};
 }
@@ -79,7 +82,7 @@ double angle_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 
 Verdict TaskSpace::judge_waypoint(const Point& point, const Limits& limits) {
   return first_of(
-      {judge_finite(point), judge_unit(point.x.r), judge_place(point.x.p, limits),
+      {judge_finite(point), judge_unit(point.x.r), judge_place(point.x.p, limits, limits.p_max),
        at_most(point.h.head<3>().norm(), limits.force_max, Status::kEffortLimit, kTranslation),
        at_most(point.h.tail<3>().norm(), limits.moment_max, Status::kEffortLimit, kRotation)});
 }
@@ -118,9 +121,9 @@ TaskSpace::Measure TaskSpace::measure(const Segment& segment, const Limits& limi
   return measure;
 }
 
-Verdict TaskSpace::judge_room(const Measure& measure, const Limits& limits) {
-  return first_of(
-      {judge_place(measure.extent.p_min, limits), judge_place(measure.extent.p_max, limits)});
+Verdict TaskSpace::judge_room(const Measure& measure, const Limits& limits, const Point& from) {
+  return first_of({judge_place(measure.extent.p_min, limits, from.x.p),
+                   judge_place(measure.extent.p_max, limits, from.x.p)});
 }
 
 Verdict TaskSpace::judge_near(const Point& a, const Point& b, const Tolerance& tolerance) {
@@ -162,7 +165,8 @@ Verdict TaskSpace::judge_placed(const Extent& placed, const Placement& placement
                                 const Limits& limits) {
   Verdict verdict;
   if (placement.moved)
-    verdict = first_of({judge_place(placed.p_min, limits), judge_place(placed.p_max, limits)});
+    verdict = first_of({judge_place(placed.p_min, limits, limits.p_max),
+                        judge_place(placed.p_max, limits, limits.p_max)});
   if (verdict.ok() && placement.levered)
     verdict = at_most(placed.moment, limits.moment_max, Status::kEffortLimit, kRotation);
   return verdict;

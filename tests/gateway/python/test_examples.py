@@ -12,6 +12,13 @@ EXAMPLES = sorted(
     path for path in (served.ROOT / "gateway/python/examples").glob("*.py") if path.stat().st_mode & 0o100
 )
 KEYS = {"jog.py": "1+++2--q"}
+# In the block of the page's program: a second later the arm still takes references, where they led it.
+AFTERWARDS = """
+    import time
+    time.sleep(1.0)
+    now = arm.state()
+    assert now.rung == tactus.Rung.NOMINAL and np.abs(now.q_d - here - 0.1).max() < 1e-6, now
+"""
 
 
 class Examples(unittest.TestCase):
@@ -45,7 +52,7 @@ class Examples(unittest.TestCase):
         program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
         self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
         done = subprocess.run(
-            [sys.executable, "-c", program], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
+            [sys.executable, "-c", program + AFTERWARDS], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
         )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 

@@ -28,6 +28,7 @@ struct Bench {
     block.channel = &channel;
     block.params.generator.feedback_divisor = divisor;
     block.params.generator.stopped_velocity = 0.0;
+    block.params.generator.online = OnlineMode::kForward;
   }
   void run(int cycles) {
     for (int k = 0; k < cycles; ++k) assert_true(block.step(kPeriod_s) == Status::kOk);

@@ -28,6 +28,7 @@ struct Bench {
       channel.stores[i].capacity = 4;
     }
     block.channel = &channel;
+    block.params.generator.online = OnlineMode::kForward;
     block.q.source = &q;
     if (with_tool) block.tool.source = &tool;
   }

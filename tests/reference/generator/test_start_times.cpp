@@ -64,10 +64,10 @@ void a_trajectory_waits_for_its_start_time_to_half_a_period(void**) {
   }
 }
 
-void one_that_ended_in_the_past_is_refused(void**) {
+void one_that_ended_in_the_past_or_begins_after_a_day_is_refused(void**) {
   static ReferenceBench bench;
   ASSERT_OK(bench.run(3000));
-  for (const double start_s : {0.5, 1.0, -1.0, static_cast<double>(NAN), kInfinity}) {
+  for (const double start_s : {0.5, 1.0, -1.0, static_cast<double>(NAN), kInfinity, 86'403.1}) {
     const std::uint32_t id = go_at(bench, start_s, 0.4);
     ASSERT_OK(bench.step());
     const Report report = bench.final_of(id);
@@ -75,7 +75,7 @@ void one_that_ended_in_the_past_is_refused(void**) {
     ASSERT_STATUS(report.verdict.status, Status::kReferenceTime);
     assert_true(report.store == 0);
     assert_true(!(report.verdict.value < 3.0) || report.verdict.value == start_s);
-    ASSERT_NEAR(report.verdict.limit, report.time_s, 1e-12);
+    ASSERT_NEAR(report.verdict.limit, report.time_s + (start_s < 3.0 ? 0.0 : 86'400.0), 1e-9);
   }
   assert_true(bench.out().q == bench.home);
 }
@@ -226,7 +226,7 @@ void whatever_start_times_every_request_has_one_final_report(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_trajectory_waits_for_its_start_time_to_half_a_period),
-      cmocka_unit_test(one_that_ended_in_the_past_is_refused),
+      cmocka_unit_test(one_that_ended_in_the_past_or_begins_after_a_day_is_refused),
       cmocka_unit_test(a_first_waypoint_that_is_still_ahead_is_reached_in_time),
       cmocka_unit_test(one_that_runs_already_is_joined_where_it_would_be),
       cmocka_unit_test(one_that_is_nearly_over_is_joined_at_its_end),

@@ -93,6 +93,8 @@ void it_starts_at_the_measured_pose_without_motion_or_wrench(void**) {
 
 void a_point_is_put_out_as_it_came_but_for_the_quaternions_sign_and_length(void**) {
   static TaskBench bench;
+  bench.block.params.generator.online = OnlineMode::kForward;
+  ASSERT_OK(bench.block.start());
   TaskPoint point;
   point.x = {bench.x.p, negative(bench.x.r)};
   point.v = six({0.1, 0.2, 0.3}, {0.4, 0.5, 0.6});

@@ -179,6 +179,27 @@ void of_cancels_where_a_path_has_ended_two_are_executed_and_no_more(void**) {
   ASSERT_STATUS(report.verdict.status, Status::kNothingToCancel);
 }
 
+/// Joined when it is nearly over, or at its only waypoint, a path ends long before the reference is
+/// there.
+void a_goal_does_not_succeed_before_its_reference_is_there(void**) {
+  for (const bool late : {false, true}) {
+    static ReferenceBench benches[2];
+    ReferenceBench& bench = benches[late];
+    bench.params.start_tolerance.q.setConstant(0.5);
+    bench.params.tolerances = goal_of(0.01, 0.0);
+    ASSERT_OK(bench.start(bench.home));
+    ASSERT_OK(bench.run(1990));
+    Trajectory<JointSpace>* motion = bench.trajectory(kVelocityField | kAccelerationField);
+    if (late) bench.add(*motion, 0.0, 0.0);
+    bench.add(*motion, late ? 2.0 : 0.0, 0.4);
+    motion->start_s = late ? 0.0 : kStartAtOnce;
+    std::uint32_t id = 0;
+    assert_true(bench.client.send(*motion, id).ok());
+    ASSERT_OUTCOME(follow(bench, id, 0.0), Outcome::kSucceeded);
+    ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.4, 1e-9);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -194,6 +215,7 @@ int main() {
       cmocka_unit_test(the_known_latency_of_a_robot_is_no_error),
       cmocka_unit_test(a_goal_may_bring_its_own_tolerances_or_switch_them_off),
       cmocka_unit_test(of_cancels_where_a_path_has_ended_two_are_executed_and_no_more),
+      cmocka_unit_test(a_goal_does_not_succeed_before_its_reference_is_there),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

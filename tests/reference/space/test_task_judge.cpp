@@ -26,7 +26,7 @@ void assert_refused(const Verdict& verdict, Status status, int axis, double valu
 Verdict judge(const TaskSegment& segment, const TaskLimits& limits, double share) {
   const TaskSpace::Peaks most = TaskSpace::peaks(limits).reserved(share);
   const TaskSpace::Measure measure = TaskSpace::measure(segment, limits, most);
-  const Verdict verdict = TaskSpace::judge_room(measure, limits);
+  const Verdict verdict = TaskSpace::judge_room(measure, limits, TaskPoint());
   return verdict.ok() ? judge(measure.peaks, most, TaskSpace::kChannelSize) : verdict;
 }
 
