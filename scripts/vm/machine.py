@@ -78,10 +78,11 @@ def run(machine, kernel, folder, buses, fd, longest_s):
 
 
 def bring_out(folder, to):
-    """Unpacks what the command left in /out."""
+    """Unpacks what the command left in /out, as files of now: the machine's clock is that of 2020, the same in every boot."""
     with tarfile.open(folder / "results") as archive:
         members = [member for member in archive if member.isfile() or member.isdir()]
         for member in members:
+            member.mtime = time.time()
             if not (to / member.name).resolve().is_relative_to(to.resolve()):
                 raise Broken(f"a result is called {member.name}", BROKEN)
         to.mkdir(parents=True, exist_ok=True)
