@@ -9,15 +9,26 @@
 
 namespace tactus {
 
+/// Memory for waypoints that nothing touches until they are sent: to construct them would take
+/// longer than all else that a program does before its first line.
+template <class Space, std::size_t kMost>
+class WaypointMemory {
+ public:
+  Waypoint<Space>* data() { return reinterpret_cast<Waypoint<Space>*>(bytes_); }
+
+ private:
+  alignas(Waypoint<Space>) std::byte bytes_[kMost * sizeof(Waypoint<Space>)];
+};
+
 struct BoardMemory {
   static constexpr int kMaxPoses = 1 << 12;
   static constexpr int kMaxWaypoints = 1 << 15;  // 32 s at 1 kHz
   static constexpr std::size_t kRecorderNumbers = 1
                                                   << 17;  // in real time: a second of 100 at 1 kHz
 
-  std::array<std::array<Waypoint<JointSpace>, kMaxWaypoints>, kStores> waypoints;
+  std::array<WaypointMemory<JointSpace, kMaxWaypoints>, kStores> waypoints;
   std::array<double, kRecorderNumbers> recorder_ring;
-  std::array<std::array<Waypoint<TaskSpace>, kMaxPoses>, kStores> poses;
+  std::array<WaypointMemory<TaskSpace, kMaxPoses>, kStores> poses;
   ChannelMemory<JointSpace> channel;
   ChannelMemory<TaskSpace> task_channel;
   RoomyPipeline pipeline;
