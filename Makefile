@@ -108,7 +108,7 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/page gateway/server gateway/sockets hal/os)) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach gateway gateway/smoothing gateway/page gateway/server gateway/sockets hal/os)) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 # The tests of threads take the kernel and the frames of references, no more.
 ifeq ($(SANITIZE),thread)

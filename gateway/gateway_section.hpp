@@ -41,6 +41,9 @@ struct GatewaySection {
   /// Time for which a run continues after its trajectory has ended; longer if its goal is still
   /// awaited, up to the generator's goal_time_s.
   double settle_s = 2.0;
+  /// By how much the positions of a file may be moved to smooth it, in addition to half of the last
+  /// digit; 0: not at all.
+  double smoothing_rad = 0.005, smoothing_m = 0.001;
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -52,6 +55,8 @@ struct GatewaySection {
     visit.text("motion_frame", motion_frame, "the pose in whose frame the trajectory is given");
     visit.text("wrench_frame", wrench_frame, "the pose in whose frame its wrench is given");
     visit.param("settle_s", settle_s, Range{0.0, 3600.0}, "s");
+    visit.param("smoothing_rad", smoothing_rad, Range{0.0, 0.1}, "rad");
+    visit.param("smoothing_m", smoothing_m, Range{0.0, 0.1}, "m");
   }
 };
 

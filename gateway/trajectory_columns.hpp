@@ -69,6 +69,13 @@ struct ColumnTable<TaskSpace> {
 template <class Space>
 class Columns {
  public:
+  static constexpr std::size_t kMost = [] {
+    std::size_t count = 0;
+    for (const ColumnGroup& group : ColumnTable<Space>::kGroups)
+      count += static_cast<std::size_t>(group.width);
+    return count;
+  }();
+
   /// `partial`: positions of some of the joints are enough, if the space allows it.
   explicit Columns(bool partial) : partial_(partial) {}
 
@@ -103,11 +110,6 @@ class Columns {
     double scale = 1.0;
   };
 
-  static constexpr std::size_t max_columns() {
-    std::size_t count = 0;
-    for (const ColumnGroup& group : Table::kGroups) count += static_cast<std::size_t>(group.width);
-    return count;
-  }
   static constexpr std::size_t kPositions = 1;  // the group of the positions
   static constexpr std::uint32_t whole(std::size_t group) {
     return (1U << Table::kGroups[group].width) - 1U;
@@ -115,7 +117,7 @@ class Columns {
   /// Returns a bit for each number of the group that is given: bit i for number i.
   std::uint32_t given(std::size_t group) const;
 
-  std::array<Column, max_columns()> columns_;
+  std::array<Column, kMost> columns_;
   int count_ = 0;
   bool partial_;
 };

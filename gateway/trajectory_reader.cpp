@@ -34,8 +34,8 @@ Message not_readable(int error) {
 }
 
 template <class Space>
-bool read_row(Cells cells, int line, const Columns<Space>& columns, Waypoint<Space>& waypoint,
-              CsvError& error) {
+bool read_row(Cells cells, int line, const Columns<Space>& columns, Digits* digits,
+              Waypoint<Space>& waypoint, CsvError& error) {
   waypoint = {};
   std::string_view cell;
   int column = 0;
@@ -51,6 +51,7 @@ bool read_row(Cells cells, int line, const Columns<Space>& columns, Waypoint<Spa
     double& value = columns.value(column - 1, waypoint);
     if (!read_number(cell, value)) return refuse(error, line, column, header, not_a_number(cell));
     value *= columns.scale(column - 1);
+    digits[column - 1].note(cell);
   }
   if (column == columns.count()) return true;
   return refuse(
@@ -75,6 +76,7 @@ bool TrajectoryReader<Space>::open(const char* path, bool partial, std::uint64_t
                                    CsvError& error) {
   error = {};
   columns_ = Columns<Space>(partial);
+  digits_.fill({});
   partial_ = partial;
   rows_ = 0;
   return lines_.open(path, hash) || refuse(error, 0, 0, {}, not_readable(errno));
@@ -114,12 +116,25 @@ RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& erro
     if (content.empty() || content.front() == '#') continue;
     if (columns_.count() > 0) {
       rows_ += 1;
-      const bool read = read_row(Cells(row, separator_), line, columns_, waypoint, error);
+      const bool read =
+          read_row(Cells(row, separator_), line, columns_, digits_.data(), waypoint, error);
       return read ? RowTaken::kWaypoint : RowTaken::kRefused;
     }
     separator_ = separator_of(row);
     if (!read_header(Cells(row, separator_), line, columns_, error)) return RowTaken::kRefused;
   }
+}
+
+template <class Space>
+Waypoint<Space> TrajectoryReader<Space>::half_units(const Waypoint<Space>& waypoint) const {
+  Waypoint<Space> given = waypoint, half;
+  half.point = waypoint.point;
+  for (int column = 0; column < columns_.count(); ++column) {
+    const double scale = columns_.scale(column), number = columns_.value(column, given) / scale;
+    const Digits& digits = digits_[static_cast<std::size_t>(column)];
+    columns_.value(column, half) = scale * digits.half_unit(number);
+  }
+  return half;
 }
 
 template <class Space>

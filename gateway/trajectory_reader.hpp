@@ -16,6 +16,7 @@
 #pragma once
 
 #include "gateway/line_reader.hpp"
+#include "gateway/smoothing/digits.hpp"
 #include "gateway/trajectory_columns.hpp"
 
 namespace tactus {
@@ -54,6 +55,9 @@ class TrajectoryReader {
   Fields fields() const { return columns_.fields(); }
   /// Writes the joints that are left out into the header; once a waypoint was taken.
   void note_left_out(typename Space::Header& header) const { columns_.note_left_out(header); }
+  /// Returns half of a unit in the last digit of each number of a waypoint, in SI units, by the
+  /// digits of all rows that were taken since the file was opened. [any]
+  Waypoint<Space> half_units(const Waypoint<Space>& waypoint) const;
   const LineReader& lines() const { return lines_; }
 
  private:
@@ -61,6 +65,7 @@ class TrajectoryReader {
 
   LineReader lines_;
   Columns<Space> columns_{false};
+  std::array<Digits, Columns<Space>::kMost> digits_;
   bool partial_ = false;
   char separator_ = ',';
   std::int64_t rows_ = 0;

@@ -6,6 +6,13 @@ namespace {
 constexpr const char* kChanged =
     "the file changed after it was judged; leave it alone while it runs, and run it again";
 
+/// True of what a smoother curve through the same positions can repair.
+bool of_derivatives(Status status) {
+  return status == Status::kVelocityLimit || status == Status::kVelocityStep ||
+         status == Status::kAccelerationLimit || status == Status::kJerkLimit ||
+         status == Status::kNotAtRest;
+}
+
 }  // namespace
 
 template <class Space>
@@ -43,7 +50,33 @@ RowTaken TrajectoryStream<Space>::take(int wait_ms) {
 }
 
 template <class Space>
-bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings) {
+bool TrajectoryStream<Space>::may_be_smoothed(bool accepted) const {
+  const Interpolation how = window_->interpolation;
+  if (!reader_.lines().regular() || !refusal_.row.reason.empty() ||
+      (how != Interpolation::kByFields && how != Interpolation::kQuintic))
+    return false;
+  return accepted ? longer_s() > 0.0 || (reader_.fields() & kVelocityField) == 0
+                  : of_derivatives(refusal_.verdict.status);
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings,
+                                    const SmoothingTolerance& tolerance) {
+  const bool accepted = judge_once(settings);
+  if (!tolerance.allows() || !may_be_smoothed(accepted)) return accepted;
+  const double longer = accepted ? longer_s() : kInfinity;
+  if (restart(tolerance) && judge_once(settings) && longer_s() <= longer) return true;
+  return restart({}) && judge_once(settings);
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::restart(const SmoothingTolerance& tolerance) {
+  refusal_ = {};
+  return reader_.restart(tolerance, refusal_.row) && fill_window();
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::judge_once(const AdmissionSettings<Space>& settings) {
   if (!judged(judge_.begin(*window_, settings))) return false;
   if (!longer_ || !reader_.lines().regular()) return true;
   if (!judge_parts(settings)) return false;
@@ -132,7 +165,7 @@ bool TrajectoryStream<Space>::changed(bool at_end) const {
 template <class Space>
 void TrajectoryStream<Space>::note(int index) {
   newest_ = index;
-  lines_[static_cast<std::size_t>(index % window_->capacity)] = reader_.lines().line();
+  lines_[static_cast<std::size_t>(index % window_->capacity)] = reader_.line();
 }
 
 template <class Space>

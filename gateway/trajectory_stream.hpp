@@ -5,7 +5,7 @@
 #pragma once
 
 #include "gateway/part_judge.hpp"
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/smoothed_reader.hpp"
 
 namespace tactus {
 
@@ -32,8 +32,11 @@ class TrajectoryStream {
   bool open(const char* path, bool partial, std::uint64_t hash, Trajectory<Space>& store);
   /// Judges the file except for the way from the robot to its first waypoint: the whole of one that
   /// fits or can be read twice, of another the first waypoints. The store then holds the first
-  /// waypoints, ready to be sent. False: refused. [init]
-  bool judge(const AdmissionSettings<Space>& settings);
+  /// waypoints, ready to be sent. Of a file that can be read twice, positions without velocities
+  /// are smoothed within the tolerance, as is what is refused for its velocities or their
+  /// derivatives; if that is refused too, the file is taken, or refused, as it is given. False:
+  /// refused. [init]
+  bool judge(const AdmissionSettings<Space>& settings, const SmoothingTolerance& tolerance = {});
   /// Judges the rest of a file that cannot be read twice, and is not to be sent. False: refused.
   /// [init]
   bool judge_rest(const AdmissionSettings<Space>& settings);
@@ -57,6 +60,9 @@ class TrajectoryStream {
   double stretch() const { return judge_.stretch(end_s_); }
   std::uint64_t hash() const { return reader_.lines().hash(); }  ///< of the bytes read so far
   const StreamRefusal& refusal() const { return refusal_; }
+  /// How far positions were moved at most, to smooth them.
+  const SmoothingTolerance& moved() const { return reader_.moved(); }
+  bool smoothed() const { return reader_.smooths(); }
   /// Returns the time of a waypoint, or infinity if it is not in the window.
   double time_s(int waypoint) const;
 
@@ -69,6 +75,9 @@ class TrajectoryStream {
     return state_;
   }
   bool fill_window();
+  bool judge_once(const AdmissionSettings<Space>& settings);
+  bool restart(const SmoothingTolerance& tolerance);
+  bool may_be_smoothed(bool accepted) const;
   RowTaken take(int wait_ms);
   bool judge_parts(const AdmissionSettings<Space>& settings);
   bool judged(const Verdict& verdict);
@@ -80,7 +89,7 @@ class TrajectoryStream {
     return index <= newest_ && index > newest_ - window_->capacity;
   }
 
-  TrajectoryReader<Space> reader_;
+  SmoothedReader<Space> reader_;
   Trajectory<Space>* window_ = nullptr;
   Waypoint<Space> next_;  // read, but not yet in the window
   bool has_next_ = false, longer_ = false, whole_known_ = false;

@@ -121,6 +121,7 @@ void print_files(const TrajectoryInput& input, const RunResult& result, const Fi
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
+  if (input.smoothed()) std::printf("  trajectory %s\n", describe(input.moved()).c_str());
   if (result.starved > 0)
     std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
                 result.starved);
@@ -200,6 +201,7 @@ int run(Session& session, const Options& options) {
   catch_interrupts();
   execute(session, options, input, feed, log, writer, watchdog, result);
   result.stretch = input.stretch();
+  result.moved = input.moved();
   result.config_hash = input.hash(fnv1a(session.text));
   realtime.release();  // or the program that draws the figure would inherit it
 

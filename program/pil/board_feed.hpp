@@ -5,7 +5,7 @@
 
 #include "gateway/gateway_section.hpp"
 #include "gateway/reference_frames.hpp"
-#include "gateway/trajectory_reader.hpp"
+#include "gateway/smoothed_reader.hpp"
 #include "program/pil/board_client.hpp"
 
 namespace tactus::pil {
@@ -13,8 +13,10 @@ namespace tactus::pil {
 template <class Space>
 class FileFeed {
  public:
-  /// Opens the file and begins its trajectory on the board. False: refused; `why` says by whom.
-  bool begin(BoardClient& board, const char* path, const GatewaySection& gateway, Message& why);
+  /// Opens the file and begins its trajectory on the board, smoothed or as it is given. False:
+  /// refused; `why` says by whom.
+  bool begin(BoardClient& board, const char* path, const GatewaySection& gateway, bool smoothed,
+             Message& why);
   /// Sends what the board takes now. False: it refused. [any]
   bool feed(BoardClient& board, Message& why);
 
@@ -25,7 +27,7 @@ class FileFeed {
   int fitting() const;
   bool refused(Status status, BoardClient& board, Message& why) const;
 
-  TrajectoryReader<Space> reader_;
+  SmoothedReader<Space> reader_;
   CsvError error_;
   Fields fields_ = 0;
   std::array<Waypoint<Space>, kMost> next_;
@@ -37,7 +39,7 @@ class FileFeed {
 class BoardFeed {
  public:
   bool begin(bool poses, BoardClient& board, const char* path, const GatewaySection& gateway,
-             Message& why);
+             bool smoothed, Message& why);
   bool feed(BoardClient& board, Message& why);
 
  private:

@@ -168,7 +168,8 @@ Status PilHal::silent() {
 
 bool PilHal::begin(const TrajectoryInput& input) {
   if (!input.given()) return true;
-  if (feed_.begin(input.takes_poses(), board_, input.path.c_str(), session_->gateway, why_))
+  if (feed_.begin(input.takes_poses(), board_, input.path.c_str(), session_->gateway,
+                  input.smoothed(), why_))
     return true;
   std::fprintf(stderr, "%s: %s\n", input.path.c_str(), why_.c_str());
   return false;

@@ -120,7 +120,10 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   }
   std::fprintf(file, "},\n");
   result.expectation.write(file);
-  std::fprintf(file, "  \"stretch\": %.4g,\n  \"starved\": %d,\n", result.stretch, result.starved);
+  std::fprintf(file, "  \"stretch\": %.4g,\n", result.stretch);
+  std::fprintf(file, "  \"smoothed_rad\": %.4g,\n  \"smoothed_m\": %.4g,\n", result.moved.rad,
+               result.moved.m);
+  std::fprintf(file, "  \"starved\": %d,\n", result.starved);
   write_tracking(file, result);
   write_signals(file, session);
   write_timing(file, session.pipeline, session.executive);

@@ -17,8 +17,9 @@ struct RunResult {
   Reason why;                   ///< of a goal that was not reached, in words
   Rung rung = Rung::kDisabled;  ///< after the last cycle
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
-  int starved = 0;       ///< times that the arm waited on its path for the trajectory file
-  double stretch = 0.0;  ///< time added to the trajectory, as a fraction
+  int starved = 0;           ///< times that the arm waited on its path for the trajectory file
+  double stretch = 0.0;      ///< time added to the trajectory, as a fraction
+  SmoothingTolerance moved;  ///< how far its positions were moved at most, to smooth it
   double wall_s = 0.0, simulated_s = 0.0;
   std::int64_t cycles = 0;  ///< in which the arm was commanded
   std::array<TrackingError, kMaxTracking> tracking;

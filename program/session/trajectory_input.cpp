@@ -79,7 +79,8 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
   input.start_s = session.gateway.start_s;
   if (input.start_s > 0.0) trajectory->start_s = input.start_s;
   input.trajectory = trajectory;
-  return stream.judge(client.settings()) || print_refusal(input, stream);
+  const SmoothingTolerance tolerance = {session.gateway.smoothing_rad, session.gateway.smoothing_m};
+  return stream.judge(client.settings(), tolerance) || print_refusal(input, stream);
 }
 
 }  // namespace
@@ -106,6 +107,15 @@ double TrajectoryInput::stretch() const {
 
 double TrajectoryInput::longer_s() const {
   return with_stream(*this, 0.0, [](const auto& stream) { return stream.longer_s(); });
+}
+
+bool TrajectoryInput::smoothed() const {
+  return with_stream(*this, false, [](const auto& stream) { return stream.smoothed(); });
+}
+
+SmoothingTolerance TrajectoryInput::moved() const {
+  return with_stream(*this, SmoothingTolerance(),
+                     [](const auto& stream) { return stream.moved(); });
 }
 
 double TrajectoryInput::end_s() const {

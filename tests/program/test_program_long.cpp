@@ -24,9 +24,9 @@ Line write_long(const char* name, double spacing_s, int wild = -1) {
 }
 
 Line quiet_pipeline() {
-  std::string text(kPipeline);  // without noise
+  std::string text(kPipeline);  // without noise, for straight lines
   text.erase(text.find("[plant]"), text.find("[model]") - text.find("[plant]"));
-  return write("p.ini", {text.c_str(), "[gateway]\ntimes = exact\n", kBusyHost});
+  return write("p.ini", {text.c_str(), "[gateway]\ntimes = exact\nsmoothing_rad = 0\n", kBusyHost});
 }
 
 /// The text of a summary from `key` to the next comma.

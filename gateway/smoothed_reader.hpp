@@ -1,0 +1,80 @@
+// SmoothedReader: the waypoints of a trajectory file, as they are given or on a smooth curve
+// through their positions. Positions that were written with few digits, or measured, have errors
+// that are nothing beside the motion, but between samples close together they are any velocity,
+// acceleration and jerk. The curve (smoothing_spline.hpp) is fitted to as many samples as depend on
+// each other; it goes on where the samples before ended, so that a file of any length remains a
+// stream. It stays within the tolerance of the given numbers, and within half of the last digit
+// that was written of each.
+#pragma once
+
+#include "gateway/smoothing/smoothing_spline.hpp"
+#include "gateway/trajectory_reader.hpp"
+
+namespace tactus {
+
+/// By how much positions may be moved, in addition to half of the last digit; 0: not at all.
+struct SmoothingTolerance {
+  double rad = 0.0, m = 0.0;
+
+  bool allows() const { return rad > 0.0 && m > 0.0; }
+};
+
+/// Says how far positions were moved at most: "smoothed, by up to 0.00031 rad"; empty if they were
+/// not. [any]
+Message describe(const SmoothingTolerance& moved);
+
+template <class Space>
+class SmoothedReader {
+ public:
+  /// As TrajectoryReader::open(). [init]
+  bool open(const char* path, bool partial, std::uint64_t hash, CsvError& error) {
+    smooths_ = false;
+    return reader_.open(path, partial, hash, error);
+  }
+  /// Returns to the first waypoint of a regular file; from then on they are smoothed within a
+  /// tolerance, or are as given without one. False: refused. [init]
+  bool restart(const SmoothingTolerance& tolerance, CsvError& error);
+  /// The same, as they were read last. [init]
+  bool rewind(CsvError& error) { return restart(tolerance_, error); }
+  /// As TrajectoryReader::next(). Refuses also what no smooth curve is near to. [any, not cyclic]
+  RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
+
+  /// Fields of the waypoints; known once one was taken.
+  Fields fields() const;
+  void note_left_out(typename Space::Header& header) const { reader_.note_left_out(header); }
+  const LineReader& lines() const { return reader_.lines(); }
+  /// Line of the waypoint that was taken last.
+  int line() const { return line_; }
+  /// How far positions were moved at most, so far.
+  const SmoothingTolerance& moved() const { return moved_; }
+  bool smooths() const { return smooths_; }
+
+ private:
+  static constexpr int kMost = SmoothingSpline::kMostSamples;
+  static constexpr int kAhead = kMost / 4;  // samples that are fitted once more, with later ones
+  static constexpr int kFewest = 8;         // of a file
+  using Axes = SmoothingSpline::Axes;
+
+  bool fit_more(CsvError& error);
+  bool read_window(CsvError& error);
+  void prepare();
+  bool fit();
+  bool near(int sample);
+  Axes allowed(int sample, const typename Space::Point& smooth) const;
+  typename Space::Point point(int sample) const;
+  const Waypoint<Space>& row(int sample) const { return rows_[static_cast<std::size_t>(sample)]; }
+
+  TrajectoryReader<Space> reader_;
+  SmoothingTolerance tolerance_, moved_;
+  bool smooths_ = false, at_end_ = false;
+  int line_ = 0;
+
+  SmoothingSpline spline_;
+  std::array<Waypoint<Space>, kMost> rows_;  // as given
+  std::array<int, kMost> lines_;
+  int count_ = 0;                 // of the rows
+  int next_ = 0, ready_ = 0;      // the row to hand out next, and the first that is not ready
+  typename Space::Point origin_;  // of the axes: the first row's place
+};
+
+}  // namespace tactus
