@@ -12,7 +12,7 @@ using Axes = SmoothingSpline::Axes;
 /// Half of a digit counts as this, rad or m, where fewer were written.
 constexpr double kCoarsest = 0.005;
 /// Given velocities may differ by so many tolerances of the position per second.
-constexpr double kVelocity_per_s = 10.0;
+constexpr double kVelocity_per_s = 20.0;
 /// Largest turn from the origin of a chart, rad; at 2 pi it ends.
 constexpr double kLargestTurn = 2.5;
 constexpr double kRounding = 1e-10;  // rad or m
@@ -78,14 +78,13 @@ Message describe(const SmoothingTolerance& moved) {
 }
 
 template <class Space>
-bool SmoothedReader<Space>::restart(const SmoothingTolerance& tolerance, CsvError& error) {
-  tolerance_ = tolerance;
-  smooths_ = tolerance.allows();
+bool SmoothedReader<Space>::restart(const Smoothing& smoothing, CsvError& error) {
+  smoothing_ = smoothing;
   moved_ = {};
   at_end_ = false;
   count_ = next_ = ready_ = 0;
   // The digits of a column are known when all of its numbers were read.
-  RowTaken taken = smooths_ ? RowTaken::kWaypoint : RowTaken::kEnd;
+  RowTaken taken = smooths() ? RowTaken::kWaypoint : RowTaken::kEnd;
   while (taken == RowTaken::kWaypoint) taken = reader_.next(rows_[0], error);
   return taken == RowTaken::kEnd && reader_.rewind(error);
 }
@@ -93,12 +92,12 @@ bool SmoothedReader<Space>::restart(const SmoothingTolerance& tolerance, CsvErro
 template <class Space>
 Fields SmoothedReader<Space>::fields() const {
   constexpr int kDerivatives = kVelocityField | kAccelerationField;
-  return static_cast<Fields>(reader_.fields() | (smooths_ ? kDerivatives : 0));
+  return static_cast<Fields>(reader_.fields() | (smooths() ? kDerivatives : 0));
 }
 
 template <class Space>
 RowTaken SmoothedReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
-  if (!smooths_) {
+  if (!smooths()) {
     const RowTaken taken = reader_.next(waypoint, error, wait_ms);
     line_ = lines().line();
     return taken;
@@ -136,7 +135,6 @@ bool SmoothedReader<Space>::fit_more(CsvError& error) {
   if (!read_window(error)) return false;
   if (spline_.begins == Start::kUnknown) {
     origin_ = row(0).point.at_rest();
-    if (!(row(0).time_s > 0.0)) spline_.begins = Start::kAtRest;
   }
   next_ = spline_.begins == Start::kGiven ? 1 : 0;
   prepare();
@@ -180,11 +178,17 @@ void SmoothedReader<Space>::prepare() {
   ready_ = whole ? count_ : std::max(spline_.count - kAhead, (spline_.count + next_ + 1) / 2);
 }
 
-/// Fits the likeliest curve, or a sharper one if that is not near enough.
+/// Fits the likeliest curve or the smoother one that is asked for, or the next sharper one that is
+/// near enough.
 template <class Space>
 bool SmoothedReader<Space>::fit() {
-  for (double cutoff = spline_.count < kFewest ? SmoothingSpline::kSharpest : spline_.most_likely();
-       cutoff <= SmoothingSpline::kSharpest; cutoff *= SmoothingSpline::kStep) {
+  using Spline = SmoothingSpline;
+  const bool first = spline_.begins == Spline::Start::kUnknown;
+  const bool left_at_once = first && !(row(0).time_s > 0.0);  // and therefore from rest
+  double cutoff = spline_.count < kFewest ? Spline::kSharpest : spline_.most_likely(left_at_once);
+  for (int i = 0; i < smoothing_.rounding && cutoff > Spline::kSmoothest; ++i)
+    cutoff /= Spline::kStep;
+  for (; cutoff <= Spline::kSharpest; cutoff *= Spline::kStep) {
     spline_.fit(cutoff);
     const SmoothingTolerance before = moved_;
     int sample = next_;
@@ -208,7 +212,7 @@ bool SmoothedReader<Space>::near(int sample) {
   if (reader_.fields() & kVelocityField) {
     const Axes half = velocity_of(reader_.half_units(row(sample)).point);
     const Axes other = (velocity_of(smooth) - velocity_of(row(sample).point)).cwiseAbs();
-    const Axes far = half + kVelocity_per_s * tolerances(Space(), tolerance_);
+    const Axes far = half + kVelocity_per_s * tolerances(Space(), smoothing_.tolerance);
     return (other.array() <= far.array()).all();
   }
   if (sample == 0) return true;
@@ -223,7 +227,7 @@ bool SmoothedReader<Space>::near(int sample) {
 template <class Space>
 Axes SmoothedReader<Space>::allowed(int sample, const typename Space::Point& smooth) const {
   const Waypoint<Space> half = reader_.half_units(row(sample));
-  return position_of(half.point).cwiseMin(kCoarsest) + tolerances(Space(), tolerance_) +
+  return position_of(half.point).cwiseMin(kCoarsest) + tolerances(Space(), smoothing_.tolerance) +
          half.time_s * velocity_of(smooth).cwiseAbs();
 }
 

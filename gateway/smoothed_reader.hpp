@@ -19,6 +19,15 @@ struct SmoothingTolerance {
   bool allows() const { return rad > 0.0 && m > 0.0; }
 };
 
+/// How a file is read.
+struct Smoothing {
+  SmoothingTolerance tolerance;  ///< 0: as it is given
+  /// By how many steps the curve is smoother than the likeliest, where the tolerance allows it.
+  int rounding = 0;
+
+  static constexpr int kMostRounding = 6;
+};
+
 /// Says how far positions were moved at most: "smoothed, by up to 0.00031 rad"; empty if they were
 /// not. [any]
 Message describe(const SmoothingTolerance& moved);
@@ -28,14 +37,13 @@ class SmoothedReader {
  public:
   /// As TrajectoryReader::open(). [init]
   bool open(const char* path, bool partial, std::uint64_t hash, CsvError& error) {
-    smooths_ = false;
+    smoothing_ = {};
     return reader_.open(path, partial, hash, error);
   }
-  /// Returns to the first waypoint of a regular file; from then on they are smoothed within a
-  /// tolerance, or are as given without one. False: refused. [init]
-  bool restart(const SmoothingTolerance& tolerance, CsvError& error);
-  /// The same, as they were read last. [init]
-  bool rewind(CsvError& error) { return restart(tolerance_, error); }
+  /// Returns to the first waypoint of a regular file, to read it so. False: refused. [init]
+  bool restart(const Smoothing& smoothing, CsvError& error);
+  /// The same, to read it as before. [init]
+  bool rewind(CsvError& error) { return restart(smoothing_, error); }
   /// As TrajectoryReader::next(). Refuses also what no smooth curve is near to. [any, not cyclic]
   RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
 
@@ -47,7 +55,7 @@ class SmoothedReader {
   int line() const { return line_; }
   /// How far positions were moved at most, so far.
   const SmoothingTolerance& moved() const { return moved_; }
-  bool smooths() const { return smooths_; }
+  const Smoothing& smoothing() const { return smoothing_; }
 
  private:
   static constexpr int kMost = SmoothingSpline::kMostSamples;
@@ -55,6 +63,7 @@ class SmoothedReader {
   static constexpr int kFewest = 8;         // of a file
   using Axes = SmoothingSpline::Axes;
 
+  bool smooths() const { return smoothing_.tolerance.allows(); }
   bool fit_more(CsvError& error);
   bool read_window(CsvError& error);
   void prepare();
@@ -65,8 +74,9 @@ class SmoothedReader {
   const Waypoint<Space>& row(int sample) const { return rows_[static_cast<std::size_t>(sample)]; }
 
   TrajectoryReader<Space> reader_;
-  SmoothingTolerance tolerance_, moved_;
-  bool smooths_ = false, at_end_ = false;
+  Smoothing smoothing_;
+  SmoothingTolerance moved_;
+  bool at_end_ = false;
   int line_ = 0;
 
   SmoothingSpline spline_;

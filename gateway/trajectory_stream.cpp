@@ -6,14 +6,13 @@ namespace {
 constexpr const char* kChanged =
     "the file changed after it was judged; leave it alone while it runs, and run it again";
 
-/// True of what a smoother curve through the same positions can repair.
+}  // namespace
+
 bool of_derivatives(Status status) {
   return status == Status::kVelocityLimit || status == Status::kVelocityStep ||
          status == Status::kAccelerationLimit || status == Status::kJerkLimit ||
          status == Status::kNotAtRest;
 }
-
-}  // namespace
 
 template <class Space>
 bool TrajectoryStream<Space>::open(const char* path, bool partial, std::uint64_t hash,
@@ -65,14 +64,28 @@ bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings,
   const bool accepted = judge_once(settings);
   if (!tolerance.allows() || !may_be_smoothed(accepted)) return accepted;
   const double longer = accepted ? longer_s() : kInfinity;
-  if (restart(tolerance) && judge_once(settings) && longer_s() <= longer) return true;
+  if (judge_smoothed(settings, tolerance) && longer_s() <= longer) return true;
+  // A curve that is near shows what is wrong, which lines between positions may hide.
+  const bool curve = refusal_.row.reason.empty() && !refusal_.verdict.ok();
+  if (curve && !(accepted && longer > 0.0)) return false;
   return restart({}) && judge_once(settings);
 }
 
+/// Judges the likeliest curve, then smoother ones. Of those that are refused, the first says why.
 template <class Space>
-bool TrajectoryStream<Space>::restart(const SmoothingTolerance& tolerance) {
+bool TrajectoryStream<Space>::judge_smoothed(const AdmissionSettings<Space>& settings,
+                                             const SmoothingTolerance& tolerance) {
+  for (int rounding = 0; rounding <= Smoothing::kMostRounding; ++rounding) {
+    if (restart({tolerance, rounding}) && judge_once(settings)) return true;
+    if (!refusal_.row.reason.empty() || !of_derivatives(refusal_.verdict.status)) return false;
+  }
+  return restart({tolerance}) && judge_once(settings);
+}
+
+template <class Space>
+bool TrajectoryStream<Space>::restart(const Smoothing& smoothing) {
   refusal_ = {};
-  return reader_.restart(tolerance, refusal_.row) && fill_window();
+  return reader_.restart(smoothing, refusal_.row) && fill_window();
 }
 
 template <class Space>

@@ -16,6 +16,9 @@ struct StreamRefusal {
   int line = 0;     ///< of the verdict's waypoint; 0: none in particular
 };
 
+/// True of what a smoother curve through the same positions may repair.
+bool of_derivatives(Status status);
+
 enum class Fed : std::uint8_t {
   kIdle,     ///< nothing to feed: the file fits its store, or its trajectory has ended
   kAhead,    ///< the window is full, or the generator has not yet answered the last part
@@ -33,8 +36,8 @@ class TrajectoryStream {
   /// Judges the file except for the way from the robot to its first waypoint: the whole of one that
   /// fits or can be read twice, of another the first waypoints. The store then holds the first
   /// waypoints, ready to be sent. Of a file that can be read twice, positions without velocities
-  /// are smoothed within the tolerance, as is what is refused for its velocities or their
-  /// derivatives; if that is refused too, the file is taken, or refused, as it is given. False:
+  /// are smoothed within the tolerance, as is what is refused or slowed down for its velocities or
+  /// their derivatives; where there is no smooth curve that near, it is judged as given. False:
   /// refused. [init]
   bool judge(const AdmissionSettings<Space>& settings, const SmoothingTolerance& tolerance = {});
   /// Judges the rest of a file that cannot be read twice, and is not to be sent. False: refused.
@@ -62,7 +65,7 @@ class TrajectoryStream {
   const StreamRefusal& refusal() const { return refusal_; }
   /// How far positions were moved at most, to smooth them.
   const SmoothingTolerance& moved() const { return reader_.moved(); }
-  bool smoothed() const { return reader_.smooths(); }
+  const Smoothing& smoothing() const { return reader_.smoothing(); }
   /// Returns the time of a waypoint, or infinity if it is not in the window.
   double time_s(int waypoint) const;
 
@@ -76,7 +79,9 @@ class TrajectoryStream {
   }
   bool fill_window();
   bool judge_once(const AdmissionSettings<Space>& settings);
-  bool restart(const SmoothingTolerance& tolerance);
+  bool judge_smoothed(const AdmissionSettings<Space>& settings,
+                      const SmoothingTolerance& tolerance);
+  bool restart(const Smoothing& smoothing);
   bool may_be_smoothed(bool accepted) const;
   RowTaken take(int wait_ms);
   bool judge_parts(const AdmissionSettings<Space>& settings);

@@ -63,7 +63,7 @@ int check(Session& session, const Options& options) {
                 input.count() == 1 ? "waypoint" : "waypoints", input.end_s());
   if (input.stretch() > 0.0)
     std::printf(", %.1f %% longer to stay within limits", 100.0 * input.stretch());
-  if (input.smoothed()) std::printf(", %s", describe(input.moved()).c_str());
+  if (input.smoothing().tolerance.allows()) std::printf(", %s", describe(input.moved()).c_str());
   std::printf("\n");
   return kSucceeded;
 }

@@ -121,7 +121,8 @@ void print_files(const TrajectoryInput& input, const RunResult& result, const Fi
   if (input.stretch() > 0.0)
     std::printf("  trajectory made %.1f %% longer to stay within limits\n",
                 100.0 * input.stretch());
-  if (input.smoothed()) std::printf("  trajectory %s\n", describe(input.moved()).c_str());
+  if (input.smoothing().tolerance.allows())
+    std::printf("  trajectory %s\n", describe(input.moved()).c_str());
   if (result.starved > 0)
     std::printf("  waits on the path for %s, which came too slowly: %d\n", input.path.c_str(),
                 result.starved);

@@ -14,6 +14,7 @@ using Axes = SmoothingSpline::Axes;
 
 constexpr double kUnknown = 1e4;    // variance of velocity and acceleration, unit of time 1/cutoff
 constexpr double kCertain = 1e-12;  // variance of what is known
+constexpr double kDoubt = 10.0;     // logarithm of the ratio of likelihoods that decides
 constexpr int kUnjudged = 3;        // samples that a state without a history explains
 
 /// The motion of a triple integrator in the time h.
@@ -105,15 +106,30 @@ double SmoothingSpline::unlikelihood(const Axes& squares, double log_variances) 
   return sum;
 }
 
-double SmoothingSpline::most_likely() {
-  double best = kSharpest, least = filter(kSharpest);
-  for (double cutoff = kSharpest / kStep; cutoff > kSmoothest; cutoff /= kStep) {
-    const double unlikely = filter(cutoff);
+/// Finds the likeliest cutoff for a given start; returns how unlikely the samples are with it.
+double SmoothingSpline::least_unlikely(double& cutoff) {
+  cutoff = kSharpest;
+  double least = filter(kSharpest);
+  for (double tried = kSharpest / kStep; tried > kSmoothest; tried /= kStep) {
+    const double unlikely = filter(tried);
     if (!(unlikely < least)) continue;
     least = unlikely;
-    best = cutoff;
+    cutoff = tried;
   }
-  return best;
+  return least;
+}
+
+double SmoothingSpline::most_likely(bool from_rest) {
+  double cutoff = 0.0, moving_cutoff = 0.0;
+  if (begins != Start::kUnknown) {
+    least_unlikely(cutoff);
+    return cutoff;
+  }
+  const double moving = least_unlikely(moving_cutoff);
+  begins = Start::kAtRest;
+  if (least_unlikely(cutoff) <= moving + kDoubt || from_rest) return cutoff;
+  begins = Start::kUnknown;
+  return moving_cutoff;
 }
 
 void SmoothingSpline::fit(double cutoff) {

@@ -47,9 +47,10 @@ class SmoothingSpline {
   /// and one that depends on fewer than 250 samples on either side.
   static constexpr double kSharpest = 12.0, kSmoothest = 1.0 / 64.0;
 
-  /// Returns the cutoff of the maximum likelihood, times the mean distance of samples. Needs eight
-  /// samples. [any, not cyclic]
-  double most_likely();
+  /// Returns the cutoff of the maximum likelihood, times the mean distance of samples. Of a motion
+  /// whose start is unknown also decides whether it begins at rest: if it must, or unless that is
+  /// unlikely. Needs eight samples. [any, not cyclic]
+  double most_likely(bool from_rest);
   /// Fits the curve with such a cutoff. [any, not cyclic]
   void fit(double cutoff);
   /// State of the curve at a sample, after fit(). [any]
@@ -60,6 +61,7 @@ class SmoothingSpline {
 
   double unit_s(double cutoff) const;
   double filter(double cutoff);
+  double least_unlikely(double& cutoff);
   double unlikelihood(const Axes& squares, double log_variances) const;
 
   std::array<State, kMostSamples> states_;   // filtered, then smoothed

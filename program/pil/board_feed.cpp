@@ -47,13 +47,12 @@ void FileFeed<Space>::fill() {
 
 template <class Space>
 bool FileFeed<Space>::begin(BoardClient& board, const char* path, const GatewaySection& gateway,
-                            bool smoothed, Message& why) {
+                            const Smoothing& smoothing, Message& why) {
   const bool partial = gateway.partial_joints == PartialJoints::kHold;
   count_ = 0;
   at_end_ = whole_ = false;
-  const SmoothingTolerance tolerance = {gateway.smoothing_rad, gateway.smoothing_m};
   if (!reader_.open(path, partial, 0, error_) || !reader_.lines().regular() ||
-      (smoothed && !reader_.restart(tolerance, error_))) {
+      !reader_.restart(smoothing, error_)) {
     why = Message(path);
     why << ": cannot be read a second time, for the board";
     return false;
@@ -105,9 +104,10 @@ bool FileFeed<Space>::feed(BoardClient& board, Message& why) {
 }
 
 bool BoardFeed::begin(bool poses, BoardClient& board, const char* path,
-                      const GatewaySection& gateway, bool smoothed, Message& why) {
-  if (poses) return file_.emplace<FileFeed<TaskSpace>>().begin(board, path, gateway, smoothed, why);
-  return file_.emplace<FileFeed<JointSpace>>().begin(board, path, gateway, smoothed, why);
+                      const GatewaySection& gateway, const Smoothing& smoothing, Message& why) {
+  if (poses)
+    return file_.emplace<FileFeed<TaskSpace>>().begin(board, path, gateway, smoothing, why);
+  return file_.emplace<FileFeed<JointSpace>>().begin(board, path, gateway, smoothing, why);
 }
 
 bool BoardFeed::feed(BoardClient& board, Message& why) {

@@ -13,10 +13,9 @@ namespace tactus::pil {
 template <class Space>
 class FileFeed {
  public:
-  /// Opens the file and begins its trajectory on the board, smoothed or as it is given. False:
-  /// refused; `why` says by whom.
-  bool begin(BoardClient& board, const char* path, const GatewaySection& gateway, bool smoothed,
-             Message& why);
+  /// Opens the file and begins its trajectory on the board. False: refused; `why` says by whom.
+  bool begin(BoardClient& board, const char* path, const GatewaySection& gateway,
+             const Smoothing& smoothing, Message& why);
   /// Sends what the board takes now. False: it refused. [any]
   bool feed(BoardClient& board, Message& why);
 
@@ -39,7 +38,7 @@ class FileFeed {
 class BoardFeed {
  public:
   bool begin(bool poses, BoardClient& board, const char* path, const GatewaySection& gateway,
-             bool smoothed, Message& why);
+             const Smoothing& smoothing, Message& why);
   bool feed(BoardClient& board, Message& why);
 
  private:

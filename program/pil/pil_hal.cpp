@@ -169,7 +169,7 @@ Status PilHal::silent() {
 bool PilHal::begin(const TrajectoryInput& input) {
   if (!input.given()) return true;
   if (feed_.begin(input.takes_poses(), board_, input.path.c_str(), session_->gateway,
-                  input.smoothed(), why_))
+                  input.smoothing(), why_))
     return true;
   std::fprintf(stderr, "%s: %s\n", input.path.c_str(), why_.c_str());
   return false;

@@ -109,8 +109,8 @@ double TrajectoryInput::longer_s() const {
   return with_stream(*this, 0.0, [](const auto& stream) { return stream.longer_s(); });
 }
 
-bool TrajectoryInput::smoothed() const {
-  return with_stream(*this, false, [](const auto& stream) { return stream.smoothed(); });
+Smoothing TrajectoryInput::smoothing() const {
+  return with_stream(*this, Smoothing(), [](const auto& stream) { return stream.smoothing(); });
 }
 
 SmoothingTolerance TrajectoryInput::moved() const {
@@ -131,8 +131,11 @@ void print_verdict(const TrajectoryInput& input, const Verdict& verdict, int lin
   const double time_s = verdict.waypoint >= 0 ? input.time_s(verdict.waypoint) : kInfinity;
   FilePath place = input.path;
   if (line > 0) place << ":" << line;
-  std::fprintf(stderr, "%s: refused: %s%s\n", place.c_str(),
-               describe(verdict, axes, time_s).c_str(), remedy(verdict));
+  const bool rough = of_derivatives(verdict.status) && input.smoothing().tolerance.allows();
+  const char* const key = axes == VerdictAxes::kTip ? "smoothing_m" : "smoothing_rad";
+  std::fprintf(stderr, "%s: refused: %s%s%s%s\n", place.c_str(),
+               describe(verdict, axes, time_s).c_str(), remedy(verdict),
+               rough ? ", or if it is noise a larger [gateway] " : "", rough ? key : "");
 }
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {

@@ -28,8 +28,8 @@ struct TrajectoryInput {
   std::int64_t count() const;         ///< number of waypoints known so far
   double time_s(int waypoint) const;  ///< of a waypoint, since the start of the trajectory
   double stretch() const;             ///< time added to stay within limits, as a fraction
-  bool smoothed() const;              ///< its positions were moved, to smooth them
-  SmoothingTolerance moved() const;   ///< how far at most
+  Smoothing smoothing() const;        ///< how its file is read
+  SmoothingTolerance moved() const;   ///< how far positions were moved at most, to smooth them
   double end_s() const;               ///< time of the last waypoint known so far
   /// Time that it takes, with the time added to stay within limits.
   double duration_s() const { return end_s() + longer_s(); }

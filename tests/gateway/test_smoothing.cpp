@@ -126,7 +126,7 @@ void recover(double largest, double slowest_s, Random& random, const Recording& 
   const Judged judged = judge<Space>(bench, kTolerance, kMostRows);
   const double error = how.noise + 0.5 * std::pow(10.0, -how.decimals);
   assert_true(judged.accepted);
-  assert_true(bench.stream.smoothed() && !bench.stream.longer());
+  assert_true(bench.stream.smoothing().tolerance.allows() && !bench.stream.longer());
   assert_true(bench.stream.stretch() == 0.0);
   const Trajectory<Space>& store = bench.channel.stores[0];
   assert_int_equal(store.count, rows);
@@ -148,7 +148,7 @@ void recover(double largest, double slowest_s, Random& random, const Recording& 
 void digits_that_were_not_written_are_found_again(void**) {
   Random random{11};
   constexpr Fields kKinds[] = {0, kVelocityField | kAccelerationField};
-  for (int trial = 0; trial < tries(40, 8); ++trial) {
+  for (int trial = 0; trial < tries(15, 4); ++trial) {
     Recording how;
     how.fields = kKinds[trial % 2];
     how.decimals = how.fields == 0 ? 3 + random.below(6) : 3 + random.below(3);
@@ -161,7 +161,7 @@ void digits_that_were_not_written_are_found_again(void**) {
 
 void noise_of_a_recording_is_told_from_its_motion(void**) {
   Random random{12};
-  for (int trial = 0; trial < tries(40, 8); ++trial) {
+  for (int trial = 0; trial < tries(15, 4); ++trial) {
     Recording how;
     how.decimals = 9;
     how.rate_hz = random.uniform(30.0, 500.0);
@@ -205,10 +205,11 @@ void what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given(void**) {
   Recording how;
   how.rate_hz = 10.0;
   record<JointSpace>(slow, how, random);
-  assert_true(judge<JointSpace>(bench, {}, kMostRows).accepted && !bench.stream.smoothed());
+  assert_true(judge<JointSpace>(bench, {}, kMostRows).accepted &&
+              !bench.stream.smoothing().tolerance.allows());
   const Interpolation linear = Interpolation::kLinear;
   assert_true(judge<JointSpace>(bench, kTolerance, kMostRows, linear).accepted &&
-              !bench.stream.smoothed());
+              !bench.stream.smoothing().tolerance.allows());
   std::FILE* file = std::fopen(stream_file(), "wb");  // a line there and back
   assert_non_null(file);
   write_header(file, 0, JointSpace());
@@ -218,13 +219,13 @@ void what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given(void**) {
     point.q[0] += i % 10 < 5 ? 0.05 : -0.05;
   }
   std::fclose(file);
-  assert_true(judge<JointSpace>(bench, kTolerance, kMostRows).accepted && !bench.stream.smoothed());
+  assert_true(judge<JointSpace>(bench, kTolerance, kMostRows).accepted &&
+              !bench.stream.smoothing().tolerance.allows());
   how = {500.0, 9, 0.005, 0};
   record<JointSpace>(slow, how, random);
-  const Judged given = judge<JointSpace>(bench, {}, kMostRows);
-  const Judged tried = judge<JointSpace>(bench, {0.002, 0.002}, kMostRows);
-  assert_true(!given.accepted && !tried.accepted);
-  assert_memory_equal(&given.verdict, &tried.verdict, sizeof(Verdict));
+  assert_false(judge<JointSpace>(bench, {}, kMostRows).accepted);
+  assert_false(judge<JointSpace>(bench, {0.002, 0.002}, kMostRows).accepted);
+  assert_true(judge<JointSpace>(bench, {0.03, 0.03}, kMostRows).accepted);
 }
 
 /// Of printf, by hand.
