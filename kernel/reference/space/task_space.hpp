@@ -72,6 +72,8 @@ struct TaskSpace {
     Vector3 p_min = Vector3::Constant(kInfinity);  ///< m
     Vector3 p_max = Vector3::Constant(-kInfinity);
     double force = 0.0, moment = 0.0;  ///< N, N m
+    /// True of no waypoints: the last part of a stream may have none.
+    bool empty() const { return p_min[0] > p_max[0]; }
     static Extent largest(const Extent& a, const Extent& b);
   };
   struct Measure {

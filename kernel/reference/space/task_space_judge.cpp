@@ -164,7 +164,7 @@ TaskSpace::Extent TaskSpace::extent_of(const Point& held) {
 Verdict TaskSpace::judge_placed(const Extent& placed, const Placement& placement,
                                 const Limits& limits) {
   Verdict verdict;
-  if (placement.moved)
+  if (placement.moved && !placed.empty())
     verdict = first_of({judge_place(placed.p_min, limits, limits.p_max),
                         judge_place(placed.p_max, limits, limits.p_max)});
   if (verdict.ok() && placement.levered)

@@ -67,6 +67,7 @@ TaskSpace::Point TaskSpace::placed(const Point& given, const Placement& placemen
 }
 
 TaskSpace::Extent TaskSpace::placed(const Extent& given, const Placement& placement) {
+  if (given.empty()) return given;
   Extent extent = given;
   if (placement.moved) {
     const Matrix3 R = placement.motion.r.toRotationMatrix();
