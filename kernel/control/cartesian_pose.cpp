@@ -180,8 +180,8 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
 /// error; the arm then gets no faster, as it would where the error was in balance with the posture,
 /// which no longer acts. After the brake it fades in again.
 void CartesianPose::run_down(double dt_s) {
-  const bool stands = x_d->p == last_x_d_.p && x_d->r.coeffs() == last_x_d_.r.coeffs();
-  if (braked_ && stands) tracking_ = std::max(0.0, tracking_ - dt_s / kRunDown_s);
+  stands_ = x_d->p == last_x_d_.p && x_d->r.coeffs() == last_x_d_.r.coeffs();
+  if (braked_ && stands_) tracking_ = std::max(0.0, tracking_ - dt_s / kRunDown_s);
   if (!braked_) tracking_ = std::min(1.0, tracking_ + dt_s / kRunDown_s);
   last_x_d_ = *x_d;
 }
@@ -225,12 +225,13 @@ CartesianPose::Task CartesianPose::solve(const Demand& demand, Inverse& inverse,
 }
 
 /// Returns the null-space velocity that moves the free joints towards the posture or, braked, to
-/// rest.
+/// rest. The posture of the start moves nobody's elbow while the tip is to stand.
 JointVector CartesianPose::posture_velocity(const Task& task, const Inverse& inverse, double dt_s) {
   const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
   const JointVector& posture = q_posture.wired() ? *q_posture : posture_;
-  const JointVector wanted = braked_ ? JointVector(JointVector::Zero())
-                                     : JointVector(params.posture_gain * (posture - *q));
+  const bool rests = braked_ || (stands_ && !q_posture.wired());
+  const JointVector wanted =
+      rests ? JointVector(JointVector::Zero()) : JointVector(params.posture_gain * (posture - *q));
   posture_dq_ += (wanted - posture_dq_).cwiseMax(-most).cwiseMin(most);
   return inverse.null_space(task.free.select(posture_dq_, 0.0));
 }

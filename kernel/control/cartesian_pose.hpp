@@ -69,13 +69,14 @@ class CartesianPose {
     JointLimits limits;
     JointVector position_margin = JointVector::Constant(0.01);  ///< rad, off both limits
   } params;
-  In<Quantity::kPose> x_d;                 ///< desired pose of the tip
-  In<Quantity::kTwist> v_d;                ///< twist of x_d; not wired: zero
-  In<Quantity::kPose> x;                   ///< measured
-  In<Quantity::kJacobian> J;               ///< at the measured joints
-  In<Quantity::kJointPosition> q;          ///< measured
-  In<Quantity::kJointPosition> q_posture;  ///< not wired: the joints at start()
-  In<Quantity::kScalar> speed_scaling;     ///< of the robot, 0 to 1; not wired: 1
+  In<Quantity::kPose> x_d;         ///< desired pose of the tip
+  In<Quantity::kTwist> v_d;        ///< twist of x_d; not wired: zero
+  In<Quantity::kPose> x;           ///< measured
+  In<Quantity::kJacobian> J;       ///< at the measured joints
+  In<Quantity::kJointPosition> q;  ///< measured
+  /// Not wired: the joints at start(), towards which they move only while x_d moves.
+  In<Quantity::kJointPosition> q_posture;
+  In<Quantity::kScalar> speed_scaling;  ///< of the robot, 0 to 1; not wired: 1
   Out<Quantity::kJointPosition> q_c;
   Out<Quantity::kJointVelocity> dq_c;
   Out<Quantity::kScalar> scale;    ///< share of the twist v that speed limits leave, 0 to 1
@@ -164,6 +165,7 @@ class CartesianPose {
   JointVector posture_ = JointVector::Zero();  // joints at start()
   JointVector posture_dq_ = JointVector::Zero();
   bool braked_ = false, at_once_ = false;
+  bool stands_ = false;    // the reference
   Fade<Vector6> fade_;     // m/s and rad/s, in base axes
   double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;

@@ -207,6 +207,21 @@ void the_posture_is_approached_without_moving_the_tip(void**) {
   }
 }
 
+/// Away from the posture of its start, with a reference that stands, the whole arm comes to rest.
+void an_arm_that_holds_its_tip_holds_its_elbow(void**) {
+  for (int number = 0; number < 5; ++number) {
+    PoseBench bench;
+    ASSERT_OK(bench.start(regular(number)));
+    for (int k = 0; k < 500; ++k) {
+      bench.x_d.p += Vector3(1e-4, -1e-4, 1e-4);
+      ASSERT_OK(bench.step());
+    }
+    for (int k = 0; k < 2000; ++k) ASSERT_OK(bench.step());
+    assert_true(bench.law.at_rest());
+    ASSERT_NEAR(bench.position_error().norm(), 0.0, 1e-6);
+  }
+}
+
 void in_one_period_the_posture_adds_nothing_to_the_twist(void**) {
   for (int number = 0; number < 20; ++number) {
     PoseBench with, without;
@@ -228,6 +243,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(on_its_reference_the_arm_stands),
+      cmocka_unit_test(an_arm_that_holds_its_tip_holds_its_elbow),
       cmocka_unit_test(the_command_moves_the_tip_as_the_error_and_the_twist_say),
       cmocka_unit_test(a_slow_robot_is_corrected_slowly_and_a_standing_one_not_at_all),
       cmocka_unit_test(a_turn_is_made_on_the_shortest_arc),
