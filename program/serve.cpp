@@ -144,7 +144,8 @@ int serve(Session& session, const Options& options) {
   if (!read_page(options, page_address) || !listen(options, listener, key, where)) return kRefused;
   static ServerThread thread(server, listener, options.key[0] != '\0' ? &key : nullptr);
   static PortMail ports;
-  static PageThread page({session.board, stem(options.pipeline), session.pipeline}, thread, ports);
+  static PageThread page(
+      {session.board, stem(options.pipeline), session.pipeline, session.simulated}, thread, ports);
   TrajectoryFeed feed(session, input);
   static RunLog log;
   LogWriter writer(log);

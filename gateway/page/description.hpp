@@ -12,6 +12,7 @@ namespace tactus {
 struct PageSubject {
   std::string_view board, file;  ///< the file: name of the pipeline
   Pipeline& pipeline;            ///< loaded; its blocks' describe() changes nothing
+  bool simulated;                ///< the robot is a plant in this program
 };
 
 /// Writes joints, frames and capsules. [init]

@@ -38,6 +38,7 @@ void describe_robot(const Pipeline& pipeline, Json& to) {
 void describe_page(const PageSubject& subject, std::string_view token, Json& to) {
   to.open('{').string(token, "token").string(Robot::kName, "robot");
   to.string(subject.board, "board").string(subject.file, "pipeline");
+  to.flag(subject.simulated, "simulated");
   to.number(subject.pipeline.robot.period_s(), "period_s");
   describe_robot(subject.pipeline, to);
   describe_blocks(subject.pipeline, to);

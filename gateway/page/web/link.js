@@ -4,6 +4,8 @@ const RETRY_MS = 1000;
 const SILENCE_MS = 1500;  // a state comes every 50 ms
 const ANSWER_MS = 1800;  // then the server refuses what may raise motion, for the state is too old
 
+const ALWAYS = ["stop", "pause", "cancel"];  // however late they arrive
+
 /** Keeps a stream of events open, with the description of the server that answers. */
 export class Link {
   /** `hear` has describe(description), lost(text) and one function for each kind of event. */
@@ -98,7 +100,9 @@ export class Link {
     try {
       return await fetch(command, { method: "POST", body, headers, signal });
     } catch (error) {
-      throw new Error(signal.aborted && !late.aborted ? "given up for the stop" : "not sent: the server does not answer");
+      if (!signal.aborted) throw new Error("not sent: there is no connection to the server");
+      if (!late.aborted) throw new Error("given up for the stop");
+      throw new Error(`no answer yet; ${ALWAYS.includes(command) ? "carried out when the server takes it" : "void when it comes"}`);
     }
   }
 }

@@ -128,7 +128,7 @@ export class Panel {
   describe(robot) {
     this.asked.clear();
     this.newest = undefined;
-    by("subject").textContent = `${robot.robot} on ${robot.board}, ${robot.pipeline}`;
+    by("subject").textContent = `${robot.robot} on ${robot.board}, ${robot.pipeline}${robot.simulated ? ", simulated" : ""}`;
     document.title = `${robot.robot} – Tactus`;
   }
 }

@@ -113,7 +113,7 @@ class BrowserTest(unittest.TestCase):
         self.served.program.send_signal(signal.SIGSTOP)
         self.page.click("[data-command=rearm]")
         self.page.until("document.getElementById('answer').textContent === 'rearm: sending'")
-        self.page.until("document.getElementById('answer').textContent === 'rearm: not sent: the server does not answer'")
+        self.page.until("document.getElementById('answer').textContent === 'rearm: no answer yet; void when it comes'")
         self.served.program.send_signal(signal.SIGCONT)
         self.page.until("document.getElementById('lost').hidden")
         client = self.served.client()
