@@ -19,6 +19,21 @@ Status look(Hal& hal, CommandMode mode, RobotState& state) {
   return status;
 }
 
+/// A law of torques overshoots by its gains and the arm's inertia: says if the file does not give
+/// by how much.
+void print_room(const char* path, const Guard::Params& guard) {
+  const Guard::Params untold;
+  if (guard.position_allowance != untold.position_allowance ||
+      guard.velocity_allowance != untold.velocity_allowance)
+    return;
+  std::fprintf(
+      stderr,
+      "%s: note: [guard] position_allowance, velocity_allowance: the error of this loop is "
+      "not given; references may use whole limits, and an arm that is %g rad or %g %% "
+      "beyond them is stopped\n",
+      path, Guard::kPositionTolerance, 100.0 * Guard::kVelocityTolerance);
+}
+
 }  // namespace
 
 int check(Session& session, const Options& options) {
@@ -56,6 +71,7 @@ int check(Session& session, const Options& options) {
     return kRefused;
   }
   print_reach_warnings(session, input, initial.q);
+  if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
   if (!judge_rest(session, input)) return kRefused;
   std::printf("%s: accepted", options.pipeline);
   if (input.given())

@@ -8,7 +8,8 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   guard/test_guard_motion guard/test_separation guard/test_stopping \
   load/test_board_sections load/test_collision_file math/test_joint_integrator \
   pipeline/test_closed_loop pipeline/test_collision_pipelines pipeline/test_contact_pipelines \
-  pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_recordings pipeline/test_stops pipeline/test_tuning program/test_reach program/test_sections \
+  pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_recordings pipeline/test_room pipeline/test_stops \
+  pipeline/test_tuning program/test_reach program/test_sections \
   reference/generator/test_start_times reference/motion/test_chunk_properties reference/motion/test_every_motion \
   reference/motion/test_motion)
 # Of these, those that reach lines with six joints which they do not reach with seven, and what is about the board. A

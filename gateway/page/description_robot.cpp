@@ -22,7 +22,7 @@ void joints(const JointLimits& limits, Json& to) {
 }  // namespace
 
 void describe_robot(const Pipeline& pipeline, Json& to) {
-  joints(pipeline.guard.limits, to);
+  joints(pipeline.guard.references(), to);
   to.open('[', "frames");
   for (const JointFrame& joint : Robot::kJoints) frame(joint, to);
   to.close(']').open('[', "flange_frames");

@@ -25,7 +25,7 @@ constexpr tactus_Report_Outcome outcome_of(Outcome outcome) {
 }
 
 void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
-  const JointLimits& limits = pipeline.guard.limits;
+  const JointLimits limits = pipeline.guard.references();
   to.joints_count = kDof;
   for (int i = 0; i < kDof; ++i) {
     tactus_Joint& joint = to.joints[i];

@@ -86,6 +86,13 @@ class CartesianPose {
   /// Returns the deceleration of every joint in a brake at once, rad/s^2. [any]
   const JointVector& deceleration() const { return params.limits.ddq_max; }
 
+  /// Tightens the limits of position and velocity of the joints. [init]
+  [[gnu::cold]] void keep_within(const JointLimits& limits) {
+    params.limits.q_min = params.limits.q_min.cwiseMax(limits.q_min);
+    params.limits.q_max = params.limits.q_max.cwiseMin(limits.q_max);
+    params.limits.dq_max = params.limits.dq_max.cwiseMin(limits.dq_max);
+  }
+
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.tunable("position_gain", params.position_gain, Range{0.0, 1000.0}, "1/s");

@@ -14,11 +14,21 @@ JointLimits Guard::Params::effective() const {
   return limit;
 }
 
+JointLimits Guard::Params::references() const {
+  JointLimits limit = effective();
+  const JointVector room = (position_allowance.array() - kPositionTolerance).max(0.0).matrix();
+  limit.q_min += room;
+  limit.q_max -= room;
+  limit.dq_max.array() *= 1.0 - (velocity_allowance.array() - kVelocityTolerance).max(0.0);
+  return limit;
+}
+
 Status Guard::start(const Params& params, CommandMode mode, const RobotState& state,
                     double period_s, const CycleTime& now) {
   limits_ = params.effective();
-  allowance_ = params.position_allowance;
-  dq_max_ = limits_.dq_max + limits_.dq_max.cwiseProduct(params.velocity_allowance);
+  allowance_ = params.position_allowance.cwiseMin(kPositionTolerance);
+  const JointVector faster = params.velocity_allowance.cwiseMin(kVelocityTolerance);
+  dq_max_ = limits_.dq_max + limits_.dq_max.cwiseProduct(faster);
   following_error_ = params.following_error;
   following_time_ = params.following_time;
   period_s_ = period_s;

@@ -20,14 +20,19 @@ namespace tactus {
 
 class Guard {
  public:
+  /// How far beyond a limit a measured position, rad, and velocity, as a fraction, may be.
+  static constexpr double kPositionTolerance = 0.01, kVelocityTolerance = 0.1;
+
   /// The [guard] section. Limits can be tightened below the robot table's, not widened.
   struct Params {
     JointLimits limits;
     JointVector position_margin = JointVector::Zero();  ///< rad, taken off both position limits
-    /// How far a measured position, rad, and velocity, as a fraction, may be beyond a limit that a
-    /// command may reach exactly: for the overshoot of a servo or a law, and for noise.
-    JointVector position_allowance = JointVector::Constant(0.01);
-    JointVector velocity_allowance = JointVector::Constant(0.1);
+    /// The error of the loop: how far a measured position, rad, and velocity, as a fraction of its
+    /// limit, may be beyond what references may reach exactly, by the overshoot of a servo or a law
+    /// and by noise. The measured may be beyond a limit by the robot's tolerance at most; what the
+    /// allowance is larger than that, references keep away from the limit: see references().
+    JointVector position_allowance = JointVector::Constant(kPositionTolerance);
+    JointVector velocity_allowance = JointVector::Constant(kVelocityTolerance);
     /// Fraction of the acceleration and jerk limits that a trajectory leaves unused, so that it can
     /// be stopped on its path at any time.
     double stop_reserve = 0.02;
@@ -69,6 +74,9 @@ class Guard {
     }
     /// Returns the limits reduced by the margin. [init]
     [[gnu::cold]] JointLimits effective() const;
+    /// Returns the limits of references: effective() less what the allowances exceed the robot's
+    /// tolerance by. [init]
+    [[gnu::cold]] JointLimits references() const;
   };
 
   /// Counters since start.

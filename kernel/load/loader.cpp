@@ -71,8 +71,9 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error)
   const double stretch = pipeline.guard.max_stretch;
   pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
   pipeline.takes_poses = channels_.task != nullptr && left_.task == nullptr;
-  if (pipeline.takes_joints)
-    channels_.joint->settings = {pipeline.guard.effective(), period_s, reserve, stretch};
+  const JointLimits limits = pipeline.guard.references();
+  pipeline.keep_within(limits);
+  if (pipeline.takes_joints) channels_.joint->settings = {limits, period_s, reserve, stretch};
   if (pipeline.takes_poses)
     channels_.task->settings = {pipeline.task_limits, period_s, reserve, stretch};
   return Status::kOk;

@@ -43,6 +43,11 @@ constexpr bool kLimitsBraking = false;
 template <class Kind>
 constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
 
+template <class Kind, class = void>
+constexpr bool kKeepsJoints = false;
+template <class Kind>
+constexpr bool kKeepsJoints<Kind, std::void_t<decltype(&Kind::keep_within)>> = true;
+
 /// A block whose command must not step has a resume(); the others start anew.
 template <class Kind>
 Status resume_block(Kind& block, double period_s) {
@@ -113,6 +118,14 @@ void Pipeline::brake(Status why, BrakeWay way) {
     brakes.tick();
     with_block(blocks_[static_cast<std::size_t>(i)],
                [why, way](auto& block) { block.brake(why, way); });
+  }
+}
+
+void Pipeline::keep_within(const JointLimits& limits) {
+  for (int i = 0; i < count_; ++i) {
+    with_block(blocks_[static_cast<std::size_t>(i)], [&limits](auto& block) {
+      if constexpr (kKeepsJoints<std::decay_t<decltype(block)>>) block.keep_within(limits);
+    });
   }
 }
 

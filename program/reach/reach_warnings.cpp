@@ -117,7 +117,7 @@ void print_reach_warnings(const Session& session, const TrajectoryInput& input,
   const auto* const poses = std::get_if<2>(&input.trajectory);
   if (poses == nullptr) return;
   const Pipeline& pipeline = session.pipeline;
-  const InverseKinematics arm(pipeline.guard.effective(), pipeline.robot.tool.value.tip);
+  const InverseKinematics arm(pipeline.guard.references(), pipeline.robot.tool.value.tip);
   PathCheck check(arm, q);
   walk(**poses, input.motion_frame, pipeline.robot.period_s(), check);
   if (input.longer())

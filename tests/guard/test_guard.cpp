@@ -65,6 +65,30 @@ void a_position_or_velocity_beyond_limit_and_allowance_trips_and_names_both(void
   }
 }
 
+// Proves GRD-13.
+
+void an_allowance_beyond_the_tolerance_is_taken_from_references_not_given_to_the_guard(void**) {
+  GuardBench bench;
+  const JointLimits& limits = bench.params.limits;
+  bench.params.position_allowance.setConstant(0.05);
+  bench.params.velocity_allowance.setConstant(0.3);
+  const JointLimits references = bench.params.references();
+  for (int i = 0; i < kDof; ++i) {
+    ASSERT_NEAR(references.q_min[i], limits.q_min[i] + 0.04, kRounding);
+    ASSERT_NEAR(references.q_max[i], limits.q_max[i] - 0.04, kRounding);
+    ASSERT_NEAR(references.dq_max[i], 0.8 * limits.dq_max[i], kRounding);
+    GuardBench far = bench, fast = bench;
+    far.start();
+    far.state.q[i] = limits.q_max[i] + 0.0101;
+    far.trips_on(Status::kMeasuredPositionLimit, i);
+    fast.start();
+    fast.state.dq[i] = 1.0999 * limits.dq_max[i];
+    ASSERT_OK(fast.check());
+    fast.state.dq[i] = 1.1001 * limits.dq_max[i];
+    fast.trips_on(Status::kMeasuredVelocityLimit, i);
+  }
+}
+
 void an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_back(void**) {
   for (const CommandMode mode : {CommandMode::kPosition, CommandMode::kVelocity}) {
     GuardBench bench;
@@ -252,6 +276,8 @@ int main() {
       cmocka_unit_test(a_state_on_its_limits_passes),
       cmocka_unit_test(a_measured_number_that_is_not_finite_trips_and_names_the_joint),
       cmocka_unit_test(a_position_or_velocity_beyond_limit_and_allowance_trips_and_names_both),
+      cmocka_unit_test(
+          an_allowance_beyond_the_tolerance_is_taken_from_references_not_given_to_the_guard),
       cmocka_unit_test(
           an_arm_beyond_a_limit_within_the_allowance_starts_where_it_is_and_comes_back),
       cmocka_unit_test(an_arm_a_little_outside_its_range_may_go_nowhere_but_back),

@@ -1,0 +1,123 @@
+// Tests the room between what is admitted and what the guard stops: the arm of every shipped chain
+// of torques follows random motions as fast as its references may be, to the ends of their ranges
+// too, and no measured joint ends them.
+#include <fstream>
+#include <memory>
+
+#include "tests/pipeline/pipeline_bench.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr int kLongest = 4000;  // cycles between two requests
+
+/// What the measured joints used of a limit, as a share of it, and how far they were beyond a
+/// range.
+struct Most {
+  JointVector speed = JointVector::Zero();   // 1
+  JointVector beyond = JointVector::Zero();  // rad
+
+  void see(const JointVector& q, const JointVector& dq, const JointLimits& limits) {
+    speed = speed.cwiseMax(dq.cwiseAbs().cwiseQuotient(limits.dq_max));
+    beyond = beyond.cwiseMax(limits.q_min - q).cwiseMax(q - limits.q_max);
+  }
+};
+
+/// A position for one joint or for all: at one end of the range or the other, or between them.
+JointVector target(Random& random, JointVector q, const JointLimits& limits) {
+  const int only = random.below(2 * kDof);
+  for (int i = 0; i < kDof; ++i) {
+    if (only < kDof && only != i) continue;
+    const double lo = std::max(limits.q_min[i], q[i] - 3.0);
+    const double hi = std::min(limits.q_max[i], q[i] + 3.0);
+    const int where = random.below(4);
+    q[i] = where == 0 ? lo : where == 1 ? hi : random.uniform(lo, hi);
+  }
+  return q;
+}
+
+/// Sends a point, or jogs one joint at nine tenths of its limit or at the whole of it.
+void send_one(PipelineBench& bench, Random& random) {
+  const JointLimits& limits = bench.channel.settings.limits;
+  std::uint32_t id = 0;
+  if (random.below(4) > 0) {
+    JointSpace::Point point;
+    point.q = target(random, bench.output<JointVector>("jrg.q_d"), limits);
+    ASSERT_OK(bench.client.send(point, id).status);
+    return;
+  }
+  Velocity<JointSpace> jog;
+  const int joint = random.below(kDof);
+  jog.timeout_s = 0.5;
+  jog.rates[joint] = (random.below(2) == 0 ? -1.0 : 1.0) * (random.below(2) == 0 ? 0.9 : 1.0) *
+                     limits.dq_max[joint];
+  ASSERT_OK(bench.client.send(jog, id).status);
+}
+
+/// Sends a pose near `start`, on the side where neither wall nor table is: a collision that is
+/// ahead would stop the arm as well.
+void send_pose(PipelineBench& bench, Random& random, const Pose& start) {
+  const bool at_wall = kDof == 6;
+  const double far = at_wall ? 0.03 : 0.1;  // m
+  TaskSpace::Point point;
+  point.x = start;
+  for (int i = 0; i < 3; ++i) point.x.p[i] += random.uniform(-far, far);
+  point.x.p[at_wall ? 1 : 2] = start.p[at_wall ? 1 : 2] + random.uniform(0.0, far);
+  std::uint32_t id = 0;
+  ASSERT_OK(bench.task_client.send(point, id).status);
+}
+
+/// Runs for some cycles, or until the arm is at rest.
+void run(PipelineBench& bench, int cycles, Most& most) {
+  for (int k = 0; k < cycles; ++k) {
+    const Status status = bench.executive.cycle(bench.next());
+    const Guard::Telemetry& guard = bench.executive.guard().telemetry();
+    if (status != Status::kOk)
+      print_error("joint %d: %g, limit %g\n", guard.tripped_joint + 1, guard.tripped_value,
+                  guard.tripped_limit);
+    ASSERT_OK(status);
+    const JointVector& dq = bench.output<JointVector>("robot.dq");
+    most.see(bench.output<JointVector>("robot.q"), dq, bench.pipeline.guard.limits);
+    Report report;
+    while (bench.client.poll(report) || bench.task_client.poll(report)) {
+    }
+    if (k > 500 && dq.cwiseAbs().maxCoeff() < 1e-3) break;
+  }
+}
+
+// Proves GRD-13.
+
+void no_accepted_motion_ends_in_a_fault(void**) {
+  for (const char* rest : {"_jrg_pdgc", "_jrg_pid", "_trg_cpc", "_trg_ac_cpc_pid"}) {
+    const std::string name = of_this_robot(rest);
+    if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
+    const auto bench = std::make_unique<PipelineBench>();
+    const bool forwards = name.find("_pid") != std::string::npos && name.find("_trg_") < 10;
+    ASSERT_OK(bench->refused(name, forwards ? "online = forward" : "", ""));
+    const bool joints = bench->pipeline.takes_joints;
+    Random random{1};
+    Most most;
+    run(*bench, joints ? 1 : 2000, most);  // the tare of a sensor
+    const Pose start = bench->output<Pose>("model.x");
+    for (int n = trials(tries(joints ? 150 : 25, joints ? 15 : 5)); n > 0; --n) {
+      joints ? send_one(*bench, random) : send_pose(*bench, random, start);
+      run(*bench, random.below(3) == 0 ? random.below(kLongest / 4) : kLongest, most);
+    }
+    print_message("%s, joint: speed, share of the limit; beyond the range, rad\n", name.c_str());
+    for (int i = 0; i < kDof; ++i)
+      print_message("  %d: %.3f %.4f\n", i + 1, most.speed[i], most.beyond[i]);
+  }
+}
+
+}  // namespace
+}  // namespace tactus
+
+int main() {
+  using namespace tactus;
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(no_accepted_motion_ends_in_a_fault),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
