@@ -55,6 +55,7 @@ constexpr Measured kMeasured[] = {
     {Status::kMeasuredPositionLimit, kOutside, false, "measured position", " rad", "", ""},
     {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", "", ""},
     {Status::kFollowingError, kExceeds, false, "following error", " rad", "", ""},
+    {Status::kChunkLate, kExceeds, true, "delay behind the last target", " s", " s", " s"},
     {Status::kStampRange, kExceeds, true, "distance from the present time", " s", " s", " s"},
 };
 // clang-format on

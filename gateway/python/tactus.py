@@ -46,6 +46,7 @@ import sys
 import tempfile
 import threading
 import time
+import warnings
 from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, TypeVar, Union
 
 import numpy as np
@@ -1430,8 +1431,9 @@ class Stream(_References):
 class Chunks(_References):
     """Chunks of future targets. Each replaces the plan from its first target that is still ahead, smoothly.
 
-    A chunk that is late as a whole is no error: `late` counts them, and the old plan goes on. The arm comes to rest
-    when the targets run out, unless a new chunk comes before.
+    A chunk that is late as a whole is no error: `late` counts them, `late_s` is by how much the newest of them came
+    after its last target, and the old plan goes on. If all of a second are late, there is a warning. The arm comes to
+    rest when the targets run out, unless a new chunk comes before.
     """
 
     def __init__(
@@ -1450,7 +1452,8 @@ class Chunks(_References):
             raise ValueError(f"relative_to {relative_to!r}; expected None, 'commanded' or 'measured'")
         self._base, self._rate_hz, self._crossfade_s = bases[relative_to], rate_hz, crossfade_s
         self._outputs_lead_s = outputs_lead_s
-        self.late = 0
+        self.late, self.late_s = 0, 0.0
+        self._late_since: Optional[float] = None
 
     def send(
         self,
@@ -1501,10 +1504,21 @@ class Chunks(_References):
 
     def _judge(self, call: _Call) -> None:
         refusal = call.refusal()
-        if refusal and refusal.status == pb.CODE_CHUNK_LATE:
-            self.late += 1
-        elif refusal:
-            super()._judge(call)
+        if refusal is None or refusal.status != pb.CODE_CHUNK_LATE:
+            self._late_since = None
+            if refusal:
+                super()._judge(call)
+            return
+        self.late, self.late_s = self.late + 1, refusal.value or 0.0
+        now = time.monotonic()
+        self._late_since = self._late_since or now
+        if now - self._late_since > 1:
+            warnings.warn(
+                f"every chunk of the last second came too late, the newest {self.late_s:.3f} s after its last target: "
+                "infer faster, predict more targets, or give observed_ns by time.monotonic_ns()",
+                stacklevel=4,
+            )
+            self._late_since = now
 
 
 # --- a simulated robot ---

@@ -8,11 +8,7 @@ template <class Space>
 Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms& terms,
                                       const typename Space::Point& point,
                                       const PointDetails& details) {
-  if (busy()) return {Status::kMailboxFull};
-  std::uint32_t id = 0;
-  const Verdict verdict = server_.point(terms, point, id, details);
-  if (verdict.ok()) book_.add({id, from, {}, 0.0});
-  return verdict;
+  return offer({RequestKind::kPoint, from, terms, point, details, {}}, waiting_chunk_);
 }
 
 /// The generator's own epochs void what a stop overtakes on its way to the cycle. The order is that
@@ -20,30 +16,86 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
 template <class Space>
 Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
                                       Chunk<Space>& chunk) {
-  if (busy()) return {Status::kMailboxFull};
-  std::uint32_t id = 0;
   chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
   chunk.sequence = ++sequence_;
-  Verdict verdict = server_.place(terms, chunk.header);
-  if (verdict.ok()) verdict = client_.send(chunk, id);
-  if (!verdict.ok()) return verdict;
-  book_.add({id, from, {}, 0.0, true});
-  ++chunks_;
-  return {};
+  const Verdict verdict = offer({RequestKind::kChunk, from, terms, {}, {}, {}}, chunk);
+  if (verdict.ok()) ++chunks_;
+  return verdict;
 }
 
 template <class Space>
 Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
                                          Velocity<Space>& velocity) {
-  if (busy()) return {Status::kMailboxFull};
-  std::uint32_t id = 0;
-  typename Space::Header header;
   velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
   velocity.sequence = ++sequence_;
-  Verdict verdict = server_.place(terms, header);
-  if (verdict.ok()) verdict = client_.send(velocity, id, header);
-  if (verdict.ok()) book_.add({id, from, {}, 0.0, true});
-  return verdict;
+  return offer({RequestKind::kVelocity, from, terms, {}, {}, velocity}, waiting_chunk_);
+}
+
+template <class Space>
+Verdict ReferenceIntake<Space>::post(const Reference& reference, Chunk<Space>& chunk,
+                                     std::uint32_t& id) {
+  if (reference.kind == RequestKind::kPoint)
+    return server_.point(reference.terms, reference.point, id, reference.details);
+  typename Space::Header header;
+  const Verdict verdict = server_.place(reference.terms, header);
+  if (!verdict.ok()) return verdict;
+  if (reference.kind == RequestKind::kVelocity) return client_.send(reference.velocity, id, header);
+  chunk.header = header;
+  return client_.send(chunk, id);
+}
+
+/// Stores of chunks become free as long as the cycle has not answered all that were sent.
+template <class Space>
+bool ReferenceIntake<Space>::finds_no_space(const Verdict& verdict) const {
+  return verdict.status == Status::kMailboxFull ||
+         (verdict.status == Status::kNoFreeStore && book_.streams());
+}
+
+/// Sends a reference, or lets it wait for space; either supersedes the one that waits.
+template <class Space>
+Verdict ReferenceIntake<Space>::offer(const Reference& reference, Chunk<Space>& chunk) {
+  if (busy()) return {Status::kMailboxFull};
+  std::uint32_t id = 0;
+  const Verdict verdict = post(reference, chunk, id);
+  const bool waits = finds_no_space(verdict);
+  if (!verdict.ok() && !waits) return verdict;
+  drop_waiting();
+  if (!waits) {
+    book_.add({id, reference.from, {}, 0.0, reference.kind != RequestKind::kPoint});
+    return {};
+  }
+  waits_ = true;
+  waiting_ = reference;
+  if (reference.kind == RequestKind::kChunk) waiting_chunk_ = chunk;
+  return {};
+}
+
+/// Sends the reference that waits; false: there is still no space.
+template <class Space>
+bool ReferenceIntake<Space>::send_waiting() {
+  if (!waits_) return true;
+  if (book_.full()) return false;
+  std::uint32_t id = 0;
+  const Verdict verdict = post(waiting_, waiting_chunk_, id);
+  if (finds_no_space(verdict)) return false;
+  waits_ = false;
+  if (verdict.ok())
+    book_.add({id, waiting_.from, {}, 0.0, waiting_.kind != RequestKind::kPoint});
+  else
+    tell(waiting_.from, Outcome::kRefused, verdict);
+  return true;
+}
+
+template <class Space>
+void ReferenceIntake<Space>::drop_waiting() {
+  if (waits_) tell(waiting_.from, Outcome::kSuperseded, {});
+  waits_ = false;
+}
+
+template <class Space>
+void ReferenceIntake<Space>::tell(const Origin& to, Outcome outcome, const Verdict& verdict,
+                                  double stretch) {
+  told_[static_cast<std::size_t>(told_count_++)] = {to, outcome, verdict, 0.0, stretch};
 }
 
 template <class Space>
@@ -105,6 +157,7 @@ void ReferenceIntake<Space>::cancel() {
 template <class Space>
 void ReferenceIntake<Space>::forget(std::uint64_t session) {
   book_.forget(session);
+  if (waiting_.from.session == session) waiting_.from.slot = -1;
   if (stream_.from.session == session) stream_ = {};
 }
 
@@ -115,7 +168,7 @@ void ReferenceIntake<Space>::fail(const Verdict& verdict, Outcome outcome) {
   count_ = outstanding_ = 0;
   ReportBook::Entry* const entry = id_ != 0 ? book_.find(id_) : nullptr;
   if (entry == nullptr && id_ == 0) {
-    told_[static_cast<std::size_t>(told_count_++)] = {origin_, outcome, verdict, 0.0, 0.0};
+    tell(origin_, outcome, verdict);
   } else if (entry != nullptr && !verdict.ok()) {
     entry->failed = verdict;
     cancel();  // or the arm would wait on the path for what never comes
@@ -134,7 +187,7 @@ void ReferenceIntake<Space>::note_sent() {
 template <class Space>
 void ReferenceIntake<Space>::move_on() {
   if (cancel_due_) cancel();
-  if (cancel_due_) return;
+  if (cancel_due_ || !send_waiting()) return;
   while (coming_ && count_ > 0) {
     const Verdict verdict = server_.take(staged_[static_cast<std::size_t>(first_)]);
     note_sent();
@@ -151,8 +204,7 @@ void ReferenceIntake<Space>::move_on() {
   if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
   coming_ = false;
   if (checks_)
-    told_[static_cast<std::size_t>(told_count_++)] = {
-        origin_, Outcome::kExecuted, {}, 0.0, server_.stretch()};
+    tell(origin_, Outcome::kExecuted, {}, server_.stretch());
   else if (id_ == 0)
     book_.add({id, origin_, {}, server_.stretch()});
 }
@@ -160,10 +212,10 @@ void ReferenceIntake<Space>::move_on() {
 template <class Space>
 bool ReferenceIntake<Space>::work(Told& told) {
   move_on();
-  if (told_count_ > 0) {
+  while (told_count_ > 0) {
     told = told_[0];
     std::move(told_.begin() + 1, told_.begin() + told_count_--, told_.begin());
-    return true;
+    if (told.to.slot >= 0) return true;
   }
   Report report;
   while (server_.fetch(report))

@@ -1,6 +1,9 @@
 // ReferenceIntake: the references of one space on their way from the clients to the generator, and
 // its reports on their way back. It stages the waypoints of one trajectory at a time, grants its
 // client credit for as many as it can take at any moment, and knows who is told of what.
+//
+// A point, velocity or chunk that finds no space, as in the burst behind a stall of the network,
+// waits for it; a newer one takes its place, and it is superseded.
 #pragma once
 
 #include "gateway/reference_server.hpp"
@@ -31,9 +34,11 @@ class ReferenceIntake {
   ReferenceIntake(ReferenceClient<Space>& client, const PortTable& ports)
       : client_(client), server_(client, ports) {}
 
+  /// Sends a point; it is newer than all before.
   Verdict point(const Origin& from, const TrajectoryTerms& terms,
                 const typename Space::Point& point, const PointDetails& details);
-  /// Sends a chunk, whose header the terms give; it is newer than all before.
+  /// Sends a chunk, whose header the terms give; it is newer than all before. kNoFreeStore: all
+  /// chunks are in force or wait for their first target.
   Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
   /// Sends a velocity; it is newer than all before.
   Verdict velocity(const Origin& from, const TrajectoryTerms& terms, Velocity<Space>& velocity);
@@ -71,6 +76,8 @@ class ReferenceIntake {
   /// Brings to rest on its path whatever moves. Nothing else is taken before the generator has
   /// space for it.
   void cancel();
+  /// Voids the reference that waits for space.
+  void drop_waiting();
   /// Nobody is told any more of what a session has sent.
   void forget(std::uint64_t session);
 
@@ -86,7 +93,24 @@ class ReferenceIntake {
   const AdmissionSettings<Space>& settings() const { return client_.settings(); }
 
  private:
-  bool busy() const { return book_.full() || cancel_due_; }
+  /// A reference as it has come; of a chunk, all but its targets.
+  struct Reference {
+    RequestKind kind = RequestKind::kPoint;
+    Origin from;
+    TrajectoryTerms terms;
+    typename Space::Point point;
+    PointDetails details;
+    Velocity<Space> velocity;
+  };
+
+  bool busy() const {
+    return book_.full() || cancel_due_ || told_count_ + 3 > static_cast<int>(told_.size());
+  }
+  Verdict post(const Reference& reference, Chunk<Space>& chunk, std::uint32_t& id);
+  Verdict offer(const Reference& reference, Chunk<Space>& chunk);
+  bool finds_no_space(const Verdict& verdict) const;
+  void tell(const Origin& to, Outcome outcome, const Verdict& verdict, double stretch = 0.0);
+  bool send_waiting();
   void move_on();
   void note_sent();
   void fail(const Verdict& verdict, Outcome outcome);
@@ -100,6 +124,10 @@ class ReferenceIntake {
 
   bool cancel_due_ = false;  // one that found no space
 
+  bool waits_ = false;  // a reference, for space
+  Reference waiting_;
+  Chunk<Space> waiting_chunk_;
+
   bool coming_ = false;  // a trajectory comes
   bool ended_ = false;   // all its waypoints have come
   bool checks_ = false;  // it is only judged
@@ -110,7 +138,7 @@ class ReferenceIntake {
   std::uint32_t id_ = 0;  // once the generator has it; 0: not yet
   std::array<Waypoint<Space>, kStagedWaypoints> staged_;
   int first_ = 0, count_ = 0;
-  std::array<Told, 16> told_;  // of what has ended before the generator had it
+  std::array<Told, 2 * kMessagesPerTurn> told_;  // of what has ended before the generator had it
   int told_count_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // ReportBook: whose reference has which number in the channel, until its final report.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "gateway/server/limits.hpp"
@@ -40,6 +41,11 @@ class ReportBook {
     for (Entry& entry : entries_)
       if (entry.id == id) return &entry;
     return nullptr;
+  }
+  /// True if a chunk or a velocity has no final report yet.
+  bool streams() const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [](const Entry& entry) { return entry.id != 0 && entry.streams; });
   }
   /// Nobody is told any more of what a session has sent.
   void forget(std::uint64_t session) {

@@ -167,9 +167,15 @@ void Server::leave(int slot, std::string_view how, std::int64_t now_ns) {
   poses_.forget(connection.session);
 }
 
+/// What was sent before is void, whether it has a place or not.
+void Server::begin_epoch() {
+  ++epoch_;
+  if (takes_references()) with_intake([](auto& intake) { intake.drop_waiting(); });
+}
+
 /// What moves is brought to rest on its path, and what is on its way is void.
 void Server::end_motion() {
-  ++epoch_;
+  begin_epoch();
   if (takes_references()) with_intake([](auto& intake) { intake.cancel(); });
 }
 

@@ -100,6 +100,7 @@ class Server {
   void watch(int slot, std::int64_t now_ns);
   void cut(int slot, Status status, std::string_view text, std::int64_t now_ns);
   void leave(int slot, std::string_view how, std::int64_t now_ns);
+  void begin_epoch();
   void end_motion();
   void lose_lease(std::string_view how, std::int64_t now_ns);
 
@@ -112,6 +113,7 @@ class Server {
   bool raises(pb_size_t what) const;
   Reply control(const Origin& from);
   void tell_slowed(const Told& told, std::int64_t now_ns);
+  void tell_late(const Told& told, std::int64_t now_ns);
   Reply subscribe(int slot, std::int64_t now_ns);
   // server_references.cpp: references
   Reply judge_place(int slot, bool given, const tactus_Place& place);

@@ -90,9 +90,9 @@ Reply Server::point(int slot, const Origin& from) {
     return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: give Point.task"
                                                : "the pipeline takes joints: give Point.joint"};
   Message why;
-  const PointDetails details = {
-      {given.outputs, given.outputs_mask},
-      given.sent_ns == 0 ? kNoStamp : 1e-9 * static_cast<double>(given.sent_ns)};
+  const std::int64_t sent_ns = given.sent_ns != 0 ? given.sent_ns : request_.client_ns;
+  const PointDetails details = {{given.outputs, given.outputs_mask},
+                                sent_ns == 0 ? kNoStamp : 1e-9 * static_cast<double>(sent_ns)};
   const Status offered =
       judge_outputs(given.outputs_mask, setup_.loaded->robot.offered, "Point.outputs_mask", why);
   if (offered != Status::kOk) return {offered, why};

@@ -125,7 +125,7 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
     with_intake([&](auto& intake) {
       if (!intake.comes({slot, at(slot).session, 0})) return;
       intake.refuse({slot, at(slot).session, 0}, {Status::kNotOwner});
-      ++epoch_;
+      begin_epoch();
     });
     Message text(at(slot).name);
     tell_events("lease", Status::kOk, text << " has given the lease back", -1, now_ns);
@@ -169,7 +169,7 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   *free = {next_order_, from};
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
   if (what != CycleOrder::kStop) return {};
-  ++epoch_;
+  begin_epoch();
   Message text(at(from.slot).name);
   text << " has stopped the arm";
   if (setup_.log != nullptr) setup_.log(text.c_str());
@@ -198,7 +198,7 @@ Reply Server::control(const Origin& from) {
   const Verdict verdict = with_intake(
       [&](auto& intake) { return intake.control(from, kind, rate, by_owner ? nullptr : slows); });
   if (verdict.ok() && kind == ControlKind::kCancel) {
-    ++epoch_;
+    begin_epoch();
     const int owner = lease_.owner();
     if (owner != Lease::kNobody)
       with_intake([&](auto& intake) { intake.give_up(at(owner).session); });

@@ -116,7 +116,11 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
     chunk.fade_s = given.has_crossfade_s ? given.crossfade_s : kUsualFade_s;
     chunk.base = base_of(given.base);
     chunk.observed_s = observed_s;
-    return reply(intake.chunk(from, terms_of(given.has_terms, given.terms), chunk));
+    const Verdict verdict = intake.chunk(from, terms_of(given.has_terms, given.terms), chunk);
+    if (verdict.status == Status::kNoFreeStore)
+      return {Status::kNoFreeStore,
+              "eight chunks are in force or wait for their first target; send the next one later"};
+    return reply(verdict);
   });
 }
 

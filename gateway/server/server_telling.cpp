@@ -172,6 +172,22 @@ void Server::tell_slowed(const Told& told, std::int64_t now_ns) {
   tell_events("slowed", Status::kOk, text, told.to.slot, now_ns);
 }
 
+/// A client whose chunks have all been late for a second is named, with the delay of the newest.
+void Server::tell_late(const Told& told, std::int64_t now_ns) {
+  Connection& by = at(told.to.slot);
+  if (!by.there() || by.session != told.to.session) return;
+  if (told.outcome == Outcome::kExecuted) by.late = 0;
+  if (told.verdict.status != Status::kChunkLate) return;
+  if (by.late++ == 0) by.late_ns = now_ns;
+  if (now_ns - by.late_ns < kSecond_ns) return;
+  Message text(by.name);
+  text << ": the last " << by.late << " chunks came too late, the newest by " << told.verdict.value
+       << " s; send sooner, or targets farther ahead";
+  by.late = 0;
+  if (setup_.log != nullptr) setup_.log(text.c_str());
+  tell_events("late", Status::kChunkLate, text, -1, now_ns);
+}
+
 void Server::take_reports(std::int64_t now_ns) {
   if (!takes_references()) return;
   with_intake([&](auto& intake) {
@@ -179,6 +195,7 @@ void Server::take_reports(std::int64_t now_ns) {
     while (intake.work(told)) {
       report(told, reply(told.verdict).text, now_ns);
       if (told.slows != nullptr) tell_slowed(told, now_ns);
+      tell_late(told, now_ns);
     }
     Granted granted;
     if (!intake.grant(granted)) return;

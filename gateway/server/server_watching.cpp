@@ -18,7 +18,7 @@ void Server::take_snapshots(std::int64_t now_ns) {
     seen_ = true;
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
-    if (refuses(to) && !refuses(from)) ++epoch_;
+    if (refuses(to) && !refuses(from)) begin_epoch();
     Message text(name(to));
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     tell_events("rung", snapshot.status, text, -1, now_ns);

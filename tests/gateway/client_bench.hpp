@@ -38,7 +38,9 @@ struct TestClient {
   std::uint32_t number = 0;
   virtual ~TestClient() = default;
   bool reads = true;
-  std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{};
+  bool tells_time = true;    ///< messages say when they were sent:
+  std::int64_t made_ns = 0;  ///< then, or now if it is 0
+  std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{}, refusals{};
   std::uint32_t kinds[kMost]{};
   std::int64_t credit = 0;
   int pages = 0;                      // of parameters
@@ -73,7 +75,7 @@ struct TestClient {
     whole.size = 0;
     ++number;
     kinds[number % kMost] = kind;
-    whole.number(1, number).time(2, clock->now_ns - 5);
+    whole.number(1, number).time(2, tells_time ? made_ns != 0 ? made_ns : clock->now_ns - 5 : 0);
     whole.message(kind, body);
     send_bytes(whole);
     return number;
@@ -153,6 +155,7 @@ struct TestClient {
         if (value[2] < 10) return;
         ++finals[of];
         outcome[of] = static_cast<std::uint8_t>(value[2]);
+        refusals[of] = static_cast<std::uint8_t>(value[3]);
         std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
         return;
       case 4:

@@ -34,6 +34,7 @@ double off_ramp(std::int64_t first_ns) {
     q[0] += 0.3 * 0.02 * k;
     RawMessage point;
     point.message(3, RawMessage().reals(1, q.data(), static_cast<std::size_t>(kDof)));
+    two.a.tells_time = false;
     if (first_ns != 0) point.time(7, first_ns + 20'000'000 * k);
     if (k % 3 != 2) two.a.send(ask::kPoint, point);
     for (int cycle = 0; cycle < 20; ++cycle) {

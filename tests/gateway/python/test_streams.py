@@ -85,15 +85,20 @@ class Streams(unittest.TestCase):
         (point,) = sent(peer, "point")
         self.assertEqual((point.outputs, point.outputs_mask), (0b1000, 0b1001))
 
-    def test_late_chunks_are_counted(self):
+    def test_late_chunks_are_counted_and_a_second_of_them_is_a_warning_with_the_delay(self):
         class Late(Peer):
             def take_chunk(self, message):
-                self.report(message.number, pb.Report.REFUSED, status=59, text="late (59)")
+                late = pb.Finding(waypoint=-1, axis=-1, value=0.25)
+                self.report(message.number, pb.Report.REFUSED, status=59, text="late (59)", finding=late)
 
-        with connected(Late) as (arm, _), arm.chunks(rate_hz=20) as policy:
-            for _ in range(3):
+        with connected(Late) as (arm, _), self.assertWarnsRegex(UserWarning, "0.250 s after its last target"):
+            with arm.chunks(rate_hz=20) as policy:
                 policy.send(np.zeros((2, JOINTS)), observed_ns=0)
-        self.assertEqual(policy.late, 3)
+                policy._collect(0)
+                policy._late_since -= 2
+                for _ in range(2):
+                    policy.send(np.zeros((2, JOINTS)), observed_ns=0)
+        self.assertEqual((policy.late, policy.late_s), (3, 0.25))
 
     def test_a_chunk_that_nothing_follows_is_counted(self):
         class Starves(Peer):
