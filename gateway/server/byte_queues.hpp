@@ -30,9 +30,13 @@ class InputBytes {
 
   /// True if the length in front exceeds that of the longest message.
   bool malformed() const { return size_ >= kLengthBytes && length() > kLongestMessage; }
+  /// True if a whole message waits.
+  bool whole() const {
+    return size_ >= kLengthBytes && !malformed() && size_ - kLengthBytes >= length();
+  }
   /// Takes the next message, whose bytes last until the next space(). False: none is whole.
   bool next(Bytes& message) {
-    if (size_ < kLengthBytes || malformed() || size_ - kLengthBytes < length()) return false;
+    if (!whole()) return false;
     message = {bytes_.data() + first_ + kLengthBytes, length()};
     first_ += kLengthBytes + message.size;
     size_ -= kLengthBytes + message.size;

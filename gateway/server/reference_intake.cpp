@@ -11,12 +11,18 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
   return offer({RequestKind::kPoint, from, terms, point, details, {}}, waiting_chunk_);
 }
 
-/// The generator's own epochs void what a stop overtakes on its way to the cycle. The order is that
-/// in which messages have come, since the server has judged the clients' places.
+/// The generator's own epochs void what a stop overtakes on its way to the cycle. What comes behind
+/// a cancel of the server, of a new owner for example, is of the epoch that it begins.
+template <class Space>
+std::uint32_t ReferenceIntake<Space>::present_epoch() const {
+  return std::max<std::uint32_t>(1, stream().epoch) + (ending_ != 0 ? 1 : 0);
+}
+
+/// The order is that in which messages have come, since the server has judged the clients' places.
 template <class Space>
 Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
                                       Chunk<Space>& chunk) {
-  chunk.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  chunk.epoch = present_epoch();
   chunk.sequence = ++sequence_;
   const Verdict verdict = offer({RequestKind::kChunk, from, terms, {}, {}, {}}, chunk);
   if (verdict.ok()) ++chunks_;
@@ -26,7 +32,7 @@ Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms&
 template <class Space>
 Verdict ReferenceIntake<Space>::velocity(const Origin& from, const TrajectoryTerms& terms,
                                          Velocity<Space>& velocity) {
-  velocity.epoch = std::max<std::uint32_t>(1, stream().epoch);
+  velocity.epoch = present_epoch();
   velocity.sequence = ++sequence_;
   return offer({RequestKind::kVelocity, from, terms, {}, {}, velocity}, waiting_chunk_);
 }
@@ -105,8 +111,10 @@ Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, do
     return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
-  if (verdict.ok()) book_.add({id, from, {}, 0.0, false, slows});
-  return verdict;
+  if (!verdict.ok()) return verdict;
+  book_.add({id, from, {}, 0.0, false, slows});
+  if (kind == ControlKind::kCancel) canceling_ = id;
+  return {};
 }
 
 template <class Space>
@@ -152,6 +160,7 @@ template <class Space>
 void ReferenceIntake<Space>::cancel() {
   std::uint32_t id = 0;  // nobody is told
   cancel_due_ = !server_.control(ControlKind::kCancel, 1.0, id).ok();
+  if (!cancel_due_) ending_ = id;
 }
 
 template <class Space>
@@ -226,6 +235,8 @@ bool ReferenceIntake<Space>::work(Told& told) {
 /// A report on a store, or on what nobody waits for, is for no client.
 template <class Space>
 bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
+  if (report.id == canceling_) canceling_ = 0;
+  if (report.id == ending_) ending_ = 0;
   ReportBook::Entry* const entry = report.id != 0 ? book_.find(report.id) : nullptr;
   if (entry == nullptr) {
     told = {stream_.from, report.outcome, report.verdict, report.time_s, 0.0};

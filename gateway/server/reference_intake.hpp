@@ -76,6 +76,8 @@ class ReferenceIntake {
   /// Brings to rest on its path whatever moves. Nothing else is taken before the generator has
   /// space for it.
   void cancel();
+  /// True while a cancel of a client is not yet in force.
+  bool canceling() const { return canceling_ != 0; }
   /// Voids the reference that waits for space.
   void drop_waiting();
   /// Nobody is told any more of what a session has sent.
@@ -107,6 +109,7 @@ class ReferenceIntake {
     return book_.full() || cancel_due_ || told_count_ + 3 > static_cast<int>(told_.size());
   }
   Verdict post(const Reference& reference, Chunk<Space>& chunk, std::uint32_t& id);
+  std::uint32_t present_epoch() const;
   Verdict offer(const Reference& reference, Chunk<Space>& chunk);
   bool finds_no_space(const Verdict& verdict) const;
   void tell(const Origin& to, Outcome outcome, const Verdict& verdict, double stretch = 0.0);
@@ -123,6 +126,8 @@ class ReferenceIntake {
   std::uint32_t sequence_ = 0, chunks_ = 0;
 
   bool cancel_due_ = false;  // one that found no space
+  // The newest cancel of a client and of the server, until it is in force; 0: none.
+  std::uint32_t canceling_ = 0, ending_ = 0;
 
   bool waits_ = false;  // a reference, for space
   Reference waiting_;

@@ -59,6 +59,9 @@ void Server::work(std::int64_t now_ns) {
   if (lease_.expired(now_ns)) lose_lease("was not renewed in time", now_ns);
   take_reports(now_ns);
   take_feedback(now_ns);
+  if (!ending())
+    for (Connection& connection : connections_)
+      connection.behind = connection.behind && connection.in.whole();
   for (Connection& connection : connections_)
     if (connection.state == Connection::State::kOpen && seen_ && connection.states.due(now_ns))
       tell_state(connection);
@@ -165,6 +168,12 @@ void Server::leave(int slot, std::string_view how, std::int64_t now_ns) {
   if (owner) lose_lease("ends, as it has left", now_ns);
   joints_.forget(connection.session);
   poses_.forget(connection.session);
+}
+
+/// A cancel or a stop is on its way: what comes or waits before it is in force is void.
+void Server::begin_end() {
+  begin_epoch();
+  for (Connection& connection : connections_) connection.behind = true;
 }
 
 /// What was sent before is void, whether it has a place or not.

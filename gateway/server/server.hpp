@@ -82,6 +82,7 @@ class Server {
   struct Order {
     std::uint32_t id = 0;  // 0: free
     Origin from;
+    bool stops = false;
   };
   Connection& at(int slot) { return connections_[static_cast<std::size_t>(slot)]; }
   const Connection& at(int slot) const { return connections_[static_cast<std::size_t>(slot)]; }
@@ -101,6 +102,7 @@ class Server {
   void cut(int slot, Status status, std::string_view text, std::int64_t now_ns);
   void leave(int slot, std::string_view how, std::int64_t now_ns);
   void begin_epoch();
+  void begin_end();
   void end_motion();
   void lose_lease(std::string_view how, std::int64_t now_ns);
 
@@ -117,6 +119,8 @@ class Server {
   Reply subscribe(int slot, std::int64_t now_ns);
   // server_references.cpp: references
   Reply judge_place(int slot, bool given, const tactus_Place& place);
+  bool ending() const;
+  Reply judge_void(int slot) const;
   Reply judge_fields() const;
   Reply point(int slot, const Origin& from);
   Reply begin(const Origin& from, std::int64_t now_ns);

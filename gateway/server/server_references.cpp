@@ -1,4 +1,5 @@
 // Server: the references of its clients.
+#include <algorithm>
 #include <type_traits>
 
 #include "gateway/server/message_outputs.hpp"
@@ -40,8 +41,37 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
     ++dropped_;
     return {Status::kEpochVoid, "a duplicate, or older than the newest: dropped"};
   }
+  connection.canceled = false;
   connection.epoch = place.epoch;
   connection.sequence = place.sequence;
+  return {};
+}
+
+/// True while a cancel or a stop of a client is not yet in force.
+bool Server::ending() const {
+  const auto stops = [](const Order& order) { return order.id != 0 && order.stops; };
+  return std::any_of(orders_.begin(), orders_.end(), stops) ||
+         (takes_poses() ? poses_.canceling() : joints_.canceling());
+}
+
+/// What was sent before a cancel or a stop was in force is void, whatever place it names. After a
+/// cancel of another client, the owner must show that it knows.
+Reply Server::judge_void(int slot) const {
+  const auto& asked = request_.request;
+  bool placed = false;
+  switch (request_.which_request) {
+    case tactus_ToServer_point_tag: placed = asked.point.has_place; break;
+    case tactus_ToServer_velocity_tag: placed = asked.velocity.has_place; break;
+    case tactus_ToServer_chunk_tag: placed = asked.chunk.has_place; break;
+    case tactus_ToServer_begin_tag: break;
+    default: return {};
+  }
+  if (at(slot).behind)
+    return {Status::kEpochVoid,
+            "sent before a cancel or a stop was in force; send it again after the Report of that"};
+  if (at(slot).canceled && !placed)
+    return {Status::kEpochVoid,
+            "another client has canceled it; take the lease again to go on, or name the epoch"};
   return {};
 }
 

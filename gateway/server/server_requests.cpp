@@ -64,8 +64,9 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
            << static_cast<int>(lease_.priority());
     return {Status::kNotOwner, text << remedy({Status::kNotOwner})};
   }
-  const Reply foreign = judge_fields();
-  if (foreign.status != Status::kOk) return foreign;
+  Reply why = judge_fields();
+  if (why.status == Status::kOk && moves) why = judge_void(slot);
+  if (why.status != Status::kOk) return why;
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
     case tactus_ToServer_point_tag: return point(slot, from);
@@ -144,6 +145,7 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
          << "; ask with a higher one, or wait until it is given back";
     return {Status::kNotOwner, text};
   }
+  at(slot).canceled = false;
   if (taken == LeaseTaken::kRenewed) return {};
   Message text(at(slot).name);
   text << " owns the motion";
@@ -166,10 +168,10 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
                       std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
   if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
-  *free = {next_order_, from};
+  *free = {next_order_, from, what == CycleOrder::kStop};
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
   if (what != CycleOrder::kStop) return {};
-  begin_epoch();
+  begin_end();
   Message text(at(from.slot).name);
   text << " has stopped the arm";
   if (setup_.log != nullptr) setup_.log(text.c_str());
@@ -198,10 +200,12 @@ Reply Server::control(const Origin& from) {
   const Verdict verdict = with_intake(
       [&](auto& intake) { return intake.control(from, kind, rate, by_owner ? nullptr : slows); });
   if (verdict.ok() && kind == ControlKind::kCancel) {
-    begin_epoch();
+    begin_end();
     const int owner = lease_.owner();
-    if (owner != Lease::kNobody)
+    if (owner != Lease::kNobody) {
       with_intake([&](auto& intake) { intake.give_up(at(owner).session); });
+      at(owner).canceled = !by_owner;
+    }
   }
   return reply(verdict);
 }
