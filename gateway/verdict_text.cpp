@@ -161,6 +161,7 @@ const char* remedy(const Verdict& verdict) {
     case Status::kNotOwner: return "; ask for the lease first";
     case Status::kStampRange: return "; name times of the server's clock, State.server_ns";
     case Status::kChunkLate: return "; send sooner, or targets farther ahead";
+    case Status::kPaused: return "; send Resume";
     case Status::kEpochVoid: return "; look at the robot, then begin a newer epoch";
     default: return "";
   }

@@ -53,6 +53,7 @@ void GoalView::take_report(const Report& report) {
   if (first) {
     started_ = true;
     start_s_ = report.time_s();
+    if (report.status() != 0) output_.say("started: " + printed(report.text()));
   }
   if (report.outcome() == Report::STARVED && !starved_)
     output_.say("starved: the arm waits on its path for waypoints");

@@ -813,6 +813,8 @@ class _Session:
         if call is None:
             raise Lost(f"the server has reported on request {report.number}, which has ended or was never sent")
         call.report = report
+        if report.status == pb.CODE_PAUSED:
+            warnings.warn("a pause holds the arm: the trajectory waits for resume()", stacklevel=2)
         self.reported_ns = report.server_ns
         if call.final:
             del self._calls[report.number]

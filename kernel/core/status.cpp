@@ -49,6 +49,7 @@ constexpr StatusWords words_of(Status status) {
     case Status::kGoalVelocity: return {"kGoalVelocity", "not at rest at the goal"};
     case Status::kChunkLate: return {"kChunkLate", "no target of the chunk is still ahead"};
     case Status::kEpochVoid: return {"kEpochVoid", "a stop has voided the epoch"};
+    case Status::kPaused: return {"kPaused", "a pause holds the arm"};
     case Status::kCannotLeave:
       return {"kCannotLeave", "a stop from the path that is followed would leave position limits"};
     case Status::kLeftPath: return {"kLeftPath", "the arm left its path while braking"};

@@ -50,6 +50,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kGoalVelocity = 58,
     kChunkLate = 59,
     kEpochVoid = 60,
+    kPaused = 61,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

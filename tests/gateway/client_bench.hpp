@@ -40,7 +40,7 @@ struct TestClient {
   bool reads = true;
   bool tells_time = true;    ///< messages say when they were sent:
   std::int64_t made_ns = 0;  ///< then, or now if it is 0
-  std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{}, refusals{};
+  std::array<std::uint8_t, kMost> answers{}, finals{}, status{}, outcome{}, refusals{}, started{};
   std::uint32_t kinds[kMost]{};
   std::int64_t credit = 0;
   int pages = 0;                      // of parameters
@@ -152,6 +152,10 @@ struct TestClient {
       case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
       case 3:
         if (value[2] == 3) ++starved;
+        if (value[2] == 2) {
+          started[of] = static_cast<std::uint8_t>(value[3]);
+          std::snprintf(text, sizeof text, "%.*s", static_cast<int>(words.size()), words.data());
+        }
         if (value[2] < 10) return;
         ++finals[of];
         outcome[of] = static_cast<std::uint8_t>(value[2]);

@@ -177,6 +177,27 @@ void what_comes_with_a_takeover_is_executed(void**) {
   }
 }
 
+void a_trajectory_behind_a_pause_and_a_cancel_is_told_that_the_pause_holds(void**) {
+  for (const bool pauses : {false, true}) {
+    TwoClients& two = fresh_clients();
+    two.a.lease(5, 60000);
+    if (pauses) two.b.send(ask::kPause);
+    two.run(2);
+    two.a.send(ask::kCancel);
+    two.run(2);
+    Sender sender = {two.a, Kind::kTrajectory};
+    sender.begin();
+    turn(two, sender);
+    two.run(500);
+    assert_int_equal(two.a.started[sender.number], pauses ? static_cast<int>(Status::kPaused) : 0);
+    if (pauses) assert_non_null(std::strstr(two.a.text, "a pause holds the arm (61); send Resume"));
+    assert_int_equal(moves(two), !pauses);
+    two.a.send(ask::kResume);
+    two.run(500);
+    assert_true(moves(two));
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -187,6 +208,7 @@ int main() {
       cmocka_unit_test(
           a_stream_without_places_ends_by_a_cancel_of_anybody_until_its_owner_takes_the_lease),
       cmocka_unit_test(what_comes_with_a_takeover_is_executed),
+      cmocka_unit_test(a_trajectory_behind_a_pause_and_a_cancel_is_told_that_the_pause_holds),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -157,7 +157,8 @@ bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   running_ = goal;
   starving_ = false;
   monitor_.begin(Tolerances<Space>::merged(trajectory(goal).tolerances, params_.tolerances));
-  report(goal.id, Outcome::kStarted);
+  const bool pauses = kStreams && phase() == Phase::kPaused;
+  report(goal.id, Outcome::kStarted, -1, {pauses ? Status::kPaused : Status::kOk});
   return true;
 }
 
