@@ -53,6 +53,7 @@ struct Connection {
   std::uint64_t session = 0;
   Name name;
   std::int64_t heard_ns = 0;     ///< when its last bytes came, or it was opened or cut
+  std::int64_t asked_ns = 0;     ///< when its last message but Pings came, or it was opened
   std::int64_t read_ns = 0;      ///< when it last read something, or nothing waited for it
   std::int64_t client_ns = 0;    ///< of its last message
   std::int64_t received_ns = 0;  ///< when that came
@@ -68,12 +69,13 @@ struct Connection {
   InputBytes in;
   OutputBytes out;
 
+  bool watches() const { return states.period_ns > 0 || feedback.period_ns > 0 || events; }
   bool there() const { return state == State::kNew || state == State::kOpen; }
   void open(std::uint64_t its_session, std::int64_t now_ns) {
     state = State::kNew;
     session = its_session;
     name = {};
-    heard_ns = read_ns = received_ns = now_ns;
+    heard_ns = asked_ns = read_ns = received_ns = now_ns;
     client_ns = 0;
     rate.start(now_ns);
     states = feedback = {};

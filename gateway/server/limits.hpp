@@ -23,6 +23,7 @@ inline constexpr int kMessagesPerSecond = 5000;  ///< on average; more cut the c
 inline constexpr int kMessageBurst = 5000;       ///< that may come at once
 
 inline constexpr std::int64_t kHelloWait_ns = 5 * kSecond_ns;
+inline constexpr std::int64_t kIdle_ns = 60 * kSecond_ns;     ///< with nothing but Pings
 inline constexpr std::int64_t kSilence_ns = 15 * kSecond_ns;  ///< without a message
 inline constexpr std::int64_t kStalled_ns = 2 * kSecond_ns;   ///< with bytes that are not read
 inline constexpr std::int64_t kStampRange_ns = 10 * kSecond_ns;

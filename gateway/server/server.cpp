@@ -16,6 +16,34 @@ int Server::open(std::uint64_t session, std::int64_t now_ns) {
   return -1;
 }
 
+/// Idle is who neither owns the motion nor watches, and has sent nothing but Pings for a minute.
+Bytes Server::turn_away(std::int64_t now_ns) {
+  int idle = Lease::kNobody;
+  Message names;
+  for (int slot = 0; slot < kMostClients; ++slot) {
+    const Connection& connection = at(slot);
+    if (!connection.there()) continue;
+    names << (names.empty() ? "" : ", ")
+          << (connection.name.empty() ? "a client" : std::string_view(connection.name));
+    const bool idles =
+        slot != lease_.owner() && !connection.watches() && now_ns - connection.asked_ns > kIdle_ns;
+    if (idles && (idle < 0 || connection.asked_ns < at(idle).asked_ns)) idle = slot;
+  }
+  Message text("all places are taken; ");
+  if (idle >= 0)
+    text << std::string_view(at(idle).name) << " is idle and gives way: connect again";
+  else
+    text << "end one of these, or try again: " << std::string_view(names);
+  if (idle >= 0)
+    cut(idle, Status::kClientSilent, "idle for a minute while all places are taken", now_ns);
+  told_ = tactus_ToClient_init_zero;
+  told_.which_message = tactus_ToClient_answer_tag;
+  told_.message.answer.status = static_cast<std::uint32_t>(Status::kTooLarge);
+  set_text(told_.message.answer.text, text);
+  told_.message.answer.server_ns = now_ns;
+  return {bytes_.data(), encode(told_, bytes_)};
+}
+
 /// Messages wait in the socket while the answers to the last ones are not read.
 ByteSpace Server::space(int slot) {
   Connection& connection = at(slot);
@@ -95,6 +123,7 @@ void Server::take_message(int slot, const Bytes& bytes, std::int64_t now_ns) {
     return cut(slot, Status::kBadValue, text << why, now_ns);
   }
   connection.heard_ns = now_ns;
+  if (request_.which_request != tactus_ToServer_ping_tag) connection.asked_ns = now_ns;
   connection.client_ns = request_.client_ns;
   lease_.heard(slot, now_ns);
   const Origin from = {slot, connection.session, request_.number};

@@ -56,6 +56,9 @@ class Server {
   /// A client has connected; `session` is a number that nobody can guess. Returns the slot of its
   /// connection, -1: there are too many.
   int open(std::uint64_t session, std::int64_t now_ns);
+  /// There is no slot for a client that has connected. The longest idle one gives way, if one is;
+  /// returns the message, without its length, that tells the new one who has the places.
+  Bytes turn_away(std::int64_t now_ns);
   /// Where bytes of the connection go that have come; of size 0: none are to be received at
   /// present.
   ByteSpace space(int slot);

@@ -93,13 +93,25 @@ void ServerThread::welcome(int socket, bool inside) {
   std::uint64_t session = 0;
   const bool drawn = getrandom(&session, sizeof session, 0) == sizeof session && session != 0;
   const int slot = drawn ? server_.open(session, monotonic_ns()) : -1;
-  if (slot < 0) {
-    ::close(socket);  // there are as many clients as there may be
-    return;
-  }
+  if (slot < 0) return turn_away(socket);
   sockets_[static_cast<std::size_t>(slot)] = socket;
   inside_[static_cast<std::size_t>(slot)] = inside;
   if (keyed(slot)) tunnel(slot).begin(*key_);
+}
+
+/// Tells a client for which there is no place why, if nothing is encrypted, and closes its socket.
+void ServerThread::turn_away(int socket) {
+  const Bytes why = server_.turn_away(monotonic_ns());
+  std::array<std::uint8_t, kLengthBytes + kLongestTold> bytes{};
+  for (std::size_t i = 0; i < kLengthBytes; ++i)
+    bytes[i] = static_cast<std::uint8_t>(why.size >> (8 * i));
+  std::memcpy(bytes.data() + kLengthBytes, why.data, why.size);
+  if (key_ == nullptr)
+    static_cast<void>(::send(socket, bytes.data(), kLengthBytes + why.size, MSG_NOSIGNAL));
+  ::shutdown(socket, SHUT_WR);
+  std::array<std::uint8_t, 512> unread;  // or its Hello would make the close a reset
+  static_cast<void>(::recv(socket, unread.data(), unread.size(), MSG_DONTWAIT));
+  ::close(socket);
 }
 
 /// The bytes of the network go to the server, or through the tunnel.

@@ -151,6 +151,56 @@ void there_are_no_more_clients_than_slots(void**) {
   assert_int_equal(two.bench.server.open(99, 0), -1);
 }
 
+RawFields fields_of(const Bytes& message) {
+  return {message.data, message.data + message.size};
+}
+
+// Proves GW-19.
+
+/// A, who owns the motion, and B, who watches, stay; the others send nothing but Pings.
+void whoever_is_idle_gives_way_where_all_places_are_taken(void**) {
+  TwoClients& two = fresh_clients();
+  std::array<TestClient, kMostClients - 2> others;
+  for (TestClient& other : others) {
+    other.connect(two.bench);
+    other.hello(&other == &others[0] ? "first" : "other");
+  }
+  two.a.lease(0, 60000);
+  two.b.send(ask::kSubscribe, RawMessage().number(1, 1000));
+  two.run(1);
+  TestClient newest;
+  newest.connect(two.bench);
+  assert_int_equal(newest.slot, -1);
+  newest.take(fields_of(two.bench.server.turn_away(two.bench.now_ns)));
+  assert_int_equal(newest.farewell, static_cast<int>(Status::kTooLarge));
+  assert_string_equal(newest.text,
+                      "all places are taken; end one of these, or try again: A, B, first, other, "
+                      "other, other, other, other");
+  for (int s = 0; s < 62; ++s) {
+    two.bench.now_ns += kSecond_ns;
+    for (TestClient& other : others) other.send(ask::kPing);
+    two.a.send(ask::kPing);
+    two.b.send(ask::kPing);
+    if (s == 10)
+      for (std::size_t i = 1; i < others.size(); ++i) others[i].send(ask::kCancel);
+    two.run(2);
+    for (TestClient& other : others) other.read();
+  }
+  newest.take(fields_of(two.bench.server.turn_away(two.bench.now_ns)));
+  assert_non_null(std::strstr(newest.text, "first is idle and gives way: connect again"));
+  others[0].read();
+  assert_non_null(std::strstr(others[0].text, "idle for a minute while all places are taken"));
+  assert_true(others[0].finished());
+  others[0].close();
+  newest.greet("newest");
+  two.run(1);
+  newest.read();
+  assert_int_equal(newest.welcomes, 1);
+  for (std::size_t i = 1; i < others.size(); ++i) assert_false(others[i].finished());
+}
+
+// Proves GW-5.
+
 void names_for_people_are_printable(void**) {
   TwoClients& two = fresh_clients();
   two.a.close();
@@ -174,6 +224,7 @@ int main() {
       cmocka_unit_test(who_does_not_say_hello_is_cut_after_five_seconds),
       cmocka_unit_test(bytes_that_are_no_message_cut_their_client_and_no_other),
       cmocka_unit_test(there_are_no_more_clients_than_slots),
+      cmocka_unit_test(whoever_is_idle_gives_way_where_all_places_are_taken),
       cmocka_unit_test(names_for_people_are_printable),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

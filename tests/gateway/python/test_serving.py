@@ -1,5 +1,6 @@
 """How a server is started: with a key, and in virtual time."""
 
+import contextlib
 import pathlib
 import secrets
 import signal
@@ -64,6 +65,16 @@ class Keys(unittest.TestCase):
             tactus.connect(self.address, key=self.other)
         self.assertNotIn("secret", str(refused.exception))
         self.other.write_text(secrets.token_hex(32), encoding="ascii")
+
+
+class Places(unittest.TestCase):
+    def test_a_client_too_many_is_told_who_has_the_places(self):
+        with served.serve() as address, contextlib.ExitStack() as clients:
+            for i in range(8):
+                clients.enter_context(tactus.connect(address, name=f"client {i}"))
+            for _ in range(20):
+                with self.assertRaisesRegex(tactus.Lost, "all places are taken; end one of these.*client 0, client 1"):
+                    tactus.connect(address)
 
 
 class VirtualTime(unittest.TestCase):
