@@ -51,18 +51,19 @@ void what_is_malformed_is_refused_before_it_is_sent(void**) {
 
 // Proves CTL-8.
 
-/// Paths retimed for the robot are admitted as they are, not slowed down.
+/// Paths retimed for the limits of the server are admitted as they are, not slowed down.
 void the_server_admits_what_is_retimed_without_slowing_it_down(void**) {
   assert_int_equal(
       served(kJoints,
              "cut -d, -f1-7 $R/pipelines/trajectories/ur10_five_waypoints.csv >$S/path.csv; "
              "for how in '' --no-jerk '--tolerance 0.01' '--radius 0.2 --no-jerk' "
              "'--tolerance 0.1 --velocity 50%'; do "
-             "$T retime $S/path.csv --robot ur10 $how --out $S/timed.csv || exit 81; "
+             "$T retime $S/path.csv --connect $TACTUS_SOCKET $how --out $S/timed.csv || exit 81; "
              "$T check $S/timed.csv --exact || exit 82; done; "
-             "$T retime $S/path.csv --connect $TACTUS_SOCKET --out $S/timed.csv || exit 83; "
-             "$T send $S/timed.csv || exit 84; $T retime $S/path.csv --robot ur10 "
-             "--acceleration 100% --out $S/timed.csv; $T check $S/timed.csv --exact; test $? = 2"),
+             "$T retime $S/path.csv --out $S/timed.csv || exit 83; "
+             "$T send $S/timed.csv || exit 84; "
+             "$T retime $S/path.csv --acceleration 100% --out $S/timed.csv; $T check $S/timed.csv "
+             "--exact; test $? = 2"),
       0);
 }
 
