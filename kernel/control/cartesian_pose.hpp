@@ -43,6 +43,8 @@
 // braked at once, every joint stops separately with max_acceleration.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/core/brake.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
@@ -88,9 +90,11 @@ class CartesianPose {
 
   /// Tightens the limits of position and velocity of the joints. [init]
   [[gnu::cold]] void keep_within(const JointLimits& limits) {
-    params.limits.q_min = params.limits.q_min.cwiseMax(limits.q_min);
-    params.limits.q_max = params.limits.q_max.cwiseMin(limits.q_max);
-    params.limits.dq_max = params.limits.dq_max.cwiseMin(limits.dq_max);
+    for (int i = 0; i < kDof; ++i) {
+      params.limits.q_min[i] = std::max(params.limits.q_min[i], limits.q_min[i]);
+      params.limits.q_max[i] = std::min(params.limits.q_max[i], limits.q_max[i]);
+      params.limits.dq_max[i] = std::min(params.limits.dq_max[i], limits.dq_max[i]);
+    }
   }
 
   template <class Visitor>

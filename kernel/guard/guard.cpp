@@ -16,10 +16,12 @@ JointLimits Guard::Params::effective() const {
 
 JointLimits Guard::Params::references() const {
   JointLimits limit = effective();
-  const JointVector room = (position_allowance.array() - kPositionTolerance).max(0.0).matrix();
-  limit.q_min += room;
-  limit.q_max -= room;
-  limit.dq_max.array() *= 1.0 - (velocity_allowance.array() - kVelocityTolerance).max(0.0);
+  for (int i = 0; i < kDof; ++i) {  // smaller than with vectors
+    const double room = std::max(0.0, position_allowance[i] - kPositionTolerance);
+    limit.q_min[i] += room;
+    limit.q_max[i] -= room;
+    limit.dq_max[i] *= 1.0 - std::max(0.0, velocity_allowance[i] - kVelocityTolerance);
+  }
   return limit;
 }
 
