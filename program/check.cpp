@@ -70,9 +70,9 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
-  print_reach_warnings(session, input, initial.q);
+  const bool in_reach = judge_reach(session, input, initial.q);
   if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
-  if (!judge_rest(session, input)) return kRefused;
+  if (!judge_rest(session, input) || !in_reach) return kRefused;
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
     std::printf("; %s: accepted, %" PRId64 " %s, %.6g s", input.path.c_str(), input.count(),

@@ -112,10 +112,9 @@ void walk(const Trajectory<TaskSpace>& trajectory, const Pose& frame, double per
 
 }  // namespace
 
-void print_reach_warnings(const Session& session, const TrajectoryInput& input,
-                          const JointVector& q) {
+bool judge_reach(const Session& session, const TrajectoryInput& input, const JointVector& q) {
   const auto* const poses = std::get_if<2>(&input.trajectory);
-  if (poses == nullptr) return;
+  if (poses == nullptr) return true;
   const Pipeline& pipeline = session.pipeline;
   const InverseKinematics arm(pipeline.guard.references(), pipeline.robot.tool.value.tip);
   PathCheck check(arm, q);
@@ -124,10 +123,17 @@ void print_reach_warnings(const Session& session, const TrajectoryInput& input,
     std::fprintf(stderr, "%s: note: the reach is judged for its first %d waypoints only\n",
                  input.path.c_str(), (*poses)->count);
   const int shown = std::min(check.count(), kMostLines);
-  for (int i = 0; i < shown; ++i)
-    std::fprintf(stderr, "%s: warning: %s\n", input.path.c_str(), words_of(check[i]).c_str());
+  bool in_reach = true;
+  for (int i = 0; i < check.count(); ++i) {
+    const bool out = check[i].kind == Finding::kOutOfReach;
+    in_reach = in_reach && !out;
+    if (i < shown)
+      std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), out ? "refused" : "warning",
+                   words_of(check[i]).c_str());
+  }
   const int more = check.count() - shown + check.left_out();
   if (more > 0) std::fprintf(stderr, "%s: warning: and %d more\n", input.path.c_str(), more);
+  return in_reach;
 }
 
 }  // namespace tactus

@@ -1,4 +1,4 @@
-// The warnings of `tactus check` about a path of the tip that the arm cannot follow.
+// What `tactus check` says of a path of the tip that the arm cannot follow.
 #pragma once
 
 #include "program/session/session.hpp"
@@ -7,8 +7,8 @@
 namespace tactus {
 
 /// Goes along a trajectory of poses with the arm from `q`, rad, and prints to stderr what it finds:
-/// a line for each stretch of the path. Takes about a second at most, whatever the trajectory.
-void print_reach_warnings(const Session& session, const TrajectoryInput& input,
-                          const JointVector& q);
+/// a line for each stretch of the path. False: some of it no joints reach; the rest is a warning.
+/// Takes about a second at most, whatever the trajectory.
+bool judge_reach(const Session& session, const TrajectoryInput& input, const JointVector& q);
 
 }  // namespace tactus

@@ -39,12 +39,12 @@ double number_after(std::string_view text, std::string_view word) {
 
 // Proves RUN-26.
 
-void a_pose_out_of_reach_is_a_warning_with_time_place_and_distance(void**) {
+void a_pose_out_of_reach_is_refused_with_time_place_and_distance(void**) {
   const Line far =
       write("far.csv", {kPoses, row(5, 0.5).c_str(), row(15, 1.1).c_str(), row(25, 0.5).c_str()});
-  assert_int_equal(check(far), 0);
-  assert_true(has(output(), "accepted, 3 waypoints, 25 s\n"));
-  assert_true(has(errors(), "/far.csv: warning: t = 9."));
+  assert_int_equal(check(far), 2);
+  assert_true(output().empty());
+  assert_true(has(errors(), "/far.csv: refused: t = 9."));
   assert_true(has(errors(), " s: out of reach: at t = 15 s, (1.1, 0, 0.5) m, it stays 0.3"));
   assert_true(has(errors(), "; move the path or the base of the arm\n"));
   const double short_m = number_after(errors(), "it stays ");
@@ -61,7 +61,7 @@ void a_pose_out_of_reach_is_a_warning_with_time_place_and_distance(void**) {
 
 void an_arm_that_is_singular_and_a_joint_that_is_too_fast_are_named(void**) {
   const Line far = write("far.csv", {kPoses, row(5, 0.5).c_str(), row(15, 1.1).c_str()});
-  assert_int_equal(check(far), 0);
+  assert_int_equal(check(far), 2);
   assert_true(has(errors(), " s: near a singularity: at t = 9."));
   assert_true(has(errors(), " m, sigma is 0.0"));
   assert_true(has(errors(), ", and below 0.05 the tip may leave the path; "));
@@ -91,7 +91,7 @@ void a_path_in_reach_and_a_path_of_joints_have_no_warning(void**) {
 void a_path_that_is_in_and_out_of_reach_very_often_has_few_lines(void**) {
   std::string text(kPoses);
   for (int i = 0; i < 300; ++i) text += row(5 + 3 * i, i % 2 == 0 ? 0.5 : 0.9, 0.1).c_str();
-  assert_int_equal(check(write("often.csv", {text.c_str()})), 0);
+  assert_int_equal(check(write("often.csv", {text.c_str()})), 2);
   assert_int_equal(std::count(errors().begin(), errors().end(), '\n'), 13);
   assert_true(has(errors(), "/often.csv: warning: and "));
 }
@@ -102,7 +102,7 @@ void a_path_that_is_in_and_out_of_reach_very_often_has_few_lines(void**) {
 int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(a_pose_out_of_reach_is_a_warning_with_time_place_and_distance),
+      cmocka_unit_test(a_pose_out_of_reach_is_refused_with_time_place_and_distance),
       cmocka_unit_test(an_arm_that_is_singular_and_a_joint_that_is_too_fast_are_named),
       cmocka_unit_test(a_joint_at_its_limit_is_named_with_value_and_limit),
       cmocka_unit_test(a_path_in_reach_and_a_path_of_joints_have_no_warning),
