@@ -101,7 +101,7 @@ void no_accepted_motion_ends_in_a_fault(void**) {
     Most most;
     run(*bench, joints ? 1 : 2000, most);  // the tare of a sensor
     const Pose start = bench->output<Pose>("model.x");
-    for (int n = trials(tries(joints ? 150 : 25, joints ? 15 : 5)); n > 0; --n) {
+    for (int n = trials(tries(joints ? 60 : 10, joints ? 15 : 5)); n > 0; --n) {
       joints ? send_one(*bench, random) : send_pose(*bench, random, start);
       run(*bench, random.below(3) == 0 ? random.below(kLongest / 4) : kLongest, most);
     }
