@@ -182,14 +182,12 @@ void SmoothedReader<Space>::prepare() {
 /// near enough.
 template <class Space>
 bool SmoothedReader<Space>::fit() {
-  using Spline = SmoothingSpline;
-  const bool first = spline_.begins == Spline::Start::kUnknown;
+  const bool first = spline_.begins == SmoothingSpline::Start::kUnknown;
   const bool left_at_once = first && !(row(0).time_s > 0.0);  // and therefore from rest
-  double cutoff = spline_.count < kFewest ? Spline::kSharpest : spline_.most_likely(left_at_once);
-  for (int i = 0; i < smoothing_.rounding && cutoff > Spline::kSmoothest; ++i)
-    cutoff /= Spline::kStep;
-  for (; cutoff <= Spline::kSharpest; cutoff *= Spline::kStep) {
-    spline_.fit(cutoff);
+  const int likely = spline_.count < kFewest ? 0 : spline_.most_likely(left_at_once);
+  const int wanted = std::min(likely + smoothing_.rounding, SmoothingSpline::kSmoothest);
+  for (int smoothness = wanted; smoothness >= 0; --smoothness) {
+    spline_.fit(smoothness);
     const SmoothingTolerance before = moved_;
     int sample = next_;
     while (sample < ready_ && near(sample)) ++sample;

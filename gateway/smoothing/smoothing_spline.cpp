@@ -17,6 +17,11 @@ constexpr double kCertain = 1e-12;  // variance of what is known
 constexpr double kDoubt = 10.0;     // logarithm of the ratio of likelihoods that decides
 constexpr int kUnjudged = 3;        // samples that a state without a history explains
 
+/// The cutoff times the mean distance of samples.
+double cutoff(int smoothness) {
+  return 12.0 * std::pow(1.6, -smoothness);
+}
+
 /// The motion of a triple integrator in the time h.
 Matrix3 motion(double h) {
   Matrix3 f = Matrix3::Identity();
@@ -51,14 +56,14 @@ double correct(State& state, Matrix3& p, int component, const Axes& measured, do
 }  // namespace
 
 /// The unit of time in which all entries of variances are of one size: 1 / cutoff, in seconds.
-double SmoothingSpline::unit_s(double cutoff) const {
+double SmoothingSpline::unit_s(int smoothness) const {
   const auto last = static_cast<std::size_t>(count) - 1;
-  return (time_s[last] - time_s[0]) / static_cast<double>(last) / cutoff;
+  return (time_s[last] - time_s[0]) / static_cast<double>(last) / cutoff(smoothness);
 }
 
 /// Filters the samples; returns how unlikely they are, as the negative logarithm.
-double SmoothingSpline::filter(double cutoff) {
-  const double unit = unit_s(cutoff);
+double SmoothingSpline::filter(int smoothness) {
+  const double unit = unit_s(smoothness);
   Matrix3 p = Eigen::Vector3d(1.0, begins == Start::kAtRest ? 0.0 : kUnknown,
                               begins == Start::kAtRest ? 0.0 : kUnknown)
                   .asDiagonal();
@@ -75,7 +80,7 @@ double SmoothingSpline::filter(double cutoff) {
   for (std::size_t k = 1; k < n; ++k) {
     const double h = (time_s[k] - time_s[k - 1]) / unit;
     const Matrix3 f = steps_[k] = motion(h);
-    const Matrix3 predicted = f * p * f.transpose() + driven(h, cutoff);
+    const Matrix3 predicted = f * p * f.transpose() + driven(h, cutoff(smoothness));
     gains_[k - 1] = p * f.transpose() * predicted.inverse();
     p = predicted;
     state = State(f * state);
@@ -106,37 +111,37 @@ double SmoothingSpline::unlikelihood(const Axes& squares, double log_variances) 
   return sum;
 }
 
-/// Finds the likeliest cutoff for a given start; returns how unlikely the samples are with it.
-double SmoothingSpline::least_unlikely(double& cutoff) {
-  cutoff = kSharpest;
-  double least = filter(kSharpest);
-  for (double tried = kSharpest / kStep; tried > kSmoothest; tried /= kStep) {
+/// Finds the likeliest smoothness for a given start; returns how unlikely the samples are with it.
+double SmoothingSpline::least_unlikely(int& smoothness) {
+  double least = filter(0);
+  smoothness = 0;
+  for (int tried = 1; tried <= kSmoothest; ++tried) {
     const double unlikely = filter(tried);
     if (!(unlikely < least)) continue;
     least = unlikely;
-    cutoff = tried;
+    smoothness = tried;
   }
   return least;
 }
 
-double SmoothingSpline::most_likely(bool from_rest) {
-  double cutoff = 0.0, moving_cutoff = 0.0;
+int SmoothingSpline::most_likely(bool from_rest) {
+  int smoothness = 0, of_moving = 0;
   if (begins != Start::kUnknown) {
-    least_unlikely(cutoff);
-    return cutoff;
+    least_unlikely(smoothness);
+    return smoothness;
   }
-  const double moving = least_unlikely(moving_cutoff);
+  const double moving = least_unlikely(of_moving);
   begins = Start::kAtRest;
-  if (least_unlikely(cutoff) <= moving + kDoubt || from_rest) return cutoff;
+  if (least_unlikely(smoothness) <= moving + kDoubt || from_rest) return smoothness;
   begins = Start::kUnknown;
-  return moving_cutoff;
+  return of_moving;
 }
 
-void SmoothingSpline::fit(double cutoff) {
-  filter(cutoff);
+void SmoothingSpline::fit(int smoothness) {
+  filter(smoothness);
   for (auto k = static_cast<std::size_t>(count) - 1; k-- > 0;)
     states_[k] += State(gains_[k] * (states_[k + 1] - State(steps_[k + 1] * states_[k])));
-  const double unit = unit_s(cutoff);
+  const double unit = unit_s(smoothness);
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     states_[k].row(1) /= unit;
     states_[k].row(2) /= unit * unit;

@@ -41,27 +41,26 @@ class SmoothingSpline {
   State start;
   bool ends = false;  ///< the motion ends at the last sample
 
-  /// Each cutoff that is tried is so many times the next.
-  static constexpr double kStep = 1.6;
-  /// Largest and smallest cutoff times the mean distance of samples: the curve through all of them,
-  /// and one that depends on fewer than 250 samples on either side.
-  static constexpr double kSharpest = 12.0, kSmoothest = 1.0 / 64.0;
+  /// The smoothness of a curve: 0 goes through all samples, with a cutoff of 12 over their mean
+  /// distance. In each step the cutoff is 1.6 times less; with the last the curve depends on fewer
+  /// than 250 samples on either side.
+  static constexpr int kSmoothest = 14;
 
-  /// Returns the cutoff of the maximum likelihood, times the mean distance of samples. Of a motion
-  /// whose start is unknown also decides whether it begins at rest: if it must, or unless that is
-  /// unlikely. Needs eight samples. [any, not cyclic]
-  double most_likely(bool from_rest);
-  /// Fits the curve with such a cutoff. [any, not cyclic]
-  void fit(double cutoff);
+  /// Returns the smoothness of the maximum likelihood. Of a motion whose start is unknown also
+  /// decides whether it begins at rest: if it must, or unless that is unlikely. Needs eight
+  /// samples. [any, not cyclic]
+  int most_likely(bool from_rest);
+  /// Fits the curve. [any, not cyclic]
+  void fit(int smoothness);
   /// State of the curve at a sample, after fit(). [any]
   const State& at(int sample) const { return states_[static_cast<std::size_t>(sample)]; }
 
  private:
   using Matrix3 = Eigen::Matrix3d;
 
-  double unit_s(double cutoff) const;
-  double filter(double cutoff);
-  double least_unlikely(double& cutoff);
+  double unit_s(int smoothness) const;
+  double filter(int smoothness);
+  double least_unlikely(int& smoothness);
   double unlikelihood(const Axes& squares, double log_variances) const;
 
   std::array<State, kMostSamples> states_;   // filtered, then smoothed

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kShortest_s = 0.001;
 constexpr double kExact = 1.0 + 1e-9;
-constexpr int kPaths = tries(60, 24);
+constexpr int kPaths = tries(40, 24);
 
 double time_of(const std::vector<Numbers>& path, const RetimeSettings& settings) {
   const std::vector<TimedPoint> points = retime(path, settings);

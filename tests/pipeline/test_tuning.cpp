@@ -8,7 +8,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kRun_s = 9.0;
+constexpr double kRun_s = 7.0;
 constexpr double kMoving_s = 3.0;  // from here on the arms are on their way
 constexpr double kSettles_s = 9.0;
 

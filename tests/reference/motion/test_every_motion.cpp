@@ -33,7 +33,7 @@ constexpr double kStopTimes = 6.0;
 constexpr int kSettling = 64;
 
 int requests() {
-  return trials(tries(20000, 1000)) / kTests + 1;
+  return trials(tries(12000, 1000)) / kTests + 1;
 }
 std::uint64_t first_seed() {
   const char* wanted = std::getenv("TACTUS_SEED");

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPeriod_s = 1e-3, kShare = 0.98;
 
 /// The number of paths of each kind to try.
-constexpr int kPaths = tries(200, 40);
+constexpr int kPaths = tries(140, 40);
 
 /// A random path with its law, and the largest use of the limits.
 struct Runner {
