@@ -49,9 +49,16 @@ void PathCheck::go_on(double time_s, const Pose& pose) {
   reached_ = reach.reached();
 }
 
-/// Returns whether some posture of the arm, of those tried, brings the tip to the pose.
+/// Returns whether some posture of the arm, of those tried, brings the tip to the pose; after the
+/// most searches, what the last of them has found.
 bool PathCheck::elsewhere(const Pose& pose) {
-  if (++searches_ > kMostSearches) return false;
+  if (searches_ == kMostSearches) return elsewhere_;
+  ++searches_;
+  elsewhere_ = found_elsewhere(pose);
+  return elsewhere_;
+}
+
+bool PathCheck::found_elsewhere(const Pose& pose) const {
   std::minstd_rand random(1);
   const JointLimits& limits = arm_.limits();
   for (int k = 0; k < kPostures; ++k) {
@@ -70,6 +77,7 @@ void PathCheck::judge_reach(Finding found, const Pose& pose, const Reach& reach)
     const bool goes_on = open_[Finding::kOutOfReach] != nullptr;
     const bool other = !goes_on && (open_[Finding::kOtherPosture] != nullptr || elsewhere(pose));
     found.kind = other ? Finding::kOtherPosture : Finding::kOutOfReach;
+    out_of_reach_ = out_of_reach_ || !other;
     found.value = reach.distance_m;
     found.angle_rad = reach.angle_rad;
     found.joint = reach.blocked;

@@ -46,9 +46,12 @@ class PathCheck {
   const Finding& operator[](int i) const { return findings_[static_cast<std::size_t>(i)]; }
   /// Findings beyond the most that are kept.
   int left_out() const { return left_out_; }
+  /// True if a pose was out of reach, in whichever finding.
+  bool out_of_reach() const { return out_of_reach_; }
 
  private:
   bool elsewhere(const Pose& pose);
+  bool found_elsewhere(const Pose& pose) const;
   void judge_reach(Finding found, const Pose& pose, const Reach& reach);
   void judge_limits(const Finding& found);
   void judge_speeds(const Finding& found, double passed_s);
@@ -60,6 +63,8 @@ class PathCheck {
   double time_s_ = 0.0;
   bool begun_ = false, reached_ = false;  // at the last sample
   int searches_ = 0;
+  bool elsewhere_ = false;  // by the last of them
+  bool out_of_reach_ = false;
   std::array<Finding, kMostFindings> findings_;
   std::array<Finding, Finding::kKinds> beyond_;   // in place of those that do not fit
   std::array<Finding*, Finding::kKinds> open_{};  // that the next sample may continue

@@ -123,17 +123,14 @@ bool judge_reach(const Session& session, const TrajectoryInput& input, const Joi
     std::fprintf(stderr, "%s: note: the reach is judged for its first %d waypoints only\n",
                  input.path.c_str(), (*poses)->count);
   const int shown = std::min(check.count(), kMostLines);
-  bool in_reach = true;
-  for (int i = 0; i < check.count(); ++i) {
-    const bool out = check[i].kind == Finding::kOutOfReach;
-    in_reach = in_reach && !out;
-    if (i < shown)
-      std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), out ? "refused" : "warning",
-                   words_of(check[i]).c_str());
-  }
+  for (int i = 0; i < shown; ++i)
+    std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(),
+                 check[i].kind == Finding::kOutOfReach ? "refused" : "warning",
+                 words_of(check[i]).c_str());
   const int more = check.count() - shown + check.left_out();
-  if (more > 0) std::fprintf(stderr, "%s: warning: and %d more\n", input.path.c_str(), more);
-  return in_reach;
+  const char* const kind = check.out_of_reach() ? "refused" : "warning";
+  if (more > 0) std::fprintf(stderr, "%s: %s: and %d more\n", input.path.c_str(), kind, more);
+  return !check.out_of_reach();
 }
 
 }  // namespace tactus

@@ -93,7 +93,7 @@ void a_path_that_is_in_and_out_of_reach_very_often_has_few_lines(void**) {
   for (int i = 0; i < 300; ++i) text += row(5 + 3 * i, i % 2 == 0 ? 0.5 : 0.9, 0.1).c_str();
   assert_int_equal(check(write("often.csv", {text.c_str()})), 2);
   assert_int_equal(std::count(errors().begin(), errors().end(), '\n'), 13);
-  assert_true(has(errors(), "/often.csv: warning: and "));
+  assert_true(has(errors(), "/often.csv: refused: and "));
 }
 
 }  // namespace

@@ -95,6 +95,26 @@ void a_motion_of_the_posture_leaves_the_tip_where_it_is(void**) {
   }
 }
 
+/// Where findings are too many to be kept, too.
+void what_is_out_of_reach_is_known_after_any_number_of_findings(void**) {
+  Bench bench;
+  const JointVector middle = 0.5 * (bench.limits.q_min + bench.limits.q_max);
+  const JointVector q = middle + 0.3 * JointVector::Ones();
+  PathCheck check(bench.arm, q);
+  check.approach(bench.arm.tip(q));
+  double time_s = 0.0;
+  for (std::size_t k = 0; k < 2 * PathCheck::kMostFindings; ++k) {  // a jump, and a rest
+    const Pose pose = bench.arm.tip(bench.beside(q, 0.1));
+    for (int i = 0; i < 2; ++i) check.go_on(time_s += 1e-3, pose);
+  }
+  assert_true(check.left_out() > 0);
+  assert_false(check.out_of_reach());
+  Pose far = bench.arm.tip(q);
+  far.p.x() += 5.0;
+  check.go_on(time_s + 1e-3, far);
+  assert_true(check.out_of_reach());
+}
+
 /// A joint turns alone, much faster than it can, and then into its limit.
 void a_path_that_is_too_fast_and_ends_at_a_limit_is_found(void**) {
   Bench bench;
@@ -132,6 +152,7 @@ int main() {
       cmocka_unit_test(a_pose_near_the_arm_is_reached_within_the_limits),
       cmocka_unit_test(a_pose_out_of_reach_is_approached_as_near_as_the_joints_allow),
       cmocka_unit_test(a_motion_of_the_posture_leaves_the_tip_where_it_is),
+      cmocka_unit_test(what_is_out_of_reach_is_known_after_any_number_of_findings),
       cmocka_unit_test(a_path_that_is_too_fast_and_ends_at_a_limit_is_found),
       cmocka_unit_test(findings_beyond_the_most_are_counted),
   };
