@@ -103,7 +103,7 @@ RUN_OPTIONS += $(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),--always --out out/$(
 
 # What runs at load and what a client runs, outside the cycle.
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
-              kernel/core/status.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
+              kernel/core/status.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
               tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
@@ -142,7 +142,8 @@ all: $(if $(filter arm64,$(ARCH)),setup-arm64) trajectories $(B)/$(NAME)   ## bu
 
 run: BOARDS := $(RUN_BOARDS)
 run: setup                                    ## run what has changed; ONLY="run ..." these only, ALWAYS=1 all; out/report.html
-	$(Q)$(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),scripts/setup m7)
+	$(Q)set -e; for packages in $(call packages_of,$(if $(ONLY),$(filter $(BARE_BOARDS),$(RUN_BOARDS)),$(RUN_BOARDS))); do \
+	  scripts/setup $$packages; done
 	$(Q)$(call build,all)
 	$(Q)set -e; runs=$$($(call each,list-runs)); scripts/run_all $(RUN_OPTIONS) $$runs
 test: setup                                   ## build and run all tests of every board; ONLY="control guard" those of tests/control and tests/guard
@@ -181,6 +182,8 @@ help:                                         ## list the targets
 	$(Q)grep -hE '^[a-z_.-]+:.*##' $(MAKEFILE_LIST:%.d=) | sed -E 's/:.*## */\t/' | expand -t 24
 
 .PHONY: trajectories list-runs kernel robots shared always
+# What the runs of a board need of scripts/setup; a run that is named with ONLY asks for it itself.
+packages_of = $(sort $(shell sed -n 's/^PACKAGES *:= *//p' $(patsubst %,boards/%/board.mk,$(1)) /dev/null))
 robot_of = $(shell sed -n 's/^ROBOT *:= *//p' boards/$(1)/board.mk)
 robots: $(sort $(foreach board,$(BOARDS),$(addprefix robot-,$(call robot_of,$(board)))))
 robot-%: shared

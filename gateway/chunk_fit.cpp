@@ -161,17 +161,37 @@ void plan_stop_at_end(const Fit<Space>& fit, const AdmissionSettings<Space>& set
   }
 }
 
+/// What is told of the first target that is held at the end of a range.
+template <class Space>
+Verdict first_saturated(const Chunk<Space>& chunk, const typename Space::Limits& limits) {
+  const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
+  for (int i = 0; i < chunk.count; ++i) {
+    typename Space::Point placed =
+        Space::placed(chunk.targets[static_cast<std::size_t>(i)], placement);
+    Verdict told = Space::saturate(placed, limits);
+    told.waypoint = i;
+    if (!told.ok()) return told;
+  }
+  return {};
+}
+
 }  // namespace
 
 template <class Space>
 void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settings,
                ChunkCurve<Space>& curve) {
   const auto n = static_cast<std::size_t>(chunk.count);
-  const typename Space::Point origin = chunk.targets[n / 2].at_rest();
+  const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
+  const auto inside = [&](std::size_t i) {
+    typename Space::Point target = chunk.targets[i];
+    static_cast<void>(Space::saturate(target, limits));
+    return target;
+  };
+  const typename Space::Point origin = inside(n / 2).at_rest();
   Fit<Space> fit;
   fit.n = chunk.count;
   for (std::size_t i = 0; i < n; ++i) {
-    const typename Space::Point& target = chunk.targets[i];
+    const typename Space::Point target = inside(i);
     fit.t[i] = chunk.time_s[i];
     fit.f[i] = Space::difference(chunk.velocities ? target : target.at_rest(), origin);
     fit.f[i].ddx.setZero();
@@ -192,11 +212,11 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   curve.outputs_lead_s = chunk.outputs_lead_s;
   if (chunk.outputs_mask != 0)
     std::copy(chunk.outputs.begin(), chunk.outputs.begin() + chunk.count, curve.outputs.begin());
-  const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
+  curve.told = first_saturated(chunk, limits);
   for (std::size_t i = 0; i < n; ++i) {
     Knot<Space>& knot = curve.knots[i] = {chunk.time_s[i], Space::sum(origin, fit.f[i])};
     if (Space::judge_waypoint(knot.point, limits).ok()) continue;
-    fit.f[i].x = Space::difference(chunk.targets[i], origin).x;  // smoothed beyond a limit
+    fit.f[i].x = Space::difference(inside(i), origin).x;  // smoothed beyond a limit
     knot.point = Space::sum(origin, fit.f[i]);
   }
   if (n == 1) curve.knots[0].point = chunk.targets[0];

@@ -46,7 +46,9 @@ Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& s
     if (!(time_s - chunk.time_s[0] <= kLongestChunk_s))
       return {Status::kReferenceTime, i, -1, time_s, chunk.time_s[0] + kLongestChunk_s};
     earliest_s = time_s + settings.period_s;
-    Verdict verdict = Space::judge_waypoint(Space::placed(chunk.targets[k], placement), limits);
+    typename Space::Point placed = Space::placed(chunk.targets[k], placement);
+    static_cast<void>(Space::saturate(placed, limits));  // as fit_chunk() does, which tells
+    Verdict verdict = Space::judge_waypoint(placed, limits);
     if (verdict.ok() && chunk.velocities)
       verdict = judge_velocity<Space>(Space::rates(chunk.targets[k]), limits);
     if (verdict.ok() && i > 0)

@@ -122,8 +122,10 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
                                      const PointDetails& details) {
   if (!std::isfinite(details.stamp_s)) return {Status::kReferenceNotFinite};
   const typename Space::Limits limits = Space::known_limits(header, channel_.settings.limits);
-  const Verdict verdict =
-      judge_online<Space>(Space::placed(point, Space::anywhere(header, limits)), limits);
+  typename Space::Point placed = Space::placed(point, Space::anywhere(header, limits));
+  if constexpr (kStreams)
+    static_cast<void>(Space::saturate(placed, limits));  // the generator tells
+  const Verdict verdict = judge_online<Space>(placed, limits);
   if (!verdict.ok()) return verdict;
   Request<Space> request;
   request.kind = RequestKind::kPoint;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "kernel/reference/space/judge_channels.hpp"
+
 namespace tactus {
 namespace {
 
@@ -81,7 +83,8 @@ template <class Space>
 bool SmoothedReader<Space>::restart(const Smoothing& smoothing, CsvError& error) {
   smoothing_ = smoothing;
   moved_ = {};
-  at_end_ = false;
+  at_end_ = begun_ = false;
+  run_ups_ = 0;
   count_ = next_ = ready_ = 0;
   // The digits of a column are known when all of its numbers were read.
   RowTaken taken = smooths() ? RowTaken::kWaypoint : RowTaken::kEnd;
@@ -106,10 +109,45 @@ RowTaken SmoothedReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error,
     if (at_end_ && ready_ == count_) return RowTaken::kEnd;
     if (!fit_more(error)) return RowTaken::kRefused;
   }
+  const bool begins = !begun_;
+  begun_ = true;
+  if (begins && run_up(waypoint)) return RowTaken::kWaypoint;
   waypoint = row(next_);
   waypoint.point = point(next_);
   line_ = lines_[static_cast<std::size_t>(next_++)];
   return RowTaken::kWaypoint;
+}
+
+/// Writes the waypoint before the first one where a motion that begins at a velocity begins to run
+/// up to it, from rest. Without it one quintic would lead from wherever the arm is to that
+/// velocity, and swing out the farther the longer it may take. False: from rest, or too early for a
+/// run-up.
+template <class Space>
+bool SmoothedReader<Space>::run_up(Waypoint<Space>& waypoint) {
+  constexpr double kShare = 0.5, kLeast_s = 0.05;  // of the limits
+  const typename Space::Point first = point(0), rest = first.at_rest();
+  typename Space::Difference state = Space::difference(first, rest);
+  if (state.zero()) return false;
+  double time_s = kLeast_s;
+  for (std::size_t c = 0; c < limits_.v.size(); ++c) {
+    const auto axis = static_cast<Eigen::Index>(c) * Space::kChannelSize;
+    const double v = length<Space::kChannelSize>(&state.dx[axis]);
+    const double a = length<Space::kChannelSize>(&state.ddx[axis]);
+    time_s = std::max({time_s, 1.5 * v / (kShare * limits_.a[c]), 2.0 * a / (kShare * limits_.j[c]),
+                       std::sqrt(6.0 * v / (kShare * limits_.j[c]))});
+  }
+  if (!(row(0).time_s >= 2.0 * time_s)) return false;
+  // The velocity is a cubic, from rest to that of the first waypoint and its acceleration.
+  state.x = -time_s * (0.5 * state.dx - time_s / 12.0 * state.ddx);
+  state.dx.setZero();
+  state.ddx.setZero();
+  waypoint = row(0);
+  waypoint.time_s -= time_s;
+  waypoint.point = Space::sum(rest, state);
+  Space::add_effort(waypoint.point, Space::effort_beyond(row(0).point, waypoint.point), 1.0, 0.0);
+  line_ = lines_[0];
+  run_ups_ = 1;
+  return true;
 }
 
 /// Moves the window on, so that it begins with the last row that was handed out.

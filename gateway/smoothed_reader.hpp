@@ -40,6 +40,8 @@ class SmoothedReader {
     smoothing_ = {};
     return reader_.open(path, partial, hash, error);
   }
+  /// Sets the limits for the run-up to a file that begins in motion. [init]
+  void run_up_within(const typename Space::Peaks& limits) { limits_ = limits; }
   /// Returns to the first waypoint of a regular file, to read it so. False: refused. [init]
   bool restart(const Smoothing& smoothing, CsvError& error);
   /// The same, to read it as before. [init]
@@ -53,6 +55,8 @@ class SmoothedReader {
   const LineReader& lines() const { return reader_.lines(); }
   /// Line of the waypoint that was taken last.
   int line() const { return line_; }
+  /// Waypoints before those of the file: 1 where a run-up begins, else 0.
+  int run_ups() const { return run_ups_; }
   /// How far positions were moved at most, so far.
   const SmoothingTolerance& moved() const { return moved_; }
   const Smoothing& smoothing() const { return smoothing_; }
@@ -64,6 +68,7 @@ class SmoothedReader {
   using Axes = SmoothingSpline::Axes;
 
   bool smooths() const { return smoothing_.tolerance.allows(); }
+  bool run_up(Waypoint<Space>& waypoint);
   bool fit_more(CsvError& error);
   bool read_window(CsvError& error);
   void prepare();
@@ -75,8 +80,10 @@ class SmoothedReader {
 
   TrajectoryReader<Space> reader_;
   Smoothing smoothing_;
+  typename Space::Peaks limits_{};  // of the run-up
+  int run_ups_ = 0;
   SmoothingTolerance moved_;
-  bool at_end_ = false;
+  bool at_end_ = false, begun_ = false;
   int line_ = 0;
 
   SmoothingSpline spline_;

@@ -63,8 +63,11 @@ bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings,
                                     const SmoothingTolerance& tolerance) {
   const bool accepted = judge_once(settings);
   if (!tolerance.allows() || !may_be_smoothed(accepted)) return accepted;
+  // Lines between positions step in velocity, so that a curve is better even if it takes longer.
+  const bool lines = accepted && (reader_.fields() & kVelocityField) == 0;
   const double longer = accepted ? longer_s() : kInfinity;
-  if (judge_smoothed(settings, tolerance) && longer_s() <= longer) return true;
+  reader_.run_up_within(Space::peaks(settings.limits));
+  if (judge_smoothed(settings, tolerance) && (lines || longer_s() <= longer)) return true;
   // A curve that is near shows what is wrong, which lines between positions may hide.
   const bool curve = refusal_.row.reason.empty() && !refusal_.verdict.ok();
   if (curve && !(accepted && longer > 0.0)) return false;
@@ -120,7 +123,7 @@ bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settin
 template <class Space>
 bool TrajectoryStream<Space>::judged(const Verdict& verdict) {
   if (!verdict.ok()) return refuse(verdict);
-  count_ = judge_.count();
+  count_ = judge_.count() - reader_.run_ups();
   end_s_ = judge_.end_s();
   return true;
 }
@@ -187,6 +190,7 @@ bool TrajectoryStream<Space>::refuse(const Verdict& verdict) {
   refusal_.verdict = verdict;
   if (verdict.waypoint >= 0 && in_window(verdict.waypoint))
     refusal_.line = lines_[static_cast<std::size_t>(verdict.waypoint % window_->capacity)];
+  if (verdict.waypoint > 0) refusal_.verdict.waypoint -= reader_.run_ups();
   return false;
 }
 

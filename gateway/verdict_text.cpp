@@ -29,6 +29,9 @@ struct Measured {
   const char *quantity, *joint_unit, *translation_unit, *rotation_unit;
 };
 
+/// A position in radians that is this far beyond its range is one in degrees.
+constexpr double kOneTurn = 6.28;
+
 constexpr Relation kExceeds = Relation::kExceeds, kOutside = Relation::kOutside;
 
 // clang-format off
@@ -56,6 +59,8 @@ constexpr Measured kMeasured[] = {
     {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", "", ""},
     {Status::kFollowingError, kExceeds, false, "following error", " rad", "", ""},
     {Status::kChunkLate, kExceeds, true, "delay behind the last target", " s", " s", " s"},
+    {Status::kPointStep, kExceeds, true, "distance from the reference", " rad", " m", " rad"},
+    {Status::kSaturated, kOutside, false, "position", " rad", " m", " rad"},
     {Status::kStampRange, kExceeds, true, "distance from the present time", " s", " s", " s"},
 };
 // clang-format on
@@ -146,14 +151,20 @@ Message& add_code(Message& text, Status status) {
 
 const char* remedy(const Verdict& verdict) {
   switch (verdict.status) {
-    case Status::kPositionLimit: return "; keep within the range of the joint: are these degrees?";
+    case Status::kPositionLimit:
+      return std::abs(verdict.value - verdict.limit) > kOneTurn
+                 ? "; keep within the range of the joint: are these degrees?"
+                 : "; keep within the range of the joint";
+    case Status::kSaturated: return ": the reference stays there until points come back";
+    case Status::kPointStep: return "; begin nearer to it, or raise max_step";
     case Status::kCannotLeave: return "; send it again a little later";
     case Status::kWorkspace: return "; keep within [task_limits]: are these millimetres?";
     case Status::kReferenceTime: return remedy_of_time(verdict);
     case Status::kVelocityLimit:
     case Status::kAccelerationLimit:
     case Status::kJerkLimit: return "; give this part more time";
-    case Status::kVelocityStep: return "; give velocities, or this part more time";
+    case Status::kVelocityStep:
+      return "; give velocities, this part more time, or interpolation = monotone";
     case Status::kNotAtRest: return "; end with a velocity of zero";
     case Status::kStartTolerance: return "; begin there, or later than at t = 0";
     case Status::kEffortLimit: return "; ask for less";

@@ -38,7 +38,8 @@ void print_room(const char* path, const Guard::Params& guard) {
 
 int check(Session& session, const Options& options) {
   Expectation expectation;
-  if (!expectation.start(session.expect, session.pipeline.robot.period_s(), options.pipeline))
+  if (!expectation.start(session.expect, session.pipeline.recording,
+                         session.pipeline.robot.period_s(), options.pipeline))
     return kRefused;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;

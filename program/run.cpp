@@ -141,9 +141,10 @@ void print_files(const TrajectoryInput& input, const RunResult& result, const Fi
 
 /// A run that has not seen what its file states does not succeed.
 void judge(const Options& options, RunResult& result) {
+  result.expectation.take(result.tracking.data(), result.tracking_count);
   if (result.code != 0 || result.expectation.met()) return;
   end_with(result, kEndedOtherwise, "not as stated");
-  result.expectation.print_miss(options.pipeline);
+  result.expectation.print_misses(options.pipeline);
 }
 
 }  // namespace
@@ -179,7 +180,8 @@ int run(Session& session, const Options& options) {
   Realtime realtime;
   const bool accepted =
       read_input(session, options, input) &&
-      result.expectation.start(session.expect, session.pipeline.robot.period_s(), options.pipeline);
+      result.expectation.start(session.expect, session.pipeline.recording,
+                               session.pipeline.robot.period_s(), options.pipeline);
   if (!accepted ||
       (options.realtime && !(writer.start() && feed.start() && watchdog.start(session.realtime) &&
                              prepare(realtime, session.realtime)))) {

@@ -5,6 +5,7 @@ PARTS  := $(wildcard hal/cia402/*.cpp hal/can/*.cpp program/scan/*.cpp)
 
 # The pipelines that `make run` runs, with emulated drives on buses of a virtual machine.
 RUNS   += fer_jrg_pdgc_real
+PACKAGES := vm
 RUNNER := scripts/beside_drives
 
 TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/% tests/program/test_sections.cpp,$(TESTS))

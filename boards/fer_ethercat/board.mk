@@ -5,6 +5,7 @@ PARTS  := $(wildcard hal/cia402/*.cpp hal/ethercat/*.cpp program/scan_segment/*.
 
 # The pipelines that `make run` runs, with an emulated segment at the other end of a virtual cable.
 RUNS   += fer_jrg_pdgc_ethercat
+PACKAGES := ethercat
 RUNNER := scripts/beside_segment
 
 # All other tests are those of fer_segment.

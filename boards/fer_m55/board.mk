@@ -6,6 +6,7 @@ LDLIBS += -lmujoco
 
 # All simulated pipelines of the robot.
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
+PACKAGES := m7
 
 TESTS  := tests/serial/test_board_faults.cpp
 

@@ -7,6 +7,7 @@ LDLIBS += -lmujoco
 
 # All simulated pipelines of the robot.
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
+PACKAGES := m7
 
 TESTS  := $(filter tests/serial/%,$(TESTS)) $(if $(SANITIZE),,tests/trace/test_same_bits.cpp)
 # Beside those of one board: runs of all boards with a Cortex-M7 against this computer's.

@@ -7,6 +7,7 @@ LDLIBS += -lmujoco
 # All simulated pipelines of the robot.
 RUNS   += ur10_jrg_pdgc ur10_jrg_pid ur10_jrg_pid:ur10_five_waypoints_quintic
 RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_trg_ac_cpc ur10_trg_ac_cpc_pid
+PACKAGES := m7
 
 TESTS  := tests/serial/test_board_references.cpp
 

@@ -50,6 +50,8 @@ constexpr StatusWords words_of(Status status) {
     case Status::kChunkLate: return {"kChunkLate", "no target of the chunk is still ahead"};
     case Status::kEpochVoid: return {"kEpochVoid", "a stop has voided the epoch"};
     case Status::kPaused: return {"kPaused", "a pause holds the arm"};
+    case Status::kPointStep: return {"kPointStep", "point too far from the reference"};
+    case Status::kSaturated: return {"kSaturated", "held at the range's end"};
     case Status::kCannotLeave:
       return {"kCannotLeave", "a stop from the path that is followed would leave position limits"};
     case Status::kLeftPath: return {"kLeftPath", "the arm left its path while braking"};

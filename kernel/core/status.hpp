@@ -51,6 +51,8 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kChunkLate = 59,
     kEpochVoid = 60,
     kPaused = 61,
+    kPointStep = 62,
+    kSaturated = 63,
     // 64..95 cycle: the robot stops, the code is latched
     kStateNotFinite = 64,
     kReferenceFault = 65,

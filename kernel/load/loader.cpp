@@ -50,7 +50,7 @@ Message block_types() {
 
 }  // namespace
 
-Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error) {
+Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error, OwnLayout) {
   error = {};
   if (pipeline.count() > 0 || pipeline.ports.count() > 0)
     return error.refuse(Status::kBadValue, 0, {}, {},

@@ -10,6 +10,13 @@
 
 namespace tactus {
 
+/// What the memory of the kernel's types depends on. It is an argument of Loader::load(), so that a
+/// program for another robot, or with another number of targets, than the library that it links
+/// with has no such function: the linker's message names both.
+template <class OfRobot, int chunk_targets>
+struct Layout {};
+using OwnLayout = Layout<Robot, kChunkTargets>;
+
 class Loader {
  public:
   /// `channels` go to the generators of the pipeline; `offered` is what the robot and its wire can
@@ -26,7 +33,7 @@ class Loader {
 
   /// Fills a fresh `pipeline`. If the file is refused, `error` says where and why, and the pipeline
   /// must not be run. [init]
-  Status load(std::string_view text, Pipeline& pipeline, LoadError& error);
+  Status load(std::string_view text, Pipeline& pipeline, LoadError& error, OwnLayout = {});
 
  private:
   Status load_sections(const Ini& ini, Pipeline& pipeline, LoadError& error);

@@ -15,6 +15,8 @@ bool is_whole(std::string_view text) {
   return digits;
 }
 
+constexpr const char* kOutOfRange = " is out of range; it must be ";
+
 bool dimensionless(const char* unit) {
   return std::string_view(unit) == "1";
 }
@@ -74,6 +76,17 @@ std::string_view SectionReader::written(const char* key, int index) {
   return word;
 }
 
+void SectionReader::refuse_value(const char* key, const char* of, int index, double value,
+                                 const Range& range, const char* unit) {
+  Message reason(of);
+  if (!reason.empty()) reason << index + 1 << ": ";
+  if (find(key) == nullptr)
+    reason << "the default " << value;
+  else
+    reason << written(key, index);
+  refuse(Status::kBadValue, key, add_unit(reason, unit) << kOutOfRange << range);
+}
+
 bool SectionReader::numbers(const char* key, double* values, int count, bool joints,
                             const char* unit) {
   const IniEntry* entry = find(key);
@@ -106,10 +119,7 @@ bool SectionReader::numbers(const char* key, double* values, int count, bool joi
 void SectionReader::param(const char* key, double& value, const Range& range, const char* unit) {
   double read = value;
   if (!numbers(key, &read, 1, false, unit)) return;
-  if (!range.contains(read))
-    return refuse(Status::kBadValue, key,
-                  add_unit(Message("") << written(key, 0), unit)
-                      << " is out of range; it must be " << range);
+  if (!range.contains(read)) return refuse_value(key, "", 0, read, range, unit);
   value = read;
 }
 
@@ -124,9 +134,7 @@ void SectionReader::param(const char* key, int& value, const Range& range, const
                   Message("'") << entry->value << "' is not a whole number");
   int read = 0;
   if (!parse_number(entry->value, read) || !range.contains(read))
-    return refuse(Status::kBadValue, key,
-                  add_unit(Message("") << entry->value, unit)
-                      << " is out of range; it must be " << range);
+    return refuse_value(key, "", 0, read, range, unit);
   value = read;
 }
 
@@ -135,10 +143,7 @@ void SectionReader::param(const char* key, JointVector& value, const Range& rang
   JointVector read = value;
   if (!numbers(key, read.data(), kDof, true, unit)) return;
   for (int i = 0; i < kDof; ++i) {
-    if (!range.contains(read[i]))
-      return refuse(Status::kBadValue, key,
-                    add_unit(Message("joint ") << i + 1 << ": " << written(key, i), unit)
-                        << " is out of range; it must be " << range);
+    if (!range.contains(read[i])) return refuse_value(key, "joint ", i, read[i], range, unit);
   }
   value = read;
 }
@@ -147,10 +152,7 @@ void SectionReader::param(const char* key, Vector3& value, const Range& range, c
   Vector3 read = value;
   if (!numbers(key, read.data(), 3, false, unit)) return;
   for (int i = 0; i < 3; ++i) {
-    if (!range.contains(read[i]))
-      return refuse(Status::kBadValue, key,
-                    add_unit(Message("") << written(key, i), unit)
-                        << " is out of range; it must be " << range);
+    if (!range.contains(read[i])) return refuse_value(key, "", i, read[i], range, unit);
   }
   value = read;
 }
@@ -162,7 +164,7 @@ void SectionReader::limit(const char* key, JointVector& value, const char* unit)
     if (!(read[i] > 0.0 && read[i] <= value[i]))
       return refuse(Status::kBadValue, key,
                     add_unit(Message("joint ") << i + 1 << ": " << written(key, i), unit)
-                        << " is out of range; it must be > 0 and at most the robot's " << value[i]);
+                        << kOutOfRange << "> 0 and at most the robot's " << value[i]);
   }
   value = read;
 }

@@ -107,6 +107,10 @@ class SectionReader {
   bool numbers(const char* key, double* values, int count, bool joints, const char* unit);
   /// Returns the word in the file that gave value `index`.
   std::string_view written(const char* key, int index);
+  /// Refuses number `index`, `of` "joint " or of nothing in particular. One that the file does not
+  /// give is a default that its block may not have.
+  void refuse_value(const char* key, const char* of, int index, double value, const Range& range,
+                    const char* unit);
   void refuse_length(const char* key, std::size_t length, std::size_t limit);
   void refuse_missing(const char* key, const char* unit);
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "kernel/control/admittance.hpp"
 #include "kernel/control/cartesian_pose.hpp"
@@ -23,6 +24,14 @@ struct KindList {
   static constexpr std::size_t kCount = sizeof...(Each);
   /// The word of each kind in "type = ...".
   static constexpr std::array<const char*, kCount> kTypes = {Each::kType...};
+
+  static constexpr bool words_differ() {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::string_view(kTypes[i]) == kTypes[k]) return false;
+    }
+    return true;
+  }
 };
 
 #ifdef TACTUS_KINDS
@@ -40,6 +49,8 @@ using Kinds = KindList<RobotModel,               //
                        Admittance,               //
                        CartesianPose>;
 #endif
+
+static_assert(Kinds::words_differ(), "two kinds have the same kType: the second would never run");
 
 /// Stands for a type in an argument.
 template <class T>

@@ -67,6 +67,7 @@ Status Pipeline::for_each_block(Act act) {
 }
 
 Status Pipeline::start(const RobotState& measured) {
+  failed = -1;
   robot.set_measured(measured);
   robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
@@ -95,6 +96,7 @@ MotionState Pipeline::motion_state() const {
 }
 
 Status Pipeline::resume(const RobotState& measured) {
+  failed = -1;
   robot.set_measured(measured);
   return for_each_block([this](auto& block) { return resume_block(block, robot.period_s()); });
 }
@@ -105,8 +107,13 @@ Status Pipeline::step(const RobotState& measured, Timing* timing) {
   LoopBound<kMaxBlocks> steps;
   for (int i = 0; i < count_; ++i) {
     steps.tick();
-    TRY(with_block(blocks_[static_cast<std::size_t>(i)],
-                   [period_s](auto& block) { return step_block(block, period_s); }));
+    const Status status = with_block(blocks_[static_cast<std::size_t>(i)], [period_s](auto& block) {
+      return step_block(block, period_s);
+    });
+    if (status != Status::kOk) {
+      failed = static_cast<std::int8_t>(i);
+      return status;
+    }
     if (timing != nullptr) timing->lap_block(i);
   }
   return Status::kOk;

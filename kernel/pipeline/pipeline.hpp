@@ -45,7 +45,9 @@ class Pipeline {
   PortTable ports;
   Schedule schedule;  ///< the control chain, then the rows that the pipeline has
   bool takes_joints = false, takes_poses = false;  ///< spaces of its generators' references
-  Arena memory;                                    ///< what is left for further blocks
+  /// The last block whose step() was not kOk since start() or resume(); -1: none.
+  std::int8_t failed = -1;
+  Arena memory;  ///< what is left for further blocks
 
   /// Lists the sections of a file that are not blocks; a board adds its own.
   template <class Visitor>

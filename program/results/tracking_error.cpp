@@ -1,6 +1,5 @@
 #include "program/results/tracking_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tactus {
@@ -21,12 +20,13 @@ void TrackingError::add() {
     const Pose& b = *static_cast<const Pose*>(tracking_.measured->value);
     reference[3] = a.r.angularDistance(b.r);
     measured[3] = 0.0;
+    distance_ = larger_error(distance_, (a.p - b.p).norm());
   }
   ++count_;
   for (std::size_t i = 0; i < static_cast<std::size_t>(components_); ++i) {
     last_[i] = reference[i] - measured[i];
     squares_[i] += last_[i] * last_[i];
-    max_[i] = std::max(max_[i], std::abs(last_[i]));
+    max_[i] = larger_error(max_[i], std::abs(last_[i]));
   }
 }
 

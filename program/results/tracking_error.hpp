@@ -2,9 +2,16 @@
 // measurement.
 #pragma once
 
+#include <cmath>
+
 #include "kernel/pipeline/recorder.hpp"
 
 namespace tactus {
+
+/// Returns the larger error; one that is not a number outlasts every other. [any]
+inline double larger_error(double a, double b) {
+  return std::isnan(a) || b <= a ? a : b;
+}
 
 class TrackingError {
  public:
@@ -19,6 +26,8 @@ class TrackingError {
   double rms(int component) const;
   double max(int component) const { return max_[static_cast<std::size_t>(component)]; }
   double last(int component) const { return last_[static_cast<std::size_t>(component)]; }
+  /// Largest distance of the tip from its reference, m; 0 unless poses are compared.
+  double distance() const { return distance_; }
 
  private:
   static constexpr std::size_t kMaxComponents = 16;
@@ -28,6 +37,7 @@ class TrackingError {
   int components_ = 0;
   std::int64_t count_ = 0;
   std::array<double, kMaxComponents> squares_{}, max_{}, last_{};
+  double distance_ = 0.0;
 };
 
 }  // namespace tactus

@@ -12,9 +12,11 @@ struct ExpectSection {
   /// Bounds of the contact force: the largest magnitude of h's force, averaged by a low-pass.
   double contact_force_min = 0.0, contact_force_max = 1e4;
   double average_s = 0.5;  ///< time constant of the average; noise does not count as contact
+  /// Largest tracking error of a joint and of the tip's position; 0: not stated.
+  double tracking_rad = 0.0, tracking_m = 0.0;
 
-  /// True if a bound can fail. [any]
-  bool stated() const { return contact_force_min > 0.0 || contact_force_max < 1e4; }
+  /// True if a bound of the force can fail. [any]
+  bool states_force() const { return contact_force_min > 0.0 || contact_force_max < 1e4; }
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -22,6 +24,8 @@ struct ExpectSection {
     visit.param("contact_force_min", contact_force_min, Range{0.0, 1e4}, "N");
     visit.param("contact_force_max", contact_force_max, Range{0.0, 1e4}, "N");
     visit.param("average_s", average_s, Range{0.0, 60.0}, "s");
+    visit.param("tracking_rad", tracking_rad, kNonNegative, "rad");
+    visit.param("tracking_m", tracking_m, kNonNegative, "m");
   }
 };
 

@@ -1,9 +1,10 @@
 """What a run should show, computed from its pipeline file and its reference, and what it showed.
 
-Three cases, the first that applies:
+Four cases, the first that applies:
 - An admittance meets a box. At rest its spring and the touched surface balance: with the stiffness K along the face's
   normal, the penetration p of the reference, the requested force F_d and the surface's stiffness k, the force is
   (K p + F_d) / (1 + K / k).
+- The file states it: `[expect] tracking_rad`, `tracking_m`. The run itself has judged it on every cycle.
 - A law that damps the measured velocity instead of its error lags: PD with gravity compensation (eq. 2 of the paper) and
   a PID with `derivative = measurement`. With the friction of the simulated robot and the feed-forward F_V of a PID,
   K_P e + K_I integral(e) = K_D dq_d + friction(dq_d) - F_V dq_d, in steady motion.
@@ -21,6 +22,7 @@ from reporting.units import words
 
 SPRING = ("admittance's spring", "the balance of the admittance's spring, the requested force and the surface")
 LAG = ("lag by K_D, friction", "the law damps the measured velocity: it lags by (K_D × velocity + friction) / K_P")
+STATED = ("stated in the file", "the pipeline file states it, in [expect]")
 FOLLOWED = ("reference followed", "the reference is followed, ± the goal tolerance of its generator")
 FORCE_SHARE = 0.05  # of the expected force, by which the mean force may differ from it
 DRIVES_FRICTION = 1.0  # of fer_drives, times the identified friction
@@ -208,6 +210,15 @@ def judge_lag(predicted, error, tolerance):
     return Judgement("max joint error", words(seen, "rad"), *around(seen, expected, band, "rad", LAG))
 
 
+def judge_stated(run, what, unit):
+    """Returns the judgement of the error that the pipeline file states, or None."""
+    entry = run.summary.get("expect", {}).get(f"tracking_{unit}")
+    if entry is None:
+        return None
+    seen, stated = entry["seen"], entry["stated"]
+    return Judgement(what, words(seen, unit), f"at most {words(stated, unit)}", *STATED, bool(seen <= stated))
+
+
 def tolerance(run, reference, is_pose):
     """Returns the goal tolerance of the generator of a reference, m or the smallest of the joints, rad."""
     block = reference.partition(".")[0]
@@ -227,11 +238,14 @@ def judge(run):
     reference, measured = panels.pair(run, entry)
     is_pose = entry["quantity"] == "pose"
     unit = "m" if is_pose else entry["unit"]
+    what = "max tip error" if is_pose else "max joint error"
+    stated = judge_stated(run, what, unit)
+    if stated is not None:
+        return stated
     error = reference[:, :3] - measured[:, :3] if is_pose else reference - measured
     bound = tolerance(run, entry["reference"], is_pose) if panels.from_generator(run, entry["reference"]) else 0.0
     predicted = None if is_pose else lag(run, entry)
     if predicted is not None:
         return judge_lag(predicted, error, bound)
     largest = np.linalg.norm(error, axis=1).max() if is_pose else np.abs(error).max()
-    what = "max tip error" if is_pose else "max joint error"
     return Judgement(what, words(largest, unit), f"0 ± {words(bound, unit)}", *FOLLOWED, bool(largest <= bound))

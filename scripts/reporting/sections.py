@@ -183,7 +183,7 @@ def figures_of(run):
 
 
 def verdict_of(summary, judgement, folder):
-    """Returns the verdict in words and whether all was as expected."""
+    """Returns the verdict in words, and whether nothing was against what was expected."""
     if runs.is_skipped(folder):
         return table.SKIPPED, False
     if summary is None:
@@ -193,8 +193,8 @@ def verdict_of(summary, judgement, folder):
         refused = f"{table.REFUSED}: " if runs.is_refused(summary) else ""
         return refused + result.result_words(summary), False
     if judgement is None:
-        return "succeeded", True
-    return ("as expected" if judgement.met else "not as expected"), judgement.met
+        return table.NOT_COMPARED, True
+    return (table.AS_EXPECTED if judgement.met else f"not {table.AS_EXPECTED}"), judgement.met
 
 
 def moment_of(path):

@@ -4,6 +4,8 @@ from reporting.result import result_words
 
 HEADERS = ("run", "robot", "touched", "what", "seen", "expected", "verdict")
 REFUSED = "refused"  # without a summary and a log, or without a cycle, the run did not begin
+AS_EXPECTED = "as expected"
+NOT_COMPARED = "succeeded, not compared"  # nothing that the run recorded says what it should show
 SKIPPED = "skipped"  # the computer lacks what the run needs
 MOMENT = "%Y-%m-%d %H:%M:%S %Z"  # of a time that the report shows
 COUNTERS = ("run", "board", "Hz", "result", "limited", "slips", "heap", "step [µs]", "× real")
@@ -26,10 +28,13 @@ def cells(section):
 
 
 def headline(sections):
-    """Counts the runs that were as expected, and those that were skipped."""
-    skipped = sum(section.verdict == SKIPPED for section in sections)
-    met = f"{sum(section.met for section in sections)} of {len(sections)} runs as expected"
-    return met + (f", {skipped} skipped" if skipped else "")
+    """Counts the runs that were as expected, that succeeded with nothing to compare, and that were skipped."""
+    verdicts = [section.verdict for section in sections]
+    told = f"{verdicts.count(AS_EXPECTED)} of {len(sections)} runs as expected"
+    for verdict, word in ((NOT_COMPARED, "not compared"), (SKIPPED, "skipped")):
+        if count := verdicts.count(verdict):
+            told += f", {count} {word}"
+    return told
 
 
 def as_text(sections):

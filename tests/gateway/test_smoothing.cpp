@@ -59,20 +59,21 @@ int rows_of(const Swing& swing, const Recording& how) {
   return static_cast<int>(std::ceil(swing.duration_s * how.rate_hz)) + 1;
 }
 
-/// Writes a swing, which begins after a second of rest; returns its number of rows.
+/// Writes a swing from `from_s` on, which begins after `lead_s`; returns its number of rows.
 template <class Space>
-int record(const Swing& swing, const Recording& how, Random& random) {
+int record(const Swing& swing, const Recording& how, Random& random, double lead_s = 1.0,
+           double from_s = 0.0) {
   std::FILE* file = std::fopen(stream_file(), "wb");
   assert_non_null(file);
   write_header(file, how.fields, Space());
-  const int rows = rows_of(swing, how);
+  const int rows = rows_of(swing, how) - static_cast<int>(from_s * how.rate_hz);
   for (int i = 0; i < rows; ++i) {
-    const double t = std::min(i / how.rate_hz, swing.duration_s);
+    const double t = std::min(from_s + i / how.rate_hz, swing.duration_s);
     typename Space::Point point;
     set(swing, t, point);
     if (i == rows - 1) point = point.at_rest();
     disturb(point, random, how.noise);
-    std::fprintf(file, "%.9f", 1.0 + i / how.rate_hz);
+    std::fprintf(file, "%.9f", lead_s + i / how.rate_hz);
     write_rounded(file, how, point);
     std::fprintf(file, "\n");
   }
@@ -197,6 +198,43 @@ void a_file_longer_than_its_store_is_smoothed_on_its_way(void**) {
   ASSERT_STATUS(bench.outcome, Outcome::kSucceeded);
 }
 
+/// A recording that begins in motion is run up to: on the way to it no axis leaves the range
+/// between where the arm is and where the recording begins by more than the run-up takes.
+template <class Space>
+void run_up_to(double largest, double lead_s, Random& random) {
+  static StreamBench<Space> bench;
+  const Swing swing(random, largest, 3.0);
+  Recording how;
+  how.rate_hz = 100.0;
+  record<Space>(swing, how, random, lead_s, 0.3 * swing.duration_s);
+  assert_true(judge<Space>(bench, kTolerance, kMostRows).accepted);
+  const typename Space::Point home = home_of(Space());
+  typename Space::Point first;
+  set(swing, 0.3 * swing.duration_s, first);
+  const auto to = Space::difference(first, home).x;
+  ASSERT_OK(bench.generator.start(bench.channel, bench.params, home));
+  assert_true(bench.client.send(bench.channel.stores[0], bench.id).ok());
+  double beyond = 0.0;
+  for (int k = 0; k < lead_s / kStreamPeriod_s; ++k) {
+    bench.step();
+    const auto x = Space::difference(bench.out(), home).x;
+    beyond =
+        std::max({beyond, (x - to.cwiseMax(0.0)).maxCoeff(), (to.cwiseMin(0.0) - x).maxCoeff()});
+  }
+  assert_true(beyond < 0.5 * largest);
+  assert_true(apart(bench.out(), first) < 0.01 * largest);
+  for (int k = 0; k < (swing.duration_s + 1.0) / kStreamPeriod_s; ++k) bench.step();
+  ASSERT_STATUS(bench.outcome, Outcome::kSucceeded);
+}
+
+void the_way_to_a_recording_that_begins_in_motion_does_not_swing_out(void**) {
+  Random random{17};
+  for (const double lead_s : {1.0, 5.0, 20.0, 60.0}) {
+    run_up_to<JointSpace>(0.2, lead_s, random);
+    run_up_to<TaskSpace>(0.1, lead_s, random);
+  }
+}
+
 /// Corners that are meant, an interpolation that is asked for, no tolerance, noise beyond it.
 void what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given(void**) {
   Random random{14};
@@ -250,6 +288,7 @@ int main() {
       cmocka_unit_test(digits_that_were_not_written_are_found_again),
       cmocka_unit_test(noise_of_a_recording_is_told_from_its_motion),
       cmocka_unit_test(a_file_longer_than_its_store_is_smoothed_on_its_way),
+      cmocka_unit_test(the_way_to_a_recording_that_begins_in_motion_does_not_swing_out),
       cmocka_unit_test(what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given),
       cmocka_unit_test(digits_are_those_that_were_written),
   };

@@ -14,10 +14,12 @@ constexpr const char* kNames[] = {"one", "two", "three", "four", "five", "six"};
 
 struct Number {
   int value = 0;
+  double share = 0.5;
 
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("value", value, Range{0.0, 9.0}, "1");
+    visit.param("share", share, Range{0.0, 1.0}, "m");
   }
 };
 
@@ -62,6 +64,15 @@ void every_section_of_a_board_is_read_however_many_it_has(void**) {
   for (std::size_t i = 0; i < board.numbers.size(); ++i)
     assert_int_equal(board.numbers[i].value, kRead[i]);
   assert_int_equal(board.extra.value, 7);
+}
+
+/// A mistake of whoever wrote the section, not of whoever wrote the file.
+void a_default_out_of_its_own_range_is_refused_with_its_value(void**) {
+  static Bench bench("[one]\nvalue = 1\n");
+  Board board;
+  board.numbers[0].share = 5.0;
+  ASSERT_STATUS(bench.load(board), Status::kBadValue);
+  assert_true(bench.says("5: [one] share: the default 5 m is out of range; it must be in [0, 1]"));
 }
 
 void a_section_that_the_board_does_not_have_is_refused_with_those_it_has(void**) {
@@ -144,6 +155,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(every_section_of_a_board_is_read_however_many_it_has),
+      cmocka_unit_test(a_default_out_of_its_own_range_is_refused_with_its_value),
       cmocka_unit_test(a_section_that_the_board_does_not_have_is_refused_with_those_it_has),
       cmocka_unit_test(a_section_with_a_type_is_a_block_whatever_other_boards_call_theirs),
       cmocka_unit_test(a_mistake_in_a_section_of_a_board_is_refused_where_it_is),

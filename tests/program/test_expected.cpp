@@ -32,6 +32,18 @@ void a_lag_is_expected_as_the_gains_say(void**) {
   assert_true(has(output(), "\n0 of 1 runs as expected\n"));
 }
 
+/// What the file states counts in place of what the gains say; without a pair nothing is compared.
+void what_the_file_states_is_compared_and_nothing_is_no_success(void**) {
+  assert_int_equal(
+      shell("cd $S/t && (cat pipelines/lag.ini; printf '[expect]\ntracking_rad = 0.04\n') "
+            ">pipelines/own.ini && grep -v tracking pipelines/lag.ini >pipelines/bare.ini && "
+            "$R/scripts/run_all --no-pictures -- ./tactus own bare"),
+      0);
+  assert_true(has(output(), "  max joint error  30.0 mrad  at most 40 mrad  as expected\n"));
+  assert_true(
+      has(output(), "  succeeded, not compared\n\n1 of 2 runs as expected, 1 not compared\n"));
+}
+
 /// A PID that damps the measured velocity lags as that law does; one that damps the error does not.
 void a_pid_lags_only_if_it_damps_the_measured_velocity(void**) {
   assert_int_equal(
@@ -93,6 +105,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_lag_is_expected_as_the_gains_say),
+      cmocka_unit_test(what_the_file_states_is_compared_and_nothing_is_no_success),
       cmocka_unit_test(a_pid_lags_only_if_it_damps_the_measured_velocity),
       cmocka_unit_test(a_penetration_is_measured_from_the_face_to_the_foremost_point),
       cmocka_unit_test(a_figure_keeps_peaks_and_lets_no_orientation_jump),

@@ -55,6 +55,18 @@ void a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest
   assert_true(last_velocity("lag/log.csv") <= 0.01);
 }
 
+/// A wrench sensor reads more than its block allows.
+void a_block_that_ends_the_chain_is_named(void**) {
+  const Line pipeline =
+      write("block.ini", {"[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n[plant]\n"
+                          "ft_noise_force_N = 2.5\n[model]\ntype = robot_model\nq = robot.q\n"
+                          "dq = robot.dq\n[sensor]\ntype = wrench_front_end\nft = robot.ft\n"
+                          "x = model.x\ntool = robot.tool\nmax_force = 10\nmax_moment = 30\n"
+                          "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"});
+  assert_int_equal(run_into("block", pipeline.c_str(), "1", nullptr, "2"), 1);
+  assert_true(has(errors(), "(73): block [sensor]\n"));
+}
+
 /// In the middle of its motion.
 void a_run_whose_time_has_passed_brakes_the_arm_before_it_ends(void**) {
   const Line pipeline = write("cut.ini", {kPositions});
@@ -105,6 +117,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest),
+      cmocka_unit_test(a_block_that_ends_the_chain_is_named),
       cmocka_unit_test(a_run_whose_time_has_passed_brakes_the_arm_before_it_ends),
       cmocka_unit_test(an_interrupt_brakes_the_arm_before_the_run_ends),
       cmocka_unit_test(the_summary_tells_the_times_of_every_block_and_row),

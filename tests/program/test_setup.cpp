@@ -9,6 +9,9 @@ constexpr const char* kDpkg =
     "echo \"$(dpkg --print-architecture) installed\"\n";
 constexpr const char* kApt =
     "#!/bin/sh\necho \"$*\" >>$S/words\n"
+    "if [ -e $S/locked ]; then rm $S/locked\n"
+    "  echo 'E: Could not get lock /var/lib/dpkg/lock-frontend. It is held by process 7 (apt)'\n"
+    "  exit 100\nfi\n"
     "case \"$*\" in\n"
     "*--assume-no*) echo '0 upgraded, 7 newly installed, 0 to remove and 133 not upgraded.'\n"
     "  echo 'Need to get 45.5 MB of archives.'\n"
@@ -80,6 +83,16 @@ void a_phase_that_fails_shows_why_and_ends_it(void**) {
   std::remove(in_folder("fails").c_str());
 }
 
+/// It is not refused, though apt-get is.
+void another_program_that_installs_is_waited_for(void**) {
+  write("locked", {});
+  assert_int_equal(setup("", "make\n"), 0);
+  assert_true(
+      has(output(),
+          "setup: reading the lists of packages\nsetup: reading the lists of packages waits "
+          "for process 7 (apt), which holds the lock of the packages\nsetup: 1 packages"));
+}
+
 void who_is_not_root_gets_the_command(void**) {
   assert_int_equal(setup("", "make\nhelp2man\n", "1000"), 1);
   assert_true(errors() ==
@@ -106,6 +119,7 @@ int main(int, char** argv) {
       cmocka_unit_test(it_says_what_it_downloads_before_it_does_and_one_line_per_phase),
       cmocka_unit_test(each_word_adds_its_packages),
       cmocka_unit_test(a_phase_that_fails_shows_why_and_ends_it),
+      cmocka_unit_test(another_program_that_installs_is_waited_for),
       cmocka_unit_test(who_is_not_root_gets_the_command),
       cmocka_unit_test(help_lists_the_words_and_any_other_is_refused),
   };

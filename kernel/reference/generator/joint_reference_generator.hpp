@@ -36,7 +36,7 @@ struct JointReferenceGenerator : StreamOutputs<> {
     visit.param("start_tolerance", params.start_tolerance, Range{0.0, 0.5}, "rad");
     visit.param("path_tolerance", params.path_tolerance, kNonNegative, "rad");
     visit.param("goal_tolerance", params.goal_tolerance, kNonNegative, "rad");
-    params.generator.describe(visit, "rad/s");
+    params.generator.describe(visit, "rad", "rad/s");
     visit.in("q", q);
     visit.optional("dq", dq);
     visit.optional("tau", tau);

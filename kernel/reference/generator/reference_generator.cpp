@@ -53,9 +53,10 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   ++cycles_;
   time_s_ = static_cast<double>(cycles_) * period_s_;
   begun_ = false;
-  assert(params_.online == OnlineMode::kLimit ||
+  if constexpr (kStreams) stream_.step_s -= dt_s;
+  assert(params_.online != OnlineMode::kForward ||
          (phase() != Phase::kLeaving && !motion_.gives_velocity()));
-  motion_.move_on(dt_s);
+  motion_.move_on(dt_s, approach_speed());
   pass_outputs();
   watch_supply();
   watch_goal(dt_s, measured);
@@ -126,7 +127,7 @@ void ReferenceGenerator<Space>::watch_stream(double dt_s) {
   const bool watched = params_.timeout_s > 0.0;
   if (motion_.silent() && (watched || motion_.gives_velocity())) return motion_.stop();
   if (!watched || point_age_s_ < params_.timeout_s) return;
-  if (params_.online == OnlineMode::kLimit && phase() != Phase::kHolding) return;
+  if (params_.online != OnlineMode::kForward && phase() != Phase::kHolding) return;
   point_age_s_ = -kInfinity;
   if (!reference().idle()) motion_.stop();
 }

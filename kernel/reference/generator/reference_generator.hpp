@@ -19,7 +19,7 @@ namespace tactus {
 enum class OnlineMode : std::uint8_t {
   kForward,  ///< the point becomes the reference as it is
   kLimit,    ///< the reference goes to it within velocity, acceleration and jerk limits
-  kRefuse,   ///< as kForward, but a point that exceeds the velocity limits is refused
+  kRefuse,   ///< as kForward, but a step beyond the velocity limits is refused: judge_step()
 };
 
 constexpr const char* name(OnlineMode online) {
@@ -38,12 +38,22 @@ struct MotionState {
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
-/// The account of chunks and velocities.
+/// What bounds the way to points that are far from the reference.
+struct PointBounds {
+  double max_step = 0.0;        ///< largest distance of a point: rad, for a tip m and rad; 0: any
+  double approach_speed = 1.0;  ///< share of the velocity limits that closes the distance, (0, 1]
+};
+
+/// The account of points, chunks and velocities.
 template <class Space>
 struct StreamAccount {
   EpochGate gate;
-  std::uint32_t id = 0;  ///< the last one that took effect
-  bool expired = false;  ///< no successor came in time, and the client was told
+  std::uint32_t id = 0;    ///< the last one that took effect
+  bool expired = false;    ///< no successor came in time, and the client was told
+  bool saturates = false;  ///< the client was told that points are beyond a range
+  /// Time in which a point still counts as a successor of one that was refused for its step.
+  double step_s = 0.0;
+  bool approaches = false;  ///< the reference is on its way to such a successor
   /// Kept as they are by every stop. A start commands none, so that none that people have changed
   /// in the meantime changes back.
   OutputDelay outputs;
@@ -60,6 +70,7 @@ class ReferenceGenerator {
     Tolerances<Space> tolerances;  ///< for goals that give none of their own
     int latency_cycles = 0;        ///< 0..16; 0: measured in the next cycle
     OnlineMode online = OnlineMode::kForward;
+    OnlyWithStreams<PointBounds> points;
     /// Longest time without a new point after which a moving online reference is stopped; 0: none.
     double timeout_s = 0.0;
     int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none
@@ -120,6 +131,12 @@ class ReferenceGenerator {
   bool canceled(const Request<Space>& request);
   void refuse(const Request<Space>& request, Status why);
   Verdict judge_point(const Point& point) const;
+  Verdict judge_step(const Point& point, bool& forwards);
+  bool tell_saturated(const Verdict& verdict);
+  double approach_speed() const {
+    if constexpr (kStreams) return params_.points.approach_speed;
+    return 1.0;
+  }
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
   void take_append(const Request<Space>& request);
@@ -133,7 +150,7 @@ class ReferenceGenerator {
     return false;
   }
   void void_request(const Request<Space>& request);
-  void begin_stream(std::uint32_t id);
+  void begin_stream(std::uint32_t id, const Verdict& told = {});
   void pass_outputs();
   void watch_expiry();
   void watch_supply();

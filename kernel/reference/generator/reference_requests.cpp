@@ -146,8 +146,40 @@ template <class Space>
 Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
   const typename Space::Limits& limits = channel_->settings.limits;
   const Verdict verdict = judge_online<Space>(point, limits);
-  if (!verdict.ok() || params_.online != OnlineMode::kRefuse) return verdict;
-  return judge_reach<Space>(reference(), point, limits, period_s_);
+  if constexpr (kStreams) {
+    const double most = params_.points.max_step;
+    if (verdict.ok() && most > 0.0) return judge_distance<Space>(reference(), point, most);
+  }
+  return verdict;
+}
+
+/// Judges the step to a point where steps are refused. Of several the first is; the points that
+/// follow it within kSlowest_s are not forwarded but approached within limits, until the reference
+/// rests with them.
+template <class Space>
+Verdict ReferenceGenerator<Space>::judge_step(const Point& point, bool& forwards) {
+  const Verdict verdict =
+      judge_reach<Space>(reference(), point, channel_->settings.limits, period_s_);
+  if constexpr (kStreams) {
+    const bool follows = stream_.step_s > 0.0;
+    stream_.approaches = follows && stream_.approaches && phase() != Phase::kHolding;
+    forwards = verdict.ok() && !stream_.approaches;
+    stream_.approaches = follows && !forwards;
+    stream_.step_s = forwards ? 0.0 : kSlowest_s;
+    if (follows) return {};
+  }
+  return verdict;
+}
+
+/// True once for points that follow each other beyond the end of a range.
+template <class Space>
+bool ReferenceGenerator<Space>::tell_saturated(const Verdict& verdict) {
+  bool told = true;
+  if constexpr (kStreams) {
+    told = stream_.saturates;
+    stream_.saturates = !verdict.ok();
+  }
+  return !verdict.ok() && !told;
 }
 
 /// Takes a point, which ends whatever ran before it: the paper's rule.
@@ -155,17 +187,20 @@ template <class Space>
 void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   assert(refusing_ == Status::kOk);
   const typename Space::Limits& limits = channel_->settings.limits;
-  const Point point =
-      Space::placed(request.point, Space::latch(request.header, reference(), limits));
-  const Verdict verdict = judge_point(point);
+  Point point = Space::placed(request.point, Space::latch(request.header, reference(), limits));
+  Verdict told;
+  if (kStreams && params_.online == OnlineMode::kLimit) told = Space::saturate(point, limits);
+  bool forwards = params_.online != OnlineMode::kLimit;
+  Verdict verdict = judge_point(point);
+  if (verdict.ok() && params_.online == OnlineMode::kRefuse) verdict = judge_step(point, forwards);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   double stamp_s = kNoStamp;
   if constexpr (kStreams) stamp_s = request.details.stamp_s;
-  params_.online == OnlineMode::kLimit ? motion_.reach(point, stamp_s) : motion_.forward(point);
+  forwards ? motion_.forward(point) : motion_.reach(point, stamp_s);
   end_running(Outcome::kAborted, !motion_.on_path());
   point_age_s_ = 0.0;
   if constexpr (kStreams) stream_.outputs.ask(request.details.outputs, time_s());
-  report(request.id, Outcome::kExecuted);
+  report(request.id, Outcome::kExecuted, -1, tell_saturated(told) ? told : Verdict());
 }
 
 /// Begins a trajectory at once, lets it wait for its start time, or joins it late. A newer one

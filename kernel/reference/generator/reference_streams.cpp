@@ -101,6 +101,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       chunk.release();
       return take_point(point);
     }
+    const Verdict told = chunk.told;  // the plan may release the chunk at once
     const int passed = targets_until(chunk, time_s());
     const bool late = passed == chunk.count;
     Verdict verdict;
@@ -116,7 +117,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       return report(request.id, Outcome::kRefused, -1, verdict);
     }
     channel_->stream.trimmed += static_cast<std::uint32_t>(passed);
-    begin_stream(request.id);
+    begin_stream(request.id, told);
   }
 }
 
@@ -136,12 +137,12 @@ void ReferenceGenerator<Space>::take_velocity(const Request<Space>& request) {
 }
 
 template <class Space>
-void ReferenceGenerator<Space>::begin_stream(std::uint32_t id) {
+void ReferenceGenerator<Space>::begin_stream(std::uint32_t id, const Verdict& told) {
   end_running(Outcome::kAborted, true);
   point_age_s_ = -kInfinity;
   stream_.id = id;
   stream_.expired = false;
-  report(id, Outcome::kExecuted);
+  report(id, Outcome::kExecuted, -1, tell_saturated(told) ? told : Verdict());
 }
 
 /// Tells once when a chunk or a velocity was not followed by another in time, and publishes what

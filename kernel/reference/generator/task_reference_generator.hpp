@@ -37,7 +37,7 @@ struct TaskReferenceGenerator : StreamOutputs<> {
     visit.param("path_angle_tolerance", p.path_tolerance.angle_rad, kNonNegative, "rad");
     visit.param("goal_position_tolerance", p.goal_tolerance.position_m, kNonNegative, "m");
     visit.param("goal_angle_tolerance", p.goal_tolerance.angle_rad, kNonNegative, "rad");
-    p.generator.describe(visit, "m/s");
+    p.generator.describe(visit, "m", "m/s");
     visit.in("x", x);
     visit.optional("v", v);
     visit.optional("h", h);

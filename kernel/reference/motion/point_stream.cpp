@@ -9,8 +9,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kSlowest_s = 0.25;  // points farther apart are no stream,
-constexpr double kNearest_s = 1e-4;  // nor are those with stamps closer together
+constexpr double kNearest_s = 1e-4;  // stamps closer together are those of no stream
 // Least distance of points that are kept, against noise; those without stamps are also sent by
 // programs that compute them in every cycle.
 constexpr double kApartStamped_s = 0.03, kApart_s = 0.01;

@@ -24,6 +24,9 @@
 
 namespace tactus {
 
+/// Points farther apart are no stream.
+inline constexpr double kSlowest_s = 0.25;
+
 template <class Space>
 class PointStream {
  public:

@@ -99,6 +99,7 @@ struct JointSpace {
   };
 
   static Verdict judge_waypoint(const Point& point, const Limits& limits);
+  static Verdict saturate(Point& point, const Limits& limits);
   static Peaks peaks(const Limits& limits);
   /// Bounds by the Bernstein hull, replaced by the exact extrema where they exceed `most` or a
   /// position limit, unless `care` is kQuick.
@@ -147,7 +148,8 @@ struct JointSpace {
   }
 
   static Point approach(const Point& reference, Difference& offset, const Point& base,
-                        const Point& next, bool steps, const Limits& limits, double dt_s);
+                        const Point& next, bool steps, const Limits& limits, double dt_s,
+                        double speed = 1.0);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Every joint takes its own fastest way.
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);

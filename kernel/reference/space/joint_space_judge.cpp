@@ -43,6 +43,18 @@ Verdict JointSpace::judge_waypoint(const Point& point, const Limits& limits) {
   return {};
 }
 
+Verdict JointSpace::saturate(Point& point, const Limits& limits) {
+  Verdict first;
+  for (int j = 0; j < kDof; ++j) {
+    const Verdict told =
+        tactus::saturate(point.q[j], point.dq[j], limits.q_min[j], limits.q_max[j], j);
+    if (told.ok()) continue;
+    point.ddq[j] = 0.0;
+    if (first.ok()) first = told;
+  }
+  return first;
+}
+
 JointSpace::Peaks JointSpace::peaks(const Limits& limits) {
   Peaks peaks;
   for (int j = 0; j < kDof; ++j) {

@@ -49,6 +49,15 @@ Verdict judge_reach(const typename Space::Point& from, const typename Space::Poi
   return judge_velocity<Space>(Space::secant(from, to, dt_s), limits);
 }
 
+/// Judges the distance of a point from the reference, m or rad: kPointStep. [cyclic]
+template <class Space>
+Verdict judge_distance(const typename Space::Point& from, const typename Space::Point& to,
+                       double most_apart) {
+  typename Space::Levels most;
+  most.fill(most_apart);
+  return judge_lengths<Space>(Space::secant(from, to, 1.0), most, Status::kPointStep);
+}
+
 /// Judges the last waypoint, which must be at rest as nothing follows it: kNotAtRest. [any]
 template <class Space>
 Verdict judge_end(const typename Space::Point& end) {

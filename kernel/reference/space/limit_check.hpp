@@ -1,6 +1,9 @@
 // Comparison of values with limits, the same in every space.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "kernel/core/verdict.hpp"
 #include "kernel/reference/space/peaks.hpp"
 #include "kernel/reference/space/polynomial.hpp"
@@ -16,6 +19,22 @@ inline constexpr double kRest = 1e-6;
 /// True if the value is above the limit by more than rounding, or NaN. [any]
 inline bool exceeds(double value, double limit) {
   return !(value <= limit + kLimitRounding);
+}
+
+/// How far beyond a range a point may be to be held at its end, rad or m; farther out it is
+/// refused.
+inline constexpr double kMostSaturated = 0.1;
+
+/// Moves a position that is beyond a range, and by at most kMostSaturated, to the end of the range,
+/// at rest or on its way inwards: kSaturated. [cyclic]
+inline Verdict saturate(double& position, double& velocity, double lowest, double highest,
+                        int axis) {
+  const double given = position, held = std::clamp(given, lowest, highest);
+  if (!exceeds(std::abs(given - held), 0.0) || exceeds(std::abs(given - held), kMostSaturated))
+    return {};
+  position = held;
+  velocity = held < given ? std::min(velocity, 0.0) : std::max(velocity, 0.0);
+  return {Status::kSaturated, -1, axis, given, held};
 }
 
 /// Judges a magnitude against its limit. [any]

@@ -142,6 +142,10 @@ struct SpaceContract : std::true_type {
   /// Judges a waypoint by what no slower passage can repair: finite numbers, position, effort.
   /// [cyclic]
   static_assert(kSame<decltype(S::judge_waypoint), Verdict(const Point&, const Limits&)>);
+  /// Moves a point that is beyond the end of a range by at most kMostSaturated to that end, without
+  /// velocity to the outside. Returns kSaturated with the given value and that end, or kOk.
+  /// [cyclic]
+  static_assert(kSame<decltype(S::saturate), Verdict(Point&, const Limits&)>);
   /// Returns the velocity, acceleration and jerk limits. [any]
   static_assert(kSame<decltype(S::peaks), Peaks(const Limits&)>);
   /// Returns upper bounds of what a segment takes, close or exact where a coarse bound exceeds the
@@ -195,12 +199,14 @@ struct SpaceContract : std::true_type {
   static_assert(
       kSame<decltype(S::judge_placed), Verdict(const Extent&, const Placement&, const Limits&)>);
 
-  /// approach(reference, offset, base, next, steps, limits, dt_s) returns the reference one period
-  /// ahead, on its way to a base that moves from `base` to `next` in that period; `offset` becomes
-  /// its difference from `next`. A reference within all limits stays within them, except for the
-  /// steps in velocity or acceleration of a base that has them (`steps`). [cyclic]
-  static_assert(kSame<decltype(S::approach), Point(const Point&, Difference&, const Point&,
-                                                   const Point&, bool, const Limits&, double)>);
+  /// approach(reference, offset, base, next, steps, limits, dt_s, speed) returns the reference one
+  /// period ahead, on its way to a base that moves from `base` to `next` in that period; `offset`
+  /// becomes its difference from `next`, and is closed at no more than the share `speed` of the
+  /// velocity limits. A reference within all limits stays within them, except for the steps in
+  /// velocity or acceleration of a base that has them (`steps`). [cyclic]
+  static_assert(
+      kSame<decltype(S::approach), Point(const Point&, Difference&, const Point&, const Point&,
+                                         bool, const Limits&, double, double)>);
   /// can_stop(reference, limits, dt_s) is true if the way to rest stays inside the position limits,
   /// or goes no further out than it is now, to 1e-9 (rad or m). [cyclic]
   static_assert(kSame<decltype(S::can_stop), bool(const Point&, const Limits&, double)>);

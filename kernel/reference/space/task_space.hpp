@@ -131,6 +131,7 @@ struct TaskSpace {
 
   /// Also refuses a quaternion whose length is off by more than 1e-3: kQuaternion.
   static Verdict judge_waypoint(const Point& point, const Limits& limits);
+  static Verdict saturate(Point& point, const Limits& limits);
   static Peaks peaks(const Limits& limits);
   /// The box by the Bernstein hull, or exactly if the hull leaves the workspace or the workspace is
   /// not known yet, unless `care` is kQuick. Lengths by the upper bounds of vector_bounds.hpp, so
@@ -184,7 +185,8 @@ struct TaskSpace {
   }
 
   static Point approach(const Point& reference, Difference& offset, const Point& base,
-                        const Point& next, bool steps, const Limits& limits, double dt_s);
+                        const Point& next, bool steps, const Limits& limits, double dt_s,
+                        double speed = 1.0);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Translation and rotation stop independently of each other (vector_stop.hpp).
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);

@@ -87,6 +87,18 @@ Verdict TaskSpace::judge_waypoint(const Point& point, const Limits& limits) {
        at_most(point.h.tail<3>().norm(), limits.moment_max, Status::kEffortLimit, kRotation)});
 }
 
+Verdict TaskSpace::saturate(Point& point, const Limits& limits) {
+  Verdict first;
+  for (int i = 0; i < 3; ++i) {
+    const Verdict told =
+        tactus::saturate(point.x.p[i], point.v[i], limits.p_min[i], limits.p_max[i], i);
+    if (told.ok()) continue;
+    point.a[i] = 0.0;
+    if (first.ok()) first = told;
+  }
+  return first;
+}
+
 TaskSpace::Peaks TaskSpace::peaks(const Limits& limits) {
   return {{limits.v_max, limits.w_max},
           {limits.a_max, limits.alpha_max},

@@ -1,0 +1,242 @@
+// What bounds points: approach_speed and max_step, a step that is refused, and the end of a range.
+// Every cycle is judged by the oracle of motions as well.
+#include "kernel/reference/space/judge_channels.hpp"
+#include "tests/reference/motion/checked_motion.hpp"
+#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/support/trials.hpp"
+
+namespace {
+
+using namespace tactus;
+
+/// Largest velocity of the last period, as a share of its limit.
+template <class Space>
+double share_of_limits(const CheckedMotion<Space>& bench, const typename Space::Point& before) {
+  const auto peaks = Space::peaks(bench.channel.settings.limits);
+  const auto rates = Space::secant(before, bench.out(), bench.period_s);
+  double most = 0.0;
+  for (std::size_t c = 0; c < peaks.v.size(); ++c)
+    most =
+        std::max(most, length<Space::kChannelSize>(&rates[Space::kChannelSize * c]) / peaks.v[c]);
+  return most;
+}
+
+template <class Space>
+Report answer(CheckedMotion<Space>& bench, const typename Space::Point& point) {
+  const std::uint32_t id = bench.send(point);
+  assert_int_not_equal(id, 0);
+  bench.cycle();
+  return bench.report_of(id);
+}
+
+/// Goes to places at random, some of them on the way to others, and arrives exactly.
+template <class Space>
+void approaches_at_its_share(std::uint64_t seed) {
+  Dice dice{seed};
+  CheckedMotion<Space> bench(dice.chance(0.5) ? 1e-3 : 4e-3);
+  bench.params.points.approach_speed = dice.uniform(0.05, 1.0);
+  ASSERT_OK(bench.start(bench.home));
+  const double most = bench.params.points.approach_speed * (1.0 + 1e-6);
+  typename Space::Point goal;
+  for (int place = 0; place < 3; ++place) {
+    goal = moved_by(bench.home, dice.uniform(-0.3, 0.3));
+    ASSERT_STATUS(answer(bench, goal).outcome, Outcome::kExecuted);
+    const int cycles = bench.cycles(place < 2 ? dice.uniform(0.3, 2.0) : 20.0);
+    for (int k = 0; k < cycles; ++k) {
+      const typename Space::Point before = bench.out();
+      bench.cycle();
+      assert_true(share_of_limits(bench, before) <= most);
+    }
+  }
+  assert_true(Space::difference(bench.out(), goal).zero());
+}
+
+// Proves RG-33.
+
+void points_are_approached_at_the_share_of_the_file(void**) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(trials(20)); ++seed) {
+    approaches_at_its_share<JointSpace>(seed);
+    approaches_at_its_share<TaskSpace>(seed);
+  }
+}
+
+/// After a silence the stream is 0.8 rad away and moves on; once it is reached it is followed as by
+/// any reference, at a velocity above the share.
+void a_stream_that_comes_back_is_caught_up_with_slowly(void**) {
+  CheckedJoints bench;
+  bench.params.points.approach_speed = 0.2;
+  ASSERT_OK(bench.start(bench.home));
+  const double most = bench.channel.settings.limits.dq_max[0];
+  double fastest = 0.0, behind = 0.0;
+  for (int k = 0; k < bench.cycles(6.0); ++k) {
+    const double t = bench.generator.time_s(), x = 0.8 + 0.3 * std::sin(t);
+    if (k % 10 == 0) assert_int_not_equal(bench.send(moved_by(bench.home, x)), 0);
+    bench.cycle();
+    bench.report_of(0);
+    const double closing = std::abs(bench.out().dq[0] - 0.3 * std::cos(t));
+    if (t < 5.0) fastest = std::max(fastest, closing);
+    behind = std::abs(bench.out().q[0] - bench.home.q[0] - x);
+  }
+  assert_true(fastest <= 0.3 * most && fastest >= 0.19 * most);
+  assert_true(behind <= 0.01);
+}
+
+template <class Space>
+void refuses_beyond_the_step(OnlineMode online) {
+  CheckedMotion<Space> bench(1e-3, online);
+  bench.params.points.max_step = 0.1;
+  ASSERT_OK(bench.start(bench.home));
+  const Report report = answer(bench, moved_by(bench.home, 0.1001));
+  ASSERT_STATUS(report.outcome, Outcome::kRefused);
+  ASSERT_STATUS(report.verdict.status, Status::kPointStep);
+  ASSERT_NEAR(report.verdict.value, 0.1001, 1e-9);
+  ASSERT_NEAR(report.verdict.limit, 0.1, 1e-8);
+  assert_true(Space::difference(bench.out(), bench.home).zero());
+  if (online != OnlineMode::kLimit) return;
+  ASSERT_STATUS(answer(bench, moved_by(bench.home, 0.0999)).outcome, Outcome::kExecuted);
+}
+
+// Proves RG-34.
+
+void a_point_beyond_max_step_is_refused_in_every_mode(void**) {
+  for (const OnlineMode online : {OnlineMode::kForward, OnlineMode::kLimit, OnlineMode::kRefuse}) {
+    refuses_beyond_the_step<JointSpace>(online);
+    refuses_beyond_the_step<TaskSpace>(online);
+  }
+}
+
+/// A ramp of 0.2 rad/s steps by 0.02 rad, goes on, and ends: the step is refused, its successors
+/// are not, and the reference rests where they end.
+template <class Space>
+void refuses_one_step() {
+  CheckedMotion<Space> bench(1e-3, OnlineMode::kRefuse);
+  bench.oracle.forget();
+  int refused = 0;
+  typename Space::Point sent;
+  for (int k = 1; k <= 1000; ++k) {
+    sent = moved_by(bench.home, 2e-4 * std::min(k, 600) + (k > 100 ? 0.02 : 0.0));
+    const typename Space::Point before = bench.out();
+    const std::uint32_t id = bench.send(sent);
+    ASSERT_OK(bench.step());
+    refused += bench.report_of(id).outcome == Outcome::kRefused ? 1 : 0;
+    assert_true(share_of_limits(bench, before) <= 1.0 + 1e-9);
+  }
+  assert_int_equal(refused, 1);
+  ASSERT_NEAR(Space::difference(bench.out(), sent).x.norm(), 0.0, 1e-5);
+}
+
+void a_refused_step_does_not_refuse_its_successors(void**) {
+  refuses_one_step<JointSpace>();
+  refuses_one_step<TaskSpace>();
+}
+
+/// A point that is far from those before and after it is never gone to, whether they give
+/// velocities or not.
+void leaves_out_outliers(double velocity) {
+  CheckedJoints bench(1e-3, OnlineMode::kRefuse);
+  for (int k = 1; k <= 200; ++k) {
+    JointSpace::Point sent = moved_by(bench.home, k % 50 == 0 ? 0.3 : 1e-4 * k);
+    sent.dq[0] = velocity;
+    const std::uint32_t id = bench.send(sent);
+    ASSERT_OK(bench.step());
+    const bool outlier = k % 50 == 0;
+    ASSERT_STATUS(bench.report_of(id).outcome, outlier ? Outcome::kRefused : Outcome::kExecuted);
+    if (!outlier) assert_true(JointSpace::difference(bench.out(), sent).zero());
+  }
+}
+
+void a_single_outlier_is_left_out(void**) {
+  leaves_out_outliers(0.0);
+  leaves_out_outliers(0.1);
+}
+
+// Proves RG-35.
+
+/// A leader with more range: its joint goes 0.08 rad beyond the end of the follower's and back.
+void points_beyond_a_range_are_held_at_its_end_and_told_once(void**) {
+  CheckedJoints bench;
+  const double end = bench.channel.settings.limits.q_max[0];
+  int told = 0;
+  for (int k = 0; k < bench.cycles(8.0); ++k) {
+    const double t = bench.generator.time_s();
+    JointSpace::Point point = bench.home;
+    point.q[0] = end - 0.3 + 0.38 * std::sin(0.785 * t);
+    if (k % 10 == 0) assert_int_not_equal(bench.send(point), 0);
+    bench.cycle();
+    Report report;
+    while (bench.client.poll(report)) {
+      ASSERT_STATUS(report.outcome, Outcome::kExecuted);
+      if (report.verdict.ok()) continue;
+      ++told;
+      ASSERT_STATUS(report.verdict.status, Status::kSaturated);
+      ASSERT_NEAR(report.verdict.limit, end, 0.0);
+    }
+  }
+  assert_int_equal(told, 1);
+}
+
+/// Beyond what counts as a little, not finite, or where the sender keeps the limits: refused.
+void what_is_far_beyond_a_range_is_refused(void**) {
+  const auto beyond = [](CheckedJoints& bench, double by) {
+    JointSpace::Point point = bench.home;
+    point.q[2] = bench.channel.settings.limits.q_min[2] - by;
+    std::uint32_t id = 0;
+    const Verdict verdict = bench.client.send(point, id);
+    if (!verdict.ok()) return verdict.status;
+    static_cast<void>(bench.step());
+    return bench.report_of(id).verdict.status;
+  };
+  CheckedJoints limits, forwards(1e-3, OnlineMode::kForward);
+  ASSERT_STATUS(beyond(limits, kMostSaturated + 1e-6), Status::kPositionLimit);
+  ASSERT_STATUS(beyond(limits, kInfinity), Status::kReferenceNotFinite);
+  ASSERT_STATUS(beyond(limits, std::nan("")), Status::kReferenceNotFinite);
+  ASSERT_STATUS(beyond(limits, kMostSaturated), Status::kSaturated);
+  ASSERT_STATUS(beyond(forwards, 1e-3), Status::kPositionLimit);
+}
+
+/// Chunks likewise: those of a policy whose targets pass the end of a range.
+void chunks_beyond_a_range_are_held_at_its_end_and_told_once(void**) {
+  CheckedJoints bench;
+  static Chunk<JointSpace> chunk;
+  chunk = {};
+  const double end = bench.channel.settings.limits.q_max[1];
+  int told = 0;
+  double highest = -kInfinity;
+  for (int k = 0; k < bench.cycles(6.0); ++k) {
+    const double now = bench.generator.time_s();
+    if (k % 250 == 0) {
+      chunk.count = 0;
+      ++chunk.sequence;
+      for (int i = 1; i <= 10; ++i) {
+        JointSpace::Point point = bench.home;
+        const double x = std::min((now + 0.05 * i) / 3.0, 1.0);
+        point.q[1] += (end + 0.09 - bench.home.q[1]) * x * x * (3.0 - 2.0 * x);
+        chunk.add(now + 0.05 * i, point);
+      }
+      std::uint32_t id = 0;
+      ASSERT_STATUS(bench.client.send(chunk, id).status, Status::kOk);
+    }
+    bench.cycle();
+    highest = std::max(highest, bench.out().q[1]);
+    Report report;
+    while (bench.client.poll(report)) told += report.verdict.status == Status::kSaturated ? 1 : 0;
+  }
+  assert_int_equal(told, 1);
+  assert_true(highest <= end && highest >= end - 1e-3);
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(points_are_approached_at_the_share_of_the_file),
+      cmocka_unit_test(a_stream_that_comes_back_is_caught_up_with_slowly),
+      cmocka_unit_test(a_point_beyond_max_step_is_refused_in_every_mode),
+      cmocka_unit_test(a_refused_step_does_not_refuse_its_successors),
+      cmocka_unit_test(a_single_outlier_is_left_out),
+      cmocka_unit_test(points_beyond_a_range_are_held_at_its_end_and_told_once),
+      cmocka_unit_test(what_is_far_beyond_a_range_is_refused),
+      cmocka_unit_test(chunks_beyond_a_range_are_held_at_its_end_and_told_once),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
