@@ -69,7 +69,7 @@ bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings,
   reader_.run_up_within(Space::peaks(settings.limits));
   if (judge_smoothed(settings, tolerance) && (lines || longer_s() <= longer)) return true;
   // A curve that is near shows what is wrong, which lines between positions may hide.
-  const bool curve = refusal_.row.reason.empty() && !refusal_.verdict.ok();
+  const bool curve = refusal_.row.reason.empty() && of_derivatives(refusal_.verdict.status);
   if (curve && !(accepted && longer > 0.0)) return false;
   return restart({}) && judge_once(settings);
 }

@@ -31,10 +31,7 @@ struct GeneratorSettings {
 
   template <class Visitor, class Bounds>
   static void describe_bounds(Visitor& visit, Bounds& bounds, const char* unit) {
-    if constexpr (kStreams) {
-      visit.param("max_step", bounds.max_step, kNonNegative, unit);
-      visit.param("approach_speed", bounds.approach_speed, Range{0.01, 1.0}, "1");
-    }
+    if constexpr (kStreams) visit.param("max_step", bounds.max_step, kNonNegative, unit);
   }
 
   /// Returns the generator's parameters; the block sets the tolerances of its space. [init]

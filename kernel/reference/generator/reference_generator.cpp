@@ -56,7 +56,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if constexpr (kStreams) stream_.step_s -= dt_s;
   assert(params_.online != OnlineMode::kForward ||
          (phase() != Phase::kLeaving && !motion_.gives_velocity()));
-  motion_.move_on(dt_s, approach_speed());
+  motion_.move_on(dt_s);
   pass_outputs();
   watch_supply();
   watch_goal(dt_s, measured);

@@ -38,10 +38,9 @@ struct MotionState {
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
-/// What bounds the way to points that are far from the reference.
+/// What bounds points that are far from the reference.
 struct PointBounds {
-  double max_step = 0.0;        ///< largest distance of a point: rad, for a tip m and rad; 0: any
-  double approach_speed = 1.0;  ///< share of the velocity limits that closes the distance, (0, 1]
+  double max_step = 0.0;  ///< largest distance of a point: rad, for a tip m and rad; 0: any
 };
 
 /// The account of points, chunks and velocities.
@@ -133,10 +132,6 @@ class ReferenceGenerator {
   Verdict judge_point(const Point& point) const;
   Verdict judge_step(const Point& point, bool& forwards);
   bool tell_saturated(const Verdict& verdict);
-  double approach_speed() const {
-    if constexpr (kStreams) return params_.points.approach_speed;
-    return 1.0;
-  }
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
   void take_append(const Request<Space>& request);

@@ -23,7 +23,7 @@ void Motion<Space>::start(const Point& point, const Settings& settings) {
 }
 
 template <class Space>
-void Motion<Space>::move_on(double dt_s, double approach_speed) {
+void Motion<Space>::move_on(double dt_s) {
   time_s_ += dt_s;
   const Point last = reference_;
   leave_given_up();
@@ -42,10 +42,9 @@ void Motion<Space>::move_on(double dt_s, double approach_speed) {
     base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
     // A path keeps the limits by itself, and a held point does not move; a stream may break limits.
     const bool there = offset_.zero() && !streaming();
-    const double speed = phase_ == Phase::kReaching ? approach_speed : 1.0;
     reference_ = there ? base_
                        : Space::approach(reference_, offset_, before, base_, steps(),
-                                         settings_->limits, dt_s, speed);
+                                         settings_->limits, dt_s);
     if (offset_.zero()) arrive(was);
   }
   Space::keep_sign(reference_, last);

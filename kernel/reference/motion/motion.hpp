@@ -26,9 +26,8 @@ class Motion {
 
   /// Holds the position of `point` at rest. `settings` must outlive the motion. [init]
   [[gnu::cold]] void start(const Point& point, const Settings& settings);
-  /// Moves the reference one period ahead; closes its distance from online points at no more than
-  /// the share `approach_speed` of the velocity limits. [cyclic]
-  void move_on(double dt_s, double approach_speed = 1.0);
+  /// Moves the reference one period ahead. [cyclic]
+  void move_on(double dt_s);
 
   /// Makes `point` the reference as it is, except for a quaternion's sign, and holds it. Leaves at
   /// once what it followed. [cyclic]

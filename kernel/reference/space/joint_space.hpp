@@ -148,8 +148,7 @@ struct JointSpace {
   }
 
   static Point approach(const Point& reference, Difference& offset, const Point& base,
-                        const Point& next, bool steps, const Limits& limits, double dt_s,
-                        double speed = 1.0);
+                        const Point& next, bool steps, const Limits& limits, double dt_s);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Every joint takes its own fastest way.
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/core/streams.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 
 namespace tactus {
@@ -77,7 +76,7 @@ void set_axis(JointSpace::Point& point, int j, const AxisState& state) {
 
 JointSpace::Point JointSpace::approach(const Point& reference, Difference& offset,
                                        const Point& base, const Point& next, bool steps,
-                                       const Limits& limits, double dt_s, double speed) {
+                                       const Limits& limits, double dt_s) {
   const bool moves = !(base.standing() && next.standing());
   std::array<AxisLimits, kDof> left;
   std::array<AxisRange, kDof> room;
@@ -87,10 +86,6 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
     lines.tick();
     const auto i = static_cast<std::size_t>(j);
     left[i] = left_beside(axis_limits(limits, j), axis_of(base, j), axis_of(next, j), dt_s);
-    if constexpr (kStreams) {
-      left[i].v_lo *= speed;
-      left[i].v_hi *= speed;
-    }
     room[i] = kAnywhere;
     if (!moves) room[i] = {limits.q_min[j] - next.q[j], limits.q_max[j] - next.q[j]};
     line.add(offset.x[j], left[i]);

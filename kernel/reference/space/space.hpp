@@ -199,14 +199,12 @@ struct SpaceContract : std::true_type {
   static_assert(
       kSame<decltype(S::judge_placed), Verdict(const Extent&, const Placement&, const Limits&)>);
 
-  /// approach(reference, offset, base, next, steps, limits, dt_s, speed) returns the reference one
-  /// period ahead, on its way to a base that moves from `base` to `next` in that period; `offset`
-  /// becomes its difference from `next`, and is closed at no more than the share `speed` of the
-  /// velocity limits. A reference within all limits stays within them, except for the steps in
-  /// velocity or acceleration of a base that has them (`steps`). [cyclic]
-  static_assert(
-      kSame<decltype(S::approach), Point(const Point&, Difference&, const Point&, const Point&,
-                                         bool, const Limits&, double, double)>);
+  /// approach(reference, offset, base, next, steps, limits, dt_s) returns the reference one period
+  /// ahead, on its way to a base that moves from `base` to `next` in that period; `offset` becomes
+  /// its difference from `next`. A reference within all limits stays within them, except for the
+  /// steps in velocity or acceleration of a base that has them (`steps`). [cyclic]
+  static_assert(kSame<decltype(S::approach), Point(const Point&, Difference&, const Point&,
+                                                   const Point&, bool, const Limits&, double)>);
   /// can_stop(reference, limits, dt_s) is true if the way to rest stays inside the position limits,
   /// or goes no further out than it is now, to 1e-9 (rad or m). [cyclic]
   static_assert(kSame<decltype(S::can_stop), bool(const Point&, const Limits&, double)>);

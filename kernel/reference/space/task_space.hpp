@@ -185,8 +185,7 @@ struct TaskSpace {
   }
 
   static Point approach(const Point& reference, Difference& offset, const Point& base,
-                        const Point& next, bool steps, const Limits& limits, double dt_s,
-                        double speed = 1.0);
+                        const Point& next, bool steps, const Limits& limits, double dt_s);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Translation and rotation stop independently of each other (vector_stop.hpp).
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernel/core/streams.hpp"
 #include "kernel/math/so3.hpp"
 #include "kernel/reference/space/task_space.hpp"
 #include "kernel/reference/space/vector_stop.hpp"
@@ -178,14 +177,10 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& r, const VectorState& from,
 
 TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset, const Point& base,
                                      const Point& next, bool steps, const Limits& limits,
-                                     double dt_s, double speed) {
+                                     double dt_s) {
   Allowed allowed;
   allowed.p = left(translation_limits(limits), translation_of(base), translation_of(next), dt_s);
-  NormLimits r = left(rotation_limits(limits), rotation_of(base), rotation_of(next), dt_s);
-  if constexpr (kStreams) {
-    allowed.p.v *= speed;
-    r.v *= speed;
-  }
+  const NormLimits r = left(rotation_limits(limits), rotation_of(base), rotation_of(next), dt_s);
   const double turning = next.v.tail<3>().norm();
   allowed.r = line_beside(r, turning);
   allowed.phi = rotation_vector(r, turning);

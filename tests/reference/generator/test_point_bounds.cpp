@@ -1,9 +1,8 @@
-// What bounds points: approach_speed and max_step, a step that is refused, and the end of a range.
+// What bounds points: max_step, a step that is refused, and the end of a range.
 // Every cycle is judged by the oracle of motions as well.
 #include "kernel/reference/space/judge_channels.hpp"
 #include "tests/reference/motion/checked_motion.hpp"
 #include "tests/reference/motion/chunk_bench.hpp"
-#include "tests/support/trials.hpp"
 
 namespace {
 
@@ -29,58 +28,6 @@ Report answer(CheckedMotion<Space>& bench, const typename Space::Point& point) {
   return bench.report_of(id);
 }
 
-/// Goes to places at random, some of them on the way to others, and arrives exactly.
-template <class Space>
-void approaches_at_its_share(std::uint64_t seed) {
-  Dice dice{seed};
-  CheckedMotion<Space> bench(dice.chance(0.5) ? 1e-3 : 4e-3);
-  bench.params.points.approach_speed = dice.uniform(0.05, 1.0);
-  ASSERT_OK(bench.start(bench.home));
-  const double most = bench.params.points.approach_speed * (1.0 + 1e-6);
-  typename Space::Point goal;
-  for (int place = 0; place < 3; ++place) {
-    goal = moved_by(bench.home, dice.uniform(-0.3, 0.3));
-    ASSERT_STATUS(answer(bench, goal).outcome, Outcome::kExecuted);
-    const int cycles = bench.cycles(place < 2 ? dice.uniform(0.3, 2.0) : 20.0);
-    for (int k = 0; k < cycles; ++k) {
-      const typename Space::Point before = bench.out();
-      bench.cycle();
-      assert_true(share_of_limits(bench, before) <= most);
-    }
-  }
-  assert_true(Space::difference(bench.out(), goal).zero());
-}
-
-// Proves RG-33.
-
-void points_are_approached_at_the_share_of_the_file(void**) {
-  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(trials(20)); ++seed) {
-    approaches_at_its_share<JointSpace>(seed);
-    approaches_at_its_share<TaskSpace>(seed);
-  }
-}
-
-/// After a silence the stream is 0.8 rad away and moves on; once it is reached it is followed as by
-/// any reference, at a velocity above the share.
-void a_stream_that_comes_back_is_caught_up_with_slowly(void**) {
-  CheckedJoints bench;
-  bench.params.points.approach_speed = 0.2;
-  ASSERT_OK(bench.start(bench.home));
-  const double most = bench.channel.settings.limits.dq_max[0];
-  double fastest = 0.0, behind = 0.0;
-  for (int k = 0; k < bench.cycles(6.0); ++k) {
-    const double t = bench.generator.time_s(), x = 0.8 + 0.3 * std::sin(t);
-    if (k % 10 == 0) assert_int_not_equal(bench.send(moved_by(bench.home, x)), 0);
-    bench.cycle();
-    bench.report_of(0);
-    const double closing = std::abs(bench.out().dq[0] - 0.3 * std::cos(t));
-    if (t < 5.0) fastest = std::max(fastest, closing);
-    behind = std::abs(bench.out().q[0] - bench.home.q[0] - x);
-  }
-  assert_true(fastest <= 0.3 * most && fastest >= 0.19 * most);
-  assert_true(behind <= 0.01);
-}
-
 template <class Space>
 void refuses_beyond_the_step(OnlineMode online) {
   CheckedMotion<Space> bench(1e-3, online);
@@ -96,7 +43,7 @@ void refuses_beyond_the_step(OnlineMode online) {
   ASSERT_STATUS(answer(bench, moved_by(bench.home, 0.0999)).outcome, Outcome::kExecuted);
 }
 
-// Proves RG-34.
+// Proves RG-33.
 
 void a_point_beyond_max_step_is_refused_in_every_mode(void**) {
   for (const OnlineMode online : {OnlineMode::kForward, OnlineMode::kLimit, OnlineMode::kRefuse}) {
@@ -150,7 +97,7 @@ void a_single_outlier_is_left_out(void**) {
   leaves_out_outliers(0.1);
 }
 
-// Proves RG-35.
+// Proves RG-34.
 
 /// A leader with more range: its joint goes 0.08 rad beyond the end of the follower's and back.
 void points_beyond_a_range_are_held_at_its_end_and_told_once(void**) {
@@ -229,8 +176,6 @@ void chunks_beyond_a_range_are_held_at_its_end_and_told_once(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(points_are_approached_at_the_share_of_the_file),
-      cmocka_unit_test(a_stream_that_comes_back_is_caught_up_with_slowly),
       cmocka_unit_test(a_point_beyond_max_step_is_refused_in_every_mode),
       cmocka_unit_test(a_refused_step_does_not_refuse_its_successors),
       cmocka_unit_test(a_single_outlier_is_left_out),
