@@ -161,20 +161,6 @@ void plan_stop_at_end(const Fit<Space>& fit, const AdmissionSettings<Space>& set
   }
 }
 
-/// What is told of the first target that is held at the end of a range.
-template <class Space>
-Verdict first_saturated(const Chunk<Space>& chunk, const typename Space::Limits& limits) {
-  const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
-  for (int i = 0; i < chunk.count; ++i) {
-    typename Space::Point placed =
-        Space::placed(chunk.targets[static_cast<std::size_t>(i)], placement);
-    Verdict told = Space::saturate(placed, limits);
-    told.waypoint = i;
-    if (!told.ok()) return told;
-  }
-  return {};
-}
-
 }  // namespace
 
 template <class Space>
@@ -182,9 +168,13 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
                ChunkCurve<Space>& curve) {
   const auto n = static_cast<std::size_t>(chunk.count);
   const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
+  const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
+  curve.told = {};
   const auto inside = [&](std::size_t i) {
-    typename Space::Point target = chunk.targets[i];
-    static_cast<void>(Space::saturate(target, limits));
+    typename Space::Point target = Space::placed(chunk.targets[i], placement);
+    Verdict told = Space::saturate(target, limits);
+    told.waypoint = static_cast<int>(i);
+    if (curve.told.ok()) curve.told = told;
     return target;
   };
   const typename Space::Point origin = inside(n / 2).at_rest();
@@ -212,7 +202,6 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   curve.outputs_lead_s = chunk.outputs_lead_s;
   if (chunk.outputs_mask != 0)
     std::copy(chunk.outputs.begin(), chunk.outputs.begin() + chunk.count, curve.outputs.begin());
-  curve.told = first_saturated(chunk, limits);
   for (std::size_t i = 0; i < n; ++i) {
     Knot<Space>& knot = curve.knots[i] = {chunk.time_s[i], Space::sum(origin, fit.f[i])};
     if (Space::judge_waypoint(knot.point, limits).ok()) continue;

@@ -93,6 +93,14 @@ bool SmoothedReader<Space>::restart(const Smoothing& smoothing, CsvError& error)
 }
 
 template <class Space>
+bool SmoothedReader<Space>::rewind(CsvError& error) {
+  const SmoothingTolerance moved = moved_;
+  const bool good = restart(smoothing_, error);
+  moved_ = moved;
+  return good;
+}
+
+template <class Space>
 Fields SmoothedReader<Space>::fields() const {
   constexpr int kDerivatives = kVelocityField | kAccelerationField;
   return static_cast<Fields>(reader_.fields() | (smooths() ? kDerivatives : 0));
@@ -127,7 +135,11 @@ bool SmoothedReader<Space>::run_up(Waypoint<Space>& waypoint) {
   constexpr double kShare = 0.5, kLeast_s = 0.05;  // of the limits
   const typename Space::Point first = point(0), rest = first.at_rest();
   typename Space::Difference state = Space::difference(first, rest);
-  if (state.zero()) return false;
+  // The way of one quintic to that velocity and acceleration swings out by less than this.
+  const Axes swing =
+      row(0).time_s * (0.1 * axes(state.dx) + 0.01 * row(0).time_s * axes(state.ddx));
+  if ((swing.cwiseAbs().array() <= tolerances(Space(), smoothing_.tolerance).array()).all())
+    return false;
   double time_s = kLeast_s;
   for (std::size_t c = 0; c < limits_.v.size(); ++c) {
     const auto axis = static_cast<Eigen::Index>(c) * Space::kChannelSize;

@@ -40,12 +40,12 @@ class SmoothedReader {
     smoothing_ = {};
     return reader_.open(path, partial, hash, error);
   }
-  /// Sets the limits for the run-up to a file that begins in motion. [init]
+  /// Sets the limits of the run-up to a file that begins in motion; before, there is none. [init]
   void run_up_within(const typename Space::Peaks& limits) { limits_ = limits; }
   /// Returns to the first waypoint of a regular file, to read it so. False: refused. [init]
   bool restart(const Smoothing& smoothing, CsvError& error);
   /// The same, to read it as before. [init]
-  bool rewind(CsvError& error) { return restart(smoothing_, error); }
+  bool rewind(CsvError& error);
   /// As TrajectoryReader::next(). Refuses also what no smooth curve is near to. [any, not cyclic]
   RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
 
@@ -57,7 +57,7 @@ class SmoothedReader {
   int line() const { return line_; }
   /// Waypoints before those of the file: 1 where a run-up begins, else 0.
   int run_ups() const { return run_ups_; }
-  /// How far positions were moved at most, so far.
+  /// How far positions were moved at most, since restart().
   const SmoothingTolerance& moved() const { return moved_; }
   const Smoothing& smoothing() const { return smoothing_; }
 

@@ -204,7 +204,8 @@ bool TrajectoryStream<Space>::refuse(std::string_view reason) {
 
 template <class Space>
 double TrajectoryStream<Space>::time_s(int waypoint) const {
-  return in_window(waypoint) ? window_->time_s(waypoint) : kInfinity;
+  const int index = waypoint + reader_.run_ups();
+  return in_window(index) ? window_->time_s(index) : kInfinity;
 }
 
 template class TrajectoryStream<JointSpace>;

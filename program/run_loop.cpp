@@ -16,12 +16,6 @@ void on_signal(int) {
   interrupted = 1;
 }
 
-/// True for what the step() of a block ends with.
-bool of_a_block(Status status) {
-  return status == Status::kCommandNotFinite || status == Status::kReferenceFault ||
-         (status >= Status::kSensorNotFinite && status <= Status::kSensorNotSteady);
-}
-
 }  // namespace
 
 void catch_interrupts() {
@@ -128,7 +122,7 @@ void RunLoop::stop() {
   latched_ = session_.executive.latched();
   if (latched_ != Status::kOk) trouble_ = session_.hal.trouble();
   const Pipeline& pipeline = session_.pipeline;
-  if (trouble_.empty() && of_a_block(latched_) && pipeline.failed >= 0)
+  if (trouble_.empty() && latched_ != Status::kOk && latched_ == pipeline.failure)
     trouble_ << "block [" << pipeline.name(pipeline.failed) << "]";
   result_.rung = session_.executive.rung();
   left_ = session_.executive.stop();

@@ -6,10 +6,30 @@
 #include "kernel/load/pipeline_sections.hpp"
 #include "kernel/load/recording_reader.hpp"
 #include "kernel/load/schedule_reader.hpp"
-#include "kernel/pipeline/kinds.hpp"
+#include "kernel/pipeline/with_block.hpp"
 
 namespace tactus {
 namespace {
+
+/// Describes a kind that does not change while it runs.
+struct Unchanging : SectionReader {
+  template <class Value>
+  void tunable(const char*, Value&, const Range&, const char*) {
+    static_assert(sizeof(Value) == 0, "a kind with a tunable parameter has retune(); else: param");
+  }
+};
+
+/// True if it compiles: no kind offers parameters that it cannot change.
+template <auto>
+constexpr bool kCompiles = true;
+template <class... Each>
+constexpr bool all_change_what_they_offer(KindList<Each...>) {
+  return (
+      ... &&
+      kCompiles<
+          &Each::template describe<std::conditional_t<kTunes<Each>, SectionReader, Unchanging>>>);
+}
+static_assert(all_change_what_they_offer(Kinds()));
 
 /// Sets the number of the kind called `type`; false if there is none.
 bool find_kind(std::string_view type, std::size_t& kind) {

@@ -62,12 +62,20 @@ Status resume_block(Kind& block, double period_s) {
 /// Calls act(block) for every block in order. Returns the first Status that is not kOk.
 template <class Act>
 Status Pipeline::for_each_block(Act act) {
-  for (int i = 0; i < count_; ++i) TRY(with_block(blocks_[static_cast<std::size_t>(i)], act));
+  for (int i = 0; i < count_; ++i)
+    TRY(note(i, with_block(blocks_[static_cast<std::size_t>(i)], act)));
   return Status::kOk;
 }
 
+/// Notes the block that ends a pass.
+Status Pipeline::note(int block, Status status) {
+  if (status == Status::kOk) return status;
+  failed = static_cast<std::uint8_t>(block);
+  return failure = status;
+}
+
 Status Pipeline::start(const RobotState& measured) {
-  failed = -1;
+  failure = Status::kOk;
   robot.set_measured(measured);
   robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
@@ -96,7 +104,7 @@ MotionState Pipeline::motion_state() const {
 }
 
 Status Pipeline::resume(const RobotState& measured) {
-  failed = -1;
+  failure = Status::kOk;
   robot.set_measured(measured);
   return for_each_block([this](auto& block) { return resume_block(block, robot.period_s()); });
 }
@@ -107,13 +115,8 @@ Status Pipeline::step(const RobotState& measured, Timing* timing) {
   LoopBound<kMaxBlocks> steps;
   for (int i = 0; i < count_; ++i) {
     steps.tick();
-    const Status status = with_block(blocks_[static_cast<std::size_t>(i)], [period_s](auto& block) {
-      return step_block(block, period_s);
-    });
-    if (status != Status::kOk) {
-      failed = static_cast<std::int8_t>(i);
-      return status;
-    }
+    TRY(note(i, with_block(blocks_[static_cast<std::size_t>(i)],
+                           [period_s](auto& block) { return step_block(block, period_s); })));
     if (timing != nullptr) timing->lap_block(i);
   }
   return Status::kOk;

@@ -45,9 +45,9 @@ class Pipeline {
   PortTable ports;
   Schedule schedule;  ///< the control chain, then the rows that the pipeline has
   bool takes_joints = false, takes_poses = false;  ///< spaces of its generators' references
-  /// The last block whose step() was not kOk since start() or resume(); -1: none.
-  std::int8_t failed = -1;
-  Arena memory;  ///< what is left for further blocks
+  std::uint8_t failed = 0;       ///< the last block whose start() or step() was not kOk
+  Status failure = Status::kOk;  ///< what that was, since start() or resume()
+  Arena memory;                  ///< what is left for further blocks
 
   /// Lists the sections of a file that are not blocks; a board adds its own.
   template <class Visitor>
@@ -97,6 +97,7 @@ class Pipeline {
  private:
   template <class Act>
   Status for_each_block(Act act);
+  Status note(int block, Status status);
 
   std::array<Block, kMaxBlocks> blocks_;
   int count_ = 0;

@@ -9,46 +9,6 @@ constexpr bool kJudgesChange = false;
 template <class Kind>
 constexpr bool kJudgesChange<Kind, std::void_t<decltype(&Kind::judge_change)>> = true;
 
-/// Visits the description of a kind that does not change while it runs.
-struct Untuned {
-  template <class... Any>
-  void param(Any&&...) {}
-  template <class... Any>
-  void limit(Any&&...) {}
-  template <class... Any>
-  void text(Any&&...) {}
-  template <class... Any>
-  void choice(Any&&...) {}
-  template <class... Any>
-  void in(Any&&...) {}
-  template <class... Any>
-  void optional(Any&&...) {}
-  template <class... Any>
-  void out(Any&&...) {}
-  template <class... Any>
-  void channel(Any&&...) {}
-  template <class Value>
-  void tunable(const char*, Value&, const Range&, const char*) {
-    static_assert(sizeof(Value) == 0, "a kind with a tunable parameter has retune(); else: param");
-  }
-};
-
-/// True if it compiles: no kind offers parameters that it cannot change.
-template <auto>
-constexpr bool kCompiles = true;
-template <class Kind>
-constexpr bool changes_what_it_offers() {
-  if constexpr (kTunes<Kind>)
-    return true;
-  else
-    return kCompiles<&Kind::template describe<Untuned>>;
-}
-template <class... Each>
-constexpr bool all_change_what_they_offer(KindList<Each...>) {
-  return (... && changes_what_it_offers<Each>());
-}
-static_assert(all_change_what_they_offer(Kinds()));
-
 template <class Kind>
 const auto& new_params(const Kind& /*block*/, const void* copy) {
   return static_cast<const Kind*>(copy)->params;

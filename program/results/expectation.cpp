@@ -81,8 +81,8 @@ bool Expectation::met() const {
 void Expectation::print_misses(const char* path) const {
   for (const Bound& b : bounds()) {
     if (b.met()) continue;
-    std::fprintf(stderr, "%s: [expect] %s: the largest %s was %.9g %s, expected %s %g %s%s\n", path,
-                 b.key, b.what, b.seen, b.unit, b.side(), b.limit, b.unit, b.hint);
+    std::fprintf(stderr, "%s: [expect] %s: the largest %s was %.9g %s, expected %s %.9g %s%s\n",
+                 path, b.key, b.what, b.seen, b.unit, b.side(), b.limit, b.unit, b.hint);
   }
 }
 

@@ -196,6 +196,7 @@ void a_file_longer_than_its_store_is_smoothed_on_its_way(void**) {
   }
   assert_true(worst < 3e-6);
   ASSERT_STATUS(bench.outcome, Outcome::kSucceeded);
+  assert_true(bench.stream.moved().rad == judged.moved.rad);  // as was told before
 }
 
 /// A recording that begins in motion is run up to: on the way to it no axis leaves the range
@@ -206,8 +207,10 @@ void run_up_to(double largest, double lead_s, Random& random) {
   const Swing swing(random, largest, 3.0);
   Recording how;
   how.rate_hz = 100.0;
-  record<Space>(swing, how, random, lead_s, 0.3 * swing.duration_s);
+  const int rows = record<Space>(swing, how, random, lead_s, 0.3 * swing.duration_s);
   assert_true(judge<Space>(bench, kTolerance, kMostRows).accepted);
+  assert_int_equal(bench.stream.count(), rows);  // those of the file, and their times
+  assert_true(std::abs(bench.stream.time_s(0) - lead_s) < 1e-6);
   const typename Space::Point home = home_of(Space());
   typename Space::Point first;
   set(swing, 0.3 * swing.duration_s, first);
@@ -266,6 +269,24 @@ void what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given(void**) {
   assert_true(judge<JointSpace>(bench, {0.03, 0.03}, kMostRows).accepted);
 }
 
+/// Joint 1 goes to the end of its range, at two rows; between them the curve would pass it.
+void a_recording_that_touches_the_end_of_a_range_is_taken_as_given(void**) {
+  static StreamBench<JointSpace> bench;
+  JointSpace::Point point = home_of(JointSpace());
+  const double end = bench.client.settings().limits.q_max[0];
+  std::FILE* file = std::fopen(stream_file(), "wb");
+  assert_non_null(file);
+  write_header(file, 0, JointSpace());
+  for (int i = 0; i <= 400; ++i) {
+    const auto bump = [](double rows) { return 0.2 * std::pow(std::cos(kPi * rows / 400.0), 2.0); };
+    point.q[0] = std::min(end + bump(i - 200.5) - bump(0.5), end);
+    write_row(file, 0, 4.0 + 0.01 * i, point);
+  }
+  std::fclose(file);
+  assert_true(judge<JointSpace>(bench, kTolerance, kMostRows).accepted);
+  assert_false(bench.stream.smoothing().tolerance.allows());
+}
+
 /// Of printf, by hand.
 void digits_are_those_that_were_written(void**) {
   Digits f, g, none;
@@ -290,6 +311,7 @@ int main() {
       cmocka_unit_test(a_file_longer_than_its_store_is_smoothed_on_its_way),
       cmocka_unit_test(the_way_to_a_recording_that_begins_in_motion_does_not_swing_out),
       cmocka_unit_test(what_is_not_near_a_smooth_curve_is_taken_or_refused_as_given),
+      cmocka_unit_test(a_recording_that_touches_the_end_of_a_range_is_taken_as_given),
       cmocka_unit_test(digits_are_those_that_were_written),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_stream_file);

@@ -57,13 +57,18 @@ void a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest
 
 /// A wrench sensor reads more than its block allows.
 void a_block_that_ends_the_chain_is_named(void**) {
-  const Line pipeline =
-      write("block.ini", {"[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n[plant]\n"
-                          "ft_noise_force_N = 2.5\n[model]\ntype = robot_model\nq = robot.q\n"
-                          "dq = robot.dq\n[sensor]\ntype = wrench_front_end\nft = robot.ft\n"
-                          "x = model.x\ntool = robot.tool\nmax_force = 10\nmax_moment = 30\n"
-                          "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"});
-  assert_int_equal(run_into("block", pipeline.c_str(), "1", nullptr, "2"), 1);
+  const auto run_with = [](const char* plant) {
+    const Line pipeline = write(
+        "block.ini", {"[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n[plant]\n", plant,
+                      "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+                      "[sensor]\ntype = wrench_front_end\nft = robot.ft\nx = model.x\n"
+                      "tool = robot.tool\nmax_force = 10\nmax_moment = 30\n"
+                      "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"});
+    return run_into("block", pipeline.c_str(), "1", nullptr, "2");
+  };
+  assert_int_equal(run_with("ft_bias_force_N = 0 0 30\n"), 2);
+  assert_true(has(errors(), "refused: sensor value out of range (73): block [sensor]\n"));
+  assert_int_equal(run_with("ft_noise_force_N = 2.5\n"), 1);
   assert_true(has(errors(), "(73): block [sensor]\n"));
 }
 

@@ -8,7 +8,7 @@ namespace tactus {
 
 struct GeneratorSettings {
   OnlineMode online = OnlineMode::kLimit;
-  OnlyWithStreams<PointBounds> points;
+  OnlyWithStreams<double> max_step{};  ///< largest distance of a point: rad, m; 0: any
   double timeout_ms = 0.0;  ///< longest silence of a stream of online points; 0: no limit
   double stopped_velocity =
       0.01;                   ///< at the goal: rad/s of each joint, m/s of the tip; 0: not checked
@@ -20,7 +20,7 @@ struct GeneratorSettings {
   template <class Visitor>
   void describe(Visitor& visit, const char* unit, const char* velocity_unit) {
     visit.choice("online", online);
-    describe_bounds(visit, points, unit);
+    describe_step(visit, max_step, unit);
     visit.param("timeout_ms", timeout_ms, kNonNegative, "ms");
     visit.param("stopped_velocity", stopped_velocity, kNonNegative, velocity_unit);
     visit.param("dwell_ms", dwell_ms, kNonNegative, "ms");
@@ -29,9 +29,9 @@ struct GeneratorSettings {
     visit.param("feedback_divisor", feedback_divisor, Range{0.0, 100000.0}, "cycles");
   }
 
-  template <class Visitor, class Bounds>
-  static void describe_bounds(Visitor& visit, Bounds& bounds, const char* unit) {
-    if constexpr (kStreams) visit.param("max_step", bounds.max_step, kNonNegative, unit);
+  template <class Visitor, class Step>
+  static void describe_step(Visitor& visit, Step& step, const char* unit) {
+    if constexpr (kStreams) visit.param("max_step", step, kNonNegative, unit);
   }
 
   /// Returns the generator's parameters; the block sets the tolerances of its space. [init]
@@ -39,7 +39,7 @@ struct GeneratorSettings {
   typename ReferenceGenerator<Space>::Params params() const {
     typename ReferenceGenerator<Space>::Params params;
     params.online = online;
-    params.points = points;
+    params.max_step = max_step;
     params.timeout_s = timeout_ms * 1e-3;
     params.latency_cycles = latency_cycles;
     params.feedback_divisor = feedback_divisor;

@@ -38,11 +38,6 @@ struct MotionState {
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
-/// What bounds points that are far from the reference.
-struct PointBounds {
-  double max_step = 0.0;  ///< largest distance of a point: rad, for a tip m and rad; 0: any
-};
-
 /// The account of points, chunks and velocities.
 template <class Space>
 struct StreamAccount {
@@ -69,7 +64,8 @@ class ReferenceGenerator {
     Tolerances<Space> tolerances;  ///< for goals that give none of their own
     int latency_cycles = 0;        ///< 0..16; 0: measured in the next cycle
     OnlineMode online = OnlineMode::kForward;
-    OnlyWithStreams<PointBounds> points;
+    /// Largest distance of a point from the reference: rad, for a tip m and rad; 0: any.
+    OnlyWithStreams<double> max_step{};
     /// Longest time without a new point after which a moving online reference is stopped; 0: none.
     double timeout_s = 0.0;
     int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none
@@ -137,6 +133,7 @@ class ReferenceGenerator {
   void take_append(const Request<Space>& request);
   void take_stream(const Request<Space>& request);
   void take_chunk(const Request<Space>& request);
+  Verdict judge_targets(const ChunkCurve<Space>& chunk, Verdict& told) const;
   void take_velocity(const Request<Space>& request);
   bool in_order(const Request<Space>& request, std::uint32_t epoch, std::uint32_t sequence);
   void end_epoch();

@@ -147,8 +147,8 @@ Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
   const typename Space::Limits& limits = channel_->settings.limits;
   const Verdict verdict = judge_online<Space>(point, limits);
   if constexpr (kStreams) {
-    const double most = params_.points.max_step;
-    if (verdict.ok() && most > 0.0) return judge_distance<Space>(reference(), point, most);
+    if (verdict.ok() && params_.max_step > 0.0)
+      return judge_distance<Space>(reference(), point, params_.max_step);
   }
   return verdict;
 }
@@ -162,8 +162,8 @@ Verdict ReferenceGenerator<Space>::judge_step(const Point& point, bool& forwards
       judge_reach<Space>(reference(), point, channel_->settings.limits, period_s_);
   if constexpr (kStreams) {
     const bool follows = stream_.step_s > 0.0;
-    stream_.approaches = follows && stream_.approaches && phase() != Phase::kHolding;
-    forwards = verdict.ok() && !stream_.approaches;
+    const bool approaches = follows && stream_.approaches && phase() != Phase::kHolding;
+    forwards = verdict.ok() && !approaches;
     stream_.approaches = follows && !forwards;
     stream_.step_s = forwards ? 0.0 : kSlowest_s;
     if (follows) return {};

@@ -85,6 +85,26 @@ bool ReferenceGenerator<Space>::in_order(const Request<Space>& request, std::uin
   return false;
 }
 
+/// Judges the targets of a chunk where their frames are now, which the client does not know; `told`
+/// becomes the first that is held at the end of a range, if it is none yet.
+template <class Space>
+Verdict ReferenceGenerator<Space>::judge_targets(const ChunkCurve<Space>& chunk,
+                                                 Verdict& told) const {
+  const typename Space::Limits& limits = channel_->settings.limits;
+  const typename Space::Placement placement = Space::latch(chunk.header, reference(), limits);
+  LoopBound<1 << 8> targets;
+  for (int i = 0; i < chunk.count; ++i) {
+    targets.tick();
+    Point point = Space::placed(chunk.knots[static_cast<std::size_t>(i)].point, placement);
+    const Verdict held = Space::saturate(point, limits);
+    if (told.ok()) told = held;
+    Verdict verdict = Space::judge_waypoint(point, limits);
+    verdict.waypoint = i;
+    if (!verdict.ok()) return verdict;
+  }
+  return {};
+}
+
 /// Puts a chunk in force from its first stamp ahead, which ends whatever ran before except older
 /// chunks. One target is a point of a stream.
 template <class Space>
@@ -101,7 +121,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       chunk.release();
       return take_point(point);
     }
-    const Verdict told = chunk.told;  // the plan may release the chunk at once
+    Verdict told = chunk.told;  // the plan may release the chunk at once
     const int passed = targets_until(chunk, time_s());
     const bool late = passed == chunk.count;
     Verdict verdict;
@@ -110,7 +130,8 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
     else if (!(chunk.first_s() <= time_s() + kLongestChunk_s))
       verdict = {Status::kReferenceTime, 0, -1, chunk.first_s(), time_s() + kLongestChunk_s};
     else
-      verdict = motion_.track(chunk, time_s());
+      verdict = judge_targets(chunk, told);
+    if (verdict.ok()) verdict = motion_.track(chunk, time_s());
     if (!verdict.ok()) {
       if (late) ++channel_->stream.late;
       chunk.release();

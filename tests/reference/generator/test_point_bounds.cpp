@@ -31,7 +31,7 @@ Report answer(CheckedMotion<Space>& bench, const typename Space::Point& point) {
 template <class Space>
 void refuses_beyond_the_step(OnlineMode online) {
   CheckedMotion<Space> bench(1e-3, online);
-  bench.params.points.max_step = 0.1;
+  bench.params.max_step = 0.1;
   ASSERT_OK(bench.start(bench.home));
   const Report report = answer(bench, moved_by(bench.home, 0.1001));
   ASSERT_STATUS(report.outcome, Outcome::kRefused);
@@ -172,6 +172,35 @@ void chunks_beyond_a_range_are_held_at_its_end_and_told_once(void**) {
   assert_true(highest <= end && highest >= end - 1e-3);
 }
 
+/// The client does not know where the frame is: the generator judges where its targets are.
+void chunks_in_a_frame_are_judged_where_the_frame_is(void**) {
+  static Chunk<TaskSpace> chunk;
+  constexpr Status kSeen[] = {Status::kOk, Status::kSaturated, Status::kWorkspace,
+                              Status::kWorkspace};
+  constexpr double kBeyond[] = {-0.01, 0.09, 0.11, 100.0};
+  for (std::size_t i = 0; i < std::size(kBeyond); ++i) {
+    CheckedTip bench;
+    const double end = bench.channel.settings.limits.p_max[0] = bench.home.x.p[0] + 0.05;
+    const Pose frame = {{0.0, 0.0, 1.0}, exp_so3({0.0, 0.0, 1.5})};
+    chunk = {};
+    chunk.header.motion = &frame;
+    for (int k = 1; k <= 4; ++k) {
+      Pose target = bench.home.x;
+      target.p[0] = k < 4 ? target.p[0] : end + kBeyond[i];
+      const Eigen::Quaterniond back = frame.r.conjugate();
+      chunk.add(k < 4 ? k : 200.0, {{back * (target.p - frame.p), back * target.r}});
+    }
+    std::uint32_t id = 0;
+    ASSERT_STATUS(bench.client.send(chunk, id).status, Status::kOk);
+    bench.cycle();
+    const Report report = bench.report_of(id);
+    ASSERT_STATUS(report.verdict.status, kSeen[i]);
+    ASSERT_STATUS(report.outcome, i < 2 ? Outcome::kExecuted : Outcome::kRefused);
+    bench.run(6.0);
+    assert_true(bench.out().x.p[0] <= end + 1e-9);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -182,6 +211,7 @@ int main() {
       cmocka_unit_test(points_beyond_a_range_are_held_at_its_end_and_told_once),
       cmocka_unit_test(what_is_far_beyond_a_range_is_refused),
       cmocka_unit_test(chunks_beyond_a_range_are_held_at_its_end_and_told_once),
+      cmocka_unit_test(chunks_in_a_frame_are_judged_where_the_frame_is),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
