@@ -1,11 +1,12 @@
 // `tactus check`: runs the loader, the admission and the first step of the pipeline from the state
 // of the robot, whose drives stay disabled; then it goes along a path of the tip by inverse
-// kinematics.
+// kinematics, and rehearses the trajectory.
 #include <cinttypes>
 #include <cstdio>
 
 #include "program/reach/reach_warnings.hpp"
 #include "program/results/expectation.hpp"
+#include "program/session/rehearsal.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 
@@ -71,9 +72,10 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
-  const bool in_reach = judge_reach(session, input, initial.q);
+  const bool goes =
+      judge_reach(session, input, initial.q) && Rehearsal(session, input, guard, initial).run();
   if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
-  if (!judge_rest(session, input) || !in_reach) return kRefused;
+  if (!judge_rest(session, input) || !goes) return kRefused;
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
     std::printf("; %s: accepted, %" PRId64 " %s, %.6g s", input.path.c_str(), input.count(),

@@ -1,6 +1,7 @@
-// Tests that `check` names the places at which the arm cannot follow a path of its tip, and that a
-// run then stays behind by as much.
+// Tests that `check` names the places at which the arm cannot follow a path of its tip, that a
+// run then stays behind by as much, and that what `check` accepts a run carries out.
 #include <algorithm>
+#include <random>
 #include <string>
 
 #include "tests/program/program_bench.hpp"
@@ -30,6 +31,12 @@ int check(const Line& trajectory) {
   return tactus_run({"check", pipeline.c_str(), "--trajectory", trajectory.c_str()});
 }
 
+int run(const char* pipeline, const Line& trajectory) {
+  const Line file = in_folder(pipeline), out = in_folder("far");
+  return tactus_run({"run", file.c_str(), "--trajectory", trajectory.c_str(), "--no-figure",
+                     "--out", out.c_str()});
+}
+
 /// The number after `word` in a text.
 double number_after(std::string_view text, std::string_view word) {
   const std::size_t at = text.find(word);
@@ -48,9 +55,10 @@ void a_pose_out_of_reach_is_refused_with_time_place_and_distance(void**) {
   assert_true(has(errors(), " s: out of reach: at t = 15 s, (1.1, 0, 0.5) m, it stays 0.3"));
   assert_true(has(errors(), "; move the path or the base of the arm\n"));
   const double short_m = number_after(errors(), "it stays ");
-  const Line out = in_folder("far"), pipeline = in_folder("cpc.ini");
-  tactus_run(
-      {"run", pipeline.c_str(), "--trajectory", far.c_str(), "--no-figure", "--out", out.c_str()});
+  assert_int_equal(run("cpc.ini", far), 1);
+  assert_true(has(errors(), "aborted: path not followed: translation: path error 0.05"));
+  shell("sed '/reference_generator/a path_position_tolerance = 0' $S/cpc.ini >$S/loose.ini");
+  run("loose.ini", far);
   assert_int_equal(
       shell(
           "python3 -c \"import json, math; t = json.load(open('$S/far/summary.json'))['tracking'];"
@@ -96,6 +104,41 @@ void a_path_that_is_in_and_out_of_reach_very_often_has_few_lines(void**) {
   assert_true(has(errors(), "/often.csv: refused: and "));
 }
 
+// Proves RUN-29.
+
+void what_is_accepted_is_followed_and_what_is_refused_is_given_up(void**) {
+  std::minstd_rand random(7);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  int followed = 0, given_up = 0;
+  for (int trial = 0; trial < 16; ++trial) {
+    std::string text(
+        "time_s,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s\n");
+    for (double time_s = 2.0, end_s = 2.3 + 0.5 * any(random); time_s <= end_s;
+         time_s += end_s - 2.0) {
+      text += row(time_s, 0.35 + 0.27 * any(random), 0.9 * any(random) - 0.45).c_str();
+      text.replace(text.size() - 1, 1, ",0,0,0,0,0,0\n");
+    }
+    const Line csv = write("any.csv", {text.c_str()});
+    const bool accepted = check(csv) == 0;
+    if (!accepted && errors().find("s: path not followed: ") == std::string_view::npos) continue;
+    assert_int_equal(run("cpc.ini", csv), accepted ? 0 : 1);
+    if (!accepted) assert_true(has(errors(), "aborted: path not followed: "));
+    ++(accepted ? followed : given_up);
+  }
+  assert_in_range(followed, 4, 12);
+  assert_in_range(given_up, 2, 12);
+}
+
+void a_box_in_the_way_is_named_with_its_time_before_anything_moves(void**) {
+  const char* const file =
+      "(cat pipelines/fer_trg_cpc.ini; echo '[shelf]\ntype = box\ncentre = 0.45 0 0.3\n"
+      "size = 0.3 0.3 0.2\n[collision]') >$S/shelf.ini && $P check $S/shelf.ini "
+      "--trajectory pipelines/trajectories/fer_square.csv";
+  assert_int_equal(shell(file), 2);
+  assert_true(has(errors(), "fer_square.csv: refused: the run would stop at t = 7."));
+  assert_true(has(errors(), " s: collision (77)\n  shelf with "));
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -107,6 +150,8 @@ int main(int, char** argv) {
       cmocka_unit_test(a_joint_at_its_limit_is_named_with_value_and_limit),
       cmocka_unit_test(a_path_in_reach_and_a_path_of_joints_have_no_warning),
       cmocka_unit_test(a_path_that_is_in_and_out_of_reach_very_often_has_few_lines),
+      cmocka_unit_test(what_is_accepted_is_followed_and_what_is_refused_is_given_up),
+      cmocka_unit_test(a_box_in_the_way_is_named_with_its_time_before_anything_moves),
   };
   return run_program_tests(argv[0], tests);
 }

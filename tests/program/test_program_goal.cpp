@@ -84,6 +84,16 @@ void a_path_that_was_not_followed_names_joint_value_limit_and_what_to_do(void**)
                   "path_tolerance\n"));
 }
 
+void an_arm_far_behind_its_path_has_not_succeeded_although_it_would_arrive(void**) {
+  write("down.csv", {kHeader, "2.2,1.1,-0.785398,0,-2.356194,0,1.570796,0.785\n"});
+  write("g.ini", {kHead, kLaw});
+  const int code = shell(
+      "sed -i 's/= 500/= 100/; s/= 50 40/= 500 40/' $S/g.ini && $P run $S/g.ini --trajectory "
+      "$S/down.csv --no-figure --out $S/g");
+  assert_int_equal(code, 1);
+  assert_true(has(errors(), "aborted: path not followed: joint 1 (fer_joint1): path error 0.5"));
+}
+
 void an_arm_that_does_not_stop_at_its_goal_is_told_from_one_that_is_not_there(void**) {
   const Line noisy = write("g.ini", {kHead, "stopped_velocity = 1e-9\ngoal_time_s = 0.3\n",
                                      "[plant]\nvelocity_noise_rad_s = 1e-3\n", kLaw});
@@ -157,6 +167,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_goal_that_is_not_held_long_enough_names_the_settings),
       cmocka_unit_test(a_run_covers_the_last_part_of_a_cycle),
       cmocka_unit_test(a_path_that_was_not_followed_names_joint_value_limit_and_what_to_do),
+      cmocka_unit_test(an_arm_far_behind_its_path_has_not_succeeded_although_it_would_arrive),
       cmocka_unit_test(an_arm_that_does_not_stop_at_its_goal_is_told_from_one_that_is_not_there),
       cmocka_unit_test(the_tip_is_named_by_its_translation_or_rotation),
       cmocka_unit_test(a_run_that_is_too_short_says_by_how_much_and_how_far_the_goal_was),

@@ -15,7 +15,7 @@ struct JointReferenceGenerator : StreamOutputs<> {
 
   struct Params {
     JointVector start_tolerance = JointVector::Constant(0.01);  ///< rad
-    JointVector path_tolerance = JointVector::Zero();           ///< rad; 0: not checked
+    JointVector path_tolerance = JointVector::Constant(0.5);    ///< rad; 0: not checked
     JointVector goal_tolerance = JointVector::Constant(0.01);   ///< rad; 0: not checked
     GeneratorSettings generator;
   } params;

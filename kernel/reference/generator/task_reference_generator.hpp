@@ -14,7 +14,7 @@ struct TaskReferenceGenerator : StreamOutputs<> {
 
   struct Params {
     TaskSpace::Tolerance start_tolerance;            ///< for trajectories that begin at t = 0
-    TaskSpace::Band path_tolerance;                  ///< 0: not checked
+    TaskSpace::Band path_tolerance = {0.05, 0.3};    ///< 0: not checked
     TaskSpace::Band goal_tolerance = {0.005, 0.02};  ///< 0: not checked
     GeneratorSettings generator;
   } params;

@@ -1,0 +1,84 @@
+#include "program/session/rehearsal.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace tactus {
+namespace {
+
+/// Moves the robot to where `command` wants it at the end of a cycle.
+void obey(const RobotCommand& command, double period_s, RobotState& state) {
+  const JointVector before = state.q;
+  if (command.mode == CommandMode::kVelocity)
+    state.q += period_s * command.value;
+  else
+    state.q = command.value;
+  state.dq = (state.q - before) / period_s;
+}
+
+}  // namespace
+
+Rehearsal::Rehearsal(Session& session, TrajectoryInput& input, Guard& guard,
+                     const RobotState& state)
+    : session_(session), input_(input), guard_(guard), goal_(session, input), state_(state) {
+  const Guard::Params& params = session.pipeline.guard;
+  limiting_.start(params.limiting_share,
+                  std::llround(params.limiting_window / session.pipeline.robot.period_s()));
+}
+
+/// One cycle, as the executive's, from the command of the one before.
+Status Rehearsal::cycle() {
+  Pipeline& pipeline = session_.pipeline;
+  const double period_s = pipeline.robot.period_s();
+  RobotCommand command = pipeline.robot.command();
+  Status status = guard_.limit(state_, command);
+  if (status != Status::kOk) return status;
+  if (limiting_.add(guard_.telemetry().limited)) return Status::kLimiting;
+  obey(command, period_s, state_);
+  state_.stamp_ns += std::int64_t{1000} * pipeline.robot.period_us;
+  ++cycle_;
+  status = guard_.check(state_, {state_.stamp_ns});
+  if (status == Status::kOk) status = pipeline.step(state_);
+  if (status == Status::kOk && pipeline.collision.present)
+    status = pipeline.collision_check.step(state_);
+  return status;
+}
+
+/// Takes what the generator tells; true if nothing of the trajectory is left in the store.
+bool Rehearsal::ended() {
+  goal_.follow();
+  while (poll_report(session_, input_, report_))
+    if (report_.id == input_.id &&
+        (is_final(report_.outcome) || report_.outcome == Outcome::kStarved))
+      return true;
+  return false;
+}
+
+double Rehearsal::time_s() const {
+  return static_cast<double>(cycle_) * session_.pipeline.robot.period_s();
+}
+
+bool Rehearsal::refuse(Status status) {
+  Pipeline& pipeline = session_.pipeline;
+  Text<127> event("refused: the run would stop at t = ");
+  event << time_s() << " s";
+  print_stop(input_.path.c_str(), event.c_str(), status, guard_.telemetry());
+  if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
+  return false;
+}
+
+bool Rehearsal::run() {
+  if (!input_.given() || session_.pipeline.robot.mode() == CommandMode::kEffort) return true;
+  const double end_s = goal_.latest_report_s();
+  while (!ended()) {
+    if (cycle_ == kMostCycles || time_s() > end_s) return true;
+    const Status status = cycle();
+    if (status != Status::kOk) return refuse(status);
+  }
+  if (report_.outcome != Outcome::kAborted) return true;
+  std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(), time_s(),
+               goal_.given_up(report_.verdict).c_str());
+  return false;
+}
+
+}  // namespace tactus
