@@ -1,6 +1,7 @@
 // Tests the room between what is admitted and what the guard stops: the arm of every shipped chain
 // of torques follows random motions as fast as its references may be, to the ends of their ranges
-// too, and no measured joint ends them.
+// too, and no measured joint ends them; straight lines with the largest steps of velocity are not
+// limited by the guard.
 #include <fstream>
 #include <memory>
 
@@ -111,6 +112,43 @@ void no_accepted_motion_ends_in_a_fault(void**) {
   }
 }
 
+/// Moves one joint along a line and back, with the largest step of velocity where it turns.
+void send_line(PipelineBench& bench, int joint) {
+  const JointLimits& limits = bench.channel.settings.limits;
+  const JointVector home = bench.output<JointVector>("jrg.q_d");
+  const double inwards = home[joint] > 0.5 * (limits.q_min[joint] + limits.q_max[joint]) ? -1 : 1;
+  const double step = limits.velocity_step[joint], time_s = std::min(0.3 / step, 0.5);
+  Trajectory<JointSpace>* const line = bench.client.acquire();
+  assert_non_null(line);
+  line->interpolation = Interpolation::kLinear;
+  line->count = 3;
+  for (int i = 0; i < 3; ++i) {
+    line->waypoints[i].time_s = i * time_s;
+    line->waypoints[i].point.q = home;
+  }
+  line->waypoints[1].point.q[joint] += inwards * 0.5 * step * time_s;
+  std::uint32_t id = 0;
+  ASSERT_OK(bench.client.send(*line, id).status);
+}
+
+// Proves GRD-14.
+
+void the_largest_step_of_a_line_is_not_limited(void**) {
+  for (const char* rest : {"_jrg_pdgc", "_jrg_pid"}) {
+    const std::string name = of_this_robot(rest);
+    if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
+    const auto bench = std::make_unique<PipelineBench>();
+    ASSERT_OK(bench->refused(name, "", ""));
+    Most most;
+    run(*bench, 1000, most);
+    for (int joint = 0; joint < kDof; ++joint) {
+      send_line(*bench, joint);
+      run(*bench, 2000, most);
+      assert_int_equal(bench->executive.guard().telemetry().limited_cycles, 0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -118,6 +156,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(no_accepted_motion_ends_in_a_fault),
+      cmocka_unit_test(the_largest_step_of_a_line_is_not_limited),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
