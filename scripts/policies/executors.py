@@ -6,6 +6,7 @@ trapezoid.
 """
 
 import queues
+import real_time_chunking
 import splices
 
 EXECUTORS = {
@@ -16,6 +17,7 @@ EXECUTORS = {
     "align, fade, trapezoid": queues.aligned_trapezoid,
     "align same step, trapezoid": queues.realigned_trapezoid,
     "ACT ensemble": queues.act_ensemble,
+    "RTC, held": real_time_chunking.held,
     "20 Hz, reach and hold": queues.fast_then_hold,
     "linear splice": splices.linear_splice,
     "cubic from measured": splices.cubic_from_measured,

@@ -6,6 +6,7 @@ import pathlib
 import numpy as np
 
 import metrics
+import real_time_chunking
 from executors import EXECUTORS
 from robots import Command
 from scenarios import SCENARIOS, chunks, covered
@@ -15,13 +16,18 @@ SETTLED_S = 2.0  # of the beginning is not measured, except for our limits and w
 GRACE_S = 0.1  # before chunks run out, and after they come again: rests there are no standstills
 BASELINE_DT = 1e-3
 INTENT, OURS = "intent", "ours"
+# Ours on the chunks of real-time chunking, by its weights.
+CONDITIONED = {
+    "RTC, then ours": real_time_chunking.lerobot,
+    "RTC of the paper, then ours": real_time_chunking.published,
+}
 # Executors of the replay program: its mode, None for that of the space, and its settings, fade and smoothing in s.
 REPLAYED = {
     "rest per target": ("rest",),
     "point per target": ("stream",),
-    OURS: (None, 0.3, 0.03),
     "ours, not smoothed": (None, 0.3, 0.0),
     "ours, no fade": (None, 0.0, 0.03),
+    **dict.fromkeys([*CONDITIONED, OURS], (None, 0.3, 0.03)),
 }
 
 
@@ -98,12 +104,15 @@ def scenario_of(case):
 def chunks_of(case, robot):
     """Returns the chunks that the case executes."""
     scenario = scenario_of(case)
-    return chunks(scenario, robot.intent(scenario, case.space), case.seed, robot.units(case.space))
+    made = chunks(scenario, robot.intent(scenario, case.space), case.seed, robot.units(case.space))
+    weights = CONDITIONED.get(case.executor)
+    return list(real_time_chunking.conditioned(made, scenario.rate_hz, weights)) if weights else made
 
 
 def chunk_file(case, folder):
     """Returns the file of its chunks."""
-    name = f"{case.scenario}-{case.robot}-{case.space}.csv"
+    whose = f"-{case.executor}".replace(",", "") if case.executor in CONDITIONED else ""
+    name = f"{case.scenario}-{case.robot}-{case.space}{whose}.csv"
     return pathlib.Path(folder) / name.replace(" ", "-").replace("%", "percent")
 
 

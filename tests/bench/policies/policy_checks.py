@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "scripts/po
 import bounds  # noqa: E402
 import chunk_files  # noqa: E402
 import metrics  # noqa: E402
+import real_time_chunking as rtc  # noqa: E402
 from executors import EXECUTORS  # noqa: E402
 from scenarios import SCENARIOS, Chunk, chunks, covered  # noqa: E402
 from signals import Intent  # noqa: E402
@@ -130,6 +131,7 @@ def executors():
         "queue, linear": period,
         "0.3/0.7, linear": period,
         "ACT ensemble": period,
+        "RTC, held": period / 2.0,
         "linear splice": 0.0,
         "cubic from p and v": 0.0,
         "cubic, crossfade": 0.0,
@@ -142,6 +144,30 @@ def executors():
     assert slowest["queue, held"] == 0.0
     behind = (intent.at(t) - EXECUTORS["cubic from measured"](made, t, made[0].q[0], 30.0))[5000:, 0] / 0.5
     assert behind.max() > 0.04, "the plant lags by 50 ms"
+
+
+def real_time_chunks():
+    """Chunks that agree stay as they are; the others keep the targets of the delay, and leave the rest as told."""
+    agreeing = chunks(dataclasses.replace(SCENARIOS["agree"], duration_s=10.0), Intent("sines", [1.0, 0.5]), 1)
+    for weights in (rtc.lerobot, rtc.published):
+        for chunk, made in zip(agreeing, rtc.conditioned(agreeing, 30.0, weights)):
+            assert np.allclose(made.q, chunk.q, rtol=0.0, atol=1e-12) and np.array_equal(made.t, chunk.t)
+
+    def chunk(number, observed, latency, value):
+        t = observed + np.arange(21) / 10.0
+        return Chunk(number, observed, observed + latency, t, np.full((21, 1), value), np.zeros(21))
+
+    # The first inference does not count, the second takes 3 steps; the fourth chunk comes when targets have run out.
+    four = [chunk(0, 0.0, 0.45, 0.0), chunk(1, 0.5, 0.25, 0.0), chunk(2, 1.0, 0.15, 1.0), chunk(3, 4.0, 0.25, 2.0)]
+    for queued in (False, True):
+        *_, third, fourth = rtc.conditioned(four, 10.0, rtc.lerobot, queued)
+        assert np.array_equal(third.q[:3], np.zeros((3, 1))) and np.array_equal(third.q[10:], np.ones((11, 1)))
+        assert np.allclose(third.q[3:10, 0], np.arange(1, 8) / 8.0)
+        assert np.array_equal(fourth.q, four[3].q)
+        near(fourth.t[0], 4.3 if queued else 4.0, 1e-12)
+    *_, third, _ = rtc.conditioned(four, 10.0, rtc.published)
+    assert np.array_equal(third.q[:3], np.zeros((3, 1))) and np.array_equal(third.q[16:], np.ones((5, 1)))
+    near(1.0 - third.q[9, 0], 0.5 / (np.sqrt(np.e) + 1.0), 1e-12)  # half of the way, of which 16 targets are left
 
 
 def verdicts():

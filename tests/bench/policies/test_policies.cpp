@@ -28,6 +28,9 @@ void a_delay_is_found_between_samples(void**) {
 void the_delay_of_other_executors_is_as_told_beforehand(void**) {
   check("executors");
 }
+void real_time_chunking_keeps_what_is_committed_and_lets_go_as_published(void**) {
+  check("real_time_chunks");
+}
 
 // Proves POL-2.
 
@@ -80,6 +83,7 @@ int main(int, char** argv) {
       cmocka_unit_test(standstills_are_counted_and_short_rests_are_not),
       cmocka_unit_test(a_delay_is_found_between_samples),
       cmocka_unit_test(the_delay_of_other_executors_is_as_told_beforehand),
+      cmocka_unit_test(real_time_chunking_keeps_what_is_committed_and_lets_go_as_published),
       cmocka_unit_test(a_seed_gives_the_same_chunks_and_each_cause_its_own_numbers),
       cmocka_unit_test(a_file_of_chunks_is_read_as_it_was_written),
       cmocka_unit_test(the_time_without_chunks_is_known),
