@@ -24,9 +24,10 @@ int targets_until(const ChunkCurve<Space>& chunk, double now_s) {
 
 }  // namespace
 
-/// A stop voids what is on its way, and digital outputs stay as they are.
+/// A stop voids what is on its way and what was sent before, and digital outputs stay as they are.
 template <class Space>
 void ReferenceGenerator<Space>::end_epoch() {
+  motion_.forget_points();
   if constexpr (kStreams) {
     stream_.gate.end();
     channel_->stream.epoch = stream_.gate.least();

@@ -183,7 +183,6 @@ void Motion<Space>::cancel() {
   if (phase_ == Phase::kReaching || streams(phase_) || holds_effort() || !offset_.zero())
     return stop();
   if (!given_up()) braking_s_ = 0.0;
-  stream_.clear();
   tell(MotionEvent::kCancel);
 }
 

@@ -61,6 +61,8 @@ class Motion {
   void stop();
   /// As stop(), but as cancel() if a stop would leave position limits. [cyclic]
   void stop_inside() { can_leave() ? stop() : cancel(); }
+  /// Forgets the points of a stream: the next one begins a new stream. [cyclic]
+  void forget_points() { stream_.clear(); }
   /// Ends a trajectory: the robot has arrived. [cyclic]
   void complete() { tell(MotionEvent::kComplete); }
 

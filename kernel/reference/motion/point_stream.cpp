@@ -118,6 +118,7 @@ void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) 
   const bool moved_before = moves(now_s);
   const Point old = moved_before ? target(now_s) : point;
   const bool replaces = now_s == arrival_s_ && stamp_s == stamp_s_;
+  if (given_ && point.standing()) clear();
   if (count_ == 0 || !replaces) {
     const double distance = stamp_s != kNoStamp ? stamp_s - stamp_s_ : 1.0;
     keep_time(now_s, stamp_s);

@@ -8,7 +8,8 @@
 // The target is the parabola that fits the newest point and three before it best
 // (parabola_fit.hpp), in the chart of the newest. Of a fast stream only points are kept that are
 // far enough apart for the noise in them. For a stream that gives velocities it is the parabola
-// through the newest point with the change of velocity since the point before.
+// through the newest point with the change of velocity since the point before; a point without a
+// velocity ends it, as a place to go to.
 // The jump from the old prediction to the new one fades over 3 D, at least 0.12 s, by a quintic, so
 // that the target is continuous up to its acceleration.
 //

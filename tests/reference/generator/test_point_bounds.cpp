@@ -1,8 +1,10 @@
-// What bounds points: max_step, a step that is refused, and the end of a range.
+// What bounds points: max_step, a step that is refused, the end of a range, and where they end.
 // Every cycle is judged by the oracle of motions as well.
 #include "kernel/reference/space/judge_channels.hpp"
 #include "tests/reference/motion/checked_motion.hpp"
 #include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
@@ -201,6 +203,57 @@ void chunks_in_a_frame_are_judged_where_the_frame_is(void**) {
   }
 }
 
+/// Points with velocities, points without, cancels and waits in any order, then one point.
+template <class Space>
+void ends_at_the_last_point(Random& random) {
+  CheckedMotion<Space> bench;
+  ASSERT_OK(bench.start(bench.home));
+  std::uint32_t id = 0;
+  for (int n = 1 + random.below(6); n > 0; --n) {
+    typename Space::Point point = moved_by(bench.home, random.uniform(-0.2, 0.2));
+    if (random.below(3) > 0) Space::rates(point)[1] = random.uniform(-0.5, 0.5);
+    assert_int_not_equal(bench.send(point), 0);
+    bench.run(random.uniform(0.001, 0.15));
+    if (random.below(2) == 0) static_cast<void>(bench.client.cancel(id));
+    bench.run(random.uniform(0.001, 0.15));
+    bench.report_of(id);
+  }
+  const typename Space::Point last = moved_by(bench.home, random.uniform(-0.2, 0.2));
+  assert_int_not_equal(bench.send(last), 0);
+  bench.run(2.0);
+  ASSERT_NEAR(Space::difference(bench.out(), last).x.norm(), 0.0, 1e-9);
+}
+
+// Proves RG-35.
+
+void a_point_without_a_velocity_is_where_the_reference_rests_whatever_came_before(void**) {
+  Random random{5};
+  for (int trial = trials(200); trial > 0; --trial) {
+    ends_at_the_last_point<JointSpace>(random);
+    ends_at_the_last_point<TaskSpace>(random);
+  }
+}
+
+void a_canceled_point_has_no_part_in_the_next(void**) {
+  CheckedJoints canceled, fresh;
+  JointSpace::Point point = canceled.home;
+  ASSERT_OK(canceled.start(point));
+  point.dq[0] = 0.1;
+  std::uint32_t id = canceled.send(point);
+  canceled.run(0.02);
+  ASSERT_OK(canceled.client.cancel(id).status);
+  canceled.run(0.15);
+  assert_true(canceled.out().standing());
+  ASSERT_OK(fresh.start(canceled.out()));
+  point.dq[0] = 0.3;
+  for (CheckedJoints* bench : {&canceled, &fresh}) assert_int_not_equal(bench->send(point), 0);
+  for (int k = 0; k < 400; ++k) {
+    canceled.cycle();
+    fresh.cycle();
+    ASSERT_NEAR(canceled.out().q[0], fresh.out().q[0], 1e-9);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -212,6 +265,9 @@ int main() {
       cmocka_unit_test(what_is_far_beyond_a_range_is_refused),
       cmocka_unit_test(chunks_beyond_a_range_are_held_at_its_end_and_told_once),
       cmocka_unit_test(chunks_in_a_frame_are_judged_where_the_frame_is),
+      cmocka_unit_test(
+          a_point_without_a_velocity_is_where_the_reference_rests_whatever_came_before),
+      cmocka_unit_test(a_canceled_point_has_no_part_in_the_next),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
