@@ -112,6 +112,33 @@ void no_accepted_motion_ends_in_a_fault(void**) {
   }
 }
 
+/// Points from side to side, 0.15 rad each, in rhythms that a joint may swing in.
+void no_rhythm_of_points_ends_in_a_fault(void**) {
+  for (const char* rest : {"_jrg_pdgc", "_jrg_pid"}) {
+    const std::string name = of_this_robot(rest);
+    if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
+    const auto bench = std::make_unique<PipelineBench>();
+    ASSERT_OK(bench->refused(name, "", ""));
+    Most most;
+    run(*bench, 1, most);
+    const JointVector home = bench->output<JointVector>("jrg.q_d");
+    for (int joint = 0; joint < kDof; ++joint)
+      for (const int cycles : {100, 140, 181, 185, 190, 200, 220, 260}) {
+        for (int n = 0; n < 24; ++n) {
+          JointSpace::Point point;
+          point.q = home;
+          point.q[joint] += n % 2 == 0 ? 0.15 : -0.15;
+          std::uint32_t id = 0;
+          ASSERT_OK(bench->client.send(point, id).status);
+          run(*bench, cycles, most);
+        }
+      }
+    print_message("%s: speeds, shares of the limits:", name.c_str());
+    for (int i = 0; i < kDof; ++i) print_message(" %.3f", most.speed[i]);
+    print_message("\n");
+  }
+}
+
 /// Moves one joint along a line and back, with the largest step of velocity where it turns.
 void send_line(PipelineBench& bench, int joint) {
   const JointLimits& limits = bench.channel.settings.limits;
@@ -156,6 +183,7 @@ int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(no_accepted_motion_ends_in_a_fault),
+      cmocka_unit_test(no_rhythm_of_points_ends_in_a_fault),
       cmocka_unit_test(the_largest_step_of_a_line_is_not_limited),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
