@@ -25,6 +25,7 @@ template <class Space>
 Verdict ReferenceServer<Space>::place(const TrajectoryTerms& terms,
                                       typename Space::Header& header) const {
   if constexpr (std::is_same_v<Space, JointSpace>) {
+    if (!terms.motion.empty() || !terms.wrench.empty()) return {Status::kNotOffered};
     header.held = terms.held;
   } else if (!find_pose(ports_, terms.motion, header.motion) ||
              !find_pose(ports_, terms.wrench, header.wrench)) {

@@ -60,7 +60,9 @@ Verdict ReferenceClient<Space>::post(const Chunk<Space>& chunk, std::uint32_t& i
 template <class Space>
 Verdict ReferenceClient<Space>::send(const Velocity<Space>& velocity, std::uint32_t& id,
                                      const typename Space::Header& header) {
-  if (!velocity.rates.allFinite()) return {Status::kReferenceNotFinite};
+  for (int i = 0; i < velocity.rates.size(); ++i)
+    if (!std::isfinite(velocity.rates[i]))
+      return {Status::kReferenceNotFinite, -1, i, velocity.rates[i], 0.0};
   const Verdict verdict = judge_velocity<Space>(velocity.rates, channel_.settings.limits);
   if (!verdict.ok()) return verdict;
   const auto share = [](double value) { return value > 0.0 && value <= 1.0; };

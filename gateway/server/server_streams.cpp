@@ -93,6 +93,8 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
   const tactus_Chunk& given = request_.request.chunk;
   if (given.time > tactus_Chunk_Time_ON_ARRIVAL || given.base > tactus_Chunk_Base_MEASURED)
     return {Status::kBadValue, "Chunk.time or Chunk.base is unknown"};
+  if (given.has_crossfade_s && !(given.crossfade_s >= 0.0 && given.crossfade_s <= kLongestFade_s))
+    return {Status::kBadValue, "Chunk.crossfade_s is not from 0 to 0.3"};
   if (!takes_references()) return {Status::kNotOffered, "the pipeline takes no references"};
   double origin_s = 0.0, observed_s = 0.0;
   Reply why = read_chunk_time(slot, now_ns, origin_s, observed_s);
