@@ -17,8 +17,9 @@ Times named *_ns are nanoseconds of this process's `time.monotonic_ns()`; the li
 server and follows its drift.
 
 Errors are subclasses of `tactus.Error`. A mistake of the caller that can be seen without the server (the shape of an
-array, two kinds of target at once) is a ValueError. No call waits without end: a server that is silent for
-`timeout_s` has failed (Lost). The arm never depends on this process: if it dies, the server brings the arm to rest.
+array, two kinds of target at once, a number out of its range) is a ValueError; nothing was sent. No call waits without
+end: a server that is silent for `timeout_s` has failed (Lost). The arm never depends on this process: if it dies, the
+server brings the arm to rest.
 
 All methods may be called from any thread. The library needs numpy and protobuf; `make python` writes it with the module
 tactus_pb2 into build/python.
@@ -36,9 +37,9 @@ import hashlib
 import os
 import pathlib
 import re
-import select
-import shutil
+import reprlib
 import secrets
+import select
 import socket
 import stat
 import subprocess
@@ -91,6 +92,10 @@ Self = TypeVar("Self", bound="_References")
 
 _TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
 _LONGEST_MESSAGE = 16 * 1024  # bytes; tactus.proto
+_BYTES = {"frame": 63, "section": 31, "key": 31, "value": 191}  # of texts; docs/gateway.md, gateway/tactus.options
+_MOST_PARAMETERS, _MOST_CHANNELS = 32, 8  # of a message; who sends more is cut
+_LATEST_NS = 2**61  # of a clock, 73 years: the sum of two fits in 64 bits
+_LONGEST_WAIT_S = 86400.0
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
 _REPORTED = {"point", "velocity", "chunk", "begin", "parameters"}
@@ -141,6 +146,49 @@ class Aborted(Error):
 
 class Stopped(Error):
     """A stop has made the stream void that this reference belongs to; open a new stream to go on."""
+
+
+# --- arguments ---
+
+
+def _real(name: str, values: Any, expected: str = "real numbers") -> NDArray[Any]:
+    """Returns them as an array; ValueError if they are anything else, texts or complex numbers for example."""
+    cause: Optional[Exception] = None
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind in "biuf":
+            return array
+    except Exception as error:  # of whatever kind: values of other libraries convert themselves
+        cause = error
+    raise ValueError(f"{name} is {reprlib.repr(values)}; expected {expected}") from cause
+
+
+def _number(name: str, value: Any, low: float, high: float, whole: bool = False) -> Any:
+    """Returns it as a number of Python; ValueError if it is not one from `low` to `high`."""
+    expected = f"a {'whole ' * whole}number from {low:.10g} to {high:.10g}"
+    number = _real(name, value, expected)
+    if number.ndim or not low <= number.item() <= high or (whole and number % 1):
+        raise ValueError(f"{name} is {reprlib.repr(value)}; expected {expected}")
+    return number.item()
+
+
+def _whole(name: str, value: Any, low: int, high: int) -> int:
+    return int(_number(name, value, low, high, whole=True))
+
+
+def _milliseconds(name: str, value_s: Any, low_s: float, high_s: float) -> int:
+    return round(_number(name, value_s, low_s, high_s) * 1000)
+
+
+def _text(name: str, value: Any, most: int = _LONGEST_MESSAGE) -> str:
+    """Returns it; ValueError if it is no text, or longer than `most` bytes."""
+    try:
+        size = len(value.encode())
+    except (AttributeError, UnicodeError) as error:
+        raise ValueError(f"{name} is {reprlib.repr(value)}; expected a text") from error
+    if size > most:
+        raise ValueError(f"{name} has {size} bytes; at most {most} are taken")
+    return str(value)
 
 
 # --- what the server says ---
@@ -413,12 +461,15 @@ class _Tunnel:
 
     @staticmethod
     def _read(file: pathlib.Path) -> bytes:
-        found = file.stat()
-        if not stat.S_ISREG(found.st_mode) or found.st_uid != os.geteuid() or found.st_mode & 0o077:
-            raise ValueError(f"{file}: others may read it, or it is no file: make it yours, then chmod 600")
-        digits = file.read_text(encoding="ascii", errors="replace").rstrip("\r\n")
+        try:
+            found = file.stat()
+            if not stat.S_ISREG(found.st_mode) or found.st_uid != os.geteuid() or found.st_mode & 0o077:
+                raise ValueError(f"key {file}: others may read it, or it is no file: make it yours, then chmod 600")
+            digits = file.read_text(encoding="ascii", errors="replace").rstrip("\r\n")
+        except OSError as error:
+            raise ValueError(f"key {file}: {error.strerror}; openssl rand -hex 32 makes its content") from error
         if not re.fullmatch("[0-9a-fA-F]{64}", digits):
-            raise ValueError(f"{file}: it does not hold 64 hexadecimal digits; openssl rand -hex 32 makes them")
+            raise ValueError(f"key {file}: it does not hold 64 hexadecimal digits; openssl rand -hex 32 makes them")
         return bytes.fromhex(digits)
 
     def hello(self) -> bytes:
@@ -479,20 +530,25 @@ class _Link:
         target: Union[str, tuple[str, int]]
         if kind == "unix" and place:
             self._socket, target = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM), place
-        elif kind == "tcp" and host and port.isdigit():
+        elif kind == "tcp" and host and re.fullmatch("[0-9]{1,5}", port) and int(port) < 65536:
             family = socket.AF_INET6 if ":" in host else socket.AF_INET
             self._socket, target = socket.socket(family, socket.SOCK_STREAM), (host.strip("[]"), int(port))
             self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         else:
-            raise ValueError(f"address {address!r}: write unix:/path/of/the/socket or tcp:HOST:PORT")
-        self._socket.settimeout(timeout_s)
+            raise ValueError(f"address {address!r}: write unix:/path/of/the/socket or tcp:HOST:PORT; PORT to 65535")
         try:
+            self._socket.settimeout(timeout_s)
             self._socket.connect(target)
-        except OSError as error:
+            if self._tunnel:
+                self._shake_hands(self._tunnel)
+        except BaseException as error:
             self._socket.close()
-            raise Lost(f"{address}: {error.strerror or error}; is a tactus server running there?") from error
-        if self._tunnel:
-            self._shake_hands(self._tunnel)
+            if isinstance(error, OSError):
+                why = f"{error.strerror or error}; is a tactus server running there?"
+                raise Lost(f"{address}: {why}") from error
+            if isinstance(error, (TypeError, ValueError)):  # of Python: no name of a host
+                raise ValueError(f"address {address!r}: {error}") from error
+            raise
 
     def _shake_hands(self, tunnel: _Tunnel) -> None:
         try:
@@ -505,7 +561,6 @@ class _Link:
                 reply += piece
             self._socket.sendall(tunnel.answer(reply))
         except (OSError, Lost) as error:
-            self._socket.close()
             raise Lost(f"{self.address}: {error}; does the server have a key?") from error
 
     def send(self, message: pb.ToServer) -> None:
@@ -620,8 +675,8 @@ class _Session:
         self._heard = time.monotonic()
         self._link = _Link(address, timeout_s, key)
         self._thread = threading.Thread(target=self._run, name="tactus", daemon=True)
-        self._thread.start()
         try:
+            self._thread.start()
             self._greet(name)
         except BaseException:
             self.close()
@@ -720,7 +775,7 @@ class _Session:
             self.broken = self.broken or Lost("the connection is closed")
             self.news.notify_all()
         self._link.close()
-        if threading.current_thread() is not self._thread:
+        if self._thread.is_alive() and threading.current_thread() is not self._thread:
             self._thread.join(self.timeout_s)
 
     def _fail(self, error: Error) -> None:
@@ -799,13 +854,21 @@ class _Session:
         call.answer = answer
         self.epoch = max(self.epoch, answer.epoch)
         if answer.received_ns:
-            self.clock.add(answer.client_ns, answer.received_ns, answer.server_ns, time.monotonic_ns())
+            stamps = (answer.client_ns, answer.received_ns, answer.server_ns)
+            if max(map(abs, stamps)) > _LATEST_NS:
+                raise Lost(f"the server has answered with the stamps {stamps}, which are those of no clock")
+            self.clock.add(*stamps, time.monotonic_ns())
         if call.kind == "begin":
             self.credit = 0  # Credits of an older trajectory end here
         if call.final:
             del self._calls[answer.number]
 
     def _take_report(self, report: pb.Report) -> None:
+        if report.outcome not in pb.Report.Outcome.values():
+            raise Lost(
+                f"the server has reported the outcome {report.outcome} of request {report.number}, which this library"
+                " does not know; install the same release of both"
+            )
         call = self._calls.get(report.number)
         if call is None and report.outcome == pb.Report.STARVED:
             self.starved += 1  # a chunk or a velocity that was in force, and that no other has followed
@@ -842,19 +905,36 @@ def connect(
     name       -- by which others see who moves the arm; without it, program and process number
     priority   -- of the lease, 0 to 255: who has a higher one takes the arm away
     lease_s    -- the arm stops on its path when nothing has come from this process for as long; 0.02 to 60
-    state_s    -- between two States, whole milliseconds
-    feedback_s -- between two Feedbacks of a trajectory, whole milliseconds
-    timeout_s  -- a server that does not answer or is silent for as long has failed
+    state_s    -- between two States, whole milliseconds; 0.001 to timeout_s
+    feedback_s -- between two Feedbacks of a trajectory, whole milliseconds; to 60; 0: none
+    timeout_s  -- a server that does not answer or is silent for as long has failed; 0.01 to 86 400
 
     Nothing moves and no lease is asked for before the first motion. Raises Lost if there is no such server, Refused if
     it does not take this client.
     """
     if name is None:
-        name = f"{pathlib.Path(sys.argv[0]).name or 'python'}.{os.getpid()}"
+        program = pathlib.Path(sys.argv[0]).name or "python"
+        name = f"{program}.{os.getpid()}".encode(errors="replace").decode()
     if address is None:
         folder = os.environ.get("XDG_RUNTIME_DIR", "")
         address = f"unix:{folder}/tactus.sock" if folder.startswith("/") else f"unix:/tmp/tactus-{os.getuid()}.sock"
-    return Arm(_Session(address, name, timeout_s, key), priority, lease_s, state_s, feedback_s)
+    timeout_s = _number("timeout_s", timeout_s, 0.01, _LONGEST_WAIT_S)
+    lease = pb.Lease(
+        wish=pb.Lease.TAKE,
+        priority=_whole("priority", priority, 0, 255),
+        timeout_ms=_milliseconds("lease_s", lease_s, 0.02, 60),
+    )
+    subscription = pb.Subscribe(
+        state_ms=_milliseconds("state_s", state_s, 0.001, timeout_s),
+        feedback_ms=_milliseconds("feedback_s", feedback_s, 0, 60),
+        events=True,
+    )
+    session = _Session(_text("address", address), _text("name", name), timeout_s, key)
+    try:
+        return Arm(session, lease, subscription)
+    except BaseException:
+        session.close()
+        raise
 
 
 class Arm:
@@ -864,23 +944,16 @@ class Arm:
     otherwise lets a trajectory that was begun by `start` run to its end, and waits until all its waypoints are sent.
     """
 
-    def __init__(self, session: _Session, priority: int, lease_s: float, state_s: float, feedback_s: float):
+    def __init__(self, session: _Session, lease: pb.Lease, subscription: pb.Subscribe):
         self._session = session
-        self._lease = pb.Lease(wish=pb.Lease.TAKE, priority=priority, timeout_ms=round(lease_s * 1000))
+        self._lease = lease
         self._leased = False
         self._upload = threading.Lock()  # one trajectory at a time is under way to the server
         self._uploading: Optional[Motion] = None
         self.address = session.address
         assert session.welcome
         self.robot = _robot(session.welcome)
-        try:
-            session.ask(
-                "subscribe",
-                pb.Subscribe(state_ms=round(state_s * 1000), feedback_ms=round(feedback_s * 1000), events=True),
-            )
-        except BaseException:
-            session.close()
-            raise
+        session.ask("subscribe", subscription)
 
     def __enter__(self) -> Arm:
         return self
@@ -980,30 +1053,29 @@ class Arm:
         What the server holds at once is judged before the arm moves; the rest is sent while it moves.
         Raises Refused with waypoint, joint, value and limit if the server does not accept it.
         """
-        terms = self._terms(joints)
+        terms = self._terms(joints, motion_frame, wrench_frame)
         targets = self._targets(
             dict(q=q, dq=dq, ddq=ddq, tau=tau),
             dict(pose=pose, twist=twist, acceleration=acceleration, wrench=wrench),
             joints,
         )
-        numbers, times = np.hstack(list(targets.values())), np.asarray(t, dtype=float)
+        numbers, times = np.hstack(list(targets.values())), _real("t", t).astype(float)
         if times.shape != numbers.shape[:1]:
             raise ValueError(f"t has the shape {times.shape}; give one time for each of the {len(numbers)} waypoints")
-        terms.motion_frame, terms.wrench_frame = motion_frame, wrench_frame
         kinds = pb.Begin.Interpolation
-        if interpolation.upper() not in kinds.keys():
+        if str(interpolation).upper() not in kinds.keys():
             raise ValueError(f"interpolation {interpolation!r}; expected one of {', '.join(kinds.keys()).lower()}")
         begin = pb.Begin(
             terms=terms,
             interpolation=kinds.Value(interpolation.upper()),
-            exact=exact,
-            start_ns=0 if start_ns is None else self._session.clock.to_server(start_ns),
+            exact=bool(exact),
+            start_ns=0 if start_ns is None else self._to_server("start_ns", start_ns),
             poses=pose is not None,
             velocities=dq is not None or twist is not None,
             accelerations=ddq is not None or acceleration is not None,
             efforts=tau is not None or wrench is not None,
-            check=check,
-            window=window,
+            check=bool(check),
+            window=_whole("window", window, 0, 2**32 - 1),
         )
         if not check:
             self._own()
@@ -1018,19 +1090,19 @@ class Arm:
 
     def point(self, **target: Any) -> None:
         """Sends one point (what `Stream.send` takes) and returns when it is in force. A trajectory is aborted."""
-        with self.stream() as stream:
+        with Stream(self, "", "", None) as stream:
             stream.send(**target)
 
     def velocity(self, **target: Any) -> None:
         """Sends one velocity (what `Stream.velocity` takes) and returns when it is in force."""
-        with self.stream() as stream:
+        with Stream(self, "", "", None) as stream:
             stream.velocity(**target)
 
     def stream(
         self, *, motion_frame: str = "", wrench_frame: str = "", joints: Optional[Sequence[str]] = None
     ) -> Stream:
         """Returns a stream of points or velocities at any rate; use it in a `with` statement."""
-        return Stream(self, motion_frame, wrench_frame, joints)
+        return Stream(self, motion_frame, wrench_frame, joints)._open()
 
     def chunks(
         self,
@@ -1044,7 +1116,7 @@ class Arm:
     ) -> Chunks:
         """Returns a stream of chunks of future targets, as policies give them; use it in a `with` statement.
 
-        rate_hz     -- of the targets within a chunk
+        rate_hz     -- of the targets within a chunk, 0.001 to 1 000 000
         relative_to -- None: targets are absolute; "commanded": they are added to the reference that the arm had at the
                        time of the observation; "measured": to where the arm was then
         crossfade_s -- 0 to 0.3, in which the difference to the old plan fades, or longer by the limits. 0: as fast
@@ -1052,11 +1124,9 @@ class Arm:
         outputs_lead_s -- -0.5 to 0.5: by how much digital outputs change before their targets are reached (the latency
                        of a gripper); negative: after they have been passed (the lag of the arm)
         """
-        if not rate_hz > 0:
-            raise ValueError(f"rate_hz is {rate_hz}; give the number of targets in a second")
         if not self.robot.longest_chunk:
             raise Refused(f"the pipeline {self.robot.pipeline} takes no chunks", 0)
-        return Chunks(self, rate_hz, relative_to, crossfade_s, outputs_lead_s, motion_frame, joints)
+        return Chunks(self, rate_hz, relative_to, crossfade_s, outputs_lead_s, motion_frame, joints)._open()
 
     # Controls
 
@@ -1066,13 +1136,14 @@ class Arm:
 
     def override(self, rate: float) -> None:
         """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on. To raise it needs the lease."""
+        request = pb.Override(rate=_number("rate", rate, 0, 1))
         try:
-            self._session.ask("override", pb.Override(rate=rate))
+            self._session.ask("override", request)
         except Refused as refusal:
             if refusal.status != pb.CODE_NOT_OWNER:
                 raise
             self._own()
-            self._session.ask("override", pb.Override(rate=rate))
+            self._session.ask("override", request)
 
     def pause(self) -> None:
         """Brings the arm to rest on its path, whoever moves it; the trajectory lives until `resume` or `cancel`."""
@@ -1090,10 +1161,10 @@ class Arm:
     def rearm(self, within_s: float = 5.0) -> None:
         """Takes over the arm after a stop or a fault, where it is, and returns when it can be moved.
 
-        Waits for `within_s` until the arm is at rest; otherwise raises Refused with the reason, at once. What was sent
-        before is void.
+        Waits for `within_s`, 0 to 86 400, until the arm is at rest; otherwise raises Refused with the reason, at once.
+        What was sent before is void.
         """
-        end = time.monotonic() + within_s
+        end = time.monotonic() + _number("within_s", within_s, 0, _LONGEST_WAIT_S)
         while True:
             self._own()
             try:
@@ -1121,13 +1192,20 @@ class Arm:
         """Changes parameters of the pipeline, all in one cycle or none: {"pd": {"kp": [100, 100, ...]}}.
 
         No command steps. Returns when they are in force. Raises Refused with section, key and reason.
-        check -- judge them and change nothing; needs no lease.
+        values -- at most 32; texts, or numbers that take at most 191 bytes as such
+        check  -- judge them and change nothing; needs no lease
         """
-        request = pb.Parameters(check=check)
+        request = pb.Parameters(check=bool(check))
         for section, keys in values.items():
+            _text(f"values: section {reprlib.repr(section)}", section, _BYTES["section"])
             for key, value in keys.items():
-                text = value if isinstance(value, str) else " ".join(f"{v!r}" for v in np.ravel(value).tolist())
-                request.set.add(section=section, key=key, value=text)
+                _text(f"values: key {reprlib.repr(key)}", key, _BYTES["key"])
+                place = f"values: [{section}] {key}"
+                if not isinstance(value, str):
+                    value = " ".join(map(repr, _real(place, value).ravel().tolist()))
+                request.set.add(section=section, key=key, value=_text(place, value, _BYTES["value"]))
+        if len(request.set) > _MOST_PARAMETERS:
+            raise ValueError(f"values: {len(request.set)} parameters; at most {_MOST_PARAMETERS} are taken in a set")
         if not check:
             self._own()
         self._session.ask("parameters", request)
@@ -1166,13 +1244,19 @@ class Arm:
         state = self.state()
         raise Error(f"the arm is not armed within {within_s:.3g} s; {state.rung!r}, {state.status!r}")
 
-    def _terms(self, joints: Optional[Sequence[str]]) -> pb.Terms:
+    def _terms(self, joints: Optional[Sequence[str]], motion_frame: str, wrench_frame: str) -> pb.Terms:
         names = [joint.name for joint in self.robot.joints]
         unknown = [name for name in joints or () if name not in names]
         if unknown:
             raise ValueError(f"joint {unknown[0]!r}; the robot has {', '.join(names)}")
+        if joints is not None and not len(joints) == len(set(joints)) > 0:
+            raise ValueError(f"joints is {list(joints)!r}; expected one name at least, and each once")
         held = [] if joints is None else [i for i, name in enumerate(names) if name not in joints]
-        return pb.Terms(held_joints=sum(1 << i for i in held))
+        return pb.Terms(
+            held_joints=sum(1 << i for i in held),
+            motion_frame=_text("motion_frame", motion_frame, _BYTES["frame"]),
+            wrench_frame=_text("wrench_frame", wrench_frame, _BYTES["frame"]),
+        )
 
     def _targets(
         self,
@@ -1193,20 +1277,30 @@ class Arm:
             rows = targets[name].shape[:-1]  # all have as many as the first
         return targets
 
-    def _known_outputs(self, outputs: Mapping[int, T]) -> Mapping[int, T]:
-        """Returns them; ValueError if there is one that the robot or its pipeline does not have."""
-        for output in outputs:
+    def _to_server(self, name: str, local_ns: int) -> int:
+        """Returns a stamp of the caller by the clock of the server."""
+        return self._session.clock.to_server(_whole(name, local_ns, -_LATEST_NS, _LATEST_NS))
+
+    def _outputs(self, outputs: Optional[Mapping[int, Any]], shape: tuple[int, ...]) -> dict[int, Any]:
+        """Returns their values as arrays of that shape; ValueError for one that the robot or its pipeline lacks."""
+        checked = {}
+        for output, values in (outputs or {}).items():
             if output not in self.robot.outputs:
                 known = ", ".join(map(str, self.robot.outputs)) or "none: wire [robot] outputs in the pipeline file"
-                raise ValueError(f"digital output {output!r}; there is {known}")
-        return outputs
+                raise ValueError(f"outputs: digital output {output!r}; there is {known}")
+            expected = f"0 or 1 in the shape {shape}" if shape else "0 or 1"
+            array = _real(f"outputs[{output}]", values, expected)
+            if array.shape != shape or not np.isin(array, (0, 1)).all():
+                raise ValueError(f"outputs[{output}] is {reprlib.repr(values)}; expected {expected}")
+            checked[int(output)] = array.astype(bool)
+        return checked
 
     def _checked(
         self, name: str, values: ArrayLike, joints: Optional[Sequence[str]], rows: tuple[Optional[int], ...]
     ) -> Array:
         """Returns a field as an array for all joints, or for the tip; ValueError if its shape is wrong."""
         width = _TASK_WIDTHS.get(name, self.robot.dof if joints is None else len(joints))
-        array, shape = np.asarray(values, dtype=float), (*rows, width)
+        array, shape = _real(name, values).astype(float), (*rows, width)
         if array.ndim != len(shape) or any(e not in (None, n) for n, e in zip(array.shape, shape)):
             expected = ", ".join("n" if size is None else str(size) for size in shape)
             raise ValueError(f"{name} has the shape {array.shape}; expected ({expected})")
@@ -1253,8 +1347,10 @@ class Motion:
         """Waits for the end, and returns the Result if it succeeded, was preempted or canceled.
 
         Raises Aborted if the robot gave it up, Refused if a later waypoint was not accepted, Lost if the connection
-        ends; TimeoutError after `timeout_s`, if given: the trajectory goes on.
+        ends; TimeoutError after `timeout_s`, 0 to 86 400, if given: the trajectory goes on.
         """
+        if timeout_s is not None:
+            timeout_s = _number("timeout_s", timeout_s, 0, _LONGEST_WAIT_S)
         with self._on_interrupt():
             result = self._session.wait_long(lambda: self.result, "end of the trajectory", timeout_s)
         if refusal := self._call.refusal():
@@ -1331,21 +1427,27 @@ class _References:
 
     def __init__(self, arm: Arm, motion_frame: str, wrench_frame: str, joints: Optional[Sequence[str]]):
         self._arm, self._session = arm, arm._session
-        self._terms, self._joints = arm._terms(joints), joints
-        self._terms.motion_frame, self._terms.wrench_frame = motion_frame, wrench_frame
-        self._epoch = arm._own()
+        self._terms, self._joints = arm._terms(joints, motion_frame, wrench_frame), joints
+        self._epoch: Optional[int] = None
         self._calls: collections.deque[_Call] = collections.deque()
+
+    def _open(self: Self) -> Self:
+        """Takes the lease and the present epoch, if it has not yet."""
+        if self._epoch is None:
+            self._epoch = self._arm._own()
+        return self
 
     def __enter__(self: Self) -> Self:
         return self
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
-        if kind is not None:
+        if kind is None:
+            self._collect(0)
+        elif self._epoch is not None:
             self._arm._cancel()
-            return
-        self._collect(0)
 
     def _send(self, kind: str, request: Any) -> None:
+        self._open()
         self._collect(_UNREPORTED)
         if self._session.epoch != self._epoch:
             raise Stopped("the arm was stopped since this stream was opened; rearm and open a new stream to go on")
@@ -1405,8 +1507,8 @@ class Stream(_References):
             self._joints,
             rows=(),
         )
-        point = pb.Point(sent_ns=sent_ns)
-        for output, on in self._arm._known_outputs(outputs or {}).items():
+        point = pb.Point(sent_ns=_whole("sent_ns", sent_ns, -(2**63), 2**63 - 1))
+        for output, on in self._arm._outputs(outputs, ()).items():
             point.outputs_mask |= 1 << output
             point.outputs |= int(on) << output
         for name, numbers in targets.items():
@@ -1422,7 +1524,7 @@ class Stream(_References):
         """
         if (dq is None) == (twist is None):
             raise ValueError("give either dq or twist")
-        request = pb.Velocity(timeout_ms=round(timeout_s * 1000))
+        request = pb.Velocity(timeout_ms=_milliseconds("timeout_s", timeout_s, 0.001, 10))
         if dq is not None:
             request.dq.extend(self._arm._checked("dq", dq, self._joints, ()).tolist())
         if twist is not None:
@@ -1452,8 +1554,10 @@ class Chunks(_References):
         bases = {None: pb.Chunk.NONE, "commanded": pb.Chunk.COMMANDED, "measured": pb.Chunk.MEASURED}
         if relative_to not in bases:
             raise ValueError(f"relative_to {relative_to!r}; expected None, 'commanded' or 'measured'")
-        self._base, self._rate_hz, self._crossfade_s = bases[relative_to], rate_hz, crossfade_s
-        self._outputs_lead_s = outputs_lead_s
+        self._base = bases[relative_to]
+        self._rate_hz = _number("rate_hz", rate_hz, 1e-3, 1e6)
+        self._crossfade_s = _number("crossfade_s", crossfade_s, 0, 0.3)
+        self._outputs_lead_s = _number("outputs_lead_s", outputs_lead_s, -0.5, 0.5)
         self.late, self.late_s = 0, 0.0
         self._late_since: Optional[float] = None
 
@@ -1485,21 +1589,21 @@ class Chunks(_References):
             raise ValueError(f"{count} targets; the server takes {self._arm.robot.longest_chunk} in a chunk")
         if observed_ns is None and self._base != pb.Chunk.NONE:
             raise ValueError("observed_ns is missing; relative targets count from the state at an observation")
+        first = _number("first", first, -1e6, 1e6)
         chunk = pb.Chunk(
             base=self._base,
-            ends=ends,
+            ends=bool(ends),
             crossfade_s=self._crossfade_s,
             time_s=((first + np.arange(count)) / self._rate_hz).tolist(),
             time=pb.Chunk.ON_ARRIVAL if observed_ns is None else pb.Chunk.ABSOLUTE,
             outputs_lead_s=self._outputs_lead_s,
         )
-        for output, values in self._arm._known_outputs(outputs or {}).items():
-            array = np.asarray(values)
-            if array.shape != (count,) or not np.isin(array, (0, 1)).all():
-                raise ValueError(f"outputs[{output}] has the shape {array.shape}; expected ({count},), of 0 and 1")
-            chunk.channels.add(output=output, values=array.astype(bool).tolist())
+        for output, values in self._arm._outputs(outputs, (count,)).items():
+            chunk.channels.add(output=output, values=values.tolist())
+        if len(chunk.channels) > _MOST_CHANNELS:
+            raise ValueError(f"outputs: {len(chunk.channels)} of them; at most {_MOST_CHANNELS} are taken in a chunk")
         if observed_ns is not None:
-            chunk.origin_ns = chunk.observed_ns = self._session.clock.to_server(observed_ns)
+            chunk.origin_ns = chunk.observed_ns = self._arm._to_server("observed_ns", observed_ns)
         for name, numbers in targets.items():
             getattr(chunk, name).extend(numbers.ravel().tolist())
         self._send("chunk", chunk)
@@ -1543,28 +1647,31 @@ def serve(
     """
     file = pathlib.Path(pipeline).resolve()
     program = _program_for(file) if program is None else pathlib.Path(program).resolve()
-    folder = tempfile.mkdtemp(prefix="tactus-")
-    address = f"unix:{folder}/socket"
-    log = open(f"{folder}/log", "w+", encoding="utf-8", errors="replace")  # not a pipe, which would fill
-    server = subprocess.Popen(
-        [program, "serve", file, "--virtual-time", "--listen", address, *options],
-        cwd=folder,
-        stdin=subprocess.DEVNULL,
-        stdout=log,
-        stderr=log,
-    )
-    try:
-        _await_server(server, address, log)
-        yield address
-    finally:
-        server.terminate()
+    with (
+        tempfile.TemporaryDirectory(prefix="tactus-", ignore_cleanup_errors=True) as folder,
+        open(f"{folder}/log", "w+", encoding="utf-8", errors="replace") as log,  # not a pipe, which would fill
+    ):
+        address = f"unix:{folder}/socket"
         try:
-            server.wait(10)
-        except subprocess.TimeoutExpired:
-            server.kill()
-            server.wait()
-        log.close()
-        shutil.rmtree(folder, ignore_errors=True)
+            server = subprocess.Popen(
+                [program, "serve", file, "--virtual-time", "--listen", address, *options],
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+            )
+        except OSError as error:
+            raise ValueError(f"program {program}: {error.strerror}") from error
+        try:
+            _await_server(server, address, log)
+            yield address
+        finally:
+            server.terminate()
+            try:
+                server.wait(10)
+            except subprocess.TimeoutExpired:
+                server.kill()
+                server.wait()
 
 
 @contextlib.contextmanager
@@ -1576,7 +1683,10 @@ def sim(pipeline: Union[str, os.PathLike[str]], **settings: Any) -> Iterator[Arm
 
 def _program_for(pipeline: pathlib.Path) -> pathlib.Path:
     """Returns the program of the simulated board for the robot that a pipeline file names."""
-    lines = pipeline.read_text(encoding="utf-8").partition("[robot]")[2].splitlines()
+    try:
+        lines = pipeline.read_text(encoding="utf-8", errors="replace").partition("[robot]")[2].splitlines()
+    except OSError as error:
+        raise ValueError(f"pipeline {pipeline}: {error.strerror}") from error
     robot = next(
         (line.partition("=")[2].split("#")[0].strip() for line in lines if line.split("=")[0].strip() == "name"), ""
     )

@@ -168,6 +168,19 @@ class Service(unittest.TestCase):
 
         self.fails("reported on request .*, which has ended", points, take_point=take_point)
 
+    def test_an_outcome_that_is_none(self):
+        def take_point(peer, message):
+            peer.report(message.number, 99)
+
+        self.fails("outcome 99 of request", lambda arm: arm.point(q=np.zeros(JOINTS)), take_point=take_point)
+
+    def test_a_clock_that_is_none(self):
+        def asks(arm):
+            with arm.chunks(rate_hz=20) as policy:
+                policy.send(np.zeros((1, JOINTS)), observed_ns=time.monotonic_ns())
+
+        self.fails("stamps .* of no clock", asks, now=lambda peer: 2**63 - 1)
+
     def test_an_answer_to_nothing(self):
         self.fails(
             "answered request 99 that was never sent",

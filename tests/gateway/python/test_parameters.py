@@ -72,6 +72,15 @@ class Parameters(unittest.TestCase):
                     arm.set_parameters(bad)
             self.assertEqual(self.gain(arm).value, kp.value)
 
+    def test_the_longest_that_are_taken_do_not_end_the_connection(self):
+        longest = {"s" * 31: {f"{i:031}": "v" * 191 for i in range(32)}}
+        with connect() as arm:
+            motion = arm.start(**served.swing(arm.state().q_d, 0.2, 1.0))
+            for bad, error in ((longest, tactus.Refused), ({"pd": {"kp": [1 / 3] * 20}}, ValueError)):
+                with self.assertRaises(error):
+                    arm.set_parameters(bad)
+            self.assertTrue(motion.wait().succeeded)
+
     def test_gains_change_while_the_arm_moves(self):
         with connect() as arm:
             kp = self.gain(arm)

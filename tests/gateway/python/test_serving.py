@@ -77,6 +77,17 @@ class Places(unittest.TestCase):
                     tactus.connect(address)
 
 
+class Files(unittest.TestCase):
+    def test_one_that_is_not_there_is_named(self):
+        for name, files in (
+            ("pipeline", dict(pipeline="/none.ini")),
+            ("program", dict(pipeline=served.JOINT_PIPELINE, program="/none")),
+        ):
+            with self.assertRaisesRegex(ValueError, f"^{name} /none.*: No such file"):
+                with tactus.serve(**files):
+                    pass
+
+
 class VirtualTime(unittest.TestCase):
     def rung_after_a_pause(self, *options):
         """Returns the rung of a server that was not run for 0.2 s."""

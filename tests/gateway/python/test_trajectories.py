@@ -96,6 +96,19 @@ class Trajectories(unittest.TestCase):
         with connected(Aborts) as (arm, _), self.assertRaisesRegex(tactus.Aborted, "path tolerance"):
             arm.move(t=[1.0], q=np.zeros((1, JOINTS)))
 
+    def test_a_time_to_wait_that_is_none_is_a_mistake(self):
+        class Runs(Peer):
+            def take_end(self, message):
+                self.report(self.trajectory, pb.Report.STARTED)
+
+        with connected(Runs) as (arm, _):
+            motion = arm.start(t=[1.0], q=np.zeros((1, JOINTS)))
+            for wrong in (float("nan"), float("inf"), -1, "1", 1j):
+                with self.subTest(wrong), self.assertRaisesRegex(ValueError, "^timeout_s"):
+                    motion.wait(wrong)
+            with self.assertRaises(TimeoutError):
+                motion.wait(0)
+
     def test_ctrl_c_cancels_on_the_path(self):
         signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
 
