@@ -72,8 +72,8 @@ int check(Session& session, const Options& options) {
     print_verdict(input, report.verdict);
     return kRefused;
   }
-  const bool goes =
-      judge_reach(session, input, initial.q) && Rehearsal(session, input, guard, initial).run();
+  const bool goes = judge_reach(session, input, initial.q) &&
+                    TrajectoryRehearsal(session, input, guard, initial).run();
   if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
   if (!judge_rest(session, input) || !goes) return kRefused;
   std::printf("%s: accepted", options.pipeline);

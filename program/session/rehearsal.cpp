@@ -18,8 +18,8 @@ void obey(const RobotCommand& command, double period_s, RobotState& state) {
 
 }  // namespace
 
-Rehearsal::Rehearsal(Session& session, TrajectoryInput& input, Guard& guard,
-                     const RobotState& state)
+TrajectoryRehearsal::TrajectoryRehearsal(Session& session, TrajectoryInput& input, Guard& guard,
+                                         const RobotState& state)
     : session_(session), input_(input), guard_(guard), goal_(session, input), state_(state) {
   const Guard::Params& params = session.pipeline.guard;
   limiting_.start(params.limiting_share,
@@ -27,7 +27,7 @@ Rehearsal::Rehearsal(Session& session, TrajectoryInput& input, Guard& guard,
 }
 
 /// One cycle, as the executive's, from the command of the one before.
-Status Rehearsal::cycle() {
+Status TrajectoryRehearsal::cycle() {
   Pipeline& pipeline = session_.pipeline;
   const double period_s = pipeline.robot.period_s();
   RobotCommand command = pipeline.robot.command();
@@ -45,7 +45,7 @@ Status Rehearsal::cycle() {
 }
 
 /// Takes what the generator tells; true if nothing of the trajectory is left in the store.
-bool Rehearsal::ended() {
+bool TrajectoryRehearsal::ended() {
   goal_.follow();
   while (poll_report(session_, input_, report_))
     if (report_.id == input_.id &&
@@ -54,11 +54,11 @@ bool Rehearsal::ended() {
   return false;
 }
 
-double Rehearsal::time_s() const {
+double TrajectoryRehearsal::time_s() const {
   return static_cast<double>(cycle_) * session_.pipeline.robot.period_s();
 }
 
-bool Rehearsal::refuse(Status status) {
+bool TrajectoryRehearsal::refuse(Status status) {
   Pipeline& pipeline = session_.pipeline;
   Text<127> event("refused: the run would stop at t = ");
   event << time_s() << " s";
@@ -67,7 +67,7 @@ bool Rehearsal::refuse(Status status) {
   return false;
 }
 
-bool Rehearsal::run() {
+bool TrajectoryRehearsal::run() {
   if (!input_.given() || session_.pipeline.robot.mode() == CommandMode::kEffort) return true;
   const double end_s = goal_.latest_report_s();
   while (!ended()) {
@@ -75,10 +75,13 @@ bool Rehearsal::run() {
     const Status status = cycle();
     if (status != Status::kOk) return refuse(status);
   }
-  if (report_.outcome != Outcome::kAborted) return true;
-  std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(), time_s(),
-               goal_.given_up(report_.verdict).c_str());
-  return false;
+  if (report_.outcome == Outcome::kRefused) print_verdict(input_, report_.verdict);
+  if (report_.outcome == Outcome::kAborted) {
+    const Reason why = report_.verdict.ok() ? GoalWatch::left() : goal_.given_up(report_.verdict);
+    std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(), time_s(),
+                 why.c_str());
+  }
+  return report_.outcome == Outcome::kSucceeded || report_.outcome == Outcome::kStarved;
 }
 
 }  // namespace tactus

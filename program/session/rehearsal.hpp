@@ -1,6 +1,6 @@
-// Rehearsal: the chain runs a trajectory with a robot that is at once where it is told to be, and
-// whose sensors feel what they feel now. So `tactus check` finds what the law and the guard make of
-// a trajectory that admission accepts, before anything moves.
+// TrajectoryRehearsal: the chain runs a trajectory with a robot that is at once where it is told to
+// be, and whose sensors feel what they feel now. So `tactus check` finds what the law and the guard
+// make of a trajectory that admission accepts, before anything moves.
 #pragma once
 
 #include "kernel/cycle/limiting_watch.hpp"
@@ -8,13 +8,14 @@
 
 namespace tactus {
 
-class Rehearsal {
+class TrajectoryRehearsal {
  public:
   /// Cycles that are rehearsed at most: about 5 s of computing.
   static constexpr std::int64_t kMostCycles = 1'000'000;
 
   /// Begins with a chain and a guard that have started and have done one cycle at `state`.
-  Rehearsal(Session& session, TrajectoryInput& input, Guard& guard, const RobotState& state);
+  TrajectoryRehearsal(Session& session, TrajectoryInput& input, Guard& guard,
+                      const RobotState& state);
 
   /// Runs until the trajectory has ended, or as far as its store holds it. False: the run would
   /// stop; prints when and why to stderr. A robot that takes torques is not rehearsed: true.

@@ -78,7 +78,8 @@ void the_server_admits_what_is_retimed_of_the_tip_without_slowing_it_down(void**
              "'--tolerance-m 0.1 --tolerance 1 --velocity 50%'; do "
              "$T retime $square --robot ur10 $how --out $S/timed.csv || exit 81; late; "
              "$T check $S/late.csv --exact || exit 82; done; "
-             "$T retime $square --connect $TACTUS_SOCKET --out $S/timed.csv || exit 83; late; "
+             "$T retime $square --connect $TACTUS_SOCKET --velocity 50% --acceleration 30% --out "
+             "$S/timed.csv || exit 83; late; "
              "$T send $S/late.csv || exit 84; $T retime $square --robot ur10 "
              "--acceleration 100% --out $S/timed.csv; late; $T check $S/late.csv --exact; "
              "test $? = 2"),

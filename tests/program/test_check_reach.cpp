@@ -129,6 +129,16 @@ void what_is_accepted_is_followed_and_what_is_refused_is_given_up(void**) {
   assert_in_range(given_up, 2, 12);
 }
 
+void what_is_judged_when_it_begins_is_refused_too(void**) {
+  const Line fast = write("fast.csv", {kPoses, row(0.2, 0.5).c_str()});
+  write("cpc.ini", {kPosition, "[gateway]\nstart_s = 1\n"});
+  assert_int_equal(
+      tactus_run({"check", in_folder("cpc.ini").c_str(), "--trajectory", fast.c_str()}), 2);
+  const std::string refused(errors());
+  assert_int_equal(run("cpc.ini", fast), 1);
+  assert_true(has(errors(), refused.c_str()));
+}
+
 void a_box_in_the_way_is_named_with_its_time_before_anything_moves(void**) {
   const char* const file =
       "(cat pipelines/fer_trg_cpc.ini; echo '[shelf]\ntype = box\ncentre = 0.45 0 0.3\n"
@@ -151,6 +161,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_path_in_reach_and_a_path_of_joints_have_no_warning),
       cmocka_unit_test(a_path_that_is_in_and_out_of_reach_very_often_has_few_lines),
       cmocka_unit_test(what_is_accepted_is_followed_and_what_is_refused_is_given_up),
+      cmocka_unit_test(what_is_judged_when_it_begins_is_refused_too),
       cmocka_unit_test(a_box_in_the_way_is_named_with_its_time_before_anything_moves),
   };
   return run_program_tests(argv[0], tests);

@@ -14,6 +14,7 @@ void a_trajectory_may_be_given_in_a_frame_of_the_pipeline(void**) {
       "[wall]\ntype = frame\nposition = 0.5 0 0.5\nrotation = 0 0 1.57079632679\n"
       "[trg]\ntype = task_reference_generator\nx = model.x\n"
       "goal_position_tolerance = 0\ngoal_angle_tolerance = 0\n"
+      "path_position_tolerance = 0\npath_angle_tolerance = 0\n"
       "[gateway]\nstart_s = 1\nmotion_frame = ";
   constexpr const char* kPath =
       "time_s,x_m,y_m,z_m,qw,qx,qy,qz\n6,0,0,0,0,1,0,0\n9,0.1,0,0,0,1,0,0\n";

@@ -45,10 +45,11 @@ def try_page(page, folder):
         done = subprocess.run(["sh", "-c", commands], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False)
         example = doctest.Example(commands, expected)
+        printed = "".join(row for row in done.stdout.splitlines(True) if not row.startswith("  ...   "))  # of a slow computer
         if done.returncode:
             return f"{page}:{line}: exit code {done.returncode}\n{done.stdout}"
-        if not checker.check_output(expected, done.stdout, FLAGS):
-            return f"{page}:{line}:\n{checker.output_difference(example, done.stdout, FLAGS)}"
+        if not checker.check_output(expected, printed, FLAGS):
+            return f"{page}:{line}:\n{checker.output_difference(example, printed, FLAGS)}"
     return "" if count else f"{page}: no commands"
 
 
