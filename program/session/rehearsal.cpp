@@ -71,7 +71,12 @@ bool TrajectoryRehearsal::run() {
   if (!input_.given() || session_.pipeline.robot.mode() == CommandMode::kEffort) return true;
   const double end_s = goal_.latest_report_s();
   while (!ended()) {
-    if (cycle_ == kMostCycles || time_s() > end_s) return true;
+    if (time_s() > end_s) return true;
+    if (cycle_ == kMostCycles) {
+      std::fprintf(stderr, "%s: note: it is rehearsed for its first %g s only\n",
+                   input_.path.c_str(), time_s());
+      return true;
+    }
     const Status status = cycle();
     if (status != Status::kOk) return refuse(status);
   }

@@ -118,6 +118,17 @@ void what_does_not_belong_to_this_robot_is_refused_by_name(void**) {
   refused(ask::kVelocity, RawMessage(velocity).reals(5, zeros, 6), "leave pose and twist empty",
           bad);
   refused(ask::kChunk, RawMessage(chunk).reals(12, zeros, 7), "leave pose and twist empty", bad);
+  const RawMessage frame = RawMessage().text(2, "nix.nix"), wrench = RawMessage().text(3, "tcp.x");
+  refused(ask::kPoint, RawMessage(point).message(2, frame), "(11)", Status::kNotOffered);
+  refused(ask::kVelocity, RawMessage(velocity).message(2, frame), "(11)", Status::kNotOffered);
+  refused(ask::kChunk, RawMessage(chunk).message(2, wrench), "(11)", Status::kNotOffered);
+  refused(ask::kBegin, RawMessage().message(1, frame), "(11)", Status::kNotOffered);
+  for (const double fade_s : {-1e-9, 0.3001, double{NAN}})
+    refused(ask::kChunk, RawMessage(chunk).real(8, fade_s), "Chunk.crossfade_s", bad);
+  JointVector unknown = rates;
+  unknown[2] = NAN;
+  refused(ask::kVelocity, RawMessage().number(3, 50).reals(4, unknown.data(), kJoints), "joint 3",
+          Status::kReferenceNotFinite);
   RawMessage future(chunk);
   future.number(6, 1).time(5, two.bench.now_ns + 50'000'000);
   refused(ask::kChunk, future, "observed_ns is in the future", Status::kStampRange);

@@ -24,6 +24,10 @@ struct Most {
     speed = speed.cwiseMax(dq.cwiseAbs().cwiseQuotient(limits.dq_max));
     beyond = beyond.cwiseMax(limits.q_min - q).cwiseMax(q - limits.q_max);
   }
+  void print(const char* name) const {
+    print_message("%s, joint: speed, share of the limit; beyond the range, rad\n", name);
+    for (int i = 0; i < kDof; ++i) print_message("  %d: %.3f %.4f\n", i + 1, speed[i], beyond[i]);
+  }
 };
 
 /// A position for one joint or for all: at one end of the range or the other, or between them.
@@ -39,21 +43,24 @@ JointVector target(Random& random, JointVector q, const JointLimits& limits) {
   return q;
 }
 
+void send_point(PipelineBench& bench, const JointVector& q) {
+  JointSpace::Point point;
+  point.q = q;
+  std::uint32_t id = 0;
+  ASSERT_OK(bench.client.send(point, id).status);
+}
+
 /// Sends a point, or jogs one joint at nine tenths of its limit or at the whole of it.
 void send_one(PipelineBench& bench, Random& random) {
   const JointLimits& limits = bench.channel.settings.limits;
-  std::uint32_t id = 0;
-  if (random.below(4) > 0) {
-    JointSpace::Point point;
-    point.q = target(random, bench.output<JointVector>("jrg.q_d"), limits);
-    ASSERT_OK(bench.client.send(point, id).status);
-    return;
-  }
+  if (random.below(4) > 0)
+    return send_point(bench, target(random, bench.output<JointVector>("jrg.q_d"), limits));
   Velocity<JointSpace> jog;
   const int joint = random.below(kDof);
   jog.timeout_s = 0.5;
   jog.rates[joint] = (random.below(2) == 0 ? -1.0 : 1.0) * (random.below(2) == 0 ? 0.9 : 1.0) *
                      limits.dq_max[joint];
+  std::uint32_t id = 0;
   ASSERT_OK(bench.client.send(jog, id).status);
 }
 
@@ -88,55 +95,52 @@ void run(PipelineBench& bench, int cycles, Most& most) {
   }
 }
 
-// Proves GRD-13.
-
-void no_accepted_motion_ends_in_a_fault(void**) {
-  for (const char* rest : {"_jrg_pdgc", "_jrg_pid", "_trg_cpc", "_trg_ac_cpc_pid"}) {
-    const std::string name = of_this_robot(rest);
+/// Does this with every shipped chain of these that the robot has, armed, with points
+/// kept within limits.
+template <class Act>
+void with_each(std::initializer_list<const char*> chains, Act act) {
+  for (const char* chain : chains) {
+    const std::string name = of_this_robot(chain);
     if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
     const auto bench = std::make_unique<PipelineBench>();
-    const bool forwards = name.find("_pid") != std::string::npos && name.find("_trg_") < 10;
+    const bool forwards = name.find("_ac_cpc_pid") != std::string::npos;
     ASSERT_OK(bench->refused(name, forwards ? "online = forward" : "", ""));
-    const bool joints = bench->pipeline.takes_joints;
-    Random random{1};
-    Most most;
-    run(*bench, joints ? 1 : 2000, most);  // the tare of a sensor
-    const Pose start = bench->output<Pose>("model.x");
-    for (int n = trials(tries(joints ? 60 : 10, joints ? 15 : 5)); n > 0; --n) {
-      joints ? send_one(*bench, random) : send_pose(*bench, random, start);
-      run(*bench, random.below(3) == 0 ? random.below(kLongest / 4) : kLongest, most);
-    }
-    print_message("%s, joint: speed, share of the limit; beyond the range, rad\n", name.c_str());
-    for (int i = 0; i < kDof; ++i)
-      print_message("  %d: %.3f %.4f\n", i + 1, most.speed[i], most.beyond[i]);
+    act(*bench, name.c_str());
   }
 }
 
-/// Points from side to side, 0.15 rad each, in rhythms that a joint may swing in.
+// Proves GRD-13.
+
+void no_accepted_motion_ends_in_a_fault(void**) {
+  with_each({"_jrg_pdgc", "_jrg_pid", "_trg_cpc", "_trg_ac_cpc_pid"},
+            [](PipelineBench& bench, const char* name) {
+              const bool joints = bench.pipeline.takes_joints;
+              Random random{1};
+              Most most;
+              run(bench, joints ? 1 : 2000, most);  // the tare of a sensor
+              const Pose start = bench.output<Pose>("model.x");
+              for (int n = trials(tries(joints ? 60 : 10, joints ? 15 : 5)); n > 0; --n) {
+                joints ? send_one(bench, random) : send_pose(bench, random, start);
+                run(bench, random.below(3) == 0 ? random.below(kLongest / 4) : kLongest, most);
+              }
+              most.print(name);
+            });
+}
+
+/// Points from side to side, in rhythms that a joint may swing in.
 void no_rhythm_of_points_ends_in_a_fault(void**) {
-  for (const char* rest : {"_jrg_pdgc", "_jrg_pid"}) {
-    const std::string name = of_this_robot(rest);
-    if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
-    const auto bench = std::make_unique<PipelineBench>();
-    ASSERT_OK(bench->refused(name, "", ""));
+  with_each({"_jrg_pdgc", "_jrg_pid"}, [](PipelineBench& bench, const char* name) {
     Most most;
-    run(*bench, 1, most);
-    const JointVector home = bench->output<JointVector>("jrg.q_d");
+    run(bench, 1, most);
+    const JointVector home = bench.output<JointVector>("jrg.q_d");
     for (int joint = 0; joint < kDof; ++joint)
-      for (const int cycles : {100, 140, 181, 185, 190, 200, 220, 260}) {
+      for (const int cycles : {100, 140, 181, 185, 190, 200, 220, 260})
         for (int n = 0; n < 24; ++n) {
-          JointSpace::Point point;
-          point.q = home;
-          point.q[joint] += n % 2 == 0 ? 0.15 : -0.15;
-          std::uint32_t id = 0;
-          ASSERT_OK(bench->client.send(point, id).status);
-          run(*bench, cycles, most);
+          send_point(bench, home + (n % 2 == 0 ? 0.15 : -0.15) * JointVector::Unit(joint));
+          run(bench, cycles, most);
         }
-      }
-    print_message("%s: speeds, shares of the limits:", name.c_str());
-    for (int i = 0; i < kDof; ++i) print_message(" %.3f", most.speed[i]);
-    print_message("\n");
-  }
+    most.print(name);
+  });
 }
 
 /// Moves one joint along a line and back, with the largest step of velocity where it turns.
@@ -161,19 +165,15 @@ void send_line(PipelineBench& bench, int joint) {
 // Proves GRD-14.
 
 void the_largest_step_of_a_line_is_not_limited(void**) {
-  for (const char* rest : {"_jrg_pdgc", "_jrg_pid"}) {
-    const std::string name = of_this_robot(rest);
-    if (!std::ifstream("pipelines/" + name + ".ini").good()) continue;
-    const auto bench = std::make_unique<PipelineBench>();
-    ASSERT_OK(bench->refused(name, "", ""));
+  with_each({"_jrg_pdgc", "_jrg_pid"}, [](PipelineBench& bench, const char*) {
     Most most;
-    run(*bench, 1000, most);
+    run(bench, 1000, most);
     for (int joint = 0; joint < kDof; ++joint) {
-      send_line(*bench, joint);
-      run(*bench, 2000, most);
-      assert_int_equal(bench->executive.guard().telemetry().limited_cycles, 0);
+      send_line(bench, joint);
+      run(bench, 2000, most);
+      assert_int_equal(bench.executive.guard().telemetry().limited_cycles, 0);
     }
-  }
+  });
 }
 
 }  // namespace
