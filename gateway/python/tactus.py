@@ -176,6 +176,10 @@ def _whole(name: str, value: Any, low: int, high: int) -> int:
     return int(_number(name, value, low, high, whole=True))
 
 
+def _flag(name: str, value: Any) -> bool:
+    return bool(_whole(name, value, 0, 1))
+
+
 def _milliseconds(name: str, value_s: Any, low_s: float, high_s: float) -> int:
     return round(_number(name, value_s, low_s, high_s) * 1000)
 
@@ -1063,18 +1067,18 @@ class Arm:
         if times.shape != numbers.shape[:1]:
             raise ValueError(f"t has the shape {times.shape}; give one time for each of the {len(numbers)} waypoints")
         kinds = pb.Begin.Interpolation
-        if str(interpolation).upper() not in kinds.keys():
+        if not isinstance(interpolation, str) or interpolation.upper() not in kinds.keys():
             raise ValueError(f"interpolation {interpolation!r}; expected one of {', '.join(kinds.keys()).lower()}")
         begin = pb.Begin(
             terms=terms,
             interpolation=kinds.Value(interpolation.upper()),
-            exact=bool(exact),
+            exact=_flag("exact", exact),
             start_ns=0 if start_ns is None else self._to_server("start_ns", start_ns),
             poses=pose is not None,
             velocities=dq is not None or twist is not None,
             accelerations=ddq is not None or acceleration is not None,
             efforts=tau is not None or wrench is not None,
-            check=bool(check),
+            check=_flag("check", check),
             window=_whole("window", window, 0, 2**32 - 1),
         )
         if not check:
@@ -1195,7 +1199,7 @@ class Arm:
         values -- at most 32; texts, or numbers that take at most 191 bytes as such
         check  -- judge them and change nothing; needs no lease
         """
-        request = pb.Parameters(check=bool(check))
+        request = pb.Parameters(check=_flag("check", check))
         for section, keys in values.items():
             _text(f"values: section {reprlib.repr(section)}", section, _BYTES["section"])
             for key, value in keys.items():
@@ -1246,7 +1250,7 @@ class Arm:
 
     def _terms(self, joints: Optional[Sequence[str]], motion_frame: str, wrench_frame: str) -> pb.Terms:
         names = [joint.name for joint in self.robot.joints]
-        unknown = [name for name in joints or () if name not in names]
+        unknown = [name for name in (() if joints is None else joints) if name not in names]
         if unknown:
             raise ValueError(f"joint {unknown[0]!r}; the robot has {', '.join(names)}")
         if joints is not None and not len(joints) == len(set(joints)) > 0:
@@ -1552,7 +1556,7 @@ class Chunks(_References):
     ):
         super().__init__(arm, motion_frame, "", joints)
         bases = {None: pb.Chunk.NONE, "commanded": pb.Chunk.COMMANDED, "measured": pb.Chunk.MEASURED}
-        if relative_to not in bases:
+        if not isinstance(relative_to, (str, type(None))) or relative_to not in bases:
             raise ValueError(f"relative_to {relative_to!r}; expected None, 'commanded' or 'measured'")
         self._base = bases[relative_to]
         self._rate_hz = _number("rate_hz", rate_hz, 1e-3, 1e6)
@@ -1592,7 +1596,7 @@ class Chunks(_References):
         first = _number("first", first, -1e6, 1e6)
         chunk = pb.Chunk(
             base=self._base,
-            ends=bool(ends),
+            ends=_flag("ends", ends),
             crossfade_s=self._crossfade_s,
             time_s=((first + np.arange(count)) / self._rate_hz).tolist(),
             time=pb.Chunk.ON_ARRIVAL if observed_ns is None else pb.Chunk.ABSOLUTE,

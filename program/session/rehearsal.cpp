@@ -67,16 +67,19 @@ bool TrajectoryRehearsal::refuse(Status status) {
   return false;
 }
 
+/// Nothing was found in what was rehearsed, which is not the whole: says how much of it.
+bool TrajectoryRehearsal::in_part() const {
+  std::fprintf(stderr, "%s: note: only its first %.6g s are rehearsed\n", input_.path.c_str(),
+               time_s());
+  return true;
+}
+
 bool TrajectoryRehearsal::run() {
   if (!input_.given() || session_.pipeline.robot.mode() == CommandMode::kEffort) return true;
   const double end_s = goal_.latest_report_s();
   while (!ended()) {
     if (time_s() > end_s) return true;
-    if (cycle_ == kMostCycles) {
-      std::fprintf(stderr, "%s: note: it is rehearsed for its first %g s only\n",
-                   input_.path.c_str(), time_s());
-      return true;
-    }
+    if (cycle_ == kMostCycles) return in_part();
     const Status status = cycle();
     if (status != Status::kOk) return refuse(status);
   }
@@ -86,7 +89,8 @@ bool TrajectoryRehearsal::run() {
     std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(), time_s(),
                  why.c_str());
   }
-  return report_.outcome == Outcome::kSucceeded || report_.outcome == Outcome::kStarved;
+  if (report_.outcome == Outcome::kStarved) return in_part();
+  return report_.outcome == Outcome::kSucceeded;
 }
 
 }  // namespace tactus

@@ -26,6 +26,7 @@ class TrajectoryRehearsal {
   bool ended();
   double time_s() const;
   bool refuse(Status status);
+  bool in_part() const;
 
   Session& session_;
   TrajectoryInput& input_;

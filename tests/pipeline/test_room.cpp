@@ -127,18 +127,31 @@ void no_accepted_motion_ends_in_a_fault(void**) {
             });
 }
 
-/// Points from side to side, in rhythms that a joint may swing in.
+/// Points from side to side, in rhythms that one joint or all may swing in.
 void no_rhythm_of_points_ends_in_a_fault(void**) {
-  with_each({"_jrg_pdgc", "_jrg_pid"}, [](PipelineBench& bench, const char* name) {
+  constexpr struct {
+    double way;  // rad
+    std::array<int, 4> cycles;
+  } kRhythms[] = {{0.15, {140, 181, 190, 220}}, {0.5, {250, 350, 450, 600}}};
+  with_each({"_jrg_pdgc", "_jrg_pid"}, [&](PipelineBench& bench, const char* name) {
     Most most;
     run(bench, 1, most);
     const JointVector home = bench.output<JointVector>("jrg.q_d");
-    for (int joint = 0; joint < kDof; ++joint)
-      for (const int cycles : {100, 140, 181, 185, 190, 200, 220, 260})
-        for (int n = 0; n < 24; ++n) {
-          send_point(bench, home + (n % 2 == 0 ? 0.15 : -0.15) * JointVector::Unit(joint));
-          run(bench, cycles, most);
-        }
+    const JointLimits& limits = bench.channel.settings.limits;
+    for (int which = 0; which < kDof + 2; ++which) {
+      JointVector sides = JointVector::Ones();
+      for (int i = 0; i < kDof; ++i)
+        sides[i] = which < kDof                  ? (i == which ? 1.0 : 0.0)
+                   : which == kDof || i % 2 == 0 ? 1.0
+                                                 : -1.0;
+      for (const auto& rhythm : kRhythms)
+        for (const int cycles : rhythm.cycles)
+          for (int n = 0; n < 24; ++n) {
+            const JointVector q = home + (n % 2 == 0 ? rhythm.way : -rhythm.way) * sides;
+            send_point(bench, q.cwiseMax(limits.q_min).cwiseMin(limits.q_max));
+            run(bench, cycles, most);
+          }
+    }
     most.print(name);
   });
 }
