@@ -30,6 +30,8 @@ struct Chunk {
   using Point = typename Space::Point;
 
   std::uint32_t epoch = 1, sequence = 0;
+  /// A single target of another sender continues no stream of points.
+  std::uint64_t sender = 0;
   /// The last target is to be reached and held. Otherwise more chunks follow, and the curve ends
   /// with the velocity of its last targets.
   bool ends = false;

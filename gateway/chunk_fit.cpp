@@ -194,6 +194,7 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   curve.count = chunk.count;
   curve.ends = chunk.ends;
   curve.stamped = chunk.stamped;
+  curve.sender = chunk.sender;
   curve.epoch = chunk.epoch;
   curve.sequence = chunk.sequence;
   curve.header = chunk.header;

@@ -54,6 +54,13 @@ Message not_a_number(std::string_view cell) {
   return reason;
 }
 
+const char* not_a_column(std::string_view header) {
+  double number = 0.0;
+  return read_number(header, number)
+             ? "a number in the first row, which must name the columns; add a row of names"
+             : "unknown column";
+}
+
 Name in_si(std::string_view header, double& scale) {
   scale = 1.0;
   for (const Unit& unit : kUnits) {

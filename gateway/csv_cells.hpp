@@ -31,6 +31,9 @@ bool read_number(std::string_view cell, double& value);
 /// Explains a cell that is not a number. [any]
 Message not_a_number(std::string_view cell);
 
+/// Explains a header that names no column. [any]
+const char* not_a_column(std::string_view header);
+
 /// Returns the header with the SI unit in place of degrees, millimetres or milliseconds, and the SI
 /// units in one of the header's. [any]
 Name in_si(std::string_view header, double& scale);

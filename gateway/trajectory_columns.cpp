@@ -11,7 +11,7 @@ bool Columns<Space>::add(std::string_view header, Message& reason) {
   column.name = Name(header);
   const Name si = in_si(header, column.scale);
   if (std::string_view(si) != "time_s" && !Table::find(si, column.place)) {
-    reason << "unknown column; expected one of time_s, ";
+    reason << not_a_column(header) << "; expected one of time_s, ";
     Table::name_them(reason);
     reason << "; or with deg, mm, ms";
     return false;

@@ -125,10 +125,10 @@ bool RowReader::add(std::string_view header) {
   column.header = std::string(header);
   const std::string si{std::string_view(in_si(header, column.scale))};
   if (!find(si, column))
-    return refuse(
-        line, number, header,
-        "unknown column; write time_s, q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " +
-            std::to_string(joints_.size()) + ", or x_m .. qz of the tip");
+    return refuse(line, number, header,
+                  std::string(not_a_column(header)) +
+                      "; write time_s, q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " +
+                      std::to_string(joints_.size()) + ", or x_m .. qz of the tip");
   for (const Column& earlier : columns_)
     if (earlier.group == column.group && earlier.index == column.index)
       return refuse(line, number, header, "the column is given twice; remove one");

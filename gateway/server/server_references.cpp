@@ -122,7 +122,8 @@ Reply Server::point(int slot, const Origin& from) {
   Message why;
   const std::int64_t sent_ns = given.sent_ns != 0 ? given.sent_ns : request_.client_ns;
   const PointDetails details = {{given.outputs, given.outputs_mask},
-                                sent_ns == 0 ? kNoStamp : 1e-9 * static_cast<double>(sent_ns)};
+                                sent_ns == 0 ? kNoStamp : 1e-9 * static_cast<double>(sent_ns),
+                                from.session};
   const Status offered =
       judge_outputs(given.outputs_mask, setup_.loaded->robot.offered, "Point.outputs_mask", why);
   if (offered != Status::kOk) return {offered, why};

@@ -114,6 +114,7 @@ Reply Server::chunk(int slot, const Origin& from, std::int64_t now_ns) {
               "the joints or as poses as the pipeline takes them"};
     read_channels(given, chunk);
     chunk.stamped = given.time == tactus_Chunk_Time_ABSOLUTE;
+    chunk.sender = from.session;
     chunk.ends = given.ends;
     chunk.fade_s = given.has_crossfade_s ? given.crossfade_s : kUsualFade_s;
     chunk.base = base_of(given.base);

@@ -26,6 +26,13 @@ struct JointLimits {
     return limits;
   }
 
+  /// Returns these limits with velocities of at most `speed`, rad/s. [any]
+  JointLimits slowed(double speed) const {
+    JointLimits limits = *this;
+    limits.dq_max = dq_max.cwiseMin(speed);
+    return limits;
+  }
+
   /// Takes the limits of the board's robot table.
   JointLimits() {
     for (int i = 0; i < kDof; ++i) {

@@ -2,6 +2,8 @@
 // robot table; a pipeline file may tighten them, never widen them.
 #pragma once
 
+#include <algorithm>
+
 #include "kernel/core/describe.hpp"
 #include "kernel/core/types.hpp"
 
@@ -38,6 +40,14 @@ struct TaskLimits {
     visit.param("max_angular_velocity_step", w_step, up_to(robot.w_step), "rad/s");
     visit.param("max_force", force_max, up_to(robot.force_max), "N");
     visit.param("max_moment", moment_max, up_to(robot.moment_max), "N m");
+  }
+
+  /// Returns these limits with velocities of at most `speed`, m/s and rad/s. [any]
+  TaskLimits slowed(double speed) const {
+    TaskLimits limits = *this;
+    limits.v_max = std::min(v_max, speed);
+    limits.w_max = std::min(w_max, speed);
+    return limits;
   }
 
   /// Returns these limits with velocities, accelerations and jerks multiplied by `share`. [any]

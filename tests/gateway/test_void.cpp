@@ -160,6 +160,44 @@ void a_stream_without_places_ends_by_a_cancel_of_anybody_until_its_owner_takes_t
   assert_true(two.bench.generator.reference().q[0] > rest + 0.05);
 }
 
+/// Where the arm ends after a point with a velocity, or a chunk of one; `after` another client's
+/// stream whose lease was given back.
+double end_of_one(bool chunk, bool after) {
+  TwoClients& two = fresh_clients();
+  const auto send = [chunk](TestClient& client, double x, double speed) {
+    JointVector q = ServerBench::home().q, dq = JointVector::Zero();
+    q[0] += x;
+    dq[0] = speed;
+    constexpr double kNow = 0.0;
+    RawMessage body;
+    if (chunk)
+      client.send(ask::kChunk, body.number(3, 1)
+                                   .reals(9, &kNow, 1)
+                                   .reals(10, q.data(), kJoints)
+                                   .reals(11, dq.data(), kJoints));
+    else
+      client.send(
+          ask::kPoint,
+          body.message(3, RawMessage().reals(1, q.data(), kJoints).reals(2, dq.data(), kJoints)));
+  };
+  two.a.lease(5, 60000);
+  for (int k = 1; after && k <= 20; ++k) {
+    send(two.a, 0.002 * k, 0.2);
+    two.run(10);
+  }
+  two.a.send(ask::kLease, RawMessage().number(1, 1));
+  two.b.lease(5, 60000);
+  send(two.b, 0.05, -0.1);
+  two.run(1000);
+  assert_true(two.bench.generator.reference().standing());
+  return two.bench.generator.reference().q[0];
+}
+
+void who_takes_a_lease_that_was_given_back_begins_anew(void**) {
+  for (const bool chunk : {false, true})
+    ASSERT_NEAR(end_of_one(chunk, true), end_of_one(chunk, false), 1e-4);
+}
+
 void what_comes_with_a_takeover_is_executed(void**) {
   for (int kind = 0; kind < static_cast<int>(Kind::kCount); ++kind) {
     if (static_cast<Kind>(kind) == Kind::kPointInPlace) continue;  // it names the epoch before
@@ -207,6 +245,7 @@ int main() {
       cmocka_unit_test(what_was_sent_before_an_end_is_in_force_is_void_in_every_order),
       cmocka_unit_test(
           a_stream_without_places_ends_by_a_cancel_of_anybody_until_its_owner_takes_the_lease),
+      cmocka_unit_test(who_takes_a_lease_that_was_given_back_begins_anew),
       cmocka_unit_test(what_comes_with_a_takeover_is_executed),
       cmocka_unit_test(a_trajectory_behind_a_pause_and_a_cancel_is_told_that_the_pause_holds),
   };

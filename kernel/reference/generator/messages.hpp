@@ -29,6 +29,7 @@ enum class RequestKind : std::uint8_t {
 struct PointDetails {
   DigitalOutputs outputs;     ///< set when it takes effect
   double stamp_s = kNoStamp;  ///< when it was made, s, by a clock of its sender
+  std::uint64_t sender = 0;   ///< a point of another one continues no stream
 };
 
 /// What a request has besides on a board with streams.

@@ -42,9 +42,10 @@ struct MotionState {
 template <class Space>
 struct StreamAccount {
   EpochGate gate;
-  std::uint32_t id = 0;    ///< the last one that took effect
-  bool expired = false;    ///< no successor came in time, and the client was told
-  bool saturates = false;  ///< the client was told that points are beyond a range
+  std::uint32_t id = 0;      ///< the last one that took effect
+  bool expired = false;      ///< no successor came in time, and the client was told
+  bool saturates = false;    ///< the client was told that points are beyond a range
+  std::uint64_t sender = 0;  ///< of the last point
   /// Time in which a point still counts as a successor of one that was refused for its step.
   double step_s = 0.0;
   bool approaches = false;  ///< the reference is on its way to such a successor
@@ -66,6 +67,9 @@ class ReferenceGenerator {
     OnlineMode online = OnlineMode::kForward;
     /// Largest distance of a point from the reference: rad, for a tip m and rad; 0: any.
     OnlyWithStreams<double> max_step{};
+    /// Largest velocity on the way to points or chunks that begin anew: rad/s, for a tip m/s and
+    /// rad/s; 0: the limit.
+    OnlyWithStreams<double> approach_speed{};
     /// Longest time without a new point after which a moving online reference is stopped; 0: none.
     double timeout_s = 0.0;
     int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none

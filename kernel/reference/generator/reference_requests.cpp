@@ -195,7 +195,11 @@ void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   if (verdict.ok() && params_.online == OnlineMode::kRefuse) verdict = judge_step(point, forwards);
   if (!verdict.ok()) return report(request.id, Outcome::kRefused, -1, verdict);
   double stamp_s = kNoStamp;
-  if constexpr (kStreams) stamp_s = request.details.stamp_s;
+  if constexpr (kStreams) {
+    stamp_s = request.details.stamp_s;
+    if (request.details.sender != stream_.sender) motion_.forget_points();
+    stream_.sender = request.details.sender;
+  }
   forwards ? motion_.forward(point) : motion_.reach(point, stamp_s);
   end_running(Outcome::kAborted, !motion_.on_path());
   point_age_s_ = 0.0;

@@ -118,7 +118,8 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
       point.point = chunk.knots[0].point;
       point.header = chunk.header;
       point.details = {{chunk.outputs[0], chunk.outputs_mask},
-                       chunk.stamped ? chunk.first_s() : kNoStamp};
+                       chunk.stamped ? chunk.first_s() : kNoStamp,
+                       chunk.sender};
       chunk.release();
       return take_point(point);
     }

@@ -39,6 +39,7 @@ struct ChunkCurve {
   bool stamped = true;  ///< its time is the sender's; else it is that of its arrival
   bool ends = false;    ///< at rest at the last knot; else more chunks are to follow
   std::uint32_t epoch = 0, sequence = 0;
+  std::uint64_t sender = 0;       ///< of a single target, as that of a point
   typename Space::Header header;  ///< joints left out, or frames the knots are given in
   /// Time in which a disagreement fades; longer if limits ask for it. 0: closed as fast as limits
   /// allow.

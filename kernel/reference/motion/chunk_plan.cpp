@@ -65,8 +65,8 @@ bool ChunkPlan<Space, streams>::due(double now_s) const {
 
 template <class Space, bool streams>
 typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double now_s,
-                                                       const Point& reference,
-                                                       const Limits& limits) {
+                                                       const Point& reference, const Limits& limits,
+                                                       bool fades) {
   LoopBound<kChunkStores> begun;
   while (due(now_s)) {
     begun.tick();
@@ -80,24 +80,25 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
   const double s = before_s - now().zero_s, lead_s = now().chunk->first_s() - s;
   target_ = -1;
   if (lead_s > now_s - before_s)
-    lead_in(s, reference, limits);
+    lead_in(s, reference, limits, fades);
   else
     follow(s);
   if (runs_out(now_s)) stop_path_time(before_s);
   const Point base = curve(path_time(before_s));
-  fade_in(before_s, reference, base, limits);
-  return fades() ? reference : base;
+  fade_in(before_s, reference, base, limits, fades);
+  return fade_s_ > 0.0 ? reference : base;
 }
 
-/// Leads to the first knot: from the reference by one quintic, if there is time; else along the
-/// tangent of the curve, to which the reference fades.
+/// Leads to the first knot: from the reference by one quintic, if it `fades` and there is time;
+/// else along the tangent of the curve.
 template <class Space, bool streams>
-void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const Limits& limits) {
+void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const Limits& limits,
+                                        bool fades) {
   const Point first = now().knot(0), origin = first.at_rest();
   const double lead_s = now().chunk->first_s() - s;
   Point from = Space::without_held(reference, now().placement);
-  if (fading_time_s<Space>(Space::difference(from, first), limits, kTimeRounding_s + 0.05) >
-      lead_s) {
+  if (!fades || fading_time_s<Space>(Space::difference(from, first), limits,
+                                     kTimeRounding_s + 0.05) > lead_s) {
     Difference back = Space::difference(first, origin);
     back.x -= lead_s * back.dx;
     back.ddx.setZero();
@@ -143,12 +144,12 @@ bool ChunkPlan<Space, streams>::runs_out(double now_s) const {
 
 template <class Space, bool streams>
 typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Point& base,
-                                                      const Point& reference,
-                                                      const Limits& limits) {
+                                                      const Point& reference, const Limits& limits,
+                                                      bool fades) {
   if (!stop_path_time(before_s)) return base;
   const Point slower = curve(path_time(before_s));
-  fade_in(before_s, reference, slower, limits);
-  return fades() ? reference : slower;
+  fade_in(before_s, reference, slower, limits, fades);
+  return fade_s_ > 0.0 ? reference : slower;
 }
 
 /// Stops path time at the end of the chunk. From full rate if there is still time for it, else from
@@ -185,11 +186,11 @@ typename Space::Point ChunkPlan<Space, streams>::curve(const PathTime& time) con
 
 template <class Space, bool streams>
 void ChunkPlan<Space, streams>::fade_in(double before_s, const Point& reference, const Point& base,
-                                        const Limits& limits) {
+                                        const Limits& limits, bool fades) {
   jump_ = Space::difference(reference, base);
   jump_s_ = before_s;
   seam_ = jump_.x.cwiseAbs().maxCoeff();
-  fade_s_ = now().chunk->fade_s;
+  fade_s_ = fades ? now().chunk->fade_s : 0.0;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
 }
 

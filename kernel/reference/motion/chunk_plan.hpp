@@ -53,14 +53,16 @@ class ChunkPlan {
   /// True if a chunk begins up to `now_s`. [cyclic]
   bool due(double now_s) const;
   /// Enters the newest chunk that is due at `now_s`, while the reference of `before_s` is put out;
-  /// returns the base at `before_s`. [cyclic]
-  Point enter(double before_s, double now_s, const Point& reference, const Limits& limits);
+  /// returns the base at `before_s`. Unless it `fades`, the base is the curve at once. [cyclic]
+  Point enter(double before_s, double now_s, const Point& reference, const Limits& limits,
+              bool fades);
   /// True if the chunk in force has no successor and the stop at its end is to begin before
   /// `now_s`. [cyclic]
   bool runs_out(double now_s) const;
   /// Begins that stop at `before_s`, while the reference is put out and the base is `base`; returns
   /// the base, which is another one if it is too late to stop from full rate. [cyclic]
-  Point stop(double before_s, const Point& base, const Point& reference, const Limits& limits);
+  Point stop(double before_s, const Point& base, const Point& reference, const Limits& limits,
+             bool fades);
   /// Moves path time to `now_s`, and returns the base. [cyclic]
   Point move_on(double now_s);
   /// Finds the digital outputs of the targets passed up to `now_s`. [cyclic]
@@ -72,8 +74,6 @@ class ChunkPlan {
     return passed;
   }
 
-  /// True if the reference fades to the curve that was entered last; else it has an offset from it.
-  bool fades() const { return fade_s_ > 0.0; }
   /// True if the base rests at the end of the last chunk. [cyclic]
   bool ended(double now_s) const;
   /// True if no successor has come and the base is being stopped.
@@ -110,13 +110,14 @@ class ChunkPlan {
   void drop_first();
   void pass_last_targets(double now_s);
   void pass_targets(std::size_t i, double now_s);
-  void lead_in(double s, const Point& reference, const Limits& limits);
+  void lead_in(double s, const Point& reference, const Limits& limits, bool fades);
   void follow(double s);
   static int knot_after(const ChunkCurve<Space>& chunk, double s);
   bool stop_path_time(double before_s);
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
-  void fade_in(double before_s, const Point& reference, const Point& base, const Limits& limits);
+  void fade_in(double before_s, const Point& reference, const Point& base, const Limits& limits,
+               bool fades);
 
   std::array<Piece, kChunkStores> pieces_;  // in the order of their beginnings
   std::size_t count_ = 0;

@@ -44,11 +44,20 @@ void Motion<Space>::move_on(double dt_s) {
     const bool there = offset_.zero() && !streaming();
     reference_ = there ? base_
                        : Space::approach(reference_, offset_, before, base_, steps(),
-                                         settings_->limits, dt_s);
+                                         limits_to(before), dt_s);
     if (offset_.zero()) arrive(was);
   }
   Space::keep_sign(reference_, last);
   fade(dt_s);
+}
+
+/// Returns the limits on the way to the base, which was `base` in the last cycle.
+template <class Space>
+const typename Space::Limits& Motion<Space>::limits_to(const Point& base) {
+  if constexpr (kStreams) {
+    if (!on_path()) return approach_.limits(reference_, base, settings_->limits);
+  }
+  return settings_->limits;
 }
 
 /// Returns the base if it is no path: the stream, or the point that is held.
@@ -132,7 +141,11 @@ void Motion<Space>::forward(const Point& point) {
 
 template <class Space>
 void Motion<Space>::reach(const Point& point, double stamp_s) {
-  stream_.push(point, time_s_ - settings_->period_s, stamp_s);  // it was sent before this cycle
+  const double sent_s = time_s_ - settings_->period_s;  // it was sent before this cycle
+  if constexpr (kStreams) {
+    if (!stream_.recent(sent_s)) approach_.begin();
+  }
+  stream_.push(point, sent_s, stamp_s);
   held_ = point.stopped();
   if (can_leave()) return go();
   if (!given_up()) braking_s_ = 0.0;

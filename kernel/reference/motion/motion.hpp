@@ -8,6 +8,7 @@
 // feed-forward fades out.
 #pragma once
 
+#include "kernel/reference/motion/approach.hpp"
 #include "kernel/reference/motion/chunk_plan.hpp"
 #include "kernel/reference/motion/motion_phase.hpp"
 #include "kernel/reference/motion/path.hpp"
@@ -26,6 +27,9 @@ class Motion {
 
   /// Holds the position of `point` at rest. `settings` must outlive the motion. [init]
   [[gnu::cold]] void start(const Point& point, const Settings& settings);
+  /// After start(): points and chunks that begin anew are approached at no more than `speed`,
+  /// rad/s, for a tip m/s and rad/s; 0: the limit. [init]
+  [[gnu::cold]] void approach_at(double speed);
   /// Moves the reference one period ahead. [cyclic]
   void move_on(double dt_s);
 
@@ -113,6 +117,7 @@ class Motion {
   bool given_up() const { return phase_ == Phase::kBraking || phase_ == Phase::kLeaving; }
   bool can_leave() const;
   void begin_stream(MotionEvent event);
+  const typename Space::Limits& limits_to(const Point& base);
   void move_stream(double dt_s);
   void rest_from_stream();
   void move_at_velocity(double dt_s);
@@ -144,6 +149,7 @@ class Motion {
   ChunkPlan<Space> plan_;      // the base while chunks are followed
   OnlyWithStreams<Velocity<Space>> velocity_;
   double velocity_until_s_ = 0.0;
+  OnlyWithStreams<Approach<Space>> approach_;
 
   typename Space::Difference offset_;
   typename Space::Effort effort_;  // feed-forward that fades out

@@ -6,6 +6,11 @@
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
 template <class Space>
+void Motion<Space>::approach_at(double speed) {
+  approach_.start(settings_->limits, speed);
+}
+
+template <class Space>
 Verdict Motion<Space>::track(ChunkCurve<Space>& chunk, double now_s) {
   if (!can_leave()) return {Status::kCannotLeave};
   begin_stream(MotionEvent::kChunk);
@@ -28,6 +33,7 @@ Verdict Motion<Space>::drive(const Velocity<Space>& velocity) {
 template <class Space>
 void Motion<Space>::begin_stream(MotionEvent event) {
   if (!streams(phase_)) {
+    if (!stream_.recent(time_s_)) approach_.begin();
     feed_beyond(reference_, reference_.at_rest(), kFade_s);
     path_.leave();
     stream_.clear();
@@ -41,14 +47,15 @@ void Motion<Space>::move_stream(double dt_s) {
   if (phase_ == Phase::kDriving) return move_at_velocity(dt_s);
   const typename Space::Limits& limits = settings_->limits;
   const bool seam = plan_.due(time_s_), stops = !seam && plan_.runs_out(time_s_);
-  if (seam) base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits);
-  if (stops) base_ = plan_.stop(time_s_ - dt_s, base_, reference_, limits);
+  const bool fades = !approach_.on();
+  if (seam) base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits, fades);
+  if (stops) base_ = plan_.stop(time_s_ - dt_s, base_, reference_, limits, fades);
   if (seam || stops) offset_ = Space::difference(reference_, base_);
   if (seam) tell(MotionEvent::kChunk);
   const Point before = base_;
   base_ = plan_.move_on(time_s_);
   plan_.pass_outputs(time_s_);
-  reference_ = Space::approach(reference_, offset_, before, base_, false, limits, dt_s);
+  reference_ = Space::approach(reference_, offset_, before, base_, false, limits_to(before), dt_s);
   if (plan_.stopping()) tell(MotionEvent::kExpire);
   if (offset_.zero() && plan_.ended(time_s_) && reference_.standing()) rest_from_stream();
 }
@@ -87,6 +94,7 @@ PassedInPeriod Motion<Space>::take_outputs() {
 }
 
 #define TACTUS_MOTION_STREAMS(Space)                                 \
+  template void Motion<Space>::approach_at(double);                  \
   template Verdict Motion<Space>::track(ChunkCurve<Space>&, double); \
   template Verdict Motion<Space>::drive(const Velocity<Space>&);     \
   template void Motion<Space>::move_stream(double);                  \

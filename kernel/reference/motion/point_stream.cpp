@@ -50,7 +50,7 @@ bool PointStream<Space>::silent(double now_s) const {
 
 template <class Space>
 bool PointStream<Space>::continues(double now_s, double stamp_s) const {
-  if (count_ == 0 || now_s - arrival_s_ > kSlowest_s || (count_ > 1 && silent(now_s))) return false;
+  if (!recent(now_s) || (count_ > 1 && silent(now_s))) return false;
   if (stamped_ != (stamp_s != kNoStamp)) return false;
   const double distance_s = stamp_s - stamp_s_;
   return !stamped_ || (distance_s >= kNearest_s && distance_s <= kSlowest_s);

@@ -41,6 +41,8 @@ class PointStream {
   /// Forgets all points. [cyclic]
   void clear() { count_ = 0; }
 
+  /// True if a point has come at most kSlowest_s before `now_s`. [cyclic]
+  bool recent(double now_s) const { return count_ > 0 && now_s - arrival_s_ <= kSlowest_s; }
   /// True if the points are a stream that has not gone silent at `now_s`. [cyclic]
   bool moves(double now_s) const;
   /// True if the points are a stream that has gone silent at `now_s`. [cyclic]

@@ -63,7 +63,7 @@ template <class Space>
 Verdict judge_end(const typename Space::Point& end) {
   const typename Space::Rates& v = Space::rates(end);
   for (int i = 0; i < v.size(); ++i) {
-    if (exceeds(std::abs(v[i]), kRest)) return {Status::kNotAtRest, -1, i, v[i], 0.0};
+    if (exceeds(std::abs(v[i]), kRestRounding)) return {Status::kNotAtRest, -1, i, v[i], 0.0};
   }
   return {};
 }

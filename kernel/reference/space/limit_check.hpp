@@ -14,7 +14,7 @@ namespace tactus {
 /// not be refused for that.
 inline constexpr double kLimitRounding = 1e-9;
 /// Largest velocity that still counts as rest, rad/s or m/s.
-inline constexpr double kRest = 1e-6;
+inline constexpr double kRestRounding = 1e-6;
 
 /// True if the value is above the limit by more than rounding, or NaN. [any]
 inline bool exceeds(double value, double limit) {
