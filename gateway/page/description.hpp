@@ -11,12 +11,13 @@ namespace tactus {
 
 struct PageSubject {
   std::string_view board, file;  ///< the file: name of the pipeline
-  Pipeline& pipeline;            ///< loaded; its blocks' describe() changes nothing
+  Pipeline& pipeline;            ///< loaded; no cycle has begun
   bool simulated;                ///< the robot is a plant in this program
 };
 
-/// Writes joints, frames and capsules. [init]
-void describe_robot(const Pipeline& pipeline, Json& to);
+/// Writes joints, frames and capsules, and the boxes whose place is known before the first cycle.
+/// [init]
+void describe_robot(Pipeline& pipeline, Json& to);
 
 /// Writes "blocks": of each its name, its type, its inputs, with the number of the output that each
 /// is connected to (-1: of none), and its outputs, numbered as in the port table. "robot" has the

@@ -1,4 +1,7 @@
+#include <type_traits>
+
 #include "gateway/page/description.hpp"
+#include "kernel/pipeline/kinds.hpp"
 #include "kernel/robots/robot.hpp"
 
 namespace tactus {
@@ -19,9 +22,51 @@ void joints(const JointLimits& limits, Json& to) {
   to.close(']');
 }
 
+/// Calls act(block) for every block of one kind.
+template <class Kind, class Act>
+void for_each(Pipeline& pipeline, const Act& act) {
+  for (int i = 0; i < pipeline.count(); ++i) {
+    with_kind(pipeline[i].kind, [&](auto kind) {
+      if constexpr (std::is_same_v<typename decltype(kind)::Type, Kind>)
+        act(pipeline[i].name, *static_cast<Kind*>(pipeline[i].place));
+    });
+  }
+}
+
+/// The corner whose number has bit k is on the far side along axis k.
+void corners(const Cuboid& box, Json& to) {
+  to.open('[', "corners");
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vector3 at = box.size / 2.0;
+    for (unsigned k = 0; k < 3; ++k)
+      if ((corner >> k & 1u) == 0) at[k] = -at[k];
+    at = box.pose.p + box.pose.r * at;
+    to.number(at.x()).number(at.y()).number(at.z());
+  }
+  to.close(']');
+}
+
+/// Constant frames and the boxes in them are placed as every arming places them. A box in a frame
+/// that moves stays where that is at arming, which is not known yet.
+void boxes(Pipeline& pipeline, Json& to) {
+  for_each<Frame>(pipeline, [](const Name&, Frame& frame) { static_cast<void>(frame.start()); });
+  to.open('[', "boxes");
+  for_each<BoxObstacle>(pipeline, [&](const Name& name, BoxObstacle& box) {
+    bool constant = !box.frame.wired();
+    for_each<Frame>(pipeline, [&](const Name&, const Frame& frame) {
+      constant = constant || box.frame.source == &frame.x.value;
+    });
+    if (!constant || box.start() != Status::kOk) return;
+    to.open('{').string(name, "name");
+    corners(box.box.value, to);
+    to.close('}');
+  });
+  to.close(']');
+}
+
 }  // namespace
 
-void describe_robot(const Pipeline& pipeline, Json& to) {
+void describe_robot(Pipeline& pipeline, Json& to) {
   joints(pipeline.guard.references(), to);
   to.open('[', "frames");
   for (const JointFrame& joint : Robot::kJoints) frame(joint, to);
@@ -33,6 +78,7 @@ void describe_robot(const Pipeline& pipeline, Json& to) {
     to.numbers("b", capsule.b, 3).number(capsule.radius, "radius").close('}');
   }
   to.close(']');
+  boxes(pipeline, to);
 }
 
 void describe_page(const PageSubject& subject, std::string_view token, Json& to) {

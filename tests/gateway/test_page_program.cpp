@@ -11,7 +11,10 @@ constexpr const char* kServed =
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
     "goal_tolerance = 0.2\nstopped_velocity = 0\n"
     "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
+    "[cell]\ntype = frame\nposition = 1 0 0\nrotation = 0 0 1.5707963267948966\n"
+    "[table]\ntype = box\ncentre = 0.5 0 -0.1\nsize = 0.4 1 0.2\nframe = cell.x\n"
+    "[carried]\ntype = box\ncentre = 0 0 0.1\nsize = 0.1 0.1 0.1\nframe = model.x\n";
 
 /// Runs a test class; $P is the program that serves.
 void run_class(const char* name) {

@@ -27,6 +27,8 @@ void main() {
 }`;
 const IDENTITY = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
 const TRAIL = 200;  // states: 10 s
+const BOX = [0.6, 0.3, 0.15, 1];  // of its edges
+const EDGES = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((from) => [1, 2, 4].filter((bit) => !(from & bit)).flatMap((bit) => [from, from + bit]));
 
 /** Normals and ends of a capsule, as triangles. */
 function capsuleMesh(around = 24, rings = 8) {
@@ -171,6 +173,8 @@ export class ArmView {
       end[axis] = 0.3;
       this.strokes(gl.LINES, [0, 0, 0.001, ...end], colour);
     }
+    for (const { corners } of this.robot?.boxes ?? [])
+      this.strokes(gl.LINES, EDGES.flatMap((corner) => corners.slice(3 * corner, 3 * corner + 3)), BOX);
     if (!this.q) return;
     this.strokes(gl.LINE_STRIP, this.trail.flat(), [0.15, 0.6, 0.3, 1]);
     this.solid(this.q, this.dark.matches ? [0.62, 0.7, 0.8, 1] : [0.66, 0.72, 0.8, 1]);

@@ -14,6 +14,7 @@ from reporting.chromium import Chromium  # noqa: E402
 
 COLOURS = 200  # of a picture of a shaded arm; a blank one has few
 MOVED = 300  # pixels
+EDGES = 100  # pixels of a box
 NOMINAL = "document.getElementById('rung').textContent === 'nominal'"
 BOX = "(({x, y, width, height}) => [x + scrollX, y + scrollY, width, height])(document.querySelector('%s').getBoundingClientRect())"
 
@@ -49,6 +50,17 @@ def swing(client):
     home = list(client.state.q_d)
     assert client.ask(lease=pb.Lease(timeout_ms=30000)).status == 0
     client.send(begin=pb.Begin(interpolation=pb.Begin.MONOTONE))
+def commanded(picture):
+    """Where a desired or commanded value is, which is amber; limits are red."""
+    return np.all(picture[..., :2] > picture[..., 2:] + 0.25, axis=2)
+
+
+def edges(picture):
+    """Where the edges of a box are, which are brown; an axis is brighter."""
+    red, green, blue = np.moveaxis(picture, 2, 0)
+    return (red < 0.75) & (red > green + 0.15) & (red > blue + 0.2)
+
+
     client.until(lambda: client.credit >= 60)
     part = pb.Part()
     for i in range(60):
@@ -95,6 +107,7 @@ class BrowserTest(unittest.TestCase):
 
     def test_stop_and_rearm_at_once_or_not_at_all(self):
         swing(self.client)
+        self.assertGreater(np.count_nonzero(edges(begin["#arm"])), EDGES)
         self.page.click("#stop")
         self.client.until(lambda: self.client.state.rung == 5)
         self.page.until("document.getElementById('rung').textContent === 'disabled'")
