@@ -100,7 +100,7 @@ export class Link {
     try {
       return await fetch(command, { method: "POST", body, headers, signal });
     } catch (error) {
-      if (!signal.aborted) throw new Error("not sent: there is no connection to the server");
+      if (!signal.aborted) throw new Error("no answer: there is no connection to the server, and perhaps it was not sent");
       if (!late.aborted) throw new Error("given up for the stop");
       throw new Error(`no answer yet; ${ALWAYS.includes(command) ? "carried out when the server takes it" : "void when it comes"}`);
     }

@@ -47,11 +47,12 @@ export class Panel {
   /** While the slider moves, its newest value is sent ten times a second, one after the other. */
   takeSlider() {
     const slider = by("override");
-    let waits = false;
+    let waits = false, wish = null;
     const send = async () => {
-      const value = slider.value;
+      const value = wish;
+      wish = null;
       await this.command("override", String(value / 100));
-      waits = performance.now() - this.moved < QUIET_MS && slider.value !== value;
+      waits = wish !== null;
       if (waits) setTimeout(send, 100);
     };
     slider.addEventListener("input", () => {
@@ -59,6 +60,7 @@ export class Panel {
       by("override_value").textContent = `${slider.value} %`;
       if (waits) return;
       waits = true;
+      wish = slider.value;
       setTimeout(send, 100);
     });
   }

@@ -30,6 +30,16 @@ window.EventSource = class extends EventSource {
 """
 
 
+OVERRIDE_IS_SLOW = """
+const fetched = fetch;
+window.fetch = async (...request) => {
+  const answer = await fetched(...request);
+  if (request[0] === "override") await new Promise((done) => setTimeout(done, 1500));
+  return answer;
+};
+"""
+
+
 def picture_of(page, selector):
     """Returns the pixels of an element [rows, columns, 3]."""
     return imread(io.BytesIO(page.picture(*page.value(BOX % selector))))[..., :3]
@@ -149,6 +159,8 @@ class BrowserTest(unittest.TestCase):
         self.page.until("streams.length === 1")
         self.served.program.kill()
         self.served.program.wait()
+        self.page.press("Escape", 27)
+        self.page.until("document.getElementById('answer').textContent === 'stop: no answer yet; carried out when the server takes it'")
         again = Served("browser", self.served.port)
         again.page()
         client = again.client()
@@ -196,3 +208,13 @@ class BrowserTest(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
+    def test_the_last_place_of_the_slider_counts_though_the_one_before_takes_long(self):
+        self.page.call("Page.addScriptToEvaluateOnNewDocument", source=OVERRIDE_IS_SLOW)
+        self.page.go(self.served.page_address)
+        self.page.until(NOMINAL)
+        self.page.value("document.getElementById('override').focus()")
+        self.page.press("Home", 36)
+        self.client.until(lambda: self.client.state.override == 0)
+        self.page.press("End", 35)
+        self.client.until(lambda: self.client.state.override == 1)
+
