@@ -66,6 +66,7 @@ bool parse_page_address(std::string_view text, Address& address, Message& why) {
 
 bool PageThread::prepare(Message& why) {
   Json json(description_bytes_.data(), description_bytes_.size());
+  begin_ns_ = monotonic_ns();
   if (!draw_token(token_)) {
     why << "there are no random numbers for a token";
     return false;
@@ -134,7 +135,7 @@ void PageThread::connect() {
 void PageThread::tell_news() {
   const std::int64_t now_ns = monotonic_ns();
   link_.work(now_ns, [&](const tactus_ToClient& message) {
-    tell(message, now_ns / kMillisecond_ns, news_);
+    tell(message, {begin_ns_, now_ns}, news_);
   });
   bool newer = false;
   while (ports_.values.take(values_)) newer = true;

@@ -53,7 +53,7 @@ class PageThread {
   std::array<char, kDescriptionBytes> description_bytes_;
   std::string_view description_;
   Text<32> token_;
-  std::int64_t tried_ns_ = 0;
+  std::int64_t begin_ns_ = 0, tried_ns_ = 0;
   int port_ = 0;
   std::atomic<bool> ended_{false};
   pthread_t thread_{};

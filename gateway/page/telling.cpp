@@ -30,19 +30,21 @@ const char* outcome_word(tactus_Report_Outcome outcome) {
   }
 }
 
+void write_time(std::int64_t server_ns, const PageTime& time, Json& to) {
+  to.number(static_cast<double>(server_ns - time.begin_ns) * 1e-9, "since_s");
+}
+
 struct StateTold {
   const tactus_State& state;
-  std::int64_t told_ms;
+  const PageTime& time;
 };
 
 void write(const StateTold& told, Json& to) {
   const tactus_State& state = told.state;
-  to.integer(told.told_ms, "told_ms");
+  to.integer(told.time.now_ns / kMillisecond_ns, "told_ms");
+  write_time(state.server_ns, told.time, to);
   const auto status = static_cast<Status>(state.status);
-  to.integer(static_cast<std::int64_t>(state.cycle), "cycle").number(state.time_s, "time_s");
-  to.number(static_cast<double>(state.server_ns) * 1e-9, "server_s");
   to.string(word<Rung>(state.rung), "rung").string(word<Phase>(state.phase), "phase");
-  to.integer(state.status, "status");
   to.string(status == Status::kOk ? Message() : describe(status), "why");
   to.integer(state.epoch, "epoch").string(state.owner, "owner");
   to.number(state.override, "override").number(state.speed_scaling, "speed_scaling");
@@ -51,9 +53,8 @@ void write(const StateTold& told, Json& to) {
   to.numbers("q_d", state.q_d, state.q_d_count).numbers("dq_d", state.dq_d, state.dq_d_count);
   to.numbers("pose", state.pose, state.pose_count);
   to.numbers("pose_d", state.pose_d, state.pose_d_count);
-  to.numbers("wrench", state.wrench, state.wrench_count);
   to.number(state.margin_s, "margin_s").integer(state.slips, "slips");
-  to.integer(state.overruns, "overruns").integer(state.lost, "lost");
+  to.integer(state.overruns, "overruns");
   to.integer(state.stream.starved, "starved").integer(state.stream.late, "late");
 }
 
@@ -66,9 +67,14 @@ void write(const tactus_Report& report, Json& to) {
   to.string(outcome_word(report.outcome), "outcome").string(report.text, "text");
 }
 
-void write(const tactus_Event& event, Json& to) {
-  to.string(event.name, "name").string(event.text, "text").integer(event.status, "status");
-  to.number(static_cast<double>(event.server_ns) * 1e-9, "server_s");
+struct EventTold {
+  const tactus_Event& event;
+  const PageTime& time;
+};
+
+void write(const EventTold& told, Json& to) {
+  to.string(told.event.name, "name").string(told.event.text, "text");
+  write_time(told.event.server_ns, told.time, to);
 }
 
 template <class Message>
@@ -83,13 +89,14 @@ void put(const char* event, const Message& message, News& news) {
 
 }  // namespace
 
-void tell(const tactus_ToClient& message, std::int64_t now_ms, News& news) {
+void tell(const tactus_ToClient& message, const PageTime& time, News& news) {
   switch (message.which_message) {
     case tactus_ToClient_state_tag:
-      return put("state", StateTold{message.message.state, now_ms}, news);
+      return put("state", StateTold{message.message.state, time}, news);
     case tactus_ToClient_answer_tag: return put("answer", message.message.answer, news);
     case tactus_ToClient_report_tag: return put("report", message.message.report, news);
-    case tactus_ToClient_event_tag: return put("event", message.message.event, news);
+    case tactus_ToClient_event_tag:
+      return put("event", EventTold{message.message.event, time}, news);
     default: return;
   }
 }

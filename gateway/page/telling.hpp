@@ -8,9 +8,14 @@
 
 namespace tactus {
 
-/// Adds a message of the server to the news; those that the page does not show are left out. A
-/// state is told with the time `now_ms`, which a browser gives with its commands. [any]
-void tell(const tactus_ToClient& message, std::int64_t now_ms, News& news);
+/// By the monotonic clock. Browsers are told seconds since `begin_ns`, and with a state `now_ns` in
+/// milliseconds, which a browser gives with its commands.
+struct PageTime {
+  std::int64_t begin_ns, now_ns;
+};
+
+/// Adds a message of the server to the news; those that the page does not show are left out. [any]
+void tell(const tactus_ToClient& message, const PageTime& time, News& news);
 
 /// Adds the values of all outputs. [any]
 void tell(const PortValues& values, const PortTable& ports, News& news);

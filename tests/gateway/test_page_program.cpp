@@ -23,7 +23,7 @@ void run_class(const char* name) {
   assert_succeeds((command << name).c_str());
 }
 
-// Proves PAGE-1, PAGE-3, PAGE-5.
+// Proves PAGE-1, PAGE-3, PAGE-5, PAGE-9.
 
 void the_page_is_served_and_takes_commands(void**) {
   run_class("test_http.PageTest");
@@ -49,7 +49,7 @@ void hostile_browsers_do_not_disturb_the_server(void**) {
   run_class("test_hostile_browsers");
 }
 
-// Proves PAGE-6, PAGE-8.
+// Proves PAGE-6, PAGE-8, PAGE-9.
 
 void a_browser_shows_the_arm_and_its_buttons_work(void**) {
   if (shell("command -v chromium") != 0) {

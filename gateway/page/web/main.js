@@ -20,8 +20,10 @@ const COMMANDS = [["q_c", "q_d"], ["dq_c", "dq_d"], ["tau_c", "tau_d"]];
 let inputs = [];  // of the robot
 let values = [];  // of all outputs, the newest
 
-/** Where the pipeline has no reference of the joints, what it commands counts as desired. */
+/** Where the pipeline has no reference of the joints, what it commands counts as desired. Nothing is, of drives that are not commanded. */
 function addDesired(state) {
+  state.commanded = !["disabled", "arming"].includes(state.rung);
+  if (!state.commanded) return Object.assign(state, { q_d: [], dq_d: [], tau_d: [], pose_d: [] });
   for (const [command, desired] of COMMANDS) {
     const input = inputs.find(({ port }) => port === command);
     if (input && !(state[desired] || []).length) state[desired] = values[input.from] || [];

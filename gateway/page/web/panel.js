@@ -4,20 +4,21 @@ const MOST_EVENTS = 100;
 const MOST_ASKED = 200, MOST_EARLY = 50;
 const QUIET_MS = 700;  // after the slider was moved, it follows the robot again
 
+// Name, text, and what it means to the reader.
 const NUMBERS = [
-  ["Owner", (s) => s.owner || "nobody"],
-  ["Epoch", (s) => s.epoch],
-  ["Time", (s) => `${s.time_s.toFixed(2)} s`],
-  ["Cycle", (s) => s.cycle],
-  ["Override", (s) => `${(s.override * 100).toFixed(0)} %`],
-  ["Robot's speed", (s) => `${(s.speed_scaling * 100).toFixed(0)} %`],
-  ["Margin of the stream", (s) => `${s.margin_s.toFixed(3)} s`],
-  ["Streams starved", (s) => s.starved],
-  ["Slips", (s) => s.slips],
-  ["Overruns", (s) => s.overruns],
-  ["Late chunks", (s) => s.late],
-  ["Snapshots lost", (s) => s.lost],
+  ["Time", (s) => `${s.since_s.toFixed(1)} s`, "Since the server began; the time of events and plots."],
+  ["Owner", (s) => s.owner || "nobody", "The client that may move the arm."],
+  ["Override", (s) => `${(s.override * 100).toFixed(0)} %`, "Speed of trajectories, of the planned one."],
+  ["Robot's speed", (s) => `${(s.speed_scaling * 100).toFixed(0)} %`, "What the robot's own controller makes of it; 100 % of one that makes nothing."],
+  ["Stream margin", (s) => `${s.margin_s.toFixed(3)} s`, "Until the targets of a stream run out and the arm comes to rest; 0 without a stream."],
+  ["Starved", (s) => times(s.starved), "The arm came to rest because no target of a stream followed: its client is too slow."],
+  ["Late chunks", (s) => times(s.late), "All targets of a chunk were past when it came, and it had no effect: its client or network is too slow."],
+  ["Slips", (s) => times(s.slips), "Periods in which no cycle began: this computer was busy. Several in a row brake the arm."],
+  ["Overruns", (s) => times(s.overruns), "Cycles longer than the period: this computer was busy. Many of them brake the arm."],
+  ["Epoch", (s) => s.epoch, "Number of cancels, stops, takeovers and brakes, from 1: what was sent for an older epoch is void. No fault."],
 ];
+
+function times(count) { return count === 1 ? "once" : `${count} times`; }
 
 function by(id) { return document.getElementById(id); }
 
@@ -27,9 +28,10 @@ export class Panel {
     this.moved = -Infinity;
     this.asked = new Map();  // number of a message -> the command that it belongs to
     this.early = [];
-    this.cells = NUMBERS.map(([name]) => {
+    this.cells = NUMBERS.map(([name, , meaning]) => {
       const [term, cell] = [document.createElement("dt"), document.createElement("dd")];
       term.textContent = name;
+      term.title = cell.title = meaning;
       by("numbers").append(term, cell);
       return cell;
     });
@@ -58,9 +60,9 @@ export class Panel {
     slider.addEventListener("input", () => {
       this.moved = performance.now();
       by("override_value").textContent = `${slider.value} %`;
+      wish = slider.value;
       if (waits) return;
       waits = true;
-      wish = slider.value;
       setTimeout(send, 100);
     });
   }
@@ -119,9 +121,9 @@ export class Panel {
     by("override_value").textContent = `${Math.round(state.override * 100)} %`;
   }
 
-  event({ name, text, server_s }) {
+  event({ name, text, since_s }) {
     const item = document.createElement("li"), time = document.createElement("time");
-    time.textContent = `${server_s.toFixed(1)} s`;
+    time.textContent = `${since_s.toFixed(1)} s`;
     item.append(time, `${name}: ${text}`);
     by("events").prepend(item);
     while (by("events").children.length > MOST_EVENTS) by("events").lastChild.remove();

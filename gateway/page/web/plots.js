@@ -1,6 +1,6 @@
-// Plots of the last 10 s: measured and desired, and the limits where they are in the picture.
+// Plots of the last 10 s: measured and desired, the limits where they are in the picture, and a band while no drive is commanded.
 
-const SPAN_S = 10;
+const SPAN_S = 10, TICK_S = 5;
 const MOST = 400;  // states
 
 /** The numbers of the states, oldest first. */
@@ -9,10 +9,10 @@ export class History {
 
   add(state) {
     const last = this.states[this.states.length - 1];
-    if (last && state.server_s < last.server_s) this.states = [];  // another server
+    if (last && state.since_s < last.since_s) this.states = [];  // another server
     this.states.push(state);
-    const from = state.server_s - SPAN_S - 1;
-    while (this.states.length > MOST || this.states[0].server_s < from) this.states.shift();
+    const from = state.since_s - SPAN_S - 1;
+    while (this.states.length > MOST || this.states[0].since_s < from) this.states.shift();
   }
 }
 
@@ -52,22 +52,60 @@ class Plot {
     this.canvas.height = height * scale;
     const to = this.canvas.getContext("2d"), points = states.map(this.pick);
     to.scale(scale, scale);
-    const [low, high] = this.range(points), end = states.length ? states[states.length - 1].server_s : 0;
-    const x = (s) => width - (end - s) / SPAN_S * width, y = (v) => 4 + (high - v) / (high - low) * (height - 8);
-    this.axes(to, { low, high, width, height, y }, colours);
+    const [low, high] = this.range(points), end = states.length ? states[states.length - 1].since_s : 0;
+    const x = (s) => width - (end - s) / SPAN_S * width, y = (v) => 4 + (high - v) / (high - low) * (height - 20);
+    this.bands(to, states, x, height, colours);
+    this.times(to, end, x, height, colours);
+    this.axes(to, { low, high, width, y }, colours);
     for (const [which, dash] of [[1, [5, 3]], [0, []]]) {
       to.strokeStyle = which ? colours.desired : colours.measured;
       to.lineWidth = which ? 2 : 1.4;
       to.setLineDash(dash);
-      to.beginPath();
-      points.forEach((pair, i) => { if (Number.isFinite(pair[which])) to.lineTo(x(states[i].server_s), y(pair[which])); });
-      to.stroke();
+      this.curve(to, points.map((pair, i) => [x(states[i].since_s), y(pair[which])]));
     }
     const last = points.length ? points[points.length - 1][0] : undefined;
     this.value.textContent = Number.isFinite(last) ? `${last.toFixed(3)} ${this.unit}` : "–";
   }
 
-  axes(to, { low, high, width, height, y }, colours) {
+  /** A curve ends where there is no value, and begins anew behind it. */
+  curve(to, points) {
+    let draws = false;
+    to.beginPath();
+    for (const [x, y] of points) {
+      if (Number.isFinite(y)) draws ? to.lineTo(x, y) : to.moveTo(x, y);
+      draws = Number.isFinite(y);
+    }
+    to.stroke();
+  }
+
+  /** Where the drives are not commanded. */
+  bands(to, states, x, height, colours) {
+    to.font = "10px sans-serif";
+    states.forEach(({ commanded, since_s }, i) => {
+      if (commanded) return;
+      to.fillStyle = colours.line;
+      to.fillRect(x(since_s), 0, x(states[i + 1]?.since_s ?? since_s) - x(since_s) + 1, height);
+    });
+    const first = states.findIndex(({ commanded, since_s }) => !commanded && x(since_s) >= 0);
+    to.fillStyle = colours.ink;
+    if (first >= 0) to.fillText("drives disabled", x(states[first].since_s) + 2, 10);
+  }
+
+  /** The time since the server began, as in the list of events. */
+  times(to, end, x, height, colours) {
+    to.fillStyle = to.strokeStyle = colours.quiet;
+    to.lineWidth = 0.5;
+    to.setLineDash([]);
+    for (let s = Math.max(0, Math.ceil((end - SPAN_S) / TICK_S)) * TICK_S; s <= end; s += TICK_S) {
+      to.beginPath();
+      to.moveTo(x(s), 0);
+      to.lineTo(x(s), height);
+      to.stroke();
+      to.fillText(`${s} s`, x(s) + 2, height - 2);
+    }
+  }
+
+  axes(to, { low, high, width, y }, colours) {
     to.font = "10px sans-serif";
     to.fillStyle = to.strokeStyle = colours.quiet;
     to.lineWidth = 0.5;
@@ -92,7 +130,7 @@ class Plot {
     }
     if (this.limits.length) {
       const text = `limits ${this.limits.map((l) => l.toFixed(2)).join(" … ")}`;
-      to.fillText(text, width - to.measureText(text).width - 2, height - 2);
+      to.fillText(text, width - to.measureText(text).width - 2, 10);
     }
   }
 }
@@ -137,7 +175,7 @@ export class Plots {
   draw() {
     if (document.hidden) return;
     const { states } = this.history;
-    const colours = Object.fromEntries(["measured", "desired", "limit", "quiet"].map((name) => [name, style("--" + name)]));
+    const colours = Object.fromEntries(["measured", "desired", "limit", "quiet", "line", "ink"].map((name) => [name, style("--" + name)]));
     document.getElementById("pose").hidden = states.length > 0 && states[states.length - 1].pose.length === 0;
     for (const plot of [...this.joints, ...this.pose]) plot.draw(states, colours);
   }

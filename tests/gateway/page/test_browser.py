@@ -50,16 +50,6 @@ def solid(picture):
     return picture[..., 2] > picture[..., 0] + 0.03
 
 
-def moved(before, after):
-    return np.count_nonzero(np.any(before != after, axis=2))
-
-
-def swing(client):
-    """Sends a motion of the first joint of 30 s, and gives the lease back: it goes on."""
-    pb = client.pb
-    home = list(client.state.q_d)
-    assert client.ask(lease=pb.Lease(timeout_ms=30000)).status == 0
-    client.send(begin=pb.Begin(interpolation=pb.Begin.MONOTONE))
 def commanded(picture):
     """Where a desired or commanded value is, which is amber; limits are red."""
     return np.all(picture[..., :2] > picture[..., 2:] + 0.25, axis=2)
@@ -71,6 +61,16 @@ def edges(picture):
     return (red < 0.75) & (red > green + 0.15) & (red > blue + 0.2)
 
 
+def moved(before, after):
+    return np.count_nonzero(np.any(before != after, axis=2))
+
+
+def swing(client):
+    """Sends a motion of the first joint of 30 s, and gives the lease back: it goes on."""
+    pb = client.pb
+    home = list(client.state.q_d)
+    assert client.ask(lease=pb.Lease(timeout_ms=30000)).status == 0
+    client.send(begin=pb.Begin(interpolation=pb.Begin.MONOTONE))
     client.until(lambda: client.credit >= 60)
     part = pb.Part()
     for i in range(60):
@@ -107,6 +107,7 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(self.page.value("document.querySelectorAll('#joints figure').length"), 7)
         begin = {part: picture_of(self.page, part) for part in ("#arm", "#joints figure")}
         self.assertGreater(len(np.unique(begin["#arm"].reshape(-1, 3), axis=0)), COLOURS)
+        self.assertGreater(np.count_nonzero(edges(begin["#arm"])), EDGES)
         self.watch()
         swing(self.client)
         self.page.until("document.getElementById('phase').textContent === 'following'")
@@ -115,9 +116,30 @@ class BrowserTest(unittest.TestCase):
         wait(lambda: moved(plot, picture_of(self.page, "#joints figure")) > MOVED)
         wait(lambda: np.count_nonzero(solid(picture_of(self.page, "#arm")) & ~arm) > MOVED)
 
+    def test_no_command_is_drawn_while_the_drives_are_disabled(self):
+        self.page.click("#quantity input[value=tau]")
+        self.page.click("#stop")
+        self.client.until(lambda: self.client.state.rung == 5)
+        seen = []
+
+        def band_is_wide():
+            picture = picture_of(self.page, "#joints figure:nth-child(2) canvas")
+            seen[:] = [picture[:, picture.shape[1] * 7 // 10 :]]  # the last 3 s
+            return np.mean(np.all(seen[0] > 0.98, axis=2)) < 0.1
+
+        wait(band_is_wide)
+        self.assertEqual(np.count_nonzero(commanded(seen[0])), 0)
+
+    def test_every_number_says_what_it_means_and_none_what_the_page_leaves_out(self):
+        self.page.until("document.querySelector('#numbers dd').textContent.length > 0")
+        told = self.page.value("[...document.querySelectorAll('#numbers dt')].map((t) => [t.textContent, t.title, t.nextSibling.textContent])")
+        for name, meaning, text in told:
+            self.assertTrue(meaning.endswith("."), name)
+            self.assertRegex(text, r" (s|%|times)$|^once$" if name not in ("Owner", "Epoch") else ".")
+        self.assertNotIn("lost", str(told).lower())
+
     def test_stop_and_rearm_at_once_or_not_at_all(self):
         swing(self.client)
-        self.assertGreater(np.count_nonzero(edges(begin["#arm"])), EDGES)
         self.page.click("#stop")
         self.client.until(lambda: self.client.state.rung == 5)
         self.page.until("document.getElementById('rung').textContent === 'disabled'")
@@ -137,6 +159,8 @@ class BrowserTest(unittest.TestCase):
         self.page.click("[data-command=rearm]")
         self.page.until("document.getElementById('answer').textContent === 'rearm: sending'")
         self.page.until("document.getElementById('answer').textContent === 'rearm: no answer yet; void when it comes'")
+        self.page.press("Escape", 27)
+        self.page.until("document.getElementById('answer').textContent === 'stop: no answer yet; carried out when the server takes it'")
         self.served.program.send_signal(signal.SIGCONT)
         self.page.until("document.getElementById('lost').hidden")
         client = self.served.client()
@@ -159,8 +183,6 @@ class BrowserTest(unittest.TestCase):
         self.page.until("streams.length === 1")
         self.served.program.kill()
         self.served.program.wait()
-        self.page.press("Escape", 27)
-        self.page.until("document.getElementById('answer').textContent === 'stop: no answer yet; carried out when the server takes it'")
         again = Served("browser", self.served.port)
         again.page()
         client = again.client()
@@ -187,6 +209,16 @@ class BrowserTest(unittest.TestCase):
         self.page.until(f"document.getElementById('override').value === '{round(rate * 100)}'")
         self.assertEqual(self.client.state.override, rate)
 
+    def test_the_last_place_of_the_slider_counts_though_the_one_before_takes_long(self):
+        self.page.call("Page.addScriptToEvaluateOnNewDocument", source=OVERRIDE_IS_SLOW)
+        self.page.go(self.served.page_address)
+        self.page.until(NOMINAL)
+        self.page.value("document.getElementById('override').focus()")
+        self.page.press("Home", 36)
+        self.client.until(lambda: self.client.state.override == 0)
+        self.page.press("End", 35)
+        self.client.until(lambda: self.client.state.override == 1)
+
     def test_a_server_that_dies_is_named_loudly_and_taken_up_again(self):
         lost = "!document.getElementById('lost').hidden && document.getElementById('lost').getBoundingClientRect().height > 30"
         self.served.program.kill()
@@ -208,13 +240,3 @@ class BrowserTest(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
-    def test_the_last_place_of_the_slider_counts_though_the_one_before_takes_long(self):
-        self.page.call("Page.addScriptToEvaluateOnNewDocument", source=OVERRIDE_IS_SLOW)
-        self.page.go(self.served.page_address)
-        self.page.until(NOMINAL)
-        self.page.value("document.getElementById('override').focus()")
-        self.page.press("Home", 36)
-        self.client.until(lambda: self.client.state.override == 0)
-        self.page.press("End", 35)
-        self.client.until(lambda: self.client.state.override == 1)
-

@@ -3,14 +3,16 @@
 import configparser
 import json
 import socket
+import time
 import unittest
 
-from page_bench import FOLDER, Events, Served, seen, try_server
+from page_bench import FOLDER, LONGEST_S, Events, Served, seen, try_server
 
 
 class PageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.begun_s = time.monotonic()
         cls.served = Served("http")
         cls.served.page()
         cls.token = cls.served.describe()["token"]
@@ -105,6 +107,23 @@ class PageTest(unittest.TestCase):
         self.assertEqual(len(values[measured]), len(state["q"]))
         for one, other in zip(values[measured], state["q"]):
             self.assertAlmostEqual(one, other, 3)
+
+    def test_a_box_in_a_constant_frame_is_described_where_it_is(self):
+        (box,) = self.served.describe()["boxes"]
+        self.assertEqual(box["name"], "table")
+        corners = [box["corners"][3 * i:3 * i + 3] for i in range(8)]
+        for corner, expected in ((0, (1.5, 0.3, -0.2)), (1, (1.5, 0.7, -0.2)), (2, (0.5, 0.3, -0.2)), (4, (1.5, 0.3, 0.0))):
+            for one, other in zip(corners[corner], expected):
+                self.assertAlmostEqual(one, other, 8)
+
+    def test_states_and_events_have_one_origin_and_a_browser_knows_it(self):
+        events = Events(self.served, self.token)
+        before = events.of("state")["since_s"]
+        self.served.client("passer").socket.close()
+        joined = events.of("event", lambda event: event["text"] == "passer has joined")["since_s"]
+        after = events.of("state", lambda state: state["since_s"] >= joined)["since_s"]
+        self.assertTrue(0 <= before <= joined <= after < before + LONGEST_S, (before, joined, after))
+        self.assertLess(after, time.monotonic() - self.begun_s)
 
     def test_a_command_takes_the_lease_and_gives_it_back(self):
         events = Events(self.served, self.token)
