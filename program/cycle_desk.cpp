@@ -115,6 +115,10 @@ void CycleDesk::tell(const CycleTime& now) {
   told.rung = static_cast<std::uint8_t>(executive_.rung());
   told.phase = static_cast<std::uint8_t>(motion.phase);
   told.status = executive_.latched();
+  if (told.status == Status::kCollision) {
+    told.first = pipeline_.collision_check.telemetry().first;
+    told.second = pipeline_.collision_check.telemetry().second;
+  }
   told.override = motion.override;
   told.speed_scaling = robot.speed_scaling.value;
   told.q = robot.q.value;

@@ -44,6 +44,7 @@ struct CycleSnapshot {
   std::uint32_t lost = 0;  ///< snapshots for which there was no space, up to now
   std::uint8_t rung = 0, phase = 0, has = 0;
   Status status = Status::kOk;
+  const char *first = nullptr, *second = nullptr;  ///< names of what collides; null: nothing
   double override = 1.0, speed_scaling = 1.0;
   JointVector q = JointVector::Zero(), dq = JointVector::Zero(), tau = JointVector::Zero();
   JointVector q_d = JointVector::Zero(), dq_d = JointVector::Zero();

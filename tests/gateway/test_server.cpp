@@ -209,6 +209,21 @@ void names_for_people_are_printable(void**) {
   assert_string_equal(last_log, "?[31mred? has joined");
 }
 
+void a_collision_is_an_event_that_says_with_what(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.send(ask::kSubscribe, RawMessage().number(3, 1));
+  two.run(2);
+  CycleSnapshot told;
+  told.stamp_ns = two.bench.now_ns;
+  told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
+  told.status = Status::kCollision;
+  told.first = "hand";
+  told.second = "wall";
+  assert_true(two.bench.mail.snapshots.post(told));
+  two.run(1);
+  assert_string_equal(two.a.event, "stop: collision (77): hand with wall");
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -226,6 +241,7 @@ int main() {
       cmocka_unit_test(there_are_no_more_clients_than_slots),
       cmocka_unit_test(whoever_is_idle_gives_way_where_all_places_are_taken),
       cmocka_unit_test(names_for_people_are_printable),
+      cmocka_unit_test(a_collision_is_an_event_that_says_with_what),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -21,19 +21,22 @@ struct Bench {
   std::int64_t now_ns = 0;
   std::uint32_t next = 1;
 
-  void start() {
-    static constexpr std::string_view kText =
-        "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
+  static constexpr const char* kText = "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
+
+  void load(std::string_view text) {
     LoadError error;
     HostSections sections;
     Loader loader({}, hal.capabilities(), sections);
-    ASSERT_OK(loader.load(kText, pipeline, error));
+    ASSERT_OK(loader.load(text, pipeline, error));
     hal.set_period(1e-3);
     ASSERT_OK(hal.load(PlantParams(), 1));
     executive.in_virtual_time();
     desk.emplace(mail, executive, pipeline);
     ASSERT_OK(executive.start());
     static_cast<void>(executive.arm());
+  }
+  void start() {
+    load(kText);
     for (int i = 0; i < 1000 && executive.rung() != Rung::kNominal; ++i) cycle();
     assert_true(executive.rung() == Rung::kNominal);
   }
@@ -87,6 +90,23 @@ void a_cycle_posts_one_snapshot_and_counts_those_without_space(void**) {
   assert_true(bench.mail.snapshots.take(told));
   assert_true(told.lost >= before + 10);
   assert_int_equal(told.stamp_ns, bench.now_ns);
+}
+
+/// An arm in contact is not armed.
+void a_collision_is_told_with_what_it_is(void**) {
+  Bench bench;
+  bench.load(Message(Bench::kText) << "[wall]\ntype = box\ncentre = 0.3 0 0.5\nsize = 0.2 2 1\n"
+                                   << "[collision]\n");
+  CycleSnapshot told;
+  for (int i = 0; i < 1000 && told.status != Status::kCollision; ++i) {
+    bench.cycle();
+    while (bench.mail.snapshots.take(told)) {
+    }
+  }
+  ASSERT_STATUS(told.status, Status::kCollision);
+  assert_non_null(told.first);
+  assert_string_equal(told.first, "wall");
+  assert_string_equal(told.second, "link6");
 }
 
 void orders_wait_while_nobody_takes_their_results(void**) {
@@ -216,6 +236,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_cycle_takes_one_order_however_many_wait),
       cmocka_unit_test(a_cycle_posts_one_snapshot_and_counts_those_without_space),
+      cmocka_unit_test(a_collision_is_told_with_what_it_is),
       cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
       cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
       cmocka_unit_test(the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for),
