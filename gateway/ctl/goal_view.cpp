@@ -38,8 +38,8 @@ void GoalView::take(const ToClient& message) {
   if (message.has_report() && message.report().number() == number_) take_report(message.report());
   if (message.has_feedback()) take_feedback(message.feedback());
   if (message.has_state()) take_state(message.state());
-  const bool slowed = message.has_event() && message.event().name() == "slowed";
-  if (slowed || (message.has_event() && message.event().status() != 0)) {
+  const bool control = message.has_event() && message.event().name() == "control";
+  if (control || (message.has_event() && message.event().status() != 0)) {
     output_.object("event", message.event());
     output_.say("event " + printed(message.event().name()) + ": " +
                 printed(message.event().text()));

@@ -106,13 +106,13 @@ void ReferenceIntake<Space>::tell(const Origin& to, Outcome outcome, const Verdi
 
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate,
-                                        const char* slows) {
-  if (busy() || (slows != nullptr && client_.unanswered() >= kControls / 2))
+                                        const Deed& deed) {
+  if (busy() || (!deed.by_owner && client_.unanswered() >= kControls / 2))
     return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
   if (!verdict.ok()) return verdict;
-  book_.add({id, from, {}, 0.0, false, slows});
+  book_.add({id, from, {}, 0.0, false, deed});
   if (kind == ControlKind::kCancel) canceling_ = id;
   return {};
 }
@@ -248,7 +248,7 @@ bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
     told.verdict = entry->failed;
   }
   if (!is_final(report.outcome)) return told.to.slot >= 0;
-  if (report.outcome == Outcome::kExecuted) told.slows = entry->slows;
+  if (report.outcome == Outcome::kExecuted) told.deed = entry->deed;
   if (report.id == id_ && coming_) coming_ = false;
   if (entry->streams && report.outcome == Outcome::kExecuted) stream_ = *entry;
   book_.remove(*entry);

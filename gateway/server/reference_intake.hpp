@@ -17,7 +17,7 @@ struct Told {
   Outcome outcome = Outcome::kRefused;
   Verdict verdict;
   double time_s = 0.0, stretch = 0.0;
-  const char* slows = nullptr;  ///< what has slowed the motion of another client down; or null
+  Deed deed = {};  ///< that has taken effect
 };
 
 /// Credit for a client.
@@ -46,9 +46,9 @@ class ReferenceIntake {
   std::uint32_t chunks() const { return chunks_; }
   /// Counters and margins of chunks and velocities.
   const StreamState& stream() const { return client_.stream(); }
-  /// Sends a control. `slows` says what one of a client that does not own the motion does; these
-  /// leave half of the mailbox to the owner. Null: it is the owner's.
-  Verdict control(const Origin& from, ControlKind kind, double rate, const char* slows);
+  /// Sends a control. Those of clients that do not own the motion leave half of the mailbox to the
+  /// owner.
+  Verdict control(const Origin& from, ControlKind kind, double rate, const Deed& deed);
   /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
   /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);

@@ -16,6 +16,13 @@ struct Origin {
   std::uint32_t number = 0;
 };
 
+/// What a control does, for those who hear of it.
+struct Deed {
+  const char* what = nullptr;  ///< null: it is no control
+  double percent = -1.0;       ///< of an override; negative: of none
+  bool by_owner = false;       ///< of the motion
+};
+
 class ReportBook {
  public:
   struct Entry {
@@ -24,7 +31,7 @@ class ReportBook {
     Verdict failed;  ///< why it is canceled, if the server does so
     double stretch = 0.0;
     bool streams = false;  ///< a chunk or a velocity, which may starve after its final report
-    const char* slows = nullptr;  ///< what a client that does not own the motion did to it; or null
+    Deed deed = {};
   };
 
   /// True if no more is to be taken; there is still space for the trajectory that comes.

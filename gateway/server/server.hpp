@@ -117,7 +117,7 @@ class Server {
   Reply order(CycleOrder what, const Origin& from, std::int64_t now_ns);
   bool raises(pb_size_t what) const;
   Reply control(const Origin& from);
-  void tell_slowed(const Told& told, std::int64_t now_ns);
+  void tell_deed(const Told& told, std::int64_t now_ns);
   void tell_late(const Told& told, std::int64_t now_ns);
   Reply subscribe(int slot, std::int64_t now_ns);
   // server_references.cpp: references

@@ -184,21 +184,22 @@ Reply Server::control(const Origin& from) {
   const pb_size_t what = request_.which_request;
   const bool by_owner = lease_.owner() == from.slot;
   ControlKind kind = ControlKind::kResume;
-  const char* slows = "";
+  Deed deed = {" has ended the pause", -1.0, by_owner};
   double rate = 1.0;
   if (what == tactus_ToServer_cancel_tag) {
     kind = ControlKind::kCancel;
-    slows = " has canceled what runs";
+    deed.what = " has canceled what runs";
   } else if (what == tactus_ToServer_pause_tag) {
     kind = ControlKind::kPause;
-    slows = " has paused the arm";
+    deed.what = " has paused the arm";
   } else if (what == tactus_ToServer_override_tag) {
     kind = by_owner ? ControlKind::kOverride : ControlKind::kSlowDown;
-    slows = " has set the override";
+    deed.what = " has set the override";
     rate = request_.request.override.rate;
+    deed.percent = 100.0 * rate;
   }
-  const Verdict verdict = with_intake(
-      [&](auto& intake) { return intake.control(from, kind, rate, by_owner ? nullptr : slows); });
+  const Verdict verdict =
+      with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
   if (verdict.ok() && kind == ControlKind::kCancel) {
     begin_end();
     const int owner = lease_.owner();

@@ -162,14 +162,15 @@ void Server::report(const Told& told, std::string_view text, std::int64_t now_ns
     cut(told.to.slot, Status::kClientSlow, "reports were not read; read what is sent", now_ns);
 }
 
-/// The owner and the others hear of it if somebody else has slowed the arm down.
-void Server::tell_slowed(const Told& told, std::int64_t now_ns) {
+/// Everybody hears of a control. The log has those of clients that did not own the motion.
+void Server::tell_deed(const Told& told, std::int64_t now_ns) {
   const Connection& by = at(told.to.slot);
   if (!by.there() || by.session != told.to.session) return;
   Message text(by.name);
-  text << told.slows;
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("slowed", Status::kOk, text, told.to.slot, now_ns);
+  text << told.deed.what;
+  if (told.deed.percent >= 0.0) text << " to " << told.deed.percent << " %";
+  if (setup_.log != nullptr && !told.deed.by_owner) setup_.log(text.c_str());
+  tell_events("control", Status::kOk, text, -1, now_ns);
 }
 
 /// A client whose chunks have all been late for a second is named, with the delay of the newest.
@@ -194,7 +195,7 @@ void Server::take_reports(std::int64_t now_ns) {
     Told told;
     while (intake.work(told)) {
       report(told, reply(told.verdict).text, now_ns);
-      if (told.slows != nullptr) tell_slowed(told, now_ns);
+      if (told.deed.what != nullptr) tell_deed(told, now_ns);
       tell_late(told, now_ns);
     }
     Granted granted;

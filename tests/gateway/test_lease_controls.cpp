@@ -61,6 +61,35 @@ void a_cancel_of_somebody_else_ends_what_still_comes_and_its_owner_hears_of_it(v
   assert_true(two.bench.generator.reference().q[0] < far[0] - 0.1);
 }
 
+void everybody_hears_of_a_control_its_sender_and_the_owner_too(void**) {
+  constexpr struct {
+    std::uint32_t kind;
+    const char* text;
+  } kControls[] = {{ask::kPause, " has paused the arm"},
+                   {ask::kResume, " has ended the pause"},
+                   {ask::kOverride, " has set the override to 50 %"},
+                   {ask::kCancel, " has canceled what runs"}};
+  for (const bool by_owner : {false, true}) {
+    for (const auto& [kind, text] : kControls) {
+      if (kind == ask::kResume && !by_owner) continue;
+      TwoClients& two = fresh_clients();
+      for (TestClient* client : {&two.a, &two.b})
+        client->send(ask::kSubscribe, RawMessage().number(3, 1));
+      two.a.lease(1, 60000);
+      JointVector far = ServerBench::home().q;
+      far[0] += 0.5;
+      two.a.point(far);
+      two.a.send(ask::kBegin);
+      two.run(100);
+      (by_owner ? two.a : two.b).send(kind, RawMessage().real(1, 0.5));
+      two.run(10);
+      const Message expected = Message(by_owner ? "A" : "B") << text;
+      assert_string_equal(two.a.event, expected.c_str());
+      assert_string_equal(two.b.event, expected.c_str());
+    }
+  }
+}
+
 void others_cannot_fill_the_mailbox_of_controls_before_its_owner(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease(5);
@@ -115,6 +144,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(everybody_may_slow_the_arm_down_and_only_its_owner_makes_it_faster),
       cmocka_unit_test(a_cancel_of_somebody_else_ends_what_still_comes_and_its_owner_hears_of_it),
+      cmocka_unit_test(everybody_hears_of_a_control_its_sender_and_the_owner_too),
       cmocka_unit_test(others_cannot_fill_the_mailbox_of_controls_before_its_owner),
       cmocka_unit_test(a_higher_override_of_somebody_else_is_refused_in_the_cycle_too),
       cmocka_unit_test(the_override_is_whole_again_after_a_rearm),

@@ -121,9 +121,14 @@ export class Panel {
     by("override_value").textContent = `${Math.round(state.override * 100)} %`;
   }
 
+  /** Leaves out the leases that commands of pages take for a moment. Of an override that slides, the last counts. */
   event({ name, text, since_s }) {
+    if (name === "lease" && text.startsWith("page ")) return;
+    const what = text.replace(/ to \S+ %$/, ""), newest = by("events").firstChild;
+    if (what !== text && newest?.dataset.what === what) newest.remove();
     const item = document.createElement("li"), time = document.createElement("time");
     time.textContent = `${since_s.toFixed(1)} s`;
+    item.dataset.what = what;
     item.append(time, `${name}: ${text}`);
     by("events").prepend(item);
     while (by("events").children.length > MOST_EVENTS) by("events").lastChild.remove();

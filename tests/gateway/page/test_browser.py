@@ -209,6 +209,21 @@ class BrowserTest(unittest.TestCase):
         self.page.until(f"document.getElementById('override').value === '{round(rate * 100)}'")
         self.assertEqual(self.client.state.override, rate)
 
+    def test_what_the_buttons_do_is_an_event_and_a_slide_is_one(self):
+        swing(self.client)
+        self.page.until("document.getElementById('phase').textContent === 'following'")
+        self.page.click("[data-command=pause]")
+        self.page.until("document.getElementById('events').textContent.includes('page has paused the arm')")
+        self.page.value("document.getElementById('override').focus()")
+        for percent in (0, 100):
+            self.page.press(*(("End", 35) if percent else ("Home", 36)))
+            self.page.until(f"document.getElementById('events').textContent.includes('page has set the override to {percent} %')")
+        self.page.click("[data-command=cancel]")
+        self.page.until("document.getElementById('events').textContent.includes('page has canceled what runs')")
+        events = self.page.value("document.getElementById('events').innerText")
+        self.assertEqual(events.count("override"), 1, events)
+        self.assertNotIn("page owns", events)
+
     def test_the_last_place_of_the_slider_counts_though_the_one_before_takes_long(self):
         self.page.call("Page.addScriptToEvaluateOnNewDocument", source=OVERRIDE_IS_SLOW)
         self.page.go(self.served.page_address)
