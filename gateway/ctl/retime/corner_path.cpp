@@ -9,6 +9,9 @@ constexpr double kTurnsBack = -0.9;   // cosine between the directions: 2.7 rad
 constexpr double kStraightOn = 1e-9;  // change of direction that nobody notices
 constexpr double kShortest = 1e-9;    // waypoints nearer than this are the same
 constexpr double kPeak = 3.0 / 16.0;  // distance of a blend from its corner, by L |d2 - d1|
+/// Of a tolerance; the rest is for waypoints that are the same, and for the polynomials between
+/// those of the trajectory, which need not have one where the blend is farthest from its corner.
+constexpr double kUsed = 0.99;
 
 struct Line {
   Chart chart;  // of its first waypoint
@@ -42,7 +45,7 @@ double blend_length(const Line& before, const Line& after, const Corners& corner
   const Numbers turns = lengths(after.direction - before.direction, channels);
   for (Eigen::Index k = 0; k < channels; ++k)
     if (turns[k] > kStraightOn)
-      length = std::min(length, corners.tolerance[k] / (kPeak * turns[k]));
+      length = std::min(length, kUsed * corners.tolerance[k] / (kPeak * turns[k]));
   return length;
 }
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gateway/ctl/retime/tip_numbers.hpp"
-#include "kernel/reference/space/rotation_segment.hpp"
+#include "gateway/ctl/retime/segments.hpp"
 
 namespace tactus::ctl {
 namespace {
@@ -23,35 +22,18 @@ void raise_by_joints(Peaks& most, const TimedPoint& from, const TimedPoint& to,
                      const MotionBounds& bounds, Interpolation order) {
   const double T = to.time_s - from.time_s;
   for (Eigen::Index k = 0; k < bounds.v.size(); ++k) {
-    const auto end = [k](const TimedPoint& point) {
-      return Boundary{point.q[k], point.dq[k], point.ddq[k]};
-    };
-    const Polynomial v = join(order, end(from), end(to), T).derivative(), a = v.derivative();
+    const Polynomial v = joint_segment(from, to, k, order).derivative(), a = v.derivative();
     raise(most.v, v, T, bounds.v[k]);
     raise(most.a, a, T, bounds.a[k]);
     raise(most.j, a.derivative(), T, bounds.j[k]);
   }
 }
 
-VectorBounds of_translation(const TimedPoint& from, const TimedPoint& to, Interpolation order) {
-  const double T = to.time_s - from.time_s;
-  const auto end = [](const TimedPoint& point) {
-    return BoundaryOf<Vector3>{translation_of(point.q), translation_of(point.dq),
-                               translation_of(point.ddq)};
-  };
-  return translation_bounds(join(order, end(from), end(to), T), T);
-}
-
-VectorBounds of_rotation(const TimedPoint& from, const TimedPoint& to, Interpolation order) {
-  const auto end = [](const TimedPoint& point) {
-    return RotationBoundary{orientation_of(point.q), rotation_of(point.dq), rotation_of(point.ddq)};
-  };
-  return RotationSegment(end(from), end(to), to.time_s - from.time_s, order).bounds();
-}
-
 void raise_by_tip(Peaks& most, const TimedPoint& from, const TimedPoint& to,
                   const MotionBounds& bounds, Interpolation order) {
-  const VectorBounds found[] = {of_translation(from, to, order), of_rotation(from, to, order)};
+  const double T = to.time_s - from.time_s;
+  const VectorBounds found[] = {translation_bounds(translation_segment(from, to, order), T),
+                                rotation_segment(from, to, order).bounds()};
   for (Eigen::Index k = 0; k < 2; ++k) {
     most.v = std::max(most.v, found[k].v / bounds.v[k]);
     most.a = std::max(most.a, found[k].a / bounds.a[k]);

@@ -122,7 +122,8 @@ class Step {
 
 }  // namespace
 
-std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bounds, int steps) {
+std::vector<PathNode> time_optimal(const PathSection& section, const MotionBounds& bounds,
+                                   int steps) {
   std::vector<PathNode> nodes = grid(section, steps);
   std::vector<Slopes> slopes;
   slopes.reserve(nodes.size());

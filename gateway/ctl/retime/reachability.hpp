@@ -33,6 +33,7 @@ struct PathNode {
 
 /// Returns the nodes of the time-optimal motion along a section, from rest to rest. The section
 /// must outlive them. `steps`: least number of intervals. Empty: the path stands somewhere. [any]
-std::vector<PathNode> fastest(const PathSection& section, const MotionBounds& bounds, int steps);
+std::vector<PathNode> time_optimal(const PathSection& section, const MotionBounds& bounds,
+                                   int steps);
 
 }  // namespace tactus::ctl

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gateway/ctl/retime/missed_corners.hpp"
 #include "gateway/ctl/retime/peaks.hpp"
 
 namespace tactus::ctl {
@@ -54,23 +55,27 @@ std::vector<CornerStretch> corner_stretches(const PathSection& section, const Mo
   return corners;
 }
 
-/// Returns the waypoints of the section at which it begins, ends, and is tried to stop.
-std::vector<std::size_t> stops(const PathSection& section, const Motion& motion,
+/// Returns the corners of the section that are tried as stops: those that the motion misses, else
+/// those that stretch it most.
+std::vector<std::size_t> tried(const PathSection& section, const Motion& motion,
                                const RetimeSettings& settings) {
+  std::vector<std::size_t> found = missed_corners(section, motion, settings);
+  if (!found.empty()) return found;
   const std::vector<CornerStretch> corners = corner_stretches(section, motion, settings);
   double worst = 0.0;
   for (const CornerStretch& corner : corners) worst = std::max(worst, corner.stretch);
-  std::vector<std::size_t> found = {section.first};
   for (const CornerStretch& corner : corners)
     if (corner.stretch >= kNearlyWorst * worst) found.push_back(corner.waypoint);
-  found.push_back(section.last);
   return found;
 }
 
 Motion along(const PathSection& section, const Path& waypoints, const RetimeSettings& settings) {
-  const Motion rounded = fastest_motion(section, settings);
-  const std::vector<std::size_t> ends = stops(section, rounded, settings);
-  if (ends.size() == 2) return rounded;
+  const SectionMotions fastest = fastest_motions(section, settings);
+  const Motion& rounded = fastest.near;
+  std::vector<std::size_t> ends = tried(section, fastest.shortest, settings);
+  if (ends.empty()) return rounded;
+  ends.insert(ends.begin(), section.first);
+  ends.push_back(section.last);
   Motion stopping;
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const auto at = [&](std::size_t k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/ctl/retime/missed_corners.hpp"
 #include "gateway/ctl/retime/peaks.hpp"
 #include "gateway/ctl/retime/time_law.hpp"
 
@@ -46,10 +47,11 @@ std::vector<double> changes(const std::vector<PathNode>& nodes) {
   return times_s;
 }
 
-std::vector<TimedPoint> smoothed(const std::vector<PathNode>& nodes, double window_s) {
+std::vector<TimedPoint> smoothed(const std::vector<PathNode>& nodes, double window_s,
+                                 double longest_step_s) {
   const TimeLaw law(nodes, window_s);
   const double duration_s = law.duration_s();
-  const int count = static_cast<int>(std::ceil(duration_s / (window_s / kWaypointsInWindow)));
+  const int count = static_cast<int>(std::ceil(duration_s / longest_step_s));
   const double step_s = duration_s / count;
   const std::vector<double> changes_s = changes(nodes);
   auto change_s = changes_s.begin();
@@ -96,45 +98,65 @@ bool thinned(std::vector<TimedPoint>& points) {
   return points.size() < apart.size();
 }
 
+bool shorter(const std::vector<TimedPoint>& points, const std::vector<TimedPoint>& than) {
+  return than.empty() || points.back().time_s < than.back().time_s;
+}
+
+/// Keeps a motion if it is faster than what is kept. Returns false if it misses a corner and would
+/// be the fastest of those that miss none.
+bool keep(const std::vector<TimedPoint>& points, const PathSection& section,
+          const RetimeSettings& settings, SectionMotions& fastest) {
+  if (shorter(points, fastest.shortest)) fastest.shortest = points;
+  if (!shorter(points, fastest.near)) return true;
+  if (!missed_corners(section, points, settings).empty()) return false;
+  fastest.near = points;
+  return true;
+}
+
 /// Returns the fastest motion along a section, with accelerations that step. Its waypoints are
 /// those of the grid, which is made coarser until they are not too near: what is left out between
 /// waypoints that are far apart costs little time.
-std::vector<TimedPoint> with_steps(const PathSection& section, const RetimeSettings& settings) {
-  std::vector<TimedPoint> best;
+SectionMotions with_steps(const PathSection& section, const RetimeSettings& settings) {
+  SectionMotions fastest;
   bool crowded = true;
   for (int steps = settings.steps; crowded && steps >= kFewestSteps; steps /= 2) {
-    std::vector<TimedPoint> points = at_nodes(fastest(section, settings.bounds, steps));
-    if (points.empty()) return best;
+    std::vector<TimedPoint> points = at_nodes(time_optimal(section, settings.bounds, steps));
+    if (points.empty()) break;
     crowded = false;
     keep_bounds(points, settings);
     while (thinned(points)) {
       crowded = true;
       keep_bounds(points, settings);
     }
-    if (best.empty() || points.back().time_s < best.back().time_s) best.swap(points);
+    keep(points, section, settings, fastest);
   }
-  return best;
+  return fastest;
 }
 
 /// Returns the fastest motion along a section whose acceleration does not step.
-std::vector<TimedPoint> with_jerk(const PathSection& section, const RetimeSettings& settings) {
-  const std::vector<PathNode> nodes = fastest(section, settings.bounds, settings.steps);
-  std::vector<TimedPoint> best;
-  if (nodes.empty()) return best;
+SectionMotions with_jerk(const PathSection& section, const RetimeSettings& settings) {
+  const std::vector<PathNode> nodes = time_optimal(section, settings.bounds, settings.steps);
+  if (nodes.empty()) return {};
+  SectionMotions fastest;
   const double whole_s = (settings.bounds.a / settings.bounds.j).maxCoeff();
   double window_s = std::max(kShortestWindow_s, 0.5 * whole_s);
   for (int i = 0; i < kWindows; ++i) {
-    std::vector<TimedPoint> points = smoothed(nodes, window_s);
-    keep_bounds(points, settings);
-    if (best.empty() || points.back().time_s < best.back().time_s) best.swap(points);
+    // Rows that are nearer follow the path more closely.
+    bool near = false;
+    for (double step_s = window_s / kWaypointsInWindow; !near && step_s >= kShortestSegment_s;
+         step_s /= 2.0) {
+      std::vector<TimedPoint> points = smoothed(nodes, window_s, step_s);
+      keep_bounds(points, settings);
+      near = keep(points, section, settings, fastest);
+    }
     window_s *= kNextWindow;
   }
-  return best;
+  return fastest;
 }
 
 }  // namespace
 
-std::vector<TimedPoint> fastest_motion(const PathSection& section, const RetimeSettings& settings) {
+SectionMotions fastest_motions(const PathSection& section, const RetimeSettings& settings) {
   return settings.jerk ? with_jerk(section, settings) : with_steps(section, settings);
 }
 

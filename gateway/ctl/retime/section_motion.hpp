@@ -21,7 +21,13 @@ struct RetimeSettings {
   int steps = 1000;  ///< least number of grid intervals of a section
 };
 
-/// Returns the motion, from time 0; empty if the section cannot be passed. [any]
-std::vector<TimedPoint> fastest_motion(const PathSection& section, const RetimeSettings& settings);
+/// From time 0; empty: the section cannot be passed so.
+struct SectionMotions {
+  std::vector<TimedPoint> near;      ///< the fastest that passes every corner within tolerance
+  std::vector<TimedPoint> shortest;  ///< the fastest, which may miss corners
+};
+
+/// [any]
+SectionMotions fastest_motions(const PathSection& section, const RetimeSettings& settings);
 
 }  // namespace tactus::ctl
