@@ -197,8 +197,9 @@ void Executive::walk(Cause cause, Status status, const Finding& found) {
 }
 
 void Executive::log(Cause cause, Status status, const Finding& found, Rung from, Rung to) {
-  events_.add({now_.stamp_ns, telemetry_.cycles, static_cast<float>(found.value), found.code,
-               status, cause, from, to, static_cast<std::int8_t>(found.joint)});
+  events_.add({now_.stamp_ns, telemetry_.cycles, static_cast<std::uint32_t>(commanded_),
+               static_cast<float>(found.value), found.code, status, cause, from, to,
+               static_cast<std::int8_t>(found.joint)});
 }
 
 /// What the guard has found.

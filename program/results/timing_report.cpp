@@ -47,14 +47,13 @@ void write_timing(std::FILE* file, const Pipeline& pipeline, const Executive& ex
   std::fprintf(file, "\n  },\n");
 }
 
-void write_events(std::FILE* file, Rung rung, const EventLog& events) {
+void write_events(std::FILE* file, Rung rung, const EventLog& events, double period_s) {
   std::fprintf(file, "  \"rung\": \"%s\",\n  \"events_lost\": %" PRIu32 ",\n  \"events\": [",
                name(rung), events.lost());
   Event event;
   const char* separator = "";
   for (std::uint32_t i = events.lost(); events.read(i, event); ++i) {
-    std::fprintf(file, "%s\n    {\"cycle\": %" PRIu32 ", \"stamp_ns\": %" PRId64, separator,
-                 event.cycle, event.stamp_ns);
+    std::fprintf(file, "%s\n    {\"time_s\": %.9g", separator, event.commanded * period_s);
     std::fprintf(file, ", \"cause\": \"%s\", \"status\": \"%s\", \"from\": \"%s\", \"to\": \"%s\"",
                  name(event.cause), name(event.status), name(event.from), name(event.to));
     const auto value = static_cast<double>(event.value);
@@ -78,12 +77,12 @@ void print_timing(const Pipeline& pipeline, const Executive& executive) {
   });
 }
 
-void print_events(const EventLog& events) {
+void print_events(const EventLog& events, double period_s) {
   Event event;
   for (std::uint32_t i = events.lost(); events.read(i, event); ++i) {
     if (event.cause == Cause::kArm || event.cause == Cause::kRearm || event.cause == Cause::kOff)
       continue;
-    std::printf("  cycle %" PRIu32 ": %s -> %s: %s: %s", event.cycle, name(event.from),
+    std::printf("  %.3f s: %s -> %s: %s: %s", event.commanded * period_s, name(event.from),
                 name(event.to), name(event.cause), describe(event.status).c_str());
     if (event.joint >= 0) std::printf(", joint %d", event.joint + 1);
     if (event.code != 0) std::printf(", the drive's code %" PRIu32, event.code);

@@ -7,6 +7,13 @@ from reporting.plots import GREY, LIMIT, MARGINS, MEASURED, PREDICTED, REFERENCE
 from reporting.plots import colour, darker, entry, legend, thin_out
 
 
+def mark_pauses(axes, run, words=" drives disabled"):
+    """Marks where the drives were disabled: no time passes there in the log, and nothing was given to them."""
+    for time_s in run.pauses():
+        axes.axvline(time_s, color="#222222", linewidth=2.5, alpha=0.5)
+        axes.annotate(words, (time_s, 1), xycoords=axes.get_xaxis_transform(), va="top", fontsize=7)
+
+
 def draw_force(part, run, found):
     """Draws the force of the environment on the tool, and what is expected of it if a contact was found."""
     axes = part.subplots(gridspec_kw={"top": 0.95, "bottom": 0.17, **MARGINS})
@@ -29,6 +36,7 @@ def draw_force(part, run, found):
         steady = t[found.steady]
         if len(steady):
             axes.axvspan(steady[0], steady[-1], color="#88aa88", alpha=0.15, linewidth=0)
+    mark_pauses(axes, run)
     axes.set_ylabel("force on the tool [N]")
     axes.set_xlabel("time [s]")
     legend(axes, handles)
@@ -84,6 +92,7 @@ def draw_shares(part, run):
             axes.plot(*thin_out(t, values[:, i]), color=colour(i), label=f"joint {i + 1}", **THIN)
         for side in (-1, 1):
             axes.axhline(side, **LIMIT)
+        mark_pauses(axes, run, words="")
         axes.set_title(what, loc="left", fontsize=9)
         axes.set_yticks([-1, 0, 1])
         axes.set_ylim(-1.15, 1.15)
@@ -103,6 +112,7 @@ def draw_torque(part, run, name):
     t, values = run.log["time_s"], run.values(name)
     for i in range(values.shape[1]):
         axes.plot(*thin_out(t, values[:, i]), color=colour(i), label=f"joint {i + 1}", linewidth=1.1)
+    mark_pauses(axes, run)
     axes.set_ylabel("commanded torque [N m]")
     axes.set_xlabel("time [s]")
     legend(axes, axes.get_legend_handles_labels()[0] + draw_torque_limits(axes, run, 1.1 * np.abs(values).max()))
@@ -132,6 +142,7 @@ def draw_flags(part, run, flags, scalars):
         ends = axes.get_xaxis_transform()
         band = {"transform": ends, "color": colour(i), "alpha": 0.35, "label": name, "linewidth": 0}
         axes.fill_between(t, 0, 1, where=is_set, step="post", **band)
+    mark_pauses(axes, run)
     axes.set_xlim(t[0], t[-1])
     if not scalars:
         axes.set_yticks([])

@@ -23,6 +23,10 @@ class Run:
     log: dict
     points: dict
 
+    def pauses(self):
+        """Returns when the drives were disabled and enabled again; that time has no rows, and the log goes on at once."""
+        return [e["time_s"] for e in self.summary["events"] if e["from"] == "arming" and e["cause"] == "rearm" and e["time_s"] > 0]
+
     def names(self):
         """Returns the names of the recorded signals."""
         return [signal["name"] for signal in self.summary["signals"]]
@@ -89,6 +93,7 @@ FORM = {
             **{key: [(int, float, type(None))] for key in ("rms", "max", "final")},
         }
     ],
+    "events": [{"time_s": (int, float), "cause": str, "status": str, "from": str, "to": str}],
     "signals": [{"name": str, "type": str, "quantity": str, "unit": str, "columns": [str]}],
 }
 

@@ -16,6 +16,8 @@ MANNER = "Reference (dashed) and measured (solid)"
 MANNER_WITH_POINTS = "Waypoints (circles), reference (dashed) and measured (solid)"
 
 
+NO_REASON = ("kOk", "kArming", "kNotStarted")
+EVENTS_TIME = "in the time of the figures, which counts the cycles in which the drives followed"
 ORIENTATION = "rotation vector in base axes, from the first reference to the present orientation"
 
 
@@ -68,6 +70,15 @@ def facts(section):
     )
 
 
+def events(summary):
+    """Lists the changes of rung; a Status that says no more than their cause is left out."""
+    said = []
+    for event in summary["events"]:
+        status = "" if event["status"] in NO_REASON else f", {result.status_words(event['status'])}"
+        said.append(f"{event['time_s']:.3f} s {event['from']} → {event['to']} ({event['cause']}{status})")
+    return f"<p>Events, {EVENTS_TIME}: {page.escape('; '.join(said) or 'none')}.</p>"
+
+
 def tracking_figures(run):
     for panel in panels.tracking_panels(run):
         predicted = None if panel.entry["quantity"] == "pose" else expected.lag(run, panel.entry)
@@ -105,7 +116,7 @@ def joint_figures(run):
         return
     torque = more_plots.commanded_torque(run)
     if torque:
-        yield page.figure(plots.svg(2.7, more_plots.draw_torque, run, torque), "Torque commanded to the joints.")
+        yield page.figure(plots.svg(2.7, more_plots.draw_torque, run, torque), "Torque that the chain commands, while the drives follow.")
     caption = (
         "Measured joints as shares of their limits. Position: 0 is the middle of the range. Velocity: "
         + ("measured." if "robot.dq" in run.names() else "difference of positions.")
@@ -206,7 +217,7 @@ def judged(section, run, pictures):
     """Judges a run, and draws it if pictures are wanted; returns the parts of its section."""
     section.chain, section.touched = run.settings.chain(), expected.touched(run)
     section.judgement = expected.judge(run)
-    parts = [purpose(section), facts(section)]
+    parts = [purpose(section), facts(section), events(section.summary)]
     if pictures:
         section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
         section.still = thumbnails.still(run)

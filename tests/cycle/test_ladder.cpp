@@ -175,6 +175,7 @@ void a_brake_that_takes_too_long_is_reported_once_and_nan_is_no_rest(void**) {
 Event numbered(std::uint32_t i) {
   return {std::int64_t{1} << 40 | i,
           i,
+          3 * i,
           static_cast<float>(i),
           7 * i,
           Status::kSlip,
@@ -186,7 +187,7 @@ Event numbered(std::uint32_t i) {
 
 bool is(const Event& event, std::uint32_t i) {
   return event.stamp_ns == (std::int64_t{1} << 40 | i) && event.cycle == i &&
-         event.value == static_cast<float>(i) && event.code == 7 * i &&
+         event.commanded == 3 * i && event.value == static_cast<float>(i) && event.code == 7 * i &&
          event.joint == static_cast<int>(i % 7) && event.status == Status::kSlip &&
          event.from == Rung::kNominal && event.to == Rung::kHold;
 }

@@ -3,6 +3,7 @@
 protobuf's own Python. WHAT names the function below that is run. Prints what is wrong and ends with 1, or with 0.
 """
 
+import json
 import os
 import random
 import signal
@@ -140,6 +141,18 @@ def session(pb, serve, path):
     me.until(lambda: abs(me.state.q_d[0] - target[0]) < 1e-9)
 
 
+def judge_events(folder):
+    """Events have the time of the log, which stands still while the drives are disabled."""
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        events = json.load(file)["events"]
+    with open(os.path.join(folder, "log.csv"), encoding="utf-8") as file:
+        rows = [float(line.partition(",")[0]) for line in file.readlines()[1:]]
+    rearm = next(i for i, event in enumerate(events) if event["cause"] == "rearm" and event["time_s"] > 0)
+    assert events[rearm - 2]["to"] == "disabled" and events[rearm - 2]["time_s"] == events[rearm]["time_s"], events
+    assert events[rearm]["time_s"] in rows, events
+    assert abs(events[-1]["time_s"] - rows[-1]) < 2 * (rows[1] - rows[0]), (events, rows[-1])
+
+
 def killed(pb, serve, path):
     """A client that is killed at any moment leaves the arm at rest, and the lease to others."""
     chance = random.Random(4)
@@ -201,7 +214,8 @@ def main():
     from gateway import tactus_pb2 as pb
 
     path = os.path.join(folder, "arm.sock")
-    command = [program, "serve", pipeline, "--listen", "unix:" + path]
+    out = os.path.join(folder, "out")
+    command = [program, "serve", pipeline, "--listen", "unix:" + path, "--out", out]
     if what == "keyed":
         key = os.path.join(folder, "arm.key")
         with open(os.open(key, os.O_CREAT | os.O_WRONLY, 0o600), "w", encoding="ascii") as file:
@@ -215,6 +229,8 @@ def main():
             serve.send_signal(signal.SIGINT)
         code = serve.wait(30)
     assert code == 0, f"exit code {code}"
+    if what == "session":
+        judge_events(out)
     assert not os.path.exists(path), "the socket is still there"
 
 

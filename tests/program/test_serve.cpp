@@ -15,7 +15,7 @@ constexpr const char* kServed =
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
 
 void try_server(const char* what) {
-  write("served.ini", {kServed, kBusyHost});
+  write("served.ini", {kServed, kBusyHost, "[recorder]\nsignals = robot.q pd.tau\n"});
   Line command("cd $R && mkdir -p $S/");
   command << what << " && tests/gateway/try_server.py $P $S/served.ini $S/" << what << " " << what;
   assert_succeeds(command.c_str());
@@ -29,10 +29,18 @@ void assert_key_refused(const char* key, const char* reason) {
   assert_true(has(errors(), reason));
 }
 
-// Proves GW-9.
+// Proves GW-9, RUN-4.
 
+/// The report marks in its figures where the drives were disabled, and lists why.
 void a_client_in_python_moves_the_arm_and_is_told_of_it(void**) {
   try_server("session");
+  assert_succeeds("$R/scripts/report $S/session out");
+  assert_true(has(file_of("session/report.html"), "arming → nominal (rearm); "));
+  assert_succeeds(
+      "/usr/bin/python3 -c \"import base64, os, re\n"
+      "page = open(os.environ['S'] + '/session/report.html').read()\n"
+      "found = re.findall('svg.xml;base64,([^\\\"]*)', page)\n"
+      "assert any(b'drives disabled' in base64.b64decode(data) for data in found)\"");
 }
 
 void clients_that_are_killed_leave_the_arm_at_rest(void**) {
