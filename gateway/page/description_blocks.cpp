@@ -81,8 +81,6 @@ void describe_blocks(Pipeline& pipeline, Json& to) {
     });
   }
   block(ports, "command", "to the robot", to, [&](auto& visit) { robot.describe_command(visit); });
-  to.close(']').open('[', "ports");
-  for (int i = 0; i < ports.count(); ++i) to.integer(info(ports[i].quantity).recorded);
   to.close(']');
 }
 

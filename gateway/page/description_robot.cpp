@@ -85,7 +85,6 @@ void describe_page(const PageSubject& subject, std::string_view token, Json& to)
   to.open('{').string(token, "token").string(Robot::kName, "robot");
   to.string(subject.board, "board").string(subject.file, "pipeline");
   to.flag(subject.simulated, "simulated");
-  to.number(subject.pipeline.robot.period_s(), "period_s");
   describe_robot(subject.pipeline, to);
   describe_blocks(subject.pipeline, to);
   to.close('}');

@@ -104,7 +104,7 @@ void tell(const tactus_ToClient& message, const PageTime& time, News& news) {
 void tell(const PortValues& values, const PortTable& ports, News& news) {
   char bytes[kLongestEvent];
   Json json(bytes, sizeof bytes);
-  json.open('{').integer(values.cycle, "cycle").open('[', "values");
+  json.open('{').open('[', "values");
   const double* from = values.numbers.data();
   for (int i = 0; i < ports.count(); ++i) {
     json.open('[');

@@ -3,7 +3,7 @@
 
 namespace tactus {
 
-/// Draws `folder`/figure.png, .pdf and .svg. A figure that cannot be drawn is reported on the error
+/// Draws `folder`/figure.png and .pdf. A figure that cannot be drawn is reported on the error
 /// stream and fails nothing else.
 void draw_figure(const char* folder);
 

@@ -22,8 +22,8 @@ constexpr const char *kSummary = "summary.json", *kIncomplete = "incomplete.txt"
 /// What a run can leave. The summary is the first to be moved or removed: without it nothing is
 /// taken for a run that has ended.
 constexpr const char* kResults[] = {
-    kSummary,     "summary.json.part", kPipeline,    "scene.json", "waypoints.csv", "log.csv",
-    "figure.png", "figure.pdf",        "figure.svg", kIncomplete,  kRefusedRun};
+    kSummary,  "summary.json.part", kPipeline,    "scene.json", "waypoints.csv",
+    "log.csv", "figure.png",        "figure.pdf", kIncomplete,  kRefusedRun};
 
 bool complain(const FilePath& path) {
   std::fprintf(stderr, "%s: %s; choose another --out\n", path.c_str(), std::strerror(errno));

@@ -125,7 +125,7 @@ def title(run):
 
 
 def write_figures(run):
-    """Draws all tracking panels, one below the other, into figure.png, .pdf and .svg of the run's folder."""
+    """Draws all tracking panels, one below the other, into figure.png and .pdf of the run's folder."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -142,4 +142,3 @@ def write_figures(run):
         parts[0].axes[0].set_title(title(run), loc="left", fontweight="bold")
         figure.savefig(run.folder / "figure.png")
         figure.savefig(run.folder / "figure.pdf", metadata={"CreationDate": None})
-        figure.savefig(run.folder / "figure.svg", metadata={"Date": None})

@@ -11,7 +11,7 @@ from reporting.inputs import InputError, shown
 from reporting.screen import screen
 from reporting.units import words
 
-FILES = "log.csv, summary.json, scene.json, pipeline.ini, figure.pdf, figure.svg"
+FILES = "log.csv, summary.json, scene.json, pipeline.ini, figure.pdf"
 MANNER = "Reference (dashed) and measured (solid)"
 MANNER_WITH_POINTS = "Waypoints (circles), reference (dashed) and measured (solid)"
 

@@ -11,7 +11,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[1]
 FIGURE = ("figure", "reporting/*.py")  # what draws the figure of a run
 STAMP = "stamp.json"
 RESULTS = ("summary.json", "scene.json", "pipeline.ini", "log.csv", "waypoints.csv", "output.txt",
-           "figure.png", "figure.pdf", "figure.svg")
+           "figure.png", "figure.pdf")
 
 
 @functools.lru_cache(maxsize=None)
