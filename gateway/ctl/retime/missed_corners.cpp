@@ -8,7 +8,7 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr int kThirds = 40;  // of a segment that are left out, one after the other: down to 1e-7
+constexpr int kThirds = 30;  // of a segment that are left out, one after the other: down to 5e-6
 
 /// Distance from a corner, as the largest fraction of a tolerance. A channel without one is
 /// straight there.

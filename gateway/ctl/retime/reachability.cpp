@@ -9,7 +9,8 @@ namespace {
 
 /// A blend, as a share of the steps of its section, and at least.
 constexpr int kBlendShare = 10, kStepsOfBlend = 4;
-constexpr int kBisections = 60;  // to rounding
+constexpr int kBisections = 60;
+constexpr double kBracket = 1e-14;  // of x: to rounding
 
 /// Path derivatives at a node.
 struct Slopes {
@@ -87,6 +88,7 @@ class Step {
     const auto channel = [size](const Numbers& vector, Eigen::Index k) {
       return vector.matrix().segment(k * size, size);
     };
+    balls_.reserve(2 * static_cast<std::size_t>(a.size()));
     for (Eigen::Index k = 0; k < a.size(); ++k) {
       balls_.emplace_back(channel(here.d1, k), channel(here.d2, k), a[k]);
       balls_.emplace_back(channel(there.d1 + whole_ * there.d2, k), channel(there.d2, k), a[k]);
@@ -108,7 +110,7 @@ class Step {
     };
     if (reaches(x_max_)) return x_max_;
     double least = 0.0, beyond = x_max_;
-    for (int i = 0; i < kBisections; ++i) {
+    for (int i = 0; i < kBisections && beyond - least > kBracket * beyond; ++i) {
       const double x = 0.5 * (least + beyond);
       (reaches(x) ? least : beyond) = x;
     }
@@ -130,6 +132,7 @@ std::vector<PathNode> time_optimal(const PathSection& section, const MotionBound
   for (const PathNode& node : nodes) slopes.push_back(slopes_at(node, bounds));
   const std::size_t last = nodes.size() - 1;
   std::vector<Step> steps_between;
+  steps_between.reserve(last);
   for (std::size_t i = 0; i < last; ++i)
     steps_between.emplace_back(slopes[i], slopes[i + 1], nodes[i + 1].s - nodes[i].s, bounds.a);
   std::vector<double> most(nodes.size(), 0.0);

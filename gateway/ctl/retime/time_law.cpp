@@ -8,12 +8,11 @@ namespace {
 
 constexpr double kSecondBox = 0.25;  // by the width of the first
 
-/// Returns the node that begins the interval with a time or a path parameter in it.
-template <class Member>
-const PathNode& before(const std::vector<PathNode>& nodes, double value, Member member) {
-  const auto next = std::upper_bound(
-      nodes.begin(), nodes.end(), value,
-      [member](double wanted, const PathNode& node) { return wanted < node.*member; });
+/// Returns the node that begins the interval with a path parameter in it.
+const PathNode& before(const std::vector<PathNode>& nodes, double s) {
+  const auto next =
+      std::upper_bound(nodes.begin(), nodes.end(), s,
+                       [](double wanted, const PathNode& node) { return wanted < node.s; });
   return next == nodes.begin() ? nodes.front() : *(next - 1);
 }
 
@@ -24,10 +23,15 @@ TimeLaw::TimeLaw(const std::vector<PathNode>& nodes, double smoothing_s)
       flat_s_(smoothing_s * (1.0 - kSecondBox) / 2.0),
       reach_s_(smoothing_s * (1.0 + kSecondBox) / 2.0) {}
 
-Progress TimeLaw::fastest(double time_s) const {
-  if (time_s <= 0.0) return {};
-  if (time_s >= nodes_.back().time_s) return {nodes_.back().s, 0.0, 0.0};
-  const PathNode& node = before(nodes_, time_s, &PathNode::time_s);
+TimeLaw::Node TimeLaw::after(double time_s) const {
+  return std::upper_bound(nodes_.begin(), nodes_.end(), time_s,
+                          [](double t, const PathNode& node) { return t < node.time_s; });
+}
+
+Progress TimeLaw::fastest(Node next, double time_s) const {
+  if (next == nodes_.begin()) return {};
+  const PathNode& node = *(next - 1);
+  if (next == nodes_.end()) return {node.s, 0.0, 0.0};
   const double t = time_s - node.time_s, speed = std::sqrt(node.x);
   return {node.s + t * (speed + t * node.u / 2.0), speed + t * node.u, node.u};
 }
@@ -38,28 +42,28 @@ double TimeLaw::weight(double lag_s) const {
 }
 
 Progress TimeLaw::at(double time_s) const {
-  if (!(reach_s_ > 0.0)) return fastest(time_s);
-  const double middle_s = time_s - reach_s_, begin_s = middle_s - reach_s_;
-  std::vector<double> cuts = {begin_s, middle_s - flat_s_, middle_s + flat_s_, middle_s + reach_s_};
-  const auto node_in_window = [this](double at_s) {
-    return std::upper_bound(nodes_.begin(), nodes_.end(), at_s,
-                            [](double t, const PathNode& node) { return t < node.time_s; });
-  };
-  for (auto node = node_in_window(begin_s); node != node_in_window(middle_s + reach_s_); ++node)
-    cuts.push_back(node->time_s);
-  std::sort(cuts.begin(), cuts.end());
-  const Progress origin = fastest(middle_s);
+  const double middle_s = time_s - reach_s_;
+  const Progress origin = fastest(after(middle_s), middle_s);
   Progress mean = {origin.s, 0.0, 0.0};
-  // Between two cuts s(t) is a parabola and the weight linear: Gauss's rule of two points is exact.
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    const double half = (cuts[i] - cuts[i - 1]) / 2.0, centre = (cuts[i] + cuts[i - 1]) / 2.0;
-    for (const double place : {-1.0, 1.0}) {
-      const double t = centre + place * half / std::sqrt(3.0);
-      const Progress there = fastest(t);
-      const double share = half * weight(t - middle_s);
-      mean.s += share * (there.s - origin.s);
-      mean.ds += share * there.ds;
-      mean.dds += share * there.dds;
+  double from_s = middle_s - reach_s_;
+  Node next = after(from_s);
+  // Between nodes and ends of slopes s(t) is a parabola and the weight linear: Gauss's rule of two
+  // points is exact.
+  for (const double end_s : {middle_s - flat_s_, middle_s + flat_s_, middle_s + reach_s_}) {
+    while (from_s < end_s) {
+      const bool at_node = next != nodes_.end() && next->time_s <= end_s;
+      const double to_s = at_node ? next->time_s : end_s;
+      const double half = (to_s - from_s) / 2.0, centre = (to_s + from_s) / 2.0;
+      for (const double place : {-1.0, 1.0}) {
+        const double t = centre + place * half / std::sqrt(3.0);
+        const Progress there = fastest(next, t);
+        const double share = half * weight(t - middle_s);
+        mean.s += share * (there.s - origin.s);
+        mean.ds += share * there.ds;
+        mean.dds += share * there.dds;
+      }
+      if (at_node) ++next;
+      from_s = to_s;
     }
   }
   return mean;
@@ -67,7 +71,7 @@ Progress TimeLaw::at(double time_s) const {
 
 TimedPoint moved(const std::vector<PathNode>& nodes, const Progress& progress, double time_s) {
   const double s = std::clamp(progress.s, 0.0, nodes.back().s);
-  const PathNode& node = before(nodes, s, &PathNode::s);
+  const PathNode& node = before(nodes, s);
   const PathPlace place = node.piece->at(node.offset + s - node.s);
   return {time_s, place.q, place.dq * progress.ds,
           place.dq * progress.dds + place.ddq * (progress.ds * progress.ds), s};

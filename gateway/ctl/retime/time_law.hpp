@@ -18,7 +18,7 @@ struct Progress {
 
 class TimeLaw {
  public:
-  /// `smoothing_s`: T; 0: none. The nodes must outlive the law. [any]
+  /// `smoothing_s`: T > 0. The nodes must outlive the law. [any]
   TimeLaw(const std::vector<PathNode>& nodes, double smoothing_s);
 
   /// Time from when a place is reached at the earliest to when it is at the latest. [any]
@@ -28,7 +28,12 @@ class TimeLaw {
   Progress at(double time_s) const;
 
  private:
-  Progress fastest(double time_s) const;
+  using Node = std::vector<PathNode>::const_iterator;
+
+  /// Returns the first node that is passed later.
+  Node after(double time_s) const;
+  /// Returns the progress, not smoothed, at a time between the node before `next` and `next`.
+  Progress fastest(Node next, double time_s) const;
   double weight(double lag_s) const;
 
   const std::vector<PathNode>& nodes_;
