@@ -8,9 +8,7 @@ namespace tactus {
 
 struct GeneratorSettings {
   OnlineMode online = OnlineMode::kLimit;
-  OnlyWithStreams<double> max_step{};  ///< largest distance of a point: rad, m; 0: any
-  /// Largest velocity on the way to points or chunks that begin anew: rad/s, m/s; 0: the limit.
-  OnlyWithStreams<double> approach_speed{};
+  OnlyWithStreams<PointBounds> bounds{};
   double timeout_ms = 0.0;  ///< longest silence of a stream of online points; 0: no limit
   double stopped_velocity =
       0.01;                   ///< at the goal: rad/s of each joint, m/s of the tip; 0: not checked
@@ -22,7 +20,7 @@ struct GeneratorSettings {
   template <class Visitor>
   void describe(Visitor& visit, const char* unit, const char* velocity_unit) {
     visit.choice("online", online);
-    describe_bounds(visit, unit, velocity_unit);
+    describe_bounds(visit, bounds, unit, velocity_unit);
     visit.param("timeout_ms", timeout_ms, kNonNegative, "ms");
     visit.param("stopped_velocity", stopped_velocity, kNonNegative, velocity_unit);
     visit.param("dwell_ms", dwell_ms, kNonNegative, "ms");
@@ -31,11 +29,12 @@ struct GeneratorSettings {
     visit.param("feedback_divisor", feedback_divisor, Range{0.0, 100000.0}, "cycles");
   }
 
-  template <class Visitor>
-  void describe_bounds(Visitor& visit, const char* unit, const char* velocity_unit) {
+  template <class Visitor, class Bounds>
+  static void describe_bounds(Visitor& visit, Bounds& bounds, const char* unit,
+                              const char* velocity_unit) {
     if constexpr (kStreams) {
-      visit.param("max_step", max_step, kNonNegative, unit);
-      visit.param("approach_speed", approach_speed, kNonNegative, velocity_unit);
+      visit.param("max_step", bounds.max_step, kNonNegative, unit);
+      visit.param("approach_speed", bounds.approach_speed, kNonNegative, velocity_unit);
     }
   }
 
@@ -44,8 +43,7 @@ struct GeneratorSettings {
   typename ReferenceGenerator<Space>::Params params() const {
     typename ReferenceGenerator<Space>::Params params;
     params.online = online;
-    params.max_step = max_step;
-    params.approach_speed = approach_speed;
+    params.bounds = bounds;
     params.timeout_s = timeout_ms * 1e-3;
     params.latency_cycles = latency_cycles;
     params.feedback_divisor = feedback_divisor;

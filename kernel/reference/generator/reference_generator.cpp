@@ -35,7 +35,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   void_requests_ = channel.requests.size();
   void_controls_ = channel.controls.size();
   motion_.start(held, channel.settings);
-  if constexpr (kStreams) motion_.approach_at(params.approach_speed);
+  if constexpr (kStreams) motion_.approach_at(params.bounds.approach_speed);
   monitor_.start(held, params.latency_cycles, (params.measured & kVelocityField) != 0);
   return Status::kOk;
 }

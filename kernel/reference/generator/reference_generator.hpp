@@ -31,6 +31,14 @@ constexpr const char* name(OnlineMode online) {
   return nullptr;
 }
 
+/// What bounds points besides the limits.
+struct PointBounds {
+  double max_step = 0.0;  ///< largest distance from the reference: rad, of a tip m and rad; 0: any
+  /// Largest velocity on the way to points or chunks that begin anew: rad/s, of a tip m/s and
+  /// rad/s; 0: the limit.
+  double approach_speed = 0.0;
+};
+
 /// What a generator tells of its motion, whatever its space.
 struct MotionState {
   double time_s = 0.0;  ///< generator time: periods since start
@@ -65,11 +73,7 @@ class ReferenceGenerator {
     Tolerances<Space> tolerances;  ///< for goals that give none of their own
     int latency_cycles = 0;        ///< 0..16; 0: measured in the next cycle
     OnlineMode online = OnlineMode::kForward;
-    /// Largest distance of a point from the reference: rad, for a tip m and rad; 0: any.
-    OnlyWithStreams<double> max_step{};
-    /// Largest velocity on the way to points or chunks that begin anew: rad/s, for a tip m/s and
-    /// rad/s; 0: the limit.
-    OnlyWithStreams<double> approach_speed{};
+    OnlyWithStreams<PointBounds> bounds{};
     /// Longest time without a new point after which a moving online reference is stopped; 0: none.
     double timeout_s = 0.0;
     int feedback_divisor = 0;  ///< cycles between two messages of feedback; 0: none

@@ -147,8 +147,8 @@ Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
   const typename Space::Limits& limits = channel_->settings.limits;
   const Verdict verdict = judge_online<Space>(point, limits);
   if constexpr (kStreams) {
-    if (verdict.ok() && params_.max_step > 0.0)
-      return judge_distance<Space>(reference(), point, params_.max_step);
+    if (verdict.ok() && params_.bounds.max_step > 0.0)
+      return judge_distance<Space>(reference(), point, params_.bounds.max_step);
   }
   return verdict;
 }

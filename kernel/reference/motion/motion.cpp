@@ -55,7 +55,7 @@ void Motion<Space>::move_on(double dt_s) {
 template <class Space>
 const typename Space::Limits& Motion<Space>::limits_to(const Point& base) {
   if constexpr (kStreams) {
-    if (!on_path()) return approach_.limits(reference_, base, settings_->limits);
+    if (!on_path()) return streamed_.approach.limits(reference_, base, settings_->limits);
   }
   return settings_->limits;
 }
@@ -143,7 +143,7 @@ template <class Space>
 void Motion<Space>::reach(const Point& point, double stamp_s) {
   const double sent_s = time_s_ - settings_->period_s;  // it was sent before this cycle
   if constexpr (kStreams) {
-    if (!stream_.recent(sent_s)) approach_.begin();
+    if (!stream_.recent(sent_s)) streamed_.approach.begin();
   }
   stream_.push(point, sent_s, stamp_s);
   held_ = point.stopped();

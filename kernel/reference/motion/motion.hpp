@@ -103,6 +103,11 @@ class Motion {
   double margin_s() const;
 
  private:
+  struct Streamed {
+    Velocity<Space> velocity;
+    Approach<Space> approach;
+  };
+
   /// Feed-forward fades out in this time, or in the period of a stream.
   static constexpr double kFade_s = 0.1;
 
@@ -147,9 +152,8 @@ class Motion {
   double braking_s_ = 0.0;
   PointStream<Space> stream_;  // the base while points are streamed
   ChunkPlan<Space> plan_;      // the base while chunks are followed
-  OnlyWithStreams<Velocity<Space>> velocity_;
+  OnlyWithStreams<Streamed> streamed_;
   double velocity_until_s_ = 0.0;
-  OnlyWithStreams<Approach<Space>> approach_;
 
   typename Space::Difference offset_;
   typename Space::Effort effort_;  // feed-forward that fades out

@@ -7,7 +7,7 @@
 namespace tactus {
 template <class Space>
 void Motion<Space>::approach_at(double speed) {
-  approach_.start(settings_->limits, speed);
+  streamed_.approach.start(settings_->limits, speed);
 }
 
 template <class Space>
@@ -24,7 +24,7 @@ Verdict Motion<Space>::drive(const Velocity<Space>& velocity) {
   if (!can_leave()) return {Status::kCannotLeave};
   begin_stream(MotionEvent::kVelocity);
   plan_.clear();
-  velocity_ = velocity;
+  streamed_.velocity = velocity;
   velocity_until_s_ = time_s_ + velocity.timeout_s;
   return {};
 }
@@ -33,7 +33,7 @@ Verdict Motion<Space>::drive(const Velocity<Space>& velocity) {
 template <class Space>
 void Motion<Space>::begin_stream(MotionEvent event) {
   if (!streams(phase_)) {
-    if (!stream_.recent(time_s_)) approach_.begin();
+    if (!stream_.recent(time_s_)) streamed_.approach.begin();
     feed_beyond(reference_, reference_.at_rest(), kFade_s);
     path_.leave();
     stream_.clear();
@@ -47,7 +47,7 @@ void Motion<Space>::move_stream(double dt_s) {
   if (phase_ == Phase::kDriving) return move_at_velocity(dt_s);
   const typename Space::Limits& limits = settings_->limits;
   const bool seam = plan_.due(time_s_), stops = !seam && plan_.runs_out(time_s_);
-  const bool fades = !approach_.on();
+  const bool fades = !streamed_.approach.on();
   if (seam) base_ = plan_.enter(time_s_ - dt_s, time_s_, reference_, limits, fades);
   if (stops) base_ = plan_.stop(time_s_ - dt_s, base_, reference_, limits, fades);
   if (seam || stops) offset_ = Space::difference(reference_, base_);
@@ -63,11 +63,12 @@ void Motion<Space>::move_stream(double dt_s) {
 template <class Space>
 void Motion<Space>::move_at_velocity(double dt_s) {
   const bool valid = time_s_ <= velocity_until_s_;
-  const typename Space::Rates none = 0.0 * velocity_.rates;
-  const typename Space::Rates rates =
-      velocity_.in_tool ? Space::in_base(velocity_.rates, reference_) : velocity_.rates;
+  const typename Space::Rates none = 0.0 * streamed_.velocity.rates;
+  const typename Space::Rates rates = streamed_.velocity.in_tool
+                                          ? Space::in_base(streamed_.velocity.rates, reference_)
+                                          : streamed_.velocity.rates;
   reference_ = Space::go_at(reference_, valid ? rates : none, settings_->limits,
-                            velocity_.acceleration, velocity_.jerk, dt_s);
+                            streamed_.velocity.acceleration, streamed_.velocity.jerk, dt_s);
   if (reference_.standing() && (!valid || rates == none)) rest_from_stream();
 }
 

@@ -1,6 +1,7 @@
 #include "kernel/reference/motion/point_stream.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernel/reference/motion/fade.hpp"
 #include "kernel/reference/space/joint_space.hpp"
@@ -17,6 +18,9 @@ constexpr double kLeastGain = 0.05;  // of the smoothed times
 constexpr double kEarlyGain = 0.2;   // for an early point, which was delayed less than the others
 // A jump fades in three periods, but slowly enough for the noise of fast streams.
 constexpr double kFadePeriods = 3.0, kLeastFade_s = 0.12;
+// How much faster than its usual speed a stream may be fitted; a parabola is by 4 at most.
+constexpr double kMostUsual = 8.0;
+constexpr double kMostFaded = 0.05;  // rad or m; a larger jump would be faster than limits allow
 // Silence that ends a stream: three periods, but at least the delay of a busy sender, or, with
 // stamps, of a network that loses and delays points, and at most kMostPatience_s more than one
 // period.
@@ -104,13 +108,34 @@ typename Space::Difference PointStream<Space>::fit() const {
   for (std::size_t i = 1; i < kFitted; ++i) times[i] = times[i - 1] - apart_s(i - 1);
   const ParabolaFit weights = fit_parabola(times);
   Difference now = {0.0 * newest.x, 0.0 * newest.x, 0.0 * newest.x};
-  for (std::size_t i = 1; i < kFitted; ++i) {  // the newest is the origin
-    const auto x = Space::difference(points_[i], origin).x;
-    now.x += weights.x[i] * x;
-    now.dx += weights.dx[i] * x;
-    now.ddx += weights.ddx[i] * x;
+  std::array<Vector, kFitted> places;
+  places[0] = newest.x;  // the origin
+  for (std::size_t i = 1; i < kFitted; ++i) {
+    places[i] = Space::difference(points_[i], origin).x;
+    now.x += weights.x[i] * places[i];
+    now.dx += weights.dx[i] * places[i];
+    now.ddx += weights.ddx[i] * places[i];
   }
+  bound(now, places);
   return now;
+}
+
+/// Bounds the fit by a usual speed of its points, the second of three: one step among them, as of a
+/// leader that was late or is elsewhere, must not look like a fast motion, whose end would be felt
+/// as one the other way.
+template <class Space>
+void PointStream<Space>::bound(Difference& fit, const std::array<Vector, kFitted>& places) const {
+  for (int k = 0; k < fit.x.size(); ++k) {
+    const auto speed = [&](std::size_t i) {
+      return std::abs(places[i][k] - places[i + 1][k]) / apart_s(i);
+    };
+    const double a = speed(0), b = speed(1);
+    const double usual = std::max(std::min(a, b), std::min(std::max(a, b), speed(2)));
+    const double dx = kMostUsual * usual, x = apart_s(0) * dx, ddx = dx / apart_s(0);
+    fit.x[k] = std::clamp(fit.x[k], -x, x);
+    fit.dx[k] = std::clamp(fit.dx[k], -dx, dx);
+    fit.ddx[k] = std::clamp(fit.ddx[k], -ddx, ddx);
+  }
 }
 
 template <class Space>
@@ -132,6 +157,7 @@ void PointStream<Space>::push(const Point& point, double now_s, double stamp_s) 
   if (!streams()) return;
   fit_ = fit();
   if (moved_before && count_ > kFitted) jump_ = Space::difference(old, predicted(now_s));
+  if (jump_.x.cwiseAbs().maxCoeff() > kMostFaded) jump_ = {};
   jump_s_ = now_s;
 }
 

@@ -6,12 +6,12 @@
 // smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
 // neither delay nor loss of points with stamps bends the motion.
 // The target is the parabola that fits the newest point and three before it best
-// (parabola_fit.hpp), in the chart of the newest. Of a fast stream only points are kept that are
-// far enough apart for the noise in them. For a stream that gives velocities it is the parabola
-// through the newest point with the change of velocity since the point before; a point without a
-// velocity ends it, as a place to go to.
-// The jump from the old prediction to the new one fades over 3 D, at least 0.12 s, by a quintic, so
-// that the target is continuous up to its acceleration.
+// (parabola_fit.hpp), in the chart of the newest; one step among them does not make it move. Of a
+// fast stream only points are kept that are far enough apart for the noise in them. For a stream
+// that gives velocities it is the parabola through the newest point with the change of velocity
+// since the point before; a point without a velocity ends it, as a place to go to. The jump from
+// the old prediction to the new one fades over 3 D, at least 0.12 s, by a quintic, so that the
+// target is continuous up to its acceleration.
 //
 // Fewer than four points without velocity are no stream but places to go to, and so are the points
 // of a stream that has gone silent. A point after the silence begins a new stream.
@@ -55,6 +55,7 @@ class PointStream {
 
  private:
   using Difference = typename Space::Difference;
+  using Vector = typename Space::Rates;
 
   bool streams() const { return count_ >= kFitted || (given_ && count_ >= 1); }
   double patience_s() const;
@@ -64,6 +65,7 @@ class PointStream {
   double unit_s() const { return stamped_ ? 1.0 : period_s_; }
   double apart_s(std::size_t i) const { return unit_s() * static_cast<double>(apart_[i]); }
   Difference fit() const;
+  void bound(Difference& fit, const std::array<Vector, kFitted>& places) const;
   Point predicted(double now_s) const;
 
   std::array<Point, kFitted> points_;  // newest first

@@ -32,7 +32,7 @@ struct Follower : CheckedMotion<Space> {
   Chunk<Space>& chunk = storage();
 
   Follower() {
-    this->params.approach_speed = kSpeed;
+    this->params.bounds.approach_speed = kSpeed;
     ASSERT_OK(this->start(this->home));
     chunk = {};
   }

@@ -33,7 +33,7 @@ Report answer(CheckedMotion<Space>& bench, const typename Space::Point& point) {
 template <class Space>
 void refuses_beyond_the_step(OnlineMode online) {
   CheckedMotion<Space> bench(1e-3, online);
-  bench.params.max_step = 0.1;
+  bench.params.bounds.max_step = 0.1;
   ASSERT_OK(bench.start(bench.home));
   const Report report = answer(bench, moved_by(bench.home, 0.1001));
   ASSERT_STATUS(report.outcome, Outcome::kRefused);

@@ -3,6 +3,9 @@
 #include <array>
 
 #include "tests/reference/motion/checked_motion.hpp"
+#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace {
 
@@ -207,6 +210,48 @@ void a_stream_that_is_forwarded_ends_at_rest_and_never_comes_back(void**) {
   assert_ends_monotone(OnlineMode::kForward, 1.0, 8e-3);
 }
 
+/// Points at rest that step once, after `before` of them; how far the reference goes outside the
+/// step, as fractions of it: behind its beginning, and beyond its end.
+template <class Space>
+std::array<double, 2> outside_of_a_step(double step, int before, int period_ms, bool stamps) {
+  CheckedMotion<Space> bench;
+  std::array<double, 2> outside{};
+  for (int k = 0; k < 60; ++k) {
+    PointDetails details;
+    if (stamps) details.stamp_s = 1e-3 * period_ms * k;
+    std::uint32_t id = 0;
+    ASSERT_OK(
+        bench.client.send(moved_by(bench.home, k < before ? 0.0 : step), id, {}, details).status);
+    for (int i = 0; i < period_ms; ++i) {
+      bench.cycle();
+      const double x = way(bench.out(), bench.home) / step;
+      outside = {std::max(outside[0], -x), std::max(outside[1], x - 1.0)};
+    }
+    bench.report_of(0);
+  }
+  return outside;
+}
+
+// Proves RG-38.
+
+void a_step_in_a_stream_never_sends_the_reference_the_other_way(void**) {
+  Random random{38};
+  double beyond = 0.0;
+  for (int trial = trials(100); trial > 0; --trial) {
+    const double step = (random.below(2) == 0 ? -1.0 : 1.0) * random.uniform(0.01, 0.25);
+    const int before = 1 + random.below(8), period_ms = 4 + random.below(36);
+    for (const bool stamps : {false, true}) {
+      for (const auto& outside : {outside_of_a_step<JointSpace>(step, before, period_ms, stamps),
+                                  outside_of_a_step<TaskSpace>(step, before, period_ms, stamps)}) {
+        assert_true(outside[0] <= 1e-9);
+        beyond = std::max(beyond, outside[1]);
+      }
+    }
+  }
+  print_message("a step is passed by up to %.0f %%\n", 100.0 * beyond);
+  assert_true(beyond <= 0.05);
+}
+
 }  // namespace
 
 int main() {
@@ -218,6 +263,7 @@ int main() {
       cmocka_unit_test(points_five_times_a_second_with_velocities_do_not_stop_at_each),
       cmocka_unit_test(a_stream_that_is_shaped_ends_at_rest_and_never_comes_back),
       cmocka_unit_test(a_stream_that_is_forwarded_ends_at_rest_and_never_comes_back),
+      cmocka_unit_test(a_step_in_a_stream_never_sends_the_reference_the_other_way),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
