@@ -56,6 +56,8 @@ Message not_a_number(std::string_view cell) {
 
 const char* not_a_column(std::string_view header) {
   double number = 0.0;
+  if (header.find(' ') != std::string_view::npos)
+    return "blanks separate no columns; write commas, semicolons or tabs";
   return read_number(header, number)
              ? "a number in the first row, which must name the columns; add a row of names"
              : "unknown column";

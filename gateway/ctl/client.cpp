@@ -168,6 +168,8 @@ bool Client::take_all() {
 }
 
 void Client::handle(const ToClient& message) {
+  stops_ = std::max(
+      {stops_, message.welcome().stops(), message.answer().stops(), message.state().stops()});
   if (message.has_welcome() && !welcomed_) {
     welcome_ = message.welcome();
     welcomed_ = true;

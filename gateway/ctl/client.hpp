@@ -39,6 +39,9 @@ class Client {
   bool wait(int timeout_ms, int other = -1);
 
   const Welcome& welcome() const { return welcome_; }
+  /// The latest stop, cancel, pause or lower override that the server has told of, for requests
+  /// after which the arm moves again.
+  std::uint32_t stops() const { return stops_; }
   int exit_code() const { return exit_code_; }
   bool gone() const { return exit_code_ == kNoConnection; }
   /// Says why the verb ends; returns false.
@@ -59,7 +62,7 @@ class Client {
   Welcome welcome_;
   Answer answer_;
   Report report_;
-  std::uint32_t number_ = 0, awaited_ = 0;
+  std::uint32_t number_ = 0, awaited_ = 0, stops_ = 0;
   std::int64_t sent_ns_ = 0, taken_ = 0;
   bool welcomed_ = false, answered_ = false, reported_ = false, leased_ = false;
   int exit_code_ = kSucceeded;

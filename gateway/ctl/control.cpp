@@ -7,10 +7,13 @@ namespace {
 void fill(const Session& session, ToServer& request) {
   switch (session.options.verb) {
     case Verb::kCancel: request.mutable_cancel(); return;
-    case Verb::kOverride: request.mutable_override()->set_rate(session.options.rate); return;
+    case Verb::kOverride:
+      request.mutable_override()->set_rate(session.options.rate);
+      request.mutable_override()->set_stops(session.client.stops());
+      return;
     case Verb::kPause: request.mutable_pause(); return;
-    case Verb::kResume: request.mutable_resume(); return;
-    case Verb::kRearm: request.mutable_rearm(); return;
+    case Verb::kResume: request.mutable_resume()->set_stops(session.client.stops()); return;
+    case Verb::kRearm: request.mutable_rearm()->set_stops(session.client.stops()); return;
     default: request.mutable_stop();
   }
 }

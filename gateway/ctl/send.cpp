@@ -148,10 +148,11 @@ bool Sender::press(const std::string& keys) {
   for (const char key : keys) {
     ToServer request;
     if (key == 'p') request.mutable_pause();
-    if (key == 'r') request.mutable_resume();
+    if (key == 'r') request.mutable_resume()->set_stops(s_.client.stops());
     if (key == '+' || key == '-') {
       rate_ = std::clamp(rate_ + (key == '+' ? 0.1 : -0.1), 0.0, 1.0);
       request.mutable_override()->set_rate(rate_);
+      request.mutable_override()->set_stops(s_.client.stops());
     }
     if (request.request_case() != ToServer::REQUEST_NOT_SET && s_.client.post(request) == 0)
       return false;

@@ -49,9 +49,12 @@ bool read_body(PageCommand command, std::string_view body, double& rate) {
   return error == std::errc() && stop == end && rate >= 0.0 && rate <= 1.0;
 }
 
-void write_request(PageCommand command, double rate, tactus_ToServer& message) {
+void write_request(PageCommand command, double rate, std::uint32_t stops,
+                   tactus_ToServer& message) {
   message.which_request = tag_of(command);
-  if (command == PageCommand::kOverride) message.request.override = {rate};
+  if (command == PageCommand::kOverride) message.request.override = {rate, stops};
+  if (command == PageCommand::kResume) message.request.resume.stops = stops;
+  if (command == PageCommand::kRearm) message.request.rearm.stops = stops;
 }
 
 }  // namespace tactus

@@ -16,8 +16,9 @@ bool command_of(std::string_view path, PageCommand& command);
 /// else. [any]
 bool read_body(PageCommand command, std::string_view body, double& rate);
 
-/// Sets the request of a message; its number is left alone. [any]
-void write_request(PageCommand command, double rate, tactus_ToServer& message);
+/// Sets the request of a message; its number is left alone. `stops`: the latest that is known.
+/// [any]
+void write_request(PageCommand command, double rate, std::uint32_t stops, tactus_ToServer& message);
 
 /// True if the gateway takes it from the owner of the lease only; an override if it is a higher
 /// one. [any]

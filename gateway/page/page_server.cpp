@@ -146,7 +146,8 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
                      "the body of /override is a number from 0 to 1; the others have none", kPlain);
   const std::int64_t now_ns = monotonic_ns();
   const CommandVerdict verdict =
-      gate_.judge(command.what, command.seen_ms, now_ns / kMillisecond_ns);
+      gate_.judge(command.what, command.seen_ms, link_.stops_told_ns() / kMillisecond_ns,
+                  now_ns / kMillisecond_ns);
   if (verdict.status != 200) return send_text(connection, verdict.status, verdict.text, kPlain);
   const std::uint32_t number = link_.send(command.what, rate, now_ns);
   if (number == 0)

@@ -669,6 +669,7 @@ class _Session:
         self.events: collections.deque[Event] = collections.deque(maxlen=1024)
         self.credit = 0
         self.epoch = 0
+        self.stops = 0  # the latest stop, cancel, pause or lower override that the server has told of
         self.reported_ns = 0  # the latest report, by the server's clock
         self.sequence = 0
         self.starved = 0
@@ -821,6 +822,7 @@ class _Session:
                 raise Lost("the server has welcomed this client twice")
             self.welcome = message.welcome
             self.epoch = message.welcome.epoch
+            self.stops = message.welcome.stops
             self._calls.pop(message.welcome.number, None)
         elif kind == "answer":
             self._take_answer(message.answer)
@@ -829,6 +831,7 @@ class _Session:
         elif kind == "state":
             self.state = message.state
             self.epoch = max(self.epoch, message.state.epoch)
+            self.stops = max(self.stops, message.state.stops)
         elif kind == "feedback":
             told = message.feedback
             if call := self._calls.get(told.number):
@@ -857,6 +860,7 @@ class _Session:
             raise Lost(f"the server has answered request {answer.number} {why}; it does not keep to the protocol")
         call.answer = answer
         self.epoch = max(self.epoch, answer.epoch)
+        self.stops = max(self.stops, answer.stops)
         if answer.received_ns:
             stamps = (answer.client_ns, answer.received_ns, answer.server_ns)
             if max(map(abs, stamps)) > _LATEST_NS:
@@ -1140,7 +1144,7 @@ class Arm:
 
     def override(self, rate: float) -> None:
         """Lets trajectories pass at this fraction of their speed, 0 to 1, from now on. To raise it needs the lease."""
-        request = pb.Override(rate=_number("rate", rate, 0, 1))
+        request = pb.Override(rate=_number("rate", rate, 0, 1), stops=self._session.stops)
         try:
             self._session.ask("override", request)
         except Refused as refusal:
@@ -1155,8 +1159,9 @@ class Arm:
 
     def resume(self) -> None:
         """Ends a pause."""
+        request = pb.Resume(stops=self._session.stops)
         self._own()
-        self._session.ask("resume", pb.Resume())
+        self._session.ask("resume", request)
 
     def stop(self) -> None:
         """Stops the whole chain, whoever moves it; needs no lease. The arm moves again only after `rearm`."""
@@ -1169,10 +1174,11 @@ class Arm:
         What was sent before is void.
         """
         end = time.monotonic() + _number("within_s", within_s, 0, _LONGEST_WAIT_S)
+        request = pb.Rearm(stops=self._session.stops)
         while True:
             self._own()
             try:
-                self._session.ask("rearm", pb.Rearm())
+                self._session.ask("rearm", request)
                 break
             except Refused as refusal:
                 if refusal.status != pb.CODE_NOT_AT_REST or time.monotonic() > end:

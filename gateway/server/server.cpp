@@ -222,6 +222,7 @@ void Server::lose_lease(std::string_view how, std::int64_t now_ns) {
   with_intake([&owner](auto& intake) { intake.give_up(owner.session); });
   lease_.end();
   end_motion();
+  stops_.add(StopCount::kNobody);
   Message text("the lease of ");
   text << std::string_view(owner.name) << " " << how << ": the arm comes to rest";
   if (setup_.log != nullptr) setup_.log(text.c_str());

@@ -15,6 +15,7 @@
 #include "gateway/server/generator_clock.hpp"
 #include "gateway/server/lease.hpp"
 #include "gateway/server/reference_intake.hpp"
+#include "gateway/server/stop_count.hpp"
 #include "kernel/load/parameter_book.hpp"
 #include "kernel/pipeline/pipeline.hpp"
 
@@ -116,6 +117,7 @@ class Server {
   Reply lease(int slot, std::int64_t now_ns);
   Reply order(CycleOrder what, const Origin& from, std::int64_t now_ns);
   bool raises(pb_size_t what) const;
+  Reply judge_stops(int slot) const;
   Reply control(const Origin& from);
   void tell_deed(const Told& told, std::int64_t now_ns);
   void tell_late(const Told& told, std::int64_t now_ns);
@@ -169,6 +171,7 @@ class Server {
   CycleMail& mail_;
   Lease lease_;
   std::uint32_t epoch_ = 1;
+  StopCount stops_;
   GeneratorClock clock_;
   Chunk<JointSpace> joint_chunk_;  // that is being read
   Chunk<TaskSpace> task_chunk_;

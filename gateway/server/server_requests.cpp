@@ -66,6 +66,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   }
   Reply why = judge_fields();
   if (why.status == Status::kOk && moves) why = judge_void(slot);
+  if (why.status == Status::kOk && moves) why = judge_stops(slot);
   if (why.status != Status::kOk) return why;
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
@@ -96,6 +97,27 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
 bool Server::raises(pb_size_t what) const {
   return what == tactus_ToServer_override_tag &&
          !(request_.request.override.rate <= newest_.override);
+}
+
+/// What makes the arm move again, or faster, counts only if its client knows of what others have
+/// done to stop it.
+Reply Server::judge_stops(int slot) const {
+  const auto& asked = request_.request;
+  const bool resumes = request_.which_request == tactus_ToServer_resume_tag;
+  std::uint32_t told = asked.rearm.stops;
+  if (resumes)
+    told = asked.resume.stops;
+  else if (request_.which_request == tactus_ToServer_override_tag)
+    told = asked.override.stops;
+  else if (request_.which_request != tactus_ToServer_rearm_tag)
+    return {};
+  if (!stops_.told(told))
+    return {Status::kBadValue,
+            "stops is missing or was never told: give that of the latest State, Answer or Welcome"};
+  if (stops_.known(told, at(slot).session)) return {};
+  return {Status::kEpochVoid,
+          "the arm was stopped, canceled, paused or slowed down by another since this was asked; "
+          "look at the latest State, and ask again"};
 }
 
 Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
@@ -172,6 +194,7 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
   if (what != CycleOrder::kStop) return {};
   begin_end();
+  stops_.add(from.session);
   Message text(at(from.slot).name);
   text << " has stopped the arm";
   if (setup_.log != nullptr) setup_.log(text.c_str());
@@ -193,13 +216,16 @@ Reply Server::control(const Origin& from) {
     kind = ControlKind::kPause;
     deed.what = " has paused the arm";
   } else if (what == tactus_ToServer_override_tag) {
-    kind = by_owner ? ControlKind::kOverride : ControlKind::kSlowDown;
+    const std::uint32_t told = request_.request.override.stops;
+    kind = by_owner && stops_.known(told, from.session) ? ControlKind::kOverride
+                                                        : ControlKind::kSlowDown;
     deed.what = " has set the override";
     rate = request_.request.override.rate;
     deed.percent = 100.0 * rate;
   }
   const Verdict verdict =
       with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
+  if (verdict.ok() && kind != ControlKind::kResume && !raises(what)) stops_.add(from.session);
   if (verdict.ok() && kind == ControlKind::kCancel) {
     begin_end();
     const int owner = lease_.owner();

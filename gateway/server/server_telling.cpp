@@ -83,6 +83,7 @@ void Server::answer(Connection& to, std::uint32_t number, const Reply& reply, st
   answer.server_ns = now_ns;
   answer.received_ns = to.received_ns;
   answer.epoch = epoch_;
+  answer.stops = stops_.newest();
   write_finding(reply.verdict, answer.has_finding, answer.finding);
   static_cast<void>(put(to));
 }
@@ -121,6 +122,7 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
   welcome.parameter_sets = parameter_sets_;
   write_outputs(setup_, welcome);
   welcome.epoch = epoch_;
+  welcome.stops = stops_.newest();
   set_text(welcome.motion_frame, setup_.motion_frame);
   set_text(welcome.wrench_frame, setup_.wrench_frame);
   static_cast<void>(put(to));

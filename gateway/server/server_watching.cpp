@@ -18,7 +18,10 @@ void Server::take_snapshots(std::int64_t now_ns) {
     seen_ = true;
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
-    if (refuses(to) && !refuses(from)) begin_epoch();
+    if (refuses(to) && !refuses(from)) {
+      begin_epoch();
+      if (snapshot.status != Status::kHalted) stops_.add(StopCount::kNobody);
+    }
     Message text(name(to));
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     if (snapshot.first != nullptr) text << ": " << snapshot.first << " with " << snapshot.second;
@@ -42,6 +45,7 @@ void Server::tell_state(Connection& to) {
   state.status = static_cast<std::uint32_t>(newest_.status);
   state.phase = newest_.phase;
   state.epoch = epoch_;
+  state.stops = stops_.newest();
   if (lease_.owner() != Lease::kNobody) set_text(state.owner, at(lease_.owner()).name);
   state.override = newest_.override;
   state.speed_scaling = newest_.speed_scaling;

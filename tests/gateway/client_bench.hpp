@@ -47,6 +47,8 @@ struct TestClient {
   std::uint32_t total = 0, sets = 0;  // as the last page says
   int starved = 0, states = 0, feedbacks = 0, events = 0, welcomes = 0;
   std::uint32_t epoch = 0;
+  std::uint32_t stops = 0;                      ///< that it was told of last
+  bool names_stops = true;                      ///< in what makes the arm move again
   std::uint32_t offered = 0;                    ///< digital outputs, by Welcome
   std::uint32_t outputs = 0, outputs_mask = 0;  ///< as commanded, by State
   std::uint64_t session = 0;
@@ -76,9 +78,14 @@ struct TestClient {
     ++number;
     kinds[number % kMost] = kind;
     whole.number(1, number).time(2, tells_time ? made_ns != 0 ? made_ns : clock->now_ns - 5 : 0);
-    whole.message(kind, body);
+    const bool moves = kind == ask::kOverride || kind == ask::kResume || kind == ask::kRearm;
+    whole.message(kind, moves && names_stops ? named_stops(kind, body) : body);
     send_bytes(whole);
     return number;
+  }
+  RawMessage named_stops(std::uint32_t kind, const RawMessage& body) const {
+    RawMessage named = body;
+    return named.number(kind == ask::kOverride ? 2 : 1, stops);
   }
   void send_bytes(const RawMessage& message) {
     std::uint8_t length[4];
@@ -103,6 +110,10 @@ struct TestClient {
       pushed += count;
     }
     return pushed;
+  }
+  /// Sends a control; `rate` is that of an override.
+  std::uint32_t control(std::uint32_t kind, double rate = 0.0) {
+    return send(kind, kind == ask::kOverride ? RawMessage().real(1, rate) : RawMessage());
   }
   std::uint32_t lease(std::uint32_t priority = 0, std::uint32_t timeout_ms = 1000) {
     return send(ask::kLease, RawMessage().number(2, priority).number(3, timeout_ms));
@@ -147,9 +158,12 @@ struct TestClient {
         ++welcomes;
         ++answers[of];
         session = value[7];
+        stops = static_cast<std::uint32_t>(value[25]);
         offered = static_cast<std::uint32_t>(value[23]);
         break;
-      case 2: return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
+      case 2:
+        stops = std::max(stops, static_cast<std::uint32_t>(value[9]));
+        return take_answer(of, static_cast<std::uint8_t>(value[2]), words, value[7]);
       case 3:
         if (value[2] == 3) ++starved;
         if (value[2] == 2) {
@@ -165,6 +179,7 @@ struct TestClient {
       case 4:
         ++states;
         epoch = static_cast<std::uint32_t>(value[8]);
+        stops = std::max(stops, static_cast<std::uint32_t>(value[28]));
         outputs = static_cast<std::uint32_t>(value[26]);
         outputs_mask = static_cast<std::uint32_t>(value[27]);
         return;

@@ -26,7 +26,7 @@ void everybody_may_slow_the_arm_down_and_only_its_owner_makes_it_faster(void**) 
           two.run(2);
           if (!owned) two.a.send(ask::kLease, RawMessage().number(1, 1));
           TestClient& from = by_owner ? two.a : two.b;
-          const std::uint32_t number = from.send(control.kind, RawMessage().real(1, control.rate));
+          const std::uint32_t number = from.control(control.kind, control.rate);
           two.run(2);
           const bool slows = control.kind != ask::kResume &&
                              (control.kind != ask::kOverride || control.rate <= before);
@@ -81,7 +81,7 @@ void everybody_hears_of_a_control_its_sender_and_the_owner_too(void**) {
       two.a.point(far);
       two.a.send(ask::kBegin);
       two.run(100);
-      (by_owner ? two.a : two.b).send(kind, RawMessage().real(1, 0.5));
+      (by_owner ? two.a : two.b).control(kind, 0.5);
       two.run(10);
       const Message expected = Message(by_owner ? "A" : "B") << text;
       assert_string_equal(two.a.event, expected.c_str());
@@ -129,6 +129,8 @@ void the_override_is_whole_again_after_a_rearm(void**) {
   two.a.send(ask::kOverride, RawMessage().real(1, 0.2));
   two.b.send(ask::kStop);
   two.run(3);
+  two.a.send(ask::kPing);
+  two.run(1);
   two.a.send(ask::kRearm);
   two.run(3);
   const std::uint32_t lower = two.b.send(ask::kOverride, RawMessage().real(1, 0.9));

@@ -86,13 +86,13 @@ void commands_of_all_browsers_have_a_share_and_stop_has_none(void**) {
   CommandGate gate;
   int taken = 0;
   for (std::int64_t ms = 1000; ms < 3000; ++ms) {
-    taken += gate.judge(PageCommand::kOverride, ms, ms).status == 200 ? 1 : 0;
-    taken += gate.judge(PageCommand::kPause, -1, ms).status == 200 ? 1 : 0;
+    taken += gate.judge(PageCommand::kOverride, ms, -1, ms).status == 200 ? 1 : 0;
+    taken += gate.judge(PageCommand::kPause, -1, -1, ms).status == 200 ? 1 : 0;
     if (ms == 1999) assert_int_equal(taken, 50);
   }
   assert_int_equal(taken, 100);
-  assert_int_equal(gate.judge(PageCommand::kCancel, -1, 2999).status, 429);
-  assert_int_equal(gate.judge(PageCommand::kStop, -1, 2999).status, 200);
+  assert_int_equal(gate.judge(PageCommand::kCancel, -1, -1, 2999).status, 429);
+  assert_int_equal(gate.judge(PageCommand::kStop, -1, -1, 2999).status, 200);
 }
 
 void what_may_raise_motion_is_refused_if_it_is_late(void**) {
@@ -100,15 +100,17 @@ void what_may_raise_motion_is_refused_if_it_is_late(void**) {
        {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm}) {
     CommandGate gate;
     constexpr std::int64_t kNow = 100'000, kLeast = std::numeric_limits<std::int64_t>::min();
-    assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, kNow).status, 200);
+    assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, -1, kNow).status, 200);
     for (const std::int64_t seen : {kNow - kOldestSeen_ms - 1, kNow + 1, kLeast, std::int64_t{-1}})
-      assert_int_equal(gate.judge(command, seen, kNow).status, 409);
-    assert_int_equal(gate.judge(PageCommand::kStop, -1, kNow).status, 200);
-    assert_int_equal(gate.judge(command, kNow, kNow + 1).status, 409);  // sent before the stop
-    assert_int_equal(gate.judge(command, kNow + 1, kNow + 1).status, 200);
+      assert_int_equal(gate.judge(command, seen, -1, kNow).status, 409);
+    assert_int_equal(gate.judge(command, kNow - 1, kNow, kNow).status, 409);  // of before a stop
+    assert_int_equal(gate.judge(command, kNow, kNow, kNow).status, 200);
+    assert_int_equal(gate.judge(PageCommand::kStop, -1, -1, kNow).status, 200);
+    assert_int_equal(gate.judge(command, kNow, -1, kNow + 1).status, 409);  // sent before the stop
+    assert_int_equal(gate.judge(command, kNow + 1, -1, kNow + 1).status, 200);
   }
   for (const PageCommand command : {PageCommand::kPause, PageCommand::kCancel})
-    assert_int_equal(CommandGate().judge(command, -1, 100'000).status, 200);
+    assert_int_equal(CommandGate().judge(command, -1, -1, 100'000).status, 200);
   for (const char* text : {"", "x", "1 ", "1.5", "99999999999999999999"})
     assert_int_equal(read_seen(text), -1);
 }

@@ -139,7 +139,7 @@ void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
     for (int k = 0; k < kTries; ++k) {
       const std::int64_t now_ms = bench.server.now_ns / kMillisecond_ns;
       const auto command = k % 2 == 0 ? PageCommand::kStop : PageCommand::kPause;
-      if (gate.judge(command, -1, now_ms).status == 200) bench.ask(command, 0.5);
+      if (gate.judge(command, -1, -1, now_ms).status == 200) bench.ask(command, 0.5);
     }
     bench.turn();
   }

@@ -65,6 +65,8 @@ void what_a_stop_voids_does_not_move_the_arm(void**) {
   const std::uint32_t before = two.a.epoch;
   two.b.send(ask::kStop);
   two.run(3);
+  two.a.send(ask::kPing);
+  two.run(1);
   two.a.send(ask::kRearm);
   two.run(3);
   assert_true(two.bench.rung == Rung::kNominal);
