@@ -44,7 +44,7 @@ double distance_of_joints(const Numbers& wanted, const TimedPoint& from, const T
 
 double distance_of_tip(const Numbers& wanted, const TimedPoint& from, const TimedPoint& to,
                        const RetimeSettings& settings) {
-  const auto point = [](const TimedPoint& one) {
+  const auto point_of = [](const TimedPoint& one) {
     TaskSpace::Point point;
     point.x = {one.q.head<3>(), orientation(one.q)};
     point.v = one.dq;
@@ -52,7 +52,7 @@ double distance_of_tip(const Numbers& wanted, const TimedPoint& from, const Time
     return point;
   };
   const TaskSpace::Segment segment = {
-      point(from), point(to), to.time_s - from.time_s,
+      point_of(from), point_of(to), to.time_s - from.time_s,
       settings.jerk ? Interpolation::kQuintic : Interpolation::kCubic, 0};
   const Numbers& tolerance = settings.corners.tolerance;
   const auto away = [&](double t) {
