@@ -132,7 +132,7 @@ def session(pb, serve, path):
     assert (
         me.ask(point=pb.Point(place=pb.Place(epoch=epoch), joint=pb.JointPoint(q=target))).status == pb.CODE_EPOCH_VOID
     )
-    assert me.result(rearm=pb.Rearm()).outcome == pb.Report.EXECUTED
+    assert me.result(rearm=pb.Rearm(stops=me.state.stops)).outcome == pb.Report.EXECUTED
     me.until(lambda: me.state.rung == pb.RUNG_NOMINAL)
     datagrams = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
     target[0] += 1e-4
