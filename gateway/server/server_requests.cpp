@@ -102,22 +102,20 @@ bool Server::raises(pb_size_t what) const {
 /// What makes the arm move again, or faster, counts only if its client knows of what others have
 /// done to stop it.
 Reply Server::judge_stops(int slot) const {
-  const auto& asked = request_.request;
-  const bool resumes = request_.which_request == tactus_ToServer_resume_tag;
-  std::uint32_t told = asked.rearm.stops;
-  if (resumes)
-    told = asked.resume.stops;
-  else if (request_.which_request == tactus_ToServer_override_tag)
-    told = asked.override.stops;
-  else if (request_.which_request != tactus_ToServer_rearm_tag)
-    return {};
+  std::uint32_t told = 0;
+  switch (request_.which_request) {
+    case tactus_ToServer_rearm_tag: told = request_.request.rearm.stops; break;
+    case tactus_ToServer_resume_tag: told = request_.request.resume.stops; break;
+    case tactus_ToServer_override_tag: told = request_.request.override.stops; break;
+    default: return {};
+  }
   if (!stops_.told(told))
     return {Status::kBadValue,
             "stops is missing or was never told: give that of the latest State, Answer or Welcome"};
   if (stops_.known(told, at(slot).session)) return {};
   return {Status::kEpochVoid,
-          "the arm was stopped, canceled, paused or slowed down by another since this was asked; "
-          "look at the latest State, and ask again"};
+          "since this was asked the arm was stopped, canceled, paused or slowed down, not by this "
+          "client; look at the latest State, and ask again"};
 }
 
 Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {

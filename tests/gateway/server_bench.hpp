@@ -38,6 +38,7 @@ struct ServerBench : BenchClock {
   ReferenceGenerator<JointSpace> generator;
   ReferenceGenerator<JointSpace>::Params params;
   Rung rung = Rung::kNominal;
+  Status why = Status::kHalted;  // it is not nominal
   std::uint32_t cycles = 0;
   Server server{setup(), joints, poses, mail};
 
@@ -109,7 +110,7 @@ struct ServerBench : BenchClock {
     told.time_s = generator.time_s();
     told.cycle = cycles;
     told.rung = static_cast<std::uint8_t>(rung);
-    told.status = refuses(rung) ? Status::kHalted : Status::kOk;
+    told.status = refuses(rung) ? why : Status::kOk;
     told.q = generator.reference().q;
     told.override = generator.motion_state().override;
     told.outputs = generator.outputs();

@@ -61,7 +61,7 @@ std::uint8_t answered(const Event& move, const Event& stop, bool before, bool la
   if (later) {
     if (stop.kind == ask::kStop) ASSERT_STATUS(two.bench.rung, Rung::kDisabled);
     if (two.a.status[number] != 0)
-      assert_non_null(std::strstr(two.a.text, "by another since this was asked"));
+      assert_non_null(std::strstr(two.a.text, "slowed down, not by this client"));
   }
   return two.a.status[number];
 }
@@ -75,6 +75,26 @@ void what_was_asked_before_anothers_stop_does_not_move_the_arm(void**) {
       assert_int_not_equal(answered(move, stop, true, false), kVoid);
       assert_int_not_equal(answered(move, stop, false, false), kVoid);
     }
+  }
+}
+
+/// Neither does a fault, nor a lease that was lost and taken again, while it was on its way.
+void what_was_asked_before_a_fault_or_a_lost_lease_does_not_move_the_arm(void**) {
+  for (const bool fault : {false, true}) {
+    TwoClients& two = fresh_clients();
+    two.a.lease(5, fault ? 60000 : 50);
+    two.a.control(ask::kPause);
+    two.run(2);
+    const std::uint32_t told = two.a.stops;
+    two.bench.why = Status::kCollision;
+    if (fault) two.bench.rung = Rung::kDisabled;
+    two.run(100);
+    two.a.lease(5, 60000);
+    two.run(2);
+    two.a.stops = told;
+    const std::uint32_t number = two.a.send(fault ? ask::kRearm : ask::kResume);
+    two.run(2);
+    assert_int_equal(two.a.status[number], static_cast<int>(Status::kEpochVoid));
   }
 }
 
@@ -129,6 +149,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_count_is_that_of_a_list_of_all_stops),
       cmocka_unit_test(what_was_asked_before_anothers_stop_does_not_move_the_arm),
+      cmocka_unit_test(what_was_asked_before_a_fault_or_a_lost_lease_does_not_move_the_arm),
       cmocka_unit_test(ones_own_stop_is_known),
       cmocka_unit_test(what_does_not_say_what_it_knows_is_refused),
       cmocka_unit_test(an_override_that_lowers_needs_no_word),
