@@ -2,13 +2,12 @@
 
 namespace tactus {
 
-CommandVerdict CommandGate::judge(PageCommand command, std::int64_t seen_ms, std::int64_t told_ms,
-                                  std::int64_t now_ms) {
+CommandVerdict CommandGate::judge(PageCommand command, std::int64_t seen_ms, std::int64_t now_ms) {
   if (command == PageCommand::kStop) {
     stopped_ms_ = now_ms;
     return {};
   }
-  if (may_need_lease(command) && (seen_ms < told_ms || behind(seen_ms, now_ms)))
+  if (may_need_lease(command) && behind(seen_ms, now_ms))
     return {409, "the page is behind: its newest state is old, or of before a stop; look again"};
   if (!share_is_left(now_ms)) return {429, "more than 50 commands in a second; try again"};
   return {};

@@ -16,10 +16,9 @@ struct CommandVerdict {
 
 class CommandGate {
  public:
-  /// Judges a command of a browser that had seen the state told at `seen_ms`, now. Since `told_ms`
-  /// states tell of the latest stop by anybody. Stop always goes on. [any, one thread]
-  CommandVerdict judge(PageCommand command, std::int64_t seen_ms, std::int64_t told_ms,
-                       std::int64_t now_ms);
+  /// Judges a command of a browser that had seen the state told at `seen_ms`, now. Stop always goes
+  /// on. [any, one thread]
+  CommandVerdict judge(PageCommand command, std::int64_t seen_ms, std::int64_t now_ms);
 
  private:
   bool behind(std::int64_t seen_ms, std::int64_t now_ms) const;

@@ -70,7 +70,7 @@ std::uint32_t PageLink::send(PageCommand command, double rate, std::int64_t now_
   if (stops && stop_goes_on(now_ns)) return stop_;
   if (may_need_lease(command)) put_lease(tactus_Lease_Wish_TAKE);
   asked_ = tactus_ToServer_init_zero;
-  write_request(command, rate, stops_, asked_);
+  write_request(command, rate, asked_);
   put();
   const std::uint32_t number = number_;
   if (stops) {
@@ -105,7 +105,7 @@ bool PageLink::receive() {
 }
 
 /// Reads the next message into told_; one that is malformed ends the connection.
-bool PageLink::next(std::int64_t now_ns) {
+bool PageLink::next() {
   Bytes bytes;
   if (!in_.next(bytes)) return false;
   if (!decode(bytes, told_)) {
@@ -114,10 +114,6 @@ bool PageLink::next(std::int64_t now_ns) {
   }
   if (told_.which_message == tactus_ToClient_answer_tag && told_.message.answer.number == stop_)
     stop_answered_ = true;
-  if (told_.which_message == tactus_ToClient_state_tag && told_.message.state.stops != stops_) {
-    stops_ = told_.message.state.stops;
-    stops_ns_ = now_ns;
-  }
   return true;
 }
 

@@ -24,19 +24,17 @@ class PageLink {
   void work(std::int64_t now_ns, const Take& take) {
     ping(now_ns);
     while (receive())
-      while (next(now_ns)) take(told_);
+      while (next()) take(told_);
   }
 
   /// Sends a command; one that may need the lease takes it before, with the lowest priority, and
   /// gives it back behind. A Stop right behind a Stop that was sent a moment ago or has no answer
   /// yet is the same. The answer has the number that is returned; 0: it could not be sent. [any]
   std::uint32_t send(PageCommand command, double rate, std::int64_t now_ns);
-  /// When a State first told of the latest stop, cancel, pause or lower override.
-  std::int64_t stops_told_ns() const { return stops_ns_; }
 
  private:
   bool receive();
-  bool next(std::int64_t now_ns);
+  bool next();
   void ping(std::int64_t now_ns);
   void put();
   void put_lease(tactus_Lease_Wish wish);
@@ -48,8 +46,6 @@ class PageLink {
   std::uint32_t stop_ = 0;    // number of the last Stop
   bool stop_answered_ = false;
   std::int64_t stop_ns_ = 0, ping_ns_ = 0;
-  std::uint32_t stops_ = 0;  // of the newest State, and when one first told of it
-  std::int64_t stops_ns_ = 0;
   InputBytes in_;
   std::array<std::uint8_t, 512> out_{};  // messages that are sent at once
   std::size_t out_size_ = 0;

@@ -33,6 +33,10 @@ Difference moved(const Difference& from, double t) {
   return {from.x + t * (from.dx + 0.5 * t * from.ddx), from.dx + t * from.ddx, from.ddx};
 }
 
+double median(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
 }  // namespace
 
 template <class Space>
@@ -120,17 +124,17 @@ typename Space::Difference PointStream<Space>::fit() const {
   return now;
 }
 
-/// Bounds the fit by a usual speed of its points, the second of three: one step among them, as of a
-/// leader that was late or is elsewhere, must not look like a fast motion, whose end would be felt
-/// as one the other way.
+/// Bounds the fit by the usual speed between its points, the second of three; of points that go to
+/// and fro, the second of the velocities. One step among them or one outlier, as of a leader that
+/// was late, must not look like a fast motion, whose end would be felt as one the other way.
 template <class Space>
 void PointStream<Space>::bound(Difference& fit, const std::array<Vector, kFitted>& places) const {
   for (int k = 0; k < fit.x.size(); ++k) {
-    const auto speed = [&](std::size_t i) {
-      return std::abs(places[i][k] - places[i + 1][k]) / apart_s(i);
-    };
-    const double a = speed(0), b = speed(1);
-    const double usual = std::max(std::min(a, b), std::min(std::max(a, b), speed(2)));
+    const auto v = [&](std::size_t i) { return (places[i][k] - places[i + 1][k]) / apart_s(i); };
+    const double a = v(0), b = v(1), c = v(2);
+    const bool bends = (a - b) * (b - c) >= 0.0;  // one way, as a parabola does
+    const double usual =
+        bends ? median(std::abs(a), std::abs(b), std::abs(c)) : std::abs(median(a, b, c));
     const double dx = kMostUsual * usual, x = apart_s(0) * dx, ddx = dx / apart_s(0);
     fit.x[k] = std::clamp(fit.x[k], -x, x);
     fit.dx[k] = std::clamp(fit.dx[k], -dx, dx);
