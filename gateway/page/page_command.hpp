@@ -16,8 +16,8 @@ bool command_of(std::string_view path, PageCommand& command);
 /// else. [any]
 bool read_body(PageCommand command, std::string_view body, double& rate);
 
-/// Sets the request of a message; its number is left alone. `stops`: the latest that is known.
-/// [any]
+/// Sets the request of a message; its number is left alone. `stops`: that its sender had been told
+/// of. [any]
 void write_request(PageCommand command, double rate, std::uint32_t stops, tactus_ToServer& message);
 
 /// True if the gateway takes it from the owner of the lease only; an override if it is a higher

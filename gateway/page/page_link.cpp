@@ -64,16 +64,17 @@ bool PageLink::stop_goes_on(std::int64_t now_ns) const {
   return stop_ == number_ && (!stop_answered_ || now_ns - stop_ns_ < kStopPeriod_ns);
 }
 
-std::uint32_t PageLink::send(PageCommand command, double rate, std::int64_t now_ns) {
+std::uint32_t PageLink::send(PageCommand command, double rate, std::uint32_t stops,
+                             std::int64_t now_ns) {
   if (!there()) return 0;
-  const bool stops = command == PageCommand::kStop;
-  if (stops && stop_goes_on(now_ns)) return stop_;
+  const bool is_stop = command == PageCommand::kStop;
+  if (is_stop && stop_goes_on(now_ns)) return stop_;
   if (may_need_lease(command)) put_lease(tactus_Lease_Wish_TAKE);
   asked_ = tactus_ToServer_init_zero;
-  write_request(command, rate, asked_);
+  write_request(command, rate, stops, asked_);
   put();
   const std::uint32_t number = number_;
-  if (stops) {
+  if (is_stop) {
     stop_ = number;
     stop_ns_ = now_ns;
     stop_answered_ = false;

@@ -29,8 +29,9 @@ class PageLink {
 
   /// Sends a command; one that may need the lease takes it before, with the lowest priority, and
   /// gives it back behind. A Stop right behind a Stop that was sent a moment ago or has no answer
-  /// yet is the same. The answer has the number that is returned; 0: it could not be sent. [any]
-  std::uint32_t send(PageCommand command, double rate, std::int64_t now_ns);
+  /// yet is the same. `stops`: what who sends it had been told of. The answer has the number that
+  /// is returned; 0: it could not be sent. [any]
+  std::uint32_t send(PageCommand command, double rate, std::uint32_t stops, std::int64_t now_ns);
 
  private:
   bool receive();

@@ -117,9 +117,8 @@ MHD_Result PageServer::begin(MHD_Connection* connection, const RequestHead& head
   }
   for (Command& command : commands_) {
     if (command.used) continue;
-    command = {true};
+    command = {true, {}, read_seen(head.seen)};
     static_cast<void>(command_of(head.path, command.what));
-    command.seen_ms = read_seen(head.seen);
     *context = &command;
     return MHD_YES;
   }
@@ -146,10 +145,9 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
                      "the body of /override is a number from 0 to 1; the others have none", kPlain);
   const std::int64_t now_ns = monotonic_ns();
   const CommandVerdict verdict =
-      gate_.judge(command.what, command.seen_ms, link_.stops_told_ns() / kMillisecond_ns,
-                  now_ns / kMillisecond_ns);
+      gate_.judge(command.what, command.seen.told_ms, now_ns / kMillisecond_ns);
   if (verdict.status != 200) return send_text(connection, verdict.status, verdict.text, kPlain);
-  const std::uint32_t number = link_.send(command.what, rate, now_ns);
+  const std::uint32_t number = link_.send(command.what, rate, command.seen.stops, now_ns);
   if (number == 0)
     return send_text(connection, 503, "the server has no place for the page", kPlain);
   char bytes[64];

@@ -44,7 +44,7 @@ class PageServer {
   struct Command {  // a POST whose body is coming
     bool used = false;
     PageCommand what = PageCommand::kStop;
-    std::int64_t seen_ms = -1;
+    SeenState seen;
     std::size_t size = 0;
     std::array<char, kLongestBody> body{};
   };

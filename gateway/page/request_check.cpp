@@ -59,11 +59,21 @@ void take_header(std::string_view name, std::string_view value, RequestHead& hea
   take("X-Tactus-Seen", head.seen);
 }
 
-std::int64_t read_seen(std::string_view text) {
-  std::int64_t seen_ms = -1;
+std::string_view write_seen(const SeenState& seen, std::array<char, 32>& to) {
+  char* const end = to.data() + to.size();
+  char* at = std::to_chars(to.data(), end, seen.told_ms).ptr;
+  *at++ = ' ';
+  at = std::to_chars(at, end, seen.stops).ptr;
+  return {to.data(), static_cast<std::size_t>(at - to.data())};
+}
+
+SeenState read_seen(std::string_view text) {
+  SeenState seen;
   const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, seen_ms);
-  return error == std::errc() && stop == end ? seen_ms : -1;
+  const auto [blank, error] = std::from_chars(text.data(), end, seen.told_ms);
+  if (error != std::errc() || blank == end || *blank != ' ') return {};
+  const auto [stop, other] = std::from_chars(blank + 1, end, seen.stops);
+  return other == std::errc() && stop == end ? seen : SeenState{};
 }
 
 bool own_host(std::string_view host) {

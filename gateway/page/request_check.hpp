@@ -7,6 +7,7 @@
 //   token   drawn at the start and told to the page only; whatever acts or takes a place gives it
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -25,8 +26,15 @@ struct RequestHead {
 /// Takes a header of the request; names are compared without case. [any]
 void take_header(std::string_view name, std::string_view value, RequestHead& head);
 
-/// Reads when the state was told, in ms, that a browser has seen; -1: it does not say. [any]
-std::int64_t read_seen(std::string_view text);
+/// Of the newest state that a browser has seen.
+struct SeenState {
+  std::int64_t told_ms = -1;  ///< when it was told; -1: the browser does not say
+  std::uint32_t stops = 0;    ///< its number of the latest stop
+};
+
+/// Writes and reads it, "12345 6". [any]
+std::string_view write_seen(const SeenState& seen, std::array<char, 32>& to);
+SeenState read_seen(std::string_view text);
 
 enum class PagePath : unsigned char {
   kNone,  ///< refused

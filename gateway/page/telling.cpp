@@ -41,7 +41,8 @@ struct StateTold {
 
 void write(const StateTold& told, Json& to) {
   const tactus_State& state = told.state;
-  to.integer(told.time.now_ns / kMillisecond_ns, "told_ms");
+  std::array<char, 32> seen;
+  to.string(write_seen({told.time.now_ns / kMillisecond_ns, state.stops}, seen), "seen");
   write_time(state.server_ns, told.time, to);
   const auto status = static_cast<Status>(state.status);
   to.string(word<Rung>(state.rung), "rung").string(word<Phase>(state.phase), "phase");

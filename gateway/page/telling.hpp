@@ -8,8 +8,8 @@
 
 namespace tactus {
 
-/// By the monotonic clock. Browsers are told seconds since `begin_ns`, and with a state `now_ns` in
-/// milliseconds, which a browser gives with its commands.
+/// By the monotonic clock. Browsers are told seconds since `begin_ns`, and with a state when it was
+/// told, which a browser gives with its commands.
 struct PageTime {
   std::int64_t begin_ns, now_ns;
 };

@@ -223,7 +223,8 @@ Reply Server::control(const Origin& from) {
   }
   const Verdict verdict =
       with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
-  if (verdict.ok() && kind != ControlKind::kResume && !raises(what)) stops_.add(from.session);
+  const bool slows = kind != ControlKind::kResume && !raises(what) && rate >= 0.0;
+  if (verdict.ok() && slows) stops_.add(from.session);
   if (verdict.ok() && kind == ControlKind::kCancel) {
     begin_end();
     const int owner = lease_.owner();

@@ -68,9 +68,10 @@ void a_header_that_is_checked_comes_once(void**) {
     take_header("HOST", "localhost", head);
     take_header("origin", "http://localhost", head);
     take_header("x-tactus-token", kToken, head);
-    take_header("X-TACTUS-SEEN", "12", head);
+    take_header("X-TACTUS-SEEN", "12 7", head);
     assert_int_equal(status_of(head), 200);
-    assert_int_equal(read_seen(head.seen), 12);
+    assert_int_equal(read_seen(head.seen).told_ms, 12);
+    assert_int_equal(read_seen(head.seen).stops, 7);
     take_header(name, "", head);
     assert_int_equal(status_of(head), 400);
   }
@@ -86,13 +87,13 @@ void commands_of_all_browsers_have_a_share_and_stop_has_none(void**) {
   CommandGate gate;
   int taken = 0;
   for (std::int64_t ms = 1000; ms < 3000; ++ms) {
-    taken += gate.judge(PageCommand::kOverride, ms, -1, ms).status == 200 ? 1 : 0;
-    taken += gate.judge(PageCommand::kPause, -1, -1, ms).status == 200 ? 1 : 0;
+    taken += gate.judge(PageCommand::kOverride, ms, ms).status == 200 ? 1 : 0;
+    taken += gate.judge(PageCommand::kPause, -1, ms).status == 200 ? 1 : 0;
     if (ms == 1999) assert_int_equal(taken, 50);
   }
   assert_int_equal(taken, 100);
-  assert_int_equal(gate.judge(PageCommand::kCancel, -1, -1, 2999).status, 429);
-  assert_int_equal(gate.judge(PageCommand::kStop, -1, -1, 2999).status, 200);
+  assert_int_equal(gate.judge(PageCommand::kCancel, -1, 2999).status, 429);
+  assert_int_equal(gate.judge(PageCommand::kStop, -1, 2999).status, 200);
 }
 
 void what_may_raise_motion_is_refused_if_it_is_late(void**) {
@@ -100,19 +101,26 @@ void what_may_raise_motion_is_refused_if_it_is_late(void**) {
        {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm}) {
     CommandGate gate;
     constexpr std::int64_t kNow = 100'000, kLeast = std::numeric_limits<std::int64_t>::min();
-    assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, -1, kNow).status, 200);
+    assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, kNow).status, 200);
     for (const std::int64_t seen : {kNow - kOldestSeen_ms - 1, kNow + 1, kLeast, std::int64_t{-1}})
-      assert_int_equal(gate.judge(command, seen, -1, kNow).status, 409);
-    assert_int_equal(gate.judge(command, kNow - 1, kNow, kNow).status, 409);  // of before a stop
-    assert_int_equal(gate.judge(command, kNow, kNow, kNow).status, 200);
-    assert_int_equal(gate.judge(PageCommand::kStop, -1, -1, kNow).status, 200);
-    assert_int_equal(gate.judge(command, kNow, -1, kNow + 1).status, 409);  // sent before the stop
-    assert_int_equal(gate.judge(command, kNow + 1, -1, kNow + 1).status, 200);
+      assert_int_equal(gate.judge(command, seen, kNow).status, 409);
+    assert_int_equal(gate.judge(PageCommand::kStop, -1, kNow).status, 200);
+    assert_int_equal(gate.judge(command, kNow, kNow + 1).status, 409);  // sent before the stop
+    assert_int_equal(gate.judge(command, kNow + 1, kNow + 1).status, 200);
   }
   for (const PageCommand command : {PageCommand::kPause, PageCommand::kCancel})
-    assert_int_equal(CommandGate().judge(command, -1, -1, 100'000).status, 200);
-  for (const char* text : {"", "x", "1 ", "1.5", "99999999999999999999"})
-    assert_int_equal(read_seen(text), -1);
+    assert_int_equal(CommandGate().judge(command, -1, 100'000).status, 200);
+  for (const char* text : {"", "x", "1", "1 ", "1.5 2", "1 x", "1 2 ", "1 -2", "1 4294967296",
+                           "99999999999999999999 1"}) {
+    assert_int_equal(read_seen(text).told_ms, -1);
+    assert_int_equal(read_seen(text).stops, 0);
+  }
+  for (const SeenState& seen :
+       {SeenState{0, 1}, SeenState{std::numeric_limits<std::int64_t>::max(), ~std::uint32_t{0}}}) {
+    std::array<char, 32> text;
+    const SeenState read = read_seen(write_seen(seen, text));
+    assert_true(read.told_ms == seen.told_ms && read.stops == seen.stops);
+  }
 }
 
 // Proves PAGE-4.

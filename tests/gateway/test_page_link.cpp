@@ -17,12 +17,13 @@ struct PageBench {
   TestClient other;
   PageLink link;
   std::uint32_t ask(PageCommand command, double rate) {
-    return link.send(command, rate, server.now_ns);
+    return link.send(command, rate, stops, server.now_ns);
   }
   int slot = -1, theirs = -1;
   std::uint32_t answers = 0, statuses[64] = {};
   std::string refusal;  // the first
   double override = -1.0;
+  std::uint32_t stops = 0;  // that a browser has seen
   std::uint32_t rung = 99;
 
   void start() {
@@ -54,6 +55,7 @@ struct PageBench {
     if (message.which_message == tactus_ToClient_state_tag) {
       override = message.message.state.override;
       rung = message.message.state.rung;
+      stops = message.message.state.stops;
     }
     if (message.which_message != tactus_ToClient_answer_tag) return;
     const tactus_Answer& answer = message.message.answer;
@@ -103,6 +105,25 @@ void another_clients_lease_is_not_taken_away(void**) {
   assert_int_equal(bench.server.server.owner(), bench.other.slot);
 }
 
+/// The page's own commands count as known, before a browser has seen a state of after them.
+void what_a_browser_sent_before_it_saw_anothers_stop_is_refused(void**) {
+  for (const bool others : {false, true}) {
+    PageBench& bench = fresh();
+    const std::uint32_t seen = bench.stops;
+    if (others)
+      bench.other.send(ask::kPause);
+    else
+      bench.ask(PageCommand::kPause, 0.0);
+    for (int i = 0; i < 100; ++i) bench.turn();
+    assert_true(bench.stops > seen);
+    bench.stops = seen;
+    const std::uint32_t number = bench.ask(PageCommand::kResume, 0.0);
+    for (int i = 0; i < 100; ++i) bench.turn();
+    assert_int_equal(bench.statuses[number % 64],
+                     others ? static_cast<int>(Status::kEpochVoid) : 0);
+  }
+}
+
 void stop_needs_no_lease(void**) {
   PageBench& bench = fresh();
   bench.other.lease(255, 60'000);
@@ -139,7 +160,7 @@ void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
     for (int k = 0; k < kTries; ++k) {
       const std::int64_t now_ms = bench.server.now_ns / kMillisecond_ns;
       const auto command = k % 2 == 0 ? PageCommand::kStop : PageCommand::kPause;
-      if (gate.judge(command, -1, -1, now_ms).status == 200) bench.ask(command, 0.5);
+      if (gate.judge(command, -1, now_ms).status == 200) bench.ask(command, 0.5);
     }
     bench.turn();
   }
@@ -168,6 +189,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_command_leaves_the_lease_as_free_as_it_was),
       cmocka_unit_test(another_clients_lease_is_not_taken_away),
+      cmocka_unit_test(what_a_browser_sent_before_it_saw_anothers_stop_is_refused),
       cmocka_unit_test(stop_needs_no_lease),
       cmocka_unit_test(stops_in_flight_are_one_and_a_stop_behind_another_command_is_a_new_one),
       cmocka_unit_test(the_share_of_the_page_does_not_come_near_what_the_server_takes),

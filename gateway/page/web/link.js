@@ -57,7 +57,7 @@ export class Link {
 
   alive(state) {
     this.heard = performance.now();
-    this.seen = String(state.told_ms);
+    this.seen = state.seen;
     this.why = "";
   }
 

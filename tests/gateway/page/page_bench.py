@@ -103,9 +103,9 @@ class Served:
 
 
 def seen(served, token):
-    """Returns when the newest state was told, which a command gives."""
+    """Returns what a command says of the newest state."""
     events = Events(served, token)
-    told = str(events.of("state")["told_ms"])
+    told = events.of("state")["seen"]
     events.socket.close()
     return told
 

@@ -68,7 +68,7 @@ class HostileTest(unittest.TestCase):
 
     def test_a_flood_of_commands_does_not_cut_the_page_off(self):
         watching, counts, end = Events(self.served, self.token), {}, time.monotonic() + 1
-        now = str(watching.of("state")["told_ms"])
+        now = watching.of("state")["seen"]
         text = (f"POST /override HTTP/1.1\r\nHost: localhost\r\nX-Tactus-Token: {self.token}\r\nX-Tactus-Seen: {now}\r\n"
                 "Content-Length: 1\r\n\r\n1").encode()
         while time.monotonic() < end:
