@@ -42,14 +42,17 @@ void unwrap(typename Space::Difference& now, const typename Space::Difference& b
   }
 }
 
-/// The symmetric matrix R + L Q^T Q of bandwidth two, factorized in place.
+/// The symmetric matrix R + L Q^T W Q of bandwidth two, factorized in place, where W is one but for
+/// a last knot that is `fixed`: 0.
 class Band {
  public:
   template <class Space>
-  Band(const Fit<Space>& fit, double smoothing) : size_(static_cast<std::size_t>(fit.n) - 2) {
+  Band(const Fit<Space>& fit, double smoothing, bool fixed)
+      : size_(static_cast<std::size_t>(fit.n) - 2) {
     for (std::size_t k = 0; k < size_; ++k) {
       const double a = 1.0 / fit.h(k), b = 1.0 / fit.h(k + 1);
-      d_[k] = (fit.h(k) + fit.h(k + 1)) / 3.0 + smoothing * (a * a + (a + b) * (a + b) + b * b);
+      const double last = fixed && k + 1 == size_ ? 0.0 : b * b;
+      d_[k] = (fit.h(k) + fit.h(k + 1)) / 3.0 + smoothing * (a * a + (a + b) * (a + b) + last);
       if (k + 1 >= size_) continue;
       const double c = 1.0 / fit.h(k + 2);
       e_[k] = fit.h(k + 1) / 6.0 - smoothing * b * (a + 2.0 * b + c);
@@ -84,9 +87,9 @@ class Band {
 };
 
 /// Sets velocities and accelerations at the knots to those of the spline, and moves the positions
-/// if it smooths.
+/// if it smooths, but a last one that is `fixed`.
 template <class Space>
-void fit_spline(Fit<Space>& fit, double smoothing_s) {
+void fit_spline(Fit<Space>& fit, double smoothing_s, bool fixed) {
   using Vector = typename Space::Difference::Vector;
   const auto n = static_cast<std::size_t>(fit.n);
   std::array<Vector, kMost> g;  // second derivatives at the inner knots
@@ -96,13 +99,13 @@ void fit_spline(Fit<Space>& fit, double smoothing_s) {
     const double square = smoothing_s * smoothing_s, smoothing = square * square / mean_h;
     for (std::size_t k = 0; k + 2 < n; ++k)
       g[k] = (f[k + 2].x - f[k + 1].x) / fit.h(k + 1) - (f[k + 1].x - f[k].x) / fit.h(k);
-    const Band band(fit, smoothing);
+    const Band band(fit, smoothing, fixed);
     band.solve(g);
     for (std::size_t k = 0; k + 2 < n; ++k) {
       const double a = 1.0 / fit.h(k), b = 1.0 / fit.h(k + 1);
       f[k].x -= smoothing * a * g[k];
       f[k + 1].x += smoothing * (a + b) * g[k];
-      f[k + 2].x -= smoothing * b * g[k];
+      if (!fixed || k + 3 < n) f[k + 2].x -= smoothing * b * g[k];
       f[k + 1].ddx = g[k];
     }
   }
@@ -189,7 +192,7 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   for (std::size_t i = n / 2 + 1; i < n; ++i) unwrap<Space>(fit.f[i], fit.f[i - 1]);
   for (std::size_t i = n / 2; i-- > 0;) unwrap<Space>(fit.f[i], fit.f[i + 1]);
   if (chunk.velocities && n > 1) fit_velocities(fit);
-  if (!chunk.velocities) fit_spline(fit, chunk.smoothing_s);
+  if (!chunk.velocities) fit_spline(fit, chunk.smoothing_s, chunk.ends);
   if (chunk.ends) fit.f[n - 1].dx = fit.f[n - 1].ddx = 0.0 * fit.f[n - 1].dx;
   curve.count = chunk.count;
   curve.ends = chunk.ends;
