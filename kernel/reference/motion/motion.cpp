@@ -71,7 +71,7 @@ typename Space::Point Motion<Space>::base_of_points(double time_s) const {
 template <class Space>
 typename Space::Point Motion<Space>::base_of_path(double dt_s) {
   const double rate = phase_ == Phase::kPaused || given_up() ? 0.0 : rate_;
-  law_.step(path_, rate, left_to_path<Space>(settings_->limits, offset_, dt_s), dt_s);
+  law_.step(path_, rate, left_to_path<Space>(settings_->limits, offset_), dt_s);
   const Point point = path_.at(law_.s()).at_rate(law_.rate(), law_.slope());
   if (path_.ended(law_.s())) return end_path(point);
   braking_s_ += dt_s;

@@ -83,10 +83,9 @@ class Path {
   /// Returns the beginning of the present segment, Segment::corner(). [cyclic]
   Point begin() const { return present_.segment.corner(); }
 
-  /// True if its segments are quintics, so that no acceleration steps.
-  bool smooth() const {
-    return order_of(trajectory_->interpolation, trajectory_->fields) == Interpolation::kQuintic;
-  }
+  /// kLinear, whose velocity steps at waypoints, kCubic, whose acceleration does, or kQuintic.
+  Interpolation order() const { return order_of(trajectory_->interpolation, trajectory_->fields); }
+  bool smooth() const { return order() == Interpolation::kQuintic; }
   double first_s() const { return trajectory_->time_s(0); }
   double end_s() const { return trajectory_->end_s(); }
   bool open() const { return trajectory_->open; }

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/reference/motion/slope_bounds.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
@@ -10,14 +11,10 @@
 namespace tactus {
 namespace {
 
-constexpr double kFastest = 100.0;  // 1/s; no need to change a rate faster than in ten milliseconds
-constexpr int kAhead = 4;           // places whose limits are used, from the next sample on
-constexpr int kRooms = 8;           // intervals between places whose room is used
-constexpr double kUnsure = 0.005;   // uncertainty of the next sample, as a fraction of a period
-constexpr int kCorrections = 4;
-constexpr double kAccelerationRounding = 1e-11;  // as a fraction of a limit
-constexpr double kThere = 1e-10;                 // distance of a rate from its target
-constexpr Interval kAnySlope = {-kFastest, kFastest};
+constexpr int kAhead = 4;         // places whose limits are used, from the next sample on
+constexpr int kRooms = 8;         // intervals between places whose room is used
+constexpr int kTries = 4;         // slopes tried in a period
+constexpr double kThere = 1e-10;  // distance of a rate from its target
 
 /// Returns the slope one period ahead from which the bend takes the rate `way` farther without
 /// passing it: on the parabola that ends there, or, if that is less than a period away, the slope
@@ -31,6 +28,14 @@ double onto(double way, double bend, double dt_s) {
 template <class Limits>
 double delay(const Limits& limits, double dt_s) {
   return 0.5 * ramp_s(limits) + 2.0 * dt_s;
+}
+
+/// Returns the slope with which the room falls at s. Slopes from it to zero are always allowed: if
+/// |p''| r^2 <= a for every r below the room, it was found so that |p'' r^2 + p' u| <= a for them
+/// all (admission_room.hpp), and the bounds are convex in u.
+template <class Space>
+double falling(const Path<Space>& path, double s) {
+  return std::min(0.0, 0.5 * path.room(s).slope);
 }
 
 }  // namespace
@@ -72,56 +77,6 @@ double PathLaw<Space>::least_room(const Path<Space>& path, const Limits& limits,
   return std::max(least, 0.0);
 }
 
-template <class Space>
-typename PathLaw<Space>::Next PathLaw<Space>::next(double slope, double dt_s) const {
-  const double rate = std::max(0.0, rate_ + 0.5 * dt_s * (slope_ + slope));
-  const double way = 0.5 * dt_s * (rate_ + rate) - (slope - slope_) * dt_s * dt_s / 12.0;
-  return {s_ + std::max(0.0, way), rate, slope};
-}
-
-/// Returns the slopes for which limits hold at the next sample. Acceleration is taken as linear in
-/// the slope about `guess`; jerk is its change from the present rate and slope, without that of p.
-template <class Space>
-typename PathLaw<Space>::Slopes PathLaw<Space>::about(const Local& at, const Next& guess,
-                                                      const Limits& limits, double dt_s) const {
-  constexpr int n = Space::kChannelSize;
-  const double r = guess.rate, w = r * r, u = guess.slope;
-  const typename Space::Rates gain =
-      at.d1 + at.d2 * (r * dt_s) + (at.d3 * w + at.d2 * u) * (dt_s * dt_s / 6.0);
-  const typename Space::Rates offset = at.d2 * w + at.d1 * u - gain * u;
-  const typename Space::Rates change = offset - at.d2 * (rate_ * rate_) - at.d1 * slope_ +
-                                       (at.d3 * (rate_ * rate_) + at.d2 * slope_) * (rate_ * dt_s);
-  Slopes slopes = {kAnySlope, kAnySlope};
-  for (std::size_t c = 0; c < limits.a.size(); ++c) {
-    const Eigen::Index k = static_cast<Eigen::Index>(c) * n;
-    keep<n>(slopes.hard, &offset[k], &gain[k], limits.a[c]);
-    keep<n>(slopes.soft, &change[k], &gain[k], limits.j[c] * dt_s);
-  }
-  return slopes;
-}
-
-/// Returns the slopes allowed on both sides of the next sample, which may be a little off and on
-/// another segment. The acceleration of a cubic may step before the slope can change again, so the
-/// place one period later counts too.
-template <class Space>
-typename PathLaw<Space>::Slopes PathLaw<Space>::slopes(const Path<Space>& path,
-                                                       const Limits& limits, double dt_s,
-                                                       Ahead& ahead) const {
-  const Next same = next(slope_, dt_s);
-  Slopes both = {kAnySlope, kAnySlope};
-  for (const double side : {-kUnsure * dt_s, kUnsure * dt_s}) {
-    const Local at = path.local(std::max(s_, same.s + side), ahead.far, ahead.near);
-    const Slopes one = about(at, same, limits, dt_s);
-    both.hard.cut(one.hard.lo, one.hard.hi);
-    both.soft.cut(one.soft.lo, one.soft.hi);
-  }
-  if (path.smooth()) return both;
-  const Local at = path.local(same.s + dt_s, ahead.near, ahead.far);
-  const Interval later = about(at, same, limits, dt_s).hard;
-  both.hard.cut(later.lo, later.hi);
-  return both;
-}
-
 /// Returns the slopes from which jerk can reach the slopes that the path ahead allows: advice,
 /// which must not break a limit at the next sample. Sets the largest bend.
 template <class Space>
@@ -130,11 +85,13 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
   constexpr int n = Space::kChannelSize;
   const double spacing_s = std::max(dt_s, ramp_s(limits) / (kAhead - 1));
   Interval slopes = kAnySlope;
-  bend_ = kFastest * kFastest;
+  bend_ = kSteepestSlope * kSteepestSlope;
   for (int i = 0; i < kAhead; ++i) {
     // The slope may have to change from one period after the previous place on.
     const double time_s = dt_s + i * spacing_s, away_s = i > 0 ? (i - 1) * spacing_s + dt_s : 0.0;
-    const Local at = path.local(later_s(time_s), ahead.near, ahead.far);
+    const double s = later_s(time_s);
+    const Local at =
+        i == 0 ? path.local(s, ahead.far, ahead.near) : path.local(s, ahead.near, ahead.far);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
     const typename Space::Rates offset = at.d2 * (rate * rate);
     Interval there = kAnySlope;
@@ -151,84 +108,73 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
 
 /// Returns the slope at the next sample: the one from which the bend takes the rate onto the target
 /// without passing it, limited first by the path ahead, then by jerk, last by acceleration.
-///
-/// u = 0 is always allowed, and where the room falls with the slope -2 D, so is u = -D and, the
-/// bounds being convex in u, everything between: with |p''| r^2 <= a for every r below the room,
-/// -D was found so that |p'' r^2 - p' D| <= a for them all (admission_room.hpp).
 template <class Space>
 double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limits& limits,
                               double dt_s) {
-  Ahead ahead;
-  Slopes next_sample = slopes(path, limits, dt_s, ahead);
-  Interval& hard = next_sample.hard;
-  const Room room = path.room(next(slope_, dt_s).s);
-  const double falling = std::min(0.0, 0.5 * room.slope);
-  hard.include(0.0);
-  hard.include(falling);
+  const Room room = path.room(now().later(slope_, dt_s).s);
   const double highest = 2.0 * (std::sqrt(std::max(room.most, 0.0)) - rate_) / dt_s - slope_;
   // A rate that falls, and kept would have no room, does not rise again on the way.
   const double coast_s = rate_ * delay(limits, dt_s);
   const Room later = path.room(s_ + coast_s);
   const double least = std::min(later.most, lowest_between(room, later, coast_s));
   const bool rises = slope_ >= 0.0 || path.free() || rate_ * rate_ <= least;
-  hard.hi = std::max(hard.lo, std::min({hard.hi, highest, rises ? kFastest : 0.0}));
 
+  Ahead ahead;
   const Interval reach = advice(path, limits, dt_s, ahead);
   const double way = target - rate_ - 0.5 * slope_ * dt_s;
   const double wanted = reach.nearest(std::copysign(onto(std::abs(way), bend_, dt_s), way));
-  const double slope = hard.nearest(next_sample.soft.nearest(wanted));
-  return corrected(path, slope, limits, dt_s, ahead);
+  return fitted(path, wanted, std::min(highest, rises ? kSteepestSlope : 0.0), limits, dt_s, ahead);
 }
 
-/// Corrects the slope until the acceleration is within limits at the place it leads to:
-/// acceleration is not linear in the slope, and that place may be on another segment than assumed.
-/// If it is on a third segment, which is too near to occur, the slope that is always allowed holds.
+/// Returns the slope nearest to `wanted`, and not above `highest`, that keeps acceleration, and
+/// jerk where acceleration leaves the choice: by Newton's method, as neither is quite linear in the
+/// slope, and the places it leads to may be on other segments. If no slope tried is found to keep
+/// acceleration, one that is always allowed holds.
 template <class Space>
-double PathLaw<Space>::corrected(const Path<Space>& path, double slope, const Limits& limits,
-                                 double dt_s, Ahead& ahead) const {
-  constexpr int n = Space::kChannelSize;
-  double falling = 0.0;
-  bool built = false;
-  for (int i = 0; i < kCorrections; ++i) {
-    const Next there = next(slope, dt_s);
-    const int target = path.target_at(there.s);
-    falling = std::min(0.0, 0.5 * path.room(there.s, target).slope);
-    if (slope <= 0.0 && slope >= falling) return slope;
-    const bool builds = !path.built(target, ahead.near, ahead.far);
-    if (builds && built) return falling;
-    built = built || builds;
-    const Local at = path.local(there.s, target, ahead.near, ahead.far);
-    const typename Space::Rates own = at.d2 * (there.rate * there.rate);
-    const typename Space::Rates all = own + at.d1 * slope;
-    bool within = true;
-    for (std::size_t c = 0; c < limits.a.size(); ++c) {
-      const Eigen::Index k = static_cast<Eigen::Index>(c) * n;
-      const double most = std::max(limits.a[c], length<n>(&own[k]));
-      within = within && length<n>(&all[k]) <= most * (1.0 + kAccelerationRounding);
+double PathLaw<Space>::fitted(const Path<Space>& path, double wanted, double highest,
+                              const Limits& limits, double dt_s, Ahead& ahead) const {
+  const PathSample<Space> from{now(), path.local(s_, ahead.far, ahead.near)};
+  double slope = std::min(wanted, highest), lowest = 0.0;
+  LoopBound<kTries> tries;
+  for (int i = 0; i < kTries; ++i) {
+    tries.tick();
+    const PathRate to = now().later(slope, dt_s);
+    lowest = falling(path, to.s);
+    const double onward = std::clamp(slope, falling(path, to.s + to.rate * dt_s), 0.0);
+    const PathRate after = to.later(onward, dt_s);
+    const PathPeriod<Space> period(from, {to, path.local(to.s, ahead.far, ahead.near)},
+                                   {after, path.local(after.s, ahead.near, ahead.far)},
+                                   path.order(), dt_s);
+    if (period.keeps_acceleration(limits) && (i + 1 == kTries || period.keeps_jerk(limits)))
+      return slope;
+    Interval slopes = kAnySlope, gentle = kAnySlope;
+    period.cut_to_acceleration(slopes, limits);
+    period.cut_to_jerk(gentle, limits);
+    // Where rooms of two segments meet, a slope allowed on each may exceed the mean over both.
+    if (path.free() || slope > 0.0 || slope < lowest) {
+      slopes.include(0.0);
+      slopes.include(lowest);
     }
-    if (within) return slope;
-    Interval hard = about(at, there, limits, dt_s).hard;
-    hard.include(0.0);
-    hard.include(falling);
-    slope = hard.nearest(slope);
+    slopes.hi = std::max(slopes.lo, std::min(slopes.hi, highest));
+    slope = slopes.nearest(gentle.nearest(wanted));
   }
-  return falling;
+  return std::clamp(std::min(wanted, highest), lowest, 0.0);
 }
 
 /// Applies the slope. Path time is summed up with compensation (Kahan 1965).
 template <class Space>
 void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope, double dt_s) {
-  Next now = next(slope, dt_s);
-  const bool there = std::abs(now.rate - target) <= kThere && std::abs(slope) * dt_s <= kThere;
-  if (there) now = {now.s, target, 0.0};
-  if (now.rate <= 0.0) now.slope = 0.0;
-  if (now.rate >= 1.0) now = {now.s, 1.0, 0.0};
-  const double way = 0.5 * dt_s * (rate_ + now.rate) - (now.slope - slope_) * dt_s * dt_s / 12.0;
+  PathRate next = now().later(slope, dt_s);
+  const bool there = std::abs(next.rate - target) <= kThere && std::abs(slope) * dt_s <= kThere;
+  if (there) next = {next.s, target, 0.0};
+  if (next.rate <= 0.0) next.slope = 0.0;
+  if (next.rate >= 1.0) next = {next.s, 1.0, 0.0};
+  const double way = 0.5 * dt_s * (rate_ + next.rate) - (next.slope - slope_) * dt_s * dt_s / 12.0;
   const double term = std::max(0.0, way) - carry_, sum = s_ + term;
   carry_ = (sum - s_) - term;
   s_ = sum;
-  rate_ = now.rate;
-  slope_ = now.slope;
+  rate_ = next.rate;
+  slope_ = next.slope;
   if (s_ < path.end_s()) return;
   s_ = path.end_s();
   carry_ = 0.0;

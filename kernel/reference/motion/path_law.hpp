@@ -20,6 +20,7 @@
 
 #include "kernel/reference/motion/interval.hpp"
 #include "kernel/reference/motion/path.hpp"
+#include "kernel/reference/motion/path_period.hpp"
 
 namespace tactus {
 
@@ -33,8 +34,8 @@ class PathLaw {
   void start(const Path<Space>& path, double s, double rate, const Limits& limits, double dt_s);
   /// Moves one period ahead and the rate towards `target`. `limits` are those left to the path in
   /// this period; keeping the rate is allowed whatever they are. Afterwards r is in [0, 1], s not
-  /// past the end, and the acceleration within limits; the jerk too where acceleration leaves a
-  /// choice. [cyclic]
+  /// past the end, and the acceleration within limits, there and in the mean of the period; the
+  /// jerk too where acceleration leaves a choice. [cyclic]
   void step(const Path<Space>& path, double target, const Limits& limits, double dt_s);
   /// Ends following the path. [cyclic]
   void stop() { *this = PathLaw(); }
@@ -51,24 +52,13 @@ class PathLaw {
     typename Path<Space>::Piece near, far;
   };
 
-  /// The next sample for a given slope.
-  struct Next {
-    double s, rate, slope;
-  };
-  /// The slopes at the next sample that acceleration (`hard`) and jerk (`soft`) allow.
-  struct Slopes {
-    Interval hard, soft;
-  };
-
+  PathRate now() const { return {s_, rate_, slope_}; }
   double later_s(double time_s) const;
   double least_room(const Path<Space>& path, const Limits& limits, double dt_s) const;
-  Next next(double slope, double dt_s) const;
-  Slopes about(const Local& at, const Next& guess, const Limits& limits, double dt_s) const;
-  Slopes slopes(const Path<Space>& path, const Limits& limits, double dt_s, Ahead& ahead) const;
   Interval advice(const Path<Space>& path, const Limits& limits, double dt_s, Ahead& ahead);
   double choose(const Path<Space>& path, double target, const Limits& limits, double dt_s);
-  double corrected(const Path<Space>& path, double slope, const Limits& limits, double dt_s,
-                   Ahead& ahead) const;
+  double fitted(const Path<Space>& path, double wanted, double highest, const Limits& limits,
+                double dt_s, Ahead& ahead) const;
   void settle(const Path<Space>& path, double target, double slope, double dt_s);
 
   double carry_ = 0.0;  // rounding error of s_, which sums up millions of periods

@@ -9,6 +9,9 @@
 
 namespace tactus {
 
+inline constexpr double kSteepestSlope =
+    100.0;  ///< largest slope, 1/s; a rate need not change faster
+inline constexpr Interval kAnySlope = {-kSteepestSlope, kSteepestSlope};
 inline constexpr double kPlanned = 0.8;  ///< share of the jerk limit that plans use
 
 /// Reduces x to the values for which a channel's |offset + gain x| is at most `limit`; if there is
@@ -41,15 +44,14 @@ double ramp_s(const Limits& limits) {
 /// Returns the limits that remain for the path while the reference closes an offset to it. [cyclic]
 template <class Space>
 typename Space::Peaks left_to_path(const typename Space::Limits& limits,
-                                   const typename Space::Difference& offset, double dt_s) {
-  constexpr double kBetweenSamples = 4.0;  // 1/s: of the acceleration, so that it is kept there too
-  constexpr double kPathJerk = 0.5;        // of the jerk, while an offset is closed
+                                   const typename Space::Difference& offset) {
+  constexpr double kPathJerk = 0.5;  // of the jerk, while an offset is closed
   constexpr int n = Space::kChannelSize;
   typename Space::Peaks left = Space::peaks(limits);
   const bool closes = !offset.zero();
   for (std::size_t c = 0; c < left.a.size(); ++c) {
     const double taken = length<n>(&offset.ddx[n * static_cast<int>(c)]);
-    left.a[c] = std::max((1.0 - kBetweenSamples * dt_s) * left.a[c] - taken, 0.0);
+    left.a[c] = std::max(left.a[c] - taken, 0.0);
     if (closes) left.j[c] *= kPathJerk;
   }
   return left;

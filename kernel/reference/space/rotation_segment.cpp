@@ -54,6 +54,13 @@ RotationBoundary RotationSegment::at(double t) const {
   return now;
 }
 
+TurningRates RotationSegment::rates(double t) const {
+  const VectorPolynomial here = phi_.from(t);
+  const TurningRates turned = turning_rates(here);
+  const Eigen::Quaterniond r = from_ * exp_so3(here.c[0]);
+  return {r * turned.w, r * turned.alpha, r * turned.jerk};
+}
+
 RotationSegment RotationSegment::part(double begin, double duration) const {
   RotationSegment part = *this;
   part.phi_ = phi_.from(begin);

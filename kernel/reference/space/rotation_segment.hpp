@@ -38,8 +38,8 @@ class RotationSegment {
   /// Returns the part that begins at `begin` and lasts `duration`, both in s. [any]
   RotationSegment part(double begin, double duration) const;
 
-  /// Returns the angular velocity and its derivatives at t. [any]
-  TurningRates rates(double t) const { return turning_rates(phi_.from(t)); }
+  /// Returns the angular velocity and its derivatives at t, in the base frame. [any]
+  TurningRates rates(double t) const;
   /// Returns upper bounds of |w| [rad/s], |alpha| [rad/s^2] and |dalpha/dt| [rad/s^3] on [0, T].
   /// [any]
   VectorBounds bounds(Care care = Care::kFine) const {

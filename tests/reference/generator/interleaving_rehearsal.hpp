@@ -29,10 +29,6 @@ class Rehearsal : private InterleavingClient {
   bool seen(Phase phase) const { return seen_[static_cast<std::size_t>(phase)]; }
 
  private:
-  /// Allowed excess over the jerk limit where the rate changes, as a fraction: the error of
-  /// linearizing within a period, which is no small part of a segment here.
-  static constexpr double kCoarseJerk = 0.25;
-
   /// Starts again at home. Requests that a former case left in the mailbox are refused and their
   /// stores returned.
   void begin() {
@@ -47,7 +43,7 @@ class Rehearsal : private InterleavingClient {
     cycles_ = 1;
     refusing_ = false;
     oracle_.begin(bench_.channel.settings.limits, kPeriod_s, Smoothness::kAcceleration,
-                  kRateAcceleration, kCoarseJerk);
+                  kRateAcceleration, kRateJerk);
   }
   void bring_to(Begin begin) {
     if (begin == Begin::kOnline) return;

@@ -63,7 +63,7 @@ struct TaskBench {
 /// Checks that the reference moves from `before` to `after` in one period within its limits and
 /// without a step, and that the quaternion is unit and keeps its sign.
 void assert_smooth(const TaskPoint& before, const TaskPoint& after, const TaskLimits& limits) {
-  constexpr double kOver = 1.0 + 1e-6, kRateJerk = 1.05, kBetween = 1.0025;
+  constexpr double kOver = 1.0 + 1e-6, kRateJerk = 1.001, kBetween = 1.0001;
   const Vector6 dv = after.v - before.v, da = after.a - before.a;
   assert_true(after.v.head<3>().norm() <= limits.v_max * kOver);
   assert_true(after.v.tail<3>().norm() <= limits.w_max * kOver);

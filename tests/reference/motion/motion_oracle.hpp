@@ -15,10 +15,8 @@
 namespace tactus {
 
 inline constexpr double kOverLimit = 1e-9;  ///< excess by rounding, as a fraction of the limit
-/// Excess where the rate on a path changes, as a fraction: the error of linearizing in a period.
-inline constexpr double kRateAcceleration = 2.5e-3, kRateJerk = 0.05;
-/// The same at 8 ms, a period in which a rate can fall to a half.
-inline constexpr double kCoarseAcceleration = 1e-2, kCoarseJerk = 0.3;
+/// Excess where the rate on a path changes, as a fraction.
+inline constexpr double kRateAcceleration = 1e-4, kRateJerk = 1e-3;
 /// Largest number of corners of a path of lines within a period.
 inline constexpr int kCorners = 2;
 /// Absolute rounding of a velocity and an angle.

@@ -61,8 +61,7 @@ class Run {
     if (dice_.chance(0.5)) bench_.params.timeout_s = dice_.uniform(0.02, 0.3);
     static_cast<void>(bench_.start(bench_.home));
     oracle_.begin(bench_.channel.settings.limits, bench_.period_s, kind.smoothness,
-                  bench_.period_s > 2e-3 ? kCoarseAcceleration : kRateAcceleration,
-                  bench_.period_s > 2e-3 ? kCoarseJerk : kRateJerk);
+                  kRateAcceleration, kRateJerk);
   }
   /// Runs all requests; true if every property held.
   bool pass() {

@@ -1,0 +1,130 @@
+// PathPeriod: what one period on a path does to the reference, for one slope of the rate at its
+// end.
+#pragma once
+
+#include <algorithm>
+
+#include "kernel/core/loop_bound.hpp"
+#include "kernel/reference/motion/slope_bounds.hpp"
+
+namespace tactus {
+
+/// A place on a path: path time, its rate, and the slope of the rate.
+struct PathRate {
+  double s, rate, slope;
+
+  /// Returns the place one period later; the slope changes to `then` linearly. [any]
+  PathRate later(double then, double dt_s) const {
+    const double end = std::max(0.0, rate + 0.5 * dt_s * (slope + then));
+    const double way = 0.5 * dt_s * (rate + end) - (then - slope) * dt_s * dt_s / 12.0;
+    return {s + std::max(0.0, way), end, then};
+  }
+};
+
+/// A place with the derivatives of the path there.
+template <class Space>
+struct PathSample {
+  PathRate at;
+  typename Space::Local path;
+};
+
+/// A period of dt between two samples, and the next one to `after`. What is bounded is nearly
+/// linear in the slope at `to`; gains are its derivatives:
+///
+///   acceleration at `to`, its change in the period, and the mean acceleration of both periods
+///
+/// A mean is the change of velocity, whatever the path does between samples. That of the next
+/// period counts with the slope that is always allowed there, so that every period ends where the
+/// next can keep its limits.
+template <class Space>
+class PathPeriod {
+ public:
+  using Sample = PathSample<Space>;
+  using Rates = typename Space::Rates;
+  using Limits = typename Space::Peaks;
+  using Levels = typename Space::Levels;
+
+  /// Steps of a path of this order count neither as acceleration nor as jerk. [cyclic]
+  PathPeriod(const Sample& from, const Sample& to, const Sample& after, Interpolation order,
+             double dt_s)
+      : slope_(to.at.slope), dt_s_(dt_s) {
+    const double before = from.at.rate, r = to.at.rate, w = r * r, then = after.at.rate;
+    const Rates v = to.path.d1 * r;
+    own_ = to.path.d2 * w;
+    own_after_ = after.path.d2 * (then * then);
+    a_.value = own_ + to.path.d1 * slope_;
+    a_.gain = to.path.d1 + to.path.d2 * (r * dt_s) +
+              (to.path.d3 * w + to.path.d2 * slope_) * (dt_s * dt_s / 6.0);
+    const bool smooth = order == Interpolation::kQuintic;
+    if (order == Interpolation::kLinear) {
+      mean_ = next_mean_ = a_;
+    } else {
+      mean_.value = (v - from.path.d1 * before) / dt_s;
+      mean_.gain = 0.5 * to.path.d1 + to.path.d2 * (r * dt_s / 6.0);
+      next_mean_.value = (after.path.d1 * then - v) / dt_s;
+      next_mean_.gain = after.path.d1 + after.path.d2 * (then * dt_s) - mean_.gain;
+    }
+    // Where it steps, the acceleration of the path at `to` is followed back.
+    const typename Space::Local& path = smooth ? from.path : to.path;
+    change_ = a_.value - path.d2 * (before * before) - path.d1 * from.at.slope;
+    if (!smooth)
+      change_ += (path.d3 * (before * before) + path.d2 * from.at.slope) * (before * dt_s);
+  }
+
+  /// True if no acceleration is beyond its limit, nor beyond what the path takes at a constant
+  /// rate.
+  bool keeps_acceleration(const Limits& limits) const {
+    LoopBound<kDof> channels;
+    for (std::size_t c = 0; c < limits.a.size(); ++c) {
+      channels.tick();
+      const double here = std::max(limits.a[c], size(own_, c)) * (1.0 + kRounding);
+      const double between = std::max(here, size(own_after_, c));
+      if (!(size(a_.value, c) <= here && size(mean_.value, c) <= between &&
+            size(next_mean_.value, c) <= between))
+        return false;
+    }
+    return true;
+  }
+  bool keeps_jerk(const Limits& limits) const {
+    LoopBound<kDof> channels;
+    for (std::size_t c = 0; c < limits.j.size(); ++c) {
+      channels.tick();
+      if (!(size(change_, c) <= limits.j[c] * dt_s_ * (1.0 + kJerkRounding))) return false;
+    }
+    return true;
+  }
+  /// Reduces `slopes` to those that keep acceleration.
+  void cut_to_acceleration(Interval& slopes, const Limits& limits) const {
+    cut(slopes, a_, limits.a, 1.0);
+    cut(slopes, mean_, limits.a, 1.0);
+    cut(slopes, next_mean_, limits.a, 1.0);
+  }
+  /// Reduces `slopes` to those that keep jerk.
+  void cut_to_jerk(Interval& slopes, const Limits& limits) const {
+    cut(slopes, {change_, a_.gain}, limits.j, dt_s_);
+  }
+
+ private:
+  static constexpr int n = Space::kChannelSize;
+  static constexpr double kRounding = 1e-11, kJerkRounding = 1e-5;  // as fractions of a limit
+  struct Linear {
+    Rates value, gain;
+  };
+
+  static double size(const Rates& rates, std::size_t channel) {
+    return length<n>(&rates[n * static_cast<Eigen::Index>(channel)]);
+  }
+  void cut(Interval& slopes, const Linear& what, const Levels& limits, double scale) const {
+    const Rates offset = what.value - what.gain * slope_;
+    for (std::size_t c = 0; c < limits.size(); ++c) {
+      const Eigen::Index k = n * static_cast<Eigen::Index>(c);
+      keep<n>(slopes, &offset[k], &what.gain[k], limits[c] * scale);
+    }
+  }
+
+  double slope_, dt_s_;
+  Linear a_, mean_, next_mean_;
+  Rates own_, own_after_, change_;
+};
+
+}  // namespace tactus
