@@ -35,7 +35,9 @@ struct PathSample {
 ///
 /// A mean is the change of velocity, whatever the path does between samples. That of the next
 /// period counts with the slope that is always allowed there, so that every period ends where the
-/// next can keep its limits.
+/// next can keep its limits. At samples a little less is used, so that second differences of
+/// positions, which a guard or a drive sees, keep the limit as well where the acceleration is
+/// smooth.
 template <class Space>
 class PathPeriod {
  public:
@@ -77,10 +79,11 @@ class PathPeriod {
     LoopBound<kDof> channels;
     for (std::size_t c = 0; c < limits.a.size(); ++c) {
       channels.tick();
-      const double here = std::max(limits.a[c], size(own_, c)) * (1.0 + kRounding);
-      const double between = std::max(here, size(own_after_, c));
-      if (!(size(a_.value, c) <= here && size(mean_.value, c) <= between &&
-            size(next_mean_.value, c) <= between))
+      const double own = size(own_, c), here = std::max(kAtSamples * limits.a[c], own);
+      const double between = std::max({limits.a[c], own, size(own_after_, c)});
+      if (!(size(a_.value, c) <= here * (1.0 + kRounding) &&
+            size(mean_.value, c) <= between * (1.0 + kRounding) &&
+            size(next_mean_.value, c) <= between * (1.0 + kRounding)))
         return false;
     }
     return true;
@@ -95,7 +98,7 @@ class PathPeriod {
   }
   /// Reduces `slopes` to those that keep acceleration.
   void cut_to_acceleration(Interval& slopes, const Limits& limits) const {
-    cut(slopes, a_, limits.a, 1.0);
+    cut(slopes, a_, limits.a, kAtSamples);
     cut(slopes, mean_, limits.a, 1.0);
     cut(slopes, next_mean_, limits.a, 1.0);
   }
@@ -107,6 +110,7 @@ class PathPeriod {
  private:
   static constexpr int n = Space::kChannelSize;
   static constexpr double kRounding = 1e-11, kJerkRounding = 1e-5;  // as fractions of a limit
+  static constexpr double kAtSamples = 0.996;                       // of the acceleration limit
   struct Linear {
     Rates value, gain;
   };
