@@ -33,7 +33,8 @@ int Path<Space>::waypoint_from(double s, int before) const {
   return found;
 }
 
-/// Most often it is the present one or the next.
+/// Returns the waypoint at which the segment of path time s ends: most often the present or the
+/// next one.
 template <class Space>
 int Path<Space>::target_at(double s) const {
   const int last = trajectory_->count - 1, present = present_.target;
@@ -108,16 +109,17 @@ typename Space::Point Path<Space>::at(double s) {
 }
 
 template <class Space>
-typename Space::Local Path<Space>::local(double s, int target, const Piece& known,
-                                         Piece& ahead) const {
-  if (!built(target, known, ahead)) build(ahead, target);
+typename Space::Local Path<Space>::local(double s, const Piece& known, Piece& ahead) const {
+  const int target = target_at(s);
   const Piece& on = target == present_.target ? present_ : target == known.target ? known : ahead;
+  if (target != on.target) build(ahead, target);
   return on.segment.local(std::clamp(s - on.start_s, 0.0, on.segment.duration()));
 }
 
 template <class Space>
-Room Path<Space>::room(double s, int target) const {
+Room Path<Space>::room(double s) const {
   if (free()) return {};
+  const int target = target_at(s);
   const WaypointRooms& to = trajectory_->rooms(target);
   // The segment that leads in is judged at the full rate; the room at its end is enough.
   if (target == 0) return {to.room, 0.0};

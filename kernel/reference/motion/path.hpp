@@ -58,23 +58,12 @@ class Path {
 
   /// Returns the point at path time s and makes its segment the present one. [cyclic]
   Point at(double s);
-  /// Returns the waypoint at which the segment of path time s ends; s is not before the present
-  /// segment. [cyclic]
-  int target_at(double s) const;
-  /// Returns the derivatives at path time s, which is on the segment to `target`: the present one,
-  /// the `known` one, or `ahead`, which becomes that one if it is none of them. [cyclic]
-  typename Space::Local local(double s, int target, const Piece& known, Piece& ahead) const;
-  typename Space::Local local(double s, const Piece& known, Piece& ahead) const {
-    return local(s, target_at(s), known, ahead);
-  }
-  /// True if the segment to `target` is one of these. [cyclic]
-  bool built(int target, const Piece& known, const Piece& ahead) const {
-    return target == present_.target || target == known.target || target == ahead.target;
-  }
-  /// Returns the room at path time s, on the segment to `target`, from which the path can be slowed
-  /// down in time for all that follows. [cyclic]
-  Room room(double s, int target) const;
-  Room room(double s) const { return free() ? Room() : room(s, target_at(s)); }
+  /// Returns the derivatives at path time s, which is not before the present segment: on that one,
+  /// the `known` one, or `ahead`, which becomes the segment of s if it is none of them. [cyclic]
+  typename Space::Local local(double s, const Piece& known, Piece& ahead) const;
+  /// Returns the room at path time s, from which the path can be slowed down in time for all that
+  /// follows. [cyclic]
+  Room room(double s) const;
   /// True if the path may be passed at the full rate everywhere. [cyclic]
   bool free() const { return !open() && !extent_.slowed; }
   /// True if the path has ended at path time s and will not be extended. [cyclic]
@@ -99,6 +88,7 @@ class Path {
  private:
   Verdict judge_corners(const Point& reference, const Settings& settings) const;
   int waypoint_from(double s, int before) const;
+  int target_at(double s) const;
   [[gnu::noinline]] void build(Piece& place, int target) const;  // kilobytes of code, once
 
   const Trajectory<Space>* trajectory_ = nullptr;

@@ -89,7 +89,7 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
   for (int i = 0; i < kAhead; ++i) {
     // The slope may have to change from one period after the previous place on.
     const double time_s = dt_s + i * spacing_s, away_s = i > 0 ? (i - 1) * spacing_s + dt_s : 0.0;
-    const double s = later_s(time_s);
+    const double s = later_s(time_s);  // the next sample's segment is kept for fitted()
     const Local at =
         i == 0 ? path.local(s, ahead.far, ahead.near) : path.local(s, ahead.near, ahead.far);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
@@ -133,18 +133,19 @@ double PathLaw<Space>::choose(const Path<Space>& path, double target, const Limi
 template <class Space>
 double PathLaw<Space>::fitted(const Path<Space>& path, double wanted, double highest,
                               const Limits& limits, double dt_s, Ahead& ahead) const {
+  PathSample<Space> to, after;
   const PathSample<Space> from{now(), path.local(s_, ahead.far, ahead.near)};
   double slope = std::min(wanted, highest), lowest = 0.0;
   LoopBound<kTries> tries;
   for (int i = 0; i < kTries; ++i) {
     tries.tick();
-    const PathRate to = now().later(slope, dt_s);
-    lowest = falling(path, to.s);
-    const double onward = std::clamp(slope, falling(path, to.s + to.rate * dt_s), 0.0);
-    const PathRate after = to.later(onward, dt_s);
-    const PathPeriod<Space> period(from, {to, path.local(to.s, ahead.far, ahead.near)},
-                                   {after, path.local(after.s, ahead.near, ahead.far)},
-                                   path.order(), dt_s);
+    to.at = now().later(slope, dt_s);
+    to.path = path.local(to.at.s, ahead.far, ahead.near);
+    lowest = falling(path, to.at.s);
+    const double onward = falling(path, to.at.s + to.at.rate * dt_s);
+    after.at = to.at.later(std::clamp(slope, onward, 0.0), dt_s);
+    after.path = path.local(after.at.s, ahead.near, ahead.far);
+    const PathPeriod<Space> period(from, to, after, path.order(), dt_s);
     if (period.keeps_acceleration(limits) && (i + 1 == kTries || period.keeps_jerk(limits)))
       return slope;
     Interval slopes = kAnySlope, gentle = kAnySlope;
@@ -169,8 +170,7 @@ void PathLaw<Space>::settle(const Path<Space>& path, double target, double slope
   if (there) next = {next.s, target, 0.0};
   if (next.rate <= 0.0) next.slope = 0.0;
   if (next.rate >= 1.0) next = {next.s, 1.0, 0.0};
-  const double way = 0.5 * dt_s * (rate_ + next.rate) - (next.slope - slope_) * dt_s * dt_s / 12.0;
-  const double term = std::max(0.0, way) - carry_, sum = s_ + term;
+  const double term = now().way_s(next.rate, next.slope, dt_s) - carry_, sum = s_ + term;
   carry_ = (sum - s_) - term;
   s_ = sum;
   rate_ = next.rate;

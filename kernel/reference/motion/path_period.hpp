@@ -9,15 +9,20 @@
 
 namespace tactus {
 
-/// A place on a path: path time, its rate, and the slope of the rate.
+/// A place on a path: path time [s], its rate [1], and the slope of the rate [1/s].
 struct PathRate {
   double s, rate, slope;
 
-  /// Returns the place one period later; the slope changes to `then` linearly. [any]
-  PathRate later(double then, double dt_s) const {
-    const double end = std::max(0.0, rate + 0.5 * dt_s * (slope + then));
-    const double way = 0.5 * dt_s * (rate + end) - (then - slope) * dt_s * dt_s / 12.0;
-    return {s + std::max(0.0, way), end, then};
+  /// Returns the path time that passes in one period, at whose end rate and slope are these; the
+  /// slope changes linearly. [any]
+  double way_s(double rate_then, double slope_then, double dt_s) const {
+    const double mean = 0.5 * (rate + rate_then), bend = (slope_then - slope) / 12.0;
+    return std::max(0.0, dt_s * (mean - bend * dt_s));
+  }
+  /// Returns the place one period later. [any]
+  PathRate later(double slope_then, double dt_s) const {
+    const double rate_then = std::max(0.0, rate + 0.5 * dt_s * (slope + slope_then));
+    return {s + way_s(rate_then, slope_then, dt_s), rate_then, slope_then};
   }
 };
 
@@ -46,7 +51,8 @@ class PathPeriod {
   using Limits = typename Space::Peaks;
   using Levels = typename Space::Levels;
 
-  /// Steps of a path of this order count neither as acceleration nor as jerk. [cyclic]
+  /// Where lines meet, the step of the velocity is no acceleration, and where cubics meet, that of
+  /// the acceleration is no jerk. [cyclic]
   PathPeriod(const Sample& from, const Sample& to, const Sample& after, Interpolation order,
              double dt_s)
       : slope_(to.at.slope), dt_s_(dt_s) {
@@ -69,8 +75,11 @@ class PathPeriod {
     // Where it steps, the acceleration of the path at `to` is followed back.
     const typename Space::Local& path = smooth ? from.path : to.path;
     change_ = a_.value - path.d2 * (before * before) - path.d1 * from.at.slope;
-    if (!smooth)
-      change_ += (path.d3 * (before * before) + path.d2 * from.at.slope) * (before * dt_s);
+    own_change_ = (to.path.d2 - from.path.d2) * (before * before);
+    if (!smooth) {
+      own_change_ = path.d3 * (before * before * before * dt_s);
+      change_ += own_change_ + path.d2 * (from.at.slope * before * dt_s);
+    }
   }
 
   /// True if no acceleration is beyond its limit, nor beyond what the path takes at a constant
@@ -88,11 +97,13 @@ class PathPeriod {
     }
     return true;
   }
+  /// The same of jerk.
   bool keeps_jerk(const Limits& limits) const {
+    const Levels most = changes(limits);
     LoopBound<kDof> channels;
-    for (std::size_t c = 0; c < limits.j.size(); ++c) {
+    for (std::size_t c = 0; c < most.size(); ++c) {
       channels.tick();
-      if (!(size(change_, c) <= limits.j[c] * dt_s_ * (1.0 + kJerkRounding))) return false;
+      if (!(size(change_, c) <= most[c] * (1.0 + kJerkRounding))) return false;
     }
     return true;
   }
@@ -104,7 +115,7 @@ class PathPeriod {
   }
   /// Reduces `slopes` to those that keep jerk.
   void cut_to_jerk(Interval& slopes, const Limits& limits) const {
-    cut(slopes, {change_, a_.gain}, limits.j, dt_s_);
+    cut(slopes, {change_, a_.gain}, changes(limits), 1.0);
   }
 
  private:
@@ -118,6 +129,16 @@ class PathPeriod {
   static double size(const Rates& rates, std::size_t channel) {
     return length<n>(&rates[n * static_cast<Eigen::Index>(channel)]);
   }
+  /// Returns the largest changes of acceleration in the period.
+  Levels changes(const Limits& limits) const {
+    Levels most;
+    LoopBound<kDof> channels;
+    for (std::size_t c = 0; c < most.size(); ++c) {
+      channels.tick();
+      most[c] = std::max(limits.j[c] * dt_s_, size(own_change_, c));
+    }
+    return most;
+  }
   void cut(Interval& slopes, const Linear& what, const Levels& limits, double scale) const {
     const Rates offset = what.value - what.gain * slope_;
     for (std::size_t c = 0; c < limits.size(); ++c) {
@@ -128,7 +149,7 @@ class PathPeriod {
 
   double slope_, dt_s_;
   Linear a_, mean_, next_mean_;
-  Rates own_, own_after_, change_;
+  Rates own_, own_after_, own_change_, change_;
 };
 
 }  // namespace tactus

@@ -9,8 +9,8 @@
 
 namespace tactus {
 
-inline constexpr double kSteepestSlope =
-    100.0;  ///< largest slope, 1/s; a rate need not change faster
+/// Largest slope, 1/s: no rate needs to change faster than in ten milliseconds.
+inline constexpr double kSteepestSlope = 100.0;
 inline constexpr Interval kAnySlope = {-kSteepestSlope, kSteepestSlope};
 inline constexpr double kPlanned = 0.8;  ///< share of the jerk limit that plans use
 

@@ -42,8 +42,7 @@ class Rehearsal : private InterleavingClient {
     reported_.fill({});
     cycles_ = 1;
     refusing_ = false;
-    oracle_.begin(bench_.channel.settings.limits, kPeriod_s, Smoothness::kAcceleration,
-                  kRateAcceleration, kRateJerk);
+    oracle_.begin(bench_.channel.settings.limits, kPeriod_s, Smoothness::kAcceleration, kRateJerk);
   }
   void bring_to(Begin begin) {
     if (begin == Begin::kOnline) return;

@@ -168,7 +168,7 @@ void a_client_that_streams_beside_the_cycle_is_followed_to_the_end_within_limits
   static Streaming shared;
   MotionOracle<JointSpace> oracle;
   oracle.begin(shared.bench.channel.settings.limits, ReferenceBench::kPeriod_s,
-               Smoothness::kVelocity, kRateAcceleration, kRateJerk);
+               Smoothness::kVelocity, kRateJerk);
   std::thread client(stream_all, std::ref(shared));
   bool within = true;
   Status status = Status::kOk;

@@ -18,7 +18,7 @@ struct CheckedMotion : MotionBench<Space> {
   explicit CheckedMotion(double period = 1e-3, OnlineMode online = OnlineMode::kLimit,
                          Smoothness smoothness = Smoothness::kAcceleration)
       : MotionBench<Space>(period, online), smoothness_(smoothness) {
-    oracle.begin(this->channel.settings.limits, period, smoothness, kRateAcceleration, kRateJerk);
+    oracle.begin(this->channel.settings.limits, period, smoothness, kRateJerk);
   }
   /// Reduces the speed limits to this share from now on.
   void set_speed(double share) {
@@ -29,7 +29,7 @@ struct CheckedMotion : MotionBench<Space> {
       limits.v_max *= share;
       limits.w_max *= share;
     }
-    oracle.begin(limits, this->period_s, smoothness_, kRateAcceleration, kRateJerk);
+    oracle.begin(limits, this->period_s, smoothness_, kRateJerk);
   }
   /// Steps one cycle of a robot that is at `measured`, and checks it.
   void cycle(const Point& measured) {

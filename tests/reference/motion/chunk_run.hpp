@@ -28,8 +28,7 @@ class ChunkRun {
       : seed_(seed), dice_{seed}, bench_(period(dice_)), sender_(dice_) {
     bench_.channel.settings.limits = MotionCases<Space>::limits(dice_);
     static_cast<void>(bench_.start(bench_.home));
-    oracle_.begin(bench_.channel.settings.limits, bench_.period_s, Smoothness::kAcceleration, 0.0,
-                  0.0);
+    oracle_.begin(bench_.channel.settings.limits, bench_.period_s, Smoothness::kAcceleration, 0.0);
     disturbs_ = dice_.chance(0.7);
   }
   /// Returns what was violated; null if nothing.

@@ -15,8 +15,8 @@
 namespace tactus {
 
 inline constexpr double kOverLimit = 1e-9;  ///< excess by rounding, as a fraction of the limit
-/// Excess where the rate on a path changes, as a fraction.
-inline constexpr double kRateAcceleration = 1e-4, kRateJerk = 1e-3;
+/// Excess of jerk where the rate on a path changes, as a fraction.
+inline constexpr double kRateJerk = 1e-3;
 /// Largest number of corners of a path of lines within a period.
 inline constexpr int kCorners = 2;
 /// Absolute rounding of a velocity and an angle.
@@ -36,13 +36,12 @@ class MotionOracle {
  public:
   using Point = typename Space::Point;
 
-  /// `share_a` and `share_j`: allowed excess over the acceleration and jerk limits, as fractions.
+  /// `share_j`: allowed excess over the jerk limits, as a fraction.
   void begin(const typename Space::Limits& limits, double period_s, Smoothness smoothness,
-             double share_a, double share_j) {
+             double share_j) {
     limits_ = limits;
     h_ = period_s;
     smoothness_ = smoothness;
-    share_a_ = 1.0 + share_a + kOverLimit;
     share_j_ = 1.0 + share_j + kOverLimit;
     any_ = false;
   }
@@ -74,12 +73,12 @@ class MotionOracle {
       expect("position below its limit (negated)", -now.p[k], slack - limits.p_min[k]);
     }
     expect("velocity", now.v.norm(), limits.v * (1.0 + kOverLimit));
-    expect("acceleration", now.a.norm(), limits.a * share_a_);
+    expect("acceleration", now.a.norm(), limits.a * (1.0 + kOverLimit));
   }
   void check_step(const Track& before, const Track& now, const TrackLimits& limits) {
     const Vector3 way = limits.turns ? now.p : Vector3(now.p - before.p);
     const Vector3 dv = now.v - before.v, da = now.a - before.a, mean = 0.5 * (before.v + now.v);
-    const double a = limits.a * share_a_, j = limits.j * share_j_;
+    const double a = limits.a * (1.0 + kOverLimit), j = limits.j * share_j_;
     // The rotation vector phi of a turn is the integral of w + w x phi / 2 + ..., which differs
     // from the integral of w by h^3 |w x alpha| / 12 to the order that matters here.
     const double turning =
@@ -106,7 +105,7 @@ class MotionOracle {
   }
 
   typename Space::Limits limits_;
-  double h_ = 0.0, share_a_ = 1.0, share_j_ = 1.0;
+  double h_ = 0.0, share_j_ = 1.0;
   Smoothness smoothness_ = Smoothness::kAcceleration;
   Point before_;
   bool any_ = false;

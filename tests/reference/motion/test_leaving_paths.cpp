@@ -51,8 +51,7 @@ std::uint32_t slow_down_at_the_limit(CheckedJoints& bench) {
   JointLimits& limits = bench.channel.settings.limits;
   limits.ddq_max[0] = kLimit;
   bench.channel.settings.stop_reserve = 0.0;
-  bench.oracle.begin(limits, bench.period_s, Smoothness::kAcceleration, kRateAcceleration,
-                     kRateJerk);
+  bench.oracle.begin(limits, bench.period_s, Smoothness::kAcceleration, kRateJerk);
   bench.home.q[0] = -1.7;
   ASSERT_OK(bench.start(bench.home));
   Trajectory<JointSpace>* motion = bench.trajectory(kQuintics);
@@ -105,7 +104,7 @@ struct TipOnABend : CheckedTip {
     params.tolerances.path.position_m = kFollows_m;
     const Vector3 middle = home.x.p;
     limits.p_max = middle + Vector3(kRadius, 1.0, 1.0);
-    oracle.begin(limits, period, Smoothness::kAcceleration, kRateAcceleration, kRateJerk);
+    oracle.begin(limits, period, Smoothness::kAcceleration, kRateJerk);
     Trajectory<TaskSpace>* motion = trajectory(kQuintics);
     constexpr int kArc = 20;
     const double omega = kSpeed / kRadius, step_s = kPi / omega / kArc, run_s = 0.5;

@@ -59,7 +59,7 @@ void it_accepts_joints_within_their_limits(void**) {
   const JointLimits limits = without_ends();
   for (const double h : kPeriods_s) {
     MotionOracle<JointSpace> oracle;
-    oracle.begin(limits, h, Smoothness::kAcceleration, 0.0, 0.0);
+    oracle.begin(limits, h, Smoothness::kAcceleration, 0.0);
     Wanderer axes[kDof];
     JointSpace::Point point;
     for (int k = 0; k < 20000; ++k) {
@@ -82,7 +82,7 @@ void it_accepts_a_tip_within_its_limits(void**) {
   const double share = 1.0 / std::sqrt(3.0);
   for (const double h : kPeriods_s) {
     MotionOracle<TaskSpace> oracle;
-    oracle.begin(limits, h, Smoothness::kAcceleration, 0.0, 0.0);
+    oracle.begin(limits, h, Smoothness::kAcceleration, 0.0);
     Wanderer axes[3];
     TaskSpace::Point point;
     for (int k = 0; k < 2000; ++k) {
@@ -121,7 +121,7 @@ void it_accepts_nothing_else(void**) {
                 {std::nan(""), 0.0, 0.0}};
   for (const auto& wrong : wrongs) {
     MotionOracle<JointSpace> oracle;
-    oracle.begin(limits, kH, Smoothness::kAcceleration, 0.0, 0.0);
+    oracle.begin(limits, kH, Smoothness::kAcceleration, 0.0);
     JointSpace::Point point;
     assert_accepted(oracle.check(point));
     point.q[0] += wrong.p;
@@ -133,7 +133,7 @@ void it_accepts_nothing_else(void**) {
   ends.q_min[3] = -1.0;
   ends.q_max[3] = 1.0;
   MotionOracle<JointSpace> oracle;
-  oracle.begin(ends, kH, Smoothness::kVelocity, 0.0, 0.0);
+  oracle.begin(ends, kH, Smoothness::kVelocity, 0.0);
   JointSpace::Point point;
   point.q[3] = 1.0 + 1e-8;
   assert_non_null(oracle.check(point).what);

@@ -15,7 +15,7 @@ struct TipInABox : CheckedTip {
     TaskLimits& limits = channel.settings.limits;
     limits.p_min = kLowest;
     limits.p_max = kHighest;
-    oracle.begin(limits, period, Smoothness::kAcceleration, kRateAcceleration, kRateJerk);
+    oracle.begin(limits, period, Smoothness::kAcceleration, kRateJerk);
   }
   /// Sends `point` and returns the seconds until the tip is at rest there.
   double reach(const Point& point, double most_s) {
@@ -62,7 +62,7 @@ void a_tip_outside_its_workspace_comes_back_and_goes_no_further_out(void**) {
   TipInABox bench;
   bench.home.x.p = {0.8, 0.0, 0.75};
   ASSERT_OK(bench.start(bench.home));
-  bench.oracle.begin(TaskLimits(), bench.period_s, Smoothness::kAcceleration, 0.0, 0.0);
+  bench.oracle.begin(TaskLimits(), bench.period_s, Smoothness::kAcceleration, 0.0);
   const TaskSpace::Point inside = turned(bench.home, {0.5, 0.1, 0.5}, {0.1, 0.2, 0.3});
   assert_int_not_equal(bench.send(inside), 0);
   Vector3 last = bench.home.x.p;
