@@ -56,6 +56,8 @@ UNJUDGED  := $(if $(findstring undefined,$(SANITIZE)),-fsanitize-ignorelist=test
 # Fuzzers have objects of their own: counting branches for them would make every sanitized test half as fast.
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED  := SANITIZE=$(SANITIZERS) CXX=clang++ WARNINGS=
+# A robot's objects include its tables and no other's, so that a new robot compiles nothing anew.
+OF_ROBOT  := -DTACTUS_ROBOT=$(ROBOT) -DTACTUS_ROBOT_TABLES='"kernel/robots/$(robot)_capsules.hpp"'
 # clang has no libquadmath of its own.
 QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-name=include))
 # Back traces, profiles and bounds need line tables. To track variables too (DEBUG=-g) takes twice as long to compile,
@@ -64,8 +66,7 @@ DEBUG     ?= -g1
 # GCC's own collector of garbage would take a twentieth of the time, to save a tenth of the memory.
 FREELY    := $(if $(findstring clang,$(CXX)),,--param ggc-min-heapsize=1000000)
 SEAMFLAGS := -std=c++17 $(DEBUG) $(FREELY) $(NUMERICS) $(WARNINGS) $(SANITIZER) -MMD -MP -I. -Ibuild/generated -isystem /usr/include/eigen3 \
-             $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED $(UNJUDGED)) \
-             -DTACTUS_ROBOT=$(ROBOT)
+             $(QUADMATH) $(if $(SANITIZE),-DTACTUS_SANITIZED $(UNJUDGED)) $(OF_ROBOT)
 CXXFLAGS  := $(SEAMFLAGS) -fno-exceptions -fno-rtti -DEIGEN_NO_MALLOC $(if $(SANITIZE),,-DNDEBUG)
 
 # The kernel is built for these machines: host, arm64, and bare cores, for which it is linked without a C library; programs

@@ -10,7 +10,7 @@ CTL_SHARED   := gateway/csv_cells.cpp gateway/line_reader.cpp gateway/sockets/ad
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))
 CTL_OBJECTS  := $(if $(UNITS),$(CTL)/units/client.o,$(call ctl_obj,$(CTL_CLIENT))) \
                 $(call ctl_obj,$(CTL_SEAM) gateway/version.cpp) $(CTL)/proto/tactus.pb.o
-CTL_SEAMFLAGS := $(filter-out -DTACTUS_ROBOT=%,$(SEAMFLAGS)) -isystem $(CTL)/proto
+CTL_SEAMFLAGS := $(filter-out $(OF_ROBOT),$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
 TACTUSCTL    := build/tactusctl$(HOW)
 
@@ -52,7 +52,7 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
 # Its tests are compiled as it is, and judge what it writes by the kernel of their board, from which they have what is shared.
 CTL_LIBS := $(CTL)/libctl.a $(B)/libprogram.a $(KERNEL_LIB)
-$(CTL)/tests/%.o $(B)/tests/ctl/unit.o: private CTLFLAGS += -DTACTUS_ROBOT=$(ROBOT)
+$(CTL)/tests/%.o $(B)/tests/ctl/unit.o: private CTLFLAGS += $(OF_ROBOT)
 $(B)/tests/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(ctl_compile)

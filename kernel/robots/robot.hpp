@@ -1,14 +1,11 @@
-// The list of robots, one line each, and the robot of this program. The line of a robot includes
-// its two tables; its other files are found by its name (docs/add_a_board.md).
+// The robot of this program. The build passes its name and the header that includes its two tables.
 #pragma once
 
-#include "kernel/robots/fer_capsules.hpp"
-#include "kernel/robots/gen3_capsules.hpp"
-#include "kernel/robots/ur10_capsules.hpp"
-
-#ifndef TACTUS_ROBOT
+#if !defined(TACTUS_ROBOT) || !defined(TACTUS_ROBOT_TABLES)
 #error "the board names its robot: ROBOT := Fer in board.mk"
 #endif
+
+#include TACTUS_ROBOT_TABLES
 
 namespace tactus {
 

@@ -42,6 +42,7 @@ const hear = {
     addDesired(state);
     history.add(state);
     arm.show(state);
+    wires.commanded(state.commanded);
     panel.state(state);
   },
   ports(ports) {

@@ -78,7 +78,9 @@ export class Wires {
   drawBlock(block, { x, y, height }) {
     this.svg.append(element("rect", { x, y, width: BOX, height, rx: 5 }));
     this.svg.append(element("text", { x: x + 8, y: y + 15, "font-weight": 700 }, block.name));
-    this.svg.append(element("text", { x: x + 8, y: y + 28, class: "type" }, block.type));
+    this.robot = element("text", { x: x + 8, y: y + 28, class: "type" }, block.type);
+    this.robotType = block.type;
+    this.svg.append(this.robot);
     block.inputs.forEach(({ port }, row) => {
       this.svg.append(element("text", { x: x + 5, y: y + HEAD + ROW * row + 12 }, port));
     });
@@ -108,6 +110,12 @@ export class Wires {
     for (const path of this.paths) path.classList.toggle("chosen", Number(path.dataset.from) === number);
     for (const [its, output] of this.outputs) output.group.classList.toggle("chosen", its === number);
     this.read();
+  }
+
+  /** The values are still computed while nothing is sent to the drives; the robot, which is the last block, says so. */
+  commanded(is) {
+    this.svg.classList.toggle("idle", !is);
+    if (this.robot) this.robot.textContent = is ? this.robotType : "not commanded";
   }
 
   show({ values }) {

@@ -129,6 +129,9 @@ class BrowserTest(unittest.TestCase):
 
         wait(band_is_wide)
         self.assertEqual(np.count_nonzero(commanded(seen[0])), 0)
+        self.assertTrue(self.page.value("document.querySelector('#wires.idle').textContent.includes('not commanded')"))
+        self.page.click("[data-command=rearm]")
+        self.page.until("!document.querySelector('#wires.idle')")
 
     def test_every_number_says_what_it_means_and_none_what_the_page_leaves_out(self):
         self.page.until("document.querySelector('#numbers dd').textContent.length > 0")
