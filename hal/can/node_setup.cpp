@@ -16,12 +16,11 @@ std::uint32_t millis(int time_ms) {
 
 }  // namespace
 
-void NodeSetup::begin(const CanSettings& can, const cia402::Cia402Settings& drive,
-                      const PdoLayout& layout, const Slot& slot, int joint, CommandMode mode,
-                      int period_us) {
+void NodeSetup::begin(const CanSettings& can, const PdoLayout& layout, const Slot& slot,
+                      CommandMode mode, int period_us) {
   count_ = 0;
   identity(can, mode);
-  scaling(drive, joint);
+  facts();
   watchdogs(can, period_us);
   pdos(can, layout, slot, period_us);
   const auto code = static_cast<std::uint8_t>(cia402::mode_of(mode));
@@ -42,16 +41,12 @@ void NodeSetup::identity(const CanSettings& can, CommandMode mode) {
          "the drive does not have the mode that [robot] commands", bit);
 }
 
-/// Only an exact match runs: a factor of a thousand in the torque must not be found by the arm.
-void NodeSetup::scaling(const cia402::Cia402Settings& drive, int joint) {
-  const auto rated_mNm = static_cast<std::uint32_t>(drive.rated_torque[joint] * 1000.0 + 0.5);
-  expect(cia402::kRatedTorque.index, 0, 4, rated_mNm, "rated torque in mN m",
-         "correct [cia402] rated_torque, or the drive");
-  expect(cia402::kEncoderIncrements.index, 1, 4,
-         static_cast<std::uint32_t>(drive.increments[joint]), "increments of the encoder",
-         "correct [cia402] increments, or the drive");
-  expect(cia402::kEncoderRevolutions.index, 2, 4, 1, "revolutions for these increments",
-         "the drive must count per one revolution");
+void NodeSetup::facts() {
+  for (std::uint32_t i = 0; i < cia402::kFacts; ++i) {
+    const auto& [object, what] = cia402::kFactObjects[i];
+    steps_[static_cast<std::size_t>(count_++)] = {
+        Kind::kFact, object.sub, object.bytes, object.index, i, 0xFFFFFFFF, what, ""};
+  }
 }
 
 /// What the drive does without us: it stops if heartbeats or commands are missing.

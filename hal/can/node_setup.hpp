@@ -1,11 +1,11 @@
 // NodeSetup: what is read from and written to one drive by SDO before its first PDO, as a list of
-// steps: who it is and whether its scaling is the one in the pipeline file, then watchdogs, PDOs
-// and mode. Everything that is written to the PDOs is read back. PDOs are changed in the order that
-// CiA 301 demands (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
+// steps: who it is and what it says of its numbers, then watchdogs, PDOs and mode. Everything that
+// is written to the PDOs is read back. PDOs are changed in the order that CiA 301 demands
+// (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
 #pragma once
 
 #include "hal/can/pdo_layout.hpp"
-#include "hal/cia402/cia402_settings.hpp"
+#include "hal/cia402/drive_facts.hpp"
 
 namespace tactus::can {
 
@@ -15,6 +15,7 @@ struct SetupStep {
     kWrite,
     kMayWrite,  ///< write; a drive that does not have the object is left as it is
     kAwait,     ///< read until it is `value`
+    kFact,      ///< read for DriveFacts, as fact `value`; a drive may not have it
   };
 
   Kind kind = Kind::kExpect;
@@ -26,16 +27,16 @@ struct SetupStep {
 
   bool watches = false;  ///< it stops the drive if this program ends
 
-  bool reads() const { return kind == Kind::kExpect || kind == Kind::kAwait; }
+  bool reads() const { return kind != Kind::kWrite && kind != Kind::kMayWrite; }
 };
 
 class NodeSetup {
  public:
-  static constexpr int kMaxSteps = 128;
+  static constexpr int kMaxSteps = 144;
 
-  /// Lists the steps of the drive of joint `joint`, from 0, with PDOs for `mode`. [init]
-  void begin(const CanSettings& can, const cia402::Cia402Settings& drive, const PdoLayout& layout,
-             const Slot& slot, int joint, CommandMode mode, int period_us);
+  /// Lists the steps of a drive with PDOs for `mode`. [init]
+  void begin(const CanSettings& can, const PdoLayout& layout, const Slot& slot, CommandMode mode,
+             int period_us);
 
   int count() const { return count_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
@@ -44,7 +45,7 @@ class NodeSetup {
   using Kind = SetupStep::Kind;
 
   void identity(const CanSettings& can, CommandMode mode);
-  void scaling(const cia402::Cia402Settings& drive, int joint);
+  void facts();
   void watchdogs(const CanSettings& can, int period_us);
   void pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot, int period_us);
   void pdo(std::uint16_t communication, std::uint16_t mapping, const Pdo& pdo, int timeout_ms);

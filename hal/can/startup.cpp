@@ -134,7 +134,8 @@ void Startup::list_steps() {
   bus_ = node.bus;
   step_ = 0;
   watched_ = false;
-  steps_.begin(*can_, *drive_, *layout_, node.slot, joint_, mode_, period_us_);
+  facts_.clear();
+  steps_.begin(*can_, *layout_, node.slot, mode_, period_us_);
 }
 
 /// Sends the request of step `step_`.
@@ -166,17 +167,32 @@ Status Startup::finish_step(std::int64_t now_ns) {
   if (sdo_.progress() == Progress::kAborted) {
     const bool fixed = sdo_.abort() == SdoAbort::kNoObject ||
                        sdo_.abort() == SdoAbort::kNoSubIndex || sdo_.abort() == SdoAbort::kReadOnly;
-    if (!(fixed && step.kind == SetupStep::Kind::kMayWrite)) {
+    const bool optional =
+        step.kind == SetupStep::Kind::kMayWrite || step.kind == SetupStep::Kind::kFact;
+    if (!(fixed && optional)) {
       why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
       why_ << ": " << step.what << ": " << sdo_.describe();
       return sdo_.abort() == SdoAbort::kTimeout ? Status::kBusTimeout : Status::kRefusedByRobot;
     }
+  } else if (step.kind == SetupStep::Kind::kFact) {
+    facts_.set(static_cast<cia402::Fact>(step.value), sdo_.value());
   } else if (step.reads()) {
     return judge_value(step, now_ns);
   } else {
     watched_ = watched_ || step.watches;
   }
+  if (step.kind == SetupStep::Kind::kFact && step.value + 1 == cia402::kFacts) TRY(judge_facts());
   return next_step(now_ns);
+}
+
+Status Startup::judge_facts() {
+  const bool velocities = layout_->fd() || mode_ == CommandMode::kVelocity;
+  Message said;
+  const Status status = facts_.judge(*drive_, joint_, velocities, velocity_units_[joint_], said);
+  if (status == Status::kOk) return status;
+  why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
+  why_ << ": " << std::string_view(said);
+  return status;
 }
 
 /// A drive that nothing stops if this program ends must not be enabled by it.

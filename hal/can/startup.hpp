@@ -30,6 +30,8 @@ class Startup {
   /// Takes the next step that is possible now. kArming: it goes on; kBusTimeout, kRefusedByRobot,
   /// with the reason. [init]
   Status advance(std::int64_t now_ns);
+  /// Units of velocity per motor revolution per second, of each drive; NaN: not known. [init]
+  const JointVector& velocity_units() const { return velocity_units_; }
   /// Bus that answers are awaited from. [init]
   int bus() const { return bus_; }
 
@@ -46,6 +48,7 @@ class Startup {
   Status next_step(std::int64_t now_ns);
   Status finish_step(std::int64_t now_ns);
   Status judge_value(const SetupStep& step, std::int64_t now_ns);
+  Status judge_facts();
   Status unwatched();
   Status silent(int joint, const char* what, int limit_ms);
 
@@ -69,6 +72,8 @@ class Startup {
   int boot_ups_ = 0;            // of all nodes since the reset
   std::int64_t booted_ns_ = 0;  // when the last of them came
   NodeSetup steps_;
+  cia402::DriveFacts facts_;  // of joint_
+  JointVector velocity_units_ = JointVector::Zero();
   std::int64_t sync_ns_ = 0;  // of the last SYNC
   int steady_ = 0;            // cycles in a row with feedback of all
 };

@@ -36,8 +36,13 @@ constexpr const char* name(Encoder encoder) {
 }
 
 struct Cia402Settings {
+  JointVector serial = JointVector::Zero();                     ///< 1018h:4; 0: any
   JointVector rated_torque = JointVector::Constant(kRequired);  ///< 6076h, N m
-  JointVector increments = JointVector::Constant(16777216.0);   ///< 608Fh, per motor revolution
+  JointVector torque_limit = JointVector::Zero();  ///< N m, that 6072h allows; 0: the joint's limit
+  JointVector increments =
+      JointVector::Constant(16777216.0);  ///< of positions per motor revolution
+  /// Units of velocity per motor revolution per second: 60 for rev/min; 0: what the drive says.
+  JointVector velocity_units = JointVector::Zero();
   JointVector gear_ratio = JointVector::Ones();
   JointVector direction = JointVector::Ones();        ///< +1 or -1
   JointVector position_offset = JointVector::Zero();  ///< rad
@@ -53,12 +58,16 @@ struct Cia402Settings {
   int reset_ms = 1000;  ///< longest time until a fault is reset
   int stop_ms = 2000;   ///< longest quick stop, before the voltage is cut
   int brake_ms = 200;   ///< after enabling, until the brakes are open
+  int limited_ms = 50;  ///< a drive may limit what is commanded; 0: for as long as it wants
   int max_missed = 3;   ///< cycles in a row without feedback of a joint that are bridged
 
   template <class Visitor>
   void describe(Visitor& visit) {
+    visit.param("serial", serial, Range{0.0, 4294967295.0}, "1");
     visit.param("rated_torque", rated_torque, Range{1e-3, 1e4}, "N m");
+    visit.param("torque_limit", torque_limit, Range{0.0, 1e5}, "N m");
     visit.param("increments", increments, Range{1.0, 4294967295.0}, "1");
+    visit.param("velocity_units", velocity_units, Range{0.0, 4294967295.0}, "1");
     visit.param("gear_ratio", gear_ratio, Range{1e-3, 1e4}, "1");
     visit.param("direction", direction, Range{-1.0, 1.0}, "1");
     visit.param("position_offset", position_offset, Range{-1e3, 1e3}, "rad");
@@ -72,6 +81,7 @@ struct Cia402Settings {
     visit.param("reset_ms", reset_ms, Range{1.0, 60000.0}, "ms");
     visit.param("stop_ms", stop_ms, Range{1.0, 60000.0}, "ms");
     visit.param("brake_ms", brake_ms, Range{0.0, 5000.0}, "ms");
+    visit.param("limited_ms", limited_ms, Range{0.0, 60000.0}, "ms");
     visit.param("max_missed", max_missed, Range{0.0, 100.0}, "cycles");
   }
 };

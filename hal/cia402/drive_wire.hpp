@@ -16,7 +16,7 @@ struct DriveFeedback {
   int made_up = 0;            ///< samples of earlier cycles that came with it, late
   bool has_velocity = false;  ///< 606Ch is mapped; otherwise the positions are differentiated
   std::uint16_t statusword = 0;
-  std::int32_t position = 0, velocity = 0;  ///< increments, increments/s
+  std::int32_t position = 0, velocity = 0;  ///< increments; velocity as 60A9h says
   std::int16_t torque = 0;                  ///< permille of the rated torque
   std::uint16_t error_code = 0;  ///< 603Fh of the last EMCY message; 0: none, or it was taken back
   bool emergency = false;        ///< an EMCY message with an error came since the last cycle
@@ -35,7 +35,7 @@ struct DriveCommand {
   std::uint16_t controlword = 0;
   std::int16_t target_torque = 0, torque_offset = 0;      ///< permille of the rated torque
   std::int32_t target_position = 0;                       ///< increments
-  std::int32_t target_velocity = 0, velocity_offset = 0;  ///< increments/s
+  std::int32_t target_velocity = 0, velocity_offset = 0;  ///< as 60A9h says
 };
 
 /// Returns the drive's mode for commands of a pipeline. [any]

@@ -12,6 +12,7 @@ namespace tactus::cia402 {
 namespace {
 
 constexpr auto kLargestTorque = std::numeric_limits<std::int16_t>::max();
+constexpr int kLongestLimited = 1 << 24;  // cycles that are counted
 constexpr auto kSmallestTorque = std::numeric_limits<std::int16_t>::min();
 
 }  // namespace
@@ -30,7 +31,8 @@ Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) 
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
-  joint.missed = joint.owed = joint.confirmed = 0;
+  joint.missed = joint.limited = joint.owed = joint.confirmed = 0;
+  joint.watch.start();
   joint.counter.start(feedback.position);
   if (settings_->encoder == Encoder::kSingleTurn) {
     const double turn = joint.units.encoder;
@@ -60,6 +62,7 @@ void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
     joints.tick();
     measure(j, feedbacks[static_cast<std::size_t>(j)], sampled_ns);
     judge(j);
+    judge_belief(j);
     judge_hold(j);
   }
 }
@@ -76,6 +79,36 @@ void Drives::judge_hold(int j) {
        " rad; check direction, rated_torque, hold_stiffness and the encoder", &figures);
 }
 
+/// What an enabled drive says of itself must be possible. While its brake opens a drive may limit
+/// as it likes.
+void Drives::judge_belief(int j) {
+  Joint& joint = joints_[static_cast<std::size_t>(j)];
+  const std::uint32_t code = joint.last.error_code;
+  const bool limited = following_ && (joint.last.statusword & kInternalLimit) != 0;
+  joint.limited = limited ? std::min(joint.limited, kLongestLimited) + 1 : 0;
+  const double limited_ms = 1e3 * period_s_ * joint.limited;
+  if (!enabled()) return joint.watch.start();
+  const FeedbackWatch& watch = joint.watch;
+  if (watch.jumps()) {
+    const Figures figures = {watch.change(), watch.most()};
+    fail(j, Status::kStateInvalid, code, "its position jumps by ",
+         " rad from a sample to the next, more than it can move, ",
+         " rad; look at encoder and cabling", &figures);
+  } else if (watch.contradicts()) {
+    const Figures figures = {watch.by_velocity(), watch.by_positions()};
+    fail(j, Status::kStateInvalid, code, "its velocities of the last 50 ms add up to ",
+         " rad, its positions to ",
+         " rad; compare [cia402] velocity_units and increments with the drive, look at the encoder",
+         &figures);
+  } else if (settings_->limited_ms > 0 && limited_ms > settings_->limited_ms) {
+    const Figures figures = {limited_ms, static_cast<double>(settings_->limited_ms)};
+    fail(j, Status::kDriveFault, code, "limits what is commanded (statusword bit 11) for ",
+         " ms, longer than [cia402] limited_ms, ",
+         " ms; look at its limits of torque (6072h), speed and position, and at its voltage",
+         &figures);
+  }
+}
+
 void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   const int periods = joint.missed + 1;
@@ -89,8 +122,11 @@ void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_
     unsteady_ = j;
     jump_ = (joint.q - before) / periods;
   }
-  joint.dq = feedback.has_velocity ? joint.units.dq(feedback.velocity)
-                                   : (joint.q - before) / (periods * period_s_);
+  const double elapsed_s = periods * period_s_;
+  joint.watch.moved(joint.q - before, elapsed_s, period_s_, limits_.dq_max[j]);
+  joint.dq =
+      feedback.has_velocity ? joint.units.dq(feedback.velocity) : (joint.q - before) / elapsed_s;
+  if (feedback.has_velocity) joint.watch.measured(joint.dq, elapsed_s);
   joint.tau = joint.units.tau(feedback.torque);
   joint.stamp_ns = sampled_ns;
 }

@@ -11,6 +11,7 @@
 #include "hal/cia402/cia402_settings.hpp"
 #include "hal/cia402/drive_machine.hpp"
 #include "hal/cia402/drive_wire.hpp"
+#include "hal/cia402/feedback_watch.hpp"
 #include "hal/cia402/hold_effort.hpp"
 #include "hal/cia402/joint_units.hpp"
 #include "kernel/core/hal.hpp"
@@ -46,6 +47,9 @@ class Drives {
   /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
   /// limit that is beyond the drive's numbers. [init]
   Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
+  /// Takes the units of velocity per motor revolution per second; NaN where they are not known and
+  /// no velocity travels. Before attach(). [init]
+  void set_velocity_units(const JointVector& units);
   /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
   /// for a position outside the joint's range. [init]
   Status attach(CommandMode mode, const Feedbacks& feedbacks, Message& why);
@@ -85,9 +89,11 @@ class Drives {
     PositionCounter counter;
     DriveMachine machine;
     DriveFeedback last;
+    FeedbackWatch watch;
     double q = 0.0, dq = 0.0, tau = 0.0;
     std::int64_t stamp_ns = 0;
     int missed = 0;                // cycles in a row
+    int limited = 0;               // the same, in which it limits its command by its own word
     int owed = 0, since_owed = 0;  // cycles without feedback that are not forgotten, cycles since
     int confirmed = 0;             // samples in a row that show it disabled
     Status reason = Status::kOk;   // of its failure
@@ -118,6 +124,7 @@ class Drives {
   void count_missed(Joint& joint, const DriveFeedback& feedback);
   void judge(int j);
   void judge_hold(int j);
+  void judge_belief(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
   bool rising() const { return phase_ == Phase::kSwitchingOn || phase_ == Phase::kEnabling; }
   Drive drive_of(const Joint& joint) const;

@@ -31,6 +31,11 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
   return Status::kOk;
 }
 
+void Drives::set_velocity_units(const JointVector& units) {
+  for (int j = 0; j < kDof; ++j)
+    if (units[j] > 0.0) joints_[static_cast<std::size_t>(j)].units.speed = units[j];
+}
+
 Status Drives::judge_torque(int j, Message& why) const {
   const JointUnits& units = joints_[static_cast<std::size_t>(j)].units;
   if (!(units.rated_Nm > 0.0)) {
@@ -56,8 +61,8 @@ Status Drives::judge_position(int j, Message& why) const {
     why << "direction is " << units.direction << "; it must be 1 or -1";
     return Status::kBadValue;
   }
-  if (std::floor(units.encoder) != units.encoder) {
-    why << "increments is " << units.encoder << "; 608Fh:1 of its drive is a whole number";
+  if (settings_->encoder == Encoder::kSingleTurn && std::floor(units.encoder) != units.encoder) {
+    why << "increments is " << units.encoder << "; a single turn has a whole number of them";
     return Status::kBadValue;
   }
   const double turn_rad = units.encoder * units.angle_step();

@@ -1,7 +1,7 @@
 // JointUnits: converts between the numbers of a drive and SI units at the joint.
 //
 //   q   = direction * 2 pi * increments / (encoder * gear) + offset
-//   dq  = direction * 2 pi * increments per second / (encoder * gear)
+//   dq  = direction * 2 pi * velocity / (speed * gear)
 //   tau = direction * permille / 1000 * rated * gear
 //
 // Torque is a 16-bit number of thousandths of the rated torque, 6076h (CiA 402): the smaller the
@@ -16,23 +16,24 @@
 namespace tactus::cia402 {
 
 struct JointUnits {
-  double encoder = 16777216.0;  ///< increments per revolution of the motor, 608Fh
+  double encoder = 16777216.0;  ///< increments per revolution of the motor
   double gear = 1.0;            ///< revolutions of the motor per revolution of the joint
   double rated_Nm = 1.0;        ///< rated torque of the motor, 6076h
   double direction = 1.0;       ///< +1 or -1
   double offset_rad = 0.0;      ///< q where the drive counts zero
+  double speed = encoder;       ///< units of velocity per revolution of the motor per second
 
   /// Angle of an increment at the joint, rad. [any]
   double angle_step() const { return kTurn_rad / (encoder * gear); }
+  /// Velocity of a unit at the joint, rad/s. [any]
+  double speed_step() const { return kTurn_rad / (speed * gear); }
   /// Torque of a permille at the joint, N m. [any]
   double torque_step() const { return 1e-3 * rated_Nm * gear; }
 
   double q(std::int64_t increments) const {
     return direction * static_cast<double>(increments) * angle_step() + offset_rad;
   }
-  double dq(std::int64_t increments_s) const {
-    return direction * static_cast<double>(increments_s) * angle_step();
-  }
+  double dq(std::int32_t units) const { return direction * units * speed_step(); }
   double tau(std::int16_t permille) const { return direction * permille * torque_step(); }
 
   /// The nearest number of the drive, kept within its range; 0 for NaN. A position beyond the range
@@ -42,7 +43,7 @@ struct JointUnits {
         nearest<std::int64_t>(direction * (q_rad - offset_rad) / angle_step())));
   }
   std::int32_t velocity(double dq_rad_s) const {
-    return nearest<std::int32_t>(direction * dq_rad_s / angle_step());
+    return nearest<std::int32_t>(direction * dq_rad_s / speed_step());
   }
   std::int16_t torque(double tau_Nm) const {
     return nearest<std::int16_t>(direction * tau_Nm / torque_step());

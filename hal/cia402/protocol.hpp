@@ -115,6 +115,7 @@ struct Object {
   }
 };
 
+inline constexpr Object kSerialNumber = {0x1018, 4, 4};            // u32
 inline constexpr Object kAbortConnectionOption = {0x6007, 0, 2};   // i16
 inline constexpr Object kErrorCode = {0x603F, 0, 2};               // u16
 inline constexpr Object kControlword = {0x6040, 0, 2};             // u16
@@ -127,7 +128,7 @@ inline constexpr Object kFaultReactionOption = {0x605E, 0, 2};     // i16
 inline constexpr Object kModeOfOperation = {0x6060, 0, 1};         // i8
 inline constexpr Object kModeDisplay = {0x6061, 0, 1};             // i8
 inline constexpr Object kPositionActual = {0x6064, 0, 4};          // i32, increments
-inline constexpr Object kVelocityActual = {0x606C, 0, 4};          // i32, increments/s
+inline constexpr Object kVelocityActual = {0x606C, 0, 4};          // i32, as 60A9h says
 inline constexpr Object kTargetTorque = {0x6071, 0, 2};            // i16, permille of 6076h
 inline constexpr Object kMaxTorque = {0x6072, 0, 2};               // u16, permille of 6076h
 inline constexpr Object kTorqueDemand = {0x6074, 0, 2};            // i16, permille of 6076h
@@ -137,12 +138,20 @@ inline constexpr Object kTargetPosition = {0x607A, 0, 4};          // i32, incre
 inline constexpr Object kQuickStopDeceleration = {0x6085, 0, 4};   // u32, increments/s^2
 inline constexpr Object kEncoderIncrements = {0x608F, 1, 4};       // u32, per kEncoderRevolutions
 inline constexpr Object kEncoderRevolutions = {0x608F, 2, 4};      // u32, of the motor
-inline constexpr Object kVelocityOffset = {0x60B1, 0, 4};          // i32, increments/s
+inline constexpr Object kGearMotorTurns = {0x6091, 1, 4};          // u32, per kGearShaftTurns
+inline constexpr Object kGearShaftTurns = {0x6091, 2, 4};          // u32
+inline constexpr Object kFeedConstant = {0x6092, 1, 4};            // u32, per kFeedTurns
+inline constexpr Object kFeedTurns = {0x6092, 2, 4};               // u32, of the shaft
+inline constexpr Object kVelocityFactor = {0x6096, 1, 4};          // u32, per kVelocityDivisor
+inline constexpr Object kVelocityDivisor = {0x6096, 2, 4};         // u32
+inline constexpr Object kPositionUnit = {0x60A8, 0, 4};            // u32
+inline constexpr Object kVelocityUnit = {0x60A9, 0, 4};            // u32
+inline constexpr Object kVelocityOffset = {0x60B1, 0, 4};          // i32, as 60A9h says
 inline constexpr Object kTorqueOffset = {0x60B2, 0, 2};            // i16, permille of 6076h
 inline constexpr Object kPeriodValue = {0x60C2, 1, 1};             // u8: period = value 10^index s
 inline constexpr Object kPeriodIndex = {0x60C2, 2, 1};             // i8
 inline constexpr Object kDigitalOutputs = {0x60FE, 1, 4};          // u32
-inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, increments/s
+inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, as 60A9h says
 inline constexpr Object kSupportedModes = {0x6502, 0, 4};          // u32
 
 /// Low word of the device type, 1000h: the profile of a drive.

@@ -91,6 +91,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
   if (steady_ >= kSteady) {
     cia402::Feedbacks feedbacks;
     for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = slaves_[j].feedback;
+    drives_.set_velocity_units(startup_.velocity_units());
     TRY(drives_.attach(mode_, feedbacks, why_));
     phase_ = Phase::kRuns;
     // Stamps of cycles that wait for their frames say nothing of the time that passes.

@@ -12,11 +12,10 @@ constexpr std::uint32_t kFaultOnLostMaster = 1;  // abort of the connection
 
 }  // namespace
 
-void SlaveSetup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
-                       int joint, CommandMode mode, int period_us) {
+void SlaveSetup::begin(const EthercatSettings& ethercat, CommandMode mode, int period_us) {
   count_ = 0;
   identity(ethercat, mode);
-  scaling(drive, joint);
+  facts();
   options(mode, period_us);
   pdo(kRxAssign, kRxMapping, wanted_outputs(mode));
   pdo(kTxAssign, kTxMapping, wanted_inputs());
@@ -36,15 +35,12 @@ void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
          "the drive does not have the mode that [robot] commands", bit);
 }
 
-/// Only an exact match runs: a factor of a thousand in the torque must not be found by the arm.
-void SlaveSetup::scaling(const cia402::Cia402Settings& drive, int joint) {
-  const auto rated_mNm = static_cast<std::uint32_t>(drive.rated_torque[joint] * 1000.0 + 0.5);
-  expect(cia402::kRatedTorque.index, 0, rated_mNm, "rated torque in mN m",
-         "correct [cia402] rated_torque, or the drive");
-  expect(cia402::kEncoderIncrements.index, 1, static_cast<std::uint32_t>(drive.increments[joint]),
-         "increments of the encoder", "correct [cia402] increments, or the drive");
-  expect(cia402::kEncoderRevolutions.index, 2, 1, "revolutions for these increments",
-         "the drive must count per one revolution");
+void SlaveSetup::facts() {
+  for (std::uint32_t i = 0; i < cia402::kFacts; ++i) {
+    const auto& [object, what] = cia402::kFactObjects[i];
+    steps_[static_cast<std::size_t>(count_++)] = {
+        SetupStep::Kind::kFact, object.sub, 0, object.index, i, 0xFFFFFFFF, what, ""};
+  }
 }
 
 void SlaveSetup::options(CommandMode mode, int period_us) {

@@ -1,11 +1,10 @@
 // SlaveSetup: what is read from and written to one drive by SDO before its first cycle, as a list
-// of steps: who it is and whether its scaling is the one in the pipeline file, then options, mode
-// and PDOs, in the order that CoE demands: no PDO assigned, no entries, entries, their number,
-// assignment. A drive whose PDOs cannot be changed is left as it is; what is then read back
-// decides.
+// of steps: who it is and what it says of its numbers, then options, mode and PDOs, in the order
+// that CoE demands: no PDO assigned, no entries, entries, their number, assignment. A drive whose
+// PDOs cannot be changed is left as it is; what is then read back decides.
 #pragma once
 
-#include "hal/cia402/cia402_settings.hpp"
+#include "hal/cia402/drive_facts.hpp"
 #include "hal/ethercat/ethercat_settings.hpp"
 #include "hal/ethercat/process_data.hpp"
 
@@ -14,6 +13,7 @@ namespace tactus::ethercat {
 struct SetupStep {
   enum class Kind : std::uint8_t {
     kExpect,    ///< read; it must be `value`, in the bits of `mask`
+    kFact,      ///< read for DriveFacts, as fact `value`; a drive may not have it
     kMayWrite,  ///< write; a drive that does not take it is left as it is
   };
 
@@ -27,17 +27,16 @@ struct SetupStep {
 
 class SlaveSetup {
  public:
-  static constexpr int kMaxSteps = 48;
+  static constexpr int kMaxSteps = 64;
 
-  /// Lists the steps of the drive of joint `joint`, from 0, for commands of `mode`. [init]
-  void begin(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive, int joint,
-             CommandMode mode, int period_us);
+  /// Lists the steps of a drive for commands of `mode`. [init]
+  void begin(const EthercatSettings& ethercat, CommandMode mode, int period_us);
   int count() const { return count_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
 
  private:
   void identity(const EthercatSettings& ethercat, CommandMode mode);
-  void scaling(const cia402::Cia402Settings& drive, int joint);
+  void facts();
   void options(CommandMode mode, int period_us);
   void pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted);
   void expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* what,

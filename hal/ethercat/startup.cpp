@@ -219,7 +219,8 @@ Status Startup::await_state(const Answer& answer, AlState state) {
     stage_ = Stage::kSetup;
     step_ = attempts_ = 0;
     port_.reset();
-    steps_.begin(*ethercat_, *drive_, joint(), mode_, period_us_);
+    facts_.clear();
+    steps_.begin(*ethercat_, mode_, period_us_);
     ask_object(now_ns_);
     return Status::kOk;
   }

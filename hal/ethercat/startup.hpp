@@ -37,6 +37,8 @@ class Startup {
   Status silent();
 
   std::size_t image_bytes() const { return image_bytes_; }
+  /// Units of velocity per motor revolution per second, of each drive; NaN: not known. [init]
+  const JointVector& velocity_units() const { return velocity_units_; }
   /// True if all slaves have a clock. [any]
   bool has_clocks() const { return has_clocks_; }
 
@@ -88,6 +90,8 @@ class Startup {
   void ask_object(std::int64_t now_ns);
   Status take_mailbox(const Answer& answer);
   Status finish_step();
+  Status judge_expected(const SetupStep& step);
+  Status take_fact(const SetupStep& step);
   Status finish_mapping();
   // startup_clock.cpp
   Request clock_request() const;
@@ -121,6 +125,8 @@ class Startup {
   Exchange exchange_;
   SiiReader eeprom_;
   SlaveSetup steps_;
+  cia402::DriveFacts facts_;  // of the present slave
+  JointVector velocity_units_ = JointVector::Zero();
   MappingReader mapping_;
   std::size_t image_bytes_ = 0;
   bool has_clocks_ = false;

@@ -16,7 +16,7 @@ void Startup::ask_object(std::int64_t now_ns) {
   if (stage_ == Stage::kMapping)
     return coe_.upload(bytes, mapping_.index(), mapping_.sub(), now_ns);
   const SetupStep& step = steps_.step(step_);
-  if (step.kind == SetupStep::Kind::kExpect)
+  if (step.kind != SetupStep::Kind::kMayWrite)
     coe_.upload(bytes, step.index, step.sub, now_ns);
   else
     coe_.download(bytes, step.index, step.sub, step.value, step.bytes, now_ns);
@@ -42,25 +42,42 @@ Status Startup::take_mailbox(const Answer& answer) {
 
 Status Startup::finish_step() {
   const SetupStep& step = steps_.step(step_);
-  if (step.kind == SetupStep::Kind::kExpect) {
-    Message what(step.what);
-    if (coe_.progress() != CoeClient::Progress::kDone) {
-      what << ": " << std::string_view(coe_.describe()) << kManual;
-      return refuse(Status::kRefusedByRobot, what);
-    }
-    if ((coe_.value() & step.mask) != (step.value & step.mask)) {
-      what << " (" << std::string_view(cia402::hex(step.index)) << ":" << int{step.sub} << ") is "
-           << static_cast<std::size_t>(coe_.value()) << ", expected "
-           << static_cast<std::size_t>(step.value) << "; " << step.remedy;
-      return refuse(Status::kRefusedByRobot, what);
-    }
-  }
+  if (step.kind == SetupStep::Kind::kExpect) TRY(judge_expected(step));
+  if (step.kind == SetupStep::Kind::kFact) TRY(take_fact(step));
   if (++step_ == steps_.count()) {
     stage_ = Stage::kMapping;
     mapping_.begin(at().data);
   }
   ask_object(now_ns_);
   return Status::kOk;
+}
+
+Status Startup::judge_expected(const SetupStep& step) {
+  Message what(step.what);
+  if (coe_.progress() != CoeClient::Progress::kDone) {
+    what << ": " << std::string_view(coe_.describe()) << kManual;
+    return refuse(Status::kRefusedByRobot, what);
+  }
+  if ((coe_.value() & step.mask) == (step.value & step.mask)) return Status::kOk;
+  what << " (" << std::string_view(cia402::hex(step.index)) << ":" << int{step.sub} << ") is "
+       << static_cast<std::size_t>(coe_.value()) << ", expected "
+       << static_cast<std::size_t>(step.value) << "; " << step.remedy;
+  return refuse(Status::kRefusedByRobot, what);
+}
+
+/// A fact that the drive does not have is none; the last one has all of them judged.
+Status Startup::take_fact(const SetupStep& step) {
+  Message what;
+  if (coe_.progress() == CoeClient::Progress::kDone) {
+    facts_.set(static_cast<cia402::Fact>(step.value), coe_.value());
+  } else if (coe_.abort() != can::SdoAbort::kNoObject &&
+             coe_.abort() != can::SdoAbort::kNoSubIndex) {
+    what << step.what << ": " << std::string_view(coe_.describe()) << kManual;
+    return refuse(Status::kRefusedByRobot, what);
+  }
+  if (step.value + 1 < cia402::kFacts) return Status::kOk;
+  const Status status = facts_.judge(*drive_, joint(), true, velocity_units_[joint()], what);
+  return status == Status::kOk ? status : refuse(status, what);
 }
 
 /// What was read back decides: a drive may have kept a mapping of its own, with all that is needed.

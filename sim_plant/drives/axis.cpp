@@ -30,7 +30,8 @@ std::uint16_t bits_of(State state) {
 void Axis::power_on(const AxisSettings& settings) {
   settings_ = settings;
   dictionary_.set(kRatedTorque, settings.rated_mNm);
-  const double permille = settings.max_torque_Nm * 1e6 / settings.rated_mNm;
+  const double permille = settings.torque_share * settings.max_torque_Nm * 1e6 / settings.rated_mNm;
+  dictionary_.set(kVelocityUnit, settings.velocity_unit);
   dictionary_.set(kMaxTorque, std::llround(std::min(permille, 65535.0)));
   dictionary_.set(kMaxSpeed, std::llround(settings.max_speed_rad_s * 9.5492966));  // rpm
   controlword_ = 0;

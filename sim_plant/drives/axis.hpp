@@ -13,10 +13,15 @@
 
 namespace tactus::drives {
 
+/// Of 60A9h. The other ones that a drive may have are of revolutions: 00B44700h is rev/min.
+inline constexpr std::uint32_t kIncrementsPerSecond = 0x00B50300;
+
 /// The numbers of one joint's drive.
 struct AxisSettings {
   double max_torque_Nm = 87.0;  ///< that the motor has
   std::uint32_t rated_mNm = 3000;
+  double torque_share = 1.0;  ///< of it, that 6072h allows
+  std::uint32_t velocity_unit = kIncrementsPerSecond;
   double max_speed_rad_s = 2.61;  ///< above it: fault 8400h
   ServoGains gains{400.0};
   double brake_release_s = 0.150;
@@ -72,8 +77,9 @@ class Axis {
   void stop(std::int64_t option, cia402::State after, bool stays);
   void finish_stop();
   double rad_per_increment() const;
-  double torque_limit() const;  // N m
-  double torque_unit() const;   // N m per permille
+  double velocity_unit() const;  // rad/s
+  double torque_limit() const;   // N m
+  double torque_unit() const;    // N m per permille
   double follow(const JointSample& sample, double dt_s);
   std::uint16_t watch(const JointSample& sample, double period_s);
   void update_brake(const JointSample& sample, double period_s);

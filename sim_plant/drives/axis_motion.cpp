@@ -43,6 +43,14 @@ double Axis::rad_per_increment() const {
   return motor_rad * real(dictionary_.get(kGearShaft)) / real(dictionary_.get(kGearMotor));
 }
 
+/// Of 60A9h: revolutions of the shaft per second or minute by its exponent of ten, or increments/s.
+double Axis::velocity_unit() const {
+  const std::int64_t unit = dictionary_.get(kVelocityUnit);
+  if ((unit >> 16 & 0xFF) != 0xB4) return rad_per_increment();
+  const double time_s = (unit >> 8 & 0xFF) == 0x47 ? 60.0 : 1.0;
+  return kTwoPi / time_s * std::pow(10.0, static_cast<std::int8_t>(unit >> 24));
+}
+
 double Axis::torque_unit() const {
   return real(dictionary_.get(kRatedTorque)) * 1e-6;
 }
@@ -61,7 +69,7 @@ std::uint16_t Axis::begin_period(const JointSample& sample, double period_s,
   dq_ = sample.dq;
   update_brake(sample, period_s);
   const std::int64_t target = dictionary_.get(kTargetPosition);
-  feed_forward_ = real(dictionary_.get(kVelocityOffset)) * rad_per_increment();
+  feed_forward_ = real(dictionary_.get(kVelocityOffset)) * velocity_unit();
   if (own_feed_forward && has_target_)
     feed_forward_ += real(target - target_before_) * rad_per_increment() / period_s;
   target_before_ = target;
@@ -130,7 +138,7 @@ double Axis::follow(const JointSample& sample, double dt_s) {
     double v_c = feed_forward_;
     if (mode == kCsv)
       v_c = real(dictionary_.get(kTargetVelocity) + dictionary_.get(kVelocityOffset)) *
-            rad_per_increment();
+            velocity_unit();
     else
       v_c += settings_.gains.kp *
              (real(dictionary_.get(kTargetPosition) + dictionary_.get(kPositionOffset)) *
@@ -150,7 +158,7 @@ void Axis::report(const JointSample& sample) {
   const auto position = static_cast<std::int32_t>(
       static_cast<std::uint32_t>(std::llround(std::clamp(sample.q / scale, -9e18, 9e18))));
   dictionary_.set(kPosition, position);
-  dictionary_.set(kVelocity, rounded(sample.dq / scale, 32));
+  dictionary_.set(kVelocity, rounded(sample.dq / velocity_unit(), 32));
   dictionary_.set(kActual, rounded(tau_Nm_ / torque_unit(), 16));
   dictionary_.set(kCurrent, rounded(tau_Nm_ / torque_unit(), 16));
   dictionary_.set(kDemand, rounded(demand_Nm_ / torque_unit(), 16));

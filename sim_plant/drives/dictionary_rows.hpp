@@ -126,6 +126,8 @@ inline constexpr Row kRows[] = {
     {0x6091, 0, 0, Type::kU8, kRead, 2},
     {0x6091, 1, 1, Type::kU32, kReadWrite | kAtRest, 1, 1},
     {0x6091, 2, 2, Type::kU32, kReadWrite | kAtRest, 1, 1},
+    {0x60A8, 0, 0, Type::kU32, kRead, 0x00B50000},                 // increments
+    {0x60A9, 0, 0, Type::kU32, kReadWrite | kAtRest, 0x00B50300},  // increments/s, or revolutions
     {0x60B0, 0, 0, Type::kI32, kReadWrite | kRpdo | kTpdo},
     {0x60B1, 0, 0, Type::kI32, kReadWrite | kRpdo | kTpdo},
     {0x60B2, 0, 0, Type::kI16, kReadWrite | kRpdo | kTpdo},

@@ -29,6 +29,8 @@ AxisSettings axis_settings(const DrivenArmSettings& settings, std::size_t joint)
   axis.gains.kv = kServoGains[std::min<std::size_t>(joint, 6)];
   axis.brake_release_s = settings.brake_release_s;
   axis.gravity_by_drive = settings.gravity_by_drive;
+  axis.velocity_unit = settings.velocity_unit;
+  axis.torque_share = settings.torque_share;
   return axis;
 }
 

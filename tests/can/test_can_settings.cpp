@@ -81,7 +81,7 @@ void every_number_of_a_vendor_and_a_product_can_be_demanded(void**) {
   ASSERT_OK(plan.judge());
   NodeSetup setup;
   const PdoLayout layout(CommandMode::kEffort, plan.can.frames, plan.can.commands);
-  setup.begin(plan.can, plan.drive, layout, Slot(), 0, CommandMode::kEffort, 1000);
+  setup.begin(plan.can, layout, Slot(), CommandMode::kEffort, 1000);
   int found = 0;
   for (int i = 0; i < setup.count(); ++i) {
     const SetupStep& step = setup.step(i);

@@ -51,7 +51,8 @@ struct ArmOfDrives {
   RobotCommand command;
   std::int64_t now_ns = 0;
   bool told = true;  // feedback is fresh
-  int silent = -1;   // joint whose feedback is not
+  bool measures_velocity = false;
+  int silent = -1;  // joint whose feedback is not
 
   explicit ArmOfDrives(CommandMode mode = CommandMode::kEffort) {
     settings.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
@@ -68,7 +69,8 @@ struct ArmOfDrives {
 
   void cycle(DriveRequest request) {
     for (std::size_t j = 0; j < kDof; ++j) {
-      feedbacks[j].fresh = feedbacks[j].has_velocity = told && static_cast<int>(j) != silent;
+      feedbacks[j].fresh = told && static_cast<int>(j) != silent;
+      feedbacks[j].has_velocity = measures_velocity;
       feedbacks[j].statusword = fakes[j].word;
     }
     drives.watch(feedbacks, now_ns);

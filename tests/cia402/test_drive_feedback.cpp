@@ -97,6 +97,87 @@ void a_drive_that_was_lost_is_named_with_what_was_missed(void**) {
   }
 }
 
+// Proves CAN-18.
+
+constexpr double kIncrements_per_rad = 16777216.0 / 6.283185307179586;
+
+void put_position(ArmOfDrives& arm, std::size_t j, double moved_rad, std::int32_t from) {
+  arm.feedbacks[j].position = from + static_cast<std::int32_t>(moved_rad * kIncrements_per_rad);
+}
+
+/// In the cycle of the sample, with the figures, in both directions.
+void a_position_that_jumps_while_the_arm_is_enabled_stops_it(void**) {
+  for (const double jump_rad : {0.577, -0.577, 0.0098, -0.0098}) {
+    ArmOfDrives arm;
+    arm.settings.hold_tolerance = 1.0;
+    arm.arm();
+    put_position(arm, 2, jump_rad, arm.feedbacks[2].position);
+    arm.cycle(DriveRequest::kFollow);
+    const bool possible = std::abs(jump_rad) < 4.0 * JointLimits{}.dq_max[2] * 1e-3;
+    ASSERT_STATUS(arm.joint(2).reason, possible ? Status::kOk : Status::kStateInvalid);
+    if (possible) continue;
+    assert_non_null(std::strstr(arm.drives.why().c_str(), "joint 3: its position jumps by "));
+    for (const DriveCommand& command : arm.commands) assert_int_equal(command.target_torque, 0);
+  }
+}
+
+/// A joint that swings to and fro at 2 rad/s at most, whose drive tells `told` of its velocity,
+/// `late_s` late. Returns the cycles until it is stopped, or -1.
+int stopped_after(double told, double late_s, double noise_rad_s = 0.0) {
+  ArmOfDrives arm;
+  arm.settings.hold_tolerance = 3.0;
+  arm.measures_velocity = true;
+  arm.arm();
+  const std::int32_t from = arm.feedbacks[0].position;
+  constexpr double kRate = 10.0, kSwing_rad = 0.2;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = 1e-3 * i;
+    put_position(arm, 0, kSwing_rad * std::sin(kRate * t), from);
+    const double dq = kRate * kSwing_rad * std::cos(kRate * std::max(t - late_s, 0.0));
+    const double noise = i % 2 == 0 ? noise_rad_s : -noise_rad_s;
+    arm.feedbacks[0].velocity =
+        static_cast<std::int32_t>((told * dq + noise) * kIncrements_per_rad);
+    arm.cycle(DriveRequest::kFollow);
+    if (arm.joint(0).reason == Status::kOk) continue;
+    ASSERT_STATUS(arm.joint(0).reason, Status::kStateInvalid);
+    assert_non_null(
+        std::strstr(arm.drives.why().c_str(), "its velocities of the last 50 ms add up to "));
+    return i;
+  }
+  return -1;
+}
+
+void a_velocity_that_is_not_the_rate_of_the_positions_stops_the_arm_within_50_ms(void**) {
+  for (const double told : {0.0, -1.0, 1.0 / 60.0, 60.0, 2.0, 16777216.0 / 60.0}) {
+    const int cycles = stopped_after(told, 0.0);
+    assert_true(cycles >= 0 && cycles < 50);
+  }
+  assert_int_equal(stopped_after(1.0, 0.0), -1);
+  assert_int_equal(stopped_after(1.0, 0.004), -1);  // a filter of the drive
+  assert_int_equal(stopped_after(1.0, 0.002, 0.2), -1);
+  assert_int_equal(stopped_after(0.9, 0.0), -1);
+}
+
+/// Not while the brakes open, and not for less than the time that is allowed.
+void a_drive_that_goes_on_limiting_its_command_stops_the_arm(void**) {
+  for (const int allowed_ms : {50, 10, 0}) {
+    ArmOfDrives arm;
+    arm.settings.limited_ms = allowed_ms;
+    arm.arm();
+    arm.cycles(100, DriveRequest::kFollow);
+    int lasted = 0;
+    for (; lasted < 1000 && arm.joint(3).reason == Status::kOk; ++lasted) {
+      arm.fake(3).word |= kInternalLimit;
+      arm.cycle(DriveRequest::kFollow);
+      arm.fake(3).word &= static_cast<std::uint16_t>(~kInternalLimit);
+    }
+    assert_int_equal(lasted, allowed_ms > 0 ? allowed_ms + 1 : 1000);
+    if (allowed_ms == 0) continue;
+    ASSERT_STATUS(arm.joint(3).reason, Status::kDriveFault);
+    assert_non_null(std::strstr(arm.drives.why().c_str(), "(statusword bit 11) for "));
+  }
+}
+
 }  // namespace
 }  // namespace tactus::cia402
 
@@ -108,6 +189,9 @@ int main() {
       cmocka_unit_test(positions_that_go_on_jumping_end_arming_with_joint_and_cause),
       cmocka_unit_test(drives_that_are_switched_on_at_once_are_armed_again),
       cmocka_unit_test(a_drive_that_was_lost_is_named_with_what_was_missed),
+      cmocka_unit_test(a_position_that_jumps_while_the_arm_is_enabled_stops_it),
+      cmocka_unit_test(a_velocity_that_is_not_the_rate_of_the_positions_stops_the_arm_within_50_ms),
+      cmocka_unit_test(a_drive_that_goes_on_limiting_its_command_stops_the_arm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

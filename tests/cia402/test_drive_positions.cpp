@@ -67,13 +67,15 @@ void more_than_a_turn_of_the_encoder_in_the_range_is_refused(void**) {
   ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, why));
 }
 
-void increments_are_whole(void**) {
+void increments_of_a_single_turn_are_whole(void**) {
   ArmOfDrives arm;
   Message why;
   arm.settings.increments[6] = 1.5;
+  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, why));
+  arm.settings.encoder = Encoder::kSingleTurn;
   ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
   assert_string_equal(
-      why.c_str(), "joint 7: [cia402] increments is 1.5; 608Fh:1 of its drive is a whole number");
+      why.c_str(), "joint 7: [cia402] increments is 1.5; a single turn has a whole number of them");
 }
 
 /// The first target of an enabled drive is where it is.
@@ -118,7 +120,7 @@ int main() {
       cmocka_unit_test(a_single_turn_encoder_is_placed_in_the_joints_range),
       cmocka_unit_test(a_single_turn_encoder_may_begin_anew_in_a_motion),
       cmocka_unit_test(more_than_a_turn_of_the_encoder_in_the_range_is_refused),
-      cmocka_unit_test(increments_are_whole),
+      cmocka_unit_test(increments_of_a_single_turn_are_whole),
       cmocka_unit_test(positions_are_attached_without_a_step),
       cmocka_unit_test(positions_are_differentiated_over_the_time_between_them),
   };

@@ -29,7 +29,7 @@ NodeSetup steps_of(const MasterBench& bench, int joint) {
   slot.count = kDof;
   slot.node = static_cast<std::uint8_t>(joint + 1);
   NodeSetup setup;
-  setup.begin(bench.can, bench.drive, layout, slot, joint, CommandMode::kEffort, 1000);
+  setup.begin(bench.can, layout, slot, CommandMode::kEffort, 1000);
   return setup;
 }
 
@@ -93,20 +93,24 @@ void a_drive_that_answers_no_request_is_a_time_out(void**) {
   ASSERT_OK(bench.start());
 }
 
-// Those that only add a time-out or a reaction: what a drive does without them is its own.
+// Those that only add a time-out or a reaction: what a drive does without them is its own. Those of
+// scaling: what it does not say is compared with nothing.
 void objects_that_a_drive_need_not_have_may_be_absent(void**) {
-  constexpr std::uint32_t kOptional[] = {0x1016, 0x6007, 0x605A, 0x605E, 0x1005, 0x1006,
-                                         0x60C2, 0x1401, 0x1402, 0x1403, 0x1801, 0x1802};
-  MasterBench& bench = fresh_bench();
-  ASSERT_OK(bench.load());
-  for (const std::uint32_t index : kOptional)
-    refuse_object(bench, 2, FaultKind::kSdoAbort, index, kNoObject);
-  ASSERT_OK(bench.start());
-  ASSERT_OK(bench.cycles(100));
+  const std::vector<std::uint32_t> kOptional[] = {{0x1016, 0x6007, 0x605A, 0x605E, 0x1005, 0x1006,
+                                                   0x60C2, 0x1401, 0x1402, 0x1403, 0x1801, 0x1802},
+                                                  {0x6072, 0x6076, 0x608F, 0x6091, 0x60A8}};
+  for (const std::vector<std::uint32_t>& optional : kOptional) {
+    MasterBench& bench = fresh_bench();
+    ASSERT_OK(bench.load());
+    for (const std::uint32_t index : optional)
+      refuse_object(bench, 2, FaultKind::kSdoAbort, index, kNoObject);
+    ASSERT_OK(bench.start());
+    ASSERT_OK(bench.cycles(100));
+  }
 }
 
 void objects_that_a_drive_must_have_may_not_be_absent(void**) {
-  constexpr std::uint32_t kNeeded[] = {0x1000, 0x6502, 0x6076, 0x608F, 0x1017, 0x1400,
+  constexpr std::uint32_t kNeeded[] = {0x1000, 0x6502, 0x60A9, 0x1017, 0x1400,
                                        0x1600, 0x1800, 0x1A00, 0x6060, 0x6061};
   MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
@@ -145,6 +149,22 @@ void a_scaling_that_differs_from_the_settings_is_refused(void**) {
   ASSERT_OK(bench.load());
   assert_refused(bench, 4, Status::kRefusedByRobot);
   assert_true(says(bench, "rated torque in mN m (6076h:0) is 500, expected 501"));
+}
+
+void a_torque_limit_of_the_drives_below_the_joints_is_refused(void**) {
+  for (const double share : {0.5, 0.0}) {
+    MasterBench& bench = fresh_bench();
+    bench.plant.torque_share = share;
+    ASSERT_OK(bench.load());
+    assert_refused(bench, 0, Status::kRefusedByRobot);
+    assert_true(says(bench, share > 0.0 ? "6072h:0) is 14500 permille of the rated torque, 43.5 N m"
+                                        : "6072h:0) is 0 permille of the rated torque, 0 N m"));
+  }
+  MasterBench& bench = fresh_bench();
+  bench.plant.torque_share = 0.5;
+  bench.drive.torque_limit = 0.5 * JointLimits{}.tau_max;
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
 }
 
 void a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out(void**) {
@@ -228,6 +248,7 @@ int main() {
       cmocka_unit_test(objects_that_a_drive_must_have_may_not_be_absent),
       cmocka_unit_test(a_drive_that_is_not_the_one_of_the_settings_is_refused),
       cmocka_unit_test(a_scaling_that_differs_from_the_settings_is_refused),
+      cmocka_unit_test(a_torque_limit_of_the_drives_below_the_joints_is_refused),
       cmocka_unit_test(a_drive_that_is_missing_or_sends_no_feedback_is_a_time_out),
       cmocka_unit_test(a_bus_on_which_nobody_is_heard_is_named_with_its_remedy),
       cmocka_unit_test(a_drive_that_restarts_between_connecting_and_arming_is_not_armed),

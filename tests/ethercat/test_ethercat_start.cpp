@@ -149,6 +149,23 @@ void a_wrong_drive_is_named_with_what_it_says(void**) {
   ASSERT_OK(bench.load());
   assert_refused(bench, Status::kRefusedByRobot,
                  "joint 3 (slave 3): rated torque in mN m (6076h:0) is 3000, expected 4000");
+  MasterBench& weak = fresh();
+  weak.plant.torque_share = 0.0;
+  ASSERT_OK(weak.load());
+  assert_refused(weak, Status::kRefusedByRobot,
+                 "joint 1 (slave 1): its own torque limit (6072h:0) is 0 permille");
+  MasterBench& other_unit = fresh();
+  other_unit.plant.velocity_unit = 0x00B44700;
+  other_unit.drive.velocity_units.setConstant(16777216.0);
+  ASSERT_OK(other_unit.load());
+  assert_refused(
+      other_unit, Status::kRefusedByRobot,
+      "its velocities have 60 units per motor revolution per second (60A9h is 00B44700h)");
+  MasterBench& exchanged = fresh();
+  exchanged.drive.serial << 1003, 1002, 1001, 1004, 1005, 1006, 1007;
+  ASSERT_OK(exchanged.load());
+  assert_refused(exchanged, Status::kRefusedByRobot,
+                 "joint 1 (slave 1): its serial number (1018h:4) is 1001, [cia402] serial is 1003");
   MasterBench& other = fresh();
   other.ethercat.product = 403;
   ASSERT_OK(other.load());

@@ -15,8 +15,10 @@ struct ArmOptions {
   double friction = 1.0;        ///< multiple of the identified friction
   double rotor_inertia = 0.1;   ///< kg m^2
   double brake_release_ms = 150.0;
-  double duration_s = 0.0;  ///< 0: without end
-  unsigned seed = 1;        ///< of faults by probability
+  std::uint32_t velocity_unit = kIncrementsPerSecond;  ///< 60A9h
+  double torque_share = 1.0;                           ///< of the motors' torque, that 6072h allows
+  double duration_s = 0.0;                             ///< 0: without end
+  unsigned seed = 1;                                   ///< of faults by probability
   char faults[kFaults][128] = {};
   int fault_count = 0;
 
@@ -24,6 +26,8 @@ struct ArmOptions {
   void apply(DrivenArmSettings& settings) const {
     settings.gravity_by_drive = gravity_by_drive;
     settings.brake_release_s = brake_release_ms * 1e-3;
+    settings.velocity_unit = velocity_unit;
+    settings.torque_share = torque_share;
     settings.plant.friction = friction;
     settings.plant.rotor_inertia.setConstant(rotor_inertia);
     if (joints_given) settings.plant.initial_q = JointVector(joints);

@@ -33,6 +33,12 @@ class ArmParser {
     app.add_option("--brake-release-ms", options_.brake_release_ms,
                    "time that a brake takes to open, ms (default 150)")
         ->check(finite(0.0, 10000.0));
+    app.add_option("--velocity-unit", options_.velocity_unit,
+                   "60A9h of all drives: 0x00B50300, increments/s (default), or revolutions, "
+                   "0x00B44700 rev/min");
+    app.add_option("--torque-share", options_.torque_share,
+                   "share of the motors' torque that 6072h allows (default 1)")
+        ->check(finite(0.0, 1.0));
   }
   void add_faults_and_duration(CLI::App& app, const std::string& faults) {
     app.add_option("--fault", faults_, faults)->take_all();

@@ -59,6 +59,8 @@ constexpr Name kNames[] = {
     {0x6085, "Quick stop deceleration"},
     {0x608F, "Position encoder resolution"},
     {0x6091, "Gear ratio"},
+    {0x60A8, "SI unit position"},
+    {0x60A9, "SI unit velocity"},
     {0x60B0, "Position offset"},
     {0x60B1, "Velocity offset"},
     {0x60B2, "Torque offset"},

@@ -1,0 +1,184 @@
+#include "hal/cia402/drive_facts.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "hal/cia402/hex.hpp"
+#include "kernel/core/joint_limits.hpp"
+
+namespace tactus::cia402 {
+namespace {
+
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEqual = 1e-9;  // of what is compared, relatively
+
+// Units of 60A8h and 60A9h (CiA 303-2): exponent of ten, numerator, denominator, from the highest
+// byte on. The table of angles is that of Nanotec's PD4-C, "User-defined units".
+constexpr std::uint8_t kNoUnit = 0x00, kIncrement = 0xB5;
+constexpr std::uint8_t kSecond = 0x03, kMinute = 0x47;
+
+struct Angle {
+  std::uint8_t code;
+  double per_turn;
+};
+constexpr Angle kAngles[] = {{0x10, 6.283185307179586}, {0x40, 400.0},     {0x41, 360.0},
+                             {0x42, 21600.0},           {0x43, 1296000.0}, {0xB4, 1.0}};
+
+std::uint8_t byte_of(std::uint32_t unit, int place) {
+  return static_cast<std::uint8_t>(unit >> 8 * place);
+}
+
+/// Units of the exponent in one without it.
+double per_unit(std::uint32_t unit) {
+  return std::pow(10.0, -static_cast<double>(static_cast<std::int8_t>(byte_of(unit, 3))));
+}
+
+/// All digits of a whole number, which six would not tell from the next.
+void put(double value, Message& text) {
+  if (std::floor(value) == value && value >= 0.0 && value < 1e15)
+    text << static_cast<std::size_t>(value);
+  else
+    text << value;
+}
+
+/// NaN is not near.
+bool near(double value, double expected) {
+  return std::abs(value - expected) <= kEqual * std::abs(expected);
+}
+
+}  // namespace
+
+/// The quotient of two facts that the drive has, or NaN; 1 where it has neither.
+double DriveFacts::ratio(Fact above, Fact below) const {
+  if (!has(above) && !has(below)) return 1.0;
+  const double denominator = has(below) ? get(below) : 1.0;
+  return has(above) && denominator > 0.0 ? get(above) / denominator : kNotKnown;
+}
+
+/// Units of a numerator in a revolution of the motor; NaN for what is no angle.
+double DriveFacts::of_turn(std::uint32_t unit) const {
+  const double shaft = 1.0 / ratio(Fact::kMotorTurns, Fact::kShaftTurns);
+  const std::uint8_t code = byte_of(unit, 2);
+  const double increments =
+      has(Fact::kIncrements) ? ratio(Fact::kIncrements, Fact::kRevolutions) : kNotKnown;
+  if (code == kIncrement) return per_unit(unit) * increments;
+  if (code == kNoUnit)
+    return has(Fact::kFeed) ? per_unit(unit) * shaft * ratio(Fact::kFeed, Fact::kFeedPer)
+                            : per_unit(unit) * increments;
+  for (const Angle& angle : kAngles)
+    if (angle.code == code) return per_unit(unit) * shaft * angle.per_turn;
+  return kNotKnown;
+}
+
+double DriveFacts::position_units() const {
+  return of_turn(has(Fact::kPositionsIn) ? get(Fact::kPositionsIn) : 0);
+}
+
+/// Units of velocity per motor revolution per second as 60A9h has them; NaN: it does not say.
+double DriveFacts::told_velocity_units() const {
+  if (!has(Fact::kVelocitiesIn)) return kNotKnown;
+  const std::uint32_t unit = get(Fact::kVelocitiesIn);
+  const bool positions = byte_of(unit, 2) == kNoUnit && has(Fact::kPositionsIn);
+  const double numerator = positions ? per_unit(unit) * position_units() : of_turn(unit);
+  switch (byte_of(unit, 1)) {
+    case kSecond: return numerator;
+    case kMinute: return 60.0 * numerator;
+    default: return kNotKnown;
+  }
+}
+
+Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities,
+                         double& velocity_units, Message& why) const {
+  TRY(judge_serial(drive, joint, why));
+  TRY(judge_torque(drive, joint, why));
+  TRY(judge_positions(drive, joint, why));
+  const double stated = drive.velocity_units[joint], told = told_velocity_units();
+  const double factor = ratio(Fact::kFactor, Fact::kDivisor);
+  velocity_units = stated > 0.0 ? stated : told;
+  if (!velocities) return Status::kOk;
+  if (stated == 0.0 && (std::isnan(told) || !near(factor, 1.0))) {
+    why << "the unit of its velocities is not known: ";
+    if (has(Fact::kVelocitiesIn))
+      why << "60A9h is " << hex(get(Fact::kVelocitiesIn));
+    else
+      why << "it has no 60A9h";
+    if (!near(factor, 1.0)) why << ", and its velocity factor, 6096h, is not 1";
+    why << "; see 606Ch in its manual and add to [cia402]: velocity_units, per motor revolution "
+           "per "
+           "second: 60 for rev/min, the increments for increments/s";
+    return Status::kRefusedByRobot;
+  }
+  if (stated == 0.0 || std::isnan(told) || near(told, stated)) return Status::kOk;
+  why << "its velocities have ";
+  put(told, why);
+  why << " units per motor revolution per second (60A9h is " << hex(get(Fact::kVelocitiesIn))
+      << "), [cia402] velocity_units is ";
+  put(stated, why);
+  why << "; correct the file, or the drive";
+  return Status::kRefusedByRobot;
+}
+
+/// Drives of one kind differ in nothing else, and a joint must not move for another.
+Status DriveFacts::judge_serial(const Cia402Settings& drive, int joint, Message& why) const {
+  const double stated = drive.serial[joint];
+  if (stated == 0.0 || (has(Fact::kSerial) && get(Fact::kSerial) == stated)) return Status::kOk;
+  why << "its serial number (1018h:4) is ";
+  if (has(Fact::kSerial))
+    why << std::size_t{get(Fact::kSerial)};
+  else
+    why << "not told";
+  why << ", [cia402] serial is ";
+  put(stated, why);
+  why << "; it is the drive of another joint, or a new one: look at the cabling, then correct the "
+         "file";
+  return Status::kRefusedByRobot;
+}
+
+/// Only an exact match runs: a factor of a thousand in the torque must not be found by the arm.
+Status DriveFacts::judge_torque(const Cia402Settings& drive, int joint, Message& why) const {
+  const auto rated_mNm = static_cast<std::uint32_t>(drive.rated_torque[joint] * 1000.0 + 0.5);
+  if (has(Fact::kRated) && get(Fact::kRated) != rated_mNm) {
+    why << "rated torque in mN m (6076h:0) is " << std::size_t{get(Fact::kRated)} << ", expected "
+        << std::size_t{rated_mNm} << "; correct [cia402] rated_torque, or the drive";
+    return Status::kRefusedByRobot;
+  }
+  const double step_Nm = 1e-3 * drive.rated_torque[joint] * drive.gear_ratio[joint];
+  const double stated_Nm = drive.torque_limit[joint];
+  const double needed_Nm = stated_Nm > 0.0 ? stated_Nm : JointLimits{}.tau_max[joint];
+  const double most_Nm = get(Fact::kMost) * step_Nm;
+  // To the drive's nearest step.
+  if (!has(Fact::kMost) || most_Nm + 0.5 * step_Nm >= needed_Nm) return Status::kOk;
+  why << "its own torque limit (6072h:0) is " << std::size_t{get(Fact::kMost)}
+      << " permille of the rated torque, " << most_Nm << " N m at the joint, less than "
+      << needed_Nm << " N m, "
+      << (stated_Nm > 0.0 ? "[cia402] torque_limit; correct the file, or the drive"
+                          : "the limit of the joint; raise it in the drive, or say in [cia402] "
+                            "torque_limit what the drive may give");
+  return Status::kRefusedByRobot;
+}
+
+Status DriveFacts::judge_positions(const Cia402Settings& drive, int joint, Message& why) const {
+  const bool says = has(Fact::kIncrements) || has(Fact::kFeed) || has(Fact::kPositionsIn);
+  const double told = position_units(), expected = drive.increments[joint];
+  if (!says || near(told, expected)) return Status::kOk;
+  why << "its positions have ";
+  if (std::isnan(told)) {
+    why << "units that are not known";
+  } else {
+    put(told, why);
+    why << " units per motor revolution";
+  }
+  why << " (";
+  if (has(Fact::kIncrements))
+    why << "608Fh: " << std::size_t{get(Fact::kIncrements)} << ":"
+        << std::size_t{get(Fact::kRevolutions)};
+  if (has(Fact::kFeed))
+    why << " 6092h: " << std::size_t{get(Fact::kFeed)} << ":" << std::size_t{get(Fact::kFeedPer)};
+  if (has(Fact::kPositionsIn)) why << " 60A8h: " << hex(get(Fact::kPositionsIn));
+  why << "), [cia402] increments is ";
+  put(expected, why);
+  why << "; correct the file, or the drive";
+  return Status::kRefusedByRobot;
+}
+
+}  // namespace tactus::cia402

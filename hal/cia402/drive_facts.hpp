@@ -1,0 +1,94 @@
+// DriveFacts: what a drive says of its own numbers by SDO before its first command, and what must
+// agree with the pipeline file: which drive it is, the torque that it is rated for, the torque at
+// which it ends, and the units of its positions and velocities. An object that a drive does not
+// have says nothing, and what is then unknown but needed is asked of the file.
+//
+// CiA 402-2: position and velocity are in user-defined units. Those of a revolution of the motor
+// are
+//
+//   increments   608Fh:1 / 608Fh:2
+//   feed         6092h:1 / 6092h:2  per revolution of the shaft
+//   an angle     of the shaft, 60A8h and 60A9h
+//
+// where the shaft turns 6091h:2 times while the motor turns 6091h:1 times.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/cia402/cia402_settings.hpp"
+#include "hal/cia402/protocol.hpp"
+#include "kernel/core/status.hpp"
+#include "kernel/core/text.hpp"
+
+namespace tactus::cia402 {
+
+enum class Fact : std::uint8_t {
+  kSerial,
+  kRated,
+  kMost,
+  kIncrements,
+  kRevolutions,
+  kMotorTurns,
+  kShaftTurns,
+  kFeed,
+  kFeedPer,
+  kPositionsIn,
+  kVelocitiesIn,
+  kFactor,
+  kDivisor,
+};
+inline constexpr int kFacts = 13;
+
+struct FactObject {
+  Object object;
+  const char* what;
+};
+/// In the order of the facts.
+inline constexpr std::array<FactObject, kFacts> kFactObjects = {{
+    {kSerialNumber, "serial number"},
+    {kRatedTorque, "rated torque"},
+    {kMaxTorque, "torque limit"},
+    {kEncoderIncrements, "increments of the encoder"},
+    {kEncoderRevolutions, "revolutions for these increments"},
+    {kGearMotorTurns, "turns of the motor"},
+    {kGearShaftTurns, "turns of the shaft"},
+    {kFeedConstant, "feed constant"},
+    {kFeedTurns, "turns of the shaft for this feed"},
+    {kPositionUnit, "unit of positions"},
+    {kVelocityUnit, "unit of velocities"},
+    {kVelocityFactor, "velocity factor"},
+    {kVelocityDivisor, "divisor of the velocity factor"},
+}};
+
+class DriveFacts {
+ public:
+  void clear() { known_ = 0; }
+  void set(Fact fact, std::uint32_t value) {
+    values_[static_cast<std::size_t>(fact)] = value;
+    known_ |= 1U << static_cast<int>(fact);
+  }
+  bool has(Fact fact) const { return (known_ >> static_cast<int>(fact) & 1U) != 0; }
+  std::uint32_t get(Fact fact) const { return values_[static_cast<std::size_t>(fact)]; }
+
+  /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
+  /// wire carries velocities of this drive, whose unit must be known; `velocity_units` becomes the
+  /// units of velocity per motor revolution per second. kRefusedByRobot; `why` has object, value,
+  /// what was expected and the line that helps. [init]
+  Status judge(const Cia402Settings& drive, int joint, bool velocities, double& velocity_units,
+               Message& why) const;
+
+ private:
+  double ratio(Fact above, Fact below) const;
+  double of_turn(std::uint32_t unit) const;
+  double position_units() const;
+  double told_velocity_units() const;
+  Status judge_serial(const Cia402Settings& drive, int joint, Message& why) const;
+  Status judge_torque(const Cia402Settings& drive, int joint, Message& why) const;
+  Status judge_positions(const Cia402Settings& drive, int joint, Message& why) const;
+
+  std::array<std::uint32_t, kFacts> values_{};
+  std::uint32_t known_ = 0;
+};
+
+}  // namespace tactus::cia402
