@@ -42,7 +42,7 @@ void ChunkPlan<Space, streams>::clear() {
     all.tick();
     pieces_[--count_].chunk->release();
   }
-  entered_ = stops_ = false;
+  entered_ = stops_ = bounded_ = false;
   passed_target_ = {};
 }
 
@@ -85,7 +85,11 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
     follow(s);
   if (runs_out(now_s)) stop_path_time(before_s);
   const Point base = curve(path_time(before_s));
-  fade_in(before_s, reference, base, limits, fades);
+  const bool rests = count_ == 1 && now().chunk->ends;
+  const double lasts_s = stops_ ? stop_.duration() : rests ? now().end_s() - before_s : kInfinity;
+  fade_in(before_s, lasts_s, reference, base, limits, fades);
+  bounded_ = lasts_s < kInfinity;
+  if (bounded_) bound(reference, limits);
   return fade_s_ > 0.0 ? reference : base;
 }
 
@@ -146,9 +150,13 @@ template <class Space, bool streams>
 typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Point& base,
                                                       const Point& reference, const Limits& limits,
                                                       bool fades) {
-  if (!stop_path_time(before_s)) return base;
+  bounded_ = true;
+  bound(reference, limits);
+  const bool slower_at_once = stop_path_time(before_s);
+  const bool fades_on = jump_s_ + fade_s_ > before_s + stop_.duration();
+  if (!slower_at_once && !fades_on) return base;
   const Point slower = curve(path_time(before_s));
-  fade_in(before_s, reference, slower, limits, fades);
+  fade_in(before_s, stop_.duration(), reference, slower, limits, fades);
   return fade_s_ > 0.0 ? reference : slower;
 }
 
@@ -184,14 +192,38 @@ typename Space::Point ChunkPlan<Space, streams>::curve(const PathTime& time) con
   return segment_.at(t).at_rate(time.rate, time.slope);
 }
 
+/// Fades the difference from the base, which moves for `lasts_s`. A fade that went on when the
+/// curve has come to rest would take the reference back; in its place the base is the curve at
+/// once.
 template <class Space, bool streams>
-void ChunkPlan<Space, streams>::fade_in(double before_s, const Point& reference, const Point& base,
-                                        const Limits& limits, bool fades) {
+void ChunkPlan<Space, streams>::fade_in(double before_s, double lasts_s, const Point& reference,
+                                        const Point& base, const Limits& limits, bool fades) {
   jump_ = Space::difference(reference, base);
   jump_s_ = before_s;
   seam_ = jump_.x.cwiseAbs().maxCoeff();
-  fade_s_ = fades ? now().chunk->fade_s : 0.0;
+  fade_s_ = fades ? std::min(now().chunk->fade_s, lasts_s) : 0.0;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
+  if (fade_s_ > lasts_s) fade_s_ = 0.0;
+}
+
+/// Takes the places of the reference, of where it can stop and of the knots ahead, and a little
+/// more than what they span.
+template <class Space, bool streams>
+void ChunkPlan<Space, streams>::bound(const Point& reference, const Limits& limits) {
+  constexpr double kMore = 0.01, kLeast = 1e-6;
+  const Point rest = Space::rest_of(reference, limits);
+  lowest_ = Space::place(reference).cwiseMin(Space::place(rest));
+  highest_ = Space::place(reference).cwiseMax(Space::place(rest));
+  LoopBound<kChunkTargets> ahead;
+  for (int i = std::max(target_, 0); i < now().chunk->count; ++i) {
+    ahead.tick();
+    const Point knot = now().knot(i);
+    lowest_ = lowest_.cwiseMin(Space::place(knot));
+    highest_ = highest_.cwiseMax(Space::place(knot));
+  }
+  const typename Space::Place more = (kMore * (highest_ - lowest_)).array() + kLeast;
+  lowest_ -= more;
+  highest_ += more;
 }
 
 template <class Space, bool streams>

@@ -65,6 +65,11 @@ class ChunkPlan {
              bool fades);
   /// Moves path time to `now_s`, and returns the base. [cyclic]
   Point move_on(double now_s);
+  /// Returns `own`, or, on a curve that comes to rest, limits that keep the reference between where
+  /// it was and the rest of the curve, so that in its haste it does not pass the end. [cyclic]
+  Limits beside(const Limits& own) const {
+    return bounded_ ? Space::narrowed(own, lowest_, highest_) : own;
+  }
   /// Finds the digital outputs of the targets passed up to `now_s`. [cyclic]
   void pass_outputs(double now_s);
   /// Hands over what pass_outputs() has found since the last time. [cyclic]
@@ -116,8 +121,9 @@ class ChunkPlan {
   bool stop_path_time(double before_s);
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
-  void fade_in(double before_s, const Point& reference, const Point& base, const Limits& limits,
-               bool fades);
+  void bound(const Point& reference, const Limits& limits);
+  void fade_in(double before_s, double lasts_s, const Point& reference, const Point& base,
+               const Limits& limits, bool fades);
 
   std::array<Piece, kChunkStores> pieces_;  // in the order of their beginnings
   std::size_t count_ = 0;
@@ -133,6 +139,8 @@ class ChunkPlan {
   Difference jump_;  // at jump_s_, from the curve to the reference
   double jump_s_ = 0.0, fade_s_ = 0.0;
   double seam_ = 0.0;
+  bool bounded_ = false;
+  typename Space::Place lowest_, highest_;
   PassedTarget passed_target_;
   PassedInPeriod passed_;
 };

@@ -55,7 +55,10 @@ void Motion<Space>::move_stream(double dt_s) {
   const Point before = base_;
   base_ = plan_.move_on(time_s_);
   plan_.pass_outputs(time_s_);
-  reference_ = Space::approach(reference_, offset_, before, base_, false, limits_to(before), dt_s);
+  const typename Space::Limits& own = limits_to(before);
+  const bool moves = !(before.standing() && base_.standing());
+  reference_ = Space::approach(reference_, offset_, before, base_, false,
+                               moves ? plan_.beside(own) : own, dt_s);
   if (plan_.stopping()) tell(MotionEvent::kExpire);
   if (offset_.zero() && plan_.ended(time_s_) && reference_.standing()) rest_from_stream();
 }

@@ -150,6 +150,17 @@ struct JointSpace {
   static Point approach(const Point& reference, Difference& offset, const Point& base,
                         const Point& next, bool steps, const Limits& limits, double dt_s);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
+  /// What a range of positions bounds.
+  using Place = JointVector;
+  static const Place& place(const Point& point) { return point.q; }
+  /// Returns the limits with a range of positions that is no wider than from `lowest` to `highest`.
+  /// [cyclic]
+  static Limits narrowed(const Limits& limits, const Place& lowest, const Place& highest) {
+    Limits narrow = limits;
+    narrow.q_min = limits.q_min.cwiseMax(lowest);
+    narrow.q_max = limits.q_max.cwiseMin(highest);
+    return narrow;
+  }
   /// Every joint takes its own fastest way.
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
   static Point rest_of(const Point& reference, const Limits& limits);

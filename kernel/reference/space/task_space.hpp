@@ -189,6 +189,17 @@ struct TaskSpace {
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Translation and rotation stop independently of each other (vector_stop.hpp).
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
+  /// What a range of positions bounds.
+  using Place = Vector3;
+  static const Place& place(const Point& point) { return point.x.p; }
+  /// Returns the limits with a range of positions that is no wider than from `lowest` to `highest`.
+  /// [cyclic]
+  static Limits narrowed(const Limits& limits, const Place& lowest, const Place& highest) {
+    Limits narrow = limits;
+    narrow.p_min = limits.p_min.cwiseMax(lowest);
+    narrow.p_max = limits.p_max.cwiseMin(highest);
+    return narrow;
+  }
   /// Approximate: the stop in one step instead of in periods.
   static Point rest_of(const Point& reference, const Limits& limits);
   /// Translation and rotation go to their velocities independently, each on a straight line.

@@ -102,6 +102,43 @@ void a_chunk_that_ends_rests_at_its_last_target(void**) {
   ASSERT_NEAR(bench.way_now(), 0.1 * 1.1 * 1.1 * 0.8, 1e-9);
 }
 
+/// A short chunk from rest, faster than the limits allow: on its way the reference neither goes back
+/// nor past the last target. Returns how far it did, as a share of the way.
+template <class Space>
+double off_the_way(Dice& dice) {
+  static constexpr std::array<double, 3> kPeriods_s = {1e-3, 2e-3, 8e-3};
+  ChunkBench<Space> bench(kPeriods_s[static_cast<std::size_t>(dice.below(3))]);
+  bench.chunk.ends = dice.chance(0.5);
+  if (bench.chunk.ends && dice.chance(0.5)) bench.chunk.smoothing_s = 0.03;
+  const int count = 3 + dice.below(28);
+  const double spacing_s = dice.uniform(0.01, 0.05), lasts_s = count * spacing_s;
+  const double goal = (dice.chance(0.5) ? 1.0 : -1.0) * std::min(dice.uniform(0.1, 2.0) * lasts_s, 0.4);
+  const bool straight = dice.chance(0.5);
+  const auto x = [&](double t) {
+    const double s = std::min(t / lasts_s, 1.0);
+    return goal * (straight ? s : s * s * (3.0 - 2.0 * s));
+  };
+  if (bench.send_targets(spacing_s, spacing_s, count, x) == 0) return 0.0;
+  double lowest = 0.0, highest = 0.0;
+  for (int k = bench.cycles(6.0); k > 0; --k) {
+    bench.cycle();
+    lowest = std::min(lowest, bench.way_now() / goal);
+    highest = std::max(highest, bench.way_now() / goal);
+  }
+  assert_true(bench.out().standing());
+  ASSERT_NEAR(bench.way_now(), goal, 1e-6);
+  return std::max(-lowest, highest - 1.0);
+}
+
+void a_short_chunk_from_rest_is_reached_neither_backwards_nor_from_beyond(void**) {
+  Dice dice{11};
+  double joints = 0.0, tip = 0.0;
+  for (int i = 0; i < 300; ++i) joints = std::max(joints, off_the_way<JointSpace>(dice));
+  for (int i = 0; i < 150; ++i) tip = std::max(tip, off_the_way<TaskSpace>(dice));
+  print_message("off the way by at most %.4f of it (joints), %.4f (tip)\n", joints, tip);
+  assert_true(joints < 0.0105 && tip < 0.0105);
+}
+
 // Proves RG-31.
 
 /// The benchmark's disagreement: an offset of 15 mrad for each chunk and 1 mrad of noise; without
@@ -189,6 +226,7 @@ int main() {
       cmocka_unit_test(a_plan_that_runs_out_rests_on_its_last_target_and_is_told),
       cmocka_unit_test(a_successor_that_waits_keeps_the_plan_going),
       cmocka_unit_test(a_chunk_that_ends_rests_at_its_last_target),
+      cmocka_unit_test(a_short_chunk_from_rest_is_reached_neither_backwards_nor_from_beyond),
       cmocka_unit_test(disagreement_costs_little_jerk),
       cmocka_unit_test(relative_targets_count_from_the_observation),
   };
