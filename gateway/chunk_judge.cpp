@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gateway/chunk_fit.hpp"
+#include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/judge_channels.hpp"
 #include "kernel/reference/space/task_space.hpp"
@@ -45,7 +46,7 @@ Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& s
     if (!(time_s >= earliest_s)) return {Status::kReferenceTime, i, -1, time_s, earliest_s};
     if (!(time_s - chunk.time_s[0] <= kLongestChunk_s))
       return {Status::kReferenceTime, i, -1, time_s, chunk.time_s[0] + kLongestChunk_s};
-    earliest_s = time_s + settings.period_s;
+    earliest_s = time_s + settings.period_s - kTimeRounding_s;
     typename Space::Point placed = Space::placed(chunk.targets[k], placement);
     static_cast<void>(Space::saturate(placed, limits));  // as fit_chunk() does, which tells
     Verdict verdict = Space::judge_waypoint(placed, limits);

@@ -119,6 +119,19 @@ void a_chunk_of_one_target_is_a_point(void**) {
   ASSERT_NEAR(bench.way_now(), 0.3, 1e-12);
 }
 
+/// Whatever the time at which they begin; their rounding is no part of a period.
+void stamps_may_be_a_period_apart_and_no_less(void**) {
+  Dice dice{5};
+  for (int i = 0; i < 300; ++i) {
+    ChunkBench<JointSpace> bench(i % 3 == 0 ? 1e-3 : i % 3 == 1 ? 2e-3 : 8e-3);
+    const double first_s = dice.uniform(0.0, 100.0);
+    assert_true(bench.send_targets(first_s, bench.period_s, 20, [](double) { return 0.0; }) != 0);
+    assert_int_equal(
+        bench.send_targets(first_s, 0.999 * bench.period_s, 20, [](double) { return 0.0; }), 0);
+    ASSERT_STATUS(bench.verdict.status, Status::kReferenceTime);
+  }
+}
+
 /// A chunk that waits for its first stamp must not bring back what a velocity has ended.
 void a_chunk_after_a_velocity_goes_on_from_the_reference(void**) {
   for (const bool ends : {true, false}) {
@@ -202,6 +215,7 @@ int main() {
       cmocka_unit_test(a_duplicate_and_an_older_chunk_are_dropped_whole),
       cmocka_unit_test(a_chunk_without_a_target_ahead_is_late_and_changes_nothing),
       cmocka_unit_test(a_chunk_takes_effect_from_its_first_stamp_ahead),
+      cmocka_unit_test(stamps_may_be_a_period_apart_and_no_less),
       cmocka_unit_test(a_stop_voids_the_epoch),
       cmocka_unit_test(a_chunk_of_one_target_is_a_point),
       cmocka_unit_test(a_chunk_after_a_velocity_goes_on_from_the_reference),

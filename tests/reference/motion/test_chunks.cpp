@@ -102,8 +102,8 @@ void a_chunk_that_ends_rests_at_its_last_target(void**) {
   ASSERT_NEAR(bench.way_now(), 0.1 * 1.1 * 1.1 * 0.8, 1e-9);
 }
 
-/// A short chunk from rest, faster than the limits allow: on its way the reference neither goes back
-/// nor past the last target. Returns how far it did, as a share of the way.
+/// A short chunk from rest, faster than the limits allow: on its way the reference neither goes
+/// back nor past the last target. Returns how far it did, as a share of the way.
 template <class Space>
 double off_the_way(Dice& dice) {
   static constexpr std::array<double, 3> kPeriods_s = {1e-3, 2e-3, 8e-3};
@@ -112,7 +112,8 @@ double off_the_way(Dice& dice) {
   if (bench.chunk.ends && dice.chance(0.5)) bench.chunk.smoothing_s = 0.03;
   const int count = 3 + dice.below(28);
   const double spacing_s = dice.uniform(0.01, 0.05), lasts_s = count * spacing_s;
-  const double goal = (dice.chance(0.5) ? 1.0 : -1.0) * std::min(dice.uniform(0.1, 2.0) * lasts_s, 0.4);
+  const double goal =
+      (dice.chance(0.5) ? 1.0 : -1.0) * std::min(dice.uniform(0.1, 2.0) * lasts_s, 0.4);
   const bool straight = dice.chance(0.5);
   const auto x = [&](double t) {
     const double s = std::min(t / lasts_s, 1.0);
