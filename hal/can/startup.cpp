@@ -32,6 +32,10 @@ void Startup::enter(Stage stage, std::int64_t now_ns) {
   since_ns_ = now_ns;
   joint_ = steady_ = boot_ups_ = 0;
   if (stage == Stage::kSetup) {
+    // A drive that starts by itself (CiA 302-2) is operational, and takes no mapping there.
+    for (const Node& node : nodes_)
+      out_[static_cast<std::size_t>(node.bus)].add(
+          nmt_frame(NmtCommand::kPreOperational, node.id()));
     list_steps();
     ask(now_ns);
   }

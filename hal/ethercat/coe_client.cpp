@@ -230,8 +230,8 @@ Message CoeClient::describe() const {
     return text;
   }
   if (refused_ != 0) {
-    text << "the slave's mailbox refuses the request, error " << cia402::hex(refused_)
-         << " of ETG.1000.4";
+    text << "the slave's mailbox refuses the request: " << mailbox_error_text(refused_)
+         << " (error " << cia402::hex(refused_) << " of ETG.1000.4)";
     return text;
   }
   if (silent_) text << "no answer within " << static_cast<int>(answer_ns_ / 1'000'000) << " ms";

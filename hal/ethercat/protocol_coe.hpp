@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 namespace tactus::ethercat {
 
@@ -32,9 +33,23 @@ inline constexpr std::uint8_t kCompleteAccess = 0x10;
 inline constexpr std::uint16_t kSmTypes = 0x1C00, kRxAssign = 0x1C12, kTxAssign = 0x1C13;
 inline constexpr std::uint16_t kRxMapping = 0x1600, kTxMapping = 0x1A00;
 
-// An error reply of the mailbox itself: type u16, code u16.
+// An error reply of the mailbox itself: type u16, code u16 (ETG.1000.4).
 inline constexpr std::size_t kMailboxErrorBytes = 4;
-inline constexpr std::uint16_t kMailboxUnsupported = 0x0002, kMailboxBadHeader = 0x0004,
-                               kMailboxTooShort = 0x0005;
+inline constexpr std::uint16_t kMailboxUnsupported = 0x0002, kMailboxBadHeader = 0x0005,
+                               kMailboxTooShort = 0x0006;
+
+/// Returns what the code of an error reply means, never null. [any]
+constexpr const char* mailbox_error_text(std::uint16_t code) {
+  constexpr const char* kTexts[] = {"no error",
+                                    "wrong syntax of the header",
+                                    "unsupported protocol",
+                                    "wrong channel",
+                                    "unsupported service",
+                                    "invalid header",
+                                    "too short",
+                                    "no memory",
+                                    "inconsistent length"};
+  return code < std::size(kTexts) ? kTexts[code] : "a code that the standard does not have";
+}
 
 }  // namespace tactus::ethercat

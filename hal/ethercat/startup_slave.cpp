@@ -146,7 +146,8 @@ Status Startup::judge_eeprom() {
   if (!fits(slave.boxes.out_bytes) || !fits(slave.boxes.in_bytes)) {
     Message what("its mailboxes have ");
     what << int{slave.boxes.out_bytes} << " and " << int{slave.boxes.in_bytes}
-         << " bytes, expected 16 to " << Request::kMostBytes << kEeprom;
+         << " bytes, expected 16 to " << Request::kMostBytes
+         << "; this program has no room for longer ones";
     return refuse(Status::kRefusedByRobot, what);
   }
   stage_ = Stage::kMailboxes;

@@ -24,6 +24,7 @@ struct DriveArmSettings : DrivenArmSettings {
   std::array<Place, kDof> joints{};
   bool fd = false;
   std::int64_t boot_ns = 10'000'000;
+  bool start = false;      ///< the drives start by themselves (CiA 302-2)
   std::uint64_t seed = 1;  ///< of faults by probability
 };
 

@@ -165,6 +165,7 @@ void Node::advance(std::int64_t now_ns) {
     device_.nmt = NmtState::kPreOperational;
     queue_->push(can::heartbeat_frame(settings_.node, NmtState::kBootUp));
     heartbeat_ns_ = now_ns + dictionary_.get(kHeartbeat) * 1'000'000;
+    if (settings_.starts) enter(NmtState::kOperational, now_ns);
   }
   send_heartbeat(now_ns);
   const SdoAnswer late = sdo_.advance(now_ns, settings_.node);

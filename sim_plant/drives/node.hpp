@@ -16,6 +16,7 @@ struct NodeSettings {
   bool fd = false;  ///< TPDOs are frames of CAN FD, up to 64 bytes
   AxisSettings axis;
   std::int64_t boot_ns = 10'000'000;  ///< from power-on or reset to the boot-up message
+  bool starts = false;                ///< by itself: operational after boot-up (CiA 302-2)
 };
 
 class Node {

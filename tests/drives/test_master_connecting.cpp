@@ -109,6 +109,19 @@ void objects_that_a_drive_need_not_have_may_be_absent(void**) {
   }
 }
 
+// CiA 302-2: operational after boot-up, where a drive takes no mapping.
+void drives_that_start_by_themselves_are_set_up(void**) {
+  for (const Buses buses : {Buses::kFdPlain, Buses::kClassicPlain}) {
+    MasterBench& bench = fresh_bench(buses);
+    bench.plant.start = true;
+    ASSERT_OK(bench.load());
+    const Status status = bench.start();
+    if (status != Status::kOk) print_error("%s\n", bench.hal.master.trouble().c_str());
+    ASSERT_OK(status);
+    ASSERT_OK(bench.cycles(100));
+  }
+}
+
 void objects_that_a_drive_must_have_may_not_be_absent(void**) {
   constexpr std::uint32_t kNeeded[] = {0x1000, 0x6502, 0x60A9, 0x1017, 0x1400,
                                        0x1600, 0x1800, 0x1A00, 0x6060, 0x6061};
@@ -245,6 +258,7 @@ int main() {
       cmocka_unit_test(an_abort_of_any_step_refuses_the_start_and_names_the_object),
       cmocka_unit_test(a_drive_that_answers_no_request_is_a_time_out),
       cmocka_unit_test(objects_that_a_drive_need_not_have_may_be_absent),
+      cmocka_unit_test(drives_that_start_by_themselves_are_set_up),
       cmocka_unit_test(objects_that_a_drive_must_have_may_not_be_absent),
       cmocka_unit_test(a_drive_that_is_not_the_one_of_the_settings_is_refused),
       cmocka_unit_test(a_scaling_that_differs_from_the_settings_is_refused),

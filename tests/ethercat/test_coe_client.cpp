@@ -1,5 +1,6 @@
 // SDO over CoE as the master does it: known messages, and a drive's server with small mailboxes.
 #include <cstring>
+#include <string>
 
 #include "hal/ethercat/coe_client.hpp"
 #include "sim_plant/ethercat/coe_server.hpp"
@@ -86,15 +87,25 @@ void an_object_that_is_too_large_is_refused_by_us(void**) {
 
 /// No abort of the drive: its mailbox has not passed the request on.
 void an_error_of_the_mailbox_is_told_as_that(void**) {
-  Bench bench;
-  bench.client.upload(kBox, 0x1000, 0, 0);
-  (void)bench.client.take(bench.box.data(), kBox);
-  const std::uint8_t error[] = {4, 0, 0, 0, 0, 0x10, 1, 0, 2, 0};
-  bench.answer(error, sizeof error);
-  assert_true(bench.client.progress() == CoeClient::Progress::kAborted);
-  assert_string_equal(
-      bench.client.describe().c_str(),
-      "object 1000h:0: the slave's mailbox refuses the request, error 0002h of ETG.1000.4");
+  struct Row {
+    std::uint8_t code;
+    const char* says;
+  };
+  for (const Row& row :
+       {Row{2, "unsupported protocol (error 0002h of ETG.1000.4)"},
+        Row{5, "invalid header (error 0005h of ETG.1000.4)"},
+        Row{6, "too short (error 0006h of ETG.1000.4)"},
+        Row{9, "a code that the standard does not have (error 0009h of ETG.1000.4)"}}) {
+    Bench bench;
+    bench.client.upload(kBox, 0x1000, 0, 0);
+    (void)bench.client.take(bench.box.data(), kBox);
+    const std::uint8_t error[] = {4, 0, 0, 0, 0, 0x10, 1, 0, row.code, 0};
+    bench.answer(error, sizeof error);
+    assert_true(bench.client.progress() == CoeClient::Progress::kAborted);
+    const std::string expected =
+        std::string("object 1000h:0: the slave's mailbox refuses the request: ") + row.says;
+    assert_string_equal(bench.client.describe().c_str(), expected.c_str());
+  }
 }
 
 void messages_that_are_no_answer_are_told_with_their_number(void**) {

@@ -14,6 +14,9 @@ namespace {
 
 /// A pause of the plan up to which it is bridged; before a longer one it comes to rest.
 constexpr double kBridged_s = 0.25;
+/// Time for which a disagreement may go on to fade when a plan without a successor has come to
+/// rest.
+constexpr double kOutlasting_s = 0.2;
 
 }  // namespace
 
@@ -150,11 +153,12 @@ template <class Space, bool streams>
 typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Point& base,
                                                       const Point& reference, const Limits& limits,
                                                       bool fades) {
+  const bool slower_at_once = stop_path_time(before_s);
+  const double fades_until_s = fade_s_ > 0.0 ? jump_s_ + fade_s_ : before_s;
+  const bool outlasts = fades_until_s > before_s + stop_.duration() + kOutlasting_s;
+  if (!slower_at_once && !outlasts) return base;
   bounded_ = true;
   bound(reference, limits);
-  const bool slower_at_once = stop_path_time(before_s);
-  const bool fades_on = jump_s_ + fade_s_ > before_s + stop_.duration();
-  if (!slower_at_once && !fades_on) return base;
   const Point slower = curve(path_time(before_s));
   fade_in(before_s, stop_.duration(), reference, slower, limits, fades);
   return fade_s_ > 0.0 ? reference : slower;

@@ -58,6 +58,7 @@ const char* place(const DrivesOptions& options, DriveArmSettings& settings) {
 DriveArmSettings settings_of(const DrivesOptions& options) {
   DriveArmSettings settings;
   settings.fd = options.fd;
+  settings.start = options.start;
   options.apply(settings);
   settings.seed = options.seed;
   return settings;

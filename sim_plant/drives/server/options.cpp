@@ -82,6 +82,8 @@ bool parse_drives_options(int argc, char** argv, DrivesOptions& options, int& ex
       ->take_all();
   app.add_flag("--eds", options.eds, "print the drives' electronic data sheet (CiA 306) and end");
   app.add_flag("--fd", options.fd, "CAN FD: PDOs of up to 64 bytes");
+  app.add_flag("--self-starting", options.start,
+               "the drives are operational after boot-up (CiA 302-2)");
   parser.add_arm(app);
   parser.add_faults_and_duration(app, describe_faults());
   return parser.parse(app, argc, argv, exit_code,

@@ -16,7 +16,8 @@ struct DrivesOptions : ArmOptions {
   Bus buses[kJoints];
   int bus_count = 0;
   bool fd = false;
-  bool eds = false;  ///< print the electronic data sheet and end
+  bool start = false;  ///< by themselves (CiA 302-2)
+  bool eds = false;    ///< print the electronic data sheet and end
 };
 
 /// Reads the command line. False: the program must end with `exit_code`, because help was requested
