@@ -16,6 +16,8 @@ Status Controller::start() {
   const Settings& settings = machine_.settings;
   TRY(machine_.body.load(settings.initial_q, settings.surroundings));
   machine_.motion.rest(settings.initial_q);
+  machine_.set_tcp(settings.tcp_offset);
+  machine_.set_payload(settings.payload_kg, settings.payload_cog);
   show();
   return Status::kOk;
 }

@@ -74,11 +74,11 @@ void fields_are_where_the_recipe_says(void**) {
     if (field.type == FieldType::kInt32 || field.type == FieldType::kUint32)
       out.i32(static_cast<std::int32_t>(number++));
   }
-  assert_int_equal(doubles, 39);
+  assert_int_equal(doubles, 39 + 10);
   ByteReader in(out.data(), out.size());
   UrState state;
   Message why;
-  ASSERT_OK(decode_state(in, state, why));
+  ASSERT_OK(decode_state(in, {true, true, true}, state, why));
   ASSERT_NEAR(state.timestamp_s, 1.0, 0.0);
   ASSERT_NEAR(state.target_q[0], 2.0, 0.0);
   ASSERT_NEAR(state.q[5], 13.0, 0.0);
@@ -93,6 +93,9 @@ void fields_are_where_the_recipe_says(void**) {
   assert_int_equal(state.echo, 42);
   assert_int_equal(state.safety_bits, 43);
   assert_int_equal(state.runtime_state, 44);
+  ASSERT_NEAR(state.tcp_offset[0], 45.0, 0.0);
+  ASSERT_NEAR(state.payload_kg, 51.0, 0.0);
+  ASSERT_NEAR(state.payload_com[2], 54.0, 0.0);
 }
 
 void a_reader_goes_to_the_last_byte_and_no_further(void**) {
