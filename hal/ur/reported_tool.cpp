@@ -46,10 +46,11 @@ Tcp reported(const UrState& state) {
 void compare_payload(const UrState& state, Message& differs, Message& keys) {
   if (std::isnan(state.payload_kg) || state.payload_kg <= kZeroPayload_kg) return;
   const bool knows_com = !state.payload_com.hasNaN();
-  differs << "the controller's payload is " << state.payload_kg << " kg";
+  const double mass_kg = rounded(state.payload_kg);
+  differs << "the controller's payload is " << mass_kg << " kg";
   if (knows_com) differs << " at " << place(state.payload_com);
   differs << ", the model's tool weighs 0 kg";
-  keys << "tool_mass = " << state.payload_kg;
+  keys << "tool_mass = " << mass_kg;
   if (knows_com) keys << ", tool_com = " << numbers(state.payload_com, " ");
 }
 
@@ -59,10 +60,10 @@ void compare_tcp(const UrState& state, Message& differs, Message& keys) {
   const double angle = state.tcp_offset.tail<3>().norm();
   if (p.norm() <= kZeroTcp_m && angle <= kTipAngle_rad) return;
   differs << (differs.empty() ? "" : "; ") << "the controller's TCP is at " << place(p)
-          << " in the flange frame, the model's tip at (0, 0, 0) m";
+          << ", the model's at the flange";
   if (angle > kTipAngle_rad)
-    differs << "; its axes are turned by " << rounded(angle)
-            << " rad, which tool_tip cannot state and the program would undo";
+    differs << "; it is turned by " << rounded(angle)
+            << " rad, which tool_tip cannot state and would undo";
   keys << (keys.empty() ? "" : ", ") << "tool_tip = " << numbers(p, " ");
 }
 
@@ -85,16 +86,17 @@ void describe(const Tips& tips, double tip_tolerance_m, Message& why) {
   why = Message("the controller has the tip at ");
   why << place(tips.said.p) << ", the model of a " << Robot::kName << " at " << place(tips.model.p)
       << ", " << rounded(tips.distance_m) << " m and " << rounded(tips.angle_rad)
-      << " rad apart; at most " << tip_tolerance_m << " m ([ur] tip_tolerance) and "
-      << kTipAngle_rad << " rad";
+      << " rad apart; limits " << tip_tolerance_m << " m ([ur] tip_tolerance) and " << kTipAngle_rad
+      << " rad";
 }
 
 /// What differs may be a TCP that the software does not tell.
 void suggest_tip(const Tips& tips, Message& why) {
   const Vector3 offset = tips.model.r.conjugate() * (tips.said.p - tips.model.p);
-  why << "; this software tells no TCP: if the pendant's is at " << place(offset);
-  if (tips.angle_rad > kTipAngle_rad) why << ", turned, which the program would undo";
-  why << ", add to [robot]: tool_tip = " << numbers(offset, " ");
+  why << "; this software tells no TCP; if the pendant has this one";
+  if (tips.angle_rad > kTipAngle_rad) why << ", turned as tool_tip cannot state";
+  why << ", add to [robot]: tool_tip = " << numbers(offset, " ")
+      << "; else the arm is no UR10 of a CB3";
 }
 
 /// NaN is not within any tolerance.

@@ -87,7 +87,7 @@ void a_tool_that_only_the_pendant_knows_is_refused_with_its_lines(void**) {
   UrArmBench& bench = arm_with(nothing(), gripper());
   ASSERT_STATUS(bench.executive.start(), Status::kMissingKey);
   assert_true(bench.says("the controller's payload is 5 kg at (0, 0, 0.1) m, the model's tool"));
-  assert_true(bench.says("the controller's TCP is at (0, 0, 0.12) m in the flange frame"));
+  assert_true(bench.says("the controller's TCP is at (0, 0, 0.12) m, the model's at the flange"));
   assert_true(bench.says("add to [robot]: tool_mass = 5, tool_com = 0 0 0.1, tool_tip = 0 0 0.12"));
   assert_false(bench.says("turned"));
 }
@@ -136,6 +136,23 @@ void old_software_tells_no_tool_and_is_armed(void**) {
   ASSERT_NEAR(g_arm->hal.state().tcp_offset[2], 0.0, 0.0);
 }
 
+/// Numbers with five decimals, in all that can differ.
+void the_longest_texts_are_whole(void**) {
+  UrState state;
+  state.tcp_pose << -1.23456, -1.23456, -1.23456, 0.0, 0.0, 1.23456;
+  const auto ends = [&](const char* end) {
+    Message why;
+    assert_true(check_before_program(nothing(), state, 0.01234, why) == Status::kMissingKey);
+    assert_true(std::string_view(why).size() < Message::capacity());
+    assert_non_null(std::strstr(why.c_str(), end));
+  };
+  ends("; else the arm is no UR10 of a CB3");
+  state.payload_kg = 12.34567;
+  state.payload_com.setConstant(-1.23456);
+  state.tcp_offset << -1.23456, -1.23456, -1.23456, 0.0, 0.0, 1.23456;
+  ends("tool_com = -1.23456 -1.23456 -1.23456, tool_tip = -1.23456 -1.23456 -1.23456");
+}
+
 // Proves URH-34.
 
 /// Positions of the flange as the manufacturer's DH table gives them, confirmed by the analytic
@@ -179,7 +196,7 @@ void a_ur10e_is_refused_by_the_distance_of_its_tip(void**) {
   ASSERT_STATUS(arm_with(nothing(), settings).executive.start(), Status::kMismatch);
   assert_true(g_arm->says("the controller has the tip at (-0.6914, -0.17415, 0.67685) m"));
   assert_true(g_arm->says("the model of a ur10 at (-0.688, -0.16394, 0.6471) m, 0.03164 m and 0 "));
-  assert_true(g_arm->says("at most 0.01 m ([ur] tip_tolerance)"));
+  assert_true(g_arm->says("limits 0.01 m ([ur] tip_tolerance)"));
 }
 
 void a_ur10e_is_refused_in_any_posture_with_any_tool(void**) {
@@ -226,12 +243,12 @@ void a_tcp_that_is_not_told_is_suggested(void**) {
   Settings settings = gripper();
   settings.version = {3, 11, 0, 82155};
   ASSERT_STATUS(start(arm_with(nothing(), settings)), Status::kMissingKey);
-  assert_true(g_arm->says("this software tells no TCP: if the pendant's is at (0, 0, 0.12) m"));
-  assert_true(g_arm->says("add to [robot]: tool_tip = 0 0 0.12"));
+  assert_true(g_arm->says("this software tells no TCP; if the pendant has this one, add to"));
+  assert_true(g_arm->says(" [robot]: tool_tip = 0 0 0.12; else the arm is no UR10 of a CB3"));
   assert_false(g_arm->says("turned"));
   settings.tcp_offset[5] = 0.5;
   ASSERT_STATUS(start(arm_with(nothing(), settings)), Status::kMissingKey);
-  assert_true(g_arm->says("turned, which the program would undo"));
+  assert_true(g_arm->says("turned as tool_tip cannot state"));
 }
 
 /// A longer upper arm, which is upright, lifts the tip.
@@ -269,6 +286,7 @@ int main() {
       cmocka_unit_test(a_turned_tcp_is_said_to_be_one),
       cmocka_unit_test(a_payload_set_after_connecting_is_found_at_arming),
       cmocka_unit_test(old_software_tells_no_tool_and_is_armed),
+      cmocka_unit_test(the_longest_texts_are_whole),
       cmocka_unit_test(published_poses_are_where_the_model_has_them),
       cmocka_unit_test(a_ur10e_is_refused_by_the_distance_of_its_tip),
       cmocka_unit_test(a_ur10e_is_refused_in_any_posture_with_any_tool),

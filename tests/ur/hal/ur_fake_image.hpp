@@ -20,9 +20,14 @@ struct FakeImage {
   std::array<double, 6> tcp_offset{};
   double payload_kg = 0.0;
   std::array<double, 3> payload_com{};
+  double tip_error_m = 0.0;  ///< added to x of the pose
 
   /// The flange, by the kinematics of the emulated controller.
-  Vector6 tcp_pose() const { return forward(Joints(q.data())).pose(); }
+  Vector6 tcp_pose() const {
+    Vector6 pose = forward(Joints(q.data())).pose();
+    pose[0] += tip_error_m;
+    return pose;
+  }
 };
 
 inline constexpr std::string_view kFakeOutputs =
