@@ -170,7 +170,21 @@ void the_force_at_the_tip_is_moved_to_the_flange(void**) {
   tool.mass_kg = 2.0;
   tool.com = {0.0, 0.0, 0.1};
   tool.tip.p = {0.0, 0.0, 0.2};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
+  const std::array<double, 6> expected = {10.0, 0.0, 2.0 * 9.81, 0.0, 0.2 * 10.0, -3.0};
+  for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
+}
+
+/// The same push as an e-Series reports it: its moment is about the flange already.
+void the_moment_of_an_e_series_is_that_at_the_flange(void**) {
+  UrState state;
+  state.tcp_pose << 0.5, 0.0, 0.5, 3.14159265358979312, 0.0, 0.0;  // half a turn about x
+  state.tcp_force << 10.0, 0.0, 0.0, 0.0, -0.2 * 10.0, 3.0;
+  Tool tool;
+  tool.mass_kg = 2.0;
+  tool.com = {0.0, 0.0, 0.1};
+  tool.tip.p = {0.0, 0.0, 0.2};
+  const Vector6 wrench = flange_wrench(state, tool, {5, 11, 1, 108318});
   const std::array<double, 6> expected = {10.0, 0.0, 2.0 * 9.81, 0.0, 0.2 * 10.0, -3.0};
   for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
 }
@@ -186,7 +200,7 @@ void a_tool_held_sideways_bends_the_flange(void**) {
   tool.mass_kg = 2.0;
   tool.com = {0.0, 0.0, 0.1};
   tool.tip.p = {0.0, 0.0, 0.2};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
   const double weight = 2.0 * 9.81;
   const std::array<double, 6> expected = {weight - 5.0, 0.0, 0.0, -3.0, 0.1 * weight - 0.2 * 5.0,
                                           0.0};
@@ -198,7 +212,7 @@ void a_payload_beside_the_axis_has_a_lever(void**) {
   Tool tool;
   tool.mass_kg = 1.0;
   tool.com = {0.1, 0.0, 0.0};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
   const std::array<double, 6> expected = {0.0, 0.0, -9.81, 0.0, 0.981, 0.0};
   for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
 }
@@ -217,6 +231,7 @@ int main() {
       cmocka_unit_test(one_cycle_for_every_period_whatever_is_lost),
       cmocka_unit_test(a_cycle_after_a_bridged_one_waits_half_a_period_less),
       cmocka_unit_test(the_force_at_the_tip_is_moved_to_the_flange),
+      cmocka_unit_test(the_moment_of_an_e_series_is_that_at_the_flange),
       cmocka_unit_test(a_tool_held_sideways_bends_the_flange),
       cmocka_unit_test(a_payload_beside_the_axis_has_a_lever),
   };
