@@ -33,6 +33,12 @@ class PortPrinter {
     param(key, value, range, unit);
     tunable_ = false;
   }
+  void optional(const char* key, double, const Range& range, const char* unit) {
+    row(key, "number", unit, Message("none"), range);
+  }
+  void optional(const char* key, const Vector3&, const Range& range, const char* unit) {
+    row(key, "3 numbers", unit, Message("none"), range);
+  }
   void limit(const char* key, const JointVector& value, const char* unit) {
     std::printf("| `%s` | limit per joint | %s | %s | > 0, at most the default |\n", key, unit,
                 vector(value.data(), kDof, true).c_str());

@@ -11,8 +11,7 @@ can::CanHal hal;
 
 Status configure(const CanSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  Tool tool{robot.tool_mass, robot.tool_com, {}};
-  tool.tip.p = robot.tool_tip;
+  const Tool tool = assumed(robot.given_tool());
   return hal.configure(sections.can, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 

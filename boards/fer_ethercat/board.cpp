@@ -12,8 +12,7 @@ ethercat::EthercatHal hal;
 
 Status configure(const EthercatSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  Tool tool{robot.tool_mass, robot.tool_com, {}};
-  tool.tip.p = robot.tool_tip;
+  const Tool tool = assumed(robot.given_tool());
   return hal.configure(sections.ethercat, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 

@@ -10,9 +10,7 @@ ur::UrHal hal;
 
 Status configure(const UrSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  Tool tool{robot.tool_mass, robot.tool_com, {}};
-  tool.tip.p = robot.tool_tip;
-  hal.configure(sections.ur, tool, robot.period_us, robot.puts_out());
+  hal.configure(sections.ur, robot.given_tool(), robot.period_us, robot.puts_out());
   return Status::kOk;
 }
 

@@ -15,6 +15,8 @@ class PortLister {
   void param(const char*, const Value&, const Range&, const char*) {}
   template <class Value>
   void tunable(const char*, const Value&, const Range&, const char*) {}
+  template <class Value>
+  void optional(const char*, const Value&, const Range&, const char*) {}
   void limit(const char*, const JointVector&, const char*) {}
   template <std::size_t N>
   void text(const char*, const Text<N>&, const char*) {}

@@ -72,7 +72,9 @@ void describe_robot(Pipeline& pipeline, Json& to) {
   for (const JointFrame& joint : Robot::kJoints) frame(joint, to);
   to.close(']').open('[', "flange_frames");
   frame(Robot::kFlange, to);
-  to.close(']').numbers("tip", pipeline.robot.tool_tip.data(), 3).open('[', "capsules");
+  to.close(']')
+      .numbers("tip", assumed(pipeline.robot.given_tool()).tip.p.data(), 3)
+      .open('[', "capsules");
   for (const LinkCapsule& capsule : RobotCapsules::kCapsules) {
     to.open('{').integer(capsule.link, "link").numbers("a", capsule.a, 3);
     to.numbers("b", capsule.b, 3).number(capsule.radius, "radius").close('}');

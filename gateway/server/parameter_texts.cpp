@@ -52,6 +52,12 @@ class ParameterWriter {
   void tunable(const char* key, const Number& value, const Range& range, const char* unit) {
     if (takes(key, unit, true)) write(text_of(value), range);
   }
+  template <class Number>
+  void optional(const char* key, const Number& value, const Range& range, const char* unit) {
+    if (!takes(key, unit, false)) return;
+    const Value text = text_of(value);
+    write(std::string_view(text).substr(0, 3) == "nan" ? Value("none") : text, range);
+  }
   void limit(const char* key, const JointVector& value, const char* unit) {
     if (!takes(key, unit, false)) return;
     to_.value = text_of(value);

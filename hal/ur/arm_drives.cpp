@@ -4,28 +4,26 @@
 namespace tactus::ur {
 namespace {
 
-constexpr double kAtRest_rad_s = 0.01;
 /// Packets in which set-points may be under way, beyond the patience of the program.
 constexpr int kUnderWay = 10;
 
-bool at_rest(const UrState& state) {
-  return state.dq.cwiseAbs().maxCoeff() < kAtRest_rad_s;
-}
-
 }  // namespace
 
-void ArmDrives::configure(const UrSettings& settings, const Tool& tool, int period_us) {
+void ArmDrives::configure(const UrSettings& settings, const Tool& given, int period_us) {
   settings_ = &settings;
-  tool_ = tool;
+  given_ = given;
   period_us_ = period_us;
 }
 
 Status ArmDrives::connect(const Deadline& deadline) {
   const UrSettings& set = *settings_;
   ServoProgram program;
-  program.tcp.head<3>() = tool_.tip.p;
-  program.payload_kg = tool_.mass_kg;
-  program.payload_com = tool_.com;
+  const Tool tool = assumed(given_);
+  program.sets_tcp = gives_tcp(given_);
+  program.sets_payload = gives_payload(given_);
+  program.tcp.head<3>() = tool.tip.p;
+  program.payload_kg = tool.mass_kg;
+  program.payload_com = tool.com;
   program.zero_force = set.zero_force == ZeroForce::kOn;
   program.period_s = period_us_ * 1e-6;
   program.lookahead_s = set.lookahead_s;
@@ -133,7 +131,7 @@ bool ArmDrives::stopped(const UrState& state) const {
 }
 
 Status ArmDrives::run_phase(const RobotCommand& command, const UrState& state) {
-  if (phase_ >= DrivePhase::kOtherProgram && phase_ <= DrivePhase::kFirstSetPoint) {
+  if (phase_ >= DrivePhase::kOtherProgram && phase_ <= DrivePhase::kTip) {
     const Status status = judge_modes(state, why_);
     if (status != Status::kOk) fail(status);
   }
@@ -151,12 +149,13 @@ Status ArmDrives::run_phase(const RobotCommand& command, const UrState& state) {
     case DrivePhase::kStandstill:
       // A program that begins while the arm slows down would stop it suddenly, which causes a
       // protective stop.
-      if (at_rest(state)) enter(DrivePhase::kRegister);
+      if (state.at_rest()) compare_tool(state);
       break;
     case DrivePhase::kRegister: return clear_register(state);
     case DrivePhase::kUpload: return upload();
     case DrivePhase::kProgram: await_program(state); break;
     case DrivePhase::kFirstSetPoint: return send_first(state);
+    case DrivePhase::kTip: return compare_tip(state);
     case DrivePhase::kEnabled:
       if (command.request == DriveRequest::kFollow) held_ = command.value;
       return set_points_.send(held_);
@@ -166,7 +165,7 @@ Status ArmDrives::run_phase(const RobotCommand& command, const UrState& state) {
 }
 
 void ArmDrives::stop(const UrState& state) {
-  if (!alive_ && at_rest(state)) return enter(DrivePhase::kOff);
+  if (!alive_ && state.at_rest()) return enter(DrivePhase::kOff);
   if (!alive_) return;
   const Status status = judge_modes(state, why_);
   if (status != Status::kOk) fail(status);

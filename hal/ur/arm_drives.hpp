@@ -8,6 +8,7 @@
 
 #include "hal/ur/dashboard_client.hpp"
 #include "hal/ur/drive_phase.hpp"
+#include "hal/ur/reported_tool.hpp"
 #include "hal/ur/robot_port.hpp"
 #include "hal/ur/servo_program.hpp"
 #include "hal/ur/set_points.hpp"
@@ -23,8 +24,9 @@ class ArmDrives {
   ArmDrives(RtdeClient& session, Message& why)
       : session_(session), set_points_(session, why), why_(why) {}
 
-  /// Takes the settings, which must outlive the use of the drives. [init]
-  void configure(const UrSettings& settings, const Tool& tool, int period_us);
+  /// Takes the settings, which must outlive the use of the drives, and the tool as the file gives
+  /// it: what is NaN is left to the controller. [init]
+  void configure(const UrSettings& settings, const Tool& given, int period_us);
   /// Opens the primary port, and the dashboard if the settings may need it. kBadValue,
   /// kConnectionLost, kBusTimeout, kRefusedByRobot. [init]
   Status connect(const Deadline& deadline);
@@ -61,7 +63,9 @@ class ArmDrives {
   Status clear_register(const UrState& state);
   Status upload();
   void await_program(const UrState& state);
+  void compare_tool(const UrState& state);
   Status send_first(const UrState& state);
+  Status compare_tip(const UrState& state);
 
   bool may_get_power(const UrState& state);
   Status take_answer(bool& yes);
@@ -73,7 +77,7 @@ class ArmDrives {
   int cycles_of(int ms) const { return ms * 1000 / period_us_ + 1; }
 
   const UrSettings* settings_ = nullptr;
-  Tool tool_;
+  Tool given_;  // NaN: not given
   int period_us_ = 1;
   ServoProgramText text_;
   std::string_view script_;  // in text_

@@ -82,6 +82,15 @@ Status ArmDrives::take_answer(bool& yes) {
   return answer == DashboardClient::Answer::kLost ? dashboard_.loss() : Status::kOk;
 }
 
+/// Refuses a tool or an arm that is not the one of the models, before anything is sent.
+void ArmDrives::compare_tool(const UrState& state) {
+  const Status status = check_before_program(given_, state, settings_->tip_tolerance, why_);
+  if (status == Status::kOk)
+    enter(DrivePhase::kRegister);
+  else
+    fail(status);
+}
+
 /// Waits for some packets after the register is cleared, so that the program does not see an old
 /// count.
 Status ArmDrives::clear_register(const UrState& state) {
@@ -130,9 +139,28 @@ Status ArmDrives::send_first(const UrState& state) {
     return Status::kOk;
   }
   TRY(set_points_.send(held_));
-  if (state.echo > 0) {
+  if (state.echo > 0) enter(DrivePhase::kTip);
+  return Status::kOk;
+}
+
+/// Compares the tip with the TCP of the program, which shows after some packets.
+Status ArmDrives::compare_tip(const UrState& state) {
+  constexpr int kSettling = 5;  // packets
+  if (first_cycle()) settled_ = 0;
+  if (state.timestamp_s != packet_s_) ++settled_;
+  packet_s_ = state.timestamp_s;
+  Status status = judge_program(state, why_);
+  if (status != Status::kOk) {
+    fail(status);
+    return Status::kOk;
+  }
+  TRY(set_points_.send(held_));
+  status = check_with_program(given_, state, settings_->tip_tolerance, why_);
+  if (status == Status::kOk) {
     why_ = Message();
     enter(DrivePhase::kEnabled);
+  } else if (settled_ >= kSettling) {
+    fail(status);
   }
   return Status::kOk;
 }

@@ -2,7 +2,7 @@
 // all together, and a program of ours on the controller holds the arm and passes on the set-points:
 //
 //   off -> modes -> other program -> standstill -> register -> upload -> program
-//       -> first set-point -> enabled -> stopping -> off
+//       -> first set-point -> tip -> enabled -> stopping -> off
 //
 // From "modes" a protective stop is released, or power and brakes are switched, as far as the
 // settings allow; then the modes are judged again. Every phase of arming may end in "fault".
@@ -19,11 +19,12 @@ enum class DrivePhase : std::uint8_t {
   kPowerOn,        ///< asks it for power
   kReleaseBrakes,  ///< and to release the brakes
   kOtherProgram,   ///< waits for the end of a program, which may be the last one of ours
-  kStandstill,     ///< waits for an arm at rest
+  kStandstill,     ///< waits for an arm at rest, and compares its tool and tip with the models
   kRegister,       ///< clears the register, so that the program does not see an old count
   kUpload,         ///< sends the program
   kProgram,        ///< waits until it runs
   kFirstSetPoint,  ///< waits until it uses a set-point, which is the position of the arm
+  kTip,            ///< compares the tip with the computed one
   kEnabled,        ///< the program holds the arm, or follows
   kStopping,       ///< the program brakes and ends
   kFault,          ///< arming has failed, or the robot has stopped
@@ -42,6 +43,7 @@ constexpr const char* name(DrivePhase phase) {
     case DrivePhase::kUpload: return "upload of the program";
     case DrivePhase::kProgram: return "start of the program on the robot";
     case DrivePhase::kFirstSetPoint: return "use of the first set-point";
+    case DrivePhase::kTip: return "comparison of the tip";
     case DrivePhase::kEnabled: return "enabled";
     case DrivePhase::kStopping: return "stopping";
     case DrivePhase::kFault: return "fault";
@@ -51,7 +53,7 @@ constexpr const char* name(DrivePhase phase) {
 
 /// True from the request to arm until the program holds the arm. [any]
 constexpr bool arms(DrivePhase phase) {
-  return phase >= DrivePhase::kModes && phase <= DrivePhase::kFirstSetPoint;
+  return phase >= DrivePhase::kModes && phase <= DrivePhase::kTip;
 }
 
 constexpr DriveState state_of(DrivePhase phase) {
@@ -84,6 +86,7 @@ constexpr Unfinished unfinished_of(DrivePhase phase) {
       return {"the program on the robot did not start", "; an e-Series must be in remote control"};
     case DrivePhase::kFirstSetPoint:
       return {"the program on the robot used no set-point", "; check the network"};
+    case DrivePhase::kTip: return {"the tip could not be compared", "; raise program_ms"};
     default: return {};
   }
 }

@@ -5,6 +5,17 @@
 namespace tactus::ur {
 namespace {
 
+/// The fields of the recipe of outputs, one after the other.
+struct OutputRecipe {
+  std::array<RecipeField, kOutputFields.size()> fields;
+  std::size_t count = 0;
+
+  explicit OutputRecipe(const ToolFields& offered) {
+    for (std::size_t i = 0; i < kOutputFields.size(); ++i)
+      if (i < kStateFields || offered[i - kStateFields]) fields[count++] = kOutputFields[i];
+  }
+};
+
 void write_names(const RecipeField* fields, std::size_t count, ByteWriter& packet) {
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) packet.text(",");
@@ -19,10 +30,19 @@ Status RtdeClient::start(const char* address, int port, double rate_hz, bool out
   rate_hz_ = rate_hz;
   inputs_ = outputs ? kInputFields.size() : kSetPointFields;
   outputs_ = {};
+  offered_.fill(true);
+  recipe_void_ = false;
+  TRY(converse(address, port, deadline, why));
+  return recipe_void_ ? converse(address, port, deadline, why) : Status::kOk;
+}
+
+/// Goes through the phases, or to a recipe that is void.
+Status RtdeClient::converse(const char* address, int port, const Deadline& deadline, Message& why) {
+  stream_.socket.close();
   protocol_ = 2;
   phase_ = RtdePhase::kConnect;
   TRY(stream_.connect(address, port, deadline, why));
-  while (phase_ != RtdePhase::kRunning) {
+  while (phase_ != RtdePhase::kRunning && !(phase_ == RtdePhase::kOutputs && recipe_void_)) {
     phase_ = static_cast<RtdePhase>(static_cast<int>(phase_) + 1);
     Message reason;
     const Status status = run_phase(phase_, deadline, reason);
@@ -107,12 +127,28 @@ Status RtdeClient::ask_outputs(const Deadline& deadline, Message& why) {
   ByteWriter request(bytes.data(), bytes.size());
   RtdeStream::begin(request, RtdeType::kSetupOutputs);
   if (protocol_ == 2) request.f64(rate_hz_);
-  write_names(kOutputFields.data(), kOutputFields.size(), request);
+  const OutputRecipe recipe(offered_);
+  write_names(recipe.fields.data(), recipe.count, request);
   RtdePacket reply;
   TRY(ask(request, RtdeType::kSetupOutputs, deadline, reply, why));
   ByteReader in(reply.payload, reply.size);
   if (protocol_ == 2) output_recipe_ = in.u8();
-  return check_types(in.rest(), kOutputFields.data(), kOutputFields.size(), why);
+  const std::string_view types = in.rest();
+  recipe_void_ = !recipe_void_ && leave_out(types);
+  return recipe_void_ ? Status::kOk : check_types(types, recipe.fields.data(), recipe.count, why);
+}
+
+/// Leaves the fields of the tool that are not found out of the next recipe; false: all are.
+bool RtdeClient::leave_out(std::string_view types) {
+  bool any = false;
+  for (std::size_t i = 0; i < kOutputFields.size(); ++i) {
+    std::string_view type;
+    if (!next_name(types, type)) break;
+    if (i < kStateFields || type != name(FieldType::kNotFound)) continue;
+    offered_[i - kStateFields] = false;
+    any = true;
+  }
+  return any;
 }
 
 Status RtdeClient::ask_inputs(const Deadline& deadline, Message& why) {
@@ -160,7 +196,7 @@ Status RtdeClient::receive(UrState& state, int& count, Message& why) {
     ByteReader in(packet.payload, packet.size);
     if (protocol_ == 2 && in.u8() != output_recipe_)
       return refuse(why, Status::kWireFormat, "RTDE: a data package has the wrong recipe number");
-    TRY(decode_state(in, state, why));
+    TRY(decode_state(in, offered_, state, why));
     ++count;
   }
   return Status::kOk;

@@ -1,6 +1,8 @@
 // RtdeClient: the conversation of port 30004. The start agrees on protocol 2, or 1 if the
 // controller knows no other, reads the version, and sets up one recipe of outputs and one of
-// inputs. Then the robot sends a data package in every cycle and receives set-points.
+// inputs. A recipe with a field that the controller does not know is void; where it can do without,
+// the start is made once more. Then the robot sends a data package in every cycle and receives
+// set-points.
 #pragma once
 
 #include "hal/ur/rtde_stream.hpp"
@@ -62,6 +64,8 @@ class RtdeClient {
   static constexpr std::size_t kMostRequest = 1024;
   using Request = std::array<std::uint8_t, kMostRequest>;
 
+  Status converse(const char* address, int port, const Deadline& deadline, Message& why);
+  bool leave_out(std::string_view types);
   Status run_phase(RtdePhase phase, const Deadline& deadline, Message& why);
   Status ask_protocol(const Deadline& deadline, Message& why);
   Status ask_version(const Deadline& deadline, Message& why);
@@ -78,6 +82,8 @@ class RtdeClient {
   int protocol_ = 2;
   double rate_hz_ = 0.0;
   std::size_t inputs_ = kSetPointFields;  // fields of the recipe
+  ToolFields offered_{};
+  bool recipe_void_ = false;  // it had fields that the controller does not know
   DigitalOutputs outputs_;
   std::uint8_t output_recipe_ = 0, input_recipe_ = 0;
 };

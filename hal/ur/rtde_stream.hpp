@@ -38,7 +38,7 @@ class RtdeStream {
   }
 
  private:
-  static constexpr std::size_t kLongest = 4096;  ///< bytes of a packet; ours have about 400
+  static constexpr std::size_t kLongest = 4096;  ///< bytes of a packet; ours have about 500
 
   Frames<2, kRtdeHeader, kLongest> frames_;
 };

@@ -10,9 +10,7 @@ namespace {
 // Names between @ are replaced. A CB3 cannot add lists, so the joints are written out.
 constexpr std::string_view kText =
     R"(def tactus_servo():
-  set_tcp(p[@tcp@])
-  set_payload(@payload@, [@com@])
-  @zero@
+@tcp@@payload@  @zero@
   seen = read_input_integer_register(24)
   write_output_integer_register(24, seen)
   led = get_target_joint_positions()
@@ -105,6 +103,18 @@ class Writer {
       add(values[i]);
     }
   }
+  void add_tcp(const Vector6& tcp) {
+    add("  set_tcp(p[");
+    add_list(tcp);
+    add("])\n");
+  }
+  void add_payload(double kg, const Vector3& com) {
+    add("  set_payload(");
+    add(kg);
+    add(", [");
+    add_list(com);
+    add("])\n");
+  }
   std::string_view text() const { return {text_.data(), good_ ? size_ : 0}; }
 
  private:
@@ -114,9 +124,9 @@ class Writer {
 };
 
 void write(std::string_view name, const ServoProgram& script, Writer& writer) {
-  if (name == "tcp") writer.add_list(script.tcp);
-  if (name == "payload") writer.add(script.payload_kg);
-  if (name == "com") writer.add_list(script.payload_com);
+  if (name == "tcp" && script.sets_tcp) writer.add_tcp(script.tcp);
+  if (name == "payload" && script.sets_payload)
+    writer.add_payload(script.payload_kg, script.payload_com);
   if (name == "zero") writer.add(script.zero_force ? "zero_ftsensor()" : "sync()");
   if (name == "first") writer.add(kFirstSetPoint_s / script.period_s);
   if (name == "first_step") writer.add(script.first_step);

@@ -33,7 +33,8 @@ namespace tactus::ur {
 
 /// The values that are written into the text.
 struct ServoProgram {
-  Vector6 tcp = Vector6::Zero();  ///< tip in the flange: m, rotation vector in rad
+  bool sets_tcp = true, sets_payload = true;  ///< false: the controller keeps its own
+  Vector6 tcp = Vector6::Zero();              ///< tip in the flange: m, rotation vector in rad
   double payload_kg = 0.0;
   Vector3 payload_com = Vector3::Zero();  ///< in the flange, m
   bool zero_force = false;                ///< set the measured force to zero at the start

@@ -3,12 +3,12 @@
 
 namespace tactus::ur {
 
-void UrHal::configure(const UrSettings& settings, const Tool& tool, int period_us, bool outputs) {
+void UrHal::configure(const UrSettings& settings, const Tool& given, int period_us, bool outputs) {
   puts_out_ = outputs;
   settings_ = &settings;
-  tool_ = tool;
+  given_ = given;
   period_us_ = period_us;
-  drives_.configure(settings, tool, period_us);
+  drives_.configure(settings, given, period_us);
 }
 
 Status UrHal::connect(CommandMode mode) {
@@ -35,6 +35,7 @@ Status UrHal::open(CommandMode mode) {
                      why_));
   TRY(check_sensor());
   TRY(await_state(deadline));
+  TRY(check_arm());
   return drives_.connect(deadline);
 }
 
@@ -49,6 +50,13 @@ Status UrHal::check_sensor() {
   if (settings_->zero_force == ZeroForce::kOff || session_.version().major >= 5) return Status::kOk;
   why_ = Message("[ur] zero_force: a CB3 has no force sensor to set to zero; set it off");
   return Status::kNotOffered;
+}
+
+/// Finds what arming would refuse. An arm without power may not know where it is, and in motion
+/// joints and tip may be of different times.
+Status UrHal::check_arm() {
+  if (!state_.running() || !state_.at_rest()) return Status::kOk;
+  return check_before_program(given_, state_, settings_->tip_tolerance, why_);
 }
 
 /// Waits for the first data package.

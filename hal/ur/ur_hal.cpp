@@ -80,7 +80,7 @@ void UrHal::show(RobotState& state) {
   state.q = state_.q;
   state.dq = state_.dq;
   state.tau = state_.moment;
-  state.ft = flange_wrench(state_, tool_);
+  state.ft = flange_wrench(state_, assumed(given_), session_.version());
   state.speed_scaling = time_scaling(state_.speed_scaling, state_.speed_fraction);
   state.stamp_ns = clock_.packet_ns();
   state.drives.fill(drives_.drive());

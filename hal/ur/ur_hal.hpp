@@ -20,14 +20,17 @@ namespace tactus::ur {
 class UrHal final : public Hal, public Clock {
  public:
   /// Takes the settings of the pipeline file, which must outlive the use of the Hal.
-  /// With `outputs` it claims and sends the digital outputs. [init]
-  void configure(const UrSettings& settings, const Tool& tool, int period_us, bool outputs = false);
+  /// `given` is the tool as the file gives it: what is NaN is not set in the controller, and must
+  /// be zero there. With `outputs` it claims and sends the digital outputs. [init]
+  void configure(const UrSettings& settings, const Tool& given, int period_us,
+                 bool outputs = false);
 
   /// Positions, at 125 Hz (CB3, e-Series) or 500 Hz (e-Series), and 18 digital outputs, which the
   /// robot keeps as they are when the drives are disabled, and when the wire is closed or lost.
   Capabilities capabilities() const override;
   /// Connects and waits for the first state, in all no longer than `connect_ms`. kNotOffered,
   /// kBadValue, kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat;
+  /// kMissingKey, kMismatch: hal/ur/reported_tool.hpp, of an arm that is switched on and at rest;
   /// trouble() says more. [init]
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
@@ -55,6 +58,7 @@ class UrHal final : public Hal, public Clock {
   Status open(CommandMode mode);
   Status check_rate();
   Status check_sensor();
+  Status check_arm();
   Status await_state(const Deadline& deadline);
   Received receive();
   Status judge_silence();
@@ -62,7 +66,7 @@ class UrHal final : public Hal, public Clock {
   void close();
 
   const UrSettings* settings_ = nullptr;
-  Tool tool_;
+  Tool given_;  // NaN: not given
   int period_us_ = 0;
   bool puts_out_ = false;
 

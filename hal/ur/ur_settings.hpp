@@ -53,6 +53,7 @@ struct UrSettings {
   ZeroForce zero_force = ZeroForce::kOff;  ///< zero the sensor when arming (e-Series)
   OnProtectiveStop on_protective_stop = OnProtectiveStop::kRefuse;
   OnPowerOff on_power_off = OnPowerOff::kRefuse;
+  double tip_tolerance = 0.01;  ///< largest distance of the reported from the computed tip, m
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -72,6 +73,7 @@ struct UrSettings {
     visit.choice("zero_force", zero_force);
     visit.choice("on_protective_stop", on_protective_stop);
     visit.choice("on_power_off", on_power_off);
+    visit.param("tip_tolerance", tip_tolerance, Range{1e-4, 0.1}, "m");
   }
 };
 

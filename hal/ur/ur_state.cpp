@@ -15,7 +15,8 @@ class FieldReader {
     value = data_.f64();
     end_field(value - value == 0.0);
   }
-  void operator()(Vector6& value) {
+  template <int N>
+  void operator()(Eigen::Matrix<double, N, 1>& value) {
     for (double& element : value) element = data_.f64();
     end_field(value.allFinite());
   }
@@ -26,6 +27,14 @@ class FieldReader {
   void operator()(std::uint32_t& value) {
     value = data_.u32();
     end_field(true);
+  }
+  /// Reads a field that the recipe may not have.
+  template <class Value>
+  void optional(bool offered, Value& value) {
+    if (offered)
+      (*this)(value);
+    else
+      ++field_;
   }
   int not_finite() const { return not_finite_; }
 
@@ -58,7 +67,7 @@ constexpr std::array<SafetyRow, 7> kSafety = {
 
 }  // namespace
 
-Status decode_state(ByteReader& data, UrState& state, Message& why) {
+Status decode_state(ByteReader& data, const ToolFields& offered, UrState& state, Message& why) {
   const std::size_t size = data.left();
   UrState found;
   FieldReader read(data);
@@ -76,6 +85,9 @@ Status decode_state(ByteReader& data, UrState& state, Message& why) {
   read(found.echo);
   read(found.safety_bits);
   read(found.runtime_state);
+  read.optional(offered[0], found.tcp_offset);
+  read.optional(offered[1], found.payload_kg);
+  read.optional(offered[2], found.payload_com);
   if (!data.done()) {
     why = Message("RTDE: a data package with ");
     why << size << " bytes of fields does not match the recipe";

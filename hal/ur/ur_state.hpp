@@ -19,7 +19,12 @@ struct UrState {
   double speed_fraction = 0.0;          ///< fraction set by the slider
   std::int32_t robot_mode = 0, safety_mode = 0, echo = 0;
   std::uint32_t safety_bits = 0, runtime_state = 0;
+  // NaN if the controller does not offer it, as old software:
+  Vector6 tcp_offset = Vector6::Constant(kRequired);  ///< tip in the flange: m, rotation vector
+  double payload_kg = kRequired;
+  Vector3 payload_com = Vector3::Constant(kRequired);  ///< in the flange, m
 
+  bool at_rest() const { return dq.cwiseAbs().maxCoeff() < 0.01; }
   bool running() const { return robot_mode == static_cast<int>(RobotMode::kRunning); }
   bool playing() const {
     return runtime_state == static_cast<std::uint32_t>(RuntimeState::kPlaying);
@@ -40,8 +45,10 @@ struct RecipeField {
   FieldType type;
 };
 
-/// In the order of decode_state().
-inline constexpr std::array<RecipeField, 14> kOutputFields = {
+/// In the order of decode_state(). Those from kStateFields on are left out of the recipe where the
+/// controller does not know them.
+inline constexpr std::size_t kStateFields = 14;
+inline constexpr std::array<RecipeField, kStateFields + 3> kOutputFields = {
     {{"timestamp", FieldType::kDouble},
      {"target_q", FieldType::kVector6d},
      {"actual_q", FieldType::kVector6d},
@@ -55,7 +62,12 @@ inline constexpr std::array<RecipeField, 14> kOutputFields = {
      {"safety_mode", FieldType::kInt32},
      {"output_int_register_24", FieldType::kInt32},
      {"safety_status_bits", FieldType::kUint32},
-     {"runtime_state", FieldType::kUint32}}};
+     {"runtime_state", FieldType::kUint32},
+     {"tcp_offset", FieldType::kVector6d},
+     {"payload", FieldType::kDouble},
+     {"payload_cog", FieldType::kVector3d}}};
+/// Which of those the recipe has.
+using ToolFields = std::array<bool, kOutputFields.size() - kStateFields>;
 
 /// The registers of a set-point, as in hal/ur/servo_program.hpp, then the digital outputs, which
 /// are left out of the recipe where a pipeline does not put them out.
@@ -85,7 +97,7 @@ inline constexpr std::array<const char*, 18> kDigitalOutputNames = {
 
 /// Decodes the fields of a data package. kWireFormat: its size is wrong, or a field is not finite;
 /// `why` names the size or the first such field. [cyclic]
-Status decode_state(ByteReader& data, UrState& state, Message& why);
+Status decode_state(ByteReader& data, const ToolFields& offered, UrState& state, Message& why);
 
 /// Compares the types of a reply with those of the recipe. kRegistersInUse, kWireFormat: `why`
 /// names the first field that differs, its type and the expected type. [init]

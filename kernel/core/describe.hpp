@@ -7,6 +7,8 @@
 //   param(name, value, range, unit)   a setting: double, int, JointVector or Vector3
 //   tunable(name, value, range, unit) one that may change while the pipeline runs: JointVector,
 //                                     Vector3 or double. A block with one has retune()
+//   optional(name, value, range, unit)  a setting that may be left out and is NaN then: double or
+//                                     Vector3
 //   limit(name, value, unit)          a limit per joint, which the file may tighten but not widen
 //   text(name, value, meaning)        a setting that is a word or a path
 //   choice(name, value)               a setting that is one of an enumeration's names (names.hpp)

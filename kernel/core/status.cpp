@@ -95,9 +95,7 @@ constexpr StatusWords words_of(Status status) {
     case Status::kNotReferenced: return {"kNotReferenced", "a joint is not referenced"};
     case Status::kBusConflict:
       return {"kBusConflict", "somebody else on the bus uses our identifiers"};
-    case Status::kMismatch:
-      return {"kMismatch",
-              "two machines that run the same pipeline have computed different values"};
+    case Status::kMismatch: return {"kMismatch", "two machines have computed different values"};
     case Status::kNotOwner: return {"kNotOwner", "another client or none owns the motion"};
     case Status::kStampRange: return {"kStampRange", "stamp too far from the present time"};
     case Status::kTooManyMessages: return {"kTooManyMessages", "too many messages"};

@@ -32,4 +32,13 @@ struct Tool {
   Pose tip;                       ///< tip frame, in the flange frame
 };
 
+/// Returns the tool that the models assume: zero in place of what is not given, NaN. [any]
+inline Tool assumed(const Tool& given) {
+  Tool tool = given;
+  if (!(tool.mass_kg == tool.mass_kg)) tool.mass_kg = 0.0;
+  if (tool.com.hasNaN()) tool.com.setZero();
+  if (tool.tip.p.hasNaN()) tool.tip.p.setZero();
+  return tool;
+}
+
 }  // namespace tactus

@@ -25,6 +25,10 @@ class ParameterReader : public SectionReader {
   void param(const char* key, Value& /*value*/, const Range& /*range*/, const char* /*unit*/) {
     fixed(key);
   }
+  template <class Value>
+  void optional(const char* key, Value& /*value*/, const Range& /*range*/, const char* /*unit*/) {
+    fixed(key);
+  }
   void limit(const char* key, JointVector& /*value*/, const char* /*unit*/) { fixed(key); }
   template <std::size_t N>
   void text(const char* key, Text<N>& /*value*/, const char* /*meaning*/) {

@@ -23,6 +23,9 @@ void PipelineSections::check_robot(const RobotSection& robot) {
     return refuse(Status::kNotOffered, "name",
                   Message("'") << robot.name << "', but this program is built for " << Robot::kName
                                << "; take a board with the robot of the file");
+  if (robot.tool_com == robot.tool_com && !(robot.tool_mass == robot.tool_mass))
+    return refuse(Status::kMissingKey, "tool_com",
+                  "a centre of mass of nothing; add tool_mass, in kg");
   if (robot.period_us < offered_.min_period_us || robot.period_us > offered_.max_period_us)
     refuse(Status::kNotOffered, "period_us",
            Message("") << robot.period_us << " us is out of range; the robot takes "

@@ -43,6 +43,11 @@ class SectionReader {
   void tunable(const char* key, Value& value, const Range& range, const char* unit) {
     param(key, value, range, unit);
   }
+  /// Reads a setting that may be left out, and keeps its initial NaN then.
+  template <class Value>
+  void optional(const char* key, Value& value, const Range& range, const char* unit) {
+    if (find(key) != nullptr) param(key, value, range, unit);
+  }
   /// Reads a limit per joint, which may be tightened from its present value, not widened.
   void limit(const char* key, JointVector& value, const char* unit);
   template <std::size_t N>

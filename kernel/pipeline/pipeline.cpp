@@ -77,9 +77,9 @@ Status Pipeline::note(int block, Status status) {
 Status Pipeline::start(const RobotState& measured) {
   failure = Status::kOk;
   robot.set_measured(measured);
-  robot.tool.value = {robot.tool_mass, robot.tool_com, Pose{robot.tool_tip, {1.0, 0.0, 0.0, 0.0}}};
+  robot.tool.value = assumed(robot.given_tool());
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
-  collision_check.start(collision, guard.effective(), robot.tool_tip, robot.period_s());
+  collision_check.start(collision, guard.effective(), robot.tool.value.tip.p, robot.period_s());
   return collision.present ? collision_check.check(measured) : Status::kOk;
 }
 

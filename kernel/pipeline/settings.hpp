@@ -13,11 +13,12 @@ namespace tactus {
 /// [robot]: the period, the tool, the measured values as outputs for the blocks, and the one
 /// command as an input.
 struct RobotSection : OutputsSection<> {
-  Name name;                           ///< robot that the file is written for; must be the board's
-  int period_us = kRequiredInt;        ///< cycle period
-  double tool_mass = 0.0;              ///< kg
-  Vector3 tool_com = Vector3::Zero();  ///< m, flange frame
-  Vector3 tool_tip = Vector3::Zero();  ///< m, flange frame; axes parallel to the flange's
+  Name name;                     ///< robot that the file is written for; must be the board's
+  int period_us = kRequiredInt;  ///< cycle period
+  // What is not given is NaN; the models then assume that it is zero.
+  double tool_mass = kRequired;                     ///< kg
+  Vector3 tool_com = Vector3::Constant(kRequired);  ///< m, flange frame
+  Vector3 tool_tip = Vector3::Constant(kRequired);  ///< m, flange frame; axes as the flange's
 
   Out<Quantity::kJointPosition> q;
   Out<Quantity::kJointVelocity> dq;
@@ -42,9 +43,9 @@ struct RobotSection : OutputsSection<> {
   void describe_robot(Visitor& visit) {
     visit.text("name", name, "the robot the file is written for");
     visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
-    visit.param("tool_mass", tool_mass, Range{0.0, 100.0}, "kg");
-    visit.param("tool_com", tool_com, Range{-2.0, 2.0}, "m");
-    visit.param("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
+    visit.optional("tool_mass", tool_mass, Range{0.0, 100.0}, "kg");
+    visit.optional("tool_com", tool_com, Range{-2.0, 2.0}, "m");
+    visit.optional("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
     visit.out("q", q);
     visit.out("dq", dq);
     visit.out("tau", tau);
@@ -82,6 +83,8 @@ struct RobotSection : OutputsSection<> {
     const JointVector& value = tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c;
     return {mode(), value, DriveRequest::kDisable, {}, *dq_ff, *tau_ff};
   }
+  /// The tool as the file gives it: NaN where it does not.
+  Tool given_tool() const { return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}}; }
   double period_s() const { return period_us * 1e-6; }
 };
 

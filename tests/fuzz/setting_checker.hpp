@@ -26,6 +26,12 @@ class SettingChecker {
   void tunable(const char* key, const Number& value, const Range& range, const char* unit) {
     param(key, value, range, unit);
   }
+  void optional(const char* key, double value, const Range& range, const char* unit) {
+    if (!std::isnan(value)) param(key, value, range, unit);
+  }
+  void optional(const char* key, const Vector3& value, const Range& range, const char* unit) {
+    if (!std::isnan(value[0])) param(key, value, range, unit);
+  }
   void limit(const char*, const JointVector& value, const char*) {
     MUST((value.array() > 0.0).all() && value.allFinite());
   }

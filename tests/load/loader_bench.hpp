@@ -11,7 +11,7 @@ namespace tactus {
 
 inline constexpr std::string_view kValid =
     "# Arm -> PD -> arm\n"
-    "[robot]\nname = fer\nperiod_us = 2000\ntau_c = stiff.tau\ntool_com = 0.1 0 -0.2\n"
+    "[robot]\nname = fer\nperiod_us = 2000\ntau_c = stiff.tau\ntool_tip = 0.1 0 -0.2\n"
     "[guard]\nmax_velocity = 1\nmax_torque = 80 70 60 50 10 9 8\nposition_margin = 0.1\n"
     "[plant]\ndelay_cycles = 3\nfriction = 0\n"
     "[gateway]\ninterpolation = quintic\ntrajectory = a b.csv\n"

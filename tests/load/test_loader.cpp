@@ -24,7 +24,7 @@ void settings_arrive_in_their_sections(void**) {
   ASSERT_OK(bench.load(kValid));
   const Pipeline& pipeline = bench.pipeline;
   assert_int_equal(pipeline.robot.period_us, 2000);
-  assert_true(pipeline.robot.tool_com == Vector3(0.1, 0.0, -0.2));
+  assert_true(pipeline.robot.tool_tip == Vector3(0.1, 0.0, -0.2));
   assert_true(pipeline.guard.limits.dq_max == JointVector::Constant(1.0));
   assert_true(pipeline.guard.limits.tau_max[3] == 50.0 && pipeline.guard.limits.tau_max[6] == 8.0);
   assert_int_equal(pipeline.executive.max_slip, 7);
@@ -46,7 +46,9 @@ void settings_arrive_in_their_sections(void**) {
 
 void a_setting_left_out_keeps_its_default(void**) {
   ASSERT_OK(bench.load(kValid));
-  assert_true(bench.pipeline.robot.tool_mass == 0.0);
+  const Tool given = bench.pipeline.robot.given_tool();
+  assert_true(std::isnan(given.mass_kg) && given.com.hasNaN() && !given.tip.p.hasNaN());
+  assert_true(assumed(given).mass_kg == 0.0 && assumed(given).com == Vector3::Zero());
   assert_true(bench.pipeline.guard.limits.ddq_max == JointLimits().ddq_max);
   assert_true(bench.board.plant.initial_q == ready_pose());
   assert_true(bench.board.gateway.settle_s == 2.0);

@@ -16,6 +16,8 @@ Status Controller::start() {
   const Settings& settings = machine_.settings;
   TRY(machine_.body.load(settings.initial_q, settings.surroundings));
   machine_.motion.rest(settings.initial_q);
+  machine_.set_tcp(settings.tcp_offset);
+  machine_.set_payload(settings.payload_kg, settings.payload_cog);
   show();
   return Status::kOk;
 }
@@ -53,7 +55,7 @@ void Controller::run_program() {
     move_targets();
   else
     machine_.motion.brake(machine_.cycle_s());
-  machine_.motion.yield(machine_.force_mode, machine_.force_damping, image_.actual_tcp_force,
+  machine_.motion.yield(machine_.force_mode, machine_.force_damping, machine_.measured_wrench(),
                         machine_.cycle_s() * machine_.speed_scaling);
   if (const Stop fault = machine_.motion.take_fault()) machine_.protective_stop(fault);
   if (machine_.motion.take_overlap())

@@ -42,12 +42,17 @@ void Controller::show_tool() {
   const Motion& motion = machine_.motion;
   const Frame& tool = motion.tool();
   const Joints q = machine_.measured_q(), dq = machine_.measured_dq();
-  const Frame tip = forward(q) * tool;
+  const DhTable& dh = machine_.settings.dh;
+  const Frame flange = forward(q, dh), tip = flange * tool;
   image_.actual_tcp_pose = tip.pose();
   image_.actual_tcp_speed = jacobian(q, tool) * dq;
-  image_.target_tcp_pose = (forward(motion.q()) * tool).pose();
+  image_.target_tcp_pose = (forward(motion.q(), dh) * tool).pose();
   image_.target_tcp_speed = jacobian(motion.q(), tool) * image_.target_qd;
   image_.actual_tcp_force = machine_.measured_wrench();
+  if (machine_.settings.version.major >= 5) {  // about the sensor, in the flange
+    const Vector3 force = image_.actual_tcp_force.head<3>();
+    image_.actual_tcp_force.tail<3>() += (tip.p - flange.p).cross(force);
+  }
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   const Vector3 g(0.0, 0.0, 9.81);

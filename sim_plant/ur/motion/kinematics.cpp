@@ -14,13 +14,13 @@ constexpr double kPosition_m = 1e-9, kAngle_rad = 1e-9;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Frame link(int i, double theta) {
+Frame link(int i, double theta, const DhTable& dh = kDh) {
   const auto k = static_cast<std::size_t>(i);
   const double c = std::cos(theta), s = std::sin(theta);
-  const double ca = std::cos(kDh.alpha[k]), sa = std::sin(kDh.alpha[k]);
+  const double ca = std::cos(dh.alpha[k]), sa = std::sin(dh.alpha[k]);
   Frame frame;
   frame.r << c, -s * ca, s * sa, s, c * ca, -c * sa, 0.0, sa, ca;
-  frame.p << kDh.a[k] * c, kDh.a[k] * s, kDh.d[k];
+  frame.p << dh.a[k] * c, dh.a[k] * s, dh.d[k];
   return frame;
 }
 
@@ -95,9 +95,9 @@ Vector6 Frame::pose() const {
   return pose;
 }
 
-Frame forward(const Joints& q) {
+Frame forward(const Joints& q, const DhTable& dh) {
   Frame frame;
-  for (int i = 0; i < 6; ++i) frame = frame * link(i, q[i]);
+  for (int i = 0; i < 6; ++i) frame = frame * link(i, q[i], dh);
   return frame;
 }
 

@@ -23,6 +23,9 @@ struct DhTable {
                                  -1.5707963267948966, 0};
 };
 inline constexpr DhTable kDh;
+/// The same article's table of the UR10e.
+inline constexpr DhTable kDhOfUr10e = {{0.0, -0.6127, -0.57155, 0.0, 0.0, 0.0},
+                                       {0.1807, 0.0, 0.0, 0.17415, 0.11985, 0.11655}};
 
 /// Converts a matrix to a rotation vector, with an angle from 0 to pi, and back.
 Vector3 rotation_vector(const Matrix3& r);
@@ -40,7 +43,7 @@ struct Frame {
 };
 
 /// Returns the flange in the base.
-Frame forward(const Joints& q);
+Frame forward(const Joints& q, const DhTable& dh = kDh);
 /// Returns the elbow, the origin of the frame after joint 3, in the base, m.
 Vector3 elbow(const Joints& q);
 

@@ -16,7 +16,12 @@ struct Settings {
   Version version;
   Joints initial_q;  ///< rad
   SensorErrors sensor_errors;
-  Surroundings surroundings;    ///< none: the arm is bare and touches nothing
+  Surroundings surroundings;  ///< none: the arm is bare and touches nothing
+  DhTable dh;  ///< of the poses that it shows; the arm moves as a UR10, whatever it says
+  // Of the installation, as set on the pendant:
+  Vector6 tcp_offset = Vector6::Zero();
+  double payload_kg = 0.0;
+  Vector3 payload_cog = Vector3::Zero();
   bool switched_on = true;      ///< begin in RUNNING; else in POWER_OFF, as after a start
   double start_time_s = 100.0;  ///< initial time of the controller's clock
   std::string_view serial_number = "2017300001";

@@ -38,9 +38,10 @@ Status SceneReader::read_robot(const IniSection& section, Surroundings& around, 
     return error.refuse(Status::kNotOffered, section.line, section.name, "name",
                         Message("'")
                             << robot.name << "', but the emulated robot is a " << Robot::kName);
-  around.payload_kg = robot.tool_mass;
-  around.payload_com = robot.tool_com;
-  around.tip = robot.tool_tip;
+  const Tool tool = assumed(robot.given_tool());
+  around.payload_kg = tool.mass_kg;
+  around.payload_com = tool.com;
+  around.tip = tool.tip.p;
   return Status::kOk;
 }
 

@@ -25,6 +25,10 @@ Settings settings_of(const EmulatorOptions& options) {
   settings.version = {options.version[0], options.version[1], options.version[2],
                       options.version[3]};
   settings.initial_q = Joints(options.initial_q);
+  if (options.ur10e) settings.dh = kDhOfUr10e;
+  settings.tcp_offset = Vector6(options.tcp);
+  settings.payload_kg = options.payload[0];
+  settings.payload_cog = Vector3(options.payload + 1);
   settings.switched_on = !options.switched_off;
   settings.sensor_errors.on = options.sensor_errors;
   settings.sensor_errors.seed = options.seed;

@@ -32,6 +32,7 @@ bool parse_version(const std::string& text, unsigned (&version)[4]) {
 bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int& exit_code) {
   std::string address = options.address, host, scene, version = "3.15.8.106339";
   std::vector<double> q(std::begin(options.initial_q), std::end(options.initial_q));
+  std::vector<double> payload(4, 0.0), tcp(6, 0.0);
   CLI::App app{"An emulated Universal Robots UR10 controller (CB3)", "ur10_emulator"};
   app.add_option("--bind", address, "IPv4 address to listen at (default 127.0.0.1)")
       ->check(shorter_than(sizeof options.address));
@@ -59,6 +60,13 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   app.add_option("--seed", options.seed, "seed of these errors (default 1)");
   app.add_option("--software", version,
                  "software version (default 3.15.8.106339); 5 has the cycle of an e-Series");
+  app.add_option("--payload", payload, "payload on the pendant: kg, and its centre of mass, m")
+      ->expected(4)
+      ->check(finite(-100.0, 100.0));
+  app.add_option("--tcp", tcp, "TCP on the pendant: m, and a rotation vector")
+      ->expected(6)
+      ->check(finite(-100.0, 100.0));
+  app.add_flag("--ur10e", options.ur10e, "report the poses of a UR10e");
   app.add_option("--external-control", host,
                  "address from which external_control.urp fetches its script (default: no program)")
       ->check(shorter_than(sizeof options.address));
@@ -84,6 +92,8 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   std::strncpy(options.external_control_host, host.c_str(),
                sizeof options.external_control_host - 1);
   for (std::size_t i = 0; i < 6; ++i) options.initial_q[i] = q[i];
+  for (std::size_t i = 0; i < 6; ++i) options.tcp[i] = tcp[i];
+  for (std::size_t i = 0; i < 4; ++i) options.payload[i] = payload[i];
   return true;
 }
 

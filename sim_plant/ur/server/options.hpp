@@ -14,6 +14,9 @@ struct EmulatorOptions {
   bool switched_off = false;  ///< POWER_OFF at the beginning
   double initial_q[6] = {0.0, -1.5708, 1.5708, -1.5708, -1.5708, 0.0};  ///< rad
   unsigned version[4] = {3, 15, 8, 106339};
+  double payload[4] = {};      ///< of the pendant: kg, centre of mass in m
+  double tcp[6] = {};          ///< likewise: m, rotation vector
+  bool ur10e = false;          ///< reports the poses of that arm
   bool sensor_errors = false;  ///< force and speeds are as uncertain as a robot's
   unsigned seed = 1;           ///< of these errors
   char scene[512] = "";        ///< pipeline file with what the arm carries and can touch

@@ -118,6 +118,32 @@ void the_sensor_of_an_e_series_can_be_zeroed(void**) {
   for (int i = 0; i < 3; ++i) ASSERT_NEAR(after.deviation[i], 5.0 / 3.0, 0.2);
 }
 
+/// The wrench of a push, as a CB3 or an e-Series with a tool of 0.2 m shows it.
+Vector6 pushed(const Version& version, Vector3& lever) {
+  Settings settings = ProgramBench::settings();
+  settings.version = version;
+  settings.tcp_offset[2] = 0.2;
+  Controller controller(settings);
+  assert_true(controller.start() == Status::kOk);
+  controller.faults().push << 0.0, 20.0, -10.0, 0.0, 3.0, 0.0;
+  for (int k = 0; k < 1000; ++k) controller.tick();
+  const Vector6 pose = controller.image().actual_tcp_pose;
+  lever = rotation_matrix(pose.tail<3>()) * Vector3(0.0, 0.0, 0.2);
+  return controller.image().actual_tcp_force;
+}
+
+void the_moment_of_an_e_series_is_about_the_flange(void**) {
+  Vector3 lever;
+  const Vector6 about_tip = pushed(Version(), lever);
+  const Vector6 about_flange = pushed({5, 11, 1, 108318}, lever);
+  const Vector3 force = about_tip.head<3>();
+  assert_true(force.norm() > 5.0);
+  assert_true((about_flange.head<3>() - force).norm() < 0.05);
+  const Vector3 moved = about_tip.tail<3>() + lever.cross(force);
+  assert_true(lever.cross(force).norm() > 0.5);
+  assert_true((about_flange.tail<3>() - moved).norm() < 0.05);
+}
+
 }  // namespace
 
 int main() {
@@ -127,6 +153,7 @@ int main() {
       cmocka_unit_test(the_estimate_of_a_cb3_is_as_uncertain_as_its_maker_says),
       cmocka_unit_test(friction_that_is_not_known_depends_on_the_way_to_a_place),
       cmocka_unit_test(the_same_seed_gives_the_same_errors),
+      cmocka_unit_test(the_moment_of_an_e_series_is_about_the_flange),
       cmocka_unit_test(the_sensor_of_an_e_series_can_be_zeroed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -95,7 +95,7 @@ void nobody_there_is_named(void**) {
 
 // Proves URH-27.
 
-/// One byte in 2 ms: the longest reply, of 110 bytes, comes in time; all of them, of 188, do not.
+/// One byte in 2 ms: the longest reply, of 135 bytes, comes in time; all of them, of 213, do not.
 void a_controller_that_dribbles_is_given_one_time_for_the_whole(void**) {
   UrHalBench& bench = fresh();
   bench.settings.connect_ms = 350;
@@ -135,6 +135,30 @@ void fields_that_are_not_ours_are_named(void**) {
   refuses(faults, Status::kWireFormat, "actual_q is VECTOR6INT32, not VECTOR6D");
 }
 
+// Proves URH-33.
+
+/// A recipe with an unknown field is void, so that the conversation begins anew.
+void software_that_tells_no_tool_is_asked_for_the_rest(void**) {
+  for (const bool only_protocol_1 : {false, true}) {
+    UrHalBench& bench = fresh();
+    bench.robot.faults.old_software = true;
+    bench.robot.faults.only_protocol_1 = only_protocol_1;
+    ASSERT_OK(bench.start());
+    assert_int_equal(bench.robot.connections(), 2);
+    assert_true(std::isnan(bench.hal.state().payload_kg));
+    assert_true(bench.hal.state().tcp_offset.hasNaN());
+    ASSERT_OK(bench.cycles(5));
+  }
+}
+
+void a_payload_that_is_no_number_is_refused(void**) {
+  UrHalBench& bench = fresh();
+  bench.robot.image.payload_kg = kRequired;
+  ASSERT_STATUS(bench.connect(), Status::kWireFormat);
+  assert_true(bench.says("payload is not finite"));
+}
+
+// Proves URH-4.
 void an_old_controller_is_named(void**) {
   FakeFaults faults;
   faults.minor = 8;
@@ -178,6 +202,8 @@ int main() {
       cmocka_unit_test(a_dashboard_that_dribbles_is_given_what_is_left_of_it),
       cmocka_unit_test(a_dashboard_that_cannot_be_needed_is_not_asked),
       cmocka_unit_test(fields_that_are_not_ours_are_named),
+      cmocka_unit_test(software_that_tells_no_tool_is_asked_for_the_rest),
+      cmocka_unit_test(a_payload_that_is_no_number_is_refused),
       cmocka_unit_test(an_old_controller_is_named),
       cmocka_unit_test(a_start_that_is_not_accepted_is_named),
       cmocka_unit_test(what_the_robot_does_not_offer_is_named),

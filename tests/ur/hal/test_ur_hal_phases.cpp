@@ -68,7 +68,7 @@ void a_phase_that_does_not_end_is_named(void**) {
 void a_stop_in_any_phase_of_the_program_ends_arming(void**) {
   for (const DrivePhase phase :
        {DrivePhase::kOtherProgram, DrivePhase::kStandstill, DrivePhase::kRegister,
-        DrivePhase::kUpload, DrivePhase::kProgram, DrivePhase::kFirstSetPoint}) {
+        DrivePhase::kUpload, DrivePhase::kProgram, DrivePhase::kFirstSetPoint, DrivePhase::kTip}) {
     UrExchange& bench = g_exchange.emplace();
     bench.robot.faults.begins_late = 3;
     bench.open();
@@ -84,6 +84,35 @@ void a_stop_in_any_phase_of_the_program_ends_arming(void**) {
     assert_int_equal(bench.robot.ends(), bench.robot.uploads());
     assert_true(bench.robot.count() <= 0);
   }
+}
+
+// Proves URH-34.
+
+/// The robot runs its program, and then has its tip elsewhere, for some packets or for good.
+UrExchange& with_another_tip() {
+  UrExchange& bench = g_exchange.emplace();
+  bench.open();
+  bench.exchange_until(DriveRequest::kArm, DrivePhase::kFirstSetPoint);
+  bench.robot.change([](FakeImage& image) { image.tip_error_m = 0.05; });
+  bench.exchange_until(DriveRequest::kArm, DrivePhase::kTip);
+  for (int i = 0; i < 3; ++i) bench.exchange(DriveRequest::kArm);
+  assert_string_equal(name(bench.hal.phase()), name(DrivePhase::kTip));
+  return bench;
+}
+
+void a_tip_that_shows_late_is_waited_for(void**) {
+  UrExchange& bench = with_another_tip();
+  bench.robot.change([](FakeImage& image) { image.tip_error_m = 0.0; });
+  bench.exchange_until(DriveRequest::kArm, DriveState::kEnabled);
+}
+
+void a_tip_that_stays_elsewhere_ends_arming_and_the_program(void**) {
+  UrExchange& bench = with_another_tip();
+  for (int i = 0; i < 4; ++i) bench.exchange(DriveRequest::kArm);
+  for (const Drive& drive : bench.state.drives) ASSERT_STATUS(drive.reason, Status::kMismatch);
+  assert_true(bench.says("0.05 m and 0 rad apart"));
+  bench.exchange_until(DriveRequest::kArm, DrivePhase::kFault);
+  assert_int_equal(bench.robot.ends(), 1);
 }
 
 // Proves URH-3.
@@ -144,6 +173,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_phase_that_does_not_end_is_named),
       cmocka_unit_test(a_stop_in_any_phase_of_the_program_ends_arming),
+      cmocka_unit_test(a_tip_that_shows_late_is_waited_for),
+      cmocka_unit_test(a_tip_that_stays_elsewhere_ends_arming_and_the_program),
       cmocka_unit_test(a_port_that_is_closed_is_named_when_it_is_needed),
       cmocka_unit_test(a_program_that_goes_nowhere_is_named),
       cmocka_unit_test(a_connection_that_is_closed_at_the_first_registers_is_named),

@@ -74,11 +74,11 @@ void fields_are_where_the_recipe_says(void**) {
     if (field.type == FieldType::kInt32 || field.type == FieldType::kUint32)
       out.i32(static_cast<std::int32_t>(number++));
   }
-  assert_int_equal(doubles, 39);
+  assert_int_equal(doubles, 39 + 10);
   ByteReader in(out.data(), out.size());
   UrState state;
   Message why;
-  ASSERT_OK(decode_state(in, state, why));
+  ASSERT_OK(decode_state(in, {true, true, true}, state, why));
   ASSERT_NEAR(state.timestamp_s, 1.0, 0.0);
   ASSERT_NEAR(state.target_q[0], 2.0, 0.0);
   ASSERT_NEAR(state.q[5], 13.0, 0.0);
@@ -93,6 +93,9 @@ void fields_are_where_the_recipe_says(void**) {
   assert_int_equal(state.echo, 42);
   assert_int_equal(state.safety_bits, 43);
   assert_int_equal(state.runtime_state, 44);
+  ASSERT_NEAR(state.tcp_offset[0], 45.0, 0.0);
+  ASSERT_NEAR(state.payload_kg, 51.0, 0.0);
+  ASSERT_NEAR(state.payload_com[2], 54.0, 0.0);
 }
 
 void a_reader_goes_to_the_last_byte_and_no_further(void**) {
@@ -167,7 +170,21 @@ void the_force_at_the_tip_is_moved_to_the_flange(void**) {
   tool.mass_kg = 2.0;
   tool.com = {0.0, 0.0, 0.1};
   tool.tip.p = {0.0, 0.0, 0.2};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
+  const std::array<double, 6> expected = {10.0, 0.0, 2.0 * 9.81, 0.0, 0.2 * 10.0, -3.0};
+  for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
+}
+
+/// The same push as an e-Series reports it: its moment is about the flange already.
+void the_moment_of_an_e_series_is_that_at_the_flange(void**) {
+  UrState state;
+  state.tcp_pose << 0.5, 0.0, 0.5, 3.14159265358979312, 0.0, 0.0;  // half a turn about x
+  state.tcp_force << 10.0, 0.0, 0.0, 0.0, -0.2 * 10.0, 3.0;
+  Tool tool;
+  tool.mass_kg = 2.0;
+  tool.com = {0.0, 0.0, 0.1};
+  tool.tip.p = {0.0, 0.0, 0.2};
+  const Vector6 wrench = flange_wrench(state, tool, {5, 11, 1, 108318});
   const std::array<double, 6> expected = {10.0, 0.0, 2.0 * 9.81, 0.0, 0.2 * 10.0, -3.0};
   for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
 }
@@ -183,7 +200,7 @@ void a_tool_held_sideways_bends_the_flange(void**) {
   tool.mass_kg = 2.0;
   tool.com = {0.0, 0.0, 0.1};
   tool.tip.p = {0.0, 0.0, 0.2};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
   const double weight = 2.0 * 9.81;
   const std::array<double, 6> expected = {weight - 5.0, 0.0, 0.0, -3.0, 0.1 * weight - 0.2 * 5.0,
                                           0.0};
@@ -195,7 +212,7 @@ void a_payload_beside_the_axis_has_a_lever(void**) {
   Tool tool;
   tool.mass_kg = 1.0;
   tool.com = {0.1, 0.0, 0.0};
-  const Vector6 wrench = flange_wrench(state, tool);
+  const Vector6 wrench = flange_wrench(state, tool, Version());
   const std::array<double, 6> expected = {0.0, 0.0, -9.81, 0.0, 0.981, 0.0};
   for (int i = 0; i < 6; ++i) ASSERT_NEAR(wrench[i], expected[static_cast<std::size_t>(i)], 1e-12);
 }
@@ -214,6 +231,7 @@ int main() {
       cmocka_unit_test(one_cycle_for_every_period_whatever_is_lost),
       cmocka_unit_test(a_cycle_after_a_bridged_one_waits_half_a_period_less),
       cmocka_unit_test(the_force_at_the_tip_is_moved_to_the_flange),
+      cmocka_unit_test(the_moment_of_an_e_series_is_that_at_the_flange),
       cmocka_unit_test(a_tool_held_sideways_bends_the_flange),
       cmocka_unit_test(a_payload_beside_the_axis_has_a_lever),
   };

@@ -169,14 +169,19 @@ class FakeController {
       out.u32(106339);
     }
     if (type == 'O' && protocol_ == 2) out.u8(1);
-    if (type == 'O') out.text(faults.outputs);
+    if (type == 'O') {
+      tells_tool_ = !faults.old_software;
+      const bool asks_tool = in.rest().find("tcp_offset") != std::string_view::npos;
+      out.text(tells_tool_ ? faults.outputs : asks_tool ? kOldOutputs : kOldWithout);
+      void_recipe_ = !tells_tool_ && asks_tool;
+    }
     if (type == 'I') {
       out.u8(faults.inputs == kFakeInputs ? 1 : 0);
       out.text(faults.inputs);
     }
     if (type == 'S') {
-      out.u8(faults.refuses_start ? 0 : 1);
-      started_ = !faults.refuses_start;
+      started_ = !faults.refuses_start && !void_recipe_;
+      out.u8(started_ ? 1 : 0);
     }
     out.set_u16(0, out.size());
     listener.send(out.data(), out.size());
@@ -231,7 +236,7 @@ class FakeController {
     image.timestamp_s += 0.008 * periods;
     program_.step(image);
     ByteWriter out(bytes, 1024);
-    write_image(image, protocol_, out);
+    write_image(image, protocol_, tells_tool_, out);
     return out.size();
   }
 
@@ -242,7 +247,7 @@ class FakeController {
   std::atomic<int> uploads_{0}, ends_told_{0}, rounds_{0};
   std::array<double, 6> q_set_{};
   FakeProgram program_;
-  bool started_ = false;
+  bool started_ = false, tells_tool_ = true, void_recipe_ = false;
   int protocol_ = 1;
 };
 

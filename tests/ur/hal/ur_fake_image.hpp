@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "hal/ur/protocol.hpp"
+#include "sim_plant/ur/motion/kinematics.hpp"
 
 namespace tactus::ur {
 
@@ -12,21 +13,38 @@ namespace tactus::ur {
 struct FakeImage {
   double timestamp_s = 100.0;
   std::array<double, 6> q = {0.0, -1.2, 1.2, -0.1, 1.57, 0.0};
-  std::array<double, 6> dq{}, moment{}, tcp_pose{}, tcp_force{};
+  std::array<double, 6> dq{}, moment{}, tcp_force{};
   double speed_scaling = 1.0, speed_fraction = 1.0;
   std::int32_t robot_mode = 7, safety_mode = 1, echo = 0;
   std::uint32_t safety_bits = 1, runtime_state = 1;
+  std::array<double, 6> tcp_offset{};
+  double payload_kg = 0.0;
+  std::array<double, 3> payload_com{};
+  double tip_error_m = 0.0;  ///< added to x of the pose
+
+  /// The flange, by the kinematics of the emulated controller.
+  Vector6 tcp_pose() const {
+    Vector6 pose = forward(Joints(q.data())).pose();
+    pose[0] += tip_error_m;
+    return pose;
+  }
 };
 
 inline constexpr std::string_view kFakeOutputs =
     "DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,DOUBLE,DOUBLE,INT32,INT32,INT32,"
-    "UINT32,UINT32";
+    "UINT32,UINT32,VECTOR6D,DOUBLE,VECTOR3D";
+/// Those of software that tells nothing of the tool, where it is asked for, and where it is not.
+inline constexpr std::string_view kOldOutputs =
+    "DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,DOUBLE,DOUBLE,INT32,INT32,INT32,"
+    "UINT32,UINT32,NOT_FOUND,NOT_FOUND,NOT_FOUND";
+inline constexpr std::string_view kOldWithout = kOldOutputs.substr(0, kOldOutputs.size() - 30);
 inline constexpr std::string_view kFakeInputs = "INT32,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE,DOUBLE";
 
 /// The faults of a controller.
 struct FakeFaults {
-  int reset_at = 0;   ///< type of the request at which it closes the connection
-  int silent_at = 0;  ///< type of the request after which it is silent
+  int reset_at = 0;           ///< type of the request at which it closes the connection
+  int silent_at = 0;          ///< type of the request after which it is silent
+  bool old_software = false;  ///< tells nothing of the tool; a recipe that asks for it is void
   bool only_protocol_1 = false, refuses_start = false, refuses_program = false;
   bool drops_program = false, stops_on_program = false;
   std::uint32_t major = 3, minor = 15;
@@ -86,15 +104,16 @@ inline std::string_view dashboard_reply(std::string_view line, FakeImage& image,
   return "Protective stop releasing\n";
 }
 
-/// A data package, in version 1 or 2 of the protocol.
-inline void write_image(const FakeImage& image, int protocol, ByteWriter& out) {
+/// A data package, in version 1 or 2 of the protocol, with what the controller says of the `tool`.
+inline void write_image(const FakeImage& image, int protocol, bool tool, ByteWriter& out) {
   out.u16(0);
   out.u8('U');
   if (protocol == 2) out.u8(1);
   out.f64(image.timestamp_s);
-  for (const auto* six :
-       {&image.q, &image.q, &image.dq, &image.moment, &image.tcp_pose, &image.tcp_force})
+  for (const auto* six : {&image.q, &image.q, &image.dq, &image.moment})
     for (const double value : *six) out.f64(value);
+  for (const double value : image.tcp_pose()) out.f64(value);
+  for (const double value : image.tcp_force) out.f64(value);
   out.f64(image.speed_scaling);
   out.f64(image.speed_fraction);
   out.i32(image.robot_mode);
@@ -102,6 +121,11 @@ inline void write_image(const FakeImage& image, int protocol, ByteWriter& out) {
   out.i32(image.echo);
   out.u32(image.safety_bits);
   out.u32(image.runtime_state);
+  if (tool) {
+    for (const double value : image.tcp_offset) out.f64(value);
+    out.f64(image.payload_kg);
+    for (const double value : image.payload_com) out.f64(value);
+  }
   out.set_u16(0, out.size());
 }
 

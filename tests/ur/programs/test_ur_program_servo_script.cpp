@@ -154,6 +154,23 @@ void tool_payload_and_zeroing_are_in_the_text(void**) {
   assert_false(bench.said.has("not emulated"));
 }
 
+// Proves URH-32.
+void what_is_left_to_the_controller_is_not_in_the_text(void**) {
+  static ServoProgramText text;
+  const auto has = [](const ServoProgram& script, std::string_view call) {
+    return write_servo_program(script, text).find(call) != std::string_view::npos;
+  };
+  ServoProgram script;
+  assert_true(has(script, "set_tcp(") && has(script, "set_payload("));
+  script.sets_tcp = false;
+  assert_true(!has(script, "set_tcp(") && has(script, "set_payload("));
+  script.sets_payload = false;
+  assert_true(!has(script, "set_tcp(") && !has(script, "set_payload("));
+  static ServoBench bench;
+  bench.start(script);  // and it runs
+}
+
+// Proves URP-11.
 void a_value_out_of_range_writes_no_text(void**) {
   static ServoProgramText text;
   ServoProgram script;
@@ -192,6 +209,7 @@ int main() {
       cmocka_unit_test(a_negative_count_ends_it_with_a_stop),
       cmocka_unit_test(none_in_one_cycle_and_two_in_the_next_are_smooth),
       cmocka_unit_test(tool_payload_and_zeroing_are_in_the_text),
+      cmocka_unit_test(what_is_left_to_the_controller_is_not_in_the_text),
       cmocka_unit_test(a_value_out_of_range_writes_no_text),
       cmocka_unit_test(no_placeholder_is_left_and_every_line_ends),
   };

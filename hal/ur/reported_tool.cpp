@@ -1,0 +1,137 @@
+#include "hal/ur/reported_tool.hpp"
+
+#include <cmath>
+
+#include "kernel/math/so3.hpp"
+#include "kernel/model/forward_kinematics.hpp"
+#include "kernel/robots/robot.hpp"
+
+namespace tactus::ur {
+namespace {
+
+/// The tip frame in the flange frame, and whether the controller or the file has told it.
+struct Tcp {
+  Pose frame;
+  bool known;
+};
+
+/// Returns a number as people read it, to 10 um.
+double rounded(double value) {
+  return std::round(value * 1e5) / 1e5 + 0.0;
+}
+
+Message numbers(const Vector3& v, const char* between) {
+  Message text;
+  text << rounded(v[0]) << between << rounded(v[1]) << between << rounded(v[2]);
+  return text;
+}
+
+/// "(x, y, z) m"
+Message place(const Vector3& p) {
+  Message text("(");
+  text << numbers(p, ", ") << ") m";
+  return text;
+}
+
+Pose pose_of(const Vector6& v) {
+  return {v.head<3>(), exp_so3(v.tail<3>())};
+}
+
+Tcp reported(const UrState& state) {
+  if (state.tcp_offset.hasNaN()) return {Pose{}, false};
+  return {pose_of(state.tcp_offset), true};
+}
+
+/// Appends what differs from a bare flange, and the keys of [robot] that state it.
+void compare_payload(const UrState& state, Message& differs, Message& keys) {
+  if (std::isnan(state.payload_kg) || state.payload_kg <= kZeroPayload_kg) return;
+  const bool knows_com = !state.payload_com.hasNaN();
+  const double mass_kg = rounded(state.payload_kg);
+  differs << "the controller's payload is " << mass_kg << " kg";
+  if (knows_com) differs << " at " << place(state.payload_com);
+  differs << ", the model's tool weighs 0 kg";
+  keys << "tool_mass = " << mass_kg;
+  if (knows_com) keys << ", tool_com = " << numbers(state.payload_com, " ");
+}
+
+void compare_tcp(const UrState& state, Message& differs, Message& keys) {
+  if (state.tcp_offset.hasNaN()) return;
+  const Vector3 p = state.tcp_offset.head<3>();
+  const double angle = state.tcp_offset.tail<3>().norm();
+  if (p.norm() <= kZeroTcp_m && angle <= kTipAngle_rad) return;
+  differs << (differs.empty() ? "" : "; ") << "the controller's TCP is at " << place(p)
+          << ", the model's at the flange";
+  if (angle > kTipAngle_rad)
+    differs << "; it is turned by " << rounded(angle)
+            << " rad, which tool_tip cannot state and would undo";
+  keys << (keys.empty() ? "" : ", ") << "tool_tip = " << numbers(p, " ");
+}
+
+/// The reported tip and the computed one, and how far the former is from the latter.
+struct Tips {
+  Pose said, model;
+  double distance_m, angle_rad;
+};
+
+Tips tips_of(const UrState& state, const Pose& tcp) {
+  JacobianOf<Robot> jacobian;
+  Tips tips{pose_of(state.tcp_pose),
+            forward_kinematics<Robot>(joint_trig<Robot>(state.q), tcp, jacobian), 0.0, 0.0};
+  tips.distance_m = (tips.said.p - tips.model.p).norm();
+  tips.angle_rad = log_so3(tips.model.r.conjugate() * tips.said.r).norm();
+  return tips;
+}
+
+void describe(const Tips& tips, double tip_tolerance_m, Message& why) {
+  why = Message("the controller has the tip at ");
+  why << place(tips.said.p) << ", the model of a " << Robot::kName << " at " << place(tips.model.p)
+      << ", " << rounded(tips.distance_m) << " m and " << rounded(tips.angle_rad)
+      << " rad apart; limits " << tip_tolerance_m << " m ([ur] tip_tolerance) and " << kTipAngle_rad
+      << " rad";
+}
+
+/// What differs may be a TCP that the software does not tell.
+void suggest_tip(const Tips& tips, Message& why) {
+  const Vector3 offset = tips.model.r.conjugate() * (tips.said.p - tips.model.p);
+  why << "; this software tells no TCP; if the pendant has this one";
+  if (tips.angle_rad > kTipAngle_rad) why << ", turned as tool_tip cannot state";
+  why << ", add to [robot]: tool_tip = " << numbers(offset, " ")
+      << "; else the arm is no UR10 of a CB3";
+}
+
+/// NaN is not within any tolerance.
+Status check_tip(const UrState& state, const Tcp& tcp, double tip_tolerance_m, Message& why) {
+  const Tips tips = tips_of(state, tcp.frame);
+  if (tips.distance_m <= tip_tolerance_m && tips.angle_rad <= kTipAngle_rad) return Status::kOk;
+  describe(tips, tip_tolerance_m, why);
+  if (tcp.known)
+    why << "; is the arm a UR10 of a CB3, and its calibration right?";
+  else
+    suggest_tip(tips, why);
+  return tcp.known ? Status::kMismatch : Status::kMissingKey;
+}
+
+}  // namespace
+
+Status check_before_program(const Tool& given, const UrState& state, double tip_tolerance_m,
+                            Message& why) {
+  Message differs, keys;
+  if (!gives_payload(given)) compare_payload(state, differs, keys);
+  if (!gives_tcp(given)) compare_tcp(state, differs, keys);
+  if (!keys.empty()) {
+    why = differs;
+    why << "; add to [robot]: " << keys;
+    return Status::kMissingKey;
+  }
+  const Tcp tcp = reported(state);
+  if (gives_tcp(given) && !tcp.known) return Status::kOk;  // it is known when the program runs
+  return check_tip(state, tcp, tip_tolerance_m, why);
+}
+
+Status check_with_program(const Tool& given, const UrState& state, double tip_tolerance_m,
+                          Message& why) {
+  const Tcp tcp = gives_tcp(given) ? Tcp{given.tip, true} : reported(state);
+  return check_tip(state, tcp, tip_tolerance_m, why);
+}
+
+}  // namespace tactus::ur
