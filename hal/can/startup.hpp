@@ -1,9 +1,9 @@
 // Startup: takes the drives from power-on to cyclic operation, one stage after the other:
 //
 //   reset     NMT reset communication; every node answers with its boot-up message
-//   setup     NMT enter pre-operational; the steps of NodeSetup for one node after the other, by
-//   SDO start     NMT start; every node's heartbeat says "operational" sync      a SYNC in every
-//   period, until all nodes have sent feedback in kSteady cycles in a row
+//   setup     NMT pre-operational; the steps of NodeSetup for one node after the other, by SDO
+//   start     NMT start; every node's heartbeat says "operational"
+//   sync      a SYNC in every period, until all nodes have sent feedback in kSteady cycles in a row
 //
 // It neither waits nor reads a clock: advance() is called with the time until it does not return
 // kArming. No drive is enabled.
