@@ -14,9 +14,6 @@ namespace {
 
 /// A pause of the plan up to which it is bridged; before a longer one it comes to rest.
 constexpr double kBridged_s = 0.25;
-/// Time for which a disagreement may go on to fade when a plan without a successor has come to
-/// rest.
-constexpr double kOutlasting_s = 0.2;
 
 }  // namespace
 
@@ -154,14 +151,22 @@ typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Poi
                                                       const Point& reference, const Limits& limits,
                                                       bool fades) {
   const bool slower_at_once = stop_path_time(before_s);
-  const double fades_until_s = fade_s_ > 0.0 ? jump_s_ + fade_s_ : before_s;
-  const bool outlasts = fades_until_s > before_s + stop_.duration() + kOutlasting_s;
-  if (!slower_at_once && !outlasts) return base;
+  if (!slower_at_once && !diverges(before_s + stop_.duration())) return base;
   bounded_ = true;
   bound(reference, limits);
   const Point slower = curve(path_time(before_s));
   fade_in(before_s, stop_.duration(), reference, slower, limits, fades);
   return fade_s_ > 0.0 ? reference : slower;
+}
+
+/// True if what is left of the disagreement at `time_s` would still grow: a base that rests by then
+/// would go back.
+template <class Space, bool streams>
+bool ChunkPlan<Space, streams>::diverges(double time_s) const {
+  const double x = time_s - jump_s_;
+  if (!(x < fade_s_)) return false;
+  const Difference left = faded(jump_, x / fade_s_, fade_s_);
+  return left.x.dot(left.dx) > 0.0;
 }
 
 /// Stops path time at the end of the chunk. From full rate if there is still time for it, else from

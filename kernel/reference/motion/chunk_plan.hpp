@@ -119,6 +119,7 @@ class ChunkPlan {
   void follow(double s);
   static int knot_after(const ChunkCurve<Space>& chunk, double s);
   bool stop_path_time(double before_s);
+  bool diverges(double time_s) const;
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
   void bound(const Point& reference, const Limits& limits);
