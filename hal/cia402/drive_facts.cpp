@@ -28,9 +28,14 @@ std::uint8_t byte_of(std::uint32_t unit, int place) {
   return static_cast<std::uint8_t>(unit >> 8 * place);
 }
 
-/// Units of the exponent in one without it.
+/// Units of the exponent in one without it; NaN for an exponent that no drive counts in.
 double per_unit(std::uint32_t unit) {
-  return std::pow(10.0, -static_cast<double>(static_cast<std::int8_t>(byte_of(unit, 3))));
+  constexpr int kMost = 12;
+  const int exponent = static_cast<std::int8_t>(byte_of(unit, 3));
+  if (std::abs(exponent) > kMost) return kNotKnown;
+  double power = 1.0;
+  for (int i = 0; i < std::abs(exponent); ++i) power *= 10.0;
+  return exponent > 0 ? 1.0 / power : power;
 }
 
 /// All digits of a whole number, which six would not tell from the next.
@@ -55,12 +60,12 @@ double DriveFacts::ratio(Fact above, Fact below) const {
   return has(above) && denominator > 0.0 ? get(above) / denominator : kNotKnown;
 }
 
-/// Units of a numerator in a revolution of the motor; NaN for what is no angle.
-double DriveFacts::of_turn(std::uint32_t unit) const {
+/// Units of a numerator in a revolution of the motor; NaN for what is no angle. `increments` are
+/// those of the file, for a drive that does not say its own.
+double DriveFacts::of_turn(std::uint32_t unit, double increments) const {
   const double shaft = 1.0 / ratio(Fact::kMotorTurns, Fact::kShaftTurns);
   const std::uint8_t code = byte_of(unit, 2);
-  const double increments =
-      has(Fact::kIncrements) ? ratio(Fact::kIncrements, Fact::kRevolutions) : kNotKnown;
+  if (has(Fact::kIncrements)) increments = ratio(Fact::kIncrements, Fact::kRevolutions);
   if (code == kIncrement) return per_unit(unit) * increments;
   if (code == kNoUnit)
     return has(Fact::kFeed) ? per_unit(unit) * shaft * ratio(Fact::kFeed, Fact::kFeedPer)
@@ -70,16 +75,17 @@ double DriveFacts::of_turn(std::uint32_t unit) const {
   return kNotKnown;
 }
 
-double DriveFacts::position_units() const {
-  return of_turn(has(Fact::kPositionsIn) ? get(Fact::kPositionsIn) : 0);
+double DriveFacts::position_units(double increments) const {
+  return of_turn(has(Fact::kPositionsIn) ? get(Fact::kPositionsIn) : 0, increments);
 }
 
 /// Units of velocity per motor revolution per second as 60A9h has them; NaN: it does not say.
-double DriveFacts::told_velocity_units() const {
+double DriveFacts::told_velocity_units(double increments) const {
   if (!has(Fact::kVelocitiesIn)) return kNotKnown;
   const std::uint32_t unit = get(Fact::kVelocitiesIn);
   const bool positions = byte_of(unit, 2) == kNoUnit && has(Fact::kPositionsIn);
-  const double numerator = positions ? per_unit(unit) * position_units() : of_turn(unit);
+  const double numerator =
+      positions ? per_unit(unit) * position_units(increments) : of_turn(unit, increments);
   switch (byte_of(unit, 1)) {
     case kSecond: return numerator;
     case kMinute: return 60.0 * numerator;
@@ -92,7 +98,8 @@ Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities
   TRY(judge_serial(drive, joint, why));
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
-  const double stated = drive.velocity_units[joint], told = told_velocity_units();
+  const double stated = drive.velocity_units[joint],
+               told = told_velocity_units(drive.increments[joint]);
   const double factor = ratio(Fact::kFactor, Fact::kDivisor);
   velocity_units = stated > 0.0 ? stated : told;
   if (!velocities) return Status::kOk;
@@ -152,15 +159,15 @@ Status DriveFacts::judge_torque(const Cia402Settings& drive, int joint, Message&
       << " permille of the rated torque, " << most_Nm << " N m at the joint, less than "
       << needed_Nm << " N m, "
       << (stated_Nm > 0.0 ? "[cia402] torque_limit; correct the file, or the drive"
-                          : "the limit of the joint; raise it in the drive, or say in [cia402] "
-                            "torque_limit what the drive may give");
+                          : "the limit of the joint; raise it in the drive");
+  if (stated_Nm == 0.0 && most_Nm > 0.0)
+    why << ", or say in [cia402] torque_limit what the drive may give";
   return Status::kRefusedByRobot;
 }
 
 Status DriveFacts::judge_positions(const Cia402Settings& drive, int joint, Message& why) const {
-  const bool says = has(Fact::kIncrements) || has(Fact::kFeed) || has(Fact::kPositionsIn);
-  const double told = position_units(), expected = drive.increments[joint];
-  if (!says || near(told, expected)) return Status::kOk;
+  const double expected = drive.increments[joint], told = position_units(expected);
+  if (near(told, expected)) return Status::kOk;
   why << "its positions have ";
   if (std::isnan(told)) {
     why << "units that are not known";

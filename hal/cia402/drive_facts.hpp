@@ -80,9 +80,9 @@ class DriveFacts {
 
  private:
   double ratio(Fact above, Fact below) const;
-  double of_turn(std::uint32_t unit) const;
-  double position_units() const;
-  double told_velocity_units() const;
+  double of_turn(std::uint32_t unit, double increments) const;
+  double position_units(double increments) const;
+  double told_velocity_units(double increments) const;
   Status judge_serial(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_torque(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_positions(const Cia402Settings& drive, int joint, Message& why) const;

@@ -44,7 +44,7 @@ Tcp reported(const UrState& state) {
 
 /// Appends what differs from a bare flange, and the keys of [robot] that state it.
 void compare_payload(const UrState& state, Message& differs, Message& keys) {
-  if (std::isnan(state.payload_kg) || state.payload_kg <= kZeroPayload_kg) return;
+  if (std::isnan(state.payload_kg) || std::abs(state.payload_kg) <= kZeroPayload_kg) return;
   const bool knows_com = !state.payload_com.hasNaN();
   const double mass_kg = rounded(state.payload_kg);
   differs << "the controller's payload is " << mass_kg << " kg";
@@ -54,10 +54,18 @@ void compare_payload(const UrState& state, Message& differs, Message& keys) {
   if (knows_com) keys << ", tool_com = " << numbers(state.payload_com, " ");
 }
 
+/// A mass without a place would move the controller's centre of mass to the flange.
+void compare_com(const UrState& state, Message& differs, Message& keys) {
+  if (state.payload_com.hasNaN() || state.payload_com.norm() <= kZeroTcp_m) return;
+  differs << "the controller's payload has its centre at " << place(state.payload_com)
+          << ", the model's tool at the flange";
+  keys << "tool_com = " << numbers(state.payload_com, " ");
+}
+
 void compare_tcp(const UrState& state, Message& differs, Message& keys) {
   if (state.tcp_offset.hasNaN()) return;
   const Vector3 p = state.tcp_offset.head<3>();
-  const double angle = state.tcp_offset.tail<3>().norm();
+  const double angle = log_so3(exp_so3(state.tcp_offset.tail<3>())).norm();
   if (p.norm() <= kZeroTcp_m && angle <= kTipAngle_rad) return;
   differs << (differs.empty() ? "" : "; ") << "the controller's TCP is at " << place(p)
           << ", the model's at the flange";
@@ -117,6 +125,7 @@ Status check_before_program(const Tool& given, const UrState& state, double tip_
                             Message& why) {
   Message differs, keys;
   if (!gives_payload(given)) compare_payload(state, differs, keys);
+  if (gives_payload(given) && given.com.hasNaN()) compare_com(state, differs, keys);
   if (!gives_tcp(given)) compare_tcp(state, differs, keys);
   if (!keys.empty()) {
     why = differs;

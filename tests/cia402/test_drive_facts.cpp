@@ -82,7 +82,8 @@ void units_of_velocity_are_those_that_the_drive_names(void**) {
 /// What is not known is asked for; what the file states must not contradict the drive.
 void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
   const Sayings silent = {kTurn, kPerTurn};
-  for (const std::uint32_t unit : {0x00000000U, 0x00B40000U, 0x00010300U, 0x00B44800U}) {
+  for (const std::uint32_t unit :
+       {0x00000000U, 0x00B40000U, 0x00010300U, 0x00B44800U, 0x7FB44700U, 0x80B44700U}) {
     Drive1 one;
     ASSERT_STATUS(one.judge({kTurn, kPerTurn, {Fact::kVelocitiesIn, unit}}),
                   Status::kRefusedByRobot);
@@ -117,8 +118,7 @@ void positions_with_other_units_than_in_the_file_are_refused(void**) {
                           {kTurn, kPerTurn, {Fact::kFeed, 4096}, {Fact::kFeedPer, 1}},
                           {kTurn, kPerTurn, {Fact::kFeed, 16777216}, {Fact::kFeedPer, 0}},
                           {{Fact::kPositionsIn, 0x00B40000}},
-                          {{Fact::kPositionsIn, 0x00010000}},  // metres
-                          {{Fact::kPositionsIn, 0x00B50000}}};
+                          {{Fact::kPositionsIn, 0x00010000}}};  // metres
   for (const Sayings& says : rows) {
     Drive1 one;
     ASSERT_STATUS(one.judge(says, false), Status::kRefusedByRobot);
@@ -126,7 +126,11 @@ void positions_with_other_units_than_in_the_file_are_refused(void**) {
     assert_true(one.says("[cia402] increments is "));
   }
   Drive1 one;
-  ASSERT_OK(one.judge({}, false));  // the drive says nothing: the file alone does
+  // The drive says nothing, or that it counts in increments: the file alone says how many.
+  ASSERT_OK(one.judge({}, false));
+  ASSERT_OK(one.judge({{Fact::kPositionsIn, 0x00B50000}}, false));
+  ASSERT_OK(one.judge({{Fact::kPositionsIn, 0x00000000}, {Fact::kVelocitiesIn, 0x00B50300}}));
+  ASSERT_NEAR(one.velocity_units, 16777216.0, 1e-6);
 }
 
 /// To the drive's step, by default and as the file states it.
@@ -138,7 +142,8 @@ void a_torque_limit_below_what_is_needed_is_refused(void**) {
   for (const std::uint32_t most : {needed - 1, 14500U, 0U}) {
     ASSERT_STATUS(one.judge({{Fact::kMost, most}}, false), Status::kRefusedByRobot);
     assert_true(one.says("its own torque limit (6072h:0) is "));
-    assert_true(one.says("raise it in the drive, or say in [cia402] torque_limit"));
+    assert_true(one.says("raise it in the drive"));
+    assert_true(one.says("or say in [cia402] torque_limit") == (most > 0));
   }
   one.drive.torque_limit.setConstant(43.5);
   ASSERT_OK(one.judge({{Fact::kMost, 14500}}, false));

@@ -98,6 +98,10 @@ void only_what_is_missing_is_asked_for(void**) {
   ASSERT_STATUS(start(arm_with(given, gripper())), Status::kMissingKey);
   assert_true(g_arm->says("; add to [robot]: tool_tip = 0 0 0.12"));
   given = short_handle();
+  given.com.setConstant(kRequired);
+  ASSERT_STATUS(start(arm_with(given, gripper())), Status::kMissingKey);
+  assert_true(g_arm->says("; add to [robot]: tool_com = 0 0 0.1"));
+  given = short_handle();
   given.mass_kg = kRequired;
   ASSERT_STATUS(start(arm_with(given, gripper())), Status::kMissingKey);
   assert_true(g_arm->says("; add to [robot]: tool_mass = 5, tool_com = 0 0 0.1"));
@@ -109,6 +113,10 @@ void a_turned_tcp_is_said_to_be_one(void**) {
   settings.tcp_offset[4] = 0.5;
   ASSERT_STATUS(start(arm_with(nothing(), settings)), Status::kMissingKey);
   assert_true(g_arm->says("turned by 0.5 rad, which tool_tip cannot state"));
+  settings.tcp_offset[4] = 6.283185307;  // once around
+  ASSERT_OK(start(arm_with(nothing(), settings)));
+  settings.payload_kg = -0.5;
+  ASSERT_STATUS(start(arm_with(nothing(), settings)), Status::kMissingKey);
 }
 
 void a_payload_set_after_connecting_is_found_at_arming(void**) {
