@@ -88,8 +88,6 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
   const bool rests = count_ == 1 && now().chunk->ends;
   const double lasts_s = stops_ ? stop_.duration() : rests ? now().end_s() - before_s : kInfinity;
   fade_in(before_s, lasts_s, reference, base, limits, fades);
-  bounded_ = lasts_s < kInfinity;
-  if (bounded_) bound(reference, limits);
   return fade_s_ > 0.0 ? reference : base;
 }
 
@@ -152,8 +150,6 @@ typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Poi
                                                       bool fades) {
   const bool slower_at_once = stop_path_time(before_s);
   if (!slower_at_once && !diverges(before_s + stop_.duration())) return base;
-  bounded_ = true;
-  bound(reference, limits);
   const Point slower = curve(path_time(before_s));
   fade_in(before_s, stop_.duration(), reference, slower, limits, fades);
   return fade_s_ > 0.0 ? reference : slower;
@@ -213,6 +209,8 @@ void ChunkPlan<Space, streams>::fade_in(double before_s, double lasts_s, const P
   fade_s_ = fades ? std::min(now().chunk->fade_s, lasts_s) : 0.0;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
   if (fade_s_ > lasts_s) fade_s_ = 0.0;
+  bounded_ = fade_s_ == 0.0 && lasts_s < kInfinity;
+  if (bounded_) bound(reference, limits);
 }
 
 /// Takes the places of the reference, of where it can stop and of the knots ahead, and a little

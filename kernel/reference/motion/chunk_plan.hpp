@@ -65,11 +65,14 @@ class ChunkPlan {
              bool fades);
   /// Moves path time to `now_s`, and returns the base. [cyclic]
   Point move_on(double now_s);
-  /// Returns `own`, or, on a curve that comes to rest, limits that keep the reference between where
-  /// it was and the rest of the curve, so that in its haste it does not pass the end. [cyclic]
+  /// Returns `own`, or, until the reference has joined a curve that comes to rest and is followed
+  /// at once, limits that keep it between where it was and the rest of the curve, so that in its
+  /// haste it does not pass the end. [cyclic]
   Limits beside(const Limits& own) const {
     return bounded_ ? Space::narrowed(own, lowest_, highest_) : own;
   }
+  /// The reference has joined the curve, which may leave the places of its knots. [cyclic]
+  void join() { bounded_ = false; }
   /// Finds the digital outputs of the targets passed up to `now_s`. [cyclic]
   void pass_outputs(double now_s);
   /// Hands over what pass_outputs() has found since the last time. [cyclic]

@@ -59,6 +59,7 @@ void Motion<Space>::move_stream(double dt_s) {
   const bool moves = !(before.standing() && base_.standing());
   reference_ = Space::approach(reference_, offset_, before, base_, false,
                                moves ? plan_.beside(own) : own, dt_s);
+  if (offset_.zero()) plan_.join();
   if (plan_.stopping()) tell(MotionEvent::kExpire);
   if (offset_.zero() && plan_.ended(time_s_) && reference_.standing()) rest_from_stream();
 }
