@@ -31,7 +31,7 @@ std::uint8_t byte_of(std::uint32_t unit, int place) {
 /// Units of the exponent in one without it; NaN for an exponent that no drive counts in.
 double per_unit(std::uint32_t unit) {
   constexpr int kMost = 12;
-  const int exponent = static_cast<std::int8_t>(byte_of(unit, 3));
+  const int byte = byte_of(unit, 3), exponent = byte < 128 ? byte : byte - 256;
   if (std::abs(exponent) > kMost) return kNotKnown;
   double power = 1.0;
   for (int i = 0; i < std::abs(exponent); ++i) power *= 10.0;

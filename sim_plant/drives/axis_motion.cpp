@@ -48,7 +48,8 @@ double Axis::velocity_unit() const {
   const std::int64_t unit = dictionary_.get(kVelocityUnit);
   if ((unit >> 16 & 0xFF) != 0xB4) return rad_per_increment();
   const double time_s = (unit >> 8 & 0xFF) == 0x47 ? 60.0 : 1.0;
-  return kTwoPi / time_s * std::pow(10.0, static_cast<std::int8_t>(unit >> 24));
+  const std::int64_t byte = unit >> 24 & 0xFF, exponent = byte < 128 ? byte : byte - 256;
+  return kTwoPi / time_s * std::pow(10.0, real(exponent));
 }
 
 double Axis::torque_unit() const {
