@@ -42,8 +42,8 @@ void NodeSetup::identity(const CanSettings& can, CommandMode mode) {
 }
 
 void NodeSetup::facts() {
-  for (std::uint32_t i = 0; i < cia402::kFacts; ++i) {
-    const auto& [object, what] = cia402::kFactObjects[i];
+  for (std::uint32_t i = 0; i < cia402::kFactCount; ++i) {
+    const auto& [object, what] = cia402::kFacts[i];
     steps_[static_cast<std::size_t>(count_++)] = {
         Kind::kFact, object.sub, object.bytes, object.index, i, 0xFFFFFFFF, what, ""};
   }

@@ -15,7 +15,7 @@ struct SetupStep {
     kWrite,
     kMayWrite,  ///< write; a drive that does not have the object is left as it is
     kAwait,     ///< read until it is `value`
-    kFact,      ///< read for DriveFacts, as fact `value`; a drive may not have it
+    kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
   };
 
   Kind kind = Kind::kExpect;

@@ -179,13 +179,14 @@ Status Startup::finish_step(std::int64_t now_ns) {
       return sdo_.abort() == SdoAbort::kTimeout ? Status::kBusTimeout : Status::kRefusedByRobot;
     }
   } else if (step.kind == SetupStep::Kind::kFact) {
-    facts_.set(static_cast<cia402::Fact>(step.value), sdo_.value());
+    facts_.set(step.value, sdo_.value());
   } else if (step.reads()) {
     return judge_value(step, now_ns);
   } else {
     watched_ = watched_ || step.watches;
   }
-  if (step.kind == SetupStep::Kind::kFact && step.value + 1 == cia402::kFacts) TRY(judge_facts());
+  if (step.kind == SetupStep::Kind::kFact && step.value + 1 == cia402::kFactCount)
+    TRY(judge_facts());
   return next_step(now_ns);
 }
 

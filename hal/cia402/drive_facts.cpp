@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hal/cia402/hex.hpp"
 #include "kernel/core/joint_limits.hpp"
@@ -38,14 +39,6 @@ double per_unit(std::uint32_t unit) {
   return exponent > 0 ? 1.0 / power : power;
 }
 
-/// All digits of a whole number, which six would not tell from the next.
-void put(double value, Message& text) {
-  if (std::floor(value) == value && value >= 0.0 && value < 1e15)
-    text << static_cast<std::size_t>(value);
-  else
-    text << value;
-}
-
 /// NaN is not near.
 bool near(double value, double expected) {
   return std::abs(value - expected) <= kEqual * std::abs(expected);
@@ -54,7 +47,7 @@ bool near(double value, double expected) {
 }  // namespace
 
 /// The quotient of two facts that the drive has, or NaN; 1 where it has neither.
-double DriveFacts::ratio(Fact above, Fact below) const {
+double DriveFacts::ratio(const Object& above, const Object& below) const {
   if (!has(above) && !has(below)) return 1.0;
   const double denominator = has(below) ? get(below) : 1.0;
   return has(above) && denominator > 0.0 ? get(above) / denominator : kNotKnown;
@@ -63,27 +56,27 @@ double DriveFacts::ratio(Fact above, Fact below) const {
 /// Units of a numerator in a revolution of the motor; NaN for what is no angle. `increments` are
 /// those of the file, for a drive that does not say its own.
 double DriveFacts::of_turn(std::uint32_t unit, double increments) const {
-  const double shaft = 1.0 / ratio(Fact::kMotorTurns, Fact::kShaftTurns);
+  const double shaft = 1.0 / ratio(kGearMotorTurns, kGearShaftTurns);
   const std::uint8_t code = byte_of(unit, 2);
-  if (has(Fact::kIncrements)) increments = ratio(Fact::kIncrements, Fact::kRevolutions);
+  if (has(kEncoderIncrements)) increments = ratio(kEncoderIncrements, kEncoderRevolutions);
   if (code == kIncrement) return per_unit(unit) * increments;
   if (code == kNoUnit)
-    return has(Fact::kFeed) ? per_unit(unit) * shaft * ratio(Fact::kFeed, Fact::kFeedPer)
-                            : per_unit(unit) * increments;
+    return has(kFeedConstant) ? per_unit(unit) * shaft * ratio(kFeedConstant, kFeedTurns)
+                              : per_unit(unit) * increments;
   for (const Angle& angle : kAngles)
     if (angle.code == code) return per_unit(unit) * shaft * angle.per_turn;
   return kNotKnown;
 }
 
 double DriveFacts::position_units(double increments) const {
-  return of_turn(has(Fact::kPositionsIn) ? get(Fact::kPositionsIn) : 0, increments);
+  return of_turn(has(kPositionUnit) ? get(kPositionUnit) : 0, increments);
 }
 
 /// Units of velocity per motor revolution per second as 60A9h has them; NaN: it does not say.
 double DriveFacts::told_velocity_units(double increments) const {
-  if (!has(Fact::kVelocitiesIn)) return kNotKnown;
-  const std::uint32_t unit = get(Fact::kVelocitiesIn);
-  const bool positions = byte_of(unit, 2) == kNoUnit && has(Fact::kPositionsIn);
+  if (!has(kVelocityUnit)) return kNotKnown;
+  const std::uint32_t unit = get(kVelocityUnit);
+  const bool positions = byte_of(unit, 2) == kNoUnit && has(kPositionUnit);
   const double numerator =
       positions ? per_unit(unit) * position_units(increments) : of_turn(unit, increments);
   switch (byte_of(unit, 1)) {
@@ -98,45 +91,46 @@ Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities
   TRY(judge_serial(drive, joint, why));
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
-  const double stated = drive.velocity_units[joint],
-               told = told_velocity_units(drive.increments[joint]);
-  const double factor = ratio(Fact::kFactor, Fact::kDivisor);
+  const double stated = drive.velocity_units[joint];
+  const double told = told_velocity_units(drive.increments[joint]);
   velocity_units = stated > 0.0 ? stated : told;
-  if (!velocities) return Status::kOk;
-  if (stated == 0.0 && (std::isnan(told) || !near(factor, 1.0))) {
-    why << "the unit of its velocities is not known: ";
-    if (has(Fact::kVelocitiesIn))
-      why << "60A9h is " << hex(get(Fact::kVelocitiesIn));
-    else
-      why << "it has no 60A9h";
-    if (!near(factor, 1.0)) why << ", and its velocity factor, 6096h, is not 1";
-    why << "; see 606Ch in its manual and add to [cia402]: velocity_units, per motor revolution "
-           "per "
-           "second: 60 for rev/min, the increments for increments/s";
+  return velocities ? judge_velocities(stated, told, why) : Status::kOk;
+}
+
+/// `stated`: by the file, or 0; `told`: by the drive, or NaN.
+Status DriveFacts::judge_velocities(double stated, double told, Message& why) const {
+  const bool scaled = !near(ratio(kVelocityFactor, kVelocityDivisor), 1.0);
+  if (stated == 0.0 && !scaled && !std::isnan(told)) return Status::kOk;
+  if (stated > 0.0 && (std::isnan(told) || near(told, stated))) return Status::kOk;
+  if (stated > 0.0) {
+    why << "its velocities have " << told << " units per motor revolution per second (60A9h is "
+        << hex(get(kVelocityUnit)) << "), [cia402] velocity_units is " << stated
+        << "; correct the file, or the drive";
     return Status::kRefusedByRobot;
   }
-  if (stated == 0.0 || std::isnan(told) || near(told, stated)) return Status::kOk;
-  why << "its velocities have ";
-  put(told, why);
-  why << " units per motor revolution per second (60A9h is " << hex(get(Fact::kVelocitiesIn))
-      << "), [cia402] velocity_units is ";
-  put(stated, why);
-  why << "; correct the file, or the drive";
+  why << "the unit of its velocities is not known: ";
+  if (has(kVelocityUnit))
+    why << "60A9h is " << hex(get(kVelocityUnit));
+  else
+    why << "it has no 60A9h";
+  if (scaled) why << ", and its velocity factor, 6096h, is not 1";
+  why << "; see 606Ch in its manual and add to [cia402]: velocity_units, in a motor revolution per "
+         "second: 60 for rev/min, the increments for increments/s";
   return Status::kRefusedByRobot;
 }
 
 /// Drives of one kind differ in nothing else, and a joint must not move for another.
 Status DriveFacts::judge_serial(const Cia402Settings& drive, int joint, Message& why) const {
   const double stated = drive.serial[joint];
-  if (stated == 0.0 || (has(Fact::kSerial) && get(Fact::kSerial) == stated)) return Status::kOk;
+  if (stated == 0.0 || (has(kSerialNumber) && get(kSerialNumber) == stated)) return Status::kOk;
   why << "its serial number (1018h:4) is ";
-  if (has(Fact::kSerial))
-    why << std::size_t{get(Fact::kSerial)};
+  if (has(kSerialNumber))
+    why << std::size_t{get(kSerialNumber)};
   else
     why << "not told";
   why << ", [cia402] serial is ";
-  put(stated, why);
-  why << "; it is the drive of another joint, or a new one: look at the cabling, then correct the "
+  why << stated
+      << "; it is the drive of another joint, or a new one: look at the cabling, then correct the "
          "file";
   return Status::kRefusedByRobot;
 }
@@ -144,18 +138,18 @@ Status DriveFacts::judge_serial(const Cia402Settings& drive, int joint, Message&
 /// Only an exact match runs: a factor of a thousand in the torque must not be found by the arm.
 Status DriveFacts::judge_torque(const Cia402Settings& drive, int joint, Message& why) const {
   const auto rated_mNm = static_cast<std::uint32_t>(drive.rated_torque[joint] * 1000.0 + 0.5);
-  if (has(Fact::kRated) && get(Fact::kRated) != rated_mNm) {
-    why << "rated torque in mN m (6076h:0) is " << std::size_t{get(Fact::kRated)} << ", expected "
+  if (has(kRatedTorque) && get(kRatedTorque) != rated_mNm) {
+    why << "rated torque in mN m (6076h:0) is " << std::size_t{get(kRatedTorque)} << ", expected "
         << std::size_t{rated_mNm} << "; correct [cia402] rated_torque, or the drive";
     return Status::kRefusedByRobot;
   }
   const double step_Nm = 1e-3 * drive.rated_torque[joint] * drive.gear_ratio[joint];
   const double stated_Nm = drive.torque_limit[joint];
   const double needed_Nm = stated_Nm > 0.0 ? stated_Nm : JointLimits{}.tau_max[joint];
-  const double most_Nm = get(Fact::kMost) * step_Nm;
+  const double most_Nm = get(kMaxTorque) * step_Nm;
   // To the drive's nearest step.
-  if (!has(Fact::kMost) || most_Nm + 0.5 * step_Nm >= needed_Nm) return Status::kOk;
-  why << "its own torque limit (6072h:0) is " << std::size_t{get(Fact::kMost)}
+  if (!has(kMaxTorque) || most_Nm + 0.5 * step_Nm >= needed_Nm) return Status::kOk;
+  why << "its own torque limit (6072h:0) is " << std::size_t{get(kMaxTorque)}
       << " permille of the rated torque, " << most_Nm << " N m at the joint, less than "
       << needed_Nm << " N m, "
       << (stated_Nm > 0.0 ? "[cia402] torque_limit; correct the file, or the drive"
@@ -169,22 +163,21 @@ Status DriveFacts::judge_positions(const Cia402Settings& drive, int joint, Messa
   const double expected = drive.increments[joint], told = position_units(expected);
   if (near(told, expected)) return Status::kOk;
   why << "its positions have ";
-  if (std::isnan(told)) {
+  if (std::isnan(told))
     why << "units that are not known";
-  } else {
-    put(told, why);
-    why << " units per motor revolution";
+  else
+    why << told << " units per motor revolution";
+  const char* between = " (";
+  for (const auto& [above, below] :
+       {std::pair(kEncoderIncrements, kEncoderRevolutions),
+        std::pair(kGearMotorTurns, kGearShaftTurns), std::pair(kFeedConstant, kFeedTurns)}) {
+    if (!has(above)) continue;
+    why << between << hex(above.index) << " is " << std::size_t{get(above)} << ":"
+        << std::size_t{get(below)};
+    between = ", ";
   }
-  why << " (";
-  if (has(Fact::kIncrements))
-    why << "608Fh: " << std::size_t{get(Fact::kIncrements)} << ":"
-        << std::size_t{get(Fact::kRevolutions)};
-  if (has(Fact::kFeed))
-    why << " 6092h: " << std::size_t{get(Fact::kFeed)} << ":" << std::size_t{get(Fact::kFeedPer)};
-  if (has(Fact::kPositionsIn)) why << " 60A8h: " << hex(get(Fact::kPositionsIn));
-  why << "), [cia402] increments is ";
-  put(expected, why);
-  why << "; correct the file, or the drive";
+  if (has(kPositionUnit)) why << between << "60A8h is " << hex(get(kPositionUnit));
+  why << "), [cia402] increments is " << expected << "; correct the file, or the drive";
   return Status::kRefusedByRobot;
 }
 

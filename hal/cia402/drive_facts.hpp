@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 
 #include "hal/cia402/cia402_settings.hpp"
 #include "hal/cia402/protocol.hpp"
@@ -23,29 +24,12 @@
 
 namespace tactus::cia402 {
 
-enum class Fact : std::uint8_t {
-  kSerial,
-  kRated,
-  kMost,
-  kIncrements,
-  kRevolutions,
-  kMotorTurns,
-  kShaftTurns,
-  kFeed,
-  kFeedPer,
-  kPositionsIn,
-  kVelocitiesIn,
-  kFactor,
-  kDivisor,
-};
-inline constexpr int kFacts = 13;
-
-struct FactObject {
+/// An object that is read, and its name in messages.
+struct Fact {
   Object object;
   const char* what;
 };
-/// In the order of the facts.
-inline constexpr std::array<FactObject, kFacts> kFactObjects = {{
+inline constexpr Fact kFacts[] = {
     {kSerialNumber, "serial number"},
     {kRatedTorque, "rated torque"},
     {kMaxTorque, "torque limit"},
@@ -59,17 +43,22 @@ inline constexpr std::array<FactObject, kFacts> kFactObjects = {{
     {kVelocityUnit, "unit of velocities"},
     {kVelocityFactor, "velocity factor"},
     {kVelocityDivisor, "divisor of the velocity factor"},
-}};
+};
+inline constexpr std::uint32_t kFactCount = std::size(kFacts);
 
 class DriveFacts {
  public:
   void clear() { known_ = 0; }
-  void set(Fact fact, std::uint32_t value) {
-    values_[static_cast<std::size_t>(fact)] = value;
-    known_ |= 1U << static_cast<int>(fact);
+  /// Takes the value of kFacts[row]. [init]
+  void set(std::uint32_t row, std::uint32_t value) {
+    values_[row] = value;
+    known_ |= 1U << row;
   }
-  bool has(Fact fact) const { return (known_ >> static_cast<int>(fact) & 1U) != 0; }
-  std::uint32_t get(Fact fact) const { return values_[static_cast<std::size_t>(fact)]; }
+  bool has(const Object& object) const { return (known_ >> row_of(object) & 1U) != 0; }
+  /// Returns the value of an object, 0 if the drive does not have it. [init]
+  std::uint32_t get(const Object& object) const {
+    return has(object) ? values_[row_of(object)] : 0;
+  }
 
   /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
   /// wire carries velocities of this drive, whose unit must be known; `velocity_units` becomes the
@@ -79,15 +68,22 @@ class DriveFacts {
                Message& why) const;
 
  private:
-  double ratio(Fact above, Fact below) const;
+  /// The row of kFacts; behind the last for an object that is none of them.
+  static constexpr std::uint32_t row_of(const Object& object) {
+    std::uint32_t row = 0;
+    while (row < kFactCount && kFacts[row].object.mapping() != object.mapping()) ++row;
+    return row;
+  }
+  double ratio(const Object& above, const Object& below) const;
   double of_turn(std::uint32_t unit, double increments) const;
   double position_units(double increments) const;
   double told_velocity_units(double increments) const;
   Status judge_serial(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_torque(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_positions(const Cia402Settings& drive, int joint, Message& why) const;
+  Status judge_velocities(double stated, double told, Message& why) const;
 
-  std::array<std::uint32_t, kFacts> values_{};
+  std::array<std::uint32_t, kFactCount> values_{};
   std::uint32_t known_ = 0;
 };
 

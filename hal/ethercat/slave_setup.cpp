@@ -36,8 +36,8 @@ void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
 }
 
 void SlaveSetup::facts() {
-  for (std::uint32_t i = 0; i < cia402::kFacts; ++i) {
-    const auto& [object, what] = cia402::kFactObjects[i];
+  for (std::uint32_t i = 0; i < cia402::kFactCount; ++i) {
+    const auto& [object, what] = cia402::kFacts[i];
     steps_[static_cast<std::size_t>(count_++)] = {
         SetupStep::Kind::kFact, object.sub, 0, object.index, i, 0xFFFFFFFF, what, ""};
   }

@@ -13,7 +13,7 @@ namespace tactus::ethercat {
 struct SetupStep {
   enum class Kind : std::uint8_t {
     kExpect,    ///< read; it must be `value`, in the bits of `mask`
-    kFact,      ///< read for DriveFacts, as fact `value`; a drive may not have it
+    kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
     kMayWrite,  ///< write; a drive that does not take it is left as it is
   };
 

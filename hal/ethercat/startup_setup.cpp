@@ -69,13 +69,13 @@ Status Startup::judge_expected(const SetupStep& step) {
 Status Startup::take_fact(const SetupStep& step) {
   Message what;
   if (coe_.progress() == CoeClient::Progress::kDone) {
-    facts_.set(static_cast<cia402::Fact>(step.value), coe_.value());
+    facts_.set(step.value, coe_.value());
   } else if (coe_.abort() != can::SdoAbort::kNoObject &&
              coe_.abort() != can::SdoAbort::kNoSubIndex) {
     what << step.what << ": " << std::string_view(coe_.describe()) << kManual;
     return refuse(Status::kRefusedByRobot, what);
   }
-  if (step.value + 1 < cia402::kFacts) return Status::kOk;
+  if (step.value + 1 < cia402::kFactCount) return Status::kOk;
   const Status status = facts_.judge(*drive_, joint(), true, velocity_units_[joint()], what);
   return status == Status::kOk ? status : refuse(status, what);
 }

@@ -75,6 +75,13 @@ void compare_tcp(const UrState& state, Message& differs, Message& keys) {
   keys << (keys.empty() ? "" : ", ") << "tool_tip = " << numbers(p, " ");
 }
 
+/// False for what no robot carries: the keys of [robot] have ranges.
+bool can_be_stated(const UrState& state) {
+  const auto far = [](const Vector3& p) { return p.cwiseAbs().maxCoeff() > Tool::kFarthest_m; };
+  return !(state.payload_kg < 0.0 || state.payload_kg > Tool::kMostMass_kg ||
+           far(state.payload_com) || far(state.tcp_offset.head<3>()));
+}
+
 /// The reported tip and the computed one, and how far the former is from the latter.
 struct Tips {
   Pose said, model;
@@ -129,7 +136,10 @@ Status check_before_program(const Tool& given, const UrState& state, double tip_
   if (!gives_tcp(given)) compare_tcp(state, differs, keys);
   if (!keys.empty()) {
     why = differs;
-    why << "; add to [robot]: " << keys;
+    if (can_be_stated(state))
+      why << "; add to [robot]: " << keys;
+    else
+      why << "; [robot] cannot state that, correct it on the pendant";
     return Status::kMissingKey;
   }
   const Tcp tcp = reported(state);

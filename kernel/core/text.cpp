@@ -1,6 +1,8 @@
 #include "kernel/core/text.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace tactus {
 namespace {
@@ -37,6 +39,15 @@ struct Decimal {
   }
 };
 
+/// True for a whole number of 32 bits that six digits would not tell from the next.
+bool has_more_digits(double value) {
+  if (!(value <= std::numeric_limits<std::uint32_t>::max())) return false;
+  auto whole = static_cast<std::uint32_t>(value);
+  if (static_cast<double>(whole) != value) return false;
+  for (int i = 0; i < 10 && whole % 10 == 0; ++i) whole /= 10;
+  return whole >= 1'000'000;
+}
+
 }  // namespace
 
 std::size_t append_text(char* buffer, std::size_t size, std::size_t capacity,
@@ -72,6 +83,8 @@ std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, 
   }
   if (std::isinf(value)) return append_text(buffer, size, capacity, "inf");
   if (value == 0.0) return append_text(buffer, size, capacity, "0");
+  if (has_more_digits(value))
+    return append_int(buffer, size, capacity, static_cast<std::uint32_t>(value));
 
   const Decimal decimal(value);
   const bool plain = decimal.point >= kSmallestPlain && decimal.point <= kLargestPlain;

@@ -27,6 +27,8 @@ struct Cuboid {
 /// The tool mounted on the flange, in the flange frame. Its point mass adds to the gravity and
 /// inertia of the last link.
 struct Tool {
+  static constexpr double kMostMass_kg = 100.0, kFarthest_m = 2.0;  ///< that a file can state
+
   double mass_kg = 0.0;
   Vector3 com = Vector3::Zero();  ///< centre of mass, m
   Pose tip;                       ///< tip frame, in the flange frame

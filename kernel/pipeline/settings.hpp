@@ -43,9 +43,9 @@ struct RobotSection : OutputsSection<> {
   void describe_robot(Visitor& visit) {
     visit.text("name", name, "the robot the file is written for");
     visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
-    visit.optional("tool_mass", tool_mass, Range{0.0, 100.0}, "kg");
-    visit.optional("tool_com", tool_com, Range{-2.0, 2.0}, "m");
-    visit.optional("tool_tip", tool_tip, Range{-2.0, 2.0}, "m");
+    visit.optional("tool_mass", tool_mass, Range{0.0, Tool::kMostMass_kg}, "kg");
+    visit.optional("tool_com", tool_com, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
+    visit.optional("tool_tip", tool_tip, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
     visit.out("q", q);
     visit.out("dq", dq);
     visit.out("tau", tau);

@@ -15,12 +15,12 @@ namespace tactus::cia402 {
 namespace {
 
 struct Said {
-  Fact fact;
+  Object object;
   std::uint32_t value;
 };
 using Sayings = std::vector<Said>;
 
-constexpr Said kTurn = {Fact::kIncrements, 16777216}, kPerTurn = {Fact::kRevolutions, 1};
+constexpr Said kTurn = {kEncoderIncrements, 16777216}, kPerTurn = {kEncoderRevolutions, 1};
 
 /// The drive of joint 1, which the file describes as `drive`.
 struct Drive1 {
@@ -31,7 +31,9 @@ struct Drive1 {
   Drive1() { drive.rated_torque.setConstant(3.0); }
   Status judge(const Sayings& sayings, bool velocities = true) {
     DriveFacts facts;
-    for (const Said& said : sayings) facts.set(said.fact, said.value);
+    for (const Said& said : sayings)
+      for (std::uint32_t row = 0; row < kFactCount; ++row)
+        if (kFacts[row].object.mapping() == said.object.mapping()) facts.set(row, said.value);
     why = {};
     return facts.judge(drive, 0, velocities, velocity_units, why);
   }
@@ -46,29 +48,29 @@ void units_of_velocity_are_those_that_the_drive_names(void**) {
     Sayings says;
   };
   const Row rows[] = {
-      {16777216.0, 16777216.0, {kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00B50300}}},
-      {16777216.0, 60.0, {kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00B44700}}},     // rev/min
-      {16777216.0, 60000.0, {kTurn, kPerTurn, {Fact::kVelocitiesIn, 0xFDB44700}}},  // 0.001 rev/min
-      {16777216.0, 1.0, {kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00B40300}}},      // rev/s
-      {16777216.0, 21600.0, {kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00414700}}},  // degrees/min
+      {16777216.0, 16777216.0, {kTurn, kPerTurn, {kVelocityUnit, 0x00B50300}}},
+      {16777216.0, 60.0, {kTurn, kPerTurn, {kVelocityUnit, 0x00B44700}}},     // rev/min
+      {16777216.0, 60000.0, {kTurn, kPerTurn, {kVelocityUnit, 0xFDB44700}}},  // 0.001 rev/min
+      {16777216.0, 1.0, {kTurn, kPerTurn, {kVelocityUnit, 0x00B40300}}},      // rev/s
+      {16777216.0, 21600.0, {kTurn, kPerTurn, {kVelocityUnit, 0x00414700}}},  // degrees/min
       {4096.0,
        4096.0,  // 8192 of two turns; the unit of velocities is that of the positions per s
-       {{Fact::kIncrements, 8192}, {Fact::kRevolutions, 2}, {Fact::kVelocitiesIn, 0x00000300}}},
+       {{kEncoderIncrements, 8192}, {kEncoderRevolutions, 2}, {kVelocityUnit, 0x00000300}}},
       {720.0,
        1.2,  // a gear 50:1 inside the drive: its shaft, in 36000 units per turn, rev/min
        {kTurn,
         kPerTurn,
-        {Fact::kMotorTurns, 50},
-        {Fact::kShaftTurns, 1},
-        {Fact::kFeed, 36000},
-        {Fact::kFeedPer, 1},
-        {Fact::kVelocitiesIn, 0x00B44700}}},
+        {kGearMotorTurns, 50},
+        {kGearShaftTurns, 1},
+        {kFeedConstant, 36000},
+        {kFeedTurns, 1},
+        {kVelocityUnit, 0x00B44700}}},
       {360000.0,
        360000.0,  // thousandths of a degree, and those per second
-       {{Fact::kPositionsIn, 0xFD410000}, {Fact::kVelocitiesIn, 0xFD410300}}},
+       {{kPositionUnit, 0xFD410000}, {kVelocityUnit, 0xFD410300}}},
       {6283185.307,
        6283185.307,  // millionths of a radian
-       {{Fact::kPositionsIn, 0xFA100000}, {Fact::kVelocitiesIn, 0x00000300}}}};
+       {{kPositionUnit, 0xFA100000}, {kVelocityUnit, 0x00000300}}}};
   for (const Row& row : rows) {
     Drive1 one;
     one.drive.increments.setConstant(row.increments);
@@ -85,8 +87,7 @@ void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
   for (const std::uint32_t unit :
        {0x00000000U, 0x00B40000U, 0x00010300U, 0x00B44800U, 0x7FB44700U, 0x80B44700U}) {
     Drive1 one;
-    ASSERT_STATUS(one.judge({kTurn, kPerTurn, {Fact::kVelocitiesIn, unit}}),
-                  Status::kRefusedByRobot);
+    ASSERT_STATUS(one.judge({kTurn, kPerTurn, {kVelocityUnit, unit}}), Status::kRefusedByRobot);
     assert_true(one.says("the unit of its velocities is not known: 60A9h is "));
     assert_true(one.says("add to [cia402]: velocity_units"));
   }
@@ -97,14 +98,13 @@ void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
   one.drive.velocity_units.setConstant(60.0);
   ASSERT_OK(one.judge(silent));
   assert_true(one.velocity_units == 60.0);
-  ASSERT_STATUS(one.judge({kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00B50300}}),
-                Status::kRefusedByRobot);
+  ASSERT_STATUS(one.judge({kTurn, kPerTurn, {kVelocityUnit, 0x00B50300}}), Status::kRefusedByRobot);
   assert_true(one.says("its velocities have 16777216 units per motor revolution per second"));
   assert_true(one.says("60A9h is 00B50300h), [cia402] velocity_units is 60;"));
 
   Drive1 scaled;
   const Sayings factor = {
-      kTurn, kPerTurn, {Fact::kVelocitiesIn, 0x00B50300}, {Fact::kFactor, 5}, {Fact::kDivisor, 3}};
+      kTurn, kPerTurn, {kVelocityUnit, 0x00B50300}, {kVelocityFactor, 5}, {kVelocityDivisor, 3}};
   ASSERT_STATUS(scaled.judge(factor), Status::kRefusedByRobot);
   assert_true(scaled.says("6096h, is not 1"));
   scaled.drive.velocity_units.setConstant(16777216.0);
@@ -112,13 +112,13 @@ void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
 }
 
 void positions_with_other_units_than_in_the_file_are_refused(void**) {
-  const Sayings rows[] = {{{Fact::kIncrements, 16777215}, kPerTurn},
-                          {kTurn, {Fact::kRevolutions, 2}},
-                          {kTurn, {Fact::kRevolutions, 0}},
-                          {kTurn, kPerTurn, {Fact::kFeed, 4096}, {Fact::kFeedPer, 1}},
-                          {kTurn, kPerTurn, {Fact::kFeed, 16777216}, {Fact::kFeedPer, 0}},
-                          {{Fact::kPositionsIn, 0x00B40000}},
-                          {{Fact::kPositionsIn, 0x00010000}}};  // metres
+  const Sayings rows[] = {{{kEncoderIncrements, 16777215}, kPerTurn},
+                          {kTurn, {kEncoderRevolutions, 2}},
+                          {kTurn, {kEncoderRevolutions, 0}},
+                          {kTurn, kPerTurn, {kFeedConstant, 4096}, {kFeedTurns, 1}},
+                          {kTurn, kPerTurn, {kFeedConstant, 16777216}, {kFeedTurns, 0}},
+                          {{kPositionUnit, 0x00B40000}},
+                          {{kPositionUnit, 0x00010000}}};  // metres
   for (const Sayings& says : rows) {
     Drive1 one;
     ASSERT_STATUS(one.judge(says, false), Status::kRefusedByRobot);
@@ -128,8 +128,8 @@ void positions_with_other_units_than_in_the_file_are_refused(void**) {
   Drive1 one;
   // The drive says nothing, or that it counts in increments: the file alone says how many.
   ASSERT_OK(one.judge({}, false));
-  ASSERT_OK(one.judge({{Fact::kPositionsIn, 0x00B50000}}, false));
-  ASSERT_OK(one.judge({{Fact::kPositionsIn, 0x00000000}, {Fact::kVelocitiesIn, 0x00B50300}}));
+  ASSERT_OK(one.judge({{kPositionUnit, 0x00B50000}}, false));
+  ASSERT_OK(one.judge({{kPositionUnit, 0x00000000}, {kVelocityUnit, 0x00B50300}}));
   ASSERT_NEAR(one.velocity_units, 16777216.0, 1e-6);
 }
 
@@ -138,27 +138,27 @@ void a_torque_limit_below_what_is_needed_is_refused(void**) {
   const double step_Nm = 3e-3, most_Nm = JointLimits{}.tau_max[0];
   const auto needed = static_cast<std::uint32_t>(std::ceil(most_Nm / step_Nm - 0.5));
   Drive1 one;
-  ASSERT_OK(one.judge({{Fact::kMost, needed}}, false));
+  ASSERT_OK(one.judge({{kMaxTorque, needed}}, false));
   for (const std::uint32_t most : {needed - 1, 14500U, 0U}) {
-    ASSERT_STATUS(one.judge({{Fact::kMost, most}}, false), Status::kRefusedByRobot);
+    ASSERT_STATUS(one.judge({{kMaxTorque, most}}, false), Status::kRefusedByRobot);
     assert_true(one.says("its own torque limit (6072h:0) is "));
     assert_true(one.says("raise it in the drive"));
     assert_true(one.says("or say in [cia402] torque_limit") == (most > 0));
   }
   one.drive.torque_limit.setConstant(43.5);
-  ASSERT_OK(one.judge({{Fact::kMost, 14500}}, false));
-  ASSERT_STATUS(one.judge({{Fact::kMost, 14499}}, false), Status::kRefusedByRobot);
+  ASSERT_OK(one.judge({{kMaxTorque, 14500}}, false));
+  ASSERT_STATUS(one.judge({{kMaxTorque, 14499}}, false), Status::kRefusedByRobot);
   assert_true(one.says("less than 43.5 N m, [cia402] torque_limit; correct"));
-  ASSERT_STATUS(one.judge({{Fact::kRated, 3001}}, false), Status::kRefusedByRobot);
+  ASSERT_STATUS(one.judge({{kRatedTorque, 3001}}, false), Status::kRefusedByRobot);
   assert_true(one.says("rated torque in mN m (6076h:0) is 3001, expected 3000"));
 }
 
 void a_drive_with_another_serial_number_is_refused(void**) {
   Drive1 one;
-  ASSERT_OK(one.judge({{Fact::kSerial, 4294967295U}}, false));
+  ASSERT_OK(one.judge({{kSerialNumber, 4294967295U}}, false));
   one.drive.serial[0] = 4294967294.0;
-  ASSERT_OK(one.judge({{Fact::kSerial, 4294967294U}}, false));
-  ASSERT_STATUS(one.judge({{Fact::kSerial, 4294967295U}}, false), Status::kRefusedByRobot);
+  ASSERT_OK(one.judge({{kSerialNumber, 4294967294U}}, false));
+  ASSERT_STATUS(one.judge({{kSerialNumber, 4294967295U}}, false), Status::kRefusedByRobot);
   assert_true(one.says("(1018h:4) is 4294967295, [cia402] serial is 4294967294; it is the drive"));
   ASSERT_STATUS(one.judge({}, false), Status::kRefusedByRobot);
   assert_true(one.says("is not told"));

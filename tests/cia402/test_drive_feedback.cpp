@@ -121,19 +121,19 @@ void a_position_that_jumps_while_the_arm_is_enabled_stops_it(void**) {
   }
 }
 
-/// A joint that swings to and fro at 2 rad/s at most, whose drive tells `told` of its velocity,
+/// A joint that swings to and fro at `most_rad_s`, whose drive tells `told` of its velocity,
 /// `late_s` late. Returns the cycles until it is stopped, or -1.
-int stopped_after(double told, double late_s, double noise_rad_s = 0.0) {
+int stopped_after(double told, double late_s, double noise_rad_s = 0.0, double most_rad_s = 2.0) {
   ArmOfDrives arm;
   arm.settings.hold_tolerance = 3.0;
   arm.measures_velocity = true;
   arm.arm();
   const std::int32_t from = arm.feedbacks[0].position;
-  constexpr double kRate = 10.0, kSwing_rad = 0.2;
+  const double rate = most_rad_s < 1.0 ? 1.0 : 10.0, swing_rad = most_rad_s / rate;
   for (int i = 0; i < 3000; ++i) {
     const double t = 1e-3 * i;
-    put_position(arm, 0, kSwing_rad * std::sin(kRate * t), from);
-    const double dq = kRate * kSwing_rad * std::cos(kRate * std::max(t - late_s, 0.0));
+    put_position(arm, 0, swing_rad * std::sin(rate * t), from);
+    const double dq = most_rad_s * std::cos(rate * std::max(t - late_s, 0.0));
     const double noise = i % 2 == 0 ? noise_rad_s : -noise_rad_s;
     arm.feedbacks[0].velocity =
         static_cast<std::int32_t>((told * dq + noise) * kIncrements_per_rad);
@@ -152,6 +152,8 @@ void a_velocity_that_is_not_the_rate_of_the_positions_stops_the_arm_within_50_ms
     const int cycles = stopped_after(told, 0.0);
     assert_true(cycles >= 0 && cycles < 50);
   }
+  const int slowly = stopped_after(0.0, 0.0, 0.0, 0.3);
+  assert_true(slowly >= 0 && slowly < 150);
   assert_int_equal(stopped_after(1.0, 0.0), -1);
   assert_int_equal(stopped_after(1.0, 0.004), -1);  // a filter of the drive
   assert_int_equal(stopped_after(1.0, 0.002, 0.2), -1);

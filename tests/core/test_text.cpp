@@ -21,7 +21,7 @@ void assert_text(const Value& value, const char* expected) {
 
 // Proves CFG-2.
 
-void a_double_is_written_with_six_significant_digits(void**) {
+void a_double_is_written_with_six_significant_digits_a_whole_number_with_all(void**) {
   struct {
     double value;
     const char* text;
@@ -37,7 +37,11 @@ void a_double_is_written_with_six_significant_digits(void**) {
                      {1234567.8, "1234570"},
                      {999999.6, "1000000"},
                      {99999.951, "100000"},
-                     {999999499.0, "999999000"},
+                     {999999499.4, "999999000"},
+                     {999999499.0, "999999499"},
+                     {16777216.0, "16777216"},
+                     {-4294967295.0, "-4294967295"},
+                     {4294967296.0, "4.29497e9"},
                      {1e9, "1e9"},
                      {-1.5e12, "-1.5e12"},
                      {0.00001, "0.00001"},
@@ -106,7 +110,7 @@ void text_that_does_not_fit_is_cut_and_stays_a_string(void**) {
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(a_double_is_written_with_six_significant_digits),
+      cmocka_unit_test(a_double_is_written_with_six_significant_digits_a_whole_number_with_all),
       cmocka_unit_test(a_written_double_reads_back_to_six_digits),
       cmocka_unit_test(an_integer_is_written_whole),
       cmocka_unit_test(a_range_is_worded_as_a_requirement),

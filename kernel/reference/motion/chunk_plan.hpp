@@ -68,8 +68,10 @@ class ChunkPlan {
   /// Returns `own`, or, until the reference has joined a curve that comes to rest and is followed
   /// at once, limits that keep it between where it was and the rest of the curve, so that in its
   /// haste it does not pass the end. [cyclic]
-  Limits beside(const Limits& own) const {
-    return bounded_ ? Space::narrowed(own, lowest_, highest_) : own;
+  const Limits& beside(const Limits& own) {
+    if (!bounded_) return own;
+    narrow_ = Space::narrowed(own, lowest_, highest_);
+    return narrow_;
   }
   /// The reference has joined the curve, which may leave the places of its knots. [cyclic]
   void join() { bounded_ = false; }
@@ -145,6 +147,7 @@ class ChunkPlan {
   double seam_ = 0.0;
   bool bounded_ = false;
   typename Space::Place lowest_, highest_;
+  Limits narrow_;
   PassedTarget passed_target_;
   PassedInPeriod passed_;
 };

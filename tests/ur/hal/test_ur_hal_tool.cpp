@@ -117,6 +117,8 @@ void a_turned_tcp_is_said_to_be_one(void**) {
   ASSERT_OK(start(arm_with(nothing(), settings)));
   settings.payload_kg = -0.5;
   ASSERT_STATUS(start(arm_with(nothing(), settings)), Status::kMissingKey);
+  assert_true(g_arm->says("[robot] cannot state that, correct it on the pendant"));
+  assert_false(g_arm->says("tool_mass"));
 }
 
 void a_payload_set_after_connecting_is_found_at_arming(void**) {
