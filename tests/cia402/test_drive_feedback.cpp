@@ -1,4 +1,7 @@
 // What is made of feedback that is missing, late, impossible or the last of a drive.
+#include <algorithm>
+#include <limits>
+
 #include "tests/cia402/arm_of_drives.hpp"
 
 namespace tactus::cia402 {
@@ -135,8 +138,9 @@ int stopped_after(double told, double late_s, double noise_rad_s = 0.0, double m
     put_position(arm, 0, swing_rad * std::sin(rate * t), from);
     const double dq = most_rad_s * std::cos(rate * std::max(t - late_s, 0.0));
     const double noise = i % 2 == 0 ? noise_rad_s : -noise_rad_s;
-    arm.feedbacks[0].velocity =
-        static_cast<std::int32_t>((told * dq + noise) * kIncrements_per_rad);
+    constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+    arm.feedbacks[0].velocity = static_cast<std::int32_t>(
+        std::clamp((told * dq + noise) * kIncrements_per_rad, -kMost, kMost));
     arm.cycle(DriveRequest::kFollow);
     if (arm.joint(0).reason == Status::kOk) continue;
     ASSERT_STATUS(arm.joint(0).reason, Status::kStateInvalid);
