@@ -76,7 +76,9 @@ void Drives::judge_hold(int j) {
   const Figures figures = {joint.q - held_[j], settings_->hold_tolerance};
   fail(j, Status::kMoved, joint.last.error_code, "moved by ",
        " rad while it was held, more than [cia402] hold_tolerance, ",
-       " rad; check direction, rated_torque, hold_stiffness and the encoder", &figures);
+       " rad; check direction, rated_torque, hold_stiffness, the encoder, and the mounting and "
+       "tool of [robot]",
+       &figures);
 }
 
 /// What an enabled drive says of itself must be possible. While its brake opens a drive may limit

@@ -6,13 +6,12 @@
 //
 //   f = R^T (f_tcp + m g),  m_0 = R^T m_tcp + p x R^T f_tcp + c x R^T m g
 //
-// with p that of the tip, or zero,
-// with R from the pose of the tip, whose axes are the flange's, and g = 9.81 m/s^2 downwards.
+// with p that of the tip, or zero, R from the pose of the tip, whose axes are the flange's, and the
+// gravity g of the tool, in the base.
 #pragma once
 
 #include "hal/ur/ur_state.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/robots/robot_table.hpp"
 
 namespace tactus::ur {
 
@@ -21,7 +20,7 @@ namespace tactus::ur {
 inline Vector6 flange_wrench(const UrState& state, const Tool& tool, const Version& version) {
   const Eigen::Quaterniond to_flange = exp_so3(state.tcp_pose.tail<3>()).conjugate();
   const Vector3 force = to_flange * Vector3(state.tcp_force.head<3>());
-  const Vector3 weight = to_flange * Vector3(0.0, 0.0, -tool.mass_kg * kGravity_m_s2);
+  const Vector3 weight = to_flange * Vector3(tool.mass_kg * tool.gravity);
   const Vector3 lever = version.major < 5 ? tool.tip.p : Vector3(Vector3::Zero());
   Vector6 wrench;
   wrench.head<3>() = force + weight;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kernel/math/exponential.hpp"
-#include "kernel/robots/robot_table.hpp"
 
 namespace tactus {
 namespace {
@@ -88,7 +87,7 @@ Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
 }
 
 Vector6 WrenchFrontEnd::weight(const Matrix3& R) const {
-  const Vector3 force = R.transpose() * Vector3(0.0, 0.0, -tool->mass_kg * kGravity_m_s2);
+  const Vector3 force = R.transpose() * Vector3(tool->mass_kg * tool->gravity);
   return stacked(force, tool->com.cross(force));
 }
 

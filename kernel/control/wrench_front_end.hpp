@@ -3,7 +3,7 @@
 //
 //   ft = [f; m] = bias + [m_t g; c x m_t g] + contact        at the flange, in its axes
 //
-// m_t and c are the tool's mass and centre of mass, and g = 9.81 m/s^2 downwards in the base,
+// m_t and c are the tool's mass and centre of mass, and g = 9.81 m/s^2 downwards in the world,
 // turned into the flange's axes. The tool's inertial force is not modelled: m_t times its
 // acceleration counts as contact. Then, with p the tip in the flange frame and R the flange in the
 // base,

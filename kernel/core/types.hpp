@@ -24,14 +24,18 @@ struct Cuboid {
   Vector3 size = Vector3::Zero();  ///< m
 };
 
-/// The tool mounted on the flange, in the flange frame. Its point mass adds to the gravity and
-/// inertia of the last link.
+/// The tool mounted on the flange, in the flange frame, and the gravity that pulls at it and at the
+/// arm. Its point mass adds to the gravity and inertia of the last link.
 struct Tool {
   static constexpr double kMostMass_kg = 100.0, kFarthest_m = 2.0;  ///< that a file can state
 
   double mass_kg = 0.0;
-  Vector3 com = Vector3::Zero();  ///< centre of mass, m
-  Pose tip;                       ///< tip frame, in the flange frame
+  Vector3 com = Vector3::Zero();                 ///< centre of mass, m
+  Pose tip;                                      ///< tip frame, in the flange frame
+  Vector3 gravity = {0.0, 0.0, -kGravity_m_s2};  ///< m/s^2, base frame
+
+  /// True if the models would be wrong without it. [any]
+  bool matters() const { return mass_kg != 0.0 || !tip.p.isZero(0.0) || gravity != Tool().gravity; }
 };
 
 /// Returns the tool that the models assume: zero in place of what is not given, NaN. [any]

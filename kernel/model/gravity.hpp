@@ -1,5 +1,5 @@
 // Joint efforts that hold the arm against gravity, from composite first moments:
-//   a_i = R^T a_(i-1)                                   a_(-1) = 9.81 m/s^2 upwards
+//   a_i = R^T a_(i-1)                                   a_(-1) = that of gravity, upwards
 //   h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)
 //   g_i = e_z . (h_i x a_i)
 // h_i is the first moment of link i and all it carries about the origin of frame i, and M_i their
@@ -11,6 +11,11 @@
 #include "kernel/robots/link.hpp"
 
 namespace tactus {
+
+/// Returns the acceleration that holds against gravity, m/s^2, base frame. [any]
+inline auto upwards(const Tool& tool) {
+  return TypedVector{-tool.gravity.x(), -tool.gravity.y(), -tool.gravity.z()};
+}
 
 /// Fills g from joint i up. Returns the first moment of link i and all it carries about the origin
 /// and in the axes of frame i-1, kg m; `a_parent` is in the same axes.
@@ -28,12 +33,12 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
   }
 }
 
-/// Returns g(q), N m, for an upright base: the gradient of the potential energy. [cyclic]
+/// Returns g(q), N m, under the gravity of `tool`: the gradient of the potential energy. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> gravity(const JointTrig<R>& trig, const Tool& tool) {
   JointsOf<R> g;
-  composite_moment<R, 0>(TypedVector{Zero{}, Zero{}, kGravity_m_s2}, trig, tool, g);
+  composite_moment<R, 0>(upwards(tool), trig, tool, g);
   return g;
 }
 

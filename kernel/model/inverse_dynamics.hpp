@@ -5,6 +5,7 @@
 #pragma once
 
 #include "kernel/core/types.hpp"
+#include "kernel/model/gravity.hpp"
 #include "kernel/model/joint_trig.hpp"
 #include "kernel/robots/link.hpp"
 
@@ -94,16 +95,16 @@ auto newton_euler(const M& parent, const JointRates<R>& joints, const Tool& tool
   }
 }
 
-/// Returns the joint efforts, N m, that give ddq [rad/s^2] at q and dq [rad/s], for an upright base
-/// at rest. [cyclic]
+/// Returns the joint efforts, N m, that give ddq [rad/s^2] at q and dq [rad/s], for a base at rest
+/// under the gravity of `tool`. [cyclic]
 // flatten: the recursion over the joints becomes one straight line of arithmetic.
 template <class R>
 [[gnu::flatten]] JointsOf<R> inverse_dynamics(const JointTrig<R>& trig, const JointsOf<R>& dq,
                                               const JointsOf<R>& ddq, const Tool& tool) {
   constexpr TypedVector kAtRest{Zero{}, Zero{}, Zero{}};
-  constexpr LinkMotion kBase{kAtRest, kAtRest, TypedVector{Zero{}, Zero{}, kGravity_m_s2}};
+  const LinkMotion base{kAtRest, kAtRest, upwards(tool)};
   JointsOf<R> tau;
-  newton_euler<R, 0>(kBase, JointRates<R>{trig, dq, ddq}, tool, tau);
+  newton_euler<R, 0>(base, JointRates<R>{trig, dq, ddq}, tool, tau);
   return tau;
 }
 

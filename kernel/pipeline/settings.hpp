@@ -5,16 +5,20 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/core/port.hpp"
+#include "kernel/model/mounting.hpp"
 #include "kernel/pipeline/outputs_section.hpp"
 #include "kernel/pipeline/rate_watch.hpp"
 
 namespace tactus {
 
-/// [robot]: the period, the tool, the measured values as outputs for the blocks, and the one
-/// command as an input.
+/// [robot]: the period, the mounting, the tool, the measured values as outputs for the blocks, and
+/// the one command as an input.
 struct RobotSection : OutputsSection<> {
-  Name name;                     ///< robot that the file is written for; must be the board's
-  int period_us = kRequiredInt;  ///< cycle period
+  static constexpr double kTurn_rad = 6.3;  ///< refuses degrees
+
+  Name name;                           ///< robot that the file is written for; must be the board's
+  int period_us = kRequiredInt;        ///< cycle period
+  Vector3 mounting = Vector3::Zero();  ///< of the base in the world: roll, pitch, yaw, rad
   // What is not given is NaN; the models then assume that it is zero.
   double tool_mass = kRequired;                     ///< kg
   Vector3 tool_com = Vector3::Constant(kRequired);  ///< m, flange frame
@@ -43,6 +47,7 @@ struct RobotSection : OutputsSection<> {
   void describe_robot(Visitor& visit) {
     visit.text("name", name, "the robot the file is written for");
     visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
+    visit.param("mounting", mounting, Range{-kTurn_rad, kTurn_rad}, "rad");
     visit.optional("tool_mass", tool_mass, Range{0.0, Tool::kMostMass_kg}, "kg");
     visit.optional("tool_com", tool_com, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
     visit.optional("tool_tip", tool_tip, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
@@ -84,7 +89,9 @@ struct RobotSection : OutputsSection<> {
     return {mode(), value, DriveRequest::kDisable, {}, *dq_ff, *tau_ff};
   }
   /// The tool as the file gives it: NaN where it does not.
-  Tool given_tool() const { return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}}; }
+  Tool given_tool() const {
+    return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}, gravity_on(mounting)};
+  }
   double period_s() const { return period_us * 1e-6; }
 };
 

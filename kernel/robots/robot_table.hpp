@@ -42,7 +42,7 @@ struct TaskLimit {
   double moment_max;  ///< N m
 };
 
-/// Gravity that every model and the plant use, m/s^2 along -z of the base frame.
+/// Gravity that every model uses, m/s^2, along -z of the world.
 inline constexpr double kGravity_m_s2 = 9.81;
 
 /// Half the edge of the box around the base in which every tip must be, m: the flange of an arm of

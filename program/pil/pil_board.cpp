@@ -15,7 +15,8 @@ pil::PilHal& robot() {
 }
 
 Status configure(const SimSections& sections, const Pipeline& pipeline, const Options& options) {
-  return robot().load(sections.plant, pipeline.robot.period_s(), options);
+  const PlantParams plant = sections.plant.mounted_as(pipeline.robot.mounting);
+  return robot().load(plant, pipeline.robot.period_s(), options);
 }
 
 /// The image is in a folder beside that of the program: build/fer_m7/tactus,

@@ -14,7 +14,7 @@ SimHal& robot() {
 
 Status configure(const SimSections& sections, const Pipeline& pipeline, const Options& options) {
   robot().set_period(pipeline.robot.period_s());
-  return robot().load(sections.plant, options.seed);
+  return robot().load(sections.plant.mounted_as(pipeline.robot.mounting), options.seed);
 }
 
 }  // namespace

@@ -29,6 +29,9 @@ struct RangeCheck {
              const char* unit) {
     for (int i = 0; i < N; ++i) param(name, value[i], range, unit);
   }
+  void optional(const char* name, const Vector3& value, Range range, const char* unit) {
+    if (!value.hasNaN()) param(name, value, range, unit);
+  }
   template <class Enum>
   void choice(const char*, Enum value) {
     ok = ok && static_cast<std::size_t>(value) < kNames<Enum>.size();
@@ -66,6 +69,15 @@ void add_forces(const mjModel* model, mjData* data) {
 /// counts warnings; diverged() reads them there.
 void stay_silent(const char*) {}
 
+/// Turns a vector of the world into the axes of a base mounted by roll, pitch and yaw, rad.
+Vector3 in_base(const double* world, const Vector3& mounting) {
+  const Eigen::Matrix3d base = (Eigen::AngleAxisd(mounting[2], Vector3::UnitZ()) *
+                                Eigen::AngleAxisd(mounting[1], Vector3::UnitY()) *
+                                Eigen::AngleAxisd(mounting[0], Vector3::UnitX()))
+                                   .toRotationMatrix();
+  return base.transpose() * Eigen::Map<const Vector3>(world);
+}
+
 /// Puts the settings into the compiled model and derives its constants again.
 void apply(const PlantParams& params, mjModel* model, mjData* scratch) {
   for (int i = 0; i < kDof; ++i) {
@@ -78,6 +90,8 @@ void apply(const PlantParams& params, mjModel* model, mjData* scratch) {
   // coincide, and MuJoCo relies on that note (body_sameframe).
   Eigen::Map<Vector3>(model->body_pos + 3 * payload) = params.payload_com;
   mj_setConst(model, scratch);
+  if (!params.mounting.hasNaN())
+    Eigen::Map<Vector3>(model->opt.gravity) = in_base(model->opt.gravity, params.mounting);
 }
 
 }  // namespace
@@ -203,6 +217,10 @@ bool Arm::diverged() const {
   for (const mjWarningStat& warning : data_->warning)
     if (warning.number > 0) return true;
   return !q().allFinite() || !dq().allFinite();
+}
+
+Vector3 Arm::pull() const {
+  return Eigen::Map<const Vector3>(model_->opt.gravity);
 }
 
 JointVector Arm::q() const {

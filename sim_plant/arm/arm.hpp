@@ -67,6 +67,7 @@ class Arm {
   /// next load. [any]
   bool diverged() const;
 
+  Vector3 pull() const;    ///< of gravity, m/s^2, base frame; the arm must be loaded [any]
   JointVector q() const;   ///< true joint positions, rad [any]
   JointVector dq() const;  ///< true joint velocities, rad/s [any]
 

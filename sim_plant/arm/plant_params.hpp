@@ -40,6 +40,9 @@ struct PlantParams {
   /// 0: ideal, the arm reaches its target at the end of the period.
   double servo_time_constant_s = 0.0;
 
+  /// As [robot] mounting; NaN: that of [robot], or upright.
+  Vector3 mounting = Vector3::Constant(kRequired);
+
   int delay_cycles = 0;  ///< delay of the measured state, whole cycles
 
   /// Cycles that the drives take to become enabled, and to become disabled. 0: those of one write.
@@ -65,6 +68,13 @@ struct PlantParams {
   Vector3 ft_bias_moment_Nm = Vector3::Zero();
   double ft_rate_hz = 0.0;
 
+  /// Returns the same arm, mounted as its controller takes it to be unless it is said otherwise.
+  PlantParams mounted_as(const Vector3& believed) const {
+    PlantParams mounted = *this;
+    if (mounting.hasNaN()) mounted.mounting = believed;
+    return mounted;
+  }
+
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("initial_q", initial_q, Range{-6.3, 6.3}, "rad");  // refuses degrees
@@ -73,6 +83,7 @@ struct PlantParams {
     visit.param("position_noise_rad", position_noise_rad, Range{0.0, 0.1}, "rad");
     visit.param("velocity_noise_rad_s", velocity_noise_rad_s, Range{0.0, 1.0}, "rad/s");
     visit.param("servo_time_constant_s", servo_time_constant_s, Range{0.0, 1.0}, "s");
+    visit.optional("mounting", mounting, Range{-6.3, 6.3}, "rad");
     visit.param("delay_cycles", delay_cycles, Range{0.0, kMaxDelayCycles}, "cycles");
     visit.param("arming_cycles", arming_cycles, Range{0.0, 100000.0}, "cycles");
     visit.param("payload_kg", payload_kg, Range{0.0, 20.0}, "kg");

@@ -53,13 +53,15 @@ void the_weight_taken_out_is_the_one_kdl_feels_in_the_joints(void**) {
     bench.random.bits.seed(kSeed + static_cast<unsigned>(trial));
     bench.turn();
     bench.feel(kNone);
-    KdlTool tool{bench.tool.mass_kg, {}};
+    KdlTool tool{bench.tool.mass_kg, {}, {0.4, -2.0, 1.0}}, nothing = tool;
+    nothing.mass_kg = 0.0;
+    kdl_base_gravity(tool, bench.tool.gravity.data());
     std::copy(bench.tool.com.data(), bench.tool.com.data() + 3, tool.com);
     Eigen::Matrix<double, 7, 1> with, without;
     Eigen::Matrix<double, 6, 7, Eigen::RowMajor> J;
     double rows[6][7];
     kdl_gravity(bench.flange.q, tool, with.data());
-    kdl_gravity(bench.flange.q, {}, without.data());
+    kdl_gravity(bench.flange.q, nothing, without.data());
     kdl_jacobian(bench.flange.q, rows);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 7; ++j) J(i, j) = rows[i][j];

@@ -37,6 +37,7 @@ struct WrenchBench {
   WrenchFrontEnd front;
   WrenchBench() {
     tool = {1.7, {0.02, -0.03, 0.08}, {{0.01, 0.05, 0.21}, exp_so3({0.3, -0.8, 1.1})}};
+    tool.gravity = {2.0, -4.0, 8.7};  // of an arm that hangs aslant
     WrenchFrontEnd::Params& p = front.params;
     p.max_force = 300.0;
     p.max_moment = 30.0;
@@ -55,7 +56,7 @@ struct WrenchBench {
   /// moment balance of the tool, by components.
   void feel(const Vector6& h) {
     const auto& r = flange.r;
-    const double W[3] = {0.0, 0.0, -9.81 * tool.mass_kg};
+    const Vector3 W = tool.mass_kg * tool.gravity;
     double tip[3], com[3];
     for (int i = 0; i < 3; ++i) {
       tip[i] = r[i][0] * tool.tip.p[0] + r[i][1] * tool.tip.p[1] + r[i][2] * tool.tip.p[2];

@@ -46,6 +46,32 @@ void drives_that_carry_the_weight_are_taken_over_without_a_step(void**) {
   }
 }
 
+/// On a ceiling, as the file says: as still as an upright one. Not said: refused with what to look
+/// at, before the arm has gone far.
+void an_arm_that_hangs_is_taken_over_if_the_file_says_so(void**) {
+  const std::string upright = cia402::kHoldingPipeline;
+  const std::string hanging =
+      std::string(upright).insert(upright.find("tau_c"), "mounting = 3.14159265 0 0\n");
+  for (const std::string* text : {&hanging, &upright}) {
+    MasterBench& bench = fresh();
+    bench.plant.plant.mounting = Vector3(M_PI, 0.0, 0.0);
+    ASSERT_OK(bench.load(text->c_str()));
+    const JointVector before = bench.hal.arm.arm().q();
+    const Status status = bench.start();
+    const JointVector moved = bench.hal.arm.arm().q() - before;
+    print_message("moved by %.4f rad\n", moved.cwiseAbs().maxCoeff());
+    if (text == &hanging) {
+      ASSERT_OK(status);
+      ASSERT_OK(bench.cycles(500));
+      assert_true((bench.hal.arm.arm().q() - before).cwiseAbs().maxCoeff() < 1e-3);
+    } else {
+      ASSERT_STATUS(status, Status::kMoved);
+      assert_non_null(std::strstr(bench.hal.trouble().c_str(), "mounting and tool of [robot]"));
+      assert_true(moved.cwiseAbs().maxCoeff() < 0.15);
+    }
+  }
+}
+
 constexpr int kFeedbackOf2 = 0x182;
 
 /// The first late frame comes with the next one, and nothing is older than before.
@@ -81,6 +107,7 @@ int main() {
   using namespace tactus::can;
   const CMUnitTest tests[] = {
       cmocka_unit_test(the_arm_is_taken_over_and_held_where_it_stands),
+      cmocka_unit_test(an_arm_that_hangs_is_taken_over_if_the_file_says_so),
       cmocka_unit_test(drives_that_carry_the_weight_are_taken_over_without_a_step),
       cmocka_unit_test(feedback_that_is_late_again_and_again_and_comes_with_the_next_goes_on),
       cmocka_unit_test(feedback_that_is_lost_again_and_again_stops_the_arm),

@@ -29,6 +29,10 @@ void Arm::step(const JointVector& tau, double dt_s) {
 JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   return ddq;
 }
+Vector3 Arm::pull() const {
+  return Vector3::Zero();
+}
+
 JointVector Arm::gravity() {
   return JointVector::Zero();
 }

@@ -1,6 +1,7 @@
 // Tests the loader: a good file becomes the pipeline it describes, a bad file is refused at its
 // mistake.
 #include <cstring>
+#include <string>
 
 #include "tests/load/loader_bench.hpp"
 #include "tests/load/refused_files.hpp"
@@ -82,6 +83,21 @@ void an_optional_input_left_out_reads_zero(void**) {
   ASSERT_OK(bench.load(with("g = soft.tau\n", "")));
   ASSERT_OK(bench.pipeline.start(state_at(0.0, 0.0)));
   assert_true(bench.joints("stiff.tau").isZero(0.0) && !bench.joints("soft.tau").isZero(0.0));
+}
+
+/// Bare and upright, a model may do without.
+void a_model_knows_the_tool_and_the_mounting_that_the_file_states(void**) {
+  const std::string bare(edit(kValid, "tool = robot.tool\n", ""));
+  ASSERT_STATUS(bench.load(bare), Status::kMissingKey);
+  assert_string_equal(bench.error.message().c_str(),
+                      "17: [model] tool: [robot] gives a mounting or a tool, which this model "
+                      "would not know; add tool = robot.tool");
+  for (const char* stated : {"mounting = 3.1416 0 0", "tool_mass = 0.1", "mounting = 0 0 1"}) {
+    const std::string_view without = edit(bare, "tool_tip = 0.1 0 -0.2", stated);
+    const bool matters = std::string_view(stated) != "mounting = 0 0 1";
+    assert_int_equal(bench.load(without) == Status::kMissingKey, matters);
+  }
+  ASSERT_STATUS(bench.load(with("tool_tip = 0.1 0 -0.2", "mounting = 180 0 0")), Status::kBadValue);
 }
 
 void the_generator_gets_the_channel_of_the_board(void**) {
@@ -234,6 +250,7 @@ int main() {
       cmocka_unit_test(without_a_list_every_output_that_can_be_recorded_is),
       cmocka_unit_test(values_arrive_at_the_inputs_they_are_wired_to_in_the_same_cycle),
       cmocka_unit_test(an_optional_input_left_out_reads_zero),
+      cmocka_unit_test(a_model_knows_the_tool_and_the_mounting_that_the_file_states),
       cmocka_unit_test(the_generator_gets_the_channel_of_the_board),
       cmocka_unit_test(a_robot_is_commanded_in_what_it_takes),
       cmocka_unit_test(a_robot_is_fed_what_it_takes),

@@ -11,7 +11,11 @@ namespace tactus {
 namespace {
 
 constexpr unsigned kJoints = Robot::kDof;
-const KDL::Vector kGravity(0.0, 0.0, -9.81);
+
+KDL::Vector base_gravity(const KdlTool& tool) {
+  const double* turn = tool.mounting;
+  return KDL::Rotation::RPY(turn[0], turn[1], turn[2]).Inverse() * KDL::Vector(0.0, 0.0, -9.81);
+}
 
 KDL::Chain arm(const KdlTool& tool) {
   const KDL::Vector com(tool.com[0], tool.com[1], tool.com[2]);
@@ -36,6 +40,11 @@ void from_kdl(const KDL::Frame& frame, double p[3], double r[3][3]) {
 }
 
 }  // namespace
+
+void kdl_base_gravity(const KdlTool& tool, double gravity[3]) {
+  const KDL::Vector g = base_gravity(tool);
+  for (int i = 0; i < 3; ++i) gravity[i] = g(i);
+}
 
 void kdl_link(const double q[Robot::kDof], int link, double p[3], double r[3][3]) {
   const KDL::Chain chain = arm({});
@@ -74,7 +83,7 @@ void kdl_jacobian(const double q[Robot::kDof], double jacobian[6][Robot::kDof]) 
 
 void kdl_gravity(const double q[Robot::kDof], const KdlTool& tool, double g[Robot::kDof]) {
   const KDL::Chain chain = arm(tool);  // the solver keeps a reference
-  KDL::ChainDynParam solver(chain, kGravity);
+  KDL::ChainDynParam solver(chain, base_gravity(tool));
   KDL::JntArray result(kJoints);
   solver.JntToGravity(to_kdl(q), result);
   from_kdl(result, g);
@@ -84,7 +93,7 @@ void kdl_inverse_dynamics(const double q[Robot::kDof], const double dq[Robot::kD
                           const double ddq[Robot::kDof], const KdlTool& tool,
                           double tau[Robot::kDof]) {
   const KDL::Chain chain = arm(tool);
-  KDL::ChainIdSolver_RNE solver(chain, kGravity);
+  KDL::ChainIdSolver_RNE solver(chain, base_gravity(tool));
   const KDL::Wrenches no_wrench(chain.getNrOfSegments(), KDL::Wrench::Zero());
   KDL::JntArray result(kJoints);
   solver.CartToJnt(to_kdl(q), to_kdl(dq), to_kdl(ddq), no_wrench, result);
@@ -94,7 +103,7 @@ void kdl_inverse_dynamics(const double q[Robot::kDof], const double dq[Robot::kD
 void kdl_mass_matrix(const double q[Robot::kDof], const KdlTool& tool,
                      double m[Robot::kDof][Robot::kDof]) {
   const KDL::Chain chain = arm(tool);  // the solver keeps a reference
-  KDL::ChainDynParam solver(chain, kGravity);
+  KDL::ChainDynParam solver(chain, base_gravity(tool));
   KDL::JntSpaceInertiaMatrix result(kJoints);
   solver.JntToMass(to_kdl(q), result);
   for (unsigned i = 0; i < kJoints; ++i) {
@@ -105,7 +114,7 @@ void kdl_mass_matrix(const double q[Robot::kDof], const KdlTool& tool,
 void kdl_coriolis(const double q[Robot::kDof], const double dq[Robot::kDof], const KdlTool& tool,
                   double c[Robot::kDof]) {
   const KDL::Chain chain = arm(tool);  // the solver keeps a reference
-  KDL::ChainDynParam solver(chain, kGravity);
+  KDL::ChainDynParam solver(chain, base_gravity(tool));
   KDL::JntArray result(kJoints);
   solver.JntToCoriolis(to_kdl(q), to_kdl(dq), result);
   from_kdl(result, c);

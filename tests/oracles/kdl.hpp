@@ -1,17 +1,21 @@
 // Orocos KDL as the oracle for kinematics and dynamics, with its own code and tables. The interface
 // uses plain arrays because kdl.cpp is compiled with exceptions. Base frame, SI units, matrices row
-// by row, gravity 9.81 m/s^2 along -z.
+// by row, gravity 9.81 m/s^2 along -z of the world.
 #pragma once
 
 #include "kernel/robots/robot.hpp"
 
 namespace tactus {
 
-/// A point mass in the flange frame.
+/// A point mass in the flange frame, and how the base is mounted.
 struct KdlTool {
   double mass_kg = 0.0;
-  double com[3] = {0.0, 0.0, 0.0};  ///< m
+  double com[3] = {0.0, 0.0, 0.0};       ///< m
+  double mounting[3] = {0.0, 0.0, 0.0};  ///< roll, pitch, yaw, rad
 };
+
+/// Gravity in the axes of the base, m/s^2.
+void kdl_base_gravity(const KdlTool& tool, double gravity[3]);
 
 /// Position of the flange and its rotation matrix.
 void kdl_flange(const double q[Robot::kDof], double p[3], double r[3][3]);

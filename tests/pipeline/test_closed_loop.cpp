@@ -73,6 +73,35 @@ void the_tool_of_the_file_compensates_the_same_payload(void**) {
   for (int j = 0; j < kDof; ++j) ASSERT_NEAR(loop.hal.arm().q()[j], loop.plant.initial_q[j], 1e-9);
 }
 
+// Proves LOOP-4.
+
+/// An arm that hangs from a ceiling, or stands on a wall, is held as exactly as an upright one; one
+/// that is not mounted as the file says leaves its place.
+void gravity_is_compensated_as_the_arm_is_mounted(void**) {
+  struct Case {
+    const char* key;
+    Vector3 mounting;
+    bool known;
+  };
+  static std::array<ClosedLoop, 4> loops;
+  const std::array<Case, 4> cases = {{{"mounting = 3.14159265358979 0 0\n", {M_PI, 0, 0}, true},
+                                      {"mounting = 0.2 1.5708 -0.7\n", {0.2, 1.5708, -0.7}, true},
+                                      {"", {M_PI, 0, 0}, false},
+                                      {"", {0.2, 1.5708, -0.7}, false}}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    ClosedLoop& loop = loops[i];
+    const std::string blocks = std::string(cases[i].key) + kClosedLoopBlocks;
+    loop.blocks = blocks.c_str();
+    make_ideal(loop.plant);
+    loop.plant.mounting = cases[i].mounting;
+    ASSERT_OK(loop.start(1000, 1));
+    const Status status = loop.run(1.0);
+    const double moved = (loop.hal.arm().q() - loop.plant.initial_q).cwiseAbs().maxCoeff();
+    if (cases[i].known) ASSERT_OK(status);
+    assert_true(cases[i].known ? moved < 1e-9 : moved > 0.05);
+  }
+}
+
 // Proves LOOP-2.
 
 void halving_the_period_does_not_change_the_picture(void**) {
@@ -145,6 +174,7 @@ int main() {
       cmocka_unit_test(at_rest_gravity_compensation_is_exact),
       cmocka_unit_test(an_unknown_payload_sags_by_what_the_stiffness_predicts),
       cmocka_unit_test(the_tool_of_the_file_compensates_the_same_payload),
+      cmocka_unit_test(gravity_is_compensated_as_the_arm_is_mounted),
       cmocka_unit_test(halving_the_period_does_not_change_the_picture),
       cmocka_unit_test(the_same_seed_gives_the_same_bytes_and_another_seed_other_noise),
       cmocka_unit_test(without_noise_the_seed_changes_nothing),

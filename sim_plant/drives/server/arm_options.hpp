@@ -12,6 +12,7 @@ struct ArmOptions {
   bool gravity_by_drive = false;
   bool joints_given = false;
   double joints[kJoints] = {};  ///< initial positions, rad
+  double mounting[3] = {};      ///< of the base in the world: roll, pitch, yaw, rad
   double friction = 1.0;        ///< multiple of the identified friction
   double rotor_inertia = 0.1;   ///< kg m^2
   double brake_release_ms = 150.0;
@@ -28,6 +29,7 @@ struct ArmOptions {
     settings.brake_release_s = brake_release_ms * 1e-3;
     settings.velocity_unit = velocity_unit;
     settings.torque_share = torque_share;
+    settings.plant.mounting = Vector3(mounting);
     settings.plant.friction = friction;
     settings.plant.rotor_inertia.setConstant(rotor_inertia);
     if (joints_given) settings.plant.initial_q = JointVector(joints);

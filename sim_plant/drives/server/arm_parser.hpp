@@ -22,6 +22,9 @@ class ArmParser {
                    "initial positions of the seven joints, rad (default: ready pose)")
         ->expected(7)
         ->check(finite(-6.3, 6.3));
+    app.add_option("--mounting", mounting_, "of the base: roll, pitch, yaw, rad (default: upright)")
+        ->expected(3)
+        ->check(finite(-6.3, 6.3));
     app.add_flag("--gravity-by-drive", options_.gravity_by_drive,
                  "the drives compensate gravity: target torque 0 holds the arm");
     app.add_option("--friction", options_.friction,
@@ -76,12 +79,13 @@ class ArmParser {
     }
     options_.joints_given = !q_.empty();
     for (std::size_t i = 0; i < q_.size(); ++i) options_.joints[i] = q_[i];
+    for (std::size_t i = 0; i < mounting_.size(); ++i) options_.mounting[i] = mounting_[i];
     return "";
   }
 
   ArmOptions& options_;
   std::vector<std::string> faults_;
-  std::vector<double> q_;
+  std::vector<double> q_, mounting_;
 };
 
 }  // namespace tactus::drives

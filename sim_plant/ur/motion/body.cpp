@@ -16,6 +16,7 @@ int inner_steps(double h_s) {
 Status Body::load(const Joints& q, const Surroundings& around) {
   PlantParams params;
   params.initial_q = q;
+  params.mounting = around.mounting;
   params.payload_kg = around.payload_kg;
   params.payload_com = around.payload_com;
   params.payload_tip = around.tip;

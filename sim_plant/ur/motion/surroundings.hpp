@@ -1,5 +1,5 @@
-// Surroundings: what the arm of an emulated controller carries and can touch. The controller knows
-// the payload; the boxes it does not know.
+// Surroundings: how the arm of an emulated controller is mounted, what it carries and can touch.
+// The controller knows mounting and payload; the boxes it does not know.
 #pragma once
 
 #include "sim_plant/arm/plant_params.hpp"
@@ -12,6 +12,7 @@ namespace tactus::ur {
 inline constexpr double kStiffness = 2e4;
 
 struct Surroundings {
+  Vector3 mounting = Vector3::Zero();  ///< of the base in the world: roll, pitch, yaw, rad
   double payload_kg = 0.0;
   Vector3 payload_com = Vector3::Zero();  ///< m, flange frame
   Vector3 tip = Vector3::Zero();          ///< centre of the ball that touches, m, flange frame

@@ -38,6 +38,7 @@ Status SceneReader::read_robot(const IniSection& section, Surroundings& around, 
     return error.refuse(Status::kNotOffered, section.line, section.name, "name",
                         Message("'")
                             << robot.name << "', but the emulated robot is a " << Robot::kName);
+  around.mounting = robot.mounting;
   const Tool tool = assumed(robot.given_tool());
   around.payload_kg = tool.mass_kg;
   around.payload_com = tool.com;
@@ -49,6 +50,7 @@ Status SceneReader::read_plant(const IniSection& section, Surroundings& around, 
   PlantParams plant;
   SectionReader reader(ini_, section, ports_, error);
   while (reader.next()) plant.describe(reader);
+  around.mounting = plant.mounted_as(around.mounting).mounting;
   around.payload_kg = plant.payload_kg;
   around.payload_com = plant.payload_com;
   around.tip = plant.payload_tip;

@@ -1,8 +1,9 @@
 // SceneReader: takes the surroundings of the arm from a pipeline file, by the kernel's own readers:
 //
 //   type = frame, type = box   the boxes, in the base frame
-//   [robot]                    tool_mass, tool_com: the payload; tool_tip: the ball that touches
-//   [plant], if there is one   payload, ball and material, as on a simulated board
+//   [robot]                    mounting; tool_mass, tool_com: the payload; tool_tip: the ball that
+//                              touches
+//   [plant], if there is one   mounting, payload, ball and material, as on a simulated board
 //
 // Everything else in the file is left to the program that runs it.
 #pragma once

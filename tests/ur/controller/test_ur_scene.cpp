@@ -11,7 +11,7 @@ using namespace tactus::ur;
 
 constexpr const char* kRobot =
     "[robot]\nname = ur10\nperiod_us = 8000\nq_c = cpc.q_c\ntool_mass = 0.7\n"
-    "tool_com = 0 0 0.03\ntool_tip = 0 0 0.1\n";
+    "tool_com = 0 0 0.03\ntool_tip = 0 0 0.1\nmounting = 0 1 0\n";
 constexpr const char* kFrame =
     "[base_link]\ntype = frame\nposition = 0 0 1\nrotation = 0 0 3.14159265358979\n";
 constexpr const char* kBoard =
@@ -49,17 +49,19 @@ void boxes_and_tool_are_those_of_the_file(void**) {
   }
   ASSERT_NEAR(std::abs(box.pose.r.z()), 1.0, 1e-9);
   ASSERT_NEAR(file.around.payload_kg, 0.7, 0.0);
+  assert_true(file.around.mounting == Vector3(0.0, 1.0, 0.0));
   ASSERT_NEAR(file.around.tip.z(), 0.1, 0.0);
   ASSERT_NEAR(file.around.material.stiffness, 2e4, 0.0);
 }
 
 void the_section_of_a_simulated_board_counts_if_there_is_one(void**) {
   static File file(
-      "[plant]\npayload_kg = 2\npayload_tip = 0 0 0.2\ntip_radius = 0.02\n"
+      "[plant]\nmounting = 3 0 0\npayload_kg = 2\npayload_tip = 0 0 0.2\ntip_radius = 0.02\n"
       "contact_stiffness = 5000\ncontact_friction = 0\n");
   ASSERT_OK(file.read());
   assert_int_equal(file.around.scene.count, 0);
   ASSERT_NEAR(file.around.payload_kg, 2.0, 0.0);
+  assert_true(file.around.mounting == Vector3(3.0, 0.0, 0.0));
   ASSERT_NEAR(file.around.tip.z(), 0.2, 0.0);
   ASSERT_NEAR(file.around.tip_radius, 0.02, 0.0);
   ASSERT_NEAR(file.around.material.stiffness, 5000.0, 0.0);
@@ -69,7 +71,7 @@ void the_section_of_a_simulated_board_counts_if_there_is_one(void**) {
 void a_mistake_is_refused_where_it_is(void**) {
   static File frame("[board]\ntype = box\nframe = model.x\ncentre = 0 0 0\nsize = 1 1 1\n");
   ASSERT_STATUS(frame.read(), Status::kUnknownPort);
-  assert_true(frame.says("10: [board] frame: unknown output 'model.x'"));
+  assert_true(frame.says("11: [board] frame: unknown output 'model.x'"));
   static File size("[board]\ntype = box\ncentre = 0 0 0\n");
   ASSERT_STATUS(size.read(), Status::kMissingKey);
   static File key("[board]\ntype = box\ncentre = 0 0 0\nsize = 1 1 1\nstifness = 3\n");

@@ -1,0 +1,18 @@
+// How the base is mounted: its orientation in the world by roll, pitch and yaw [rad] about the
+// fixed axes x, y, z of the world, R = RotZ(yaw) RotY(pitch) RotX(roll), as URDF gives a fixed
+// joint.
+#pragma once
+
+#include "kernel/core/types.hpp"
+#include "kernel/math/sincos.hpp"
+
+namespace tactus {
+
+/// Returns gravity in the axes of the base, m/s^2: R^T (0, 0, -9.81), on which yaw has no effect.
+/// [init]
+inline Vector3 gravity_on(const Vector3& mounting) {
+  const SinCos roll = sincos(mounting[0]), pitch = sincos(mounting[1]);
+  return -kGravity_m_s2 * Vector3(-pitch.sin, pitch.cos * roll.sin, pitch.cos * roll.cos);
+}
+
+}  // namespace tactus
