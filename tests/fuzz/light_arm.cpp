@@ -32,7 +32,6 @@ JointVector Arm::inverse_dynamics(const JointVector& ddq) {
 Vector3 Arm::pull() const {
   return Vector3::Zero();
 }
-
 JointVector Arm::gravity() {
   return JointVector::Zero();
 }
