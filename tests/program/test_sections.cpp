@@ -57,7 +57,7 @@ Line setting(std::string_view row) {
   if (row.substr(0, 3) != "| `") return {};
   const std::string_view key = cell(row, 0), what = cell(row, 1), value = cell(row, 3);
   if (key == "`rated_torque`") return Line("rated_torque = 3\n");  // the only one without default
-  if (value.empty() || value == "required" || value == "neutral") return {};
+  if (value.empty() || value == "required" || value == "neutral" || value == "none") return {};
   if (what.substr(0, 5) == "limit") return {};  // rounded, perhaps up
   return Line(key.substr(1, key.size() - 2)) << " = " << value << "\n";
 }
