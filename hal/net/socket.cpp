@@ -54,8 +54,7 @@ Status Socket::connect(const char* address, int port, const Deadline& deadline, 
   }
   close();
   why = Message();
-  why << address << " port " << port << ": " << std::strerror(error)
-      << "; is this the robot's IPv4 address, and is it on?";
+  why << address << " port " << port << ": " << std::strerror(error);
   return Status::kConnectionLost;
 }
 

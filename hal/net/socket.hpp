@@ -19,7 +19,7 @@ class Socket {
   ~Socket() { close(); }
 
   /// Connects to an IPv4 address, without Nagle's delay. kConnectionLost: `why` names address, port
-  /// and reason. [init]
+  /// and reason; what to do about it depends on what is known of the other end. [init]
   Status connect(const char* address, int port, const Deadline& deadline, Message& why);
 
   /// Waits until bytes or the end of the connection can be received. [any]

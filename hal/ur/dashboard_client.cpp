@@ -12,7 +12,11 @@ Status DashboardClient::connect(const char* address, int port, const Deadline& d
   unread_ = 0;
   endless_ = false;
   answer_ = Answer::kNone;
-  TRY(socket_.connect(address, port, deadline, why));
+  if (const Status status = socket_.connect(address, port, deadline, why); status != Status::kOk) {
+    why << "; the robot answers at rtde_port, so check dashboard_port; one that has no dashboard "
+           "server, as PolyScope X, takes on_power_off and on_protective_stop = refuse only";
+    return status;
+  }
   Line greeting;
   bool greeted = false;
   for (std::int64_t left_ns = deadline.left_ns(); !greeted && left_ns > 0;

@@ -19,7 +19,9 @@ Status RobotPort::connect(const char* address, int port, const Deadline& deadlin
   broken_ = false;
   exception_ = Message();
   forget_stop();
-  return socket_.connect(address, port, deadline, why);
+  const Status status = socket_.connect(address, port, deadline, why);
+  if (status != Status::kOk) why << "; the robot answers at rtde_port, so check primary_port";
+  return status;
 }
 
 void RobotPort::upload(std::string_view program) {

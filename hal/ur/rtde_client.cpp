@@ -41,7 +41,10 @@ Status RtdeClient::converse(const char* address, int port, const Deadline& deadl
   stream_.socket.close();
   protocol_ = 2;
   phase_ = RtdePhase::kConnect;
-  TRY(stream_.connect(address, port, deadline, why));
+  if (const Status status = stream_.connect(address, port, deadline, why); status != Status::kOk) {
+    why << "; is this the robot's IPv4 address, and is it on?";
+    return status;
+  }
   while (phase_ != RtdePhase::kRunning && !(phase_ == RtdePhase::kOutputs && recipe_void_)) {
     phase_ = static_cast<RtdePhase>(static_cast<int>(phase_) + 1);
     Message reason;

@@ -93,6 +93,26 @@ void nobody_there_is_named(void**) {
   assert_true(bench.says("refused"));
 }
 
+/// The remedy of a port is not that of the address at which the robot has just answered.
+void a_port_that_is_closed_beside_rtde_is_the_one_to_look_at(void**) {
+  UrHalBench& bench = fresh();
+  ASSERT_OK(bench.connect());
+  const auto again = [&bench] {
+    bench.robot.by_itself();
+    bench.hal.configure(bench.settings, Tool{}, 8000);
+    ASSERT_STATUS(bench.executive.start(), Status::kConnectionLost);
+    assert_true(bench.says("127.0.0.1 port 1: Connection refused; the robot answers at "));
+    assert_false(bench.says("is it on?"));
+  };
+  bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  bench.settings.dashboard_port = 1;
+  again();
+  assert_true(bench.says("takes on_power_off and on_protective_stop = refuse only"));
+  bench.settings.primary_port = 1;
+  again();
+  assert_true(bench.says("so check primary_port"));
+}
+
 // Proves URH-27.
 
 /// One byte in 2 ms: the longest reply, of 135 bytes, comes in time; all of them, of 213, do not.
@@ -198,6 +218,7 @@ int main() {
       cmocka_unit_test(a_reset_in_any_phase_is_named),
       cmocka_unit_test(silence_in_any_phase_is_named),
       cmocka_unit_test(nobody_there_is_named),
+      cmocka_unit_test(a_port_that_is_closed_beside_rtde_is_the_one_to_look_at),
       cmocka_unit_test(a_controller_that_dribbles_is_given_one_time_for_the_whole),
       cmocka_unit_test(a_dashboard_that_dribbles_is_given_what_is_left_of_it),
       cmocka_unit_test(a_dashboard_that_cannot_be_needed_is_not_asked),
