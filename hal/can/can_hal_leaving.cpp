@@ -30,14 +30,14 @@ void CanHal::exchange(std::int64_t& slept_ns) {
   cia402::exchange_stop(*this, {now_ns_}, mode_);
 }
 
-/// A drive on a bus that has failed, or one that was lost, is not heard any more.
+/// A drive on a bus that has failed is not heard any more; one that is silent may be again.
 bool CanHal::awaits(int joint) const {
   const LinkHealth& wire = health(master_.node(joint).bus);
-  return !master_.confirmed(joint) && !master_.lost(joint) && !wire.lost && !wire.bus_off;
+  return !master_.confirmed(joint) && !wire.lost && !wire.bus_off;
 }
 
-/// Goes on with the exchange until every drive that is heard has confirmed that it is disabled,
-/// then ends its watch over this program.
+/// Goes on with the exchange until every drive on a bus that works has confirmed that it is
+/// disabled, then ends its watch over this program.
 Status CanHal::stop_drives(Message& left) {
   const std::int64_t began_ns = Deadline::now_ns();
   const std::int64_t longest_ns =

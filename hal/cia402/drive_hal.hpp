@@ -40,14 +40,17 @@ bool any_joint(Awaits awaits) {
   return false;
 }
 
-/// kBusTimeout: `left` names the joints whose drives may have power. [any]
+/// kBusTimeout: `left` names the joints whose drives may have power. Where nobody was waited for,
+/// no time is named. [any]
 template <class Master>
 Status judge_stop(const Master& master, std::int64_t waited_ns, Message& left) {
   for (int j = 0; j < kDof; ++j)
     if (!master.confirmed(j)) left << (left.empty() ? "" : ", ") << master.label(j);
   if (left.empty()) return Status::kOk;
-  left << ": no statusword has confirmed within " << static_cast<int>(waited_ns / 1'000'000)
-       << " ms that the drive is disabled; its motor may have power: cut it by the emergency stop,"
+  left << ": no statusword has confirmed";
+  const auto waited_ms = static_cast<int>(waited_ns / 1'000'000);
+  if (waited_ms > 0) left << " within " << waited_ms << " ms";
+  left << " that the drive is disabled; its motor may have power: cut it by the emergency stop,"
           " then check power and cabling of the drive";
   return Status::kBusTimeout;
 }

@@ -41,13 +41,12 @@ Status EthercatHal::wait(CycleTime& now) {
   return Status::kOk;
 }
 
-/// Goes on with the exchange until every drive that is heard has confirmed that it is disabled.
+/// Goes on with the exchange until every drive has confirmed that it is disabled; one that is
+/// silent may be heard again.
 Status EthercatHal::stop_drives(Message& left) {
   const std::int64_t began_ns = Deadline::now_ns();
   const auto waited_ns = [&] { return Deadline::now_ns() - began_ns; };
-  const auto awaited = [this](int joint) {
-    return !master_.confirmed(joint) && !master_.lost(joint) && !socket_.lost();
-  };
+  const auto awaited = [this](int joint) { return !master_.confirmed(joint) && !socket_.lost(); };
   const std::int64_t longest_ns =
       cia402::longest_leaving_ns(master_.stop_ms(), master_.period_us());
   CycleTime now;

@@ -85,6 +85,37 @@ void a_drive_that_does_not_confirm_is_named_and_keeps_its_watch(void**) {
   for (int node = 1; node <= kDof; ++node) assert_true(released(bench, node) == (node != 3));
 }
 
+bool node_3_is_silent(CanFrame& answer) {
+  return (answer.id & kMaxNode) != 3;
+}
+
+/// It was given up as lost before, and cannot confirm: nothing is to be waited for but the time.
+void a_drive_that_was_silent_before_is_waited_for_and_named(void**) {
+  CanHalBench& bench = following(1, 700);
+  bench.passes = node_3_is_silent;
+  for (int i = 0; i < 2000; ++i) (void)bench.cycle();
+  assert_true(bench.hal.master().lost(2) && !bench.executive.busy());
+  ASSERT_STATUS(leave(bench), Status::kBusTimeout);
+  assert_true(says(bench, "joint 3 (node 3): no statusword has confirmed within "));
+  const Message trouble = bench.hal.master().trouble();
+  assert_true(std::atoi(std::strstr(trouble.c_str(), "within ") + 7) >= 700);
+  for (int node = 1; node <= kDof; ++node) assert_true(released(bench, node) == (node != 3));
+}
+
+bool node_3_is_heard_later(CanFrame& answer) {
+  return (answer.id & kMaxNode) != 3 || ++frames_of_3 > 100;
+}
+
+/// Its cable is back some 100 cycles after the run has ended.
+void a_drive_that_was_silent_and_is_heard_again_confirms(void**) {
+  CanHalBench& bench = following(1, 30000);
+  bench.passes = node_3_is_silent;
+  for (int i = 0; i < 2000; ++i) (void)bench.cycle();
+  frames_of_3 = 0;
+  bench.passes = node_3_is_heard_later;
+  ASSERT_OK(leave(bench));
+}
+
 int frames_while_stopping[kDof + 1];
 constexpr int kSlow = 60;
 
@@ -104,6 +135,7 @@ void drives_on_the_buses_that_work_are_taken_to_their_stop_without_the_others(vo
   ASSERT_STATUS(bench.cycle(), Status::kConnectionLost);
   ASSERT_STATUS(leave(bench), Status::kBusTimeout);
   assert_true(says(bench, "joint 1 (node 1), joint 2 (node 2), joint 3 (node 3): no statusword"));
+  assert_false(says(bench, " within 0 ms"));
   for (std::size_t bus = 1; bus < 3; ++bus) assert_true(bench.syncs[bus] > kSlow);
   for (int node = 4; node <= kDof; ++node) assert_true(released(bench, node));
 }
@@ -117,6 +149,8 @@ int main() {
       cmocka_unit_test(every_drive_that_has_confirmed_is_released),
       cmocka_unit_test(leaving_sends_no_more_frames_in_a_cycle_than_any_other),
       cmocka_unit_test(a_drive_that_does_not_confirm_is_named_and_keeps_its_watch),
+      cmocka_unit_test(a_drive_that_was_silent_before_is_waited_for_and_named),
+      cmocka_unit_test(a_drive_that_was_silent_and_is_heard_again_confirms),
       cmocka_unit_test(drives_on_the_buses_that_work_are_taken_to_their_stop_without_the_others),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
