@@ -76,6 +76,8 @@ ServerSetup setup_of(const Session& session, const Options& options, ParameterBo
   setup.task_window = session.task_client.capacity();
   setup.log = print_line;
   setup.parameters = &parameters;
+  setup.events = &session.executive.events();
+  setup.hal = &session.hal;
   return setup;
 }
 

@@ -75,6 +75,7 @@ bool Server::finished(int slot, std::int64_t now_ns) const {
 
 void Server::work(std::int64_t now_ns) {
   take_snapshots(now_ns);
+  tell_drives(now_ns);
   take_results(now_ns);
   take_tuned(now_ns);
   take_reports(now_ns);

@@ -16,6 +16,7 @@
 #include "gateway/server/lease.hpp"
 #include "gateway/server/reference_intake.hpp"
 #include "gateway/server/stop_count.hpp"
+#include "kernel/cycle/event_log.hpp"
 #include "kernel/load/parameter_book.hpp"
 #include "kernel/pipeline/pipeline.hpp"
 
@@ -33,6 +34,8 @@ struct ServerSetup {
   int joint_window = 0, task_window = 0;  ///< waypoints that a store holds with all fields
   void (*log)(const char* line) = nullptr;
   ParameterBook* parameters = nullptr;  ///< null: they do not change while the pipeline runs
+  const EventLog* events = nullptr;     ///< null: nothing is told of drives
+  const Hal* hal = nullptr;             ///< explains their codes
 };
 
 /// Result of a request: kOk, or the reason of a refusal in words, and the number that it is about.
@@ -159,6 +162,7 @@ class Server {
 
   // server_watching.cpp: what is told of the cycles
   void take_snapshots(std::int64_t now_ns);
+  void tell_drives(std::int64_t now_ns);
   void take_feedback(std::int64_t now_ns);
   void tell_state(Connection& to);
   template <class Space>
@@ -177,6 +181,7 @@ class Server {
   Chunk<TaskSpace> task_chunk_;
   CycleSnapshot newest_;
   bool seen_ = false;          // a snapshot
+  std::uint32_t events_ = 0;   // of the executive's log, that are read
   std::uint32_t dropped_ = 0;  // references that were duplicates or overtaken
   std::uint32_t lost_feedback_ = 0;
   std::array<Order, 16> orders_{};

@@ -1,6 +1,7 @@
 // Server: what its clients are told of the cycles.
 #include <type_traits>
 
+#include "gateway/server/drive_text.hpp"
 #include "gateway/server/message_points.hpp"
 #include "gateway/server/server.hpp"
 #include "gateway/verdict_text.hpp"
@@ -26,6 +27,21 @@ void Server::take_snapshots(std::int64_t now_ns) {
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     if (snapshot.first != nullptr) text << ": " << snapshot.first << " with " << snapshot.second;
     tell_events("rung", snapshot.status, text, -1, now_ns);
+  }
+}
+
+/// Faults from before an arming, and warnings; of those that are overwritten in the log, none.
+void Server::tell_drives(std::int64_t now_ns) {
+  if (setup_.events == nullptr) return;
+  const std::uint32_t lost = setup_.events->lost();
+  if (events_ < lost) events_ = lost;
+  Event event;
+  for (std::uint32_t i = 0; i < EventLog::kCapacity && setup_.events->read(events_, event); ++i) {
+    ++events_;
+    const Message text = describe_drive(*setup_.hal, event);
+    if (text.empty()) continue;
+    if (setup_.log != nullptr) setup_.log(text.c_str());
+    tell_events("drive", event.status, text, -1, now_ns);
   }
 }
 

@@ -32,6 +32,7 @@ class CanHal final : public Hal {
   /// confirm.
   Status disconnect() override;
   Message trouble() override { return master_.trouble(); }
+  Message code_text(std::uint32_t code) const override { return cia402::text_of_code(code); }
 
   const CanMaster& master() const { return master_; }
   const LinkHealth& health(int bus) const {

@@ -34,7 +34,10 @@ void CanMaster::connect(std::int64_t now_ns) {
 Status CanMaster::connecting(std::int64_t now_ns) {
   TRY(startup_.advance(now_ns));
   cia402::Feedbacks feedbacks;
-  for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = nodes_[j].feedback;
+  for (std::size_t j = 0; j < kDof; ++j) {
+    if (!nodes_[j].feedback.shows_error()) nodes_[j].feedback.error_code = 0;
+    feedbacks[j] = nodes_[j].feedback;
+  }
   drives_.set_velocity_units(startup_.velocity_units());
   TRY(drives_.attach(mode_, feedbacks, why_));
   sent_ = {};

@@ -89,7 +89,7 @@ std::uint16_t PdoLayout::frame_id(int number, const Slot& slot) const {
 }
 
 void PdoLayout::decode(const CanFrame& frame, DriveFeedback& feedback) const {
-  feedback.statusword = load<std::uint16_t>(frame.data, 0);
+  feedback.show(load<std::uint16_t>(frame.data, 0));
   feedback.position = load<std::int32_t>(frame.data, 2);
   feedback.has_velocity = fd();
   if (fd()) feedback.velocity = load<std::int32_t>(frame.data, 6);

@@ -191,6 +191,8 @@ Status Startup::finish_step(std::int64_t now_ns) {
 }
 
 Status Startup::judge_facts() {
+  nodes_[static_cast<std::size_t>(joint_)].feedback.error_code =
+      static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
   const bool velocities = layout_->fd() || mode_ == CommandMode::kVelocity;
   Message said;
   const Status status = facts_.judge(*drive_, joint_, velocities, velocity_units_[joint_], said);

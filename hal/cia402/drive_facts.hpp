@@ -1,7 +1,8 @@
 // DriveFacts: what a drive says of its own numbers by SDO before its first command, and what must
 // agree with the pipeline file: which drive it is, the torque that it is rated for, the torque at
 // which it ends, and the units of its positions and velocities. An object that a drive does not
-// have says nothing, and what is then unknown but needed is asked of the file.
+// have says nothing, and what is then unknown but needed is asked of the file. The error code is
+// compared with nothing: a drive that stands in fault does not send it again.
 //
 // CiA 402-2: position and velocity are in user-defined units. Those of a revolution of the motor
 // are
@@ -43,6 +44,7 @@ inline constexpr Fact kFacts[] = {
     {kVelocityUnit, "unit of velocities"},
     {kVelocityFactor, "velocity factor"},
     {kVelocityDivisor, "divisor of the velocity factor"},
+    {kErrorCode, "error code"},
 };
 inline constexpr std::uint32_t kFactCount = std::size(kFacts);
 

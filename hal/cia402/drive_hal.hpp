@@ -2,6 +2,8 @@
 // drives. Frames, cycles and their clock are the wire's.
 #pragma once
 
+#include "hal/cia402/hex.hpp"
+#include "hal/cia402/protocol_errors.hpp"
 #include "kernel/core/hal.hpp"
 
 namespace tactus::cia402 {
@@ -14,6 +16,13 @@ inline Capabilities capabilities_of_drives() {
   offered.min_period_us = 500;
   offered.max_period_us = 20000;
   return offered;
+}
+
+/// "error code 7305h, encoder 1". [any]
+inline Message text_of_code(std::uint32_t code) {
+  Message text("error code ");
+  text << hex(code) << ", " << error_text(static_cast<std::uint16_t>(code));
+  return text;
 }
 
 /// Runs the exchange of a cycle in which the drives are requested to be disabled. [any]

@@ -18,10 +18,24 @@ struct DriveFeedback {
   std::uint16_t statusword = 0;
   std::int32_t position = 0, velocity = 0;  ///< increments; velocity as 60A9h says
   std::int16_t torque = 0;                  ///< permille of the rated torque
-  std::uint16_t error_code = 0;  ///< 603Fh of the last EMCY message; 0: none, or it was taken back
+  std::uint16_t error_code = 0;  ///< 603Fh, or of the last EMCY message; 0: none, or it has gone
   bool emergency = false;        ///< an EMCY message with an error came since the last cycle
   /// kOk, or why the drive cannot be used until the next connect(): restarted, silent ...
   Status lost = Status::kOk;
+
+  /// 603Fh is of the last error, which may have gone. [any]
+  bool shows_error() const {
+    const State state = state_of(statusword);
+    return state == State::kFault || state == State::kFaultReactionActive ||
+           (statusword & kWarning) != 0;
+  }
+  /// Takes a statusword. An error that has gone takes its code along: not every drive says so.
+  /// [any]
+  void show(std::uint16_t word) {
+    const bool showed = shows_error();
+    statusword = word;
+    if (showed && !shows_error() && !emergency) error_code = 0;
+  }
 };
 
 /// Returns what `lost` means, and what helps. [any]

@@ -216,13 +216,14 @@ Drive Drives::drive_of(const Joint& joint) const {
   const bool unharmed = phase_ == Phase::kFailed && joint.reason == Status::kOk && heard &&
                         shown == State::kOperationEnabled;
   drive.valid = heard && !saturated;
+  drive.warns = heard && shown != State::kFault && (joint.last.statusword & kWarning) != 0;
   drive.code = joint.last.error_code;
   if (phase_ == Phase::kArmed || unharmed) {
     drive.state = DriveState::kEnabled;
   } else if (enabled() || rising()) {
     drive.state = DriveState::kArming;
   } else if (joint.reason != Status::kOk) {
-    drive = {DriveState::kFault, drive.valid, joint.reason, joint.code};
+    drive = {DriveState::kFault, drive.valid, joint.reason, false, joint.code};
   } else if (!heard) {
     drive.state = DriveState::kUnknown;
   } else if (shown == State::kFault) {

@@ -35,6 +35,7 @@ class EthercatHal final : public Hal, private Clock {
   Status disconnect() override;
   Clock* clock() override { return this; }
   Message trouble() override { return master_.trouble(); }
+  Message code_text(std::uint32_t code) const override { return cia402::text_of_code(code); }
 
   const EthercatMaster& master() const { return master_; }
   /// System calls of all cycles since the interface was opened. [any]

@@ -90,7 +90,10 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
     for (Slave& slave : slaves_) slave.data.decode(cyclic_.inputs(), slave.feedback);
   if (steady_ >= kSteady) {
     cia402::Feedbacks feedbacks;
-    for (std::size_t j = 0; j < kDof; ++j) feedbacks[j] = slaves_[j].feedback;
+    for (std::size_t j = 0; j < kDof; ++j) {
+      if (!slaves_[j].feedback.shows_error()) slaves_[j].feedback.error_code = 0;
+      feedbacks[j] = slaves_[j].feedback;
+    }
     drives_.set_velocity_units(startup_.velocity_units());
     TRY(drives_.attach(mode_, feedbacks, why_));
     phase_ = Phase::kRuns;

@@ -65,7 +65,7 @@ const char* ProcessData::resolve(CommandMode mode) {
 
 void ProcessData::decode(const std::uint8_t* image, cia402::DriveFeedback& feedback) const {
   const std::uint8_t* const at = image + in_at;
-  feedback.statusword = get<std::uint16_t>(at + status_);
+  feedback.show(get<std::uint16_t>(at + status_));
   feedback.position = get<std::int32_t>(at + position_);
   feedback.torque = get<std::int16_t>(at + torque_);
   feedback.has_velocity = velocity_ >= 0;

@@ -43,7 +43,7 @@ void write_state(ByteWriter& to, Order order, const RobotState& state) {
   to.f64(state.speed_scaling);
   for (const Drive& drive : state.drives) {
     to.u8(static_cast<std::uint8_t>(drive.state));
-    to.u8(drive.valid ? 1 : 0);
+    to.u8(static_cast<std::uint8_t>((drive.valid ? 1 : 0) | (drive.warns ? 2 : 0)));
     to.u8(static_cast<std::uint8_t>(drive.reason));
     to.u32(drive.code);
   }
@@ -63,7 +63,9 @@ bool read_state(ByteReader& from, Order& order, RobotState& state) {
   for (Drive& drive : read.drives) {
     loop.tick();
     known = get(from, drive.state, DriveState::kFault) && known;
-    drive.valid = from.u8() != 0;
+    const std::uint8_t flags = from.u8();
+    drive.valid = (flags & 1U) != 0;
+    drive.warns = (flags & 2U) != 0;
     drive.reason = static_cast<Status>(from.u8());
     drive.code = from.u32();
   }

@@ -199,7 +199,7 @@ bool ArmDrives::stopped_by_robot() const {
 }
 
 Drive ArmDrives::drive() const {
-  Drive drive = {state_of(phase_), true, Status::kOk, 0};
+  Drive drive = {state_of(phase_), true};
   if (phase_ != DrivePhase::kFault) return drive;
   drive.reason = reason_;
   drive.code = stopped_by_robot() ? robot_.stop_code() : 0;

@@ -34,7 +34,8 @@ struct Drive {
   DriveState state = DriveState::kUnknown;
   bool valid = false;           ///< q, dq and tau of its joint are measured values
   Status reason = Status::kOk;  ///< of kFault: kDriveFault, kNotReferenced, kProtectiveStop ...
-  std::uint32_t code = 0;       ///< the drive's own number of its fault; 0: none
+  bool warns = false;           ///< by its own word, without a fault
+  std::uint32_t code = 0;       ///< the drive's own number of fault or warning; 0: none
 };
 
 enum class DriveRequest : std::uint8_t {

@@ -87,6 +87,8 @@ class Hal {
   virtual const char* output_name(int /*output*/) const { return nullptr; }
   /// Explains the last Status that was not kOk in the robot's own words. [between two cycles]
   virtual Message trouble() { return {}; }
+  /// Explains a drive's own number of a fault; empty: the number says all. [any]
+  virtual Message code_text(std::uint32_t /*code*/) const { return {}; }
 
  protected:
   ~Hal() = default;  // owned by the board as a static object, never deleted through the interface

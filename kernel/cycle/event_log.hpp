@@ -17,7 +17,7 @@ struct Event {
   std::uint32_t cycle = 0;      ///< its number since start
   std::uint32_t commanded = 0;  ///< cycles before it in which the drives followed: the log's time
   float value = 0.0F;           ///< value found: of a joint, missed periods, or us; 0: none
-  std::uint32_t code = 0;       ///< the drive's own number of its fault; 0: none
+  std::uint32_t code = 0;       ///< the drive's own number of fault or warning; 0: none
   Status status = Status::kOk;  ///< why
   Cause cause = Cause::kRearm;
   Rung from = Rung::kDisabled, to = Rung::kDisabled;

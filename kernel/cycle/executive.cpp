@@ -2,12 +2,18 @@
 
 #include <algorithm>
 
+#include "kernel/core/loop_bound.hpp"
+
 namespace tactus {
 namespace {
 
 Cause cause_of_stage(Status status) {
   return status >= Status::kSensorNotFinite && status <= Status::kSensorNotSteady ? Cause::kSensor
                                                                                   : Cause::kStage;
+}
+
+Status reason_of(const Drive& drive) {
+  return drive.reason == Status::kOk ? Status::kDriveFault : drive.reason;
 }
 
 }  // namespace
@@ -53,11 +59,29 @@ void Executive::read() {
     else
       measured_.drives = state.drives;
     pipeline_.robot.set_measured(measured_);  // recorded even if no block is stepped
+    tell_drives();
     watch_drives();
     const Status status = commands(rung()) ? guard_.check(state, now_) : Status::kOk;
     walk_unless_ok(Cause::kState, status, tripped());
   }
   timing_.lap(Stage::kRead);
+}
+
+/// Logs every fault that was there before the request to arm, which clears it, and the warning of a
+/// drive once in an arming. Neither changes anything else.
+void Executive::tell_drives() {
+  const bool before = rung() == Rung::kArming && requested_ != DriveRequest::kArm;
+  LoopBound<kDof> joints;
+  for (int i = 0; i < kDof; ++i) {
+    joints.tick();
+    const Drive& drive = measured_.drives[static_cast<std::size_t>(i)];
+    const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(i));
+    const bool stood = before && drive.state == DriveState::kFault;
+    if (stood) log(Cause::kOldFault, reason_of(drive), {0.0, i, drive.code}, rung(), rung());
+    if (!drive.warns || (warned_ & bit) != 0 || rung() == Rung::kDisabled) continue;
+    warned_ |= bit;
+    log(Cause::kWarning, Status::kOk, {0.0, i, drive.code}, rung(), rung());
+  }
 }
 
 /// Finds the first drive that does not follow, or that could not be armed. A fault that was there
@@ -69,8 +93,7 @@ void Executive::watch_drives() {
     const Drive& drive = measured_.drives[static_cast<std::size_t>(i)];
     const bool lost = follow && drive.state != DriveState::kEnabled;
     const bool failed = arm && drive.state == DriveState::kFault;
-    const Status why = drive.reason == Status::kOk ? Status::kDriveFault : drive.reason;
-    if (lost || failed) return walk(Cause::kDrive, why, {0.0, i, drive.code});
+    if (lost || failed) return walk(Cause::kDrive, reason_of(drive), {0.0, i, drive.code});
   }
 }
 

@@ -99,6 +99,7 @@ class Executive {
   void check_clock(const CycleTime& now);
   void read();
   void watch_drives();
+  void tell_drives();
   void step();
   RobotCommand guarded();
   void write(const RobotCommand& command);
@@ -134,6 +135,8 @@ class Executive {
   BrakeWay way_ = BrakeWay::kOnPath;  // of the present brake
   bool skips_ = false;                // optional rows, after overruns until clean, on any rung
   Status latched_ = Status::kNotStarted;
+  std::uint8_t warned_ = 0;  // bit i: the warning of drive i is in the log since arming
+  static_assert(kDof <= 8);
   std::uint32_t seen_ = 0;  // bit i: cause i is in the log since the last change of rung
   EventLog events_;
 

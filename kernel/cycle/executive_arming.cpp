@@ -43,6 +43,7 @@ Status Executive::arm() {
   if (disabling_ > 0) return Status::kNotAtRest;
   if (wire_ != Status::kOk) return refuse(wire_);
   rest_.start(0);
+  warned_ = 0;
   walk(Cause::kArm, Status::kArming);
   return Status::kArming;
 }

@@ -48,6 +48,8 @@ enum class Cause : std::uint8_t {
   kArmTime,   ///< the drives are not enabled, or the arm is not at rest, in time
   kRearm,     ///< the arm is commanded again
   kRefused,   ///< connecting or arming was refused
+  kOldFault,  ///< a drive stood in fault before it was armed, which clears it
+  kWarning,   ///< a drive warns
 };
 
 constexpr const char* name(Cause cause) {
@@ -74,6 +76,8 @@ constexpr const char* name(Cause cause) {
     case Cause::kArmTime: return "arm_time";
     case Cause::kRearm: return "rearm";
     case Cause::kRefused: return "refused";
+    case Cause::kOldFault: return "old_fault";
+    case Cause::kWarning: return "warning";
   }
   return nullptr;
 }
@@ -115,6 +119,8 @@ inline constexpr std::array<LadderRow, kCauses> kLadder = {{
     {Cause::kArmTime,  {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,         Rung::kStop,         Rung::kDisabled,     Rung::kDisabled},     true,  BrakeWay::kOnPath},
     {Cause::kRearm,    {Rung::kNominal,      Rung::kSkipOptional, Rung::kNominal,      Rung::kStop,         Rung::kNominal,      Rung::kDisabled},     true,  BrakeWay::kOnPath},
     {Cause::kRefused,  {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,         Rung::kStop,         Rung::kDisabled,     Rung::kDisabled},     true,  BrakeWay::kOnPath},
+    {Cause::kOldFault, {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,         Rung::kStop,         Rung::kArming,       Rung::kDisabled},     true,  BrakeWay::kOnPath},
+    {Cause::kWarning,  {Rung::kNominal,      Rung::kSkipOptional, Rung::kHold,         Rung::kStop,         Rung::kArming,       Rung::kDisabled},     true,  BrakeWay::kOnPath},
 }};
 // clang-format on
 

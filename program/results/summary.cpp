@@ -127,7 +127,8 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
   write_tracking(file, result);
   write_signals(file, session);
   write_timing(file, session.pipeline, session.executive);
-  write_events(file, result.rung, session.executive.events(), session.pipeline.robot.period_s());
+  write_events(file, result.rung, session.executive.events(), session.hal,
+               session.pipeline.robot.period_s());
   std::fprintf(file, "  \"slips\": %" PRIu32 ",\n  \"overruns\": %" PRIu32 ",\n",
                std::uint32_t{telemetry.slips}, std::uint32_t{telemetry.overruns});
   if (result.realtime.asked) write_realtime(file, result.realtime);
@@ -160,7 +161,7 @@ void print_table(std::string_view pipeline, const Session& session, const RunRes
   result.expectation.print();
   print_timing(session.pipeline, executive);
   if (result.realtime.asked) print_realtime(result.realtime);
-  print_events(executive.events(), session.pipeline.robot.period_s());
+  print_events(executive.events(), session.hal, session.pipeline.robot.period_s());
   const Executive::Telemetry& telemetry = executive.telemetry();
   std::printf("\n  %" PRId64 " cycles, %" PRIu32 " slips, %" PRIu32 " overruns, rung %s, ",
               result.cycles, std::uint32_t{telemetry.slips}, std::uint32_t{telemetry.overruns},

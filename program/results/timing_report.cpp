@@ -2,8 +2,10 @@
 
 #include <cinttypes>
 
+#include "gateway/server/drive_text.hpp"
 #include "gateway/verdict_text.hpp"
 #include "kernel/core/names.hpp"
+#include "program/results/json_string.hpp"
 
 namespace tactus {
 namespace {
@@ -47,7 +49,8 @@ void write_timing(std::FILE* file, const Pipeline& pipeline, const Executive& ex
   std::fprintf(file, "\n  },\n");
 }
 
-void write_events(std::FILE* file, Rung rung, const EventLog& events, double period_s) {
+void write_events(std::FILE* file, Rung rung, const EventLog& events, const Hal& hal,
+                  double period_s) {
   std::fprintf(file, "  \"rung\": \"%s\",\n  \"events_lost\": %" PRIu32 ",\n  \"events\": [",
                name(rung), events.lost());
   Event event;
@@ -58,7 +61,11 @@ void write_events(std::FILE* file, Rung rung, const EventLog& events, double per
                  name(event.cause), name(event.status), name(event.from), name(event.to));
     const auto value = static_cast<double>(event.value);
     std::fprintf(file, value - value == 0.0 ? ", \"value\": %.9g" : ", \"value\": null", value);
-    std::fprintf(file, ", \"joint\": %d, \"code\": %" PRIu32 "}", event.joint + 1, event.code);
+    std::fprintf(file, ", \"joint\": %d, \"code\": %" PRIu32, event.joint + 1, event.code);
+    const Message of_drive = describe_drive(hal, event);
+    if (!of_drive.empty()) std::fprintf(file, ", \"text\": ");
+    if (!of_drive.empty()) write_json_string(file, of_drive);
+    std::fprintf(file, "}");
     separator = ",";
   }
   std::fprintf(file, "\n  ],\n");
@@ -77,16 +84,21 @@ void print_timing(const Pipeline& pipeline, const Executive& executive) {
   });
 }
 
-void print_events(const EventLog& events, double period_s) {
+void print_events(const EventLog& events, const Hal& hal, double period_s) {
   Event event;
   for (std::uint32_t i = events.lost(); events.read(i, event); ++i) {
     if (event.cause == Cause::kArm || event.cause == Cause::kRearm || event.cause == Cause::kOff)
       continue;
-    std::printf("  %.3f s: %s -> %s: %s: %s", event.commanded * period_s, name(event.from),
-                name(event.to), name(event.cause), describe(event.status).c_str());
+    std::printf("  %.3f s: ", event.commanded * period_s);
+    const Message of_drive = describe_drive(hal, event);
+    if (!of_drive.empty()) {
+      std::printf("%s\n", of_drive.c_str());
+      continue;
+    }
+    std::printf("%s -> %s: %s: %s", name(event.from), name(event.to), name(event.cause),
+                describe(event.status).c_str());
     if (event.joint >= 0) std::printf(", joint %d", event.joint + 1);
-    if (event.code != 0) std::printf(", the drive's code %" PRIu32, event.code);
-    std::printf("\n");
+    std::printf("%s\n", describe_code(hal, event.code).c_str());
   }
   if (events.lost() > 0)
     std::printf("  %" PRIu32 " earlier events are overwritten\n", events.lost());

@@ -12,11 +12,13 @@ namespace tactus {
 /// "row.<name>".
 void write_timing(std::FILE* file, const Pipeline& pipeline, const Executive& executive);
 /// Writes `  "rung": ..., "events_lost": ..., "events": [...],`: the rung on which the run ended
-/// and the changes of rung before, each with the time of log.csv at which it came.
-void write_events(std::FILE* file, Rung rung, const EventLog& events, double period_s);
+/// and the changes of rung before, each with the time of log.csv at which it came; what is said of
+/// a drive has a "text".
+void write_events(std::FILE* file, Rung rung, const EventLog& events, const Hal& hal,
+                  double period_s);
 
 void print_timing(const Pipeline& pipeline, const Executive& executive);
 /// Prints a line for every event but rearms and the switching off, with the same time.
-void print_events(const EventLog& events, double period_s);
+void print_events(const EventLog& events, const Hal& hal, double period_s);
 
 }  // namespace tactus

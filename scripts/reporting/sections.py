@@ -71,9 +71,12 @@ def facts(section):
 
 
 def events(summary):
-    """Lists the changes of rung; a Status that says no more than their cause is left out."""
+    """Lists the changes of rung; a Status that says no more than their cause is left out. What is said of a drive is its own text."""
     said = []
     for event in summary["events"]:
+        if "text" in event:
+            said.append(f"{event['time_s']:.3f} s {event['text']}")
+            continue
         status = "" if event["status"] in NO_REASON else f", {result.status_words(event['status'])}"
         said.append(f"{event['time_s']:.3f} s {event['from']} → {event['to']} ({event['cause']}{status})")
     return f"<p>Events, {EVENTS_TIME}: {page.escape('; '.join(said) or 'none')}.</p>"

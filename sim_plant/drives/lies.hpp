@@ -15,6 +15,10 @@ class Lies {
     tell(FaultKind::kWrongIdentity, slot_of(can::kIdentity, 2));
     if (const Fault* fault = find(FaultKind::kNonsenseStatus))
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
+    if (const Fault* fault = find(FaultKind::kWarning)) {
+      set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | cia402::kWarning);
+      if (fault->value != 0) set(slot_of(0x603F), fault->value);
+    }
     if (find(FaultKind::kSaturatedTorque) != nullptr) set(slot_of(0x6077), 32767);
     if (const Fault* fault = find(FaultKind::kWrongMapping))
       for (std::uint16_t i = 0; i < kPdos; ++i)
@@ -41,7 +45,7 @@ class Lies {
     dictionary_.set(slot, value);
   }
 
-  static constexpr std::size_t kMost = 4 + 2 * kPdos;
+  static constexpr std::size_t kMost = 6 + 2 * kPdos;
 
   Dictionary& dictionary_;
   Faults& faults_;

@@ -2,6 +2,8 @@
 // pipeline here; the Hal, in which master, wire and emulated drives are, is the wire's own.
 #pragma once
 
+#include <string>
+
 #include "gateway/reference_client.hpp"
 #include "hal/cia402/drive_hal.hpp"
 #include "hal/cia402/drives.hpp"
@@ -17,6 +19,23 @@ inline constexpr const char* kHoldingPipeline =
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
     "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+
+/// What the log says of drives since event `from`: joints and codes of a cause.
+struct Told {
+  std::string joints;  ///< as digits, from 1
+  std::uint32_t code = 0;
+};
+template <class Bench>
+Told told_of(const Bench& bench, Cause cause, std::uint32_t from = 0) {
+  Told told;
+  Event event;
+  for (std::uint32_t i = from; bench.executive.events().read(i, event); ++i) {
+    if (event.cause != cause) continue;
+    told.joints += static_cast<char>('1' + event.joint);
+    told.code = event.code;
+  }
+  return told;
+}
 
 /// A pipeline, what sends it references, and where they are.
 struct LoopRig {

@@ -136,7 +136,7 @@ class FaultyHal final : public Hal {
   void set(DriveState state) { state_.drives.fill({state, true}); }
   void fail(int joint) {
     state_.drives[static_cast<std::size_t>(joint)] = {DriveState::kFault, true, Status::kDriveFault,
-                                                      7};
+                                                      false, 7};
   }
   bool all(DriveState state) const {
     bool same = true;

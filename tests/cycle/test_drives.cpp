@@ -82,12 +82,81 @@ void drives_that_are_not_disabled_in_time_are_in_the_log(void**) {
 void a_joint_that_cannot_be_armed_is_named_with_its_drives_code(void**) {
   Bench& b = slow_drives();
   ASSERT_STATUS(b.cycle(), Status::kArming);
-  b.hal.state.drives[4] = {DriveState::kFault, true, Status::kNotReferenced, 0x7306};
+  b.hal.state.drives[4] = {DriveState::kFault, true, Status::kNotReferenced, false, 0x7306};
   ASSERT_STATUS(b.cycle(), Status::kNotReferenced);
   assert_event(b, Cause::kDrive, Status::kNotReferenced, Rung::kArming, Rung::kDisabled);
   assert_int_equal(last_event(b).joint, 4);
   assert_int_equal(last_event(b).code, 0x7306);
   ASSERT_STATUS(b.cycle(), Status::kNotReferenced);
+}
+
+Event event_at(const Bench& b, std::uint32_t from_last) {
+  Event event;
+  assert_true(b.executive.events().read(b.executive.events().count() - 1 - from_last, event));
+  return event;
+}
+
+// Proves LAD-15.
+void faults_from_before_an_arming_are_told_once_for_every_joint_that_had_one(void**) {
+  Bench& b = fresh_bench(kPositions);
+  for (int arming = 0; arming < 2; ++arming) {
+    b.hal.obeys = false;
+    b.hal.all(DriveState::kDisabled);
+    b.hal.state.drives[0] = {DriveState::kFault, true, Status::kOk, false, 0};
+    b.hal.state.drives[5] = {DriveState::kFault, true, Status::kProtectiveStop, false, 0x7500};
+    if (arming == 0) ASSERT_OK(b.executive.start());
+    const std::uint32_t before = b.executive.events().count();
+    if (arming == 1) ASSERT_STATUS(b.cycle(), Status::kHalted);  // it came between two armings
+    assert_int_equal(b.executive.events().count(), before);
+    ASSERT_STATUS(b.executive.arm(), Status::kArming);
+    ASSERT_STATUS(b.cycle(), Status::kArming);
+    assert_int_equal(b.executive.events().count(), before + 3);
+    const Event first = event_at(b, 1), second = event_at(b, 0);
+    assert_true(first.cause == Cause::kOldFault && second.cause == Cause::kOldFault);
+    assert_true(first.joint == 0 && second.joint == 5 && second.code == 0x7500);
+    ASSERT_STATUS(first.status, Status::kDriveFault);
+    ASSERT_STATUS(second.status, Status::kProtectiveStop);
+    assert_true(second.from == Rung::kArming && second.to == Rung::kArming);
+    b.hal.all(DriveState::kArming);  // the drives are cleared
+    for (int i = 0; i < 5; ++i) ASSERT_STATUS(b.cycle(), Status::kArming);
+    assert_int_equal(b.executive.events().count(), before + 3);
+    b.executive.halt();
+    b.hal.all(DriveState::kDisabled);
+    for (int i = 0; i < 3; ++i) ASSERT_STATUS(b.cycle(), Status::kHalted);
+  }
+}
+
+// Proves LAD-16.
+void a_warning_stops_nothing_and_is_told_once_in_an_arming(void**) {
+  Bench& b = fresh_bench(kPositions);
+  b.hal.state.drives[3].warns = true;
+  ASSERT_OK(b.executive.start());
+  ASSERT_STATUS(b.cycle(), Status::kNotStarted);
+  assert_int_equal(b.executive.events().count(), 0);  // nobody has asked for the drives
+  for (int arming = 0; arming < 2; ++arming) {
+    ASSERT_STATUS(b.executive.arm(), Status::kArming);
+    int told = 0;
+    std::uint32_t read = b.executive.events().count();
+    for (int i = 0; i < 300; ++i) {
+      for (const std::size_t joint : {std::size_t{3}, std::size_t{6}}) {
+        b.hal.state.drives[joint].warns = joint == 3 ? i % 7 != 3 : i > 200;
+        b.hal.state.drives[joint].code = 0x4210;
+      }
+      const Status status = b.cycle();
+      if (status == Status::kArming) static_cast<void>(b.executive.arm());
+      Event event;
+      for (; b.executive.events().read(read, event); ++read) {
+        if (event.cause != Cause::kWarning) continue;
+        assert_int_equal(event.joint, told++ == 0 ? 3 : 6);
+        assert_true(event.code == 0x4210 && event.status == Status::kOk && event.from == event.to);
+      }
+    }
+    assert_int_equal(told, 2);
+    assert_true(b.executive.rung() == Rung::kNominal);
+    b.executive.halt();
+    while (b.executive.rung() != Rung::kDisabled || b.executive.busy())
+      ASSERT_STATUS(b.cycle(), Status::kHalted);
+  }
 }
 
 void a_drive_that_leaves_enabled_disables_all_in_every_mode(void**) {
@@ -97,7 +166,7 @@ void a_drive_that_leaves_enabled_disables_all_in_every_mode(void**) {
       Bench& b = started(text);
       ASSERT_OK(b.cycle());
       b.hal.obeys = false;
-      b.hal.state.drives[2] = {state, true, Status::kOk, 42};
+      b.hal.state.drives[2] = {state, true, Status::kOk, false, 42};
       ASSERT_STATUS(b.cycle(), Status::kDriveFault);
       assert_event(b, Cause::kDrive, Status::kDriveFault, Rung::kNominal, Rung::kDisabled);
       assert_true(last_event(b).joint == 2 && last_event(b).code == 42);
@@ -233,6 +302,8 @@ int main() {
       cmocka_unit_test(drives_that_are_not_armed_in_time_are_given_up),
       cmocka_unit_test(drives_that_are_not_disabled_in_time_are_in_the_log),
       cmocka_unit_test(a_joint_that_cannot_be_armed_is_named_with_its_drives_code),
+      cmocka_unit_test(faults_from_before_an_arming_are_told_once_for_every_joint_that_had_one),
+      cmocka_unit_test(a_warning_stops_nothing_and_is_told_once_in_an_arming),
       cmocka_unit_test(a_drive_that_leaves_enabled_disables_all_in_every_mode),
       cmocka_unit_test(after_a_wire_that_failed_arming_is_refused_until_it_works),
       cmocka_unit_test(drives_that_had_a_cycle_to_arm_are_waited_for),

@@ -98,7 +98,7 @@ void a_drive_that_answers_no_request_is_a_time_out(void**) {
 void objects_that_a_drive_need_not_have_may_be_absent(void**) {
   const std::vector<std::uint32_t> kOptional[] = {{0x1016, 0x6007, 0x605A, 0x605E, 0x1005, 0x1006,
                                                    0x60C2, 0x1401, 0x1402, 0x1403, 0x1801, 0x1802},
-                                                  {0x6072, 0x6076, 0x608F, 0x6091, 0x60A8}};
+                                                  {0x6072, 0x6076, 0x608F, 0x6091, 0x60A8, 0x603F}};
   for (const std::vector<std::uint32_t>& optional : kOptional) {
     MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());

@@ -72,6 +72,57 @@ void an_arm_that_hangs_is_taken_over_if_the_file_says_so(void**) {
   }
 }
 
+// Proves CAN-19.
+/// 603Fh is left from the day before, and the drive sends its EMCY to nobody.
+void faults_that_stood_before_are_told_with_their_codes_and_cleared(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  for (const int joint : {1, 6}) inject(bench, joint, drives::FaultKind::kEmergency, 0x7500);
+  bench.hal.arm.advance(10'000'000);
+  for (const int joint : {1, 6})
+    assert_true(bench.hal.arm.node(joint).axis().state() == cia402::State::kFault);
+  heal(bench);
+  const Status status = bench.start();
+  explain(bench, status);
+  ASSERT_OK(status);
+  const cia402::Told first = told_of(bench, Cause::kOldFault);
+  assert_string_equal(first.joints.c_str(), "27");
+  assert_int_equal(first.code, 0x7500);
+
+  bench.executive.halt();
+  while (bench.executive.busy()) (void)bench.cycle();
+  const std::uint32_t from = bench.executive.events().count();
+  inject(bench, 3, drives::FaultKind::kEmergency, 0x4310);
+  for (int i = 0; i < 10; ++i) (void)bench.cycle();
+  heal(bench);
+  ASSERT_OK(bench.arm());
+  const cia402::Told second = told_of(bench, Cause::kOldFault, from);
+  assert_string_equal(second.joints.c_str(), "4");
+  assert_int_equal(second.code, 0x4310);
+}
+
+/// 603Fh is that of the last error, which may have gone.
+void warnings_stop_nothing_and_are_told_with_their_codes(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  drives::Fault warning;
+  warning.kind = drives::FaultKind::kWarning;
+  warning.value = 0x4210;
+  assert_true(bench.hal.arm.node(2).faults().add(warning));
+  warning.until = 1;  // gone before the first SYNC
+  assert_true(bench.hal.arm.node(4).faults().add(warning));
+  ASSERT_OK(bench.start());
+  assert_int_equal(bench.hal.master.node(4).feedback.error_code, 0);
+  ASSERT_OK(bench.cycles(100));
+  const cia402::Told told = told_of(bench, Cause::kWarning);
+  assert_string_equal(told.joints.c_str(), "3");
+  assert_int_equal(told.code, 0x4210);
+  heal(bench);
+  ASSERT_OK(bench.cycles(10));
+  assert_int_equal(bench.hal.master.node(2).feedback.error_code, 0);
+  assert_string_equal(told_of(bench, Cause::kOldFault).joints.c_str(), "");
+}
+
 constexpr int kFeedbackOf2 = 0x182;
 
 /// The first late frame comes with the next one, and nothing is older than before.
@@ -109,6 +160,8 @@ int main() {
       cmocka_unit_test(the_arm_is_taken_over_and_held_where_it_stands),
       cmocka_unit_test(an_arm_that_hangs_is_taken_over_if_the_file_says_so),
       cmocka_unit_test(drives_that_carry_the_weight_are_taken_over_without_a_step),
+      cmocka_unit_test(faults_that_stood_before_are_told_with_their_codes_and_cleared),
+      cmocka_unit_test(warnings_stop_nothing_and_are_told_with_their_codes),
       cmocka_unit_test(feedback_that_is_late_again_and_again_and_comes_with_the_next_goes_on),
       cmocka_unit_test(feedback_that_is_lost_again_and_again_stops_the_arm),
   };

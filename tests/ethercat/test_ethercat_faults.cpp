@@ -99,6 +99,24 @@ void lost_and_late_frames_are_counted(void**) {
   assert_int_equal(counts.counter, 0);
 }
 
+// Proves ECAT-16.
+void faults_that_stood_before_are_told_with_their_codes_and_cleared(void**) {
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  bench.add(FaultKind::kEmergency, 7, 0x7500);
+  bench.add(FaultKind::kWarning, 2, 0x4210);
+  const Status status = bench.start();
+  if (status != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
+  ASSERT_OK(status);
+  ASSERT_OK(bench.cycles(100));
+  const cia402::Told fault = told_of(bench, Cause::kOldFault);
+  assert_string_equal(fault.joints.c_str(), "7");
+  assert_int_equal(fault.code, 0x7500);
+  const cia402::Told warning = told_of(bench, Cause::kWarning);
+  assert_string_equal(warning.joints.c_str(), "2");
+  assert_int_equal(warning.code, 0x4210);
+}
+
 // Proves ECAT-15.
 /// By then the clock of the cycles must not wait for frames: drives are given up by the clock.
 void a_wire_that_does_not_answer_is_known_after_max_missed_frames(void**) {
@@ -168,6 +186,7 @@ int main() {
       cmocka_unit_test(every_fault_stops_all_drives_or_is_bridged),
       cmocka_unit_test(inputs_are_not_taken_with_a_wrong_working_counter),
       cmocka_unit_test(lost_and_late_frames_are_counted),
+      cmocka_unit_test(faults_that_stood_before_are_told_with_their_codes_and_cleared),
       cmocka_unit_test(a_wire_that_does_not_answer_is_known_after_max_missed_frames),
       cmocka_unit_test(a_stop_waits_for_two_frames_at_most),
       cmocka_unit_test(copies_of_frames_are_strange),

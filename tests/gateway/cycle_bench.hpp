@@ -65,6 +65,8 @@ struct CycleBench : BenchClock {
     ServerSetup setup;
     setup.loaded = &pipeline;
     setup.joint_window = kBenchWaypoints;
+    setup.events = &executive.events();
+    setup.hal = &hal;
     desk = new (desk_place.data()) CycleDesk(mail, executive, pipeline);
     server = new (server_place.data()) Server(setup, joints, poses, mail);
     ASSERT_OK(start_armed(executive, 1'000'000, now_ns));

@@ -37,6 +37,7 @@ RobotState any_state() {
   for (Drive& drive : state.drives) {
     drive.state = static_cast<DriveState>(g_random() % 6);
     drive.valid = g_random() % 2 == 0;
+    drive.warns = g_random() % 2 == 0;
     drive.reason = static_cast<Status>(g_random() % 256);
     drive.code = static_cast<std::uint32_t>(g_random());
   }
@@ -68,6 +69,7 @@ void every_bit_of_a_state_arrives(void**) {
     for (std::size_t j = 0; j < read.drives.size(); ++j) {
       assert_true(read.drives[j].state == state.drives[j].state);
       assert_true(read.drives[j].valid == state.drives[j].valid);
+      assert_true(read.drives[j].warns == state.drives[j].warns);
       assert_true(read.drives[j].reason == state.drives[j].reason);
       assert_true(read.drives[j].code == state.drives[j].code);
     }

@@ -1,0 +1,25 @@
+#include "gateway/server/drive_text.hpp"
+
+#include "gateway/verdict_text.hpp"
+
+namespace tactus {
+
+Message describe_code(const Hal& hal, std::uint32_t code) {
+  Message text;
+  if (code == 0) return text;
+  const Message its = hal.code_text(code);
+  if (its.empty()) return text << ", the drive's code " << std::size_t{code};
+  return text << ", " << std::string_view(its);
+}
+
+Message describe_drive(const Hal& hal, const Event& event) {
+  Message text;
+  const bool fault = event.cause == Cause::kOldFault;
+  if (!fault && event.cause != Cause::kWarning) return text;
+  text << "joint " << event.joint + 1
+       << (fault ? " stood in fault, which arming clears: " : " warns");
+  if (fault) text << describe(event.status).c_str();
+  return text << describe_code(hal, event.code).c_str();
+}
+
+}  // namespace tactus
