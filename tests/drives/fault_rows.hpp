@@ -53,6 +53,7 @@ inline constexpr cia402::FaultRow<MasterBench> kFaultRows[] = {
     {"reboot", drive_fault<FaultKind::kReboot>, kTimeout, {5, 5, 5}, 3, Status::kConnectionLost},
     {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {210, 203, 2}, 3, Status::kOk},
     {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9>, kFault, {20, 16, 0}, 3, Status::kOk},
+    {"statusword bit 7, warning", drive_fault<FaultKind::kWarning, 0x4210>, Status::kOk, kNever, 0, Status::kOk},
 };
 // clang-format on
 

@@ -94,6 +94,8 @@ void objects_read_what_the_fault_says(void**) {
                          Row{"node=2 kind=wrong_identity value=7", 0x1018, 2, 7},
                          Row{"node=2 kind=wrong_mapping value=0x60400010", 0x1A00, 1, 0x60400010},
                          Row{"node=2 kind=nonsense_status value=0x6C", 0x6041, 0, 0x127F},
+                         Row{"node=2 kind=warning", 0x6041, 0, 0x12B7},
+                         Row{"node=2 kind=warning value=0x4210", 0x603F, 0, 0x4210},
                          Row{"node=2 kind=saturated_torque", 0x6077, 0, 32767}}) {
     DrivesBench& bench = with_fault(row.text);
     assert_int_equal(bench.get(2, row.index, row.sub), row.value);

@@ -44,6 +44,7 @@ constexpr cia402::FaultRow<MasterBench> kRows[] = {
     {"restart", drive<FaultKind::kReboot>, kTimeout, {6, 6, 6}, 14, Status::kNotAtRest},
     {"measured torque saturated", drive<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {230, 210, 3}, 3, Status::kOk},
     {"6061h shows another mode", drive<FaultKind::kWrongMode, 9>, kFault, {60, 60, 0}, 3, Status::kOk},
+    {"statusword bit 7, warning", drive<FaultKind::kWarning, 0x4210>, Status::kOk, kNever, 0, Status::kOk},
 };
 // clang-format on
 

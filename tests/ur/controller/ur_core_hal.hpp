@@ -31,7 +31,7 @@ class CoreHal final : public Hal {
     state.dq = image.actual_qd;
     state.speed_scaling = time_scaling(image.speed_scaling, image.target_speed_fraction);
     state.stamp_ns = now.stamp_ns;
-    state.drives.fill({drive_state(), true, Status::kOk, 0});
+    state.drives.fill({drive_state(), true});
     return Status::kOk;
   }
   /// Uploads the program once; then it holds the arm where it is, or follows.
