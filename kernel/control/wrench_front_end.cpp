@@ -22,6 +22,7 @@ Status WrenchFrontEnd::start() {
   last_ = *ft;
   unchanged_ = samples_ = cycles_ = 0;
   fade_.clear();
+  request_.end({Status::kNotStarted});
   return check();
 }
 
@@ -36,6 +37,7 @@ Status WrenchFrontEnd::step(double dt_s) {
   fade_.step(dt_s);
   h.value = contact();
   if (fade_.runs()) h.value += fade_.value();
+  if (request_.runs()) tare_again(load, R, dt_s);
   return h.value.allFinite() ? Status::kOk : Status::kSensorNotFinite;
 }
 
@@ -63,7 +65,7 @@ bool WrenchFrontEnd::stuck(double dt_s) {
   return unchanged_ * dt_s >= params.stuck_s;
 }
 
-Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
+bool WrenchFrontEnd::sample(const Vector6& load, double dt_s) {
   const bool first = samples_ == 0;
   low_ = first ? load : Vector6(low_.cwiseMin(load));
   high_ = first ? load : Vector6(high_.cwiseMax(load));
@@ -78,12 +80,40 @@ Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
     ++samples_;
   }
   ++cycles_;
-  if (samples_ * dt_s >= params.tare_s) {
+  return samples_ * dt_s >= params.tare_s;
+}
+
+Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
+  if (sample(load, dt_s)) {
     bias.value = sum_ / samples_;
     taring.value = false;
     return Status::kOk;
   }
   return cycles_ * dt_s < params.tare_timeout_s ? Status::kOk : Status::kSensorNotSteady;
+}
+
+Status WrenchFrontEnd::begin_tare() {
+  if (!kTuning || params.tare_s == 0.0) return Status::kNotOffered;
+  if (taring.value || request_.runs()) return Status::kMailboxFull;
+  samples_ = cycles_ = 0;
+  request_.begin();
+  return Status::kOk;
+}
+
+/// The filter's state goes over to the new bias at once; what h would step by is left to the fade.
+void WrenchFrontEnd::tare_again(const Vector6& load, const Matrix3& R, double dt_s) {
+  if (!sample(load, dt_s)) {
+    if (cycles_ * dt_s >= params.tare_timeout_s) request_.end({Status::kSensorNotSteady});
+    return;
+  }
+  const Vector6 change = sum_ / samples_ - bias.value;
+  const Verdict verdict = params.judge(change);
+  if (verdict.ok()) {
+    bias.value += change;
+    filtered_ -= at_tip(change, R);
+    fade_.start(h.value - contact(), kFade_s);
+  }
+  request_.end(verdict);
 }
 
 Vector6 WrenchFrontEnd::weight(const Matrix3& R) const {

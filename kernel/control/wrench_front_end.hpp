@@ -19,6 +19,16 @@
 // interval is the bias. A break restarts the interval. During the tare the robot must be at rest
 // and touch nothing: a steady contact becomes part of the bias. The filter then starts from zero:
 // with a time constant, h does not step; without, it steps by up to the tare tolerances.
+//
+// A sensor drifts. begin_tare() asks for a new bias while the block runs, by the same interval.
+// Until it has passed, h comes from the old bias, so that a law goes on to yield. Then the new bias
+// holds, and what h changes by fades in kFade_s:
+//
+//   h(t) = contact by the new bias + s(t) (h before - contact by the new bias)     fade.hpp
+//
+// If the bias would move by more than max_tare_force or max_tare_moment, which may be a contact, or
+// the signal is not steady within tare_timeout_s, the tare is refused and the old bias stays. A
+// contact within these limits, or a steady acceleration, becomes part of the bias.
 #pragma once
 
 #include "kernel/core/brake.hpp"
@@ -26,6 +36,7 @@
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/math/fade.hpp"
+#include "kernel/math/tare_request.hpp"
 
 namespace tactus {
 
@@ -33,12 +44,12 @@ class WrenchFrontEnd {
  public:
   static constexpr const char* kType = "wrench_front_end";
 
-  struct Params {
+  struct Params : TareLimits<> {
     double max_force = kRequired;        ///< N, range of the sensor, for |f| as measured
     double max_moment = kRequired;       ///< N m, for |m|
     double stuck_s = 0.0;                ///< s; longer than the sensor's sample time; 0 = no check
     double tare_s = 0.5;                 ///< s; 0 = no tare, the bias is zero
-    double tare_timeout_s = 5.0;         ///< s, after start()
+    double tare_timeout_s = 5.0;         ///< s, after start() or begin_tare()
     double tare_force_tolerance = 2.0;   ///< N
     double tare_moment_tolerance = 0.2;  ///< N m
     double time_constant_s = 0.01;       ///< s; 0 = no filter
@@ -50,7 +61,7 @@ class WrenchFrontEnd {
   In<Quantity::kTool> tool;
   Out<Quantity::kWrench> h;
   Out<Quantity::kSensorWrench> bias;  ///< zero until it is known
-  Out<Quantity::kFlag> taring;
+  Out<Quantity::kFlag> taring;        ///< by start(): until the bias is known
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -61,6 +72,7 @@ class WrenchFrontEnd {
     visit.param("tare_timeout_s", params.tare_timeout_s, Range{0.0, 600.0}, "s");
     visit.param("tare_force_tolerance", params.tare_force_tolerance, kNonNegative, "N");
     visit.param("tare_moment_tolerance", params.tare_moment_tolerance, kNonNegative, "N m");
+    params.describe_limits(visit);
     visit.param("time_constant_s", params.time_constant_s, Range{0.0, 10.0}, "s");
     visit.tunable("dead_force", params.dead_force, kNonNegative, "N");
     visit.tunable("dead_moment", params.dead_moment, kNonNegative, "N m");
@@ -79,8 +91,17 @@ class WrenchFrontEnd {
   /// beyond the sensor's range, kSensorStuck if ft is the same to the last bit for stuck_s, and
   /// kSensorNotSteady if there is no tare within tare_timeout_s. [cyclic]
   Status step(double dt_s);
-  /// No effect: the block has no motion of its own. [cyclic]
-  void brake(Status /*why*/, BrakeWay /*way*/) {}
+  /// Refuses a tare that was asked for; nothing else, as the block has no motion of its own.
+  /// [cyclic]
+  void brake(Status why, BrakeWay /*way*/) { request_.end({why}); }
+  /// Begins a tare while the block runs. Returns kNotOffered if tare_s is 0, kMailboxFull while one
+  /// is under way. [between two cycles], after a step
+  Status begin_tare();
+  /// True until the tare that was asked for has its result. [between two cycles]
+  bool tares() const { return request_.runs(); }
+  /// The result of the last one: kOk, kTareLimit, kSensorNotSteady, why it was braked, or
+  /// kNotStarted if the block was started anew. [between two cycles]
+  Verdict tared() const { return request_.verdict(); }
   /// Changes the tunable parameters: h goes on, and its difference fades in kFade_s.
   /// [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
@@ -88,8 +109,10 @@ class WrenchFrontEnd {
  private:
   Status check() const;
   bool stuck(double dt_s);
-  /// Adds one sample to the tare: ft less the tool's weight.
+  /// Adds one sample to the tare: ft less the tool's weight. True: it was steady for tare_s.
+  bool sample(const Vector6& load, double dt_s);
   Status tare(const Vector6& load, double dt_s);
+  void tare_again(const Vector6& load, const Matrix3& R, double dt_s);
   /// Returns the weight of the tool at the flange, in the flange's axes R.
   Vector6 weight(const Matrix3& R) const;
   /// Moves a wrench from the flange, in its axes R, to the tip, in base axes.
@@ -103,7 +126,8 @@ class WrenchFrontEnd {
   Vector6 last_ = Vector6::Zero();      // ft of the last cycle
   int unchanged_ = 0;                   // cycles without a change of ft
   Fade<Vector6> fade_;
-  // The tare's interval: sum, extremes and number of samples; and the cycles since start.
+  TareRequest<> request_;
+  // The tare's interval: sum, extremes and number of samples; and the cycles since its begin.
   Vector6 sum_ = Vector6::Zero(), low_ = Vector6::Zero(), high_ = Vector6::Zero();
   int samples_ = 0, cycles_ = 0;
 };

@@ -101,6 +101,7 @@ constexpr StatusWords words_of(Status status) {
     case Status::kTooManyMessages: return {"kTooManyMessages", "too many messages"};
     case Status::kClientSilent: return {"kClientSilent", "no message from the client in time"};
     case Status::kClientSlow: return {"kClientSlow", "the client does not read what it is sent"};
+    case Status::kTareLimit: return {"kTareLimit", "the sensor's zero would move too far"};
   }
   return {"unknown", "unknown status"};
 }

@@ -98,6 +98,7 @@ enum class [[nodiscard]] Status : std::uint8_t{
     kTooManyMessages = 112,
     kClientSilent = 113,
     kClientSlow = 114,
+    kTareLimit = 115,
 };
 
 /// Returns the identifier of a status, as in logs and summary.json: "kSlip". Never null. [any]
