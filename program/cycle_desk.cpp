@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "kernel/pipeline/only_block.hpp"
+
 namespace tactus {
 namespace {
 
@@ -36,6 +38,8 @@ CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, Pipeline& pipeline)
   pose_ = find_tip(ports);
   pose_d_ = find<Pose>(ports, "x_d", Quantity::kPose);
   wrench_ = find<Vector6>(ports, "h", Quantity::kWrench);
+  const int block = only_block<WrenchFrontEnd>(pipeline);
+  if (block >= 0) front_end_ = static_cast<WrenchFrontEnd*>(pipeline[block].place);
 }
 
 void CycleDesk::work(Status status) {
@@ -47,31 +51,54 @@ void CycleDesk::work(Status status) {
   } else if (rearm_ != 0 && !waits_) {
     finish(status);  // arming has ended otherwise
   }
+  end_tare();
   take_parameters();
   take_order();
 }
 
 /// The result of a rearm that is under way.
 void CycleDesk::finish(Status status) {
-  if (rearm_ != 0) static_cast<void>(mail_.results.post({rearm_, status}));
+  if (rearm_ != 0) static_cast<void>(mail_.results.post({rearm_, {status}}));
   rearm_ = 0;
   waits_ = false;
 }
 
 /// A rearm begins once the arm rests and its drives are disabled. An order waits until there is
-/// space for its result, and that of a rearm.
+/// space for its result, and those of a rearm and a tare.
 void CycleDesk::take_order() {
   OrderMessage message;
-  if (mail_.results.space() < 2 || !mail_.orders.take(message)) return;
+  if (mail_.results.space() < 3 || !mail_.orders.take(message)) return;
   if (message.order == CycleOrder::kStop) {
     finish(Status::kHalted);
     executive_.halt();
-    static_cast<void>(mail_.results.post({message.id, Status::kOk}));
+    static_cast<void>(mail_.results.post({message.id}));
     return;
   }
+  if (message.order == CycleOrder::kTare) return begin_tare(message.id);
   finish(Status::kHalted);  // a rearm that a newer one replaces
   rearm_ = message.id;
   waits_ = true;
+}
+
+/// An arm that is braked, armed or disabled has no tare of its own: the next start begins with one.
+void CycleDesk::begin_tare(std::uint32_t id) {
+  Status status = Status::kNotOffered;
+  if (front_end_ != nullptr)
+    status = refuses(executive_.rung()) ? executive_.latched() : front_end_->begin_tare();
+  if (status != Status::kOk) {
+    static_cast<void>(mail_.results.post({id, {status}}));
+    return;
+  }
+  tare_ = id;
+  zero_before_ = front_end_->bias.value;
+}
+
+/// The result of a tare that is under way. What stops the arm has ended it by a brake.
+void CycleDesk::end_tare() {
+  if (tare_ == 0 || front_end_->tares()) return;
+  static_cast<void>(
+      mail_.results.post({tare_, front_end_->tared(), front_end_->bias.value, zero_before_}));
+  tare_ = 0;
 }
 
 void CycleDesk::take_parameters() {

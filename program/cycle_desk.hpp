@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gateway/server/cycle_mail.hpp"
+#include "kernel/control/wrench_front_end.hpp"
 #include "kernel/cycle/executive.hpp"
 
 namespace tactus {
@@ -26,6 +27,8 @@ class CycleDesk {
   void take_parameters();
   TuningVerdict retune(const Tuning& tuning);
   void finish(Status status);
+  void begin_tare(std::uint32_t id);
+  void end_tare();
   void tell_ports();
 
   CycleMail& mail_;
@@ -34,6 +37,9 @@ class CycleDesk {
   const JointVector *q_d_ = nullptr, *dq_d_ = nullptr;
   const Pose *pose_ = nullptr, *pose_d_ = nullptr;
   const Vector6* wrench_ = nullptr;
+  WrenchFrontEnd* front_end_ = nullptr;  // null: the pipeline has none, or more than one
+  std::uint32_t tare_ = 0;               // number of a tare that is under way; 0: none
+  Vector6 zero_before_ = Vector6::Zero();
   std::uint32_t rearm_ = 0;        // number of a rearm that is under way; 0: none
   bool waits_ = false;             // it has not begun: the arm is still being brought to rest
   std::uint32_t lost_ = 0;         // snapshots

@@ -7,8 +7,8 @@
 
 #include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
-#include "kernel/core/status.hpp"
 #include "kernel/core/types.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/pipeline/port_table.hpp"
 #include "kernel/pipeline/tuning.hpp"
 
@@ -17,6 +17,7 @@ namespace tactus {
 enum class CycleOrder : std::uint8_t {
   kStop,   ///< brake the whole chain on its path, then disable the drives
   kRearm,  ///< take the arm over again
+  kTare,   ///< take a new zero of the force/torque sensor
 };
 
 struct OrderMessage {
@@ -25,7 +26,8 @@ struct OrderMessage {
 };
 struct OrderResult {
   std::uint32_t id = 0;
-  Status status = Status::kOk;
+  Verdict verdict = {};
+  Vector6 zero = Vector6::Zero(), zero_before = Vector6::Zero();  ///< of the sensor, of a tare
 };
 
 /// A set of parameters; there is one at a time.

@@ -18,7 +18,7 @@
 #include "gateway/server/stop_count.hpp"
 #include "kernel/cycle/event_log.hpp"
 #include "kernel/load/parameter_book.hpp"
-#include "kernel/pipeline/pipeline.hpp"
+#include "kernel/pipeline/only_block.hpp"
 
 namespace tactus {
 
@@ -55,7 +55,8 @@ class Server {
       : setup_(setup),
         joints_(joints, setup.loaded->ports),
         poses_(poses, setup.loaded->ports),
-        mail_(mail) {}
+        mail_(mail),
+        front_end_(only_block<WrenchFrontEnd>(*setup.loaded)) {}
 
   /// A client has connected; `session` is a number that nobody can guess. Returns the slot of its
   /// connection, -1: there are too many.
@@ -89,7 +90,7 @@ class Server {
   struct Order {
     std::uint32_t id = 0;  // 0: free
     Origin from;
-    bool stops = false;
+    CycleOrder what = CycleOrder::kStop;
   };
   Connection& at(int slot) { return connections_[static_cast<std::size_t>(slot)]; }
   const Connection& at(int slot) const { return connections_[static_cast<std::size_t>(slot)]; }
@@ -142,6 +143,10 @@ class Server {
   void tell_changes(std::int64_t now_ns);
   void take_tuned(std::int64_t now_ns);
 
+  // server_tare.cpp: the zero of the force/torque sensor
+  Reply tare(const Origin& from, std::int64_t now_ns);
+  void tell_tare(const Order& order, const OrderResult& result, std::int64_t now_ns);
+
   // server_streams.cpp: chunks and velocities
   Reply velocity(int slot, const Origin& from);
   Reply chunk(int slot, const Origin& from, std::int64_t now_ns);
@@ -158,7 +163,8 @@ class Server {
                    std::int64_t now_ns);
   void take_results(std::int64_t now_ns);
   void take_reports(std::int64_t now_ns);
-  void report(const Told& told, std::string_view text, std::int64_t now_ns);
+  void report(const Told& told, std::string_view text, std::int64_t now_ns,
+              const Vector6* zero = nullptr);
 
   // server_watching.cpp: what is told of the cycles
   void take_snapshots(std::int64_t now_ns);
@@ -173,6 +179,7 @@ class Server {
   ReferenceIntake<JointSpace> joints_;
   ReferenceIntake<TaskSpace> poses_;
   CycleMail& mail_;
+  int front_end_;  // the block whose sensor can be tared; -1: there is none, or more than one
   Lease lease_;
   std::uint32_t epoch_ = 1;
   StopCount stops_;

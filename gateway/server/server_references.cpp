@@ -49,7 +49,9 @@ Reply Server::judge_place(int slot, bool given, const tactus_Place& place) {
 
 /// True while a cancel or a stop of a client is not yet in force.
 bool Server::ending() const {
-  const auto stops = [](const Order& order) { return order.id != 0 && order.stops; };
+  const auto stops = [](const Order& order) {
+    return order.id != 0 && order.what == CycleOrder::kStop;
+  };
   return std::any_of(orders_.begin(), orders_.end(), stops) ||
          (takes_poses() ? poses_.canceling() : joints_.canceling());
 }

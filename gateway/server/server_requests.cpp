@@ -23,13 +23,15 @@ bool needs_lease(const tactus_ToServer& message) {
     case tactus_ToServer_velocity_tag:
     case tactus_ToServer_chunk_tag:
     case tactus_ToServer_resume_tag:
-    case tactus_ToServer_rearm_tag: return true;
+    case tactus_ToServer_rearm_tag:
+    case tactus_ToServer_tare_tag: return true;
     default: return false;
   }
 }
 
-bool offered(std::uint32_t feature, bool parameters, bool outputs) {
-  return (parameters && feature == tactus_Feature_FEATURE_PARAMETERS) ||
+bool offered(std::uint32_t feature, bool parameters, bool outputs, bool tare) {
+  return (tare && feature == tactus_Feature_FEATURE_TARE) ||
+         (parameters && feature == tactus_Feature_FEATURE_PARAMETERS) ||
          (outputs && feature == tactus_Feature_FEATURE_OUTPUTS) ||
          feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
          feature == tactus_Feature_FEATURE_VELOCITIES;
@@ -45,7 +47,7 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i], setup_.parameters != nullptr, puts_out()))
+    if (!offered(request_.requires[i], setup_.parameters != nullptr, puts_out(), front_end_ >= 0))
       return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
@@ -82,6 +84,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
     case tactus_ToServer_resume_tag: return control(from);
     case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
     case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
+    case tactus_ToServer_tare_tag: return tare(from, now_ns);
     case tactus_ToServer_parameters_tag:
       return setup_.parameters != nullptr ? parameters(from) : not_offered("parameters");
     case tactus_ToServer_list_parameters_tag:
@@ -188,7 +191,7 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
                       std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
   if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
-  *free = {next_order_, from, what == CycleOrder::kStop};
+  *free = {next_order_, from, what};
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
   if (what != CycleOrder::kStop) return {};
   begin_end();

@@ -119,6 +119,7 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
   }
   if (setup_.parameters != nullptr)
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_PARAMETERS;
+  if (front_end_ >= 0) welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_TARE;
   welcome.parameter_sets = parameter_sets_;
   write_outputs(setup_, welcome);
   welcome.epoch = epoch_;
@@ -146,7 +147,8 @@ void Server::tell_events(std::string_view name, Status status, std::string_view 
 }
 
 /// A client that does not read its reports is cut: none may be lost.
-void Server::report(const Told& told, std::string_view text, std::int64_t now_ns) {
+void Server::report(const Told& told, std::string_view text, std::int64_t now_ns,
+                    const Vector6* zero) {
   Connection& to = at(told.to.slot);
   if (!to.there() || to.session != told.to.session) return;
   told_ = tactus_ToClient_init_zero;
@@ -160,6 +162,7 @@ void Server::report(const Told& told, std::string_view text, std::int64_t now_ns
   report.stretch = told.stretch;
   report.server_ns = now_ns;
   write_finding(told.verdict, report.has_finding, report.finding);
+  if (zero != nullptr) set_numbers(report.zero, report.zero_count, zero->data(), 6);
   if (!put(to))
     cut(told.to.slot, Status::kClientSlow, "reports were not read; read what is sent", now_ns);
 }
@@ -215,13 +218,12 @@ void Server::take_results(std::int64_t now_ns) {
   while (mail_.results.take(result)) {
     for (Order& order : orders_) {
       if (order.id == 0 || order.id != result.id) continue;
-      const bool good = result.status == Status::kOk;
-      report({order.from,
-              good ? Outcome::kExecuted : Outcome::kRefused,
-              {result.status},
-              newest_.time_s,
-              0.0},
-             reply({result.status}).text, now_ns);
+      const Verdict& verdict = result.verdict;
+      const Outcome outcome = verdict.ok() ? Outcome::kExecuted : Outcome::kRefused;
+      if (order.what == CycleOrder::kTare)
+        tell_tare(order, result, now_ns);
+      else
+        report({order.from, outcome, verdict, newest_.time_s, 0.0}, reply(verdict).text, now_ns);
       order = {};
     }
   }

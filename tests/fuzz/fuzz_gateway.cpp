@@ -50,7 +50,7 @@ struct World {
     OrderMessage order;
     if (mail.orders.take(order)) {
       if (order.order == CycleOrder::kStop) stopped = true;
-      MUST(mail.results.post({order.id, Status::kOk}));
+      MUST(mail.results.post({order.id}));
     }
     CycleSnapshot told;
     told.stamp_ns = now_ns;

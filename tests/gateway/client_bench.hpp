@@ -26,6 +26,7 @@ enum : std::uint32_t {
   kSubscribe,
   kPing,
   kListParameters,
+  kTare,
 };
 }
 
@@ -52,6 +53,9 @@ struct TestClient {
   std::uint32_t offered = 0;                    ///< digital outputs, by Welcome
   std::uint32_t outputs = 0, outputs_mask = 0;  ///< as commanded, by State
   std::uint64_t session = 0;
+  bool offers_tare = false;  ///< by Welcome
+  std::size_t zeros = 0;     ///< numbers of the zero of the last report
+  std::array<double, 6> zero{};
   std::uint8_t farewell = 0;  ///< status of the answer without number
   char event[400] = "", text[400] = "";
 
@@ -150,6 +154,9 @@ struct TestClient {
     while (inner.next()) {
       value[inner.field % 32] = inner.value;
       if (inner.field == 3 && whole.field == 2) words = inner.text();
+      if (whole.field == 1 && inner.field == 18)
+        offers_tare = inner.text().find('\5') != std::string_view::npos;
+      if (whole.field == 3) take_zero(inner);
       if (inner.field == 4 && (whole.field == 3 || whole.field == 6)) words = inner.text();
     }
     const std::size_t of = value[1] % kMost;
@@ -195,6 +202,13 @@ struct TestClient {
         return;
       default: credit += static_cast<std::int64_t>(value[1]);
     }
+  }
+  void take_zero(const RawFields& field) {
+    if (field.field == 2) zeros = 0;  // of every report
+    if (field.field != 9) return;
+    zeros = field.block_size / sizeof(double);
+    assert_true(zeros <= zero.size());
+    std::memcpy(zero.data(), field.block, field.block_size);
   }
   void take_answer(std::size_t of, std::uint8_t its_status, std::string_view words,
                    std::uint64_t its_epoch) {

@@ -50,17 +50,18 @@ struct CycleBench : BenchClock {
   CycleDesk* desk = nullptr;
   Server* server = nullptr;
 
-  void start() {
-    static constexpr std::string_view kText =
+  /// `blocks` are further ones.
+  void start(std::string_view blocks = {}) {
+    Text<1023> text(
         "[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n"
-        "[jrg]\ntype = joint_reference_generator\nq = robot.q\n";
+        "[jrg]\ntype = joint_reference_generator\nq = robot.q\n");
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       channel.stores[i].capacity = kBenchWaypoints;
     }
     LoadError error;
     Loader loader({&channel, &task_channel}, hal.capabilities(), sections);
-    ASSERT_OK(loader.load(kText, pipeline, error));
+    ASSERT_OK(loader.load(text << blocks, pipeline, error));
     executive.in_virtual_time();
     ServerSetup setup;
     setup.loaded = &pipeline;

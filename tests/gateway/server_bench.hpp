@@ -96,7 +96,7 @@ struct ServerBench : BenchClock {
       rung = order.order == CycleOrder::kStop ? Rung::kDisabled : Rung::kNominal;
       if (rung == Rung::kNominal)
         ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
-      mail.results.post({order.id, Status::kOk});
+      mail.results.post({order.id});
     }
     TuningMessage set;
     if (answers_sets && mail.tunings.take(set)) {

@@ -74,7 +74,7 @@ void only_the_owner_moves_the_arm_and_everybody_may_stop_it(void**) {
   two.a.lease(5);
   two.run(1);
   for (const std::uint32_t kind : {ask::kVelocity, ask::kChunk, ask::kBegin, ask::kPart, ask::kEnd,
-                                   ask::kResume, ask::kRearm}) {
+                                   ask::kResume, ask::kRearm, ask::kTare}) {
     const std::uint32_t number = two.b.send(kind);
     two.run(2);
     assert_int_equal(two.b.status[number], static_cast<int>(Status::kNotOwner));

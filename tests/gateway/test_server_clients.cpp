@@ -8,7 +8,7 @@ namespace {
 bool moves(std::uint32_t kind) {
   return kind == ask::kPoint || kind == ask::kVelocity || kind == ask::kChunk ||
          (kind >= ask::kBegin && kind <= ask::kResume) || kind == ask::kRearm ||
-         kind == ask::kParameters;
+         kind == ask::kParameters || kind == ask::kTare;
 }
 /// True if everybody may send it, an override only if it is lower than that before.
 bool slows(std::uint32_t kind) {
@@ -77,7 +77,7 @@ void of_two_clients_in_a_thousand_orders_every_message_is_answered_once_and_only
       ask::kLease,      ask::kPoint, ask::kVelocity,  ask::kChunk, ask::kBegin,
       ask::kPart,       ask::kEnd,   ask::kPart,      ask::kEnd,   ask::kCancel,
       ask::kOverride,   ask::kPause, ask::kResume,    ask::kStop,  ask::kRearm,
-      ask::kParameters, ask::kPing,  ask::kSubscribe, ask::kLease};
+      ask::kParameters, ask::kPing,  ask::kSubscribe, ask::kLease, ask::kTare};
   Random random{18};
   int taken = 0, refused = 0;
   for (int batch = 0; batch < 50; ++batch) {

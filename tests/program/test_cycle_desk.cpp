@@ -136,14 +136,44 @@ void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
   for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
   assert_true(bench.executive.rung() == Rung::kDisabled);
   assert_true(bench.mail.results.take(result));
-  ASSERT_OK(result.status);
+  ASSERT_OK(result.verdict.status);
   for (int i = 0; i < 3000 && bench.executive.busy(); ++i) bench.cycle();
   bench.post(CycleOrder::kRearm);
   for (int i = 0; i < 3000 && bench.mail.results.size() == 0; ++i) bench.cycle();
   assert_true(bench.mail.results.take(result));
-  ASSERT_OK(result.status);
+  ASSERT_OK(result.verdict.status);
   assert_int_equal(result.id, bench.next - 1);
   assert_true(bench.executive.rung() == Rung::kNominal);
+}
+
+// Proves GW-21.
+
+/// Nobody takes the results, so that each is seen.
+void a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once(void**) {
+  Bench bench;
+  bench.load(Message(Bench::kText)
+             << "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+             << "[sensor]\ntype = wrench_front_end\nft = robot.ft\nx = model.x\n"
+             << "tool = robot.tool\nmax_force = 300\nmax_moment = 30\ntare_s = 0.05\n");
+  for (int i = 0; i < 1000 && bench.executive.rung() != Rung::kNominal; ++i) bench.cycle();
+  for (int i = 0; i < 100; ++i) bench.cycle();
+  bench.post(CycleOrder::kTare);
+  for (int i = 0; i < 50; ++i) bench.cycle();
+  assert_int_equal(bench.mail.results.size(), 0);
+  for (int i = 0; i < 100; ++i) bench.cycle();
+  assert_int_equal(bench.mail.results.size(), 1);
+  OrderResult result;
+  assert_true(bench.mail.results.take(result));
+  assert_int_equal(result.id, 1);
+  ASSERT_OK(result.verdict.status);
+  bench.post(CycleOrder::kStop);
+  for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
+  assert_true(bench.mail.results.take(result));
+  bench.post(CycleOrder::kTare);
+  bench.cycle();
+  assert_true(bench.mail.results.take(result));
+  assert_int_equal(result.id, 3);
+  ASSERT_STATUS(result.verdict.status, Status::kHalted);
 }
 
 // Proves PAGE-7.
@@ -239,6 +269,7 @@ int main() {
       cmocka_unit_test(a_collision_is_told_with_what_it_is),
       cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
       cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
+      cmocka_unit_test(a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once),
       cmocka_unit_test(the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for),
       cmocka_unit_test(a_set_is_taken_unless_the_arm_is_braked_or_armed),
       cmocka_unit_test(a_cycle_takes_one_set_and_none_without_space_for_its_verdict),
