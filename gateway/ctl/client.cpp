@@ -126,7 +126,7 @@ bool Client::ask_and_wait(ToServer& request) {
   if (!ask(request)) return false;
   while (!reported_)
     if (!wait(-1)) return false;
-  output_.result(report_);
+  output_.result(report_, !request.has_tare());  // a refusal of a tare says what to do
   if (!succeeded(report_.outcome()))
     exit_code_ = report_.outcome() == Report::REFUSED ? kRefused : kEndedOtherwise;
   return exit_code_ == kSucceeded;

@@ -1,4 +1,5 @@
-// The verbs that are one message and its report: cancel, override, pause, resume, stop, rearm.
+// The verbs that are one message and its report: cancel, override, pause, resume, stop, rearm,
+// tare.
 #include "gateway/ctl/verbs.hpp"
 
 namespace tactus::ctl {
@@ -14,6 +15,10 @@ void fill(const Session& session, ToServer& request) {
     case Verb::kPause: request.mutable_pause(); return;
     case Verb::kResume: request.mutable_resume()->set_stops(session.client.stops()); return;
     case Verb::kRearm: request.mutable_rearm()->set_stops(session.client.stops()); return;
+    case Verb::kTare:
+      request.mutable_tare();
+      request.add_requires(FEATURE_TARE);
+      return;
     default: request.mutable_stop();
   }
 }
@@ -33,6 +38,10 @@ bool prepare(Session& session) {
 }  // namespace
 
 int control(Session& session) {
+  if (session.options.verb == Verb::kTare && !offers(session.client.welcome(), FEATURE_TARE)) {
+    session.client.refuse("the pipeline has no wrench_front_end, or more than one");
+    return session.client.exit_code();
+  }
   ToServer request;
   fill(session, request);
   if (!prepare(session)) return session.client.exit_code();

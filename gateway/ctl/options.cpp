@@ -178,6 +178,7 @@ constexpr VerbHelp kVerbs[] = {
     {Verb::kResume, "resume", "go on"},
     {Verb::kStop, "stop", "stop the arm; needs no lease, ends with rearm"},
     {Verb::kRearm, "rearm", "take the arm over after a stop"},
+    {Verb::kTare, "tare", "take a new zero of the force/torque sensor, without a stop"},
     {Verb::kWatch, "watch", "show the state of the arm"},
     {Verb::kRecord, "record", "write states into a CSV file"},
     {Verb::kParams, "params", "list parameters of the pipeline, or change them, all in one cycle"},

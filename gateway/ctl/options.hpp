@@ -21,6 +21,7 @@ enum class Verb : std::uint8_t {
   kResume,
   kStop,
   kRearm,
+  kTare,
   kWatch,
   kRecord,
   kParams,

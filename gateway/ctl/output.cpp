@@ -61,13 +61,13 @@ void Output::error(const std::string& text, int exit_code) {
   std::fflush(stdout);
 }
 
-void Output::result(const Report& report) {
+void Output::result(const Report& report, bool advises) {
   object("result", report);
   std::string line = name_of(report.outcome());
   if (report.stretch() > 0.0)
     line += formatted("; slowed down by %.2g %% to keep limits", report.stretch() * 100.0);
   if (!report.text().empty()) line += ": " + printed(report.text());
-  if (report.status() >= kFirstOfCycle && report.status() <= kLastOfWire)
+  if (advises && report.status() >= kFirstOfCycle && report.status() <= kLastOfWire)
     line += "; tactusctl watch shows the arm, tactusctl rearm takes it over again";
   say(line);
 }

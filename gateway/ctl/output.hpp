@@ -21,7 +21,8 @@ class Output {
   /// An error: place, reason and what to do, for people and scripts.
   void error(const std::string& text, int exit_code);
   /// The end of a verb.
-  void result(const Report& report);
+  /// `advises`: how to go on if the arm has stopped.
+  void result(const Report& report, bool advises = true);
   /// Shows a line that the next one replaces, on a terminal; nothing elsewhere.
   void progress(const std::string& line);
   /// Ends the line that progress() shows.

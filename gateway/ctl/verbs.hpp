@@ -17,7 +17,7 @@ int send_trajectory(Session& session);  ///< send, check
 int send_point(Session& session);
 int send_stream(Session& session);
 int jog(Session& session);
-int control(Session& session);  ///< cancel, override, pause, resume, stop, rearm
+int control(Session& session);  ///< cancel, override, pause, resume, stop, rearm, tare
 int params(Session& session);
 int watch(Session& session);
 int record(Session& session);

@@ -99,7 +99,7 @@ _LONGEST_WAIT_S = 86400.0
 _PING_S = 0.1  # between two measurements of the clock, which also renew the lease
 _UNREPORTED = 12  # references of a stream that wait for their reports; the server has space for 16 requests
 _REPORTED = {"point", "velocity", "chunk", "begin", "parameters"}
-_REPORTED |= {"cancel", "override", "pause", "resume", "stop", "rearm"}
+_REPORTED |= {"cancel", "override", "pause", "resume", "stop", "rearm", "tare"}
 
 
 # --- errors ---
@@ -1185,6 +1185,23 @@ class Arm:
                     raise
             time.sleep(0.02)
         self._await_nominal(max(1.0, end - time.monotonic()))
+
+    def tare(self) -> Array:
+        """Takes a new zero of the force/torque sensor while the arm is controlled, and returns it when it holds.
+
+        Let the arm rest, with nothing in contact. Raises Refused, and the old zero stays, if the zero would move too far,
+        which may be a contact (115), if the sensor is not steady in time (75), or if the arm is stopped.
+        Returns force and moment at the flange, in its axes: N, N m. Waits for as long as the pipeline gives a tare.
+        """
+        self._own()
+        call = self._session.send("tare", pb.Tare())
+        self._session.wait(lambda: call.answer, "answer to tare")
+        self._session.wait_long(lambda: call.final, "report of tare", None)
+        if refusal := call.refusal():
+            raise refusal
+        if call.report is None or len(call.report.zero) != 6:
+            raise Lost(f"{self._session.address}: the server has reported a tare without its zero")
+        return np.array(call.report.zero)
 
     def parameters(self) -> list[Parameter]:
         """The parameters of the pipeline: present values, units, ranges, and which may change now. Needs no lease."""

@@ -194,6 +194,25 @@ void parameters_are_listed_checked_and_changed_while_the_arm_moves(void**) {
   assert_true(has(errors(), "cannot change while the pipeline runs"));
 }
 
+// Proves CTL-23.
+
+/// The tare of the start is under way at first (44); a stopped arm takes none.
+void a_new_zero_is_taken_and_told(void**) {
+  assert_int_equal(served("ur10_trg_ac_cpc",
+                          "n=0; until $T tare --json >$S/all; do n=$((n+1)); sleep 0.1; "
+                          "test $n -lt 100 || exit 81; done; "
+                          "grep -q '^{\"result\":{.*\"zero\":\\[3' $S/all || exit 82; "
+                          "$T tare || exit 83; $T stop || exit 84; $T tare; test $? = 2"),
+                   0);
+  assert_true(has(output(), "executed: [sensor] the zero moved by "));
+  assert_true(has(output(), "Rearm takes a new zero (82)\n"));
+}
+
+void without_a_sensor_there_is_no_zero(void**) {
+  assert_int_equal(served(kJoints, "$T tare; test $? = 2"), 0);
+  assert_true(has(errors(), "the pipeline has no wrench_front_end"));
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -211,6 +230,8 @@ int main(int, char** argv) {
       cmocka_unit_test(a_server_with_a_key_is_spoken_to_with_it),
       cmocka_unit_test(a_detached_trajectory_is_paused_slowed_resumed_and_canceled),
       cmocka_unit_test(what_one_terminal_sends_is_slowed_down_and_canceled_from_another),
+      cmocka_unit_test(a_new_zero_is_taken_and_told),
+      cmocka_unit_test(without_a_sensor_there_is_no_zero),
       cmocka_unit_test(parameters_are_listed_checked_and_changed_while_the_arm_moves),
   };
   return run_program_tests(argv[0], tests);

@@ -46,7 +46,7 @@ void the_clock_of_the_server_is_followed(void**) {
   run_module("test_clock");
 }
 
-// Proves PYT-6, PYT-9, PYT-10.
+// Proves PYT-6, PYT-9, PYT-10, PYT-12.
 
 void a_simulated_robot_is_moved_in_all_ways(void**) {
   run_module("test_robot");

@@ -12,6 +12,7 @@ PROGRAM = pathlib.Path(os.environ["P"])
 ROBOT = PROGRAM.parent.name.split("_")[0]
 JOINT_PIPELINE = ROOT / "pipelines" / {"ur10": "ur10_jrg_pid.ini"}.get(ROBOT, f"{ROBOT}_jrg_pdgc.ini")
 TASK_PIPELINE = ROOT / "pipelines" / f"{ROBOT}_trg_cpc.ini"
+SENSOR_PIPELINE = ROOT / "pipelines" / {"ur10": "ur10_trg_ac_cpc.ini"}.get(ROBOT, f"{ROBOT}_trg_ac_cpc_pid.ini")
 DISABLED = 5  # rung of the ladder; the reference stands still, whatever velocity it had
 home = np.zeros(0)  # rad; the test module sets it
 

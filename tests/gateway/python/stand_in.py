@@ -15,6 +15,7 @@ import time
 import tactus_pb2 as pb
 
 JOINTS = 6
+ZERO = [1.0, -2.0, 3.0, 0.1, 0.2, -0.3]  # of a tare
 OFFSET_NS = 7_000_000_000_000  # of the stand-in's clock, so that forgotten conversions are seen
 ENDS = {"cancel", "override", "pause", "resume", "stop", "rearm", "parameters"}
 
@@ -98,6 +99,9 @@ class Peer:
         self.epoch += 1
         self.report(message.number, pb.Report.EXECUTED)
         self.state()
+
+    def take_tare(self, message):
+        self.report(message.number, pb.Report.EXECUTED, zero=ZERO)
 
     def welcome(self, message, **changed):
         joints = [

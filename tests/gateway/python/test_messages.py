@@ -11,7 +11,7 @@ import stand_in
 import tactus
 import tactus_pb2 as pb
 from connected import connected, sent
-from stand_in import JOINTS, OFFSET_NS, Peer
+from stand_in import JOINTS, OFFSET_NS, ZERO, Peer
 
 NAN, INF, COMPLEX = float("nan"), float("inf"), 1 + 0.01j
 HERE, ONE = np.zeros(JOINTS), dict(t=[1.0], q=np.zeros((1, JOINTS)))
@@ -101,12 +101,37 @@ class Controls(unittest.TestCase):
             arm.rearm()
             arm.stop()
             arm.set_parameters({"pd": {"kp": [1, 2.5], "mode": "fast"}}, check=True)
+            np.testing.assert_array_equal(arm.tare(), ZERO)
         kinds = [message.WhichOneof("request") for message in peer.taken]
         kinds = [kind for kind in kinds if kind not in ("hello", "ping", "subscribe", "lease")]
-        self.assertEqual(kinds, ["override", "pause", "resume", "cancel", "rearm", "stop", "parameters"])
+        self.assertEqual(kinds, ["override", "pause", "resume", "cancel", "rearm", "stop", "parameters", "tare"])
         self.assertEqual(sent(peer, "override")[0].rate, 0.5)
         values = [(p.section, p.key, p.value) for p in sent(peer, "parameters")[0].set]
         self.assertEqual(values, [("pd", "kp", "1.0 2.5"), ("pd", "mode", "fast")])
+
+    def test_a_tare_may_take_longer_than_an_answer(self):
+        class Slow(Peer):
+            def take_tare(self, message):
+                for _ in range(10):
+                    time.sleep(0.1)
+                    self.state()
+                super().take_tare(message)
+
+        with connected(Slow, timeout_s=0.3) as (arm, peer):
+            np.testing.assert_array_equal(arm.tare(), ZERO)
+            self.assertEqual(len(sent(peer, "tare")), 1)
+            self.assertNotEqual(sent(peer, "lease"), [])
+
+    def test_a_tare_that_is_refused_raises_the_figures(self):
+        class Contact(Peer):
+            def take_tare(self, message):
+                finding = pb.Finding(waypoint=-1, axis=0, value=12.0, limit=10.0)
+                self.report(message.number, pb.Report.REFUSED, status=pb.CODE_TARE_LIMIT, text="far", finding=finding)
+
+        with connected(Contact) as (arm, _), self.assertRaisesRegex(tactus.Refused, "far") as caught:
+            arm.tare()
+        refused = caught.exception
+        self.assertEqual((refused.status, refused.value, refused.limit), (tactus.Code.TARE_LIMIT, 12.0, 10.0))
 
     def test_what_slows_the_arm_down_takes_no_lease(self):
         with connected() as (arm, peer):

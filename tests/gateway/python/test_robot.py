@@ -230,5 +230,24 @@ class Owners(OnRobot):
             arm.rearm()
 
 
+@unittest.skipUnless(served.SENSOR_PIPELINE.exists(), "no pipeline of this robot has a sensor")
+class Sensor(unittest.TestCase):
+    def test_a_tare_returns_the_zero_that_the_simulated_sensor_has(self):
+        with served.serve(served.SENSOR_PIPELINE) as address, tactus.connect(address) as arm:
+            zero, end = None, time.monotonic() + 20
+            while zero is None and time.monotonic() < end:
+                try:
+                    zero = arm.tare()
+                except tactus.Refused as refused:
+                    self.assertEqual(refused.status, tactus.Code.MAILBOX_FULL)  # the tare of the start is under way
+            np.testing.assert_allclose(zero[:3], [3, -2, 5], atol=0.3)
+            np.testing.assert_allclose(zero[3:], [0.1, -0.2, 0.05], atol=0.1)
+            self.assertRegex(arm.events()[-1].text, "the zero moved by .* by ")
+            arm.stop()
+            with self.assertRaisesRegex(tactus.Refused, "Rearm takes a new zero") as stopped:
+                arm.tare()
+            self.assertEqual(stopped.exception.status, tactus.Code.HALTED)
+
+
 if __name__ == "__main__":
     unittest.main()
