@@ -10,13 +10,14 @@ struct Named {
   std::string_view path;
   PageCommand command;
 };
-constexpr std::array<Named, 6> kCommands = {{
+constexpr std::array<Named, 7> kCommands = {{
     {"/stop", PageCommand::kStop},
     {"/override", PageCommand::kOverride},
     {"/cancel", PageCommand::kCancel},
     {"/pause", PageCommand::kPause},
     {"/resume", PageCommand::kResume},
     {"/rearm", PageCommand::kRearm},
+    {"/tare", PageCommand::kTare},
 }};
 
 constexpr pb_size_t tag_of(PageCommand command) {
@@ -27,6 +28,7 @@ constexpr pb_size_t tag_of(PageCommand command) {
     case PageCommand::kPause: return tactus_ToServer_pause_tag;
     case PageCommand::kResume: return tactus_ToServer_resume_tag;
     case PageCommand::kRearm: return tactus_ToServer_rearm_tag;
+    case PageCommand::kTare: return tactus_ToServer_tare_tag;
   }
   return 0;
 }

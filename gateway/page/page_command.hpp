@@ -7,7 +7,15 @@
 
 namespace tactus {
 
-enum class PageCommand : unsigned char { kStop, kOverride, kCancel, kPause, kResume, kRearm };
+enum class PageCommand : unsigned char {
+  kStop,
+  kOverride,
+  kCancel,
+  kPause,
+  kResume,
+  kRearm,
+  kTare
+};
 
 /// Finds the command of a path, "/stop". False: there is none. [any]
 bool command_of(std::string_view path, PageCommand& command);
@@ -24,7 +32,7 @@ void write_request(PageCommand command, double rate, std::uint32_t stops, tactus
 /// one. [any]
 constexpr bool may_need_lease(PageCommand command) {
   return command == PageCommand::kOverride || command == PageCommand::kResume ||
-         command == PageCommand::kRearm;
+         command == PageCommand::kRearm || command == PageCommand::kTare;
 }
 
 }  // namespace tactus

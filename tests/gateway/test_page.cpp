@@ -98,7 +98,7 @@ void commands_of_all_browsers_have_a_share_and_stop_has_none(void**) {
 
 void what_may_raise_motion_is_refused_if_it_is_late(void**) {
   for (const PageCommand command :
-       {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm}) {
+       {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm, PageCommand::kTare}) {
     CommandGate gate;
     constexpr std::int64_t kNow = 100'000, kLeast = std::numeric_limits<std::int64_t>::min();
     assert_int_equal(gate.judge(command, kNow - kOldestSeen_ms, kNow).status, 200);

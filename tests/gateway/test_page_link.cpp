@@ -98,7 +98,7 @@ void another_clients_lease_is_not_taken_away(void**) {
   assert_int_equal(status_of(PageCommand::kOverride, 0.5), 0);
   assert_int_equal(status_of(PageCommand::kPause, 0.0), 0);
   for (const PageCommand command :
-       {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm}) {
+       {PageCommand::kOverride, PageCommand::kResume, PageCommand::kRearm, PageCommand::kTare}) {
     assert_int_equal(status_of(command, 0.6), kRefused);
     assert_true(bench.refusal.find("other") != std::string::npos);
   }

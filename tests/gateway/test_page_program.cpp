@@ -12,6 +12,8 @@ constexpr const char* kServed =
     "goal_tolerance = 0.2\nstopped_velocity = 0\n"
     "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
+    "[sensor]\ntype = wrench_front_end\nft = robot.ft\nx = model.x\ntool = robot.tool\n"
+    "max_force = 300\nmax_moment = 30\n"
     "[cell]\ntype = frame\nposition = 1 0 0\nrotation = 0 0 1.5707963267948966\n"
     "[table]\ntype = box\ncentre = 0.5 0 -0.1\nsize = 0.4 1 0.2\nframe = cell.x\n"
     "[carried]\ntype = box\ncentre = 0 0 0.1\nsize = 0.1 0.1 0.1\nframe = model.x\n";

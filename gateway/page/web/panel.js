@@ -138,6 +138,7 @@ export class Panel {
     this.asked.clear();
     this.newest = undefined;
     by("subject").textContent = `${robot.robot} on ${robot.board}, ${robot.pipeline}${robot.simulated ? ", simulated" : ""}`;
+    by("tare").hidden = robot.blocks.filter(({ type }) => type === "wrench_front_end").length !== 1;
     document.title = `${robot.robot} – Tactus`;
   }
 }

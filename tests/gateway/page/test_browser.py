@@ -141,6 +141,11 @@ class BrowserTest(unittest.TestCase):
             self.assertRegex(text, r" (s|%|times)$|^once$" if name not in ("Owner", "Epoch") else ".")
         self.assertNotIn("lost", str(told).lower())
 
+    def test_a_pipeline_with_a_sensor_has_a_button_for_its_zero(self):
+        self.page.until("!document.getElementById('tare').hidden")
+        self.page.click("#tare")
+        self.page.until("document.getElementById('answer').textContent.startsWith('tare: ')")
+
     def test_stop_and_rearm_at_once_or_not_at_all(self):
         swing(self.client)
         self.page.click("#stop")

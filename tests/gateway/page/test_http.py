@@ -152,6 +152,21 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.told(events, "/rearm")["status"], 0)
         self.watcher.until(lambda: self.watcher.state.rung <= 1)
 
+    def test_a_tare_is_taken_by_a_free_lease_and_refused_under_anothers(self):
+        events, outcome = Events(self.served, self.token), ""
+        end = time.monotonic() + LONGEST_S
+        while outcome != "executed" and time.monotonic() < end:  # that of the start is under way
+            answer = self.told(events, "/tare")
+            self.assertEqual(answer["status"], 0)
+            outcome = events.of("report", lambda m, number=answer["number"]: m["number"] == number)["outcome"]
+        self.assertEqual(outcome, "executed")
+        events.of("event", lambda event: event["name"] == "tare" and event["text"].endswith(", by page"))
+        other = self.served.client("other")
+        self.assertEqual(other.ask(lease=other.pb.Lease(timeout_ms=60000)).status, 0)
+        self.assertEqual(self.told(events, "/tare")["status"], 110)
+        other.socket.close()
+        self.watcher.until(lambda: self.watcher.state.owner == "")
+
 
 class PlaceTest(unittest.TestCase):
     def test_a_port_that_is_taken_leaves_the_server_without_a_page(self):
