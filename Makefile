@@ -104,8 +104,8 @@ RUN_OPTIONS += $(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),--always --out out/$(
 
 # What runs at load and what a client runs, outside the cycle.
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
-              kernel/core/status.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp gateway/reference_client.cpp \
-              tests/bare_metal/board.cpp
+              kernel/core/status.cpp kernel/model/mounting.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp \
+              gateway/reference_client.cpp tests/bare_metal/board.cpp
 KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)

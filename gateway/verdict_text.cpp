@@ -191,9 +191,11 @@ const char* goal_remedy(Status status, VerdictAxes axes) {
                     : "give the trajectory more time, raise the gains of the law, or "
                       "path_position_tolerance and path_angle_tolerance";
     case Status::kGoalTolerance:
-      return joints ? "raise the gains of the law, goal_tolerance or goal_time_s"
+      return joints ? "raise the gains of the law, goal_tolerance or goal_time_s; an arm that sags "
+                      "has another tool or mounting than [robot] says"
                     : "raise the gains of the law, goal_position_tolerance and "
-                      "goal_angle_tolerance, or goal_time_s";
+                      "goal_angle_tolerance, or goal_time_s; an arm that sags has another tool or "
+                      "mounting than [robot] says";
     case Status::kGoalVelocity:
       return "raise the damping of the law, stopped_velocity or goal_time_s";
     default: return nullptr;

@@ -11,7 +11,7 @@ can::CanHal hal;
 
 Status configure(const CanSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  const Tool tool = assumed(robot.given_tool());
+  const Tool& tool = robot.tool.value;
   return hal.configure(sections.can, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 

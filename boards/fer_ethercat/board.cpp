@@ -12,7 +12,7 @@ ethercat::EthercatHal hal;
 
 Status configure(const EthercatSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  const Tool tool = assumed(robot.given_tool());
+  const Tool& tool = robot.tool.value;
   return hal.configure(sections.ethercat, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 

@@ -32,12 +32,13 @@ Status WrenchFrontEnd::step(double dt_s) {
   const Matrix3 R = (x->r * tool->tip.r.conjugate()).toRotationMatrix();
   const Vector6 load = *ft - weight(R);
   if (!load.allFinite()) return Status::kSensorNotFinite;
-  if (taring.value) return tare(load, dt_s);
+  const bool rested = (taring.value || request_.runs()) && sample(load, dt_s);
+  if (taring.value) return tare(rested, dt_s);
   filter(at_tip(load - bias.value, R), dt_s);
   fade_.step(dt_s);
   h.value = contact();
   if (fade_.runs()) h.value += fade_.value();
-  if (request_.runs()) tare_again(load, R, dt_s);
+  if (request_.runs()) tare_again(rested, R, dt_s);
   return h.value.allFinite() ? Status::kOk : Status::kSensorNotFinite;
 }
 
@@ -83,8 +84,8 @@ bool WrenchFrontEnd::sample(const Vector6& load, double dt_s) {
   return samples_ * dt_s >= params.tare_s;
 }
 
-Status WrenchFrontEnd::tare(const Vector6& load, double dt_s) {
-  if (sample(load, dt_s)) {
+Status WrenchFrontEnd::tare(bool rested, double dt_s) {
+  if (rested) {
     bias.value = sum_ / samples_;
     taring.value = false;
     return Status::kOk;
@@ -101,8 +102,8 @@ Status WrenchFrontEnd::begin_tare() {
 }
 
 /// The filter's state goes over to the new bias at once; what h would step by is left to the fade.
-void WrenchFrontEnd::tare_again(const Vector6& load, const Matrix3& R, double dt_s) {
-  if (!sample(load, dt_s)) {
+void WrenchFrontEnd::tare_again(bool rested, const Matrix3& R, double dt_s) {
+  if (!rested) {
     if (cycles_ * dt_s >= params.tare_timeout_s) request_.end({Status::kSensorNotSteady});
     return;
   }

@@ -111,8 +111,9 @@ class WrenchFrontEnd {
   bool stuck(double dt_s);
   /// Adds one sample to the tare: ft less the tool's weight. True: it was steady for tare_s.
   bool sample(const Vector6& load, double dt_s);
-  Status tare(const Vector6& load, double dt_s);
-  void tare_again(const Vector6& load, const Matrix3& R, double dt_s);
+  /// `rested`: the samples were steady for tare_s.
+  Status tare(bool rested, double dt_s);
+  void tare_again(bool rested, const Matrix3& R, double dt_s);
   /// Returns the weight of the tool at the flange, in the flange's axes R.
   Vector6 weight(const Matrix3& R) const;
   /// Moves a wrench from the flange, in its axes R, to the tip, in base axes.

@@ -34,16 +34,18 @@ struct Tool {
   Pose tip;                                      ///< tip frame, in the flange frame
   Vector3 gravity = {0.0, 0.0, -kGravity_m_s2};  ///< m/s^2, base frame
 
-  /// True if the models would be wrong without it. [any]
-  bool matters() const { return mass_kg != 0.0 || !tip.p.isZero(0.0) || gravity != Tool().gravity; }
+  /// True if the models would be wrong without it; any tilt changes z. [any]
+  bool matters() const {
+    return mass_kg > 0.0 || tip.p.squaredNorm() > 0.0 || gravity.z() != -kGravity_m_s2;
+  }
 };
 
 /// Returns the tool that the models assume: zero in place of what is not given, NaN. [any]
-inline Tool assumed(const Tool& given) {
-  Tool tool = given;
-  if (!(tool.mass_kg == tool.mass_kg)) tool.mass_kg = 0.0;
-  if (tool.com.hasNaN()) tool.com.setZero();
-  if (tool.tip.p.hasNaN()) tool.tip.p.setZero();
+inline Tool assumed(Tool tool) {
+  const auto lacks = [](double first) { return !(first == first); };
+  if (lacks(tool.mass_kg)) tool.mass_kg = 0.0;
+  if (lacks(tool.com.x())) tool.com.setZero();
+  if (lacks(tool.tip.p.x())) tool.tip.p.setZero();
   return tool;
 }
 

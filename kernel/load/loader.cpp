@@ -57,18 +57,6 @@ void describe_block(const Block& block, SectionReader& reader) {
   });
 }
 
-/// True for a model that would know nothing of the tool and the mounting that the file states.
-bool misses_tool(const Block& block, const RobotSection& robot) {
-  return with_kind(block.kind, [&](auto kind) {
-    using Kind = typename decltype(kind)::Type;
-    if constexpr (!std::is_same_v<Kind, RobotModel>)
-      return false;
-    else
-      return assumed(robot.given_tool()).matters() &&
-             !static_cast<const RobotModel*>(block.place)->tool.wired();
-  });
-}
-
 int line_of(const Ini& ini, const IniSection& section, const char* key) {
   const IniEntry* entry = ini.find(section, key);
   return entry ? entry->line : section.line;
@@ -155,10 +143,11 @@ Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& p
     describe_block(block, reader);
   }
   TRY(error.status);
-  if (!misses_tool(block, pipeline.robot)) return Status::kOk;
-  return error.refuse(Status::kMissingKey, section.line, section.name, "tool",
-                      "[robot] gives a mounting or a tool, which this model would not know; add "
-                      "tool = robot.tool");
+  const bool models = type.value == RobotModel::kType;
+  if (models && pipeline.robot.tool.value.matters() && ini.find(section, "tool") == nullptr)
+    return error.refuse(Status::kMissingKey, section.line, section.name, "tool",
+                        "[robot] gives a tool or a mounting; add tool = robot.tool");
+  return Status::kOk;
 }
 
 Status Loader::load_command(const Ini& ini, const IniSection& section, Pipeline& pipeline,

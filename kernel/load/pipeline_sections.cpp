@@ -7,7 +7,9 @@ void PipelineSections::section(const char* name, RobotSection& robot) {
     robot.describe_robot(reader);
     if (reader.seeks()) robot.describe_command(reader);  // read after the last block
   };
-  if (read(name, describe)) check_robot(robot);
+  if (!read(name, describe)) return;
+  robot.tool.value = assumed(robot.given_tool());
+  check_robot(robot);
 }
 
 void PipelineSections::section(const char* name, TaskLimits& limits) {

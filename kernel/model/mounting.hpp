@@ -4,15 +4,11 @@
 #pragma once
 
 #include "kernel/core/types.hpp"
-#include "kernel/math/sincos.hpp"
 
 namespace tactus {
 
 /// Returns gravity in the axes of the base, m/s^2: R^T (0, 0, -9.81), on which yaw has no effect.
 /// [init]
-inline Vector3 gravity_on(const Vector3& mounting) {
-  const SinCos roll = sincos(mounting[0]), pitch = sincos(mounting[1]);
-  return -kGravity_m_s2 * Vector3(-pitch.sin, pitch.cos * roll.sin, pitch.cos * roll.cos);
-}
+Vector3 gravity_on(const Vector3& mounting);
 
 }  // namespace tactus

@@ -77,7 +77,6 @@ Status Pipeline::note(int block, Status status) {
 Status Pipeline::start(const RobotState& measured) {
   failure = Status::kOk;
   robot.set_measured(measured);
-  robot.tool.value = assumed(robot.given_tool());
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
   collision_check.start(collision, guard.effective(), robot.tool.value.tip.p, robot.period_s());
   return collision.present ? collision_check.check(measured) : Status::kOk;

@@ -14,7 +14,7 @@ namespace tactus {
 /// [robot]: the period, the mounting, the tool, the measured values as outputs for the blocks, and
 /// the one command as an input.
 struct RobotSection : OutputsSection<> {
-  static constexpr double kTurn_rad = 6.3;  ///< refuses degrees
+  static constexpr double kHalfTurn_rad = 3.15;  ///< refuses degrees from 4 on
 
   Name name;                           ///< robot that the file is written for; must be the board's
   int period_us = kRequiredInt;        ///< cycle period
@@ -27,8 +27,8 @@ struct RobotSection : OutputsSection<> {
   Out<Quantity::kJointPosition> q;
   Out<Quantity::kJointVelocity> dq;
   Out<Quantity::kJointEffort> tau;
-  Out<Quantity::kSensorWrench> ft;  ///< zero without a sensor
-  Out<Quantity::kTool> tool;
+  Out<Quantity::kSensorWrench> ft;       ///< zero without a sensor
+  Out<Quantity::kTool> tool;             ///< set when the section has been read
   Out<Quantity::kScalar> speed_scaling;  ///< that of the robot, 0..1; 1 if it has none
 
   In<Quantity::kJointPosition> q_c;
@@ -47,7 +47,7 @@ struct RobotSection : OutputsSection<> {
   void describe_robot(Visitor& visit) {
     visit.text("name", name, "the robot the file is written for");
     visit.param("period_us", period_us, Range{100.0, 100000.0}, "us");
-    visit.param("mounting", mounting, Range{-kTurn_rad, kTurn_rad}, "rad");
+    visit.param("mounting", mounting, Range{-kHalfTurn_rad, kHalfTurn_rad}, "rad");
     visit.optional("tool_mass", tool_mass, Range{0.0, Tool::kMostMass_kg}, "kg");
     visit.optional("tool_com", tool_com, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
     visit.optional("tool_tip", tool_tip, Range{-Tool::kFarthest_m, Tool::kFarthest_m}, "m");
@@ -88,7 +88,8 @@ struct RobotSection : OutputsSection<> {
     const JointVector& value = tau_c.wired() ? *tau_c : dq_c.wired() ? *dq_c : *q_c;
     return {mode(), value, DriveRequest::kDisable, {}, *dq_ff, *tau_ff};
   }
-  /// The tool as the file gives it: NaN where it does not.
+  /// The tool as the file gives it: NaN where it does not. The models have that of the output.
+  /// [init]
   Tool given_tool() const {
     return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}, gravity_on(mounting)};
   }

@@ -85,7 +85,7 @@ bool write_scene(const char* path, const Pipeline& pipeline) {
   std::fprintf(file, "{\n  \"robot\": \"%s\",\n", Robot::kName);
   write_arm(file);
   std::fprintf(file, "  \"tool\": {");
-  write_numbers(file, "tip", assumed(pipeline.robot.given_tool()).tip.p.data(), 3);
+  write_numbers(file, "tip", pipeline.robot.tool.value.tip.p.data(), 3);
   std::fprintf(file, ", \"radius\": %.9g},\n", pipeline.collision.tool_radius);
   write_boxes(file, pipeline.ports);
   write_limits(file, pipeline.guard.limits);

@@ -83,7 +83,7 @@ struct PlantParams {
     visit.param("position_noise_rad", position_noise_rad, Range{0.0, 0.1}, "rad");
     visit.param("velocity_noise_rad_s", velocity_noise_rad_s, Range{0.0, 1.0}, "rad/s");
     visit.param("servo_time_constant_s", servo_time_constant_s, Range{0.0, 1.0}, "s");
-    visit.optional("mounting", mounting, Range{-6.3, 6.3}, "rad");
+    visit.optional("mounting", mounting, Range{-3.15, 3.15}, "rad");
     visit.param("delay_cycles", delay_cycles, Range{0.0, kMaxDelayCycles}, "cycles");
     visit.param("arming_cycles", arming_cycles, Range{0.0, 100000.0}, "cycles");
     visit.param("payload_kg", payload_kg, Range{0.0, 20.0}, "kg");

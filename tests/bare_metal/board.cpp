@@ -38,7 +38,7 @@ StandingHal hal;
 ChannelMemory<TaskSpace, 4, 32, 2> channel;
 ReferenceClient<TaskSpace> client(channel);
 Waypoint<TaskSpace> waypoints[kStores][kWholeWaypoints];
-PipelineMemory<13'296> pipeline;
+PipelineMemory<13'200> pipeline;
 Executive executive(hal, pipeline);
 SimSections sections;
 LoadError error;

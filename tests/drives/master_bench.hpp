@@ -169,8 +169,8 @@ struct MasterBench : cia402::LoopBench<WiredHal> {
   /// Builds drives and arm, and loads the pipeline.
   Status load(const char* text = cia402::kHoldingPipeline) {
     TRY(LoopRig::load(text, hal.capabilities()));
-    TRY(hal.master.configure(can, drive, assumed(pipeline.robot.given_tool()),
-                             pipeline.robot.mode(), pipeline.robot.period_us));
+    TRY(hal.master.configure(can, drive, pipeline.robot.tool.value, pipeline.robot.mode(),
+                             pipeline.robot.period_us));
     plant.fd = can.frames == Frames::kFd;
     for (int j = 0; j < kDof; ++j)
       plant.joints[static_cast<std::size_t>(j)] = {static_cast<int>(can.bus[j]) - 1,

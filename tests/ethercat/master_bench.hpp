@@ -97,8 +97,8 @@ struct MasterBench : cia402::LoopBench<WiredHal> {
   /// Builds segment and arm, and loads the pipeline.
   Status load(const char* text = cia402::kHoldingPipeline) {
     TRY(LoopRig::load(text, hal.capabilities()));
-    TRY(hal.master.configure(ethercat, drive, assumed(pipeline.robot.given_tool()),
-                             pipeline.robot.mode(), pipeline.robot.period_us));
+    TRY(hal.master.configure(ethercat, drive, pipeline.robot.tool.value, pipeline.robot.mode(),
+                             pipeline.robot.period_us));
     hal.period_ns = period_ns();
     return hal.line.load(plant, 0);
   }

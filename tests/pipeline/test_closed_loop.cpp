@@ -66,8 +66,8 @@ void the_tool_of_the_file_compensates_the_same_payload(void**) {
   loop.plant.payload_com = Vector3(0.02, 0.0, 0.08);
   ASSERT_OK(loop.start(1000, 1));
   static_cast<void>(loop.executive.stop());
-  loop.pipeline.robot.tool_mass = 1.0;
-  loop.pipeline.robot.tool_com = loop.plant.payload_com;
+  loop.pipeline.robot.tool.value.mass_kg = 1.0;
+  loop.pipeline.robot.tool.value.com = loop.plant.payload_com;
   ASSERT_OK(loop.attach());
   ASSERT_OK(loop.run(3.0));
   for (int j = 0; j < kDof; ++j) ASSERT_NEAR(loop.hal.arm().q()[j], loop.plant.initial_q[j], 1e-9);

@@ -26,7 +26,7 @@ void assert_free(const Run& run) {
   if (bench.text.find("\n[collision]") == std::string::npos)
     section.cycles = pipeline.robot.period_us > 4000 ? 1 : 5;
   Collision collision;
-  collision.start(section, pipeline.guard.effective(), assumed(pipeline.robot.given_tool()).tip.p,
+  collision.start(section, pipeline.guard.effective(), pipeline.robot.tool.value.tip.p,
                   pipeline.robot.period_s());
   while (bench.time_s() < run.end_s) {
     bench.cycle();

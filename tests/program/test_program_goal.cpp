@@ -49,7 +49,8 @@ void a_goal_given_up_names_joint_value_limit_and_what_to_do(void**) {
                   "error "));
   assert_true(has(errors(),
                   " rad exceeds 1e-06 rad (50); raise the gains of the law, "
-                  "goal_tolerance or goal_time_s\n"));
+                  "goal_tolerance or goal_time_s; an arm that sags has another tool or mounting "
+                  "than [robot] says\n"));
   assert_true(has(file_of("g/summary.json"),
                   "\"name\": \"aborted\", \"why\": \"goal not reached: joint 4 "));
   assert_int_equal(shell("$R/scripts/report $S g"), 1);
@@ -113,7 +114,8 @@ void the_tip_is_named_by_its_translation_or_rotation(void**) {
   assert_true(has(errors(), "aborted: goal not reached: translation: position error "));
   assert_true(has(errors(),
                   " m exceeds 1e-09 m (50); raise the gains of the law, "
-                  "goal_position_tolerance and goal_angle_tolerance, or goal_time_s\n"));
+                  "goal_position_tolerance and goal_angle_tolerance, or goal_time_s; an arm that "
+                  "sags has another tool or mounting than [robot] says\n"));
 }
 
 void a_run_that_is_too_short_says_by_how_much_and_how_far_the_goal_was(void**) {

@@ -24,7 +24,7 @@ class ArmParser {
         ->check(finite(-6.3, 6.3));
     app.add_option("--mounting", mounting_, "of the base: roll, pitch, yaw, rad (default: upright)")
         ->expected(3)
-        ->check(finite(-6.3, 6.3));
+        ->check(finite(-3.15, 3.15));
     app.add_flag("--gravity-by-drive", options_.gravity_by_drive,
                  "the drives compensate gravity: target torque 0 holds the arm");
     app.add_option("--friction", options_.friction,
