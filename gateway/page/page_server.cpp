@@ -141,8 +141,7 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
     return send_text(connection, 413, "the body is longer than 64 bytes", kPlain);
   double rate = 0.0;
   if (!read_body(command.what, {command.body.data(), command.size}, rate))
-    return send_text(connection, 400,
-                     "the body of /override is a number from 0 to 1; the others have none", kPlain);
+    return send_text(connection, 400, "a body has only /override: a number from 0 to 1", kPlain);
   const std::int64_t now_ns = monotonic_ns();
   const CommandVerdict verdict =
       gate_.judge(command.what, command.seen.told_ms, now_ns / kMillisecond_ns);

@@ -19,10 +19,9 @@ void add_refusal(Message& text, const Verdict& verdict) {
   switch (verdict.status) {
     case Status::kTareLimit:
       text << "the zero would move by " << verdict.value << unit << ", more than "
-           << (force ? "max_tare_force, " : "max_tare_moment, ") << verdict.limit << unit;
-      text
-          << "; is there a contact? Free the tool and ask again, or Stop and Rearm, as the tare of "
-             "a start has no limit";
+           << (force ? "max_tare_force, " : "max_tare_moment, ") << verdict.limit << unit
+           << ", now or in sum since the start; is there a contact? Free the tool and ask again. A "
+              "drift as large is taken by Stop and Rearm, with the tool free";
       break;
     case Status::kSensorNotSteady:
       text << "the sensor was not steady for tare_s within tare_timeout_s; let the arm rest, and "

@@ -87,6 +87,7 @@ bool WrenchFrontEnd::sample(const Vector6& load, double dt_s) {
 Status WrenchFrontEnd::tare(bool rested, double dt_s) {
   if (rested) {
     bias.value = sum_ / samples_;
+    request_.start(bias.value);
     taring.value = false;
     return Status::kOk;
   }
@@ -107,8 +108,8 @@ void WrenchFrontEnd::tare_again(bool rested, const Matrix3& R, double dt_s) {
     if (cycles_ * dt_s >= params.tare_timeout_s) request_.end({Status::kSensorNotSteady});
     return;
   }
-  const Vector6 change = sum_ / samples_ - bias.value;
-  const Verdict verdict = params.judge(change);
+  const Vector6 zero = sum_ / samples_, change = zero - bias.value;
+  const Verdict verdict = params.judge(change, zero - request_.zero());
   if (verdict.ok()) {
     bias.value += change;
     filtered_ -= at_tip(change, R);

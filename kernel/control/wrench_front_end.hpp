@@ -26,9 +26,10 @@
 //
 //   h(t) = contact by the new bias + s(t) (h before - contact by the new bias)     fade.hpp
 //
-// If the bias would move by more than max_tare_force or max_tare_moment, which may be a contact, or
-// the signal is not steady within tare_timeout_s, the tare is refused and the old bias stays. A
-// contact within these limits, or a steady acceleration, becomes part of the bias.
+// If the bias would move by more than max_tare_force or max_tare_moment, from the present one or
+// from that of the start, which may be a contact, or the signal is not steady within
+// tare_timeout_s, the tare is refused and the old bias stays. A contact within these limits, or a
+// steady acceleration, becomes part of the bias: a law that yields then presses by as much more.
 #pragma once
 
 #include "kernel/core/brake.hpp"

@@ -27,6 +27,8 @@ Vector6 noise(RandomVectors& random) {
 struct Tared : WrenchBench {
   explicit Tared(int trial) {
     random.bits.seed(kSeed + static_cast<unsigned>(trial));
+    front.params.max_tare_force = 10.0;
+    front.params.max_tare_moment = 1.0;
     tare();
     turn();
     feel(kNone);
@@ -204,6 +206,24 @@ void a_contact_beyond_the_limits_is_never_made_zero(void**) {
   }
 }
 
+/// A law that yields presses on by what a tare has taken: tare after tare in contact.
+void tares_that_are_repeated_in_contact_take_no_more_than_one_may(void**) {
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Tared b(trial);
+    b.front.params.max_tare_moment = 100.0;  // the force has a lever at the flange
+    const Vector6 at_start = b.front.bias.value;
+    const Vector6 push = of_lengths(b.random, between(b.random, 3.0, 9.0), 0.0);
+    int taken = 0, refused = 0;
+    for (int again = 0; again < 12; ++again) {
+      ASSERT_OK(b.front.begin_tare());
+      b.await((again + 1) * push);
+      ++(b.front.tared().ok() ? taken : refused);
+      assert_true((b.front.bias.value - at_start).head<3>().norm() <= 10.0);
+    }
+    assert_true(taken >= 1 && taken <= 3 && refused >= 9);
+  }
+}
+
 /// The pipeline goes on, with the old bias.
 void a_signal_that_does_not_rest_is_refused_and_stops_nothing(void**) {
   Tared b(0);
@@ -293,6 +313,7 @@ int main() {
       cmocka_unit_test(a_bump_begins_the_interval_anew_and_nothing_else),
       cmocka_unit_test(the_flag_of_the_tare_at_start_is_not_set),
       cmocka_unit_test(a_contact_beyond_the_limits_is_never_made_zero),
+      cmocka_unit_test(tares_that_are_repeated_in_contact_take_no_more_than_one_may),
       cmocka_unit_test(a_signal_that_does_not_rest_is_refused_and_stops_nothing),
       cmocka_unit_test(without_a_tare_at_start_there_is_none_later),
       cmocka_unit_test(one_tare_is_under_way_at_a_time),
