@@ -14,11 +14,13 @@ Message describe_code(const Hal& hal, std::uint32_t code) {
 
 Message describe_drive(const Hal& hal, const Event& event) {
   Message text;
-  const bool fault = event.cause == Cause::kOldFault;
-  if (!fault && event.cause != Cause::kWarning) return text;
+  const bool warns = event.cause == Cause::kWarning, old = event.cause == Cause::kOldFault;
+  if (event.joint < 0 || !(warns || old || event.cause == Cause::kDrive)) return text;
   text << "joint " << event.joint + 1
-       << (fault ? " stood in fault, which arming clears: " : " warns");
-  if (fault) text << describe(event.status).c_str();
+       << (warns ? " warns"
+           : old ? " stood in fault, which arming clears: "
+                 : ": ");
+  if (!warns) text << describe(event.status).c_str();
   return text << describe_code(hal, event.code).c_str();
 }
 

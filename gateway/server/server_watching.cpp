@@ -30,7 +30,8 @@ void Server::take_snapshots(std::int64_t now_ns) {
   }
 }
 
-/// Faults from before an arming, and warnings; of those that are overwritten in the log, none.
+/// Faults, those from before an arming too, and warnings; of those that are overwritten in the log,
+/// none.
 void Server::tell_drives(std::int64_t now_ns) {
   if (setup_.events == nullptr) return;
   const std::uint32_t lost = setup_.events->lost();

@@ -43,7 +43,8 @@ Status Executive::arm() {
   if (disabling_ > 0) return Status::kNotAtRest;
   if (wire_ != Status::kOk) return refuse(wire_);
   rest_.start(0);
-  warned_ = 0;
+  for (std::size_t i = 0; i < kDof; ++i)  // a warning that stands is in the log
+    if (!measured_.drives[i].warns) warned_ &= static_cast<std::uint8_t>(~(1U << i));
   walk(Cause::kArm, Status::kArming);
   return Status::kArming;
 }

@@ -91,7 +91,7 @@ void print_events(const EventLog& events, const Hal& hal, double period_s) {
       continue;
     std::printf("  %.3f s: ", event.commanded * period_s);
     const Message of_drive = describe_drive(hal, event);
-    if (!of_drive.empty()) {
+    if (!of_drive.empty() && event.from == event.to) {
       std::printf("%s\n", of_drive.c_str());
       continue;
     }

@@ -74,7 +74,7 @@ def events(summary):
     """Lists the changes of rung; a Status that says no more than their cause is left out. What is said of a drive is its own text."""
     said = []
     for event in summary["events"]:
-        if "text" in event:
+        if "text" in event and event["from"] == event["to"]:
             said.append(f"{event['time_s']:.3f} s {event['text']}")
             continue
         status = "" if event["status"] in NO_REASON else f", {result.status_words(event['status'])}"

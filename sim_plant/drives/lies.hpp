@@ -17,7 +17,11 @@ class Lies {
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
     if (const Fault* fault = find(FaultKind::kWarning)) {
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | cia402::kWarning);
-      if (fault->value != 0) set(slot_of(0x603F), fault->value);
+      const auto word = static_cast<std::uint16_t>(dictionary_.get(slot_of(0x6041)));
+      const cia402::State state = cia402::state_of(word);
+      const bool faulty = state == cia402::State::kFault ||
+                          state == cia402::State::kFaultReactionActive;  // whose code is the newer
+      if (fault->value != 0 && !faulty) set(slot_of(0x603F), fault->value);
     }
     if (find(FaultKind::kSaturatedTorque) != nullptr) set(slot_of(0x6077), 32767);
     if (const Fault* fault = find(FaultKind::kWrongMapping))

@@ -27,6 +27,9 @@ void what_is_told_of_drives_names_joint_and_code(void**) {
   event.code = 5;
   event.status = Status::kDriveFault;
   assert_string_equal(describe_drive(hal, event).c_str(), "");
+  event.cause = Cause::kDrive;
+  assert_string_equal(describe_drive(hal, event).c_str(),
+                      "joint 3: drive or safety fault (97), error code 0005h, its own");
   event.cause = Cause::kOldFault;
   assert_string_equal(describe_drive(hal, event).c_str(),
                       "joint 3 stood in fault, which arming clears: drive or safety fault (97), "
