@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/can/protocol_canopen.hpp"
+#include "hal/cia402/protocol.hpp"
 #include "sim_plant/drives/dictionary.hpp"
 #include "sim_plant/drives/faults.hpp"
 
