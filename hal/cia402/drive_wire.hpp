@@ -24,11 +24,7 @@ struct DriveFeedback {
   Status lost = Status::kOk;
 
   /// 603Fh is of the last error, which may have gone. [any]
-  bool shows_error() const {
-    const State state = state_of(statusword);
-    return state == State::kFault || state == State::kFaultReactionActive ||
-           (statusword & kWarning) != 0;
-  }
+  bool shows_error() const { return (statusword & (kFaultBit | kWarning)) != 0; }
   /// Takes a statusword. An error that has gone takes its code along: not every drive says so.
   /// [any]
   void show(std::uint16_t word) {

@@ -6,6 +6,9 @@
 
 namespace tactus::cia402 {
 
+/// Of the statusword, 6041h: set in the two states of a fault, and in no other.
+inline constexpr std::uint16_t kFaultBit = 0x0008;
+
 // Bits of the statusword, 6041h, that do not belong to the state.
 inline constexpr std::uint16_t kVoltageEnabled = 0x0010;
 inline constexpr std::uint16_t kWarning = 0x0080;

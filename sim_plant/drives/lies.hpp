@@ -18,11 +18,8 @@ class Lies {
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
     if (const Fault* fault = find(FaultKind::kWarning)) {
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | cia402::kWarning);
-      const auto word = static_cast<std::uint16_t>(dictionary_.get(slot_of(0x6041)));
-      const cia402::State state = cia402::state_of(word);
-      const bool faulty = state == cia402::State::kFault ||
-                          state == cia402::State::kFaultReactionActive;  // whose code is the newer
-      if (fault->value != 0 && !faulty) set(slot_of(0x603F), fault->value);
+      const bool faulty = (dictionary_.get(slot_of(0x6041)) & cia402::kFaultBit) != 0;
+      if (fault->value != 0 && !faulty) set(slot_of(0x603F), fault->value);  // the newer one
     }
     if (find(FaultKind::kSaturatedTorque) != nullptr) set(slot_of(0x6077), 32767);
     if (const Fault* fault = find(FaultKind::kWrongMapping))
