@@ -35,7 +35,7 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   TRY(startup_.advance(now_ns));
   cia402::Feedbacks feedbacks;
   for (std::size_t j = 0; j < kDof; ++j) {
-    if (!nodes_[j].feedback.shows_error()) nodes_[j].feedback.error_code = 0;
+    nodes_[j].feedback.forget_what_has_gone();
     feedbacks[j] = nodes_[j].feedback;
   }
   drives_.set_velocity_units(startup_.velocity_units());

@@ -30,7 +30,11 @@ struct DriveFeedback {
   void show(std::uint16_t word) {
     const bool showed = shows_error();
     statusword = word;
-    if (showed && !shows_error() && !emergency) error_code = 0;
+    if (showed && !emergency) forget_what_has_gone();
+  }
+  /// [any]
+  void forget_what_has_gone() {
+    if (!shows_error()) error_code = 0;
   }
 };
 

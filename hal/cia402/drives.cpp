@@ -21,6 +21,7 @@ Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why
   mode_ = mode;
   phase_ = Phase::kOff;
   failure_ = {};
+  moved_ = -1;
   for (int j = 0; j < kDof; ++j) TRY(attach_joint(j, feedbacks[static_cast<std::size_t>(j)], why));
   return Status::kOk;
 }
@@ -74,6 +75,8 @@ void Drives::judge_hold(int j) {
   if (following_ || goal() != Goal::kOperationEnabled) return;
   if (std::abs(joint.q - held_[j]) <= settings_->hold_tolerance) return;
   const Figures figures = {joint.q - held_[j], settings_->hold_tolerance};
+  moved_ = j;
+  moved_from_ = held_[j];
   fail(j, Status::kMoved, joint.last.error_code, "moved by ",
        " rad while it was held, more than [cia402] hold_tolerance, ",
        " rad; check direction, rated_torque, hold_stiffness, the encoder, and the mounting and "

@@ -3,7 +3,8 @@
 //
 // A bus hands the newest process data to watch() and takes the commands of step(), in every cycle.
 // Arming: every drive is taken to "switched on", its old fault cleared; then all of them are
-// enabled in the same cycle, and hold the arm while their brakes open. As soon as one drive leaves
+// enabled in the same cycle, and hold the arm while their brakes open. An arm that moves then is
+// not armed again before the next attach(): it would move on. As soon as one drive leaves
 // "operation enabled", is silent for too long or reports an error, all drives get a quick stop in
 // that cycle, and no command before the next arming.
 #pragma once
@@ -160,6 +161,8 @@ class Drives {
   bool following_ = false;  // commands, in the last cycle
   bool held_back_ = false;
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
+  int moved_ = -1;                          // the joint that left its hold since attach(); -1: none
+  double moved_from_ = 0.0;                 // rad: where it was held
   Failure failure_;
 };
 

@@ -51,14 +51,20 @@ void Drives::take(DriveRequest request) {
   }
 }
 
-/// Refuses to arm a drive that was lost or does not know its position.
+/// Refuses to arm a drive that was lost, does not know its position, or has moved in an arming.
 bool Drives::ready(int j) {
-  const DriveFeedback& last = joints_[static_cast<std::size_t>(j)].last;
+  const Joint& joint = joints_[static_cast<std::size_t>(j)];
+  const DriveFeedback& last = joint.last;
   const int bit = settings_->referenced_bit;
   if (last.lost != Status::kOk) {
     fail(j, last.lost, last.error_code, lost_text(last.lost));
   } else if (bit >= 0 && (last.statusword >> bit & 1U) == 0) {
     fail(j, Status::kNotReferenced, last.error_code, "the drive is not referenced; home it");
+  } else if (j == moved_) {
+    const Figures figures = {joint.q - moved_from_, settings_->hold_tolerance};
+    fail(j, Status::kMoved, last.error_code, "has moved by ",
+         " rad since it was held, more than [cia402] hold_tolerance, ",
+         " rad, and would move on; mend the cause, then start the program anew", &figures);
   }
   return phase_ != Phase::kFailed;
 }

@@ -91,7 +91,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
   if (steady_ >= kSteady) {
     cia402::Feedbacks feedbacks;
     for (std::size_t j = 0; j < kDof; ++j) {
-      if (!slaves_[j].feedback.shows_error()) slaves_[j].feedback.error_code = 0;
+      slaves_[j].feedback.forget_what_has_gone();
       feedbacks[j] = slaves_[j].feedback;
     }
     drives_.set_velocity_units(startup_.velocity_units());

@@ -197,6 +197,26 @@ void a_joint_that_moves_while_it_is_held_stops_all_drives(void**) {
   for (const DriveCommand& command : arm.commands) assert_int_equal(command.controlword, 0x0002);
 }
 
+/// What moved it would move it on, a little farther in every arming.
+void an_arm_that_has_moved_while_it_was_held_is_not_enabled_again(void**) {
+  ArmOfDrives arm;
+  arm.arm();
+  for (int i = 0; i < 14; ++i) {  // the last seven until the brakes hold
+    arm.feedbacks[1].position += 20000;
+    arm.cycle(DriveRequest::kArm);
+  }
+  ASSERT_STATUS(arm.joint(1).reason, Status::kMoved);
+  for (int again = 0; again < 3; ++again) {
+    arm.cycles(100, DriveRequest::kDisable);
+    for (int i = 0; i < 300; ++i) {
+      arm.cycle(DriveRequest::kArm);
+      for (const DriveCommand& command : arm.commands) assert_true(command.controlword != 0x000F);
+    }
+    ASSERT_STATUS(arm.joint(1).reason, Status::kMoved);
+    assert_non_null(std::strstr(arm.drives.why().c_str(), "joint 2: has moved by 0.1048"));
+  }
+}
+
 void arming_does_not_end_while_the_bus_asks_its_drives(void**) {
   ArmOfDrives arm;
   arm.drives.hold_back(true);
@@ -226,6 +246,7 @@ int main() {
       cmocka_unit_test(an_error_message_of_an_enabled_drive_stops_all),
       cmocka_unit_test(a_drive_without_its_reference_is_refused),
       cmocka_unit_test(a_joint_that_moves_while_it_is_held_stops_all_drives),
+      cmocka_unit_test(an_arm_that_has_moved_while_it_was_held_is_not_enabled_again),
       cmocka_unit_test(arming_does_not_end_while_the_bus_asks_its_drives),
       cmocka_unit_test(a_torque_limit_beyond_the_drives_numbers_is_refused),
   };

@@ -58,17 +58,21 @@ void an_arm_that_hangs_is_taken_over_if_the_file_says_so(void**) {
     ASSERT_OK(bench.load(text->c_str()));
     const JointVector before = bench.hal.arm.arm().q();
     const Status status = bench.start();
-    const JointVector moved = bench.hal.arm.arm().q() - before;
-    print_message("moved by %.4f rad\n", moved.cwiseAbs().maxCoeff());
+    const auto moved = [&] { return (bench.hal.arm.arm().q() - before).cwiseAbs().maxCoeff(); };
     if (text == &hanging) {
       ASSERT_OK(status);
       ASSERT_OK(bench.cycles(500));
-      assert_true((bench.hal.arm.arm().q() - before).cwiseAbs().maxCoeff() < 1e-3);
-    } else {
-      ASSERT_STATUS(status, Status::kMoved);
-      assert_non_null(std::strstr(bench.hal.trouble().c_str(), "mounting and tool of [robot]"));
-      assert_true(moved.cwiseAbs().maxCoeff() < 0.15);
+      assert_true(moved() < 1e-3);
+      continue;
     }
+    ASSERT_STATUS(status, Status::kMoved);
+    assert_non_null(std::strstr(bench.hal.trouble().c_str(), "mounting and tool of [robot]"));
+    for (int again = 0; again < 3; ++again) {
+      for (int i = 0; i < 1000; ++i) (void)bench.cycle();  // until the brakes hold
+      ASSERT_STATUS(bench.arm(), Status::kMoved);
+    }
+    print_message("hanging unsaid it moves by %.3f rad\n", moved());
+    assert_true(moved() < 0.25);
   }
 }
 
