@@ -1,5 +1,5 @@
 // Joint efforts that hold the arm against gravity, from composite first moments:
-//   a_i = R^T a_(i-1)                                   a_(-1) = that of gravity, upwards
+//   a_i = R^T a_(i-1)                                   a_(-1) = -gravity, base frame
 //   h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)
 //   g_i = e_z . (h_i x a_i)
 // h_i is the first moment of link i and all it carries about the origin of frame i, and M_i their
@@ -12,8 +12,8 @@
 
 namespace tactus {
 
-/// Returns the acceleration that holds against gravity, m/s^2, base frame. [any]
-inline auto upwards(const Tool& tool) {
+/// Returns the acceleration of the base that stands for gravity, m/s^2, base frame. [any]
+inline auto base_acceleration(const Tool& tool) {
   return TypedVector{-tool.gravity.x(), -tool.gravity.y(), -tool.gravity.z()};
 }
 
@@ -38,7 +38,7 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
 template <class R>
 [[gnu::flatten]] JointsOf<R> gravity(const JointTrig<R>& trig, const Tool& tool) {
   JointsOf<R> g;
-  composite_moment<R, 0>(upwards(tool), trig, tool, g);
+  composite_moment<R, 0>(base_acceleration(tool), trig, tool, g);
   return g;
 }
 

@@ -102,7 +102,7 @@ template <class R>
 [[gnu::flatten]] JointsOf<R> inverse_dynamics(const JointTrig<R>& trig, const JointsOf<R>& dq,
                                               const JointsOf<R>& ddq, const Tool& tool) {
   constexpr TypedVector kAtRest{Zero{}, Zero{}, Zero{}};
-  const LinkMotion base{kAtRest, kAtRest, upwards(tool)};
+  const LinkMotion base{kAtRest, kAtRest, base_acceleration(tool)};
   JointsOf<R> tau;
   newton_euler<R, 0>(base, JointRates<R>{trig, dq, ddq}, tool, tau);
   return tau;

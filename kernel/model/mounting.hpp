@@ -9,6 +9,6 @@ namespace tactus {
 
 /// Returns gravity in the axes of the base, m/s^2: R^T (0, 0, -9.81), on which yaw has no effect.
 /// [init]
-Vector3 gravity_on(const Vector3& mounting);
+Vector3 gravity_in_base(const Vector3& mounting);
 
 }  // namespace tactus

@@ -91,7 +91,7 @@ struct RobotSection : OutputsSection<> {
   /// The tool as the file gives it: NaN where it does not. The models have that of the output.
   /// [init]
   Tool given_tool() const {
-    return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}, gravity_on(mounting)};
+    return {tool_mass, tool_com, Pose{tool_tip, {1.0, 0.0, 0.0, 0.0}}, gravity_in_base(mounting)};
   }
   double period_s() const { return period_us * 1e-6; }
 };

@@ -219,7 +219,7 @@ bool Arm::diverged() const {
   return !q().allFinite() || !dq().allFinite();
 }
 
-Vector3 Arm::pull() const {
+Vector3 Arm::base_gravity() const {
   return Eigen::Map<const Vector3>(model_->opt.gravity);
 }
 

@@ -67,9 +67,9 @@ class Arm {
   /// next load. [any]
   bool diverged() const;
 
-  Vector3 pull() const;    ///< of gravity, m/s^2, base frame; the arm must be loaded [any]
-  JointVector q() const;   ///< true joint positions, rad [any]
-  JointVector dq() const;  ///< true joint velocities, rad/s [any]
+  Vector3 base_gravity() const;  ///< of gravity, m/s^2, base frame; the arm must be loaded [any]
+  JointVector q() const;         ///< true joint positions, rad [any]
+  JointVector dq() const;        ///< true joint velocities, rad/s [any]
 
   /// The wrench of environment and payload on a sensor at the flange, about its origin and in its
   /// axes, force first, N and N m: at the end of the last step, or since the brakes closed. [any]

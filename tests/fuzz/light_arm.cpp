@@ -29,7 +29,7 @@ void Arm::step(const JointVector& tau, double dt_s) {
 JointVector Arm::inverse_dynamics(const JointVector& ddq) {
   return ddq;
 }
-Vector3 Arm::pull() const {
+Vector3 Arm::base_gravity() const {
   return Vector3::Zero();
 }
 JointVector Arm::gravity() {

@@ -20,7 +20,7 @@ struct Mounted {
 
   Tool ours() const {
     Tool mounted = tool;
-    mounted.gravity = gravity_on(mounting);
+    mounted.gravity = gravity_in_base(mounting);
     return mounted;
   }
   KdlTool kdls() const {

@@ -56,7 +56,8 @@ void Controller::show_tool() {
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   image_.actual_tool_accelerometer =
-      tip.r.transpose() * ((v - tcp_speed_before_) / machine_.cycle_s() - machine_.body.pull());
+      tip.r.transpose() *
+      ((v - tcp_speed_before_) / machine_.cycle_s() - machine_.body.base_gravity());
   tcp_speed_before_ = v;
   image_.actual_momentum = 0.5 * kMovingMass_kg * v.norm();
   const Vector3 before = image_.elbow_position;

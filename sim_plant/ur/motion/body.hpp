@@ -29,10 +29,10 @@ class Body {
   /// Sets the joint torques that push the arm, N m; zero: none. [any]
   void push(const Joints& tau) { push_ = tau; }
 
-  Vector3 pull() const { return arm_.pull(); }  ///< of gravity, m/s^2, base frame
-  Joints q() const { return arm_.q(); }         ///< rad
-  Joints dq() const { return arm_.dq(); }       ///< rad/s
-  const Joints& tau() const { return tau_; }    ///< torque of the drives, mean of the cycle, N m
+  Vector3 base_gravity() const { return arm_.base_gravity(); }  ///< of gravity, m/s^2, base frame
+  Joints q() const { return arm_.q(); }                         ///< rad
+  Joints dq() const { return arm_.dq(); }                       ///< rad/s
+  const Joints& tau() const { return tau_; }  ///< torque of the drives, mean of the cycle, N m
   /// Torque that the targets need if nothing pushes the arm, N m.
   const Joints& model() const { return model_; }
   /// Difference of the two, low-pass filtered, N m; shows a collision.
