@@ -7,14 +7,14 @@
 #include <unistd.h>
 #include <cerrno>
 
-#include "sim_plant/ur/server/server.hpp"
 #include "tests/support/testing.hpp"
 #include "tests/ur/controller/ur_bench.hpp"
+#include "tests/ur/free_ports.hpp"
 
 namespace tactus::ur {
 
 inline constexpr const char* kAddress = "127.0.0.77";
-inline const int kOffset = -10000 - 20 * (getpid() % 400);  // below the ports of clients
+inline const int kOffset = free_offset(kAddress, -10000);
 
 alignas(Server) inline unsigned char g_memory[sizeof(Server)];
 inline Server* g_server = nullptr;

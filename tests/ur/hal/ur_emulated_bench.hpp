@@ -1,15 +1,12 @@
 // The HAL of a UR with the emulated controller and its arm, over sockets, in lock-step.
 #pragma once
 
-#include <unistd.h>
-
-#include "sim_plant/ur/server/server.hpp"
+#include "tests/ur/free_ports.hpp"
 #include "tests/ur/hal/ur_hal_bench.hpp"
 
 namespace tactus::ur {
 
-/// Of the ports: below those that the system gives to clients, others in every process.
-inline const int kOffset = -20000 - 20 * (getpid() % 400);
+inline const int kOffset = free_offset("127.0.0.1", -20000);
 
 /// The emulated robot in a thread of its own.
 class EmulatedRobot {
