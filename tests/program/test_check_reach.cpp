@@ -141,6 +141,18 @@ void what_is_judged_when_it_begins_is_refused_too(void**) {
   assert_true(has(errors(), refused.c_str()));
 }
 
+/// With torques too, which are not rehearsed.
+void a_trajectory_that_begins_elsewhere_is_refused_however_long_it_waits(void**) {
+  const Line away = write("away.csv", {kHeader, "0,0.2,-0.785398,0,-2.356194,0,1.570796,0.785398\n",
+                                       "5,0,-0.785398,0,-2.356194,0,1.570796,0.785398\n"});
+  for (const char* start : {"0", "0.5", "3600"}) {
+    const Line file = write("torque.ini", {kPipeline, "[gateway]\nstart_s = ", start, "\n"});
+    assert_int_equal(tactus_run({"check", file.c_str(), "--trajectory", away.c_str()}), 2);
+    assert_true(has(errors(), "/away.csv: refused: "));
+    assert_true(has(errors(), " rad exceeds 0.01 rad (40); begin there"));
+  }
+}
+
 void a_box_in_the_way_is_named_with_its_time_before_anything_moves(void**) {
   const char* const file =
       "(cat pipelines/fer_trg_cpc.ini; echo '[shelf]\ntype = box\ncentre = 0.45 0 0.3\n"
@@ -164,6 +176,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_path_that_is_in_and_out_of_reach_very_often_has_few_lines),
       cmocka_unit_test(what_is_accepted_is_followed_and_what_is_refused_is_given_up),
       cmocka_unit_test(what_is_judged_when_it_begins_is_refused_too),
+      cmocka_unit_test(a_trajectory_that_begins_elsewhere_is_refused_however_long_it_waits),
       cmocka_unit_test(a_box_in_the_way_is_named_with_its_time_before_anything_moves),
   };
   return run_program_tests(argv[0], tests);
