@@ -37,6 +37,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   motion_.start(held, channel.settings);
   if constexpr (kStreams) motion_.approach_at(params.bounds.approach_speed);
   monitor_.start(held, params.latency_cycles, (params.measured & kVelocityField) != 0);
+  monitor_.begin(params.tolerances);
   return Status::kOk;
 }
 
@@ -72,7 +73,8 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   if constexpr (kStreams) feedback_.set(running_.any() ? motion_.progress() : PathProgress());
   feedback_.step(cycles_, time_s(), running_.any() ? running_.id : 0, reference(), measured,
                  channel_->feedback);
-  return reference().finite() ? Status::kOk : Status::kReferenceFault;
+  if (!reference().finite()) return Status::kReferenceFault;
+  return running_.any() ? Status::kOk : monitor_.holds(measured, dt_s).status;
 }
 
 /// There is space for the reports of what ends here: see has_room().
@@ -183,6 +185,7 @@ void ReferenceGenerator<Space>::end_running(Outcome outcome, bool path_left,
   report(running_.id, outcome, path_left ? running_.store : -1, verdict);
   if (!path_left) braked_on_ = running_.store;
   running_ = {};
+  monitor_.begin(params_.tolerances);
 }
 
 /// Returns the store of a trajectory that was given up, once the motion has left its path.

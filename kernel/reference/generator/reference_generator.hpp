@@ -86,7 +86,8 @@ class ReferenceGenerator {
                              const Point& measured);
 
   /// Moves the reference one period ahead, compares it with the measured point, answers controls
-  /// and requests, publishes feedback. kReferenceFault if the reference is not finite. [cyclic]
+  /// and requests, publishes feedback. kReferenceFault if the reference is not finite,
+  /// kPathTolerance if the robot is not where a reference without a goal has long rested. [cyclic]
   Status step(double dt_s, const Point& measured);
 
   /// Sets the speed scaling of the robot, 0 at rest and 1 as sent. Trajectories pass at this times

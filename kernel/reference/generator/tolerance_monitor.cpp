@@ -30,6 +30,17 @@ void ToleranceMonitor<Space>::put_out(const Point& reference) {
   line_[newest_] = reference;
 }
 
+template <class Space>
+Verdict ToleranceMonitor<Space>::holds(const Point& measured, double dt_s) {
+  if constexpr (Space::kKept) {
+    const Point& before = line_[(newest_ + line_.size() - 1) % line_.size()];
+    waiting_s_ = line_[newest_].q == before.q ? waiting_s_ + dt_s : 0.0;
+    const double longest_s = tolerances_.goal_time_s;
+    if (longest_s > 0.0 && waiting_s_ > longest_s) return follows(measured);
+  }
+  return {};
+}
+
 /// Returns the reference that the robot should have reached by now.
 template <class Space>
 const typename Space::Point& ToleranceMonitor<Space>::expected() const {

@@ -21,10 +21,14 @@ class ToleranceMonitor {
   /// robot counts as stopped once its position has moved for kWindow_s by no more than the velocity
   /// limit allows in that time. [init]
   [[gnu::cold]] void start(const Point& reference, int latency_cycles, bool measures_velocity);
-  /// Begins a goal with its tolerances. [cyclic]
+  /// Begins a goal with its tolerances, or the time without one. [cyclic]
   void begin(const Tolerances<Space>& tolerances);
   /// Takes the reference of this cycle. [cyclic]
   void put_out(const Point& reference);
+  /// Judges a cycle without a goal, after put_out(). In a space whose references are kept, a robot
+  /// whose reference has stayed in its place for longer than the goal time must be within the path
+  /// tolerance: kPathTolerance, or kOk. [cyclic]
+  Verdict holds(const Point& measured, double dt_s);
 
   /// Judges the path tolerance: kPathTolerance with axis, value and limit, or kOk. [cyclic]
   Verdict follows(const Point& measured) const;
