@@ -58,6 +58,9 @@ int check(Session& session, const Options& options) {
     print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
     return kRefused;
   }
+  if (const Message line = session.hal.unstated(); !line.empty())
+    std::fprintf(stderr, "%s: note: another robot would be taken for this one; to compare, add %s\n",
+                 options.pipeline, line.c_str());
   status = pipeline.start(initial);
   if (status == Status::kOk && !send_input(session, input)) return kRefused;
   if (status == Status::kOk) status = pipeline.step(initial);

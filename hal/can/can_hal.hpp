@@ -31,6 +31,7 @@ class CanHal final : public Hal {
   /// not end the exchange on the others. kBusTimeout: trouble() names the joints that did not
   /// confirm.
   Status disconnect() override;
+  Message unstated() override { return master_.unstated(); }
   Message trouble() override { return master_.trouble(); }
   Message code_text(std::uint32_t code) const override { return cia402::text_of_code(code); }
 

@@ -64,6 +64,8 @@ class CanMaster {
   Message& why() { return why_; }
   /// The last Status in words. [between two cycles]
   Message trouble() const;
+  /// As Hal::unstated(). [init]
+  Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
   cia402::Phase phase() const { return drives_.phase(); }
   /// Frames that a cycle sends on a bus at most. [init]
   int cycle_frames(int bus) const;

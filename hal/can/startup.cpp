@@ -195,7 +195,7 @@ Status Startup::judge_facts() {
       static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
   const bool velocities = layout_->fd() || mode_ == CommandMode::kVelocity;
   Message said;
-  const Status status = facts_.judge(*drive_, joint_, velocities, velocity_units_[joint_], said);
+  const Status status = facts_.judge(*drive_, joint_, velocities, learnt_, said);
   if (status == Status::kOk) return status;
   why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
   why_ << ": " << std::string_view(said);

@@ -30,8 +30,8 @@ class Startup {
   /// Takes the next step that is possible now. kArming: it goes on; kBusTimeout, kRefusedByRobot,
   /// with the reason. [init]
   Status advance(std::int64_t now_ns);
-  /// Units of velocity per motor revolution per second, of each drive; NaN: not known. [init]
-  const JointVector& velocity_units() const { return velocity_units_; }
+  /// What the drives have said. [init]
+  const cia402::Learnt& learnt() const { return learnt_; }
   /// Bus that answers are awaited from. [init]
   int bus() const { return bus_; }
 
@@ -73,7 +73,7 @@ class Startup {
   std::int64_t booted_ns_ = 0;  // when the last of them came
   NodeSetup steps_;
   cia402::DriveFacts facts_;  // of joint_
-  JointVector velocity_units_ = JointVector::Zero();
+  cia402::Learnt learnt_;
   std::int64_t sync_ns_ = 0;  // of the last SYNC
   int steady_ = 0;            // cycles in a row with feedback of all
 };

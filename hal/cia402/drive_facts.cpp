@@ -86,14 +86,24 @@ double DriveFacts::told_velocity_units(double increments) const {
   }
 }
 
-Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities,
-                         double& velocity_units, Message& why) const {
+Message unstated(const Cia402Settings& drive, const Learnt& learnt) {
+  Message line;
+  const bool told = (learnt.serials.array() > 0.0).all();
+  if (!told || (drive.serial.array() > 0.0).all()) return line;
+  line << "[cia402] serial =";
+  for (const double serial : learnt.serials) line << " " << static_cast<std::size_t>(serial);
+  return line;
+}
+
+Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities, Learnt& learnt,
+                         Message& why) const {
+  learnt.serials[joint] = get(kSerialNumber);
   TRY(judge_serial(drive, joint, why));
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
   const double stated = drive.velocity_units[joint];
   const double told = told_velocity_units(drive.increments[joint]);
-  velocity_units = stated > 0.0 ? stated : told;
+  learnt.velocity_units[joint] = stated > 0.0 ? stated : told;
   return velocities ? judge_velocities(stated, told, why) : Status::kOk;
 }
 

@@ -48,6 +48,17 @@ inline constexpr Fact kFacts[] = {
 };
 inline constexpr std::uint32_t kFactCount = std::size(kFacts);
 
+/// What a start-up has learnt from the drives of all joints.
+struct Learnt {
+  JointVector velocity_units = JointVector::Zero();  ///< per motor revolution per second; NaN: not
+                                                     ///< known
+  JointVector serials = JointVector::Zero();         ///< 0: not told
+};
+
+/// The line for the file that has the serial numbers compared from now on; empty if they are, or if
+/// a drive has none. [init]
+Message unstated(const Cia402Settings& drive, const Learnt& learnt);
+
 class DriveFacts {
  public:
   void clear() { known_ = 0; }
@@ -63,10 +74,10 @@ class DriveFacts {
   }
 
   /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
-  /// wire carries velocities of this drive, whose unit must be known; `velocity_units` becomes the
-  /// units of velocity per motor revolution per second. kRefusedByRobot; `why` has object, value,
-  /// what was expected and the line that helps. [init]
-  Status judge(const Cia402Settings& drive, int joint, bool velocities, double& velocity_units,
+  /// wire carries velocities of this drive, whose unit must be known. Fills in what is `learnt` of
+  /// the joint. kRefusedByRobot; `why` has object, value, what was expected and the line that
+  /// helps. [init]
+  Status judge(const Cia402Settings& drive, int joint, bool velocities, Learnt& learnt,
                Message& why) const;
 
  private:

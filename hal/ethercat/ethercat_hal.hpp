@@ -34,6 +34,7 @@ class EthercatHal final : public Hal, private Clock {
   /// confirm.
   Status disconnect() override;
   Clock* clock() override { return this; }
+  Message unstated() override { return master_.unstated(); }
   Message trouble() override { return master_.trouble(); }
   Message code_text(std::uint32_t code) const override { return cia402::text_of_code(code); }
 

@@ -94,7 +94,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
       slaves_[j].feedback.forget_what_has_gone();
       feedbacks[j] = slaves_[j].feedback;
     }
-    drives_.set_velocity_units(startup_.velocity_units());
+    drives_.set_velocity_units(startup_.learnt().velocity_units);
     TRY(drives_.attach(mode_, feedbacks, why_));
     phase_ = Phase::kRuns;
     // Stamps of cycles that wait for their frames say nothing of the time that passes.

@@ -65,6 +65,8 @@ class EthercatMaster {
   Message& why() { return why_; }
   /// The last Status in words. [between two cycles]
   Message trouble() const;
+  /// As Hal::unstated(). [init]
+  Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
 
  private:
   enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };

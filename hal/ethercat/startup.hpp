@@ -37,8 +37,8 @@ class Startup {
   Status silent();
 
   std::size_t image_bytes() const { return image_bytes_; }
-  /// Units of velocity per motor revolution per second, of each drive; NaN: not known. [init]
-  const JointVector& velocity_units() const { return velocity_units_; }
+  /// What the drives have said. [init]
+  const cia402::Learnt& learnt() const { return learnt_; }
   /// True if all slaves have a clock. [any]
   bool has_clocks() const { return has_clocks_; }
 
@@ -126,7 +126,7 @@ class Startup {
   SiiReader eeprom_;
   SlaveSetup steps_;
   cia402::DriveFacts facts_;  // of the present slave
-  JointVector velocity_units_ = JointVector::Zero();
+  cia402::Learnt learnt_;
   MappingReader mapping_;
   std::size_t image_bytes_ = 0;
   bool has_clocks_ = false;

@@ -77,7 +77,7 @@ Status Startup::take_fact(const SetupStep& step) {
   }
   if (step.value + 1 < cia402::kFactCount) return Status::kOk;
   at().feedback.error_code = static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
-  const Status status = facts_.judge(*drive_, joint(), true, velocity_units_[joint()], what);
+  const Status status = facts_.judge(*drive_, joint(), true, learnt_, what);
   return status == Status::kOk ? status : refuse(status, what);
 }
 

@@ -85,6 +85,9 @@ class Hal {
   virtual Clock* clock() { return nullptr; }
   /// Returns the name of a digital output in the robot's own words; null: it has none. [init]
   virtual const char* output_name(int /*output*/) const { return nullptr; }
+  /// Returns the line of the pipeline file that would have more of what the robot says of itself
+  /// compared, with what it says now; empty: there is none. After connect(). [init]
+  virtual Message unstated() { return {}; }
   /// Explains the last Status that was not kOk in the robot's own words. [between two cycles]
   virtual Message trouble() { return {}; }
   /// Explains a drive's own number of a fault; empty: the number says all. [any]

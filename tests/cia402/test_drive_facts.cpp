@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "hal/cia402/joint_units.hpp"
@@ -25,7 +27,7 @@ constexpr Said kTurn = {kEncoderIncrements, 16777216}, kPerTurn = {kEncoderRevol
 /// The drive of joint 1, which the file describes as `drive`.
 struct Drive1 {
   Cia402Settings drive;
-  double velocity_units = 0.0;
+  Learnt learnt;
   Message why;
 
   Drive1() { drive.rated_torque.setConstant(3.0); }
@@ -35,7 +37,7 @@ struct Drive1 {
       for (std::uint32_t row = 0; row < kFactCount; ++row)
         if (kFacts[row].object.mapping() == said.object.mapping()) facts.set(row, said.value);
     why = {};
-    return facts.judge(drive, 0, velocities, velocity_units, why);
+    return facts.judge(drive, 0, velocities, learnt, why);
   }
   bool says(const char* text) const { return std::strstr(why.c_str(), text) != nullptr; }
 };
@@ -77,7 +79,7 @@ void units_of_velocity_are_those_that_the_drive_names(void**) {
     const Status status = one.judge(row.says);
     if (status != Status::kOk) print_error("%s\n", one.why.c_str());
     ASSERT_OK(status);
-    ASSERT_NEAR(one.velocity_units / row.expected, 1.0, 1e-9);
+    ASSERT_NEAR(one.learnt.velocity_units[0] / row.expected, 1.0, 1e-9);
   }
 }
 
@@ -97,7 +99,7 @@ void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
   ASSERT_OK(one.judge(silent, false));
   one.drive.velocity_units.setConstant(60.0);
   ASSERT_OK(one.judge(silent));
-  assert_true(one.velocity_units == 60.0);
+  assert_true(one.learnt.velocity_units[0] == 60.0);
   ASSERT_STATUS(one.judge({kTurn, kPerTurn, {kVelocityUnit, 0x00B50300}}), Status::kRefusedByRobot);
   assert_true(one.says("its velocities have 16777216 units per motor revolution per second"));
   assert_true(one.says("60A9h is 00B50300h), [cia402] velocity_units is 60;"));
@@ -130,7 +132,7 @@ void positions_with_other_units_than_in_the_file_are_refused(void**) {
   ASSERT_OK(one.judge({}, false));
   ASSERT_OK(one.judge({{kPositionUnit, 0x00B50000}}, false));
   ASSERT_OK(one.judge({{kPositionUnit, 0x00000000}, {kVelocityUnit, 0x00B50300}}));
-  ASSERT_NEAR(one.velocity_units, 16777216.0, 1e-6);
+  ASSERT_NEAR(one.learnt.velocity_units[0], 16777216.0, 1e-6);
 }
 
 /// To the drive's step, by default and as the file states it.
@@ -164,6 +166,25 @@ void a_drive_with_another_serial_number_is_refused(void**) {
   assert_true(one.says("is not told"));
 }
 
+void serial_numbers_are_told_while_a_joint_has_none_in_the_file(void**) {
+  Cia402Settings file;
+  Learnt learnt;
+  for (int j = 0; j < kDof; ++j) learnt.serials[j] = 4294967295.0 - j;
+  const Message line = unstated(file, learnt);
+  std::istringstream words(line.c_str());
+  std::string section, key, equals;
+  words >> section >> key >> equals;
+  assert_string_equal((section + " " + key + " " + equals).c_str(), "[cia402] serial =");
+  for (int j = 0; j < kDof; ++j) {
+    assert_false(unstated(file, learnt).empty());
+    words >> file.serial[j];
+    assert_true(file.serial[j] == learnt.serials[j]);
+  }
+  assert_true(unstated(file, learnt).empty());
+  learnt.serials[2] = 0.0;  // one that has none cannot be told from another
+  assert_true(unstated(Cia402Settings(), learnt).empty());
+}
+
 /// Both ways, over random units: a velocity of the joint is so many units.
 void velocities_are_converted_by_their_own_unit(void**) {
   std::mt19937_64 random(7);
@@ -193,6 +214,7 @@ int main() {
       cmocka_unit_test(positions_with_other_units_than_in_the_file_are_refused),
       cmocka_unit_test(a_torque_limit_below_what_is_needed_is_refused),
       cmocka_unit_test(a_drive_with_another_serial_number_is_refused),
+      cmocka_unit_test(serial_numbers_are_told_while_a_joint_has_none_in_the_file),
       cmocka_unit_test(velocities_are_converted_by_their_own_unit),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

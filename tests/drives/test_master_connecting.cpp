@@ -73,6 +73,19 @@ void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
   ASSERT_OK(bench.start());
 }
 
+void the_serial_numbers_of_a_bus_are_told_until_the_file_has_them(void**) {
+  MasterBench& bench = fresh_bench();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  assert_string_equal(bench.hal.master.unstated().c_str(),
+                      "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
+  MasterBench& stated = fresh_bench();
+  stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
+  ASSERT_OK(stated.load());
+  ASSERT_OK(stated.start());
+  assert_true(stated.hal.master.unstated().empty());
+}
+
 void a_drive_that_answers_no_request_is_a_time_out(void**) {
   MasterBench& bench = fresh_bench();
   bench.hal.logs = true;
@@ -256,6 +269,7 @@ int main() {
   using namespace tactus::can;
   const CMUnitTest tests[] = {
       cmocka_unit_test(an_abort_of_any_step_refuses_the_start_and_names_the_object),
+      cmocka_unit_test(the_serial_numbers_of_a_bus_are_told_until_the_file_has_them),
       cmocka_unit_test(a_drive_that_answers_no_request_is_a_time_out),
       cmocka_unit_test(objects_that_a_drive_need_not_have_may_be_absent),
       cmocka_unit_test(drives_that_start_by_themselves_are_set_up),

@@ -172,6 +172,19 @@ void a_wrong_drive_is_named_with_what_it_says(void**) {
   assert_refused(other, Status::kRefusedByRobot, "product (1018h:2) is 402, expected 403");
 }
 
+void the_serial_numbers_of_a_segment_are_told_until_the_file_has_them(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  assert_string_equal(bench.hal.master.unstated().c_str(),
+                      "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
+  MasterBench& stated = fresh();
+  stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
+  ASSERT_OK(stated.load());
+  ASSERT_OK(stated.start());
+  assert_true(stated.hal.master.unstated().empty());
+}
+
 void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {
   struct Row {
     std::uint16_t control;
@@ -251,6 +264,7 @@ int main() {
       cmocka_unit_test(a_segment_of_another_length_is_refused),
       cmocka_unit_test(a_wire_that_falls_silent_is_named_wherever_the_start_up_is),
       cmocka_unit_test(a_wrong_drive_is_named_with_what_it_says),
+      cmocka_unit_test(the_serial_numbers_of_a_segment_are_told_until_the_file_has_them),
       cmocka_unit_test(an_eeprom_that_cannot_be_read_is_refused_with_the_reason),
       cmocka_unit_test(mailbox_faults_are_named),
       cmocka_unit_test(a_drive_whose_mapping_cannot_be_read_is_refused),
