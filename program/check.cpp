@@ -59,7 +59,8 @@ int check(Session& session, const Options& options) {
     return kRefused;
   }
   if (const Message line = session.hal.unstated(); !line.empty())
-    std::fprintf(stderr, "%s: note: another robot would be taken for this one; to compare, add %s\n",
+    std::fprintf(stderr,
+                 "%s: note: another robot would be taken for this one; to compare, add %s\n",
                  options.pipeline, line.c_str());
   status = pipeline.start(initial);
   if (status == Status::kOk && !send_input(session, input)) return kRefused;
