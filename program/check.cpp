@@ -20,7 +20,7 @@ Status look(Hal& hal, CommandMode mode, RobotState& state) {
   return status;
 }
 
-/// Torques are not rehearsed: the trajectory begins at once, from the rest that it would wait in.
+/// The arm rests where it stands until the start time: that need not be waited for.
 void begin_at_once(TrajectoryInput& input) {
   if (auto* joints = std::get_if<1>(&input.trajectory)) (*joints)->start_s = kStartAtOnce;
   if (auto* poses = std::get_if<2>(&input.trajectory)) (*poses)->start_s = kStartAtOnce;
@@ -51,7 +51,7 @@ int check(Session& session, const Options& options) {
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
   Pipeline& pipeline = session.pipeline;
-  if (pipeline.robot.mode() == CommandMode::kEffort) begin_at_once(input);
+  begin_at_once(input);
   RobotState initial;
   Status status = look(session.hal, pipeline.robot.mode(), initial);
   if (status != Status::kOk) {

@@ -6,35 +6,51 @@
 namespace tactus {
 namespace {
 
-/// Moves the robot to where `command` wants it at the end of a cycle.
-void obey(const RobotCommand& command, double period_s, RobotState& state) {
-  const JointVector before = state.q;
-  if (command.mode == CommandMode::kVelocity)
-    state.q += period_s * command.value;
-  else
-    state.q = command.value;
-  state.dq = (state.q - before) / period_s;
+/// True of a path of the tip that gives wrenches. What it comes to depends on the contact.
+bool presses(const TrajectoryInput& input) {
+  const auto* const poses = std::get_if<2>(&input.trajectory);
+  return poses != nullptr && ((*poses)->fields & kEffortField) != 0;
 }
 
 }  // namespace
 
 TrajectoryRehearsal::TrajectoryRehearsal(Session& session, TrajectoryInput& input, Guard& guard,
                                          const RobotState& state)
-    : session_(session), input_(input), guard_(guard), goal_(session, input), state_(state) {
+    : session_(session),
+      input_(input),
+      guard_(guard),
+      goal_(session, input),
+      state_(state),
+      law_(torque_law(session.pipeline)) {
   const Guard::Params& params = session.pipeline.guard;
   limiting_.start(params.limiting_share,
                   std::llround(params.limiting_window / session.pipeline.robot.period_s()));
 }
 
+/// Moves the robot to where `command` wants it at the end of a cycle; of torques, to where the law
+/// wants it.
+void TrajectoryRehearsal::obey(const RobotCommand& command) {
+  const double period_s = session_.pipeline.robot.period_s();
+  const JointVector before = state_.q;
+  switch (command.mode) {
+    case CommandMode::kPosition: state_.q = command.value; break;
+    case CommandMode::kVelocity: state_.q += period_s * command.value; break;
+    case CommandMode::kEffort:
+      state_.q = *law_.q_d;
+      state_.dq = law_.dq_d != nullptr ? *law_.dq_d : JointVector(JointVector::Zero());
+      return;
+  }
+  state_.dq = (state_.q - before) / period_s;
+}
+
 /// One cycle, as the executive's, from the command of the one before.
 Status TrajectoryRehearsal::cycle() {
   Pipeline& pipeline = session_.pipeline;
-  const double period_s = pipeline.robot.period_s();
   RobotCommand command = pipeline.robot.command();
   Status status = guard_.limit(state_, command);
   if (status != Status::kOk) return status;
   if (limiting_.add(guard_.telemetry().limited)) return Status::kLimiting;
-  obey(command, period_s, state_);
+  obey(command);
   state_.stamp_ns += std::int64_t{1000} * pipeline.robot.period_us;
   ++cycle_;
   status = guard_.check(state_, {state_.stamp_ns});
@@ -61,10 +77,24 @@ double TrajectoryRehearsal::time_s() const {
 bool TrajectoryRehearsal::refuse(Status status) {
   Pipeline& pipeline = session_.pipeline;
   Text<127> event("refused: the run would stop at t = ");
-  event << time_s() << " s";
+  event << input_.start_s + time_s() << " s";
   print_stop(input_.path.c_str(), event.c_str(), status, guard_.telemetry());
   if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
+  if (status == Status::kLimiting && law_.q_d != nullptr) print_torque();
   return false;
+}
+
+/// The joint whose torque is farthest beyond its limit.
+void TrajectoryRehearsal::print_torque() const {
+  const JointVector asked = session_.pipeline.robot.command().value;
+  const JointVector most = session_.pipeline.guard.effective().tau_max;
+  int joint = 0;
+  (asked.array() / most.array()).abs().maxCoeff(&joint);
+  std::fprintf(stderr,
+               "  joint %d (%s) takes %.4g N m to be kept where the path leads, its limit is %.4g: "
+               "look at the tool's mass, the mounting and the posture\n",
+               joint + 1, Robot::kJointNames[static_cast<std::size_t>(joint)], asked[joint],
+               most[joint]);
 }
 
 /// Nothing was found in what was rehearsed, which is not the whole: says how much of it.
@@ -75,7 +105,13 @@ bool TrajectoryRehearsal::in_part() const {
 }
 
 bool TrajectoryRehearsal::run() {
-  if (!input_.given() || session_.pipeline.robot.mode() == CommandMode::kEffort) return true;
+  const bool torques = session_.pipeline.robot.mode() == CommandMode::kEffort;
+  if (!input_.given() || (torques && law_.q_d == nullptr)) return true;
+  if (presses(input_)) {
+    std::fprintf(stderr, "%s: note: not rehearsed: what its wrenches do depends on the contact\n",
+                 input_.path.c_str());
+    return true;
+  }
   const double end_s = goal_.latest_report_s();
   while (!ended()) {
     if (time_s() > end_s) return true;
@@ -86,8 +122,8 @@ bool TrajectoryRehearsal::run() {
   if (report_.outcome == Outcome::kRefused) print_verdict(input_, report_.verdict);
   if (report_.outcome == Outcome::kAborted) {
     const Reason why = report_.verdict.ok() ? GoalWatch::left() : goal_.given_up(report_.verdict);
-    std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(), time_s(),
-                 why.c_str());
+    std::fprintf(stderr, "%s: refused: t = %.6g s: %s\n", input_.path.c_str(),
+                 input_.start_s + time_s(), why.c_str());
   }
   if (report_.outcome == Outcome::kStarved) return in_part();
   return report_.outcome == Outcome::kSucceeded;

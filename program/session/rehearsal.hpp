@@ -1,10 +1,12 @@
 // TrajectoryRehearsal: the chain runs a trajectory with a robot that is at once where it is told to
 // be, and whose sensors feel what they feel now. So `tactus check` finds what the law and the guard
-// make of a trajectory that admission accepts, before anything moves.
+// make of a trajectory that admission accepts, before anything moves. A robot that takes torques is
+// at once where its law is to keep it: then the law asks for what holds the arm there.
 #pragma once
 
 #include "kernel/cycle/limiting_watch.hpp"
 #include "program/session/goal_watch.hpp"
+#include "program/session/torque_law.hpp"
 
 namespace tactus {
 
@@ -18,11 +20,14 @@ class TrajectoryRehearsal {
                       const RobotState& state);
 
   /// Runs until the trajectory has ended, or as far as its store holds it. False: the run would
-  /// stop; prints when and why to stderr. A robot that takes torques is not rehearsed: true.
+  /// stop; prints when and why to stderr. True without a rehearsal for
+  /// torques of no law of positions, and for wrenches that a contact is to answer.
   bool run();
 
  private:
   Status cycle();
+  void obey(const RobotCommand& command);
+  void print_torque() const;
   bool ended();
   double time_s() const;
   bool refuse(Status status);
@@ -34,6 +39,7 @@ class TrajectoryRehearsal {
   GoalWatch goal_;
   LimitingWatch limiting_;
   RobotState state_;
+  TorqueLaw law_;
   std::int64_t cycle_ = 0;
   Report report_;
 };

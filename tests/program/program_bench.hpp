@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 #include "kernel/core/text.hpp"
@@ -188,6 +189,13 @@ inline void assert_succeeds(const char* command) {
   const int code = shell(command);
   if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
   assert_int_equal(code, 0);
+}
+
+/// The number after `word` in a text.
+inline double number_after(std::string_view text, std::string_view word) {
+  const std::size_t at = text.find(word);
+  assert_true(at != std::string_view::npos);
+  return std::atof(std::string(text.substr(at + word.size(), 20)).c_str());
 }
 
 }  // namespace tactus

@@ -37,13 +37,6 @@ int run(const char* pipeline, const Line& trajectory) {
                      "--out", out.c_str()});
 }
 
-/// The number after `word` in a text.
-double number_after(std::string_view text, std::string_view word) {
-  const std::size_t at = text.find(word);
-  assert_true(at != std::string_view::npos);
-  return std::atof(std::string(text.substr(at + word.size(), 20)).c_str());
-}
-
 // Proves RUN-26.
 
 void a_pose_out_of_reach_is_refused_with_time_place_and_distance(void**) {
@@ -92,7 +85,7 @@ void a_path_in_reach_and_a_path_of_joints_have_no_warning(void**) {
   for (const char* pipeline : {"pipelines/fer_trg_cpc.ini", "pipelines/fer_trg_ac_cpc_pid.ini",
                                "pipelines/fer_jrg_pdgc.ini"}) {
     assert_int_equal(tactus_run({"check", pipeline}), 0);
-    assert_true(errors().empty());
+    assert_true(errors().find("warning") == std::string_view::npos);
   }
 }
 

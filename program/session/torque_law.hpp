@@ -1,0 +1,48 @@
+// TorqueLaw: where the law behind a pipeline's torque is to keep the arm.
+#pragma once
+
+#include <type_traits>
+
+#include "kernel/pipeline/kinds.hpp"
+#include "kernel/pipeline/pipeline.hpp"
+
+namespace tactus {
+
+struct TorqueLaw {
+  const JointVector* q_d = nullptr;   ///< rad; null: the torque comes from no law of positions
+  const JointVector* dq_d = nullptr;  ///< rad/s; null: it takes none
+};
+
+/// True for a block that turns an input q_d into an output tau.
+template <class Kind, class = void>
+struct IsTorqueLaw : std::false_type {};
+template <class Kind>
+struct IsTorqueLaw<Kind, std::void_t<decltype(std::declval<Kind>().q_d.source),
+                                     decltype(std::declval<Kind>().tau.value)>> : std::true_type {};
+
+template <class Kind, class = void>
+struct TakesVelocity : std::false_type {};
+template <class Kind>
+struct TakesVelocity<Kind, std::void_t<decltype(std::declval<Kind>().dq_d.source)>>
+    : std::true_type {};
+
+/// Returns the inputs of the block that commands the torque of a pipeline that is loaded. [init]
+inline TorqueLaw torque_law(const Pipeline& pipeline) {
+  TorqueLaw found;
+  for (int i = 0; i < pipeline.count(); ++i) {
+    const Block& block = pipeline[i];
+    with_kind(block.kind, [&](auto type) {
+      using Kind = typename decltype(type)::Type;
+      if constexpr (IsTorqueLaw<Kind>::value) {
+        const Kind& law = *static_cast<const Kind*>(block.place);
+        if (&law.tau.value != pipeline.robot.tau_c.source) return;
+        found.q_d = law.q_d.source;
+        if constexpr (TakesVelocity<Kind>::value)
+          if (law.dq_d.wired()) found.dq_d = law.dq_d.source;
+      }
+    });
+  }
+  return found;
+}
+
+}  // namespace tactus
