@@ -1,4 +1,4 @@
-// Tests the tutorial: its commands are run as they stand, in a fresh folder.
+// Tests the pages whose commands a reader runs: they are run as they stand, in a fresh folder.
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {
@@ -12,10 +12,12 @@ int try_page(const char* page) {
 
 // Proves DOC-1.
 
-void the_tutorial_prints_what_it_says(void**) {
-  const int code = try_page("docs/tutorial.md");
-  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
-  assert_int_equal(code, 0);
+void the_pages_print_what_they_say(void**) {
+  for (const char* page : {"docs/tutorial.md", "docs/commissioning.md"}) {
+    const int code = try_page(page);
+    if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
+    assert_int_equal(code, 0);
+  }
 }
 
 void a_page_that_says_anything_else_is_found(void**) {
@@ -43,7 +45,7 @@ void a_page_that_says_anything_else_is_found(void**) {
 int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
-      cmocka_unit_test(the_tutorial_prints_what_it_says),
+      cmocka_unit_test(the_pages_print_what_they_say),
       cmocka_unit_test(a_page_that_says_anything_else_is_found),
   };
   return run_program_tests(argv[0], tests);
