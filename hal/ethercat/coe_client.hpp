@@ -14,6 +14,9 @@ namespace tactus::ethercat {
 class CoeClient {
  public:
   static constexpr std::size_t kCapacity = 128;  ///< bytes of the longest object
+  /// Bytes of a message that are ever written or read, however long the mailbox is: the object
+  /// behind command, index, sub-index and size.
+  static constexpr std::size_t kMostMessage = kCoeBody + 8 + kCapacity;
 
   enum class Progress : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
@@ -28,10 +31,12 @@ class CoeClient {
   void download_bytes(std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
                       const std::uint8_t* bytes, std::size_t size, std::int64_t now_ns);
 
-  /// Writes the next message into `mailbox`, of `size` bytes; false: there is none. [any]
+  /// Writes the next message into `mailbox`, and zeros behind it up to `size` bytes; those are the
+  /// whole mailbox, or kMostMessage. False: there is none. [any]
   bool take(std::uint8_t* mailbox, std::size_t size);
-  /// Takes a message of the slave; what is no answer to the transfer is ignored. Returns true, and
-  /// the emergency, if it is one. [any]
+  /// Takes a message of the slave out of a mailbox of `size` bytes, of which kMostMessage are there
+  /// at most; what is no answer to the transfer is ignored. Returns true, and the emergency, if it
+  /// is one. [any]
   bool receive(const std::uint8_t* mailbox, std::size_t size, can::Emergency& emergency,
                std::int64_t now_ns);
   void advance(std::int64_t now_ns);  ///< ends a transfer that waits too long [any]

@@ -1,20 +1,45 @@
 #include "hal/ethercat/cyclic_frame.hpp"
 
+#include <algorithm>
+
 #include "kernel/core/loop_bound.hpp"
 
 namespace tactus::ethercat {
 namespace {
 
-// Places of the datagrams in the frame; that of the clock is left out where there is none.
-constexpr int kImagePlace = 0, kClockPlace = 1, kAskedPlace = 2, kExtraPlace = 3;
-constexpr int kPlaces = 4;
 constexpr int kMostMissing = 1000;  // more are not counted
 constexpr std::size_t kClockBytes = 8, kAskedBytes = 6;
 
+/// Of the working counter: for each slave reading adds 1, and writing 1, or 2 in LRW.
+constexpr int expected(Command command) {
+  return command == Command::kLrw ? 3 * kDof : kDof;
+}
+constexpr const char* name(Command command) {
+  return command == Command::kLrw ? "LRW" : command == Command::kLrd ? "LRD" : "LWR";
+}
+
+// However large the image is, a message has room beside it.
+static_assert(kMaxData - (kMostImage + 2 * (kDatagramBytes + kCounterBytes)) -
+                  (kClockBytes + kAskedBytes + 2 * (kDatagramBytes + kCounterBytes)) >=
+              Request::kKept);
+
 }  // namespace
 
-void CyclicFrame::start(std::size_t image_bytes, bool has_clock, const std::uint8_t* source) {
-  image_bytes_ = image_bytes;
+void CyclicFrame::start(const ImageShape& image, bool has_clock, const std::uint8_t* source) {
+  const auto inputs = static_cast<std::uint32_t>(kImageAddress + image.outputs);
+  parts_ = {};
+  count_ = in_frame_ = 0;
+  room_ = kMaxData;
+  if (image.lrw) {
+    add(What::kImage, Command::kLrw, kImageAddress, image.bytes());
+  } else {
+    add(What::kImage, Command::kLrd, inputs, image.inputs);
+    add(What::kImage, Command::kLwr, kImageAddress, image.outputs);
+  }
+  if (has_clock)
+    add(What::kClock, Command::kFrmw, address_of(kFirstStation, kSystemTimeReg), kClockBytes);
+  add(What::kAsked, Command::kFprd, 0, kAskedBytes);
+  ++count_;  // the extra one
   has_clock_ = has_clock;
   std::memcpy(source_, source, sizeof source_);
   image_.fill(0);
@@ -24,54 +49,64 @@ void CyclicFrame::start(std::size_t image_bytes, bool has_clock, const std::uint
   counts_ = {};
 }
 
+void CyclicFrame::add(What what, Command command, std::uint32_t address, std::size_t size) {
+  parts_[count_++] = {what, command, address, size, 0};
+  room_ -= kDatagramBytes + size + kCounterBytes;
+}
+
 void CyclicFrame::compose(std::uint16_t asked, const Request& extra, Frame& frame) {
   FrameWriter writer(frame, source_);
   ++index_;
-  std::memcpy(writer.add(Command::kLrw, index_, kImageAddress, image_bytes_), image_.data(),
-              image_bytes_);
-  if (has_clock_)
-    writer.add(Command::kFrmw, index_, address_of(kFirstStation, kSystemTimeReg), kClockBytes);
-  writer.add(Command::kFprd, index_, address_of(asked, kAlStatusReg), kAskedBytes);
-  std::uint8_t* const data = writer.add(extra.command, index_, extra.address, extra.size);
-  extra_bytes_ = data != nullptr ? extra.size : 0;
-  if (data != nullptr) std::memcpy(data, extra.data.data(), extra.size);
+  LoopBound<static_cast<int>(kMostParts)> parts;
+  for (in_frame_ = 0; in_frame_ + 1 < count_; ++in_frame_) {
+    parts.tick();
+    Part& part = parts_[in_frame_];
+    if (part.what == What::kAsked) part.address = address_of(asked, kAlStatusReg);
+    std::uint8_t* const data = writer.add(part.command, index_, part.address, part.size);
+    if (part.what == What::kImage)
+      std::memcpy(data, &image_[part.address - kImageAddress], part.size);
+  }
+  if (extra.add_to(writer, index_))
+    parts_[in_frame_++] = {What::kExtra, extra.command, extra.address, extra.size, 0};
   writer.pad();
   sent_ = true;
   came_ = false;
+  extra_counter_ = 0;
   ++counts_.frames;
 }
 
-/// Bytes of the datagram at a place, and its command, must be those that were sent.
-bool CyclicFrame::take(const Datagram& datagram, int place) {
-  const std::size_t sizes[kPlaces] = {image_bytes_, kClockBytes, kAskedBytes, extra_bytes_};
-  if (datagram.size != sizes[place]) return false;
-  switch (place) {
-    case kImagePlace:
-      counter_ = datagram.counter();
-      std::memcpy(received_.data(), datagram.data, image_bytes_);
-      return datagram.command == Command::kLrw && datagram.logical() == kImageAddress;
-    case kClockPlace:
+/// The datagram must be the one that was sent. The position of a datagram to a station stays as it
+/// is, but that of others counts slaves.
+bool CyclicFrame::take(const Datagram& datagram, Part& part) {
+  const bool whole = part.what == What::kImage ? datagram.logical() == part.address
+                                               : datagram.reg() == part.address >> 16;
+  if (datagram.command != part.command || datagram.size != part.size || !whole) return false;
+  part.counter = datagram.counter();
+  switch (part.what) {
+    case What::kImage:
+      std::memcpy(&received_[part.address - kImageAddress], datagram.data, part.size);
+      break;
+    case What::kClock:
       has_reference_ = datagram.counter() > 0;
       reference_ns_ = get<std::int64_t>(datagram.data);
-      return datagram.command == Command::kFrmw;
-    case kAskedPlace:
+      break;
+    case What::kAsked:
       asked_status_ = get<std::uint16_t>(datagram.data);
       asked_code_ = get<std::uint16_t>(datagram.data + 4);
       asked_counter_ = datagram.counter();
-      return datagram.command == Command::kFprd;
-    case kExtraPlace:
+      break;
+    case What::kExtra:
       extra_counter_ = datagram.counter();
-      std::memcpy(extra_.data(), datagram.data, extra_bytes_);
-      return true;
-    default: return false;
+      std::memcpy(extra_.data(), datagram.data, std::min(part.size, extra_.size()));
   }
+  return true;
 }
 
 /// A frame counts only as a whole: nothing of it is used before its last datagram was found.
 void CyclicFrame::receive(Frame& frame) {
   FrameReader reader(frame);
   Datagram datagram;
-  if (!reader.next(datagram) || datagram.command != Command::kLrw) {
+  if (!reader.next(datagram) || datagram.command != parts_[0].command) {
     ++counts_.strange;
     return;
   }
@@ -83,16 +118,33 @@ void CyclicFrame::receive(Frame& frame) {
     ++counts_.strange;
     return;
   }
-  bool right = take(datagram, kImagePlace);
-  int place = kImagePlace;
+  bool right = take(datagram, parts_[0]);
+  std::size_t place = 1;
   LoopBound<static_cast<int>(kMaxDatagrams)> datagrams;
   while (right && reader.next(datagram)) {
     datagrams.tick();
-    place += place == kImagePlace && !has_clock_ ? 2 : 1;
-    right = place < kPlaces && datagram.index == index_ && take(datagram, place);
+    right = place < in_frame_ && datagram.index == index_ && take(datagram, parts_[place]);
+    ++place;
   }
-  came_ = right && reader.whole() && place + 1 == kPlaces;
+  came_ = right && reader.whole() && place == in_frame_;
   if (!came_) ++counts_.strange;
+}
+
+bool CyclicFrame::exchanged() const {
+  bool all = true;
+  for (const Part& part : parts_)
+    all = all && (part.what != What::kImage || part.counter == expected(part.command));
+  return all;
+}
+
+Message CyclicFrame::counter_text() const {
+  Message text;
+  for (const Part& part : parts_) {
+    if (part.what != What::kImage) continue;
+    text << (text.empty() ? "the working counter of " : ", that of ") << name(part.command)
+         << " is " << part.counter << ", expected " << expected(part.command);
+  }
+  return text;
 }
 
 CyclicFrame::Came CyclicFrame::close() {
@@ -104,7 +156,7 @@ CyclicFrame::Came CyclicFrame::close() {
     return Came::kNothing;
   }
   missing_ = 0;
-  if (counter_ == kExpected && has_reference_ == has_clock_) return Came::kInputs;
+  if (exchanged() && has_reference_ == has_clock_) return Came::kInputs;
   ++counts_.counter;
   return Came::kWrongCounter;
 }

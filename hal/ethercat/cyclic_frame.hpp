@@ -1,6 +1,8 @@
 // CyclicFrame: the one frame of a cycle and what comes back of it.
 //
-//   LRW   the process data of all drives
+//   LRW   the process data of all drives; where one of them cannot, for all instead:
+//     LRD   the inputs, and then
+//     LWR   the outputs
 //   FRMW  0910h: the reference clock, which all others follow
 //   FPRD  0130h: state and status code of one slave after the other
 //   ...   one datagram to a mailbox, or to request a state
@@ -27,7 +29,9 @@ class CyclicFrame {
  public:
   enum class Came : std::uint8_t { kNothing, kWrongCounter, kInputs };
 
-  void start(std::size_t image_bytes, bool has_clock, const std::uint8_t* source);
+  void start(const ImageShape& image, bool has_clock, const std::uint8_t* source);
+  /// Bytes of data that `extra` may have. [cyclic]
+  std::size_t room() const { return room_; }
   std::uint8_t* image() { return image_.data(); }
   const std::uint8_t* inputs() const { return received_.data(); }
 
@@ -49,24 +53,38 @@ class CyclicFrame {
   std::uint16_t asked_code() const { return asked_code_; }
   Answer extra() const { return {extra_counter_, extra_.data()}; }
 
-  /// Of the working counter: reading adds 1 and writing 2, for each slave.
-  static constexpr int kExpected = 3 * kDof;
-  int counter() const { return counter_; }
+  /// True if every drive has read and written its process data. [cyclic]
+  bool exchanged() const;
+  /// "the working counter of LRW is 18, expected 21". [any]
+  Message counter_text() const;
   const LineCounts& counts() const { return counts_; }
 
  private:
-  bool take(const Datagram& datagram, int place);
+  enum class What : std::uint8_t { kImage, kClock, kAsked, kExtra };
+  /// A datagram of the frame.
+  struct Part {
+    What what = What::kExtra;
+    Command command = Command::kNop;
+    std::uint32_t address = 0;
+    std::size_t size = 0;
+    int counter = 0;  // of the one that came
+  };
+  static constexpr std::size_t kMostParts = 5;
+
+  void add(What what, Command command, std::uint32_t address, std::size_t size);
+  bool take(const Datagram& datagram, Part& part);
 
   std::uint8_t source_[6] = {};
-  std::size_t image_bytes_ = 0, extra_bytes_ = 0;
+  std::array<Part, kMostParts> parts_{};  // of the frame, in their order
+  std::size_t count_ = 0, in_frame_ = 0, room_ = 0;
   bool has_clock_ = false, sent_ = false, came_ = false;
   std::uint8_t index_ = 0;
   std::array<std::uint8_t, kMostImage> image_{}, received_{};
-  std::array<std::uint8_t, Request::kMostBytes> extra_{};
+  std::array<std::uint8_t, Request::kKept> extra_{};
   std::int64_t reference_ns_ = 0;
   bool has_reference_ = false;
   std::uint16_t asked_status_ = 0, asked_code_ = 0;
-  int asked_counter_ = 0, extra_counter_ = 0, counter_ = 0;
+  int asked_counter_ = 0, extra_counter_ = 0;
   int missing_ = 0;
   LineCounts counts_;
 };

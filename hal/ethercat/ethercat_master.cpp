@@ -69,7 +69,7 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
   phase_ = Phase::kOperates;
   since_ns_ = now_ns;
   sent_ns_ = now_ns - std::int64_t{1000} * period_us_;
-  cyclic_.start(startup_.image_bytes(), startup_.has_clocks(), startup_.exchange().source());
+  cyclic_.start(startup_.image(), startup_.has_clocks(), startup_.exchange().source());
   steer_.start(std::int64_t{1000} * period_us_);
   start_clock(slack_ns());
   port_.reset();
@@ -148,7 +148,7 @@ void EthercatMaster::take_mailbox() {
   // Without its frame, or with a mailbox that was full, the drive is asked again.
   if (answer.counter != 1) asks_ = false;
   coe_.advance(now_ns_);
-  const bool waits = coe_.progress() == CoeClient::Progress::kBusy || port_.full();
+  const bool waits = coe_.progress() == CoeClient::Progress::kBusy || port_.busy();
   if (!waits) boxed_ = boxed_ + 1 == kDof ? 0 : boxed_ + 1;
 }
 
@@ -205,7 +205,8 @@ void EthercatMaster::compose(const cia402::DriveCommands& commands, const Reques
   own_extra_ = extra != nullptr;
   const Slave& boxed = slaves_[static_cast<std::size_t>(boxed_)];
   const Slave& asked = slaves_[static_cast<std::size_t>(asked_)];
-  cyclic_.compose(asked.boxes.station, own_extra_ ? *extra : port_.next(boxed.boxes), out_);
+  cyclic_.compose(asked.boxes.station,
+                  own_extra_ ? *extra : port_.next(boxed.boxes, cyclic_.room()), out_);
   has_out_ = true;
 }
 

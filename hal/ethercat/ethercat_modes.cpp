@@ -81,13 +81,12 @@ Status EthercatMaster::not_operating() {
          << std::string_view(cia402::hex(slave.al_code)) << ")";
     return Status::kRefusedByRobot;
   }
-  if (cyclic_.counter() == CyclicFrame::kExpected) {
+  if (cyclic_.exchanged()) {
     why_ = Message("slave 1 does not show its clock (0910h): the working counter of FRMW is 0");
     return Status::kRefusedByRobot;
   }
-  why_ = Message("the working counter is ");
-  why_ << cyclic_.counter() << ", expected " << CyclicFrame::kExpected
-       << ": a drive does not read or write its process data";
+  why_ = cyclic_.counter_text();
+  why_ << ": a drive does not read or write its process data";
   return Status::kBusTimeout;
 }
 

@@ -15,10 +15,9 @@ bool Exchange::take(Frame& frame) {
   if (!to_send_) return false;
   to_send_ = false;
   FrameWriter writer(frame, source_);
-  std::uint8_t* const data = writer.add(request_.command, index_, request_.address, request_.size);
-  std::memcpy(data, request_.data.data(), request_.size);
+  const bool fits = request_.add_to(writer, index_);
   writer.pad();
-  return true;
+  return fits;
 }
 
 /// The register or logical half of the address comes back unchanged.
@@ -30,7 +29,7 @@ void Exchange::receive(Frame& frame) {
       datagram.command != request_.command || datagram.reg() != request_.address >> 16)
     return;
   counter_ = datagram.counter();
-  std::memcpy(data_.data(), datagram.data, datagram.size);
+  std::memcpy(data_.data(), datagram.data, request_.kept());
   progress_ = Progress::kDone;
   to_send_ = false;
 }

@@ -7,19 +7,28 @@
 
 namespace tactus::ethercat {
 
-/// A datagram to send.
+/// A datagram to send. Only the first bytes of its data can be other than zero; of the answer only
+/// these are kept. So a mailbox of any length costs no memory but that of a frame.
 struct Request {
-  static constexpr std::size_t kMostBytes = 512;
+  static constexpr std::size_t kKept = 144;  ///< the longest message that CoeClient takes or sends
 
   Command command = Command::kNop;
   std::uint32_t address = 0;
-  std::size_t size = 0;
-  std::array<std::uint8_t, kMostBytes> data{};
+  std::size_t size = 0;  ///< of the data, at most kMaxData
+  std::array<std::uint8_t, kKept> data{};
 
   Request() = default;
-  /// `bytes` bytes, at most kMostBytes, of zeros: what a read sends. [any]
+  /// `bytes` bytes, at most kMaxData, of zeros: what a read sends. [any]
   Request(Command to_do, std::uint32_t where, std::size_t bytes)
-      : command(to_do), address(where), size(bytes < kMostBytes ? bytes : kMostBytes) {}
+      : command(to_do), address(where), size(bytes < kMaxData ? bytes : kMaxData) {}
+  /// The bytes that are kept. [any]
+  std::size_t kept() const { return size < kKept ? size : kKept; }
+  /// Appends the datagram; false: the frame has no room for it. [any]
+  bool add_to(FrameWriter& writer, std::uint8_t index) const {
+    std::uint8_t* const to = writer.add(command, index, address, size);
+    if (to != nullptr) std::memcpy(to, data.data(), kept());
+    return to != nullptr;
+  }
   template <class Number>
   static Request number(Command command, std::uint32_t address, Number value) {
     Request request(command, address, sizeof value);
@@ -28,7 +37,7 @@ struct Request {
   }
 };
 
-/// The answer to it.
+/// The answer to it, of which Request::kKept bytes are kept.
 struct Answer {
   int counter = 0;
   const std::uint8_t* data = nullptr;
@@ -66,7 +75,7 @@ class Exchange {
   int attempts_ = 0;
   std::int64_t sent_ns_ = 0;
   int counter_ = 0;
-  std::array<std::uint8_t, Request::kMostBytes> data_{};
+  std::array<std::uint8_t, Request::kKept> data_{};
 };
 
 }  // namespace tactus::ethercat

@@ -20,6 +20,8 @@ inline constexpr std::size_t kCounterBytes = 2;    ///< working counter, after t
 inline constexpr std::size_t kMinFrame = 60, kMaxFrame = 1514;
 inline constexpr std::size_t kMaxDatagrams = 15;
 inline constexpr std::size_t kFirstDatagram = kEthernetBytes + kFrameBytes;
+/// Data of a datagram that has a frame for itself: 1486 bytes.
+inline constexpr std::size_t kMaxData = kMaxFrame - kFirstDatagram - kDatagramBytes - kCounterBytes;
 inline constexpr std::uint16_t kLengthBits = 0x07FF, kFrameType = 0x1000, kTypeBits = 0xF000;
 inline constexpr std::uint16_t kMoreBit = 0x8000;  ///< of a datagram's length
 

@@ -43,7 +43,7 @@ void Startup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settin
   coe_.set_time(ethercat.sdo_ms * kMillisecond_ns);
   coe_.cancel();
   port_.reset();
-  has_clocks_ = true;
+  has_clocks_ = image_.lrw = true;
   enter(Stage::kCount);
   exchange_.ask(request(), now_ns);
 }
@@ -112,7 +112,7 @@ Request Startup::request() {
     case Stage::kMailboxes: return area_request();
     case Stage::kPreop: return state_request(AlState::kPreop);
     case Stage::kSetup:
-    case Stage::kMapping: return port_.next(at().boxes);
+    case Stage::kMapping: return port_.next(at().boxes, kMaxData);
     case Stage::kProcessData: return process_request();
     case Stage::kSafeop: return state_request(AlState::kSafeop);
     default: return clock_request();

@@ -16,6 +16,13 @@ inline constexpr std::uint16_t kFirstStation = 0x1001;
 inline constexpr std::uint32_t kImageAddress = 0x00010000;  ///< logical, of the first output
 inline constexpr std::size_t kMostImage = 1024;             ///< bytes
 
+/// The process data of all drives in their image: the outputs first, then the inputs.
+struct ImageShape {
+  std::size_t outputs = 0, inputs = 0;  ///< bytes
+  bool lrw = true;                      ///< all drives read and write in one datagram
+  std::size_t bytes() const { return outputs + inputs; }
+};
+
 class Startup {
  public:
   /// What to do where frames do not come back.
@@ -36,7 +43,7 @@ class Startup {
   /// kBusTimeout, and the reason: no frame comes back. [init]
   Status silent();
 
-  std::size_t image_bytes() const { return image_bytes_; }
+  const ImageShape& image() const { return image_; }
   /// What the drives have said. [init]
   const cia402::Learnt& learnt() const { return learnt_; }
   /// True if all slaves have a clock. [any]
@@ -83,6 +90,7 @@ class Startup {
   Status take_eeprom();
   Status take_category();
   Status judge_eeprom();
+  Status judge_mailbox(const char* of, std::uint16_t word, std::uint16_t bytes);
   Request process_request() const;
   Status take_process_data();
   Status place_image();
@@ -128,7 +136,7 @@ class Startup {
   cia402::DriveFacts facts_;  // of the present slave
   cia402::Learnt learnt_;
   MappingReader mapping_;
-  std::size_t image_bytes_ = 0;
+  ImageShape image_;
   bool has_clocks_ = false;
 };
 

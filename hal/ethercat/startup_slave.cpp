@@ -140,19 +140,22 @@ Status Startup::judge_eeprom() {
     return refuse(Status::kRefusedByRobot,
                   "its EEPROM names no sync managers of outputs and inputs; if it is empty, write "
                   "it with the drive's maker's tool");
-  const auto fits = [](std::uint16_t bytes) {
-    return bytes >= kCoeBody + 8 && bytes <= Request::kMostBytes;
-  };
-  if (!fits(slave.boxes.out_bytes) || !fits(slave.boxes.in_bytes)) {
-    Message what("its mailboxes have ");
-    what << int{slave.boxes.out_bytes} << " and " << int{slave.boxes.in_bytes}
-         << " bytes, expected 16 to " << Request::kMostBytes
-         << "; this program has no room for longer ones";
-    return refuse(Status::kRefusedByRobot, what);
-  }
+  TRY(judge_mailbox("requests", kSiiMailboxOut + 1, slave.boxes.out_bytes));
+  TRY(judge_mailbox("answers", kSiiMailboxIn + 1, slave.boxes.in_bytes));
   stage_ = Stage::kMailboxes;
   step_ = 0;
   return Status::kOk;
+}
+
+/// `word`: where the EEPROM has its length.
+Status Startup::judge_mailbox(const char* of, std::uint16_t word, std::uint16_t bytes) {
+  if (bytes >= Mailboxes::kLeast && bytes <= Mailboxes::kMost) return Status::kOk;
+  Message what("its mailbox of ");
+  what << of << " has " << int{bytes} << " bytes by its EEPROM (word "
+       << std::string_view(cia402::hex(word)) << "), expected " << Mailboxes::kLeast << " to "
+       << Mailboxes::kMost << ", ";
+  what << (bytes < Mailboxes::kLeast ? "an SDO message" : "what a frame has room for");
+  return refuse(Status::kRefusedByRobot, what);
 }
 
 Request Startup::area_request() const {
@@ -202,19 +205,18 @@ Status Startup::take_process_data() {
 
 /// Outputs of all joints, then inputs of all.
 Status Startup::place_image() {
-  std::size_t bytes = 0;
+  image_.outputs = image_.inputs = 0;
   for (Slave& slave : slaves_) {
-    slave.data.out_at = bytes;
-    bytes += slave.data.outputs.bytes();
+    slave.data.out_at = image_.outputs;
+    image_.outputs += slave.data.outputs.bytes();
   }
   for (Slave& slave : slaves_) {
-    slave.data.in_at = bytes;
-    bytes += slave.data.inputs.bytes();
+    slave.data.in_at = image_.bytes();
+    image_.inputs += slave.data.inputs.bytes();
   }
-  image_bytes_ = bytes;
-  if (bytes <= kMostImage) return Status::kOk;
+  if (image_.bytes() <= kMostImage) return Status::kOk;
   why_ = Message("the process data of all drives have ");
-  why_ << bytes << " bytes, at most " << kMostImage;
+  why_ << image_.bytes() << " bytes, at most " << kMostImage;
   return Status::kTooLarge;
 }
 

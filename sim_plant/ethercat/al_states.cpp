@@ -46,8 +46,8 @@ std::uint16_t DriveSlave::judge(AlState to) const {
   const SmPlaces& places = settings_.places;
   switch (to) {
     case AlState::kPreop: {
-      const bool fits = places_fit(0, places.mailbox_out, places.mailbox_bytes, true) &&
-                        places_fit(1, places.mailbox_in, places.mailbox_bytes, false);
+      const bool fits = places_fit(0, places.mailbox_out, places.mailbox_out_bytes, true) &&
+                        places_fit(1, places.mailbox_in, places.mailbox_in_bytes, false);
       return fits ? std::uint16_t{0} : kAlMailboxSetup;
     }
     case AlState::kSafeop: {
@@ -73,7 +73,7 @@ bool DriveSlave::places_fit(std::size_t sm, std::uint16_t start, std::size_t len
 void DriveSlave::enter(AlState state) {
   if (state_ == AlState::kOp && state != AlState::kOp) leave_operation();
   if (state == AlState::kPreop && state_ == AlState::kInit)
-    server_.reset(settings_.places.mailbox_bytes);
+    server_.reset(settings_.places.mailbox_in_bytes);
   if (state == AlState::kSafeop && state_ == AlState::kPreop) {
     outputs_ = objects_.process_data(true);
     inputs_ = objects_.process_data(false);

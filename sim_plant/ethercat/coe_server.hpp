@@ -3,11 +3,13 @@
 #pragma once
 
 #include "hal/ethercat/protocol_coe.hpp"
+#include "hal/ethercat/protocol_frame.hpp"
 #include "sim_plant/ethercat/coe_objects.hpp"
 
 namespace tactus::segment {
 
-inline constexpr std::size_t kMostMailbox = 256;  ///< bytes of the longest message
+/// Bytes of the longest message: what a frame has room for.
+inline constexpr std::size_t kMostMailbox = ethercat::kMaxData;
 
 struct MailboxMessage {
   std::array<std::uint8_t, kMostMailbox> bytes{};

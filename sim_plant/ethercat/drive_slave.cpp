@@ -29,7 +29,7 @@ void DriveSlave::power_on(const SlaveSettings& settings) {
   esc_.power_on(image_, settings.clock);
   errors_.reset();
   axis_.power_on(settings.axis);
-  server_.reset(settings.places.mailbox_bytes);
+  server_.reset(settings.places.mailbox_in_bytes);
   state_ = AlState::kInit;
   error_ = awaits_outputs_ = has_outputs_ = false;
   outputs_ = inputs_ = {};

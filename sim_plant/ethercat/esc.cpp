@@ -26,6 +26,7 @@ constexpr std::uint8_t kDoes[kCommands] = {
 
 void Esc::power_on(const SiiImage& image, const EscClock& clock) {
   memory_.fill(0);
+  open_.fill(false);
   image_ = &image;
   clock_ = clock;
   outputs_ns_ = -1;
@@ -155,6 +156,7 @@ std::uint8_t* Esc::bytes(std::size_t i) {
 void Esc::set_full(std::size_t i, bool full) {
   std::uint8_t& status = memory_[kSmReg + kSmBytes * i + 5];
   status = static_cast<std::uint8_t>(full ? status | kSmFull : status & ~kSmFull);
+  open_[i] = false;
 }
 
 bool Esc::take_outputs() {

@@ -87,6 +87,7 @@ class Esc {
   bool map_bits(std::size_t fmmu, const Datagram& datagram, bool writes, const std::uint8_t* from);
 
   std::array<std::uint8_t, kMemory> memory_{};
+  std::array<bool, kSms> open_{};  // mailboxes of which the master has accessed the first byte
   const SiiImage* image_ = nullptr;
   EscClock clock_;
   std::int64_t now_ns_ = 0, outputs_ns_ = -1, port_ns_ = 0;

@@ -44,15 +44,17 @@ bool covers(std::size_t at, std::size_t size, std::size_t reg) {
 
 }  // namespace
 
-/// A sync manager lets the master through in its direction only, and a mailbox only if it is full,
-/// or empty.
+/// A sync manager lets the master through in its direction only, and into a mailbox only if it is
+/// full, or empty, and from its first byte on, be it in several datagrams.
 bool Esc::allows(std::size_t at, std::size_t size, bool writes) const {
   if (at < kRam) return true;
   for (std::size_t i = 0; i < kSms; ++i) {
     const SyncManager manager = sm(i);
     if (!manager.enabled() || !manager.covers(at, size)) continue;
     if (manager.written() != writes) return false;
-    if (manager.mailbox() && manager.full() == writes) return false;
+    if (!manager.mailbox()) continue;
+    if (manager.full() == writes) return false;
+    if (!open_[i] && !covers(at, size, manager.start)) return false;
   }
   return true;
 }
@@ -61,8 +63,9 @@ bool Esc::allows(std::size_t at, std::size_t size, bool writes) const {
 void Esc::complete(std::size_t at, std::size_t size, bool writes) {
   for (std::size_t i = 0; i < kSms; ++i) {
     const SyncManager manager = sm(i);
-    if (!manager.enabled() || !covers(at, size, std::size_t{manager.start} + manager.length - 1U))
-      continue;
+    if (!manager.enabled()) continue;
+    if (covers(at, size, manager.start)) open_[i] = true;
+    if (!covers(at, size, std::size_t{manager.start} + manager.length - 1U)) continue;
     if (manager.mailbox()) set_full(i, writes);
     if (writes && !manager.mailbox()) {
       outputs_ = true;

@@ -21,13 +21,12 @@ bool is_logical(Command command) {
 Status Segment::load(const SegmentSettings& settings, std::int64_t now_ns) {
   settings_ = settings;
   if (settings.slaves < 1 || settings.slaves > kDof) return Status::kBadValue;
-  if (settings.places.mailbox_bytes > kMostMailbox) return Status::kBadValue;
   drives::DrivenArm::Axes axes{};
   for (int i = 0; i < settings.slaves; ++i) {
     SlaveSettings slave;
     slave.number = static_cast<std::uint8_t>(i + 1);
     slave.axis = drives::axis_settings(settings, static_cast<std::size_t>(i));
-    slave.places = settings.places;
+    slave.places = settings.places[static_cast<std::size_t>(i)];
     slave.clock =
         EscClock(kApart_ns * (i + 1), i % 2 == 0 ? settings.drift_ppb : -settings.drift_ppb);
     slaves_[static_cast<std::size_t>(i)].power_on(slave);

@@ -16,9 +16,9 @@ namespace tactus::segment {
 
 struct SegmentSettings : drives::DrivenArmSettings {
   int slaves = kDof;
-  SmPlaces places;
-  std::int64_t drift_ppb = 20'000;  ///< of the clocks, alternately faster and slower
-  std::uint64_t seed = 1;           ///< of faults by probability
+  std::array<SmPlaces, kDof> places;  ///< of each slave
+  std::int64_t drift_ppb = 20'000;    ///< of the clocks, alternately faster and slower
+  std::uint64_t seed = 1;             ///< of faults by probability
 };
 
 class Segment {

@@ -39,7 +39,8 @@ void SiiImage::compose(const SiiIdentity& identity, const SmPlaces& places) {
   put32(kSiiSerial, identity.serial);
   words_[kSiiMailboxOut] = places.mailbox_out;
   words_[kSiiMailboxIn] = places.mailbox_in;
-  words_[kSiiMailboxOut + 1] = words_[kSiiMailboxIn + 1] = places.mailbox_bytes;
+  words_[kSiiMailboxOut + 1] = places.mailbox_out_bytes;
+  words_[kSiiMailboxIn + 1] = places.mailbox_in_bytes;
   words_[kSiiProtocols] = kSiiCoe;
   words_[kSiiSize] = kWords / 64 - 1;  // in kibibits, less one
   words_[kSiiVersion] = 1;
@@ -101,8 +102,8 @@ void SiiImage::sync_managers(const SmPlaces& places) {
   };
   begin(kSiiSms);
   for (const Row& row :
-       {Row{places.mailbox_out, places.mailbox_bytes, kMailboxOutControl, kSiiMailboxOutSm},
-        Row{places.mailbox_in, places.mailbox_bytes, kMailboxInControl, kSiiMailboxInSm},
+       {Row{places.mailbox_out, places.mailbox_out_bytes, kMailboxOutControl, kSiiMailboxOutSm},
+        Row{places.mailbox_in, places.mailbox_in_bytes, kMailboxInControl, kSiiMailboxInSm},
         Row{places.outputs, 8, kOutputsControl, kSiiOutputsSm},
         Row{places.inputs, 16, kInputsControl, kSiiInputsSm}}) {
     put16(row.start);

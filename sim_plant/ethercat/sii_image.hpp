@@ -7,10 +7,27 @@
 
 namespace tactus::segment {
 
-/// Places of the sync managers in the memory of the controller.
+/// Places of the sync managers in the memory of the controller, one after the other.
 struct SmPlaces {
-  std::uint16_t mailbox_out = 0x1000, mailbox_in = 0x1100, mailbox_bytes = 128;
-  std::uint16_t outputs = 0x1200, inputs = 0x1400;
+  static constexpr int kLongestMailbox = 2048;  ///< bytes; more than a frame has room for
+
+  std::uint16_t mailbox_out = 0x1000, mailbox_in = 0x1100, outputs = 0x1200, inputs = 0x1400;
+  std::uint16_t mailbox_out_bytes = 128, mailbox_in_bytes = 128;
+
+  /// With mailboxes of 0 to kLongestMailbox bytes, of requests and of answers. [init]
+  static constexpr SmPlaces with_mailboxes(int out_bytes, int in_bytes) {
+    constexpr int kStep = 0x100;
+    const auto behind = [](int at, int bytes) {
+      return at + (bytes <= kStep ? kStep : (bytes + kStep - 1) / kStep * kStep);
+    };
+    SmPlaces places;
+    places.mailbox_out_bytes = static_cast<std::uint16_t>(out_bytes);
+    places.mailbox_in_bytes = static_cast<std::uint16_t>(in_bytes);
+    places.mailbox_in = static_cast<std::uint16_t>(behind(places.mailbox_out, out_bytes));
+    places.outputs = static_cast<std::uint16_t>(behind(places.mailbox_in, in_bytes));
+    places.inputs = static_cast<std::uint16_t>(places.outputs + 2 * kStep);
+    return places;
+  }
 };
 
 struct SiiIdentity {

@@ -52,6 +52,9 @@ struct SegmentBench {
     put(bytes, number);
     return send(Command::kFpwr, address_of(station(slave), reg), bytes, sizeof bytes);
   }
+  const SmPlaces& places(int slave) const {
+    return settings.places[static_cast<std::size_t>(slave)];
+  }
   static std::uint16_t station(int slave) { return static_cast<std::uint16_t>(kFirst + slave); }
   std::uint16_t word() const { return get<std::uint16_t>(data.data()); }
   std::uint32_t dword() const { return get<std::uint32_t>(data.data()); }
@@ -96,13 +99,13 @@ struct SegmentBench {
     assert_int_equal(get<std::uint16_t>(data.data() + 4), code);
   }
   void set_mailboxes(int slave) {
-    const SmPlaces& places = settings.places;
-    write_sm(slave, 0, places.mailbox_out, places.mailbox_bytes, kMailboxOutControl);
-    write_sm(slave, 1, places.mailbox_in, places.mailbox_bytes, kMailboxInControl);
+    const SmPlaces& at = places(slave);
+    write_sm(slave, 0, at.mailbox_out, at.mailbox_out_bytes, kMailboxOutControl);
+    write_sm(slave, 1, at.mailbox_in, at.mailbox_in_bytes, kMailboxInControl);
   }
   void set_process_data(int slave, std::uint16_t out = 8, std::uint16_t in = 16) {
-    write_sm(slave, 2, settings.places.outputs, out, kOutputsControl);
-    write_sm(slave, 3, settings.places.inputs, in, kInputsControl);
+    write_sm(slave, 2, places(slave).outputs, out, kOutputsControl);
+    write_sm(slave, 3, places(slave).inputs, in, kInputsControl);
   }
   /// Sends CoE bytes, from the service on, and returns the number of bytes that come back;
   /// kNoFrame: no answer.
@@ -111,15 +114,14 @@ struct SegmentBench {
     put(message.data(), static_cast<std::uint16_t>(size));
     message[5] = kMailboxCoe | 1 << kMailboxCounterShift;
     std::memcpy(message.data() + kMailboxBytes, body, size);
-    const SmPlaces& places = settings.places;
-    if (send(Command::kFpwr, address_of(station(slave), places.mailbox_out), message.data(),
-             places.mailbox_bytes) != 1)
+    const SmPlaces& at = places(slave);
+    if (send(Command::kFpwr, address_of(station(slave), at.mailbox_out), message.data(),
+             at.mailbox_out_bytes) != 1)
       return kNoFrame;
     return answer(slave);
   }
   int answer(int slave) {
-    if (read(slave, settings.places.mailbox_in, settings.places.mailbox_bytes) != 1)
-      return kNoFrame;
+    if (read(slave, places(slave).mailbox_in, places(slave).mailbox_in_bytes) != 1) return kNoFrame;
     return get<std::uint16_t>(data.data());
   }
   /// SDO requests of 8 bytes; returns the command byte of the answer.

@@ -4,11 +4,11 @@
 namespace tactus::segment {
 namespace {
 
-SegmentBench& fresh(int slaves = 1, std::uint16_t mailbox_bytes = 128) {
+SegmentBench& fresh(int slaves = 1, int mailbox_bytes = 128) {
   static SegmentBench bench;
   bench.settings = {};
   bench.settings.slaves = slaves;
-  bench.settings.places.mailbox_bytes = mailbox_bytes;
+  bench.settings.places.fill(SmPlaces::with_mailboxes(mailbox_bytes, mailbox_bytes));
   bench.now_ns = 0;
   bench.load();
   return bench;

@@ -88,7 +88,13 @@ void a_mailbox_takes_one_message_at_a_time_and_only_in_its_direction(void**) {
   assert_int_equal(bench.read(0, kSmReg + 5, 1), 1);
   assert_int_equal(bench.data[0] & kSmFull, kSmFull);
   assert_int_equal(bench.send(Command::kFpwr, at, message, 16), 0);  // full
-  bench.write_sm(0, 0, 0x1000, 0, kMailboxOutControl);               // disabling empties it
+  bench.write_sm(0, 1, 0x1100, 16, kMailboxInControl);
+  bench.line.slave(0).esc().set_full(1, true);
+  assert_int_equal(bench.read(0, 0x1108, 8), 0);  // not from its first byte on
+  assert_int_equal(bench.read(0, 0x1100, 8), 1);
+  assert_int_equal(bench.read(0, 0x110F, 1), 1);
+  assert_int_equal(bench.read(0, 0x1100, 8), 0);        // empty with its last byte
+  bench.write_sm(0, 0, 0x1000, 0, kMailboxOutControl);  // disabling empties it
   assert_int_equal(bench.read(0, kSmReg + 5, 1), 1);
   assert_int_equal(bench.data[0] & kSmFull, 0);
 }

@@ -2,6 +2,7 @@
 
 #include "sim_plant/drives/server/arm_parser.hpp"
 #include "sim_plant/ethercat/line_faults.hpp"
+#include "sim_plant/ethercat/sii_image.hpp"
 
 namespace tactus::segment {
 namespace {
@@ -44,6 +45,12 @@ bool parse_segment_options(int argc, char** argv, SegmentOptions& options, int& 
   app.add_option("--drift-ppm", options.drift_ppm,
                  "rate of the slaves' clocks, alternately fast and slow (default 20)")
       ->check(finite(-200.0, 200.0));
+  app.add_option("--mailbox-out", options.mailbox_out,
+                 "bytes of the mailbox of requests, in the EEPROM of every slave (default 128)")
+      ->check(CLI::Range(0, SmPlaces::kLongestMailbox));
+  app.add_option("--mailbox-in", options.mailbox_in,
+                 "bytes of the mailbox of answers (default 128)")
+      ->check(CLI::Range(0, SmPlaces::kLongestMailbox));
   parser.add_faults_and_duration(app, describe_faults());
   return parser.parse(app, argc, argv, exit_code, [&] { return take(interface, options); });
 }

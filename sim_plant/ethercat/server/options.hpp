@@ -10,8 +10,9 @@ struct SegmentOptions : drives::ArmOptions {
   char interface[16] = "";  ///< "": `descriptor` instead
   int descriptor = -1;      ///< an open socket that carries frames as packets
   int slaves = kJoints;
-  int priority = 0;         ///< of SCHED_FIFO; 0: none
-  double drift_ppm = 20.0;  ///< of the clocks
+  int priority = 0;                         ///< of SCHED_FIFO; 0: none
+  double drift_ppm = 20.0;                  ///< of the clocks
+  int mailbox_out = 128, mailbox_in = 128;  ///< bytes, of requests and of answers
 };
 
 /// Reads the command line. False: the program must end with `exit_code`, because help was requested
