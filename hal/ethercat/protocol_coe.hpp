@@ -19,7 +19,7 @@ inline constexpr std::size_t kCoeBytes = 2;
 inline constexpr std::size_t kCoeBody = kMailboxBytes + kCoeBytes;
 inline constexpr int kCoeServiceShift = 12;
 inline constexpr std::uint16_t kCoeEmergency = 1, kCoeSdoRequest = 2, kCoeSdoAnswer = 3,
-                               kCoeInformation = 8;
+                               kCoeInformation = 8;  // the last one
 
 // SDO information: fragments left u16 after opcode u8 and a reserved byte.
 inline constexpr std::uint8_t kListRequest = 1, kListAnswer = 2, kDescriptionRequest = 3,
@@ -35,8 +35,9 @@ inline constexpr std::uint16_t kRxMapping = 0x1600, kTxMapping = 0x1A00;
 
 // An error reply of the mailbox itself: type u16, code u16 (ETG.1000.4).
 inline constexpr std::size_t kMailboxErrorBytes = 4;
-inline constexpr std::uint16_t kMailboxUnsupported = 0x0002, kMailboxBadHeader = 0x0005,
-                               kMailboxTooShort = 0x0006;
+inline constexpr std::uint16_t kMailboxUnsupported = 0x0002, kMailboxNoService = 0x0004,
+                               kMailboxBadHeader = 0x0005, kMailboxTooShort = 0x0006,
+                               kMailboxWrongSize = 0x0008;
 
 /// Returns what the code of an error reply means, never null. [any]
 constexpr const char* mailbox_error_text(std::uint16_t code) {

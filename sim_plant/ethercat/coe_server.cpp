@@ -83,7 +83,7 @@ CoeResult CoeServer::receive(const std::uint8_t* message, std::size_t size, bool
   if ((message[5] & kMailboxTypeBits) != kMailboxCoe) {
     error(kMailboxUnsupported);
   } else if (length > size - kMailboxBytes) {
-    error(kMailboxBadHeader);
+    error(kMailboxWrongSize);
   } else if (length < kCoeBytes) {
     error(kMailboxTooShort);
   } else {
@@ -91,7 +91,7 @@ CoeResult CoeServer::receive(const std::uint8_t* message, std::size_t size, bool
     if (service == kCoeSdoRequest)
       answer_sdo(message + kCoeBody, length - kCoeBytes, result);
     else
-      error(kMailboxUnsupported);
+      error(service == 0 || service > kCoeInformation ? kMailboxBadHeader : kMailboxNoService);
   }
   return result;
 }

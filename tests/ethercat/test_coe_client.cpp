@@ -85,16 +85,22 @@ void an_object_that_is_too_large_is_refused_by_us(void**) {
                       "object 1008h:0: it has 1000000 bytes, and this program takes at most 128");
 }
 
-/// No abort of the drive: its mailbox has not passed the request on.
+/// No abort of the drive: its mailbox has not passed the request on. The codes are those of the
+/// error reply in ETG.1000.4, which names them MBXERR_SYNTAX to MBXERR_INVALIDSIZE.
 void an_error_of_the_mailbox_is_told_as_that(void**) {
   struct Row {
     std::uint8_t code;
     const char* says;
   };
   for (const Row& row :
-       {Row{2, "unsupported protocol (error 0002h of ETG.1000.4)"},
+       {Row{1, "wrong syntax of the header (error 0001h of ETG.1000.4)"},
+        Row{2, "unsupported protocol (error 0002h of ETG.1000.4)"},
+        Row{3, "wrong channel (error 0003h of ETG.1000.4)"},
+        Row{4, "unsupported service (error 0004h of ETG.1000.4)"},
         Row{5, "invalid header (error 0005h of ETG.1000.4)"},
         Row{6, "too short (error 0006h of ETG.1000.4)"},
+        Row{7, "no memory (error 0007h of ETG.1000.4)"},
+        Row{8, "inconsistent length (error 0008h of ETG.1000.4)"},
         Row{9, "a code that the standard does not have (error 0009h of ETG.1000.4)"}}) {
     Bench bench;
     bench.client.upload(kBox, 0x1000, 0, 0);

@@ -176,18 +176,29 @@ void a_write_in_segments_is_one_write(void**) {
 void what_is_no_coe_message_is_answered_as_an_error(void**) {
   SegmentBench& bench = fresh();
   bench.to_preop();
-  std::array<std::uint8_t, 128> message{};
-  message[0] = 10;
-  message[5] = 0x14;  // FoE
-  assert_int_equal(bench.send(Command::kFpwr, address_of(0x1001, 0x1000), message.data(), 128), 1);
-  assert_int_equal(bench.answer(0), 4);
-  assert_int_equal(bench.data[5] & kMailboxTypeBits, kMailboxError);
-  assert_int_equal(get<std::uint16_t>(bench.data.data() + 8), kMailboxUnsupported);
-  message[0] = 123;  // longer than the mailbox
-  message[5] = 0x13;
-  assert_int_equal(bench.send(Command::kFpwr, address_of(0x1001, 0x1000), message.data(), 128), 1);
-  assert_int_equal(bench.answer(0), 4);
-  assert_int_equal(get<std::uint16_t>(bench.data.data() + 8), kMailboxBadHeader);
+  struct Row {
+    std::uint8_t length, type, service, code;
+  };
+  for (const Row& row : {Row{10, 0x14, 0x20, 0x02},      // FoE: unsupported protocol
+                         Row{10, 0x13, 0x10, 0x04},      // an emergency: service not supported
+                         Row{10, 0x13, 0x80, 0x04},      // SDO information
+                         Row{10, 0x13, 0x00, 0x05},      // no service: invalid header
+                         Row{10, 0x13, 0x90, 0x05},      //
+                         Row{1, 0x13, 0x20, 0x06},       // too short
+                         Row{9, 0x13, 0x20, 0x06},       //
+                         Row{123, 0x13, 0x20, 0x08}}) {  // longer than the mailbox: invalid size
+    std::array<std::uint8_t, 128> message{};
+    message[0] = row.length;
+    message[5] = row.type;
+    message[7] = row.service;
+    message[8] = 0x40;
+    const std::uint32_t box = address_of(0x1001, 0x1000);
+    assert_int_equal(bench.send(Command::kFpwr, box, message.data(), message.size()), 1);
+    assert_int_equal(bench.answer(0), 4);
+    assert_int_equal(bench.data[5] & 0x0F, 0);
+    assert_int_equal(get<std::uint16_t>(bench.data.data() + 6), 1);
+    assert_int_equal(get<std::uint16_t>(bench.data.data() + 8), row.code);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,8 @@
 // The start-up of the master with the emulated segment: OP, and refusals that name the slave.
+#include <cstdio>
+#include <cstring>
+#include <string>
+
 #include "tests/ethercat/master_bench.hpp"
 
 namespace tactus::ethercat {
@@ -42,6 +46,31 @@ void every_mode_gets_its_mapping(void**) {
     assert_int_equal(bench.hal.line.slave(3).dictionary().get(drives::slot_of(0x6061)),
                      static_cast<int>(cia402::mode_of(row.mode)));
   }
+}
+
+/// CoE: no PDO assigned, no entries, entries, their number, the PDO, the number of PDOs. Real
+/// drives refuse the mapping of a PDO that is assigned.
+void pdos_are_mapped_while_they_are_not_assigned(void**) {
+  MasterBench& bench = fresh();
+  ASSERT_OK(bench.load());
+  std::string written;
+  bench.hal.tamper = [&written](Frame& frame) {
+    FrameReader reader(frame);
+    Datagram datagram;
+    const bool first = reader.next(datagram) && datagram.command == Command::kFpwr &&
+                       datagram.position() == 0x1001 && datagram.reg() == 0x1000;
+    const std::uint8_t* const sdo = datagram.data + 8;
+    if (!first || (sdo[0] & 0xE0) != 0x20) return;
+    const unsigned index = get<std::uint16_t>(sdo + 1), value = get<std::uint32_t>(sdo + 4);
+    if (index != 0x1C12 && index != 0x1600) return;
+    char text[32];
+    std::snprintf(text, sizeof text, "%04X:%d=%X ", index, sdo[3], value);
+    written += text;
+  };
+  ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
+  assert_string_equal(written.c_str(),
+                      "1C12:0=0 1600:0=0 1600:1=60400010 1600:2=60710010 1600:0=2 1C12:1=1600 "
+                      "1C12:0=1 ");
 }
 
 void slaves_may_be_in_any_order_and_state(void**) {
@@ -256,6 +285,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(seven_drives_are_brought_to_op_and_none_is_enabled),
       cmocka_unit_test(every_mode_gets_its_mapping),
+      cmocka_unit_test(pdos_are_mapped_while_they_are_not_assigned),
       cmocka_unit_test(slaves_may_be_in_any_order_and_state),
       cmocka_unit_test(a_second_start_up_follows_a_first_one),
       cmocka_unit_test(lost_frames_of_the_start_up_are_sent_again),
