@@ -149,8 +149,7 @@ Status Startup::take(const Answer& answer) {
     case Stage::kFeatures:
       if (answer.counter != 1) return refuse(Status::kBusTimeout, "does not answer to its address");
       at().features = answer.word(8);
-      if ((at().features & kNoLrw) != 0)
-        return refuse(Status::kRefusedByRobot, "cannot read and write in one datagram (LRW)");
+      image_.lrw = image_.lrw && (at().features & kNoLrw) == 0;
       has_clocks_ = has_clocks_ && at().has_clock();
       stage_ = Stage::kEeprom;
       step_ = 0;

@@ -153,8 +153,9 @@ Status Startup::judge_mailbox(const char* of, std::uint16_t word, std::uint16_t 
   Message what("its mailbox of ");
   what << of << " has " << int{bytes} << " bytes by its EEPROM (word "
        << std::string_view(cia402::hex(word)) << "), expected " << Mailboxes::kLeast << " to "
-       << Mailboxes::kMost << ", ";
-  what << (bytes < Mailboxes::kLeast ? "an SDO message" : "what a frame has room for");
+       << Mailboxes::kMost << ": ";
+  what << (bytes < Mailboxes::kLeast ? "a shorter one has no room for an SDO message"
+                                     : "a longer one does not fit into a frame");
   return refuse(Status::kRefusedByRobot, what);
 }
 

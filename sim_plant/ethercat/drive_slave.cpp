@@ -26,7 +26,7 @@ void DriveSlave::power_on(const SlaveSettings& settings) {
     return static_cast<std::uint32_t>(dictionary_.get(drives::find(can::kIdentity, sub).slot));
   };
   image_.compose({identity(1), identity(2), identity(3), identity(4)}, settings.places);
-  esc_.power_on(image_, settings.clock);
+  esc_.power_on(image_, settings.clock, settings.lrw);
   errors_.reset();
   axis_.power_on(settings.axis);
   server_.reset(settings.places.mailbox_in_bytes);

@@ -15,6 +15,7 @@ struct SlaveSettings {
   drives::AxisSettings axis;
   SmPlaces places;
   EscClock clock;
+  bool lrw = true;
 };
 
 class DriveSlave {

@@ -24,7 +24,7 @@ constexpr std::uint8_t kDoes[kCommands] = {
 
 }  // namespace
 
-void Esc::power_on(const SiiImage& image, const EscClock& clock) {
+void Esc::power_on(const SiiImage& image, const EscClock& clock, bool lrw) {
   memory_.fill(0);
   open_.fill(false);
   image_ = &image;
@@ -33,7 +33,8 @@ void Esc::power_on(const SiiImage& image, const EscClock& clock) {
   requested_ = outputs_ = expired_ = latched_ = false;
   const std::uint8_t head[8] = {kType, kRevision, 0, 0, kFmmus, kSms, kRamKiB, kPorts};
   std::memcpy(memory_.data(), head, sizeof head);
-  put<std::uint16_t>(&memory_[kFeaturesReg], kHasClock | kHasLongClock);
+  const unsigned features = kHasClock | kHasLongClock | (lrw ? 0U : kNoLrw);
+  put(&memory_[kFeaturesReg], static_cast<std::uint16_t>(features));
   put<std::uint32_t>(&memory_[kDlControlReg], 0x0007C001);
   put<std::uint16_t>(&memory_[kWatchdogDividerReg], kDivider100us);
   put<std::uint16_t>(&memory_[kPdiWatchdogReg], kDefaultWatchdog);
@@ -77,9 +78,11 @@ void Esc::process(const Datagram& datagram, std::int64_t now_ns) {
   const bool mine = addressed(datagram);
   switch (datagram.command) {
     case Command::kNop: return;
+    case Command::kLrw:
+      if ((reg16(kFeaturesReg) & kNoLrw) != 0) return;
+      [[fallthrough]];
     case Command::kLrd:
-    case Command::kLwr:
-    case Command::kLrw: return logical(datagram, reads, writes);
+    case Command::kLwr: return logical(datagram, reads, writes);
     case Command::kArmw:
     case Command::kFrmw: physical(datagram, mine, !mine, false); break;
     default:

@@ -36,8 +36,9 @@ class Esc {
   static constexpr std::size_t kMemory = 0x3000;
   static constexpr std::size_t kSms = 4, kFmmus = 4;
 
-  /// Power comes on. The image must outlive the controller. [init]
-  void power_on(const SiiImage& image, const EscClock& clock);
+  /// Power comes on. The image must outlive the controller. Without `lrw` it shows that it does not
+  /// have this command, and lets it pass. [init]
+  void power_on(const SiiImage& image, const EscClock& clock, bool lrw = true);
 
   /// Carries out a datagram that arrives at `now_ns`. [cyclic]
   void process(const ethercat::Datagram& datagram, std::int64_t now_ns);

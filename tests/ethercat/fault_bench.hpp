@@ -13,7 +13,10 @@ inline constexpr int kForGood = 1 << 20;  // cycles
 
 /// The outputs of joint `j`, from 0: controlword and torque.
 inline const std::uint8_t* outputs_sent(const MasterBench& bench, int j) {
-  return bench.hal.sent.bytes.data() + kFirstDatagram + kDatagramBytes + 4 * j;
+  const std::uint8_t* at = bench.hal.sent.bytes.data() + kFirstDatagram;
+  if (at[0] == static_cast<std::uint8_t>(Command::kLrd))  // LWR comes behind it
+    at += kDatagramBytes + (get<std::uint16_t>(at + 6) & kLengthBits) + kCounterBytes;
+  return at + kDatagramBytes + 4 * j;
 }
 /// Whether the frame of this cycle enables a drive or makes it exert a torque; others have no
 /// outputs.

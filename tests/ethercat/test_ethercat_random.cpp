@@ -13,8 +13,11 @@ constexpr LineFaultKind kLines[] = {LineFaultKind::kBreak, LineFaultKind::kLose,
                                     LineFaultKind::kDelay, LineFaultKind::kCounter,
                                     LineFaultKind::kFall};
 
-MasterBench& fresh(Random&) {
+/// In every second run one drive has no LRW.
+MasterBench& fresh(Random& random) {
   MasterBench& bench = fresh_bench();
+  const auto slave = static_cast<std::size_t>(random.below(2 * kDof));
+  if (slave < kDof) bench.plant.no_lrw[slave] = true;
   bench.ethercat.state_ms = 300;
   bench.ethercat.sdo_ms = 50;
   return bench;

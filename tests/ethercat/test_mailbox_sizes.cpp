@@ -84,7 +84,7 @@ void a_mailbox_that_no_message_or_no_frame_fits_is_refused_with_its_limit(void**
       expected = "joint " + number + " (slave " + number + "): its mailbox of " +
                  (out ? "requests has " : "answers has ") +
                  std::to_string(out ? sizes.out : sizes.in) + " bytes by its EEPROM (word " +
-                 (out ? "0019h" : "001Bh") + "), expected 16 to 1486, ";
+                 (out ? "0019h" : "001Bh") + "), expected 16 to 1486: ";
     }
     ASSERT_OK(bench.load());
     const Status status = bench.hal.connect(CommandMode::kEffort);

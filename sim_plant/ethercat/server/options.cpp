@@ -51,6 +51,9 @@ bool parse_segment_options(int argc, char** argv, SegmentOptions& options, int& 
   app.add_option("--mailbox-in", options.mailbox_in,
                  "bytes of the mailbox of answers (default 128)")
       ->check(CLI::Range(0, SmPlaces::kLongestMailbox));
+  app.add_option("--no-lrw", options.no_lrw,
+                 "the slave, from 1, that cannot read and write in one datagram (default 0: none)")
+      ->check(CLI::Range(0, 7));
   parser.add_faults_and_duration(app, describe_faults());
   return parser.parse(app, argc, argv, exit_code, [&] { return take(interface, options); });
 }
