@@ -114,6 +114,39 @@ void an_error_of_the_mailbox_is_told_as_that(void**) {
   }
 }
 
+/// Of a message in a longer mailbox no byte is read beyond those that are kept, whatever it says of
+/// its length.
+void a_message_that_fills_a_long_mailbox_is_taken_out_of_its_first_bytes(void**) {
+  constexpr std::size_t kLong = 1486;
+  constexpr std::uint8_t kLengthLow = 0xC8, kLengthHigh = 5;  // 1480
+  std::array<std::uint8_t, CoeClient::kMostMessage> kept{};
+  can::Emergency emergency;
+  const auto answer = [&](CoeClient& client, const std::uint8_t* bytes, std::size_t size) {
+    kept.fill(0xA5);
+    std::memcpy(kept.data(), bytes, size);
+    (void)client.receive(kept.data(), kLong, emergency, 0);
+  };
+  for (const std::uint8_t size : {std::uint8_t{100}, std::uint8_t{128}, std::uint8_t{129}}) {
+    CoeClient client;
+    client.upload(kLong, 0x1008, 0, 0);
+    (void)client.take(kept.data(), kept.size());
+    const std::uint8_t whole[] = {kLengthLow, kLengthHigh, 0,    0,    0,    0x13, 0, 0x30,
+                                  0x41,       0x08,        0x10, 0x00, size, 0,    0, 0};
+    answer(client, whole, sizeof whole);
+    assert_true(client.progress() == (size <= 128 ? Progress::kDone : Progress::kAborted));
+    for (std::size_t i = 0; i < size && size <= 128; ++i) assert_int_equal(client.data()[i], 0xA5);
+  }
+  CoeClient client;
+  client.upload(kLong, 0x1008, 0, 0);
+  (void)client.take(kept.data(), kept.size());
+  const std::uint8_t begun[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x41, 0x08, 0x10, 0, 128, 0, 0, 0};
+  answer(client, begun, sizeof begun);
+  assert_true(client.take(kept.data(), kept.size()));
+  const std::uint8_t segment[] = {kLengthLow, kLengthHigh, 0, 0, 0, 0x13, 0, 0x30, 0x01};
+  answer(client, segment, sizeof segment);
+  assert_true(client.abort() == SdoAbort::kTooLong);
+}
+
 void messages_that_are_no_answer_are_told_with_their_number(void**) {
   Bench bench;
   bench.client.set_time(1'000'000'000);
@@ -246,6 +279,7 @@ int main() {
       cmocka_unit_test(an_abort_of_the_drive_ends_the_transfer_with_its_code),
       cmocka_unit_test(an_object_that_is_too_large_is_refused_by_us),
       cmocka_unit_test(an_error_of_the_mailbox_is_told_as_that),
+      cmocka_unit_test(a_message_that_fills_a_long_mailbox_is_taken_out_of_its_first_bytes),
       cmocka_unit_test(messages_that_are_no_answer_are_told_with_their_number),
       cmocka_unit_test(an_emergency_is_no_answer),
       cmocka_unit_test(a_silent_drive_ends_the_transfer_in_time),
