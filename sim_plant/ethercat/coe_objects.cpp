@@ -68,6 +68,40 @@ bool CoeObjects::has(std::uint16_t index) const {
          (!only_can(index) && find(index, 0).has_index);
 }
 
+int CoeObjects::next(int index) const {
+  int found = 0;
+  const auto take = [&](std::uint16_t candidate) {
+    if (candidate > index && !only_can(candidate) && (found == 0 || candidate < found))
+      found = candidate;
+  };
+  for (const drives::Row& row : drives::kRows) take(row.index);
+  for (const std::uint16_t own : {ethercat::kSmTypes, ethercat::kRxAssign, ethercat::kTxAssign})
+    take(own);
+  return found;
+}
+
+int CoeObjects::last_sub(std::uint16_t index) const {
+  if (index == ethercat::kSmTypes) return kSmCount;
+  if (is_assignment(index)) return kAssignable;
+  int last = -1;
+  for (const drives::Row& row : drives::kRows)
+    if (row.index == index && !only_can(index)) last = std::max<int>(last, row.last);
+  return last;
+}
+
+bool CoeObjects::entry(std::uint16_t index, std::uint8_t sub, ObjectEntry& found) const {
+  const bool assigns = is_assignment(index);
+  if (assigns || index == ethercat::kSmTypes) {
+    found = {assigns && sub > 0 ? drives::Type::kU16 : drives::Type::kU8,
+             assigns ? drives::kReadWrite : drives::kRead, assigns};
+    return sub <= last_sub(index);
+  }
+  const Found at = find(index, sub);
+  if (at.row == nullptr || only_can(index)) return false;
+  found = {at.row->type, at.row->access, is_mapping(index)};
+  return true;
+}
+
 SdoAbort CoeObjects::read(std::uint16_t index, std::uint8_t sub, drives::ObjectBytes& bytes) const {
   if (only_can(index)) return SdoAbort::kNoObject;
   if (index == ethercat::kSmTypes) {

@@ -23,6 +23,13 @@ struct ProcessData {
   std::size_t count = 0, bytes = 0;
 };
 
+/// Type and access of an object, as the rows of the dictionary have them.
+struct ObjectEntry {
+  drives::Type type = drives::Type::kU8;
+  std::uint8_t access = 0;
+  bool only_preop = false;  ///< what of it is written is written in PREOP
+};
+
 class CoeObjects {
  public:
   explicit CoeObjects(drives::Dictionary& dictionary) : dictionary_(dictionary) {}
@@ -37,6 +44,13 @@ class CoeObjects {
                       std::size_t size, bool preop, bool powered);
   /// False for an object that is not there at all. [any]
   bool has(std::uint16_t index) const;
+
+  /// The next index of the list of objects after one, 0: the first; 0: there is none. [any]
+  int next(int index) const;
+  /// The highest sub-index of an object; -1: it does not have the object. [any]
+  int last_sub(std::uint16_t index) const;
+  /// Finds type and access; false: it does not have the sub-index. [any]
+  bool entry(std::uint16_t index, std::uint8_t sub, ObjectEntry& found) const;
 
   /// Lists what is assigned to the outputs, or the inputs. [any]
   ProcessData process_data(bool outputs) const;

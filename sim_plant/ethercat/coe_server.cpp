@@ -22,9 +22,11 @@ void CoeServer::reset(std::size_t bytes) {
   count_ = 0;
   counter_ = 0;
   transfer_ = Transfer::kNone;
+  information_.reset();
 }
 
 bool CoeServer::take(MailboxMessage& message) {
+  if (count_ == 0 && information_.has_more()) post_information();
   if (count_ == 0) return false;
   message = queue_[first_];
   first_ = (first_ + 1) % kQueue;
@@ -44,6 +46,14 @@ std::uint8_t* CoeServer::begin(std::uint16_t service, std::size_t body) {
   put(message.bytes.data() + kMailboxBytes,
       static_cast<std::uint16_t>(service << kCoeServiceShift));
   return message.bytes.data() + kCoeBody;
+}
+
+/// The next fragment of an answer, once those before it have gone.
+void CoeServer::post_information() {
+  std::array<std::uint8_t, kMostMailbox> fragment;
+  const std::size_t size = information_.take(fragment.data(), room_ - kCoeBody);
+  if (std::uint8_t* const body = begin(kCoeInformation, size))
+    std::memcpy(body, fragment.data(), size);
 }
 
 std::uint8_t* CoeServer::begin_sdo(std::uint8_t command, std::size_t body) {
@@ -90,6 +100,8 @@ CoeResult CoeServer::receive(const std::uint8_t* message, std::size_t size, bool
     const int service = get<std::uint16_t>(message + kMailboxBytes) >> kCoeServiceShift;
     if (service == kCoeSdoRequest)
       answer_sdo(message + kCoeBody, length - kCoeBytes, result);
+    else if (service == kCoeInformation && room_ >= kCoeBody + kSdoBody)
+      information_.ask(message + kCoeBody, length - kCoeBytes);
     else
       error(service == 0 || service > kCoeInformation ? kMailboxBadHeader : kMailboxNoService);
   }

@@ -1,9 +1,10 @@
-// CoeServer: the mailbox of an emulated drive: SDO transfers (expedited, normal, segmented) and
-// emergencies (ETG.1000.6). Messages in, messages out into a queue.
+// CoeServer: the mailbox of an emulated drive: SDO transfers (expedited, normal, segmented), SDO
+// information and emergencies (ETG.1000.6). Messages in, messages out into a queue.
 #pragma once
 
 #include "hal/ethercat/protocol_coe.hpp"
 #include "hal/ethercat/protocol_frame.hpp"
+#include "sim_plant/ethercat/coe_information.hpp"
 #include "sim_plant/ethercat/coe_objects.hpp"
 
 namespace tactus::segment {
@@ -27,7 +28,7 @@ class CoeServer {
  public:
   static constexpr std::size_t kQueue = 8;
 
-  explicit CoeServer(CoeObjects& objects) : objects_(objects) {}
+  explicit CoeServer(CoeObjects& objects) : objects_(objects), information_(objects) {}
 
   /// Forgets transfers and messages; `bytes` is the length of the mailbox of answers. [any]
   void reset(std::size_t bytes);
@@ -56,8 +57,10 @@ class CoeServer {
   std::uint8_t* begin(std::uint16_t service, std::size_t body);
   std::uint8_t* begin_sdo(std::uint8_t command, std::size_t body);
   void error(std::uint16_t code);
+  void post_information();
 
   CoeObjects& objects_;
+  CoeInformation information_;
   std::array<MailboxMessage, kQueue> queue_;
   std::size_t first_ = 0, count_ = 0;
   std::size_t room_ = 0;  // of a mailbox

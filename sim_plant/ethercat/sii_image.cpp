@@ -48,8 +48,8 @@ void SiiImage::compose(const SiiIdentity& identity, const SmPlaces& places) {
   strings();
   begin(kSiiGeneral);
   for (const std::uint8_t byte : {kGroupString, std::uint8_t{0}, std::uint8_t{0}, kNameString,
-                                  std::uint8_t{0}, std::uint8_t{0x0D}})
-    put8(byte);  // CoE: SDO, assignment and mapping of PDOs
+                                  std::uint8_t{0}, std::uint8_t{0x0F}})
+    put8(byte);  // CoE: SDO and its information, assignment and mapping of PDOs
   for (int i = 6; i < 32; ++i) put8(0);
   end();
   begin(kSiiFmmus);

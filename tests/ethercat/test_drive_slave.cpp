@@ -181,7 +181,7 @@ void what_is_no_coe_message_is_answered_as_an_error(void**) {
   };
   for (const Row& row : {Row{10, 0x14, 0x20, 0x02},      // FoE: unsupported protocol
                          Row{10, 0x13, 0x10, 0x04},      // an emergency: service not supported
-                         Row{10, 0x13, 0x80, 0x04},      // SDO information
+                         Row{10, 0x13, 0x30, 0x04},      // an SDO answer
                          Row{10, 0x13, 0x00, 0x05},      // no service: invalid header
                          Row{10, 0x13, 0x90, 0x05},      //
                          Row{1, 0x13, 0x20, 0x06},       // too short
