@@ -32,18 +32,6 @@ std::int64_t cycles_of(double duration_s, double period_s) {
   return std::max<std::int64_t>(1, std::llround(std::ceil(duration_s / period_s - kRounding)));
 }
 
-/// Says why the robot was not commanded to the end.
-void explain(const Session& session, const Options& options, const RunLoop& loop) {
-  const Status latched = loop.latched();
-  if (latched == Status::kOk) return;
-  if (loop.cut_short())
-    std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
-  else
-    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
-               session.executive.guard().telemetry(), loop.trouble());
-  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
-}
-
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
@@ -74,15 +62,17 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   result.wall_s = wall_s() - begin_s;
   result.simulated_s = loop.time_s();
   result.cycles = loop.commanded();
-  if (result.code == kEndedOtherwise) result.why = loop.why();
+  if (result.code != 0) result.why = loop.why();
   result.heap_allocations = heap_allocations();
   progress.end();
-  if (!result.why.empty())
+  if (result.code == kEndedOtherwise && result.fault == Status::kOk && !result.why.empty())
     std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), result.name, result.why.c_str());
   if (!loop.ended_as_planned() && (guarded || !started)) explain(session, options, loop);
   if (loop.left() == Status::kOk) return;
   print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
-  if (result.code == 0) end_with(result, kEndedOtherwise, "drives not disabled");
+  if (result.code != 0) return;
+  end_with(result, kEndedOtherwise, "drives not disabled");
+  result.why = stop_reason(loop.left(), {}, loop.left_trouble());
 }
 
 RunInputs inputs_of(const Options& options, const TrajectoryInput& input) {
@@ -149,21 +139,34 @@ void judge(const Options& options, RunResult& result) {
 
 }  // namespace
 
-void print_stop(const char* subject, const char* event, Status status,
-                const Guard::Telemetry& guard, std::string_view trouble) {
+Reason stop_reason(Status status, const Guard::Telemetry& guard, std::string_view trouble) {
   const Verdict verdict = {status, -1, guard.tripped_joint, guard.tripped_value,
                            guard.tripped_limit};
-  std::fprintf(stderr, "%s: %s: %s", subject, event,
-               describe(verdict, VerdictAxes::kJoints).c_str());
-  if (!trouble.empty())
-    std::fprintf(stderr, ": %.*s", static_cast<int>(trouble.size()), trouble.data());
-  std::fprintf(stderr, "\n");
+  Reason text(describe(verdict, VerdictAxes::kJoints));
+  if (!trouble.empty()) text << ": " << trouble;
+  return text;
+}
+
+void print_stop(const char* subject, const char* event, Status status,
+                const Guard::Telemetry& guard, std::string_view trouble) {
+  std::fprintf(stderr, "%s: %s: %s\n", subject, event, stop_reason(status, guard, trouble).c_str());
 }
 
 void print_collision(const Collision::Telemetry& told) {
   std::fprintf(
       stderr, "  %s with %s, %s\n", told.first, told.second,
       told.predicted ? "before the arm could have come to rest" : "at the present position");
+}
+
+void explain(const Session& session, const Options& options, const RunLoop& loop) {
+  const Status latched = loop.latched();
+  if (latched == Status::kOk) return;
+  if (loop.cut_short())
+    std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
+  else
+    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
+               session.executive.guard().telemetry(), loop.trouble());
+  if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 
 int run(Session& session, const Options& options) {

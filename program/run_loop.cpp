@@ -103,7 +103,9 @@ bool RunLoop::arm() {
   armed_ = true;
   pending_ = input_.given();
   const bool begun = session_.follower == nullptr || session_.follower->begin(input_);
-  return begun && feed_.begin();
+  if (begun && feed_.begin()) return true;
+  end_with(result_, refusal_code(input_), name(Outcome::kRefused));
+  return false;
 }
 
 void RunLoop::halt() {
@@ -176,6 +178,9 @@ bool RunLoop::time_has_passed() const {
 }
 
 Reason RunLoop::why() const {
+  if (result_.fault != Status::kOk)
+    return stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
+  if (std::string_view(result_.name) == name(Outcome::kRefused)) return input_.refusal;
   if (pending_ && planned_end_) return goal_.unfinished(ended_s_);
   if (end_.ok() && std::string_view(result_.name) == name(Outcome::kAborted)) return goal_.left();
   return goal_.given_up(end_);

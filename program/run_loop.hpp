@@ -69,7 +69,8 @@ class RunLoop {
   /// Cycles in which it has been, and their time.
   std::int64_t commanded() const { return commanded_; }
   double time_s() const;
-  /// Why the trajectory was not followed to its end, if the robot or the time of the run is why.
+  /// Why the arm or the trajectory was refused, or the run ended before the trajectory did; empty
+  /// if nothing more is known than the name of the result. Call it after stop().
   Reason why() const;
   /// Runs cycles as fast as the host can and logs the rows after each.
   void in_lock_step(RunLog& log, Progress& progress);
@@ -119,5 +120,8 @@ class RunLoop {
   bool halted_ = false;      // a signal has come
   bool broken_off_ = false;  // a later part of it was
 };
+
+/// Prints why the robot was not commanded to the end, if it was not.
+void explain(const Session& session, const Options& options, const RunLoop& loop);
 
 }  // namespace tactus

@@ -117,17 +117,26 @@ bool end_log(const Session& session, const Options& options, const RunLoop& loop
   return true;
 }
 
+/// The session did not succeed if a fault, or a refusal to arm, was all that was left of it when it
+/// was ended.
+void judge(const RunLoop& loop, RunResult& result) {
+  const Status latched = loop.latched();
+  if (result.code == 0 && latched != Status::kOk && latched != Status::kHalted)
+    end_with(result, latched);
+  if (result.code != 0) result.why = loop.why();
+  if (result.code != 0 || loop.left() == Status::kOk) return;
+  end_with(result, kEndedOtherwise, "drives not disabled");
+  result.why = stop_reason(loop.left(), {}, loop.left_trouble());
+}
+
 /// Says how it ended, and returns the exit code.
 int finish(const Session& session, const Options& options, const RunLoop& loop,
            const RunResult& result) {
-  if (loop.left() != Status::kOk) {
+  if (loop.left() != Status::kOk)
     print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
-    return kEndedOtherwise;
-  }
   if (result.code == 0) return kSucceeded;
-  print_stop(options.pipeline, "stopped", result.fault, session.executive.guard().telemetry(),
-             loop.trouble());
-  return kEndedOtherwise;
+  explain(session, options, loop);
+  return loop.commanded() > 0 ? kEndedOtherwise : kRefused;
 }
 
 }  // namespace
@@ -170,18 +179,18 @@ int serve(Session& session, const Options& options) {
     session.executive.in_virtual_time();
     loop.in_virtual_time();
   }
-  if (!loop.start() || !watchdog.arm(session.realtime)) {
-    page.end();
-    thread.end();
+  const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
+  if (started && !guarded) end_with(result, kRefused, "refused");
+  if (guarded) {
+    say_where(options, listener.address().text().c_str(), page);
+    run_cycles(session, loop, writer);
+  } else {
     loop.stop();
-    print_stop(options.pipeline, "refused", result.fault, {}, session.hal.trouble());
-    return kRefused;
   }
-  say_where(options, listener.address().text().c_str(), page);
-  run_cycles(session, loop, writer);
   watchdog.disarm();
   page.end();
   thread.end();
+  judge(loop, result);
   const bool written = !logs || end_log(session, options, loop, folder, log, result);
   const int code = finish(session, options, loop, result);
   return written ? code : kEndedOtherwise;

@@ -6,9 +6,6 @@
 
 namespace tactus {
 
-/// Why a goal was not reached, in words.
-using Reason = Text<767>;
-
 class GoalWatch {
  public:
   GoalWatch(Session& session, const TrajectoryInput& input) : session_(session), input_(input) {}

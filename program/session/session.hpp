@@ -15,6 +15,9 @@
 
 namespace tactus {
 
+/// Why a run ended as it did, in words.
+using Reason = Text<767>;
+
 struct Session {
   const char* board;
   bool simulated;            ///< the robot is a plant in this program
@@ -45,8 +48,10 @@ int serve(Session& session, const Options& options);
 /// is enabled. Returns the exit code.
 int check(Session& session, const Options& options);
 
-/// Prints "subject: event: " and the status in words, with joint, value and limit if the guard
-/// found it, then the robot's own reason.
+/// Returns a status in words, with joint, value and limit if the guard found it, then the robot's
+/// own reason.
+Reason stop_reason(Status status, const Guard::Telemetry& guard, std::string_view trouble = {});
+/// Prints "subject: event: " and the reason.
 void print_stop(const char* subject, const char* event, Status status,
                 const Guard::Telemetry& guard, std::string_view trouble = {});
 /// Prints the pair of a contact.

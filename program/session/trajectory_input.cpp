@@ -54,14 +54,17 @@ bool set_terms(const Session& session, const Options& options, Trajectory<TaskSp
 
 /// Prints why a file was refused. Returns false.
 template <class Space>
-bool print_refusal(const TrajectoryInput& input, const TrajectoryStream<Space>& stream) {
+bool print_refusal(TrajectoryInput& input, const TrajectoryStream<Space>& stream) {
   const StreamRefusal& refusal = stream.refusal();
   if (refusal.row.reason.empty()) {
     print_verdict(input, refusal.verdict, stream.longer() ? refusal.line : 0);
     return false;
   }
+  const auto row = refusal.row.message();
   std::fprintf(stderr, "%s:%s%s\n", input.path.c_str(), refusal.row.line > 0 ? "" : " ",
-               refusal.row.message().c_str());
+               row.c_str());
+  input.refusal = Reason(refusal.row.line > 0 ? "line " : "");
+  input.refusal << row;
   return false;
 }
 
@@ -126,16 +129,21 @@ std::uint64_t TrajectoryInput::hash(std::uint64_t none) const {
   return with_stream(*this, none, [](const auto& stream) { return stream.hash(); });
 }
 
-void print_verdict(const TrajectoryInput& input, const Verdict& verdict, int line) {
+void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line) {
   const VerdictAxes axes = input.trajectory.index() == 2 ? VerdictAxes::kTip : VerdictAxes::kJoints;
   const double time_s = verdict.waypoint >= 0 ? input.time_s(verdict.waypoint) : kInfinity;
   FilePath place = input.path;
   if (line > 0) place << ":" << line;
   const bool rough = of_derivatives(verdict.status) && input.smoothing().tolerance.allows();
   const char* const key = axes == VerdictAxes::kTip ? "smoothing_m" : "smoothing_rad";
-  std::fprintf(stderr, "%s: refused: %s%s%s%s\n", place.c_str(),
-               describe(verdict, axes, time_s).c_str(), remedy(verdict),
-               rough ? ", or if it is noise a larger [gateway] " : "", rough ? key : "");
+  Reason why(describe(verdict, axes, time_s));
+  why << remedy(verdict);
+  if (rough) why << ", or if it is noise a larger [gateway] " << key;
+  std::fprintf(stderr, "%s: refused: %s\n", place.c_str(), why.c_str());
+  input.refused = verdict;
+  input.refusal = Reason();
+  if (line > 0) input.refusal << "line " << line << ": ";
+  input.refusal << why;
 }
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {
@@ -167,10 +175,7 @@ bool send_input(Session& session, TrajectoryInput& input) {
 }
 
 int refusal_code(const TrajectoryInput& input) {
-  return with_stream(input, static_cast<int>(kRefused), [](const auto& stream) {
-    const Verdict& verdict = stream.refusal().verdict;
-    return verdict.ok() ? static_cast<int>(kRefused) : static_cast<int>(verdict.status);
-  });
+  return input.refused.ok() ? static_cast<int>(kRefused) : static_cast<int>(input.refused.status);
 }
 
 bool judge_rest(const Session& session, TrajectoryInput& input) {

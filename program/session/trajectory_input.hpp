@@ -17,6 +17,8 @@ struct TrajectoryInput {
   /// The way of its file into that trajectory; of the same space.
   std::variant<std::monostate, TrajectoryStream<JointSpace>, TrajectoryStream<TaskSpace>> file;
   std::uint32_t id = 0;
+  Verdict refused;       ///< of the refusal that was printed last; ok of a row that cannot be read
+  Reason refusal;        ///< the same in words; empty: none was printed
   double start_s = 0.0;  ///< start time
   Pose motion_frame;     ///< frame of the poses, in the base frame, when they were sent
 
@@ -64,7 +66,8 @@ int refusal_code(const TrajectoryInput& input);
 /// it in the thread that polls. A refusal prints its reason to stderr.
 Fed feed_input(Session& session, TrajectoryInput& input, int wait_ms);
 
-/// Prints to stderr why a trajectory was refused, after the line of the waypoint if it is known.
-void print_verdict(const TrajectoryInput& input, const Verdict& verdict, int line = 0);
+/// Prints to stderr why a trajectory was refused, after the line of the waypoint if it is known,
+/// and keeps it as the refusal of the input.
+void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line = 0);
 
 }  // namespace tactus

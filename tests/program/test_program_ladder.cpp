@@ -42,7 +42,9 @@ void a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest
   assert_true(has(errors(), "lag.ini: stopped: joint 1 (fer_joint1): following error 0.00"));
   assert_true(has(errors(), " rad exceeds 0.005 rad (76)\n"));
   const std::string_view summary = file_of("lag/summary.json");
-  assert_true(has(summary, "\"name\": \"kFollowingError\"}"));
+  assert_true(
+      has(summary,
+          "\"name\": \"kFollowingError\", \"why\": \"joint 1 (fer_joint1): following error 0.00"));
   assert_true(has(summary, "\"rung\": \"disabled\""));
   assert_true(has(summary,
                   "\"cause\": \"state\", \"status\": \"kFollowingError\", "
@@ -68,6 +70,9 @@ void a_block_that_ends_the_chain_is_named(void**) {
   };
   assert_int_equal(run_with("ft_bias_force_N = 0 0 30\n"), 2);
   assert_true(has(errors(), "refused: sensor value out of range (73): block [sensor]\n"));
+  assert_true(has(file_of("block/summary.json"),
+                  "\"result\": {\"code\": 73, \"name\": \"kSensorRange\", "
+                  "\"why\": \"sensor value out of range (73): block [sensor]\"}"));
   assert_int_equal(run_with("ft_noise_force_N = 2.5\n"), 1);
   assert_true(has(errors(), "(73): block [sensor]\n"));
 }

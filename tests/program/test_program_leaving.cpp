@@ -70,7 +70,8 @@ void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_
   assert_true(has(errors(), "rt.ini: not disabled: "));
   assert_true(has(errors(), ": joint 3: it has not confirmed\n"));
   assert_true(has(file_of("a/summary.json"),
-                  "\"result\": {\"code\": 1, \"name\": \"drives not disabled\"}"));
+                  "\"result\": {\"code\": 1, \"name\": \"drives not disabled\", \"why\": \"no data "
+                  "from the robot in time (96): joint 3: it has not confirmed\"}"));
   assert_true(has(file_of("a/summary.json"), "  \"wire\": {\"frames\": 4500, \"lost\": 3},\n"));
   assert_true(doubtful().threads_at_the_end > 1);
   assert_int_equal(threads(), 1);

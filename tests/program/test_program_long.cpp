@@ -91,7 +91,9 @@ void a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path(void**
   assert_int_equal(
       shell("cat $S/wild.csv | $P run $S/p.ini --trajectory /dev/stdin --no-figure --out $S/w"), 1);
   assert_true(has(errors(), "/dev/stdin:39002: refused: waypoint 39001 (t = 3.932 s), joint 1 "));
-  assert_true(has(file_of("w/summary.json"), "\"result\": {\"code\": 34, \"name\": \"refused\"}"));
+  assert_true(has(file_of("w/summary.json"),
+                  "\"result\": {\"code\": 34, \"name\": \"refused\", "
+                  "\"why\": \"line 39002: waypoint 39001 (t = 3.932 s), joint 1 "));
   // in the last hundredth of a second, after a motion of up to 80 mrad/s
   assert_int_equal(shell("tail -n 2 $S/w/log.csv | cut -d, -f 2 | tr '\\n' ' ' | "
                          "awk '{d = $1 - $2; exit !(d * d < 4e-8 && $1 > 1e-3)}'"),

@@ -97,6 +97,41 @@ void the_log_of_a_session_is_written_where_out_says(void**) {
       0);
 }
 
+// Proves GW-22.
+
+/// Serves a pipeline without a client until an interrupt ends it, a second later; returns the exit
+/// code.
+int interrupt(const char* pipeline) {
+  Line command("rm -rf $S/session; $P serve ");
+  command << pipeline
+          << " --virtual-time --listen tcp:127.0.0.1:0 --out $S/session >$S/said & pid=$!; n=0; "
+             "until grep -q serves $S/said; do n=$((n+1)); test $n -lt 600 || exit 80; sleep 0.1; "
+             "done; sleep 1; kill -INT $pid; wait $pid";
+  return shell(command.c_str());
+}
+
+/// Of a wrench sensor that reads 30 N where its block allows 10, or does so at some time.
+void a_session_that_a_fault_has_ended_does_not_succeed(void**) {
+  constexpr const char* kSensor =
+      "[sensor]\ntype = wrench_front_end\nft = robot.ft\nx = model.x\n"
+      "tool = robot.tool\nmax_force = 10\nmax_moment = 30\n";
+  constexpr const char* kResult =
+      "\"result\": {\"code\": 73, \"name\": \"kSensorRange\", "
+      "\"why\": \"sensor value out of range (73): block [sensor]\"}";
+  const auto serve_with = [](const char* plant) {
+    return interrupt(
+        write("served.ini", {kServed, kBusyHost, kSensor, "[plant]\n", plant}).c_str());
+  };
+  assert_int_equal(serve_with(""), 0);
+  assert_true(has(file_of("session/summary.json"), "{\"code\": 0, \"name\": \"succeeded\"}"));
+  assert_int_equal(serve_with("ft_bias_force_N = 0 0 30\n"), 2);
+  assert_true(has(errors(), "served.ini: refused: sensor value out of range (73)"));
+  assert_true(has(file_of("session/summary.json"), kResult));
+  assert_int_equal(serve_with("ft_noise_force_N = 2.5\n"), 1);
+  assert_true(has(errors(), "served.ini: stopped: sensor value out of range (73)"));
+  assert_true(has(file_of("session/summary.json"), kResult));
+}
+
 // Proves GW-11.
 
 void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
@@ -126,6 +161,7 @@ int main(int, char** argv) {
       cmocka_unit_test(addresses_of_other_kinds_are_refused),
       cmocka_unit_test(a_file_at_the_path_of_the_socket_is_named),
       cmocka_unit_test(the_log_of_a_session_is_written_where_out_says),
+      cmocka_unit_test(a_session_that_a_fault_has_ended_does_not_succeed),
       cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
       cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
   };
