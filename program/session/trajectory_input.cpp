@@ -81,6 +81,7 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
   trajectory->exact = session.gateway.times == Times::kExact;
   input.start_s = session.gateway.start_s;
   if (input.start_s > 0.0) trajectory->start_s = input.start_s;
+  trajectory->joinable = false;
   input.trajectory = trajectory;
   const SmoothingTolerance tolerance = {session.gateway.smoothing_rad, session.gateway.smoothing_m};
   return stream.judge(client.settings(), tolerance) || print_refusal(input, stream);
@@ -136,8 +137,11 @@ void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line) {
   if (line > 0) place << ":" << line;
   const bool rough = of_derivatives(verdict.status) && input.smoothing().tolerance.allows();
   const char* const key = axes == VerdictAxes::kTip ? "smoothing_m" : "smoothing_rad";
-  Reason why(describe(verdict, axes, time_s));
-  why << remedy(verdict);
+  // Waypoints have a place; the time of none of them is that of the start.
+  const bool late = verdict.status == Status::kReferenceTime && verdict.waypoint < 0;
+  Reason why(late ? "[gateway] start_s: " : "");
+  why << describe(verdict, axes, time_s) << remedy(verdict);
+  if (late) why << "; it had passed when the trajectory was ready: give a later one";
   if (rough) why << ", or if it is noise a larger [gateway] " << key;
   std::fprintf(stderr, "%s: refused: %s\n", place.c_str(), why.c_str());
   input.refused = verdict;

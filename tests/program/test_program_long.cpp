@@ -102,6 +102,22 @@ void a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path(void**
   assert_true(has(errors(), "/dev/stdin:39002: refused: waypoint 39001 (t = 3.932 s), joint 1 "));
 }
 
+// Proves RG-17.
+
+/// Many waypoints are judged after the arm has been taken over, for more than the first cycle.
+void a_start_time_that_has_passed_when_the_file_is_ready_is_refused(void**) {
+  const Line pipeline = write("late.ini", {kPipeline, "[gateway]\nstart_s = 0.001\n", kBusyHost});
+  const Line trajectory = write_long("long.csv", 1e-4), out = in_folder("late");
+  assert_int_equal(tactus_run({"run", pipeline.c_str(), "--trajectory", trajectory.c_str(),
+                               "--realtime", "--no-figure", "--out", out.c_str()}),
+                   1);
+  assert_true(has(errors(), "long.csv: refused: [gateway] start_s: time 0.001 s is earlier than "));
+  assert_true(has(errors(), " s (35); it had passed when the trajectory was ready: give a later"));
+  assert_true(
+      has(file_of("late/summary.json"),
+          "\"result\": {\"code\": 35, \"name\": \"refused\", \"why\": \"[gateway] start_s: "));
+}
+
 // Proves RUN-1.
 
 void an_interrupt_ends_a_run_that_waits_for_a_pipe(void**) {
@@ -143,6 +159,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_pipe_is_run_as_its_file_is),
       cmocka_unit_test(a_long_file_is_refused_with_its_line_before_anything_moves),
       cmocka_unit_test(a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path),
+      cmocka_unit_test(a_start_time_that_has_passed_when_the_file_is_ready_is_refused),
       cmocka_unit_test(an_interrupt_ends_a_run_that_waits_for_a_pipe),
       cmocka_unit_test(in_real_time_the_arm_waits_on_its_path_for_a_slow_pipe_and_goes_on),
   };

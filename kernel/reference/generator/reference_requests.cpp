@@ -221,7 +221,8 @@ void ReferenceGenerator<Space>::take_trajectory(const Request<Space>& request) {
   const double start_s = trajectory(goal).start_s, elapsed_s = time_s() - start_s;
   const bool now = start_s == kStartAtOnce || std::abs(elapsed_s) <= 0.5 * period_s_;
   const double latest_s = time_s() + kLongestTrajectory_s;
-  if (!now && !(start_s <= latest_s && elapsed_s < trajectory(goal).end_s()))
+  const double longest_s = trajectory(goal).joinable ? trajectory(goal).end_s() : 0.0;
+  if (!now && !(start_s <= latest_s && elapsed_s < longest_s))
     return report(
         request.id, Outcome::kRefused, request.store,
         {Status::kReferenceTime, -1, -1, start_s, start_s < time_s() ? time_s() : latest_s});

@@ -78,6 +78,8 @@ struct Trajectory {
   Tolerances<Space> tolerances;
   /// Must be passed in exactly these times: refused where that exceeds a limit, not slowed down.
   bool exact = false;
+  /// May be joined after its start time, at the point where it would be: refused otherwise.
+  bool joinable = true;
   typename Space::Extent extent;  ///< set by admission
   double stretch = 0.0;           ///< set by admission: how much longer it takes, as a fraction
 

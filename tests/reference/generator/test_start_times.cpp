@@ -14,12 +14,13 @@ constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
   assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
 
 /// Sends a quintic from rest by `offset` in two seconds that begins at `start_s`.
-std::uint32_t go_at(ReferenceBench& bench, double start_s, double offset) {
+std::uint32_t go_at(ReferenceBench& bench, double start_s, double offset, bool joinable = true) {
   Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);
   if (motion == nullptr) return 0;
   bench.add(*motion, 0.0, 0.0);
   bench.add(*motion, 2.0, offset);
   motion->start_s = start_s;
+  motion->joinable = joinable;
   std::uint32_t id = 0;
   return bench.client.send(*motion, id).ok() ? id : 0;
 }
@@ -122,6 +123,28 @@ void one_that_runs_already_is_joined_where_it_would_be(void**) {
   }
   assert_true(apart > 10 && apart < 1000);
   ASSERT_OUTCOME(late.final_of(1), Outcome::kSucceeded);
+}
+
+/// In the nearest cycle it begins, from its first waypoint on.
+void one_that_may_not_be_joined_is_refused_from_half_a_period_on(void**) {
+  static ReferenceBench benches[3];
+  for (const double late_s : {0.0004, 0.0006, 0.5}) {
+    ReferenceBench& bench = benches[late_s < 0.0005 ? 0 : late_s < 0.1 ? 1 : 2];
+    ASSERT_OK(bench.run(999));
+    const std::uint32_t id = go_at(bench, 1.0 - late_s, 0.4, false);
+    ASSERT_OK(bench.run(500));
+    const Report report = bench.final_of(id);
+    if (late_s < 0.0005) {
+      ASSERT_OUTCOME(report, Outcome::kStarted);
+      ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.4 * blend(0.499 / 2.0), 1e-9);
+      continue;
+    }
+    ASSERT_OUTCOME(report, Outcome::kRefused);
+    ASSERT_STATUS(report.verdict.status, Status::kReferenceTime);
+    assert_true(report.store == 0 && report.verdict.value == 1.0 - late_s);
+    ASSERT_NEAR(report.verdict.limit, 1.0, 1e-12);
+    assert_true(bench.out().q == bench.home);
+  }
 }
 
 void one_that_is_nearly_over_is_joined_at_its_end(void**) {
@@ -229,6 +252,7 @@ int main() {
       cmocka_unit_test(one_that_ended_in_the_past_or_begins_after_a_day_is_refused),
       cmocka_unit_test(a_first_waypoint_that_is_still_ahead_is_reached_in_time),
       cmocka_unit_test(one_that_runs_already_is_joined_where_it_would_be),
+      cmocka_unit_test(one_that_may_not_be_joined_is_refused_from_half_a_period_on),
       cmocka_unit_test(one_that_is_nearly_over_is_joined_at_its_end),
       cmocka_unit_test(a_newer_trajectory_takes_the_place_of_one_that_waits),
       cmocka_unit_test(a_cancel_ends_what_runs_and_what_waits),
