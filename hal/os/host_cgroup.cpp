@@ -50,11 +50,12 @@ std::string_view above(std::string_view path) {
   return slash == path.npos ? std::string_view() : path.substr(0, slash);
 }
 
-/// Judges a file of the group and of all groups above it, each by `good`. The nearest that is not
-/// good decides, or else the nearest.
-template <class Good>
-Content judge_groups(const HostQuery& query, const char* controller, const char* unified,
-                     const char* legacy, Good good) {
+/// Calls `take` with the contents, the name and the folder of a file of the group, and of all
+/// groups above it, from the nearest on until it returns true. Returns why there is no group, or
+/// unknown.
+template <class Take>
+Content for_each_group(const HostQuery& query, const char* controller, const char* unified,
+                       const char* legacy, Take take) {
   SmallFile groups;
   Group group;
   if (!read(query, "/proc/self/cgroup", groups)) return unreadable(groups);
@@ -63,17 +64,31 @@ Content judge_groups(const HostQuery& query, const char* controller, const char*
   const char* name = group.unified ? unified : legacy;
   Path mount(kMount);
   if (!group.unified) mount << "/" << controller;
-  Content content = unreadable(0);
-  for (std::string_view path = group.path;; path = above(path)) {
+  for (std::string_view path = group.path; *name != '\0'; path = above(path)) {
     SmallFile file;
     const Path folder = Path(mount) << path;
-    if (*name != '\0' && read(query, Path(folder) << "/" << name, file)) {
-      const Text<127> value = Text<127>(name) << " " << file.text() << " of " << folder;
-      if (!good(file.text(), folder)) return {HostFinding::kHurts, value};
-      if (content.finding == HostFinding::kUnknown) content = {HostFinding::kOk, value};
-    }
-    if (path.empty()) return content;
+    const bool there = read(query, Path(folder) << "/" << name, file);
+    if ((there && take(file.text(), name, folder)) || path.empty()) break;
   }
+  return unreadable(0);
+}
+
+/// Judges a file of the group and of all groups above it, each by `good`. The nearest that is not
+/// good decides, or else the nearest.
+template <class Good>
+Content judge_groups(const HostQuery& query, const char* controller, const char* unified,
+                     const char* legacy, Good good) {
+  Content content;
+  const Content none =
+      for_each_group(query, controller, unified, legacy,
+                     [&](std::string_view text, const char* name, const Path& folder) {
+                       const Text<127> value = Text<127>(name) << " " << text << " of " << folder;
+                       const bool hurts = !good(text, folder);
+                       if (hurts || content.finding == HostFinding::kUnknown)
+                         content = {hurts ? HostFinding::kHurts : HostFinding::kOk, value};
+                       return hurts;
+                     });
+  return content.finding == HostFinding::kUnknown ? none : content;
 }
 
 }  // namespace
@@ -102,6 +117,27 @@ Content cpuset(const HostQuery& query) {
   return judge_groups(
       query, "cpuset", "cpuset.cpus.effective", "cpuset.effective_cpus",
       [&](std::string_view cpus, const Path&) { return lists_cpu(cpus, query.cpu); });
+}
+
+Content isolated_partition(const HostQuery& query) {
+  SmallFile all;
+  if (read(query, Path(kMount) << "/cpuset.cpus.isolated", all)) {
+    const std::string_view cpus = all.text();
+    if (query.cpu >= 0 ? lists_cpu(cpus, query.cpu) : !cpus.empty())
+      return {HostFinding::kOk, Text<127>("cpuset.cpus.isolated ") << cpus};
+  }
+  Content content;
+  static_cast<void>(for_each_group(
+      query, "cpuset", "cpuset.cpus.partition", "",
+      [&](std::string_view kind, const char* name, const Path& folder) {
+        SmallFile cpus;
+        if (kind == "member") return false;
+        if (kind == "isolated" && read(query, Path(folder) << "/cpuset.cpus.effective", cpus) &&
+            (query.cpu < 0 || lists_cpu(cpus.text(), query.cpu)))
+          content = {HostFinding::kOk, Text<127>(name) << " isolated of " << folder};
+        return true;
+      }));
+  return content;
 }
 
 }  // namespace tactus::host

@@ -35,7 +35,8 @@ Content governor(const HostQuery& query) {
 }
 
 Content isolated(const HostQuery& query) {
-  return reserved(query, "isolated");
+  const Content partition = isolated_partition(query);
+  return partition.finding == HostFinding::kOk ? partition : reserved(query, "isolated");
 }
 Content tickless(const HostQuery& query) {
   return reserved(query, "nohz_full");

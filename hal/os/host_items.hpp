@@ -63,6 +63,11 @@ Content memory_lock(const HostQuery& query);
 Content cpu_quota(const HostQuery& query);
 Content realtime_quota(const HostQuery& query);
 Content cpuset(const HostQuery& query);
+/// In order if a partition of version 2 isolates the CPU of the cycle while the host runs: the root
+/// group lists those of all partitions (from Linux 6.7 on), and the nearest group of the process
+/// that is a partition has its own (6.1). Unknown otherwise. Source: the kernel's
+/// Documentation/admin-guide/cgroup-v2.rst, cpuset.cpus.isolated and cpuset.cpus.partition.
+Content isolated_partition(const HostQuery& query);
 
 // The CPU of the cycle.
 Content governor(const HostQuery& query);

@@ -69,6 +69,36 @@ void a_real_time_quota_is_in_order_if_it_is_the_whole_period(void**) {
   tree.remove_all();
 }
 
+/// As the kernel shows them: all that there are in the root group, and the kind of each group.
+void a_cpu_of_an_isolated_partition_is_isolated(void**) {
+  GroupTree tree("0::/robots.slice/arm.service\n");
+  tree.put("/sys/devices/system/cpu/isolated", "\n");
+  tree.expect("isolated CPUs", HostFinding::kHurts, "none");
+  tree.put("/sys/fs/cgroup/cpuset.cpus.isolated", "3\n");
+  tree.expect("isolated CPUs", HostFinding::kHurts, "none");
+  tree.put("/sys/fs/cgroup/cpuset.cpus.isolated", "2-3\n");
+  tree.expect("isolated CPUs", HostFinding::kOk, "cpuset.cpus.isolated 2-3");
+  tree.remove("/sys/fs/cgroup/cpuset.cpus.isolated");
+  constexpr const char *kAbove = "/sys/fs/cgroup/robots.slice/cpuset.cpus.partition",
+                       *kHere = "/sys/fs/cgroup/robots.slice/arm.service/cpuset.cpus.partition";
+  tree.put("/sys/fs/cgroup/robots.slice/cpuset.cpus.effective", "2-3\n");
+  tree.put("/sys/fs/cgroup/robots.slice/arm.service/cpuset.cpus.effective", "2-3\n");
+  tree.put(kHere, "member\n");
+  for (const char* kind : {"member\n", "root\n", "isolated invalid (Cpu list is empty)\n"}) {
+    tree.put(kAbove, kind);
+    tree.expect("isolated CPUs", HostFinding::kHurts, "none");
+  }
+  tree.put(kAbove, "isolated\n");
+  tree.expect("isolated CPUs", HostFinding::kOk,
+              "cpuset.cpus.partition isolated of /sys/fs/cgroup/robots.slice");
+  tree.put("/sys/fs/cgroup/robots.slice/cpuset.cpus.effective", "3\n");
+  tree.expect("isolated CPUs", HostFinding::kHurts, "none");
+  tree.put("/sys/fs/cgroup/robots.slice/cpuset.cpus.effective", "2-3\n");
+  tree.put(kHere, "root\n");  // its own, with the scheduler's balance
+  tree.expect("isolated CPUs", HostFinding::kHurts, "none");
+  tree.remove_all();
+}
+
 void lines_that_are_none_of_the_kernel_are_left_out(void**) {
   for (const char* lines : {"", "\n", ":", "::", "cpu\n", "5:cpu\n", "5:cpux,xcpu:/\n"}) {
     GroupTree tree(lines);
@@ -88,6 +118,7 @@ int main() {
       cmocka_unit_test(a_quota_of_version_2_hurts_in_the_group_and_in_every_group_above),
       cmocka_unit_test(a_group_that_only_the_host_sees_is_that_of_the_mount),
       cmocka_unit_test(a_real_time_quota_is_in_order_if_it_is_the_whole_period),
+      cmocka_unit_test(a_cpu_of_an_isolated_partition_is_isolated),
       cmocka_unit_test(lines_that_are_none_of_the_kernel_are_left_out),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
