@@ -25,7 +25,6 @@ bool wait_for(int socket, short events, std::int64_t timeout_ns) {
 
 /// Returns 0 or the errno.
 int finish_connecting(int socket, const Deadline& deadline) {
-  if (errno != EINPROGRESS) return errno;
   if (!wait_for(socket, POLLOUT, deadline.left_ns())) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof error;
@@ -35,23 +34,32 @@ int finish_connecting(int socket, const Deadline& deadline) {
 
 }  // namespace
 
-Status Socket::connect(const char* address, int port, const Deadline& deadline, Message& why) {
+/// Returns 0, EINPROGRESS or the errno.
+int Socket::open(const char* address, int port) {
   close();
   sockaddr_in to{};
   to.sin_family = AF_INET;
   to.sin_port = htons(static_cast<std::uint16_t>(port));
-  int error = inet_pton(AF_INET, address, &to.sin_addr) == 1 ? 0 : EINVAL;
-  if (error == 0) {
-    socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (socket_ < 0) error = errno;
-  }
-  if (error == 0 && ::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0)
-    error = finish_connecting(socket_, deadline);
-  if (error == 0) {
-    constexpr int kYes = 1;
-    setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &kYes, sizeof kYes);
-    return Status::kOk;
-  }
+  if (inet_pton(AF_INET, address, &to.sin_addr) != 1) return EINVAL;
+  socket_ = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (socket_ < 0) return errno;
+  constexpr int kYes = 1;
+  setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &kYes, sizeof kYes);
+  const bool connected = ::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
+  return connected ? 0 : errno;
+}
+
+bool Socket::begin(const char* address, int port) {
+  const int error = open(address, port);
+  if (error == 0 || error == EINPROGRESS) return true;
+  close();
+  return false;
+}
+
+Status Socket::connect(const char* address, int port, const Deadline& deadline, Message& why) {
+  int error = open(address, port);
+  if (error == EINPROGRESS) error = finish_connecting(socket_, deadline);
+  if (error == 0) return Status::kOk;
   close();
   why = Message();
   why << address << " port " << port << ": " << std::strerror(error);

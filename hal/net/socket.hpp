@@ -22,6 +22,11 @@ class Socket {
   /// and reason; what to do about it depends on what is known of the other end. [init]
   Status connect(const char* address, int port, const Deadline& deadline, Message& why);
 
+  /// Begins to connect in place of the connection before, and waits for nothing: receive() then
+  /// returns 0 until the other end greets, or -1 if it cannot be reached. False: this computer
+  /// cannot begin. [cyclic]
+  bool begin(const char* address, int port);
+
   /// Waits until bytes or the end of the connection can be received. [any]
   bool wait(std::int64_t timeout_ns) const;
   /// Receives at most `size` bytes; returns their number, 0 if none has come, -1 if the connection
@@ -40,6 +45,8 @@ class Socket {
   bool connected() const { return socket_ >= 0; }
 
  private:
+  int open(const char* address, int port);
+
   int socket_ = -1;
 };
 

@@ -178,6 +178,9 @@ void ArmDrives::judge_time() {
   const Unfinished unfinished = unfinished_of(phase_);
   why_ = Message(unfinished.problem);
   why_ << " within " << ms << " ms" << unfinished.remedy;
+  const std::string_view refusal = dashboard_.refusal();
+  if (phase_ < DrivePhase::kOtherProgram && !refusal.empty())
+    why_ << "; the robot answered '" << refusal << "'";
   fail(Status::kRefusedByRobot);
 }
 

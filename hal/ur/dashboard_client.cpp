@@ -5,12 +5,23 @@
 #include "hal/net/printable.hpp"
 
 namespace tactus::ur {
+namespace {
+
+constexpr std::string_view kGreeting = "Connected:";
+/// "... please switch robot to Remote Control mode and reconnect to port 29999"
+constexpr std::string_view kNotInRemoteControl = "Command is not allowed due to safety reasons";
+
+bool begins_with(std::string_view text, std::string_view words) {
+  return text.substr(0, words.size()) == words;
+}
+
+}  // namespace
 
 Status DashboardClient::connect(const char* address, int port, const Deadline& deadline,
                                 Message& why) {
-  size_ = 0;
-  unread_ = 0;
-  endless_ = false;
+  address_ = address;
+  port_ = port;
+  forget_connection();
   answer_ = Answer::kNone;
   if (const Status status = socket_.connect(address, port, deadline, why); status != Status::kOk) {
     why << "; the robot answers at rtde_port, so check dashboard_port; one that has no dashboard "
@@ -18,22 +29,21 @@ Status DashboardClient::connect(const char* address, int port, const Deadline& d
     return status;
   }
   Line greeting;
-  bool greeted = false;
-  for (std::int64_t left_ns = deadline.left_ns(); !greeted && left_ns > 0;
+  for (std::int64_t left_ns = deadline.left_ns(); !greeted_ && left_ns > 0;
        left_ns = deadline.left_ns()) {
     if (!receive()) {
       explain_loss(why);
       return loss();
     }
-    greeted = next_line(greeting);
-    if (!greeted && !socket_.wait(left_ns)) break;
+    greeted_ = next_line(greeting);
+    if (!greeted_ && !socket_.wait(left_ns)) break;
   }
-  if (!greeted) {
+  if (!greeted_) {
     why = Message("dashboard: no complete reply within ");
     why << deadline.whole_ms() << " ms; check the network or raise connect_ms";
     return Status::kBusTimeout;
   }
-  if (std::string_view(greeting).substr(0, 10) == "Connected:") return Status::kOk;
+  if (begins_with(greeting, kGreeting)) return Status::kOk;
   why = Message("dashboard: unexpected greeting '");
   why << greeting << "'; check dashboard_port";
   return Status::kRefusedByRobot;
@@ -42,19 +52,22 @@ Status DashboardClient::connect(const char* address, int port, const Deadline& d
 void DashboardClient::ask(std::string_view command, std::string_view expected) {
   command_ = command;
   expected_ = expected;
-  sent_ = false;
+  refusal_ = Line();
+  sent_ = repeated_ = false;
   answer_ = Answer::kPending;
 }
 
 DashboardClient::Answer DashboardClient::poll(Message& why) {
   if (answer_ != Answer::kPending) return answer_;
-  if (!send() || !receive()) {
-    explain_loss(why);
-    return answer_ = Answer::kLost;
-  }
+  if (!send() || !receive()) return answer_ = lose(why);
   Line reply;
   // There are at most as many lines as bytes.
   while (answer_ == Answer::kPending && next_line(reply)) {
+    if (!greeted_) {
+      greeted_ = true;
+      if (!begins_with(reply, kGreeting)) answer_ = judge(reply, why);
+      continue;
+    }
     const bool ours = sent_ && unread_ == 1;
     if (unread_ > 0) --unread_;
     if (ours) answer_ = judge(reply, why);
@@ -63,10 +76,31 @@ DashboardClient::Answer DashboardClient::poll(Message& why) {
 }
 
 DashboardClient::Answer DashboardClient::judge(std::string_view reply, Message& why) {
-  if (reply.substr(0, expected_.size()) == expected_) return Answer::kYes;
+  if (begins_with(reply, expected_)) return Answer::kYes;
+  refusal_ = Line(reply);
   why = Message("dashboard: the robot answered '");
   why << command_ << "' with '" << reply << "'";
-  return Answer::kNo;
+  return begins_with(reply, kNotInRemoteControl) && repeat() ? Answer::kPending : Answer::kNo;
+}
+
+DashboardClient::Answer DashboardClient::lose(Message& why) {
+  if (!endless_ && repeat()) return Answer::kPending;
+  explain_loss(why);
+  return Answer::kLost;
+}
+
+bool DashboardClient::repeat() {
+  if (repeated_) return false;
+  repeated_ = true;
+  sent_ = false;
+  forget_connection();
+  return socket_.begin(address_, port_);
+}
+
+void DashboardClient::forget_connection() {
+  size_ = 0;
+  unread_ = 0;
+  endless_ = greeted_ = false;
 }
 
 void DashboardClient::explain_loss(Message& why) const {
@@ -75,11 +109,13 @@ void DashboardClient::explain_loss(Message& why) const {
     why << "a reply of more than " << bytes_.size()
         << " bytes without an end; check dashboard_port";
   else
-    why << "the connection was closed";
+    why << (repeated_ && !greeted_ ? "the connection was lost, and no other could be made"
+                                   : "the connection was closed");
+  if (!refusal_.empty()) why << "; before, the robot answered '" << refusal_ << "'";
 }
 
 bool DashboardClient::send() {
-  if (sent_) return true;
+  if (sent_ || !greeted_) return true;
   Text<127> line(command_);
   line << "\n";
   const std::string_view text(line);

@@ -16,6 +16,9 @@ Status Socket::connect(const char*, int, const Deadline&, Message&) {
   socket_ = 1;
   return Status::kOk;
 }
+bool Socket::begin(const char*, int) {
+  return false;
+}
 bool Socket::send_some(std::string_view& text) {
   text = {};
   return connected();

@@ -127,12 +127,7 @@ void a_port_that_is_closed_is_named_when_it_is_needed(void**) {
   static_cast<void>(bench.executive.stop());
   bench.robot.change([](FakeImage& image) { image = FakeImage(); });
   ASSERT_OK(bench.connect());
-  bench.robot.change([](FakeImage& image) { image.robot_mode = 3; });
-  bench.robot.drop_dashboard();
-  ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
-  assert_true(bench.says("dashboard: the connection was closed"));
-  ASSERT_STATUS(bench.executive.arm(), Status::kConnectionLost);
-  assert_arms_now(bench, true);
+  ASSERT_OK(bench.arm());
   bench.robot.drop_primary();
   ASSERT_OK(bench.cycles(5));  // motion does not need it
   static_cast<void>(bench.executive.stop());
@@ -146,7 +141,53 @@ void a_port_that_is_closed_is_named_when_it_is_needed(void**) {
   assert_true(bench.says("primary port: the connection was closed"));
   bench.robot.change([](FakeImage& image) { assert_int_equal(image.robot_mode, 3); });
   assert_arms_now(bench, true);
+  static_cast<void>(bench.executive.stop());
+  bench.robot.change([](FakeImage& image) {
+    image.runtime_state = 1;
+    image.robot_mode = 3;
+  });
+  ASSERT_OK(bench.connect());
+  bench.robot.close_dashboard();
+  ASSERT_STATUS(bench.arm(), Status::kConnectionLost);
+  assert_true(bench.says("dashboard: the connection was lost, and no other could be made"));
+  ASSERT_STATUS(bench.executive.arm(), Status::kConnectionLost);
 }
+
+// Proves URH-35.
+
+/// A connection that was made in local control stays refused, or is closed.
+void a_pendant_that_is_switched_to_remote_control_lets_the_next_arming_through(void**) {
+  for (const bool closes : {false, true}) {
+    UrHalBench& bench = fresh();
+    bench.settings.on_power_off = OnPowerOff::kPowerOn;
+    bench.robot.faults.local = true;
+    bench.robot.image.robot_mode = 3;
+    ASSERT_OK(bench.connect());
+    ASSERT_STATUS(bench.arm(), Status::kRefusedByRobot);
+    assert_true(bench.says("'Command is not allowed due to safety reasons, please switch robot"));
+    assert_int_equal(bench.robot.dashboard_connections(), 2);  // one more for each command
+    bench.robot.change([&](FakeImage&) { bench.robot.faults.local = false; });
+    if (closes) bench.robot.drop_dashboard();
+    ASSERT_OK(bench.arm());
+    assert_int_equal(bench.robot.dashboard_connections(), 3);
+    bench.robot.change([](FakeImage& image) { assert_int_equal(image.robot_mode, 7); });
+  }
+}
+
+/// Every attempt has one new connection; the time ends them.
+void a_protective_stop_that_local_control_keeps_is_told_in_the_robots_words(void**) {
+  UrHalBench& bench = fresh();
+  bench.settings.on_protective_stop = OnProtectiveStop::kRelease;
+  bench.robot.faults.local = true;
+  bench.robot.image.safety_mode = 3;
+  ASSERT_OK(bench.connect());
+  ASSERT_STATUS(bench.arm(), Status::kRefusedByRobot);
+  assert_true(bench.says("the protective stop was not released within 300 ms"));
+  assert_true(bench.says("; the robot answered 'Command is not allowed due to safety reasons, "));
+  assert_int_equal(bench.robot.dashboard_connections(), 2);
+}
+
+// Proves URH-3.
 
 void a_program_that_goes_nowhere_is_named(void**) {
   UrHalBench& bench = fresh();
@@ -176,6 +217,8 @@ int main() {
       cmocka_unit_test(a_tip_that_shows_late_is_waited_for),
       cmocka_unit_test(a_tip_that_stays_elsewhere_ends_arming_and_the_program),
       cmocka_unit_test(a_port_that_is_closed_is_named_when_it_is_needed),
+      cmocka_unit_test(a_pendant_that_is_switched_to_remote_control_lets_the_next_arming_through),
+      cmocka_unit_test(a_protective_stop_that_local_control_keeps_is_told_in_the_robots_words),
       cmocka_unit_test(a_program_that_goes_nowhere_is_named),
       cmocka_unit_test(a_connection_that_is_closed_at_the_first_registers_is_named),
   };

@@ -86,6 +86,14 @@ class FakeController {
   void drop_rtde() { drop(0); }
   void drop_primary() { drop(1); }
   void drop_dashboard() { drop(2); }
+  /// It takes no other connection either.
+  void close_dashboard() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    listeners_[2].close();
+    listeners_[2].listening = -1;
+  }
+  /// Connections to the dashboard so far.
+  int dashboard_connections() const { return listeners_[2].connections; }
   /// It leaves what comes through RTDE where it is, or reads on.
   void stop_reading() { reads_ = false; }
   void read_on() { reads_ = true; }
@@ -126,6 +134,7 @@ class FakeController {
         started_ = false;
         protocol_ = 1;
       }
+      if (i == 2) made_in_local_ = faults.local;
       if (i == 2 && !faults.silent_dashboard)
         listener.say("Connected: Universal Robots Dashboard Server\n");
     }
@@ -228,7 +237,9 @@ class FakeController {
   void take_command(FakeListener& listener) {
     const std::string_view line(reinterpret_cast<const char*>(listener.bytes.data()),
                                 listener.size);
-    if (!faults.silent_dashboard) listener.say(dashboard_reply(line, image, faults));
+    const bool refuses = made_in_local_ || faults.local;
+    if (!faults.silent_dashboard)
+      listener.say(refuses ? kNotInRemoteControl : dashboard_reply(line, image, faults));
     listener.size = 0;
   }
 
@@ -248,6 +259,7 @@ class FakeController {
   std::array<double, 6> q_set_{};
   FakeProgram program_;
   bool started_ = false, tells_tool_ = true, void_recipe_ = false;
+  bool made_in_local_ = false;  // the connection to the dashboard
   int protocol_ = 1;
 };
 

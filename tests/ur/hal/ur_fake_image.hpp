@@ -51,6 +51,7 @@ struct FakeFaults {
   std::string_view outputs = kFakeOutputs, inputs = kFakeInputs;
   int unlock_refusals = 0;
   bool silent_dashboard = false, refuses_power = false;
+  bool local = false;         ///< an e-Series that is not in remote control
   bool does_nothing = false;  ///< the dashboard says yes
   bool uses_no_set_points = false;
   std::size_t dribbling_port = 3;  ///< 0 RTDE, 1 primary, 2 dashboard: one byte in 2 ms
@@ -81,6 +82,13 @@ struct FakeProgram {
   }
 };
 
+/// What the dashboard says to a command that is sent while the robot is not in remote control, and
+/// ever after over the same connection.
+/// Source: the words of an e-Series in
+/// github.com/UniversalRobots/Universal_Robots_ROS2_Driver/issues/181.
+inline constexpr std::string_view kNotInRemoteControl =
+    "Command is not allowed due to safety reasons, please switch robot to Remote Control mode and "
+    "reconnect to port 29999\n";
 /// What the dashboard says, and what it does.
 inline std::string_view dashboard_reply(std::string_view line, FakeImage& image,
                                         FakeFaults& faults) {
