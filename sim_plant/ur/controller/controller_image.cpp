@@ -53,6 +53,12 @@ void Controller::show_tool() {
     const Vector3 force = image_.actual_tcp_force.head<3>();
     image_.actual_tcp_force.tail<3>() += (tip.p - flange.p).cross(force);
   }
+  const Vector6 raw = machine_.raw_wrench();
+  const Vector3 force = flange.r.transpose() * raw.head<3>();
+  const Vector3 weight = flange.r.transpose() * (machine_.payload * machine_.body.base_gravity());
+  image_.ft_raw_wrench.head<3>() = force + weight;
+  image_.ft_raw_wrench.tail<3>() = flange.r.transpose() * raw.tail<3>() + tool.p.cross(force) +
+                                   machine_.payload_cog.cross(weight);
   image_.tcp_force_scalar = image_.actual_tcp_force.head<3>().norm();
   const Vector3 v = image_.actual_tcp_speed.head<3>();
   image_.actual_tool_accelerometer =

@@ -6,7 +6,6 @@ namespace tactus::ur {
 namespace {
 
 constexpr double kStateRate_Hz = 10.0;
-constexpr int kPatience = 625;  // cycles in which a client may take nothing
 
 }  // namespace
 
@@ -24,6 +23,7 @@ int Emulator::open(Service service) {
     session.script.clear();
     session.line_size = 0;
     session.stalled = 0;
+    session.writes = false;
     session.unsent = session.kept = 0;
     session.idle = 0;
     session.rtde.open(i);
@@ -91,6 +91,7 @@ void Emulator::take_lines(Session& session, const std::uint8_t* data, std::size_
 void Emulator::take_script(Session& session, const std::uint8_t* data, std::size_t size) {
   Runner& runner = controller_.runner();
   Machine& machine = controller_.machine();
+  session.writes = true;
   session.script.take(data, size, [&](std::string_view piece) {
     if (!run_direct_command(piece, runner, machine)) runner.upload(piece, machine);
   });
@@ -168,8 +169,11 @@ void Emulator::watch_idle(Session& session) {
   session.idle = session.out.size() < session.kept ? 0 : session.idle + 1;
 }
 
-/// Ends the session of a client that takes no bytes for too long although some are waiting.
+/// Ends the session of a client that takes no bytes for too long although some are waiting. One
+/// that uploads programs and reads nothing misses packets instead; it is ended where another needs
+/// its place.
 void Emulator::watch_reader(Session& session) {
+  if (session.writes) return;
   const std::size_t waiting = session.out.size();
   const bool stands = waiting > 0 && waiting >= session.unsent && session.out.dropped() > 0;
   session.stalled = stands ? session.stalled + 1 : 0;

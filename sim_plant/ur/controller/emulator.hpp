@@ -43,6 +43,8 @@ class Emulator {
   Outbox& outbox(int session) { return at(session).out; }
   /// True if the session has ended: send the remaining bytes and close it.
   bool ended(int session) { return at(session).ended; }
+  /// True if it has because the client took no bytes.
+  bool stalled(int session) { return at(session).stalled > kPatience; }
 
   Pace pace() const;
 
@@ -50,6 +52,8 @@ class Emulator {
   Links& links() { return controller_.machine().links; }
 
  private:
+  static constexpr int kPatience = 625;  // cycles in which a client may take nothing
+
   struct Session {
     bool open = false, ended = false;
     Service service = Service::kDashboard;
@@ -63,6 +67,7 @@ class Emulator {
     int idle = 0;          // cycles in which no byte was exchanged
     std::size_t kept = 0;  // bytes that waited at the end of the last cycle
     bool told = false;     // has been sent a whole state
+    bool writes = false;   // has sent a program
   };
 
   Session& at(int session) { return sessions_[static_cast<std::size_t>(session)]; }

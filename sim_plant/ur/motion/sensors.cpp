@@ -66,8 +66,11 @@ Joints Sensors::velocity(const Joints& dq) const {
 }
 
 Vector6 Sensors::wrench(const Vector6& felt) const {
-  if (!errors_.on || !has_sensor_) return felt;
-  return felt + wrench_bias_ + wrench_noise_ - zero_;
+  return raw_wrench(felt) - zero_;
+}
+
+Vector6 Sensors::raw_wrench(const Vector6& felt) const {
+  return errors_.on && has_sensor_ ? Vector6(felt + wrench_bias_ + wrench_noise_) : felt;
 }
 
 void Sensors::set_zero(const Vector6& felt) {

@@ -45,6 +45,8 @@ class Sensors {
   const Joints& torque_error() const { return torque_; }  ///< of the estimate, filtered, N m
   /// Returns the wrench as the sensor shows it, N and N m; without errors or sensor, `felt`. [any]
   Vector6 wrench(const Vector6& felt) const;
+  /// The same of a sensor that was never set to zero.
+  Vector6 raw_wrench(const Vector6& felt) const;
   /// Takes the present reading of the sensor as zero; a CB3 has none. [cyclic]
   void set_zero(const Vector6& felt);
 

@@ -58,6 +58,8 @@ struct Machine {
 
   /// The wrench on the tip as the controller sees it, base axes, N and N m.
   Vector6 measured_wrench() const { return sensors.wrench(estimated_wrench()); }
+  /// The same, never set to zero.
+  Vector6 raw_wrench() const { return sensors.raw_wrench(estimated_wrench()); }
   /// Takes the present wrench as zero, if there is a sensor.
   void zero_force() { sensors.set_zero(estimated_wrench()); }
 

@@ -1,10 +1,14 @@
 // Answers of ur_rtde's program: a flag in its second integer, six numbers in its first doubles.
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "sim_plant/ur/programs/register_program.hpp"
+#include "sim_plant/ur/script/script_text.hpp"
 
 namespace tactus::ur {
 
+using Command = RegisterCommand;
 using Program = RegisterProgram;
 
 Program::Outcome Program::inverse_here(Machine& machine) {
@@ -85,6 +89,27 @@ Program::Outcome Program::no_posture(Machine& machine) const {
   const std::string_view before = text_.substr(0, text_.find("get_inverse_kin("));
   const auto line = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
   machine.messages.runtime_exception(line, 1, "runtime_error:no inverse kinematics");
+  return Outcome::kEnded;
+}
+
+/// On an e-Series, ends a program that has a branch for a command that is not emulated, with the
+/// first line of that branch. A CB3, whose text has no such branch, goes on.
+Program::Outcome Program::not_emulated(Command command, Machine& machine) const {
+  std::array<char, 128> words;
+  const auto number = static_cast<int>(command);
+  std::snprintf(words.data(), words.size(), "cmd == %d:", number);
+  const std::size_t at = text_.find(words.data());
+  if (!machine.settings.version.at_least(5, 0) || at == std::string_view::npos)
+    return Outcome::kDone;
+  const std::string_view before = text_.substr(0, at);
+  std::string_view rest = text_.substr(at), line;
+  for (int i = 0; i < 2 && next_line(rest, line); ++i) {
+  }
+  line = trimmed(line).substr(0, 64);
+  std::snprintf(words.data(), words.size(), "runtime_error:not emulated:command %d:%.*s", number,
+                static_cast<int>(line.size()), line.data());
+  const auto where = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 2;
+  machine.messages.runtime_exception(where, 1, words.data());
   return Outcome::kEnded;
 }
 

@@ -1,5 +1,6 @@
-// The commands of ur_rtde's program. A command without a row is done at once: it sets something
-// that the emulated controller does not have.
+// The commands of ur_rtde's program. A command without a row is done at once by a CB3: it sets
+// something that the emulated controller does not have. On an e-Series what is not emulated ends
+// the program, as the client would take it for done.
 #include "sim_plant/ur/programs/register_program.hpp"
 
 namespace tactus::ur {
@@ -19,6 +20,7 @@ const Program::Row Program::kRows[] = {
     {Command::kServoL, Handshake::kReady, &Program::servo_l, {}},
     {Command::kServoC, Handshake::kDone, &Program::servo_c, {}},
     {Command::kServoStop, Handshake::kDone, &Program::servo_stop, {}},
+    {Command::kZeroFtSensor, Handshake::kDone, &Program::zero_force, {}},
     {Command::kSpeedJ, Handshake::kReady, &Program::speed_j, {}},
     {Command::kSpeedL, Handshake::kReady, &Program::speed_l, {}},
     {Command::kSpeedStop, Handshake::kDone, &Program::speed_stop, {}},
@@ -64,6 +66,11 @@ const Program::Row& Program::row_of(Command command) {
   for (const Row& row : kRows)
     if (row.command == command) return row;
   return kOther;
+}
+
+Program::Outcome Program::zero_force(Machine& machine) {
+  machine.zero_force();
+  return Outcome::kDone;
 }
 
 Program::Outcome Program::set_payload(Machine& machine) {

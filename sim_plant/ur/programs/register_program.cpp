@@ -87,21 +87,24 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
   if (command == RegisterCommand::kNone) {
     executing_ = false;
     write(0, kReady, machine);
-  } else if (process(row_of(command), machine) == Outcome::kEnded) {
+  } else if (process(command, machine) == Outcome::kEnded) {
     return ProgramStep::kEnded;
   }
   last_ = command;
   return ProgramStep::kRunning;
 }
 
-RegisterProgram::Outcome RegisterProgram::process(const Row& row, Machine& machine) {
+RegisterProgram::Outcome RegisterProgram::process(RegisterCommand command, Machine& machine) {
+  const Row& row = row_of(command);
+  if (row.act == nullptr && not_emulated(command, machine) == Outcome::kEnded)
+    return Outcome::kEnded;
   const bool once = row.shake == Handshake::kDone;
   if (once && executing_) return Outcome::kDone;
   executing_ = executing_ || once;
   const bool acts = row.act != nullptr && (row.needs.empty() || has(row.needs));
   const Outcome outcome = acts ? (this->*row.act)(machine) : Outcome::kDone;
   blocked_ = outcome == Outcome::kMoves;
-  const bool shows_done = once || (row.shake == Handshake::kBoth && row.command != last_);
+  const bool shows_done = once || (row.shake == Handshake::kBoth && command != last_);
   if (outcome == Outcome::kDone) write(0, shows_done ? kDone : kReady, machine);
   return outcome;
 }

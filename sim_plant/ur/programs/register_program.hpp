@@ -36,14 +36,14 @@ class RegisterProgram {
   struct Row {
     RegisterCommand command;
     Handshake shake;
-    Outcome (RegisterProgram::*act)(Machine&);  ///< null: a CB3 does nothing
+    Outcome (RegisterProgram::*act)(Machine&);  ///< null: not emulated, or of no use
     std::string_view needs;                     ///< a call; without it in the text nothing is done
   };
   static const Row kRows[];
   static const Row& row_of(RegisterCommand command);
 
   // register_program.cpp: the handshake.
-  Outcome process(const Row& row, Machine& machine);
+  Outcome process(RegisterCommand command, Machine& machine);
   bool has(std::string_view part) const { return text_.find(part) != std::string_view::npos; }
   double input(int i, const Machine& machine) const;
   std::int32_t integer_input(int i, const Machine& machine) const;
@@ -53,6 +53,7 @@ class RegisterProgram {
   void end_async(Machine& machine);
 
   // register_commands.cpp: the rows, and the commands that set something.
+  Outcome zero_force(Machine& machine);
   Outcome set_payload(Machine& machine);
   Outcome set_tcp(Machine& machine);
   Outcome teach_mode(Machine& machine);
@@ -102,6 +103,7 @@ class RegisterProgram {
   Outcome answer_flag(bool flag, Machine& machine) const;
   Outcome answer_six(const Vector6& values, Machine& machine) const;
   Outcome no_posture(Machine& machine) const;
+  Outcome not_emulated(RegisterCommand command, Machine& machine) const;
 
   std::string_view text_;
   int int_offset_ = 0, double_offset_ = 0;

@@ -83,6 +83,7 @@ void Runner::start(std::string_view text, Machine& machine) {
   } else if (WaypointProgram::recognises(text)) {
     program_.emplace<WaypointProgram>().start(text);
   } else {
+    text = {text_.data(), join_lines(text_.data(), text.size())};
     if (!compiles(text, machine)) return;
     int first_line = 1;
     const std::string_view body = body_of(text, first_line);

@@ -59,6 +59,55 @@ std::string_view without_comment(std::string_view line) {
   return line;
 }
 
+namespace {
+
+/// Returns how many brackets are open after a line that begins with `open` of them.
+int brackets_after(std::string_view line, int open) {
+  bool quoted = false;
+  for (const char c : without_comment(line)) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+  }
+  return open;
+}
+
+/// Returns how many of the lines that follow close the brackets of `line`; 0: none, or not soon.
+int lines_to_join(std::string_view line, std::string_view rest) {
+  constexpr int kMost = 64;
+  int open = brackets_after(line, 0), count = 0;
+  for (; open > 0 && count < kMost && next_line(rest, line); ++count)
+    open = brackets_after(line, open);
+  return open == 0 ? count : 0;
+}
+
+}  // namespace
+
+std::size_t join_lines(char* text, std::size_t size) {
+  std::string_view rest(text, size), line;
+  std::size_t to = 0;
+  const auto put = [&](std::string_view part) {
+    std::memmove(text + to, part.data(), part.size());
+    to += part.size();
+  };
+  while (next_line(rest, line)) {
+    const int more = lines_to_join(line, rest);
+    int held = 0;
+    put(more > 0 ? without_comment(line) : line);
+    for (int i = 0; i < more && next_line(rest, line); ++i) {
+      const std::string_view code = without_comment(line);
+      const bool words =
+          to > 0 && is_name(text[to - 1], false) && !code.empty() && is_name(code[0], false);
+      put(words ? " " : "");
+      held += words ? 0 : 1;
+      put(code);
+    }
+    for (; held > 0; --held) put("\n");
+    if (line.data() + line.size() < text + size) put("\n");
+  }
+  return to;
+}
+
 std::string_view leading_name(std::string_view text) {
   std::size_t size = 0;
   while (size < text.size() && is_name(text[size], size == 0)) ++size;

@@ -20,6 +20,11 @@ bool next_line(std::string_view& text, std::string_view& line);
 std::string_view trimmed(std::string_view text);
 /// Returns a line without its comment; a # in quotes does not begin one.
 std::string_view without_comment(std::string_view line);
+
+/// Joins, in place, every line whose brackets stay open with those that close them, without their
+/// comments. The ends of lines follow the statement, so that what comes after keeps its number.
+/// Returns the new size, which is not larger.
+std::size_t join_lines(char* text, std::size_t size);
 /// Returns the identifier at the beginning of a text; empty if there is none.
 std::string_view leading_name(std::string_view text);
 bool starts_with(std::string_view text, std::string_view word);

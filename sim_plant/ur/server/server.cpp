@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <cerrno>
+#include <cstdio>
 
 #include <ctime>
 
@@ -142,7 +143,7 @@ void Server::let_in(Listener& listener) {
   }
   for (Connection& connection : connections_) {
     if (connection.socket >= 0) continue;
-    connection = {socket, session, listener.reads};
+    connection = {socket, session, listener.reads, listener.port};
     write_to(connection);
     return;
   }
@@ -178,6 +179,9 @@ void Server::write_to(Connection& connection) {
   // Bytes sent before a client hung up count: they may be a whole program.
   for (int n = 0; !there && n < kLastReads && read_some(connection); ++n) {
   }
+  if (there && emulator_.stalled(connection.session))
+    std::fprintf(stderr, "port %d: a client that reads nothing was disconnected\n",
+                 connection.port);
   if (!there || emulator_.ended(connection.session)) show_out(connection);
 }
 

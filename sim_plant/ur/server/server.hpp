@@ -36,6 +36,7 @@ class Server {
     int socket = -1;
     int session = -1;
     bool reads = true;
+    int port = 0;
   };
 
   int build_poll_list();

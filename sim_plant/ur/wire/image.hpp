@@ -32,6 +32,7 @@ struct Image {
   Joints joint_control_output = Joints::Zero();
   Vector6 actual_tcp_pose = Vector6::Zero(), actual_tcp_speed = Vector6::Zero();
   Vector6 actual_tcp_force = Vector6::Zero();
+  Vector6 ft_raw_wrench = Vector6::Zero();  ///< of the sensor, in the flange, with the payload
   Vector6 target_tcp_pose = Vector6::Zero(), target_tcp_speed = Vector6::Zero();
   std::uint64_t actual_digital_input_bits = 0, actual_digital_output_bits = 0;
   Joints joint_temperatures = Joints::Constant(30.0);

@@ -17,7 +17,7 @@ constexpr FieldType kTypes[] = {FieldType::kDouble,      FieldType::kVector6d, F
 struct OutputRow {
   std::string_view name;
   Member member;
-  std::uint32_t minor = 0, bugfix = 0;  ///< of the software 3.x that introduced it
+  std::uint32_t minor = 0, bugfix = 0, major = 3;  ///< of the software that introduced it
 };
 
 constexpr OutputRow kOutputRows[] = {
@@ -34,6 +34,7 @@ constexpr OutputRow kOutputRows[] = {
     {"actual_TCP_pose", &Image::actual_tcp_pose},
     {"actual_TCP_speed", &Image::actual_tcp_speed},
     {"actual_TCP_force", &Image::actual_tcp_force},
+    {"ft_raw_wrench", &Image::ft_raw_wrench, 9, 0, 5},
     {"target_TCP_pose", &Image::target_tcp_pose},
     {"target_TCP_speed", &Image::target_tcp_speed},
     {"actual_digital_input_bits", &Image::actual_digital_input_bits},
@@ -125,7 +126,7 @@ OutputField find_output(std::string_view name, const Version& version) {
   OutputField field;
   for (const OutputRow& row : kOutputRows) {
     if (row.name != name) continue;
-    if (!version.at_least(3, row.minor, row.bugfix)) return field;
+    if (!version.at_least(row.major, row.minor, row.bugfix)) return field;
     field.type = kTypes[row.member.index()];
     field.row = static_cast<std::uint16_t>(&row - kOutputRows);
     return field;

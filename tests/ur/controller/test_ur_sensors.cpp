@@ -1,5 +1,6 @@
 // Tests the errors of the emulated controller's sensors against the figures that they are taken
 // from.
+#include "sim_plant/ur/wire/rtde_fields.hpp"
 #include "tests/ur/programs/ur_program_bench.hpp"
 
 namespace {
@@ -144,6 +145,33 @@ void the_moment_of_an_e_series_is_about_the_flange(void**) {
   assert_true((about_flange.tail<3>() - moved).norm() < 0.05);
 }
 
+/// From software 5.9 on a recipe has it: in the flange, with the weight of the payload.
+void the_raw_wrench_of_an_e_series_has_the_weight_of_the_payload(void**) {
+  assert_true(find_output("ft_raw_wrench", {5, 8, 2, 0}).type == FieldType::kNotFound);
+  assert_true(find_output("ft_raw_wrench", {5, 9, 0, 0}).type == FieldType::kVector6d);
+  const Vector3 cog(0.01, 0.02, 0.1);
+  for (const double payload_kg : {0.0, 2.0}) {
+    Settings settings = ProgramBench::settings();
+    settings.version = {5, 11, 1, 108318};
+    settings.payload_kg = payload_kg;
+    settings.payload_cog = cog;
+    Controller& controller = *new Controller(settings);
+    assert_true(controller.start() == Status::kOk);
+    controller.faults().push << 0.0, 20.0, -10.0, 0.0, 3.0, 0.0;
+    for (int k = 0; k < 1000; ++k) controller.tick();
+    const Image& image = controller.image();
+    const Matrix3 to_base = rotation_matrix(image.actual_tcp_pose.tail<3>());
+    const Vector6 raw = image.ft_raw_wrench;
+    const Vector3 weight(0.0, 0.0, -9.81 * settings.payload_kg);
+    const Vector3 force = image.actual_tcp_force.head<3>(),
+                  moment = image.actual_tcp_force.tail<3>();
+    assert_true(force.norm() > 5.0 && moment.norm() > 1.0);
+    assert_true((to_base * raw.head<3>() - force - weight).norm() < 0.02);
+    assert_true((to_base * raw.tail<3>() - moment - (to_base * cog).cross(weight)).norm() < 0.02);
+    delete &controller;
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -155,6 +183,7 @@ int main() {
       cmocka_unit_test(the_same_seed_gives_the_same_errors),
       cmocka_unit_test(the_moment_of_an_e_series_is_about_the_flange),
       cmocka_unit_test(the_sensor_of_an_e_series_can_be_zeroed),
+      cmocka_unit_test(the_raw_wrench_of_an_e_series_has_the_weight_of_the_payload),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -64,6 +64,18 @@ void a_client_that_only_reads_is_not_idle(void**) {
   close(late);
 }
 
+/// It misses packets; one that neither reads nor writes is ended.
+void a_client_that_uploads_programs_and_reads_nothing_stays(void**) {
+  start();
+  const int writes = connect_to(kRealtimePort), silent = connect_to(kRealtimePort);
+  assert_int_equal(send(writes, "set speed 1.0\n", 14, 0), 14);
+  for (int k = 0; k < 8000; ++k) tick();
+  assert_true(is_closed(silent));
+  assert_false(is_closed(writes));
+  close(writes);
+  close(silent);
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -73,6 +85,7 @@ int main() {
       cmocka_unit_test(clients_of_one_port_lock_out_nobody_at_another),
       cmocka_unit_test(an_idle_client_gives_its_place_to_a_new_one),
       cmocka_unit_test(a_client_that_only_reads_is_not_idle),
+      cmocka_unit_test(a_client_that_uploads_programs_and_reads_nothing_stays),
   };
   return run_server_tests(tests);
 }

@@ -19,6 +19,39 @@ std::int32_t int_output(ProgramBench& bench, int i) {
   return bench.machine().io.output.ints[static_cast<std::size_t>(i)];
 }
 
+// Proves URP-4.
+
+/// What comes after has its number: the value of line 9 does not exist.
+void a_line_goes_on_while_its_brackets_are_open(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def lines():\n"
+      "  q = [0, # of the shoulder ]\n"
+      "       -1.25,\n"
+      "    1.2, -0.1, 1.57, 0]\n"
+      "  write_output_float_register(\n"
+      "    2, # \"(\"\n"
+      "q[\n"
+      "1])\n"
+      "  x = q[9]\n"
+      "end\n");
+  bench.run(2);
+  assert_true(bench.machine().io.output.doubles[2] == -1.25);
+  assert_false(bench.running());
+  const std::string_view said(bench.said.bytes.data(), bench.said.size);
+  const std::size_t at = said.find("runtime_error:");
+  assert_true(at != std::string_view::npos && at > 8);
+  assert_int_equal(said[at - 5], 9);  // before a column of four bytes
+}
+
+void a_bracket_that_nothing_closes_is_refused(void**) {
+  static ProgramBench bench;
+  bench.upload("def lines():\n  q = [0,\n  sync()\nend\n");
+  bench.run(2);
+  assert_false(bench.running());
+  assert_true(bench.said.has("compile_error_syntax:"));
+}
+
 // Proves URP-1.
 
 void a_program_is_run_wherever_its_bytes_are_cut(void**) {
@@ -152,6 +185,8 @@ void an_unknown_name_is_told_with_its_place_and_nothing_runs(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_line_goes_on_while_its_brackets_are_open),
+      cmocka_unit_test(a_bracket_that_nothing_closes_is_refused),
       cmocka_unit_test(a_program_is_run_wherever_its_bytes_are_cut),
       cmocka_unit_test(a_program_without_its_end_is_not_run),
       cmocka_unit_test(a_text_longer_than_a_program_may_be_is_dropped_with_a_message),

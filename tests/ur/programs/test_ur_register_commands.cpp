@@ -176,6 +176,33 @@ void a_function_that_the_text_does_not_call_does_nothing(void**) {
   assert_int_equal(bench.answer(1), 7);
 }
 
+/// The robot would do it, and "done" or "ready" would say that it was done.
+void what_is_not_emulated_of_an_e_series_ends_the_program_by_name(void**) {
+  Settings settings = ProgramBench::settings();
+  settings.version = {5, 11, 1, 108318};
+  for (const std::int32_t number : {25, 80}) {
+    RegisterBench& bench = *new RegisterBench(settings);
+    bench.start(false,
+                "  def more(cmd):\n"
+                "    if cmd == 25:\n"
+                "      textmsg(\"tool_contact\")\n"
+                "    elif cmd == 80:\n"
+                "      textmsg(\"tool_contact\")\n"
+                "    end\n"
+                "  end\n");
+    bench.command(8);
+    bench.command(81);  // of which the text knows nothing
+    bench.write(number);
+    bench.run(2);
+    assert_false(bench.running());
+    assert_int_not_equal(bench.answer(), 2);
+    Message expected("runtime_error:not emulated:command ");
+    expected << number << ":textmsg(\"tool_contact\")";
+    assert_true(bench.said.has(expected));
+    delete &bench;
+  }
+}
+
 void a_protective_stop_ends_the_program(void**) {
   static RegisterBench bench;
   bench.start(false, "  protective_stop()\n");
@@ -201,6 +228,7 @@ int main() {
       cmocka_unit_test(a_pose_without_a_posture_is_the_scripts_error),
       cmocka_unit_test(a_move_out_of_reach_stops_the_arm_and_is_not_done),
       cmocka_unit_test(a_function_that_the_text_does_not_call_does_nothing),
+      cmocka_unit_test(what_is_not_emulated_of_an_e_series_ends_the_program_by_name),
       cmocka_unit_test(a_protective_stop_ends_the_program),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -7,6 +7,8 @@
 namespace tactus::ur {
 
 struct RegisterBench : ProgramBench {
+  using ProgramBench::ProgramBench;
+
   static constexpr std::string_view kHead = "def rtde_control():\n";
   static constexpr std::string_view kOffset =
       "  global reg_offset_float = 24\n"
