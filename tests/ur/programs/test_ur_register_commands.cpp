@@ -1,4 +1,5 @@
 // Tests the commands of the register program: their answers, their motions, and the client's view.
+#include "kernel/core/text.hpp"
 #include "tests/ur/programs/ur_register_bench.hpp"
 
 namespace {
