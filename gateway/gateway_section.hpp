@@ -2,6 +2,7 @@
 // pipeline.
 #pragma once
 
+#include "gateway/joint_turns.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/reference/space/joint_space.hpp"
@@ -36,6 +37,7 @@ struct GatewaySection {
   Times times = Times::kStretched;
   double start_s = 0.0;  ///< when the trajectory begins, by the generator's clock; 0: at once
   PartialJoints partial_joints = PartialJoints::kRefuse;
+  Wrap wrap = Wrap::kAsGiven;  ///< of the trajectory; clients say their own
   Value motion_frame;  ///< a pose of the pipeline, "block.port"; none: the base
   Value wrench_frame;  ///< a pose of the pipeline; none: the axes of the base, about the tip
   /// Time for which a run continues after its trajectory has ended; longer if its goal is still
@@ -52,6 +54,7 @@ struct GatewaySection {
     visit.choice("times", times);
     visit.param("start_s", start_s, Range{0.0, 3600.0}, "s");
     visit.choice("partial_joints", partial_joints);
+    visit.choice("wrap", wrap);
     visit.text("motion_frame", motion_frame, "the pose in whose frame the trajectory is given");
     visit.text("wrench_frame", wrench_frame, "the pose in whose frame its wrench is given");
     visit.param("settle_s", settle_s, Range{0.0, 3600.0}, "s");

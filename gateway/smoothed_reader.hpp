@@ -40,6 +40,11 @@ class SmoothedReader {
     smoothing_ = {};
     return reader_.open(path, partial, hash, error);
   }
+  /// As those of TrajectoryReader. [init]
+  void take_angles(Wrap wrap, const JointVector& reference) {
+    reader_.take_angles(wrap, reference);
+  }
+  const JointTurns& turns() const { return reader_.turns(); }
   /// Sets the limits of the run-up to a file that begins in motion; before, there is none. [init]
   void run_up_within(const typename Space::Peaks& limits) { limits_ = limits; }
   /// Returns to the first waypoint of a regular file, to read it so. False: refused. [init]

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <type_traits>
 
 #include "gateway/csv_cells.hpp"
 #include "kernel/load/ini.hpp"
@@ -79,6 +80,7 @@ bool TrajectoryReader<Space>::open(const char* path, bool partial, std::uint64_t
   digits_.fill({});
   partial_ = partial;
   rows_ = 0;
+  turns_.restart();
   return lines_.open(path, hash) || refuse(error, 0, 0, {}, not_readable(errno));
 }
 
@@ -87,6 +89,7 @@ bool TrajectoryReader<Space>::rewind(CsvError& error) {
   error = {};
   columns_ = Columns<Space>(partial_);
   rows_ = 0;
+  turns_.restart();
   return lines_.rewind() || refuse(error, 0, 0, {}, not_readable(errno));
 }
 
@@ -118,10 +121,14 @@ RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& erro
       rows_ += 1;
       const bool read =
           read_row(Cells(row, separator_), line, columns_, digits_.data(), waypoint, error);
+      if (read) turns_.take(waypoint.point);
       return read ? RowTaken::kWaypoint : RowTaken::kRefused;
     }
     separator_ = separator_of(row);
     if (!read_header(Cells(row, separator_), line, columns_, error)) return RowTaken::kRefused;
+    JointSpace::Header header;
+    if constexpr (std::is_same_v<Space, JointSpace>) columns_.note_left_out(header);
+    turns_.leave_out(header);
   }
 }
 

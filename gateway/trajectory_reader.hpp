@@ -15,6 +15,7 @@
 // A group in brackets is given completely or left out.
 #pragma once
 
+#include "gateway/joint_turns.hpp"
 #include "gateway/line_reader.hpp"
 #include "gateway/smoothing/digits.hpp"
 #include "gateway/trajectory_columns.hpp"
@@ -51,6 +52,12 @@ class TrajectoryReader {
   /// negative: until it has a row or is closed. [any, not cyclic]
   RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
 
+  /// Sets how the angles of joints without end are taken, from the next open() or rewind() on.
+  /// [init]
+  void take_angles(Wrap wrap, const JointVector& reference) { turns_.begin(wrap, reference); }
+  /// What was found of their turns since open() or rewind().
+  const JointTurns& turns() const { return turns_; }
+
   /// Fields that are given; known once a waypoint was taken.
   Fields fields() const { return columns_.fields(); }
   /// Writes the joints that are left out into the header; once a waypoint was taken.
@@ -65,6 +72,7 @@ class TrajectoryReader {
 
   LineReader lines_;
   Columns<Space> columns_{false};
+  JointTurns turns_;
   std::array<Digits, Columns<Space>::kMost> digits_;
   bool partial_ = false;
   char separator_ = ',';

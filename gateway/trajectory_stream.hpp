@@ -31,6 +31,11 @@ enum class Fed : std::uint8_t {
 template <class Space>
 class TrajectoryStream {
  public:
+  /// As that of TrajectoryReader; before open(). [init]
+  void take_angles(Wrap wrap, const JointVector& reference) {
+    reader_.take_angles(wrap, reference);
+  }
+  const JointTurns& turns() const { return reader_.turns(); }
   /// Opens a file and fills the store with its first waypoints. False: refused. [init]
   bool open(const char* path, bool partial, std::uint64_t hash, Trajectory<Space>& store);
   /// Judges the file except for the way from the robot to its first waypoint: the whole of one that

@@ -13,13 +13,6 @@
 namespace tactus {
 namespace {
 
-Status look(Hal& hal, CommandMode mode, RobotState& state) {
-  Status status = hal.connect(mode);
-  if (status == Status::kOk) status = hal.read({}, state);
-  static_cast<void>(hal.disconnect());
-  return status;
-}
-
 /// The arm rests where it stands until the start time: that need not be waited for.
 void begin_at_once(TrajectoryInput& input) {
   if (auto* joints = std::get_if<1>(&input.trajectory)) (*joints)->start_s = kStartAtOnce;
@@ -42,6 +35,13 @@ void print_room(const char* path, const Guard::Params& guard) {
 }
 
 }  // namespace
+
+Status look(Hal& hal, CommandMode mode, RobotState& state) {
+  Status status = hal.connect(mode);
+  if (status == Status::kOk) status = hal.read({}, state);
+  static_cast<void>(hal.disconnect());
+  return status;
+}
 
 int check(Session& session, const Options& options) {
   Expectation expectation;
@@ -87,6 +87,7 @@ int check(Session& session, const Options& options) {
                     TrajectoryRehearsal(session, input, guard, initial).run();
   if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
   if (!judge_rest(session, input) || !goes) return kRefused;
+  print_long_way(input);
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
     std::printf("; %s: accepted, %" PRId64 " %s, %.6g s", input.path.c_str(), input.count(),

@@ -192,6 +192,7 @@ int run(Session& session, const Options& options) {
     return kRefused;
   }
   if (!folder.begin(inputs_of(options, input), session.text)) return kRefused;
+  print_long_way(input);
   const Recording& recording = session.pipeline.recording;
   if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 

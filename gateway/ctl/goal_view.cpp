@@ -49,6 +49,8 @@ void GoalView::take(const ToClient& message) {
 void GoalView::take_report(const Report& report) {
   output_.object("report", report);
   const bool first = !started_ && report.outcome() == Report::STARTED;
+  if (report.status() == 0 && !report.text().empty())
+    output_.say("warning: " + printed(report.text()));
   if (report.outcome() == Report::SCHEDULED) output_.say("scheduled");
   if (first) {
     started_ = true;

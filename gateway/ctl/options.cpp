@@ -101,6 +101,10 @@ void add_trajectory(CLI::App& verb, Options& o) {
   verb.add_option("trajectory", o.file, "trajectory file (.csv); - is standard input")->required();
   verb.add_option("--interpolation", o.interpolation, "between waypoints (default: by fields)")
       ->check(CLI::IsMember({"fields", "linear", "cubic", "quintic", "monotone"}));
+  verb.add_option("--wrap", o.wrap,
+                  "angles of joints without end (default as_given; nearest: each is the nearest to "
+                  "that before which differs by whole turns)")
+      ->check(CLI::IsMember({"as_given", "nearest"}));
   verb.add_flag("--exact", o.exact, "refuse instead of slowing down");
   add_terms(verb, o);
 }

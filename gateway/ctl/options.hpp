@@ -46,7 +46,7 @@ struct Options {
   std::string out;   ///< to write; "-": standard output
 
   // send, check, point, stream, jog
-  std::string interpolation = "fields";
+  std::string interpolation = "fields", wrap = "as_given";
   std::optional<std::string> motion_frame, wrench_frame;  ///< none: those of the pipeline
   bool exact = false, partial = false, detach = false;
   std::vector<double> numbers;  ///< of a point: joints, rad, or a pose

@@ -16,6 +16,8 @@ namespace {
 
 constexpr const char* kPlaybackKeys =
     "p pauses, r resumes, + and - change the speed; Ctrl-C cancels on the path";
+constexpr const char* kNoTurns =
+    "--wrap nearest: the pipeline takes no joint without end; leave it out";
 constexpr int kRowsWait_ms = 20;
 constexpr int kRest_ms = 10000;  // longest time that an arm takes to stop on its path
 
@@ -93,6 +95,11 @@ bool Sender::begin() {
   begin.set_accelerations(form.accelerations);
   begin.set_efforts(form.efforts);
   begin.set_check(check_);
+  if (s_.options.wrap == "nearest") {
+    if (!offers(s_.client.welcome(), FEATURE_WRAP)) return s_.client.refuse(kNoTurns);
+    request.add_requires(FEATURE_WRAP);
+    begin.set_wrap(Begin::NEAREST);
+  }
   if (!s_.client.ask(request)) return false;
   view_.follow(request.number());
   return true;

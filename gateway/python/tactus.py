@@ -246,6 +246,7 @@ class Joint:
     acceleration: float
     jerk: float
     effort: float
+    continuous: bool = False  # it has no end: angles that differ by whole turns are the same place
 
 
 @dataclasses.dataclass(frozen=True)
@@ -718,6 +719,8 @@ class _Session:
                 self._fail(Lost(f"{self.address}: the server has left 16384 requests unanswered"))
         message = pb.ToServer(number=number, client_ns=time.monotonic_ns())
         getattr(message, kind).CopyFrom(request)
+        if kind == "begin" and request.wrap:
+            message.requires.append(pb.FEATURE_WRAP)
         try:
             self._link.send(message)
         except Lost as error:
@@ -886,6 +889,8 @@ class _Session:
         call.report = report
         if report.status == pb.CODE_PAUSED:
             warnings.warn("a pause holds the arm: the trajectory waits for resume()", stacklevel=2)
+        elif report.status == pb.CODE_OK and report.text:
+            warnings.warn(report.text, stacklevel=2)
         self.reported_ns = report.server_ns
         if call.final:
             del self._calls[report.number]
@@ -1038,6 +1043,7 @@ class Arm:
         wrench: Optional[ArrayLike] = None,
         joints: Optional[Sequence[str]] = None,
         interpolation: str = "by_fields",
+        wrap: str = "as_given",
         exact: bool = False,
         start_ns: Optional[int] = None,
         motion_frame: str = "",
@@ -1052,6 +1058,8 @@ class Arm:
         pose, twist, acceleration, wrench -- [n, 7], [n, 6], [n, 6], [n, 6] of the tip; all but q or pose are optional
         joints        -- names of the joints that the columns are of; the others hold. None: all
         interpolation -- by_fields, linear, cubic, quintic, monotone (docs/reference-generators.md)
+        wrap          -- nearest: each angle of a joint without end (robot.joints[i].continuous) is the nearest to the
+                         one before, the first to the reference, that differs by whole turns; as_given
         exact         -- refuse what is too fast instead of slowing it down
         start_ns      -- when it begins, by time.monotonic_ns(); None: at once
         motion_frame, wrench_frame -- an output of the pipeline, "block.port"; "": the base
@@ -1073,8 +1081,14 @@ class Arm:
         kinds = pb.Begin.Interpolation
         if not isinstance(interpolation, str) or interpolation.upper() not in kinds.keys():
             raise ValueError(f"interpolation {interpolation!r}; expected one of {', '.join(kinds.keys()).lower()}")
+        wraps = pb.Begin.Wrap
+        if not isinstance(wrap, str) or wrap.upper() not in wraps.keys():
+            raise ValueError(f"wrap {wrap!r}; expected one of {', '.join(wraps.keys()).lower()}")
+        if wraps.Value(wrap.upper()) != pb.Begin.AS_GIVEN and not any(joint.continuous for joint in self.robot.joints):
+            raise ValueError(f"wrap {wrap!r}: every joint of {self.robot.name} has stops; leave it out")
         begin = pb.Begin(
             terms=terms,
+            wrap=wraps.Value(wrap.upper()),
             interpolation=kinds.Value(interpolation.upper()),
             exact=_flag("exact", exact),
             start_ns=0 if start_ns is None else self._to_server("start_ns", start_ns),
@@ -1739,7 +1753,7 @@ def _await_server(
 
 
 def _robot(welcome: pb.Welcome) -> Robot:
-    fields = ("name", "min_rad", "max_rad", "velocity", "acceleration", "jerk", "effort")
+    fields = ("name", "min_rad", "max_rad", "velocity", "acceleration", "jerk", "effort", "continuous")
     joints = tuple(Joint(*(getattr(joint, field) for field in fields)) for joint in welcome.joints)
     return Robot(
         welcome.board,

@@ -141,7 +141,19 @@ void ReferenceIntake<Space>::take(const Waypoint<Space>& waypoint) {
   if (count_ == kStagedWaypoints) move_on();  // into the window: it was granted with the rest
   if (!coming_ || count_ == kStagedWaypoints) return;
   --outstanding_;
-  staged_[static_cast<std::size_t>((first_ + count_++) % kStagedWaypoints)] = waypoint;
+  Waypoint<Space>& staged = staged_[static_cast<std::size_t>((first_ + count_++) % kStagedWaypoints)];
+  staged = waypoint;
+  turns_.take(staged.point);
+}
+
+template <class Space>
+Message ReferenceIntake<Space>::about_turns(const Told& told) {
+  if (told.to.session != origin_.session || told.to.number != origin_.number) return {};
+  if (const TurnStep* const step = turns_.explain(told.verdict)) return remedy(*step);
+  const TurnStep* const longest = turns_.longest();
+  if (warned_ || longest == nullptr || !told.verdict.ok()) return {};
+  warned_ = true;
+  return describe(*longest);
 }
 
 template <class Space>

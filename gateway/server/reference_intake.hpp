@@ -6,6 +6,7 @@
 // waits for it; a newer one takes its place, and it is superseded.
 #pragma once
 
+#include "gateway/joint_turns.hpp"
 #include "gateway/reference_server.hpp"
 #include "gateway/server/report_book.hpp"
 
@@ -52,6 +53,15 @@ class ReferenceIntake {
   /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
   /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);
+  /// Says how the angles of the trajectory that was begun are taken. [any, not cyclic]
+  void take_angles(Wrap wrap, const JointVector& reference, std::uint32_t held) {
+    turns_.begin(wrap, reference);
+    turns_.leave_out({held});
+    warned_ = false;
+  }
+  /// Returns the text about what is told of the trajectory that was begun last: the cause of a
+  /// refusal, or, once, a warning that it takes a long way. Empty: there is none.
+  Message about_turns(const Told& told);
   /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
   void take(const Waypoint<Space>& waypoint);
   /// No waypoints follow.
@@ -143,6 +153,8 @@ class ReferenceIntake {
   std::uint32_t id_ = 0;  // once the generator has it; 0: not yet
   std::array<Waypoint<Space>, kStagedWaypoints> staged_;
   int first_ = 0, count_ = 0;
+  JointTurns turns_;
+  bool warned_ = false;
   std::array<Told, 2 * kMessagesPerTurn> told_;  // of what has ended before the generator had it
   int told_count_ = 0;
 };

@@ -96,6 +96,9 @@ class Server {
   const Connection& at(int slot) const { return connections_[static_cast<std::size_t>(slot)]; }
   bool takes_poses() const { return setup_.loaded->takes_poses; }
   bool puts_out() const { return setup_.loaded->robot.puts_out(); }
+  bool wraps() const {
+    return Robot::kContinuousJoints != 0 && setup_.loaded->takes_joints && !takes_poses();
+  }
   bool takes_references() const { return takes_poses() || setup_.loaded->takes_joints; }
   /// Calls act(intake) with that of the references that the pipeline takes.
   template <class Act>
@@ -133,6 +136,7 @@ class Server {
   Reply judge_fields() const;
   Reply point(int slot, const Origin& from);
   Reply begin(const Origin& from, std::int64_t now_ns);
+  JointVector present_joints() const;
   Reply part(const Origin& from);
   Reply end(const Origin& from);
   Reply reply(const Verdict& verdict) const;
@@ -163,6 +167,7 @@ class Server {
                    std::int64_t now_ns);
   void take_results(std::int64_t now_ns);
   void take_reports(std::int64_t now_ns);
+  Message text_about(const Told& told, const Message& turns) const;
   void report(const Told& told, std::string_view text, std::int64_t now_ns,
               const Vector6* zero = nullptr);
 

@@ -156,11 +156,29 @@ Reply Server::begin(const Origin& from, std::int64_t now_ns) {
   terms.exact = given.exact;
   terms.check = given.check;
   terms.window = static_cast<int>(std::min<std::uint32_t>(given.window, kMostWaypoints));
+  const auto wrap = static_cast<Wrap>(given.wrap);
+  if (given.wrap > static_cast<std::uint32_t>(Wrap::kNearest))
+    return {Status::kBadValue, "Begin.wrap is unknown"};
+  if (wrap == Wrap::kNearest && !wraps())
+    return {Status::kNotOffered, takes_poses() ? "the pipeline takes poses: leave out Begin.wrap"
+                                               : "every joint of this robot has stops: leave out "
+                                                 "Begin.wrap"};
   if (given.start_ns != 0) {
     const Verdict verdict = clock_.time_of(given.start_ns, now_ns, terms.start_s);
     if (!verdict.ok()) return reply(verdict);
   }
-  return reply(with_intake([&](auto& intake) { return intake.begin(from, terms); }));
+  return reply(with_intake([&](auto& intake) {
+    const Verdict verdict = intake.begin(from, terms);
+    if (verdict.ok()) intake.take_angles(wrap, present_joints(), terms.held);
+    return verdict;
+  }));
+}
+
+/// The reference of the joints, where they are measured without one, or infinity before the first
+/// cycle.
+JointVector Server::present_joints() const {
+  if (!seen_) return JointVector::Constant(kInfinity);
+  return (newest_.has & CycleSnapshot::kJointReference) != 0 ? newest_.q_d : newest_.q;
 }
 
 Reply Server::part(const Origin& from) {

@@ -29,8 +29,9 @@ bool needs_lease(const tactus_ToServer& message) {
   }
 }
 
-bool offered(std::uint32_t feature, bool parameters, bool outputs, bool tare) {
-  return (tare && feature == tactus_Feature_FEATURE_TARE) ||
+bool offered(std::uint32_t feature, bool parameters, bool outputs, bool tare, bool wrap) {
+  return (wrap && feature == tactus_Feature_FEATURE_WRAP) ||
+         (tare && feature == tactus_Feature_FEATURE_TARE) ||
          (parameters && feature == tactus_Feature_FEATURE_PARAMETERS) ||
          (outputs && feature == tactus_Feature_FEATURE_OUTPUTS) ||
          feature == tactus_Feature_FEATURE_NONE || feature == tactus_Feature_FEATURE_CHUNKS ||
@@ -47,7 +48,8 @@ Reply not_offered(std::string_view what) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i], setup_.parameters != nullptr, puts_out(), front_end_ >= 0))
+    if (!offered(request_.requires[i], setup_.parameters != nullptr, puts_out(), front_end_ >= 0,
+                 wraps()))
       return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);

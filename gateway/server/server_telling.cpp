@@ -36,6 +36,7 @@ void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
     joint.acceleration = limits.ddq_max[i];
     joint.jerk = limits.dddq_max[i];
     joint.effort = limits.tau_max[i];
+    joint.continuous = (Robot::kContinuousJoints >> i & 1U) != 0;
   }
 }
 
@@ -119,6 +120,7 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
   }
   if (setup_.parameters != nullptr)
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_PARAMETERS;
+  if (wraps()) welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_WRAP;
   if (front_end_ >= 0) welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_TARE;
   welcome.parameter_sets = parameter_sets_;
   write_outputs(setup_, welcome);
@@ -194,12 +196,20 @@ void Server::tell_late(const Told& told, std::int64_t now_ns) {
   tell_events("late", Status::kChunkLate, text, -1, now_ns);
 }
 
+/// A refusal is told with what its joint's turns say of it, or else with the remedy of its status;
+/// what is accepted, with their warning.
+Message Server::text_about(const Told& told, const Message& turns) const {
+  if (turns.empty() || told.verdict.ok()) return turns.empty() ? reply(told.verdict).text : turns;
+  Message text = describe(told.verdict, VerdictAxes::kJoints, kInfinity);
+  return text << turns;
+}
+
 void Server::take_reports(std::int64_t now_ns) {
   if (!takes_references()) return;
   with_intake([&](auto& intake) {
     Told told;
     while (intake.work(told)) {
-      report(told, reply(told.verdict).text, now_ns);
+      report(told, text_about(told, intake.about_turns(told)), now_ns);
       if (told.deed.what != nullptr) tell_deed(told, now_ns);
       tell_late(told, now_ns);
     }

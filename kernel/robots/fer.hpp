@@ -50,6 +50,8 @@ struct Fer {
       {0.735522,  0.010517, -0.004252,  0.061597, 0.012516, -0.000428, -0.001196, 0.010027, -0.000741, 0.004815},
   }};
 
+  static constexpr unsigned kContinuousJoints = 0;  // bit i: joint i has no stops
+
   //    q_min    q_max    dq     ddq   dddq     tau   dtau
   static constexpr std::array<JointLimit, kDof> kLimits = {{
       {-2.8973,  2.8973, 2.175, 15.0,  7500.0, 87.0, 1000.0},

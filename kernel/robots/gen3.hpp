@@ -12,9 +12,10 @@
 // states neither jerk nor torque rate. Jerk: chosen, so that full acceleration takes 10 ms. Torque
 // rate: chosen, full torque in 0.1 s.
 //
-// Joints 1, 3, 5 and 7 have no stops. Their range is chosen as two turns to either side: the limits
-// of a joint are finite here, and no task that begins at home winds further. The robot reports its
-// angles within one turn, so a board for a real one has to count the turns.
+// Joints 1, 3, 5 and 7 have no stops: the URDF calls them continuous. Their range is chosen as two
+// turns to either side: the limits of a joint are finite here, and no task that begins at home
+// winds further. The robot reports its angles within one turn, so a board for a real one has to
+// count the turns.
 //
 // Tip: speed chosen; acceleration and jerk follow from those of a large joint at 0.9 m, the reach;
 // turning is that of one wrist joint; the force is the weight of the 4 kg that the user guide
@@ -58,6 +59,7 @@ struct Gen3 {
       {0.364,  -0.000093,  0.000132, -0.022905, 0.000214,  0.0,       0.000001, 0.000223, -0.000002, 0.00024},
   }};
 
+  static constexpr unsigned kContinuousJoints = 0b1010101;  // bit i: joint i has no stops
   static constexpr double kTwoTurns = 12.5663706143591729539;  // rad
 
   //    q_min       q_max      dq      ddq   dddq    tau   dtau

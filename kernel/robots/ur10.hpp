@@ -61,6 +61,8 @@ struct Ur10 {
 
   static constexpr double kPi = 3.14159265358979323846;
 
+  static constexpr unsigned kContinuousJoints = 0;  // bit i: joint i has no stops
+
   //    q_min       q_max      dq             ddq  dddq   tau    dtau
   static constexpr std::array<JointLimit, kDof> kLimits = {{
       {-2.0 * kPi, 2.0 * kPi, 2.0 * kPi / 3.0, 5.0, 500.0, 330.0, 3300.0},

@@ -48,6 +48,9 @@ int serve(Session& session, const Options& options);
 /// is enabled. Returns the exit code.
 int check(Session& session, const Options& options);
 
+/// Connects, reads the state of the robot and disconnects; no drive is enabled.
+Status look(Hal& hal, CommandMode mode, RobotState& state);
+
 /// Returns a status in words, with joint, value and limit if the guard found it, then the robot's
 /// own reason.
 Reason stop_reason(Status status, const Guard::Telemetry& guard, std::string_view trouble = {});

@@ -22,6 +22,12 @@ bool refuse_frame(const Options& options, const char* key, const Value& name, co
   return false;
 }
 
+bool refuse_wrap(const Options& options, const char* why) {
+  std::fprintf(stderr, "%s: refused: [gateway] wrap = nearest: %s; leave it out\n",
+               options.pipeline, why);
+  return false;
+}
+
 /// Finds the pose that the pipeline calls `name`; leaves `frame` null if no name is given. False:
 /// no pose has that name.
 bool find_frame(const Options& options, const PortTable& ports, const char* key, const Value& name,
@@ -52,6 +58,27 @@ bool set_terms(const Session& session, const Options& options, Trajectory<TaskSp
          find_frame(options, ports, "wrench_frame", gateway.wrench_frame, header.wrench);
 }
 
+/// Looks where an arm with joints without end is, so that a file is compared with it, and has the
+/// file's angles taken as `wrap` says. False: prints the reason to stderr.
+bool take_angles(const Session& session, const Options& options,
+                 TrajectoryStream<JointSpace>& stream) {
+  const Wrap wrap = session.gateway.wrap;
+  if constexpr (Robot::kContinuousJoints == 0) {
+    return wrap == Wrap::kAsGiven || refuse_wrap(options, "every joint of this robot has stops");
+  } else {
+    RobotState state;
+    const Status status = look(session.hal, session.pipeline.robot.mode(), state);
+    if (status == Status::kOk) stream.take_angles(wrap, state.q);
+    else print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
+    return status == Status::kOk;
+  }
+}
+
+bool take_angles(const Session& session, const Options& options, TrajectoryStream<TaskSpace>&) {
+  return session.gateway.wrap == Wrap::kAsGiven ||
+         refuse_wrap(options, "the pipeline takes poses");
+}
+
 /// Prints why a file was refused. Returns false.
 template <class Space>
 bool print_refusal(TrajectoryInput& input, const TrajectoryStream<Space>& stream) {
@@ -75,6 +102,7 @@ bool read_and_judge(const Session& session, const Options& options, ReferenceCli
   const bool partial = session.gateway.partial_joints == PartialJoints::kHold;
   if (!set_terms(session, options, *trajectory)) return false;
   auto& stream = input.file.template emplace<TrajectoryStream<Space>>();
+  if (!take_angles(session, options, stream)) return false;
   if (!stream.open(input.path.c_str(), partial, fnv1a(session.text), *trajectory))
     return print_refusal(input, stream);
   trajectory->interpolation = session.gateway.interpolation;
@@ -139,15 +167,31 @@ void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line) {
   const char* const key = axes == VerdictAxes::kTip ? "smoothing_m" : "smoothing_rad";
   // Waypoints have a place; the time of none of them is that of the start.
   const bool late = verdict.status == Status::kReferenceTime && verdict.waypoint < 0;
+  const TurnStep* const none = nullptr;
+  const TurnStep* const step = with_stream(
+      input, none, [&](const auto& stream) { return stream.turns().explain(verdict); });
   Reason why(late ? "[gateway] start_s: " : "");
-  why << describe(verdict, axes, time_s) << remedy(verdict);
+  why << describe(verdict, axes, time_s);
+  if (step != nullptr) {
+    why << remedy(*step);
+  } else {
+    why << remedy(verdict);
+    if (rough) why << ", or if it is noise a larger [gateway] " << key;
+  }
   if (late) why << "; it had passed when the trajectory was ready: give a later one";
-  if (rough) why << ", or if it is noise a larger [gateway] " << key;
   std::fprintf(stderr, "%s: refused: %s\n", place.c_str(), why.c_str());
   input.refused = verdict;
   input.refusal = Reason();
   if (line > 0) input.refusal << "line " << line << ": ";
   input.refusal << why;
+}
+
+void print_long_way(const TrajectoryInput& input) {
+  const TurnStep* const none = nullptr;
+  const TurnStep* const step =
+      with_stream(input, none, [](const auto& stream) { return stream.turns().longest(); });
+  if (step != nullptr)
+    std::fprintf(stderr, "%s: warning: %s\n", input.path.c_str(), describe(*step).c_str());
 }
 
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input) {

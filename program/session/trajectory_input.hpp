@@ -66,6 +66,10 @@ int refusal_code(const TrajectoryInput& input);
 /// it in the thread that polls. A refusal prints its reason to stderr.
 Fed feed_input(Session& session, TrajectoryInput& input, int wait_ms);
 
+/// Prints a warning to stderr if a joint without end turns by more than half a turn where the file,
+/// as far as it was read, could mean less.
+void print_long_way(const TrajectoryInput& input);
+
 /// Prints to stderr why a trajectory was refused, after the line of the waypoint if it is known,
 /// and keeps it as the refusal of the input.
 void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line = 0);
