@@ -38,7 +38,7 @@ struct GatewaySection {
   double start_s = 0.0;  ///< when the trajectory begins, by the generator's clock; 0: at once
   PartialJoints partial_joints = PartialJoints::kRefuse;
   Wrap wrap = Wrap::kAsGiven;  ///< of the trajectory; clients say their own
-  Value motion_frame;  ///< a pose of the pipeline, "block.port"; none: the base
+  Value motion_frame;          ///< a pose of the pipeline, "block.port"; none: the base
   Value wrench_frame;  ///< a pose of the pipeline; none: the axes of the base, about the tip
   /// Time for which a run continues after its trajectory has ended; longer if its goal is still
   /// awaited, up to the generator's goal_time_s.

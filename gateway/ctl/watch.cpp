@@ -222,7 +222,7 @@ int info(Session& session) {
     std::snprintf(line, sizeof line, "%-20.20s %10.4f %10.4f %10.4g %10.4g %10.4g %10.4g",
                   printed(joint.name()).c_str(), joint.min_rad(), joint.max_rad(), joint.velocity(),
                   joint.acceleration(), joint.jerk(), joint.effort());
-    session.output.say(line);
+    session.output.say(line + std::string(joint.continuous() ? "  without end" : ""));
   }
   return kSucceeded;
 }

@@ -141,7 +141,8 @@ void ReferenceIntake<Space>::take(const Waypoint<Space>& waypoint) {
   if (count_ == kStagedWaypoints) move_on();  // into the window: it was granted with the rest
   if (!coming_ || count_ == kStagedWaypoints) return;
   --outstanding_;
-  Waypoint<Space>& staged = staged_[static_cast<std::size_t>((first_ + count_++) % kStagedWaypoints)];
+  Waypoint<Space>& staged =
+      staged_[static_cast<std::size_t>((first_ + count_++) % kStagedWaypoints)];
   staged = waypoint;
   turns_.take(staged.point);
 }

@@ -68,15 +68,16 @@ bool take_angles(const Session& session, const Options& options,
   } else {
     RobotState state;
     const Status status = look(session.hal, session.pipeline.robot.mode(), state);
-    if (status == Status::kOk) stream.take_angles(wrap, state.q);
-    else print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
+    if (status == Status::kOk)
+      stream.take_angles(wrap, state.q);
+    else
+      print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
     return status == Status::kOk;
   }
 }
 
 bool take_angles(const Session& session, const Options& options, TrajectoryStream<TaskSpace>&) {
-  return session.gateway.wrap == Wrap::kAsGiven ||
-         refuse_wrap(options, "the pipeline takes poses");
+  return session.gateway.wrap == Wrap::kAsGiven || refuse_wrap(options, "the pipeline takes poses");
 }
 
 /// Prints why a file was refused. Returns false.
