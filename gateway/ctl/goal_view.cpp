@@ -49,8 +49,8 @@ void GoalView::take(const ToClient& message) {
 void GoalView::take_report(const Report& report) {
   output_.object("report", report);
   const bool first = !started_ && report.outcome() == Report::STARTED;
-  if (report.status() == 0 && !report.text().empty())
-    output_.say("warning: " + printed(report.text()));
+  const bool warns = report.status() == 0 && !report.text().empty();
+  if (warns) output_.say("warning: " + printed(report.text()));
   if (report.outcome() == Report::SCHEDULED) output_.say("scheduled");
   if (first) {
     started_ = true;
@@ -62,6 +62,7 @@ void GoalView::take_report(const Report& report) {
   starved_ = report.outcome() == Report::STARVED;
   if (report.outcome() < Report::SUCCEEDED) return;
   report_ = report;
+  if (warns) report_.clear_text();  // it was said
   ended_ = true;
 }
 

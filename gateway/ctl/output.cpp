@@ -66,7 +66,7 @@ void Output::result(const Report& report, bool advises) {
   std::string line = name_of(report.outcome());
   if (report.stretch() > 0.0)
     line += formatted("; slowed down by %.2g %% to keep limits", report.stretch() * 100.0);
-  if (!report.text().empty() && report.status() != 0) line += ": " + printed(report.text());
+  if (!report.text().empty()) line += ": " + printed(report.text());
   if (advises && report.status() >= kFirstOfCycle && report.status() <= kLastOfWire)
     line += "; tactusctl watch shows the arm, tactusctl rearm takes it over again";
   say(line);

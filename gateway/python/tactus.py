@@ -889,7 +889,7 @@ class _Session:
         call.report = report
         if report.status == pb.CODE_PAUSED:
             warnings.warn("a pause holds the arm: the trajectory waits for resume()", stacklevel=2)
-        elif report.status == pb.CODE_OK and report.text:
+        elif call.kind == "begin" and report.status == pb.CODE_OK and report.text:
             warnings.warn(report.text, stacklevel=2)
         self.reported_ns = report.server_ns
         if call.final:
