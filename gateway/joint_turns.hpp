@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 
+#include "kernel/core/describe.hpp"
 #include "kernel/core/text.hpp"
+#include "kernel/core/types.hpp"
 #include "kernel/core/verdict.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"

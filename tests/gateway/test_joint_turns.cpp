@@ -3,8 +3,8 @@
 // all have stops changes nothing.
 #include "gateway/joint_turns.hpp"
 
+#include <cmath>
 #include <cstring>
-#include <string_view>
 
 #include "gateway/trajectory_reader.hpp"
 #include "tests/program/program_bench.hpp"

@@ -152,6 +152,12 @@ class Turns(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 arm.move(wrap="nearest", **near)
+                t, way = recording(3)
+                streamed = dict(t=t, q=wrapped(way, CONTINUOUS), dq=np.gradient(way, t, axis=0), window=16)
+                streamed["dq"][[0, -1]] = 0
+                arm.check(wrap="nearest", **streamed)
+            with self.assertRaisesRegex(tactus.Refused, "wrap = nearest"):
+                arm.check(**streamed)
             self.assertAlmostEqual(arm.state().q_d[0], np.radians(190), delta=1e-6)
 
     def test_tactusctl_asks_for_the_short_way(self):
