@@ -169,8 +169,8 @@ void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line) {
   // Waypoints have a place; the time of none of them is that of the start.
   const bool late = verdict.status == Status::kReferenceTime && verdict.waypoint < 0;
   const TurnStep* const none = nullptr;
-  const TurnStep* const step = with_stream(
-      input, none, [&](const auto& stream) { return stream.turns().explain(verdict); });
+  const TurnStep* const step =
+      with_stream(input, none, [&](const auto& stream) { return stream.turns().explain(verdict); });
   Reason why(late ? "[gateway] start_s: " : "");
   why << describe(verdict, axes, time_s);
   if (step != nullptr) {
