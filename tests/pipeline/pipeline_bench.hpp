@@ -96,12 +96,7 @@ struct PipelineBench {
   std::uint32_t limited() const { return executive.guard().telemetry().limited_cycles; }
 
  private:
-  Status arm() {
-    hal.set_period(pipeline.robot.period_s());
-    board.plant.arming_cycles = 200;  // as drives on a bus do
-    ASSERT_OK(hal.load(board.plant, 1));
-    return start_armed(executive, period_ns(), armed_ns_);
-  }
+  Status arm() { return start_armed(executive, period_ns(), armed_ns_); }
   std::int64_t period_ns() const { return std::int64_t{1000} * pipeline.robot.period_us; }
   void load(const char* path, const char* from, const char* to) {
     std::array<char, 8192> bytes;
@@ -120,6 +115,9 @@ struct PipelineBench {
     Loader loader({&channel, &task_channel}, hal.capabilities(), board);
     LoadError error;
     ASSERT_OK(loader.load(text, pipeline, error));
+    hal.set_period(pipeline.robot.period_s());
+    board.plant.arming_cycles = 200;  // as drives on a bus do
+    ASSERT_OK(hal.load(board.plant, 1));
   }
 
   std::int64_t armed_ns_ = 0;
