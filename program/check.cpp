@@ -19,6 +19,13 @@ void begin_at_once(TrajectoryInput& input) {
   if (auto* poses = std::get_if<2>(&input.trajectory)) (*poses)->start_s = kStartAtOnce;
 }
 
+/// So that signs, gears and offsets can be compared with the arm.
+void print_place(const char* path, const JointVector& q) {
+  std::printf("%s: the arm stands at", path);
+  for (const double position : q) std::printf(" %.4f", position);
+  std::printf(" rad\n");
+}
+
 /// A law of torques overshoots by its gains and the arm's inertia: says if the file does not give
 /// by how much.
 void print_room(const char* path, const Guard::Params& guard) {
@@ -58,6 +65,7 @@ int check(Session& session, const Options& options) {
     print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
     return kRefused;
   }
+  if (!session.simulated) print_place(options.pipeline, initial.q);
   if (const Message line = session.hal.unstated(); !line.empty())
     std::fprintf(stderr,
                  "%s: note: another robot would be taken for this one; to compare, add %s\n",

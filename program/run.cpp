@@ -166,6 +166,8 @@ void explain(const Session& session, const Options& options, const RunLoop& loop
   else
     print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
                session.executive.guard().telemetry(), loop.trouble());
+  if (const Reason before = loop.gave_up(); !before.empty())
+    std::fprintf(stderr, "  after its goal was given up: %s\n", before.c_str());
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());
 }
 

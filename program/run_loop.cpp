@@ -178,12 +178,15 @@ bool RunLoop::time_has_passed() const {
 }
 
 Reason RunLoop::why() const {
-  if (result_.fault != Status::kOk)
-    return stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
+  if (result_.fault != Status::kOk) {
+    const Reason stop =
+        stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
+    return gave_up().empty() ? stop : gave_up() << "; then " << stop;
+  }
   if (std::string_view(result_.name) == name(Outcome::kRefused)) return input_.refusal;
   if (pending_ && planned_end_) return goal_.unfinished(ended_s_);
   if (end_.ok() && std::string_view(result_.name) == name(Outcome::kAborted)) return goal_.left();
-  return goal_.given_up(end_);
+  return gave_up();
 }
 
 /// True if no cycle is to follow. An arm that moves when its time has passed is halted first.

@@ -49,7 +49,9 @@ Status TrajectoryRehearsal::cycle() {
   RobotCommand command = pipeline.robot.command();
   Status status = guard_.limit(state_, command);
   if (status != Status::kOk) return status;
-  if (limiting_.add(guard_.telemetry().limited)) return Status::kLimiting;
+  const bool ends = saturated(command);
+  if (limiting_.add(guard_.telemetry().limited || ends))
+    return ends ? Status::kEffortLimit : Status::kLimiting;
   obey(command);
   state_.stamp_ns += std::int64_t{1000} * pipeline.robot.period_us;
   ++cycle_;
@@ -76,24 +78,34 @@ double TrajectoryRehearsal::time_s() const {
 
 bool TrajectoryRehearsal::refuse(Status status) {
   Pipeline& pipeline = session_.pipeline;
-  Text<127> event("refused: the run would stop at t = ");
+  const bool spent = status == Status::kEffortLimit;  // a run falls behind, and gives its goal up
+  Text<127> event(spent ? "refused: the law would be at its limit at t = "
+                        : "refused: the run would stop at t = ");
   event << input_.start_s + time_s() << " s";
   print_stop(input_.path.c_str(), event.c_str(), status, guard_.telemetry());
   if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
-  if (status == Status::kLimiting && law_.q_d != nullptr) print_torque();
+  if (law_.q_d != nullptr && (spent || status == Status::kLimiting)) print_torque();
   return false;
 }
 
-/// The joint whose torque is farthest beyond its limit.
+/// True if a law that ends its torque by itself has done so: the guard then has nothing to limit.
+bool TrajectoryRehearsal::saturated(const RobotCommand& command) const {
+  return law_.most != nullptr && (command.value.array().abs() >= law_.most->array()).any();
+}
+
+/// The joint whose torque is farthest beyond its limit, or at that of the law.
 void TrajectoryRehearsal::print_torque() const {
   const JointVector asked = session_.pipeline.robot.command().value;
-  const JointVector most = session_.pipeline.guard.effective().tau_max;
+  JointVector most = session_.pipeline.guard.effective().tau_max;
+  if (law_.most != nullptr) most = most.cwiseMin(*law_.most);
   int joint = 0;
   (asked.array() / most.array()).abs().maxCoeff(&joint);
   std::fprintf(stderr,
-               "  joint %d (%s) takes %.4g N m to be kept where the path leads, its limit is %.4g: "
-               "look at the tool's mass, the mounting and the posture\n",
-               joint + 1, Robot::kJointNames[static_cast<std::size_t>(joint)], asked[joint],
+               "  joint %d (%s) takes %s%.4g N m to be kept where the path leads, its limit is "
+               "%.4g: look at "
+               "the tool's mass, the mounting and the posture\n",
+               joint + 1, Robot::kJointNames[static_cast<std::size_t>(joint)],
+               std::abs(asked[joint]) > most[joint] ? "" : "at least ", std::abs(asked[joint]),
                most[joint]);
 }
 
@@ -104,12 +116,17 @@ bool TrajectoryRehearsal::in_part() const {
   return true;
 }
 
+/// Why nothing would be learnt; null: nothing is in the way.
+const char* TrajectoryRehearsal::unrehearsed() const {
+  if (session_.pipeline.robot.mode() == CommandMode::kEffort && law_.q_d == nullptr)
+    return "no block with an input q_d gives the torque";
+  return presses(input_) ? "what its wrenches do depends on the contact" : nullptr;
+}
+
 bool TrajectoryRehearsal::run() {
-  const bool torques = session_.pipeline.robot.mode() == CommandMode::kEffort;
-  if (!input_.given() || (torques && law_.q_d == nullptr)) return true;
-  if (presses(input_)) {
-    std::fprintf(stderr, "%s: note: not rehearsed: what its wrenches do depends on the contact\n",
-                 input_.path.c_str());
+  if (!input_.given()) return true;
+  if (const char* const obstacle = unrehearsed()) {
+    std::fprintf(stderr, "%s: note: not rehearsed: %s\n", input_.path.c_str(), obstacle);
     return true;
   }
   const double end_s = goal_.latest_report_s();

@@ -27,7 +27,9 @@ class TrajectoryRehearsal {
  private:
   Status cycle();
   void obey(const RobotCommand& command);
+  bool saturated(const RobotCommand& command) const;
   void print_torque() const;
+  const char* unrehearsed() const;
   bool ended();
   double time_s() const;
   bool refuse(Status status);

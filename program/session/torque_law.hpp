@@ -11,6 +11,7 @@ namespace tactus {
 struct TorqueLaw {
   const JointVector* q_d = nullptr;   ///< rad; null: the torque comes from no law of positions
   const JointVector* dq_d = nullptr;  ///< rad/s; null: it takes none
+  const JointVector* most = nullptr;  ///< N m, at which it ends its torque; null: it does not
 };
 
 /// True for a block that turns an input q_d into an output tau.
@@ -26,6 +27,12 @@ template <class Kind>
 struct TakesVelocity<Kind, std::void_t<decltype(std::declval<Kind>().dq_d.source)>>
     : std::true_type {};
 
+template <class Kind, class = void>
+struct EndsTorque : std::false_type {};
+template <class Kind>
+struct EndsTorque<Kind, std::void_t<decltype(std::declval<Kind>().params.output_limit)>>
+    : std::true_type {};
+
 /// Returns the inputs of the block that commands the torque of a pipeline that is loaded. [init]
 inline TorqueLaw torque_law(const Pipeline& pipeline) {
   TorqueLaw found;
@@ -39,6 +46,7 @@ inline TorqueLaw torque_law(const Pipeline& pipeline) {
         found.q_d = law.q_d.source;
         if constexpr (TakesVelocity<Kind>::value)
           if (law.dq_d.wired()) found.dq_d = law.dq_d.source;
+        if constexpr (EndsTorque<Kind>::value) found.most = &law.params.output_limit;
       }
     });
   }

@@ -69,6 +69,22 @@ void a_weight_that_a_joint_cannot_carry_is_named_where_a_run_stops(void**) {
   assert_in_range(refused, 3, 5);
 }
 
+/// Its guard has nothing to limit, and a run stays behind.
+void a_law_that_ends_its_torque_by_itself_hides_no_weight(void**) {
+  const Line path = write("stretch.csv", {kHeader, kStretched});
+  for (const char* kg : {"1", "8", "10"}) {
+    const Line file = pipeline(kg);
+    assert_int_equal(shell("sed -i 's/^type = pd_gravity/type = pid\\nki = 0/' $S/torque.ini"), 0);
+    const bool goes = check(file, path) == 0;
+    assert_true(goes == (std::atof(kg) < 2.0));
+    assert_true(goes || has(errors(), "joint 2 (fer_joint2) takes at least 87 N m to be kept"));
+    const Line out = in_folder("pid");
+    const int code = tactus_run(
+        {"run", file.c_str(), "--trajectory", path.c_str(), "--no-figure", "--out", out.c_str()});
+    assert_int_equal(code, goes ? 0 : 1);
+  }
+}
+
 void a_box_in_the_way_of_an_arm_of_torques_is_named_before_anything_moves(void**) {
   const Line path = write("stretch.csv", {kHeader, kStretched});
   const Line file = pipeline(
@@ -93,6 +109,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_weight_that_a_joint_cannot_carry_is_named_where_a_run_stops),
+      cmocka_unit_test(a_law_that_ends_its_torque_by_itself_hides_no_weight),
       cmocka_unit_test(a_box_in_the_way_of_an_arm_of_torques_is_named_before_anything_moves),
       cmocka_unit_test(what_wrenches_do_is_not_rehearsed_and_that_is_said),
   };
