@@ -127,7 +127,7 @@ void a_session_that_a_fault_has_ended_does_not_succeed(void**) {
   assert_int_equal(serve_with("ft_bias_force_N = 0 0 30\n"), 2);
   assert_true(has(errors(), "served.ini: refused: sensor value out of range (73)"));
   assert_true(has(file_of("session/summary.json"), kResult));
-  assert_int_equal(serve_with("ft_noise_force_N = 2.5\n"), 1);
+  assert_int_equal(serve_with("ft_noise_force_N = 3.5\n"), 1);
   assert_true(has(errors(), "served.ini: stopped: sensor value out of range (73)"));
   assert_true(has(file_of("session/summary.json"), kResult));
 }
