@@ -11,6 +11,7 @@ struct UrExchange : UrHalBench {
 
   /// Connects; the drives are off.
   void open() {
+    settings.connect_ms = 2000;  // however late on a host that is busy
     ASSERT_OK(connect());
     exchange(DriveRequest::kDisable);
   }
