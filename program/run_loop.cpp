@@ -179,9 +179,9 @@ bool RunLoop::time_has_passed() const {
 
 Reason RunLoop::why() const {
   if (result_.fault != Status::kOk) {
-    const Reason stop =
-        stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
-    return gave_up().empty() ? stop : gave_up() << "; then " << stop;
+    Reason text = gave_up();
+    if (!text.empty()) text << "; then ";
+    return text << stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
   }
   if (std::string_view(result_.name) == name(Outcome::kRefused)) return input_.refusal;
   if (pending_ && planned_end_) return goal_.unfinished(ended_s_);

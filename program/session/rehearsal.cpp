@@ -49,9 +49,9 @@ Status TrajectoryRehearsal::cycle() {
   RobotCommand command = pipeline.robot.command();
   Status status = guard_.limit(state_, command);
   if (status != Status::kOk) return status;
-  const bool ends = saturated(command);
-  if (limiting_.add(guard_.telemetry().limited || ends))
-    return ends ? Status::kEffortLimit : Status::kLimiting;
+  const bool spent = saturated(command);
+  if (limiting_.add(guard_.telemetry().limited || spent))
+    return spent ? Status::kEffortLimit : Status::kLimiting;
   obey(command);
   state_.stamp_ns += std::int64_t{1000} * pipeline.robot.period_us;
   ++cycle_;
@@ -88,25 +88,24 @@ bool TrajectoryRehearsal::refuse(Status status) {
   return false;
 }
 
-/// True if a law that ends its torque by itself has done so: the guard then has nothing to limit.
+/// True if the law saturates: the guard then has nothing to limit.
 bool TrajectoryRehearsal::saturated(const RobotCommand& command) const {
-  return law_.most != nullptr && (command.value.array().abs() >= law_.most->array()).any();
+  return law_.limit != nullptr && (command.value.array().abs() >= law_.limit->array()).any();
 }
 
 /// The joint whose torque is farthest beyond its limit, or at that of the law.
 void TrajectoryRehearsal::print_torque() const {
-  const JointVector asked = session_.pipeline.robot.command().value;
+  const JointVector asked = session_.pipeline.robot.command().value.cwiseAbs();
   JointVector most = session_.pipeline.guard.effective().tau_max;
-  if (law_.most != nullptr) most = most.cwiseMin(*law_.most);
+  if (law_.limit != nullptr) most = most.cwiseMin(*law_.limit);
   int joint = 0;
-  (asked.array() / most.array()).abs().maxCoeff(&joint);
-  std::fprintf(stderr,
-               "  joint %d (%s) takes %s%.4g N m to be kept where the path leads, its limit is "
-               "%.4g: look at "
-               "the tool's mass, the mounting and the posture\n",
-               joint + 1, Robot::kJointNames[static_cast<std::size_t>(joint)],
-               std::abs(asked[joint]) > most[joint] ? "" : "at least ", std::abs(asked[joint]),
-               most[joint]);
+  (asked.array() / most.array()).maxCoeff(&joint);
+  std::fprintf(
+      stderr,
+      "  joint %d (%s) takes %s%.4g N m to be held on the path, its limit is %.4g: look at "
+      "the tool's mass, the mounting and the posture\n",
+      joint + 1, Robot::kJointNames[static_cast<std::size_t>(joint)],
+      asked[joint] > most[joint] ? "" : "at least ", asked[joint], most[joint]);
 }
 
 /// Nothing was found in what was rehearsed, which is not the whole: says how much of it.

@@ -1,7 +1,7 @@
 // TrajectoryRehearsal: the chain runs a trajectory with a robot that is at once where it is told to
 // be, and whose sensors feel what they feel now. So `tactus check` finds what the law and the guard
 // make of a trajectory that admission accepts, before anything moves. A robot that takes torques is
-// at once where its law is to keep it: then the law asks for what holds the arm there.
+// at once where its law is to hold it: then the law asks for what that takes.
 #pragma once
 
 #include "kernel/cycle/limiting_watch.hpp"

@@ -1,4 +1,4 @@
-// TorqueLaw: where the law behind a pipeline's torque is to keep the arm.
+// TorqueLaw: where the law that gives a pipeline's torque is to hold the arm, and its own limit.
 #pragma once
 
 #include <type_traits>
@@ -9,9 +9,9 @@
 namespace tactus {
 
 struct TorqueLaw {
-  const JointVector* q_d = nullptr;   ///< rad; null: the torque comes from no law of positions
-  const JointVector* dq_d = nullptr;  ///< rad/s; null: it takes none
-  const JointVector* most = nullptr;  ///< N m, at which it ends its torque; null: it does not
+  const JointVector* q_d = nullptr;    ///< rad; null: the torque comes from no law of positions
+  const JointVector* dq_d = nullptr;   ///< rad/s; null: it takes none
+  const JointVector* limit = nullptr;  ///< N m, at which it saturates; null: it does not
 };
 
 /// True for a block that turns an input q_d into an output tau.
@@ -28,12 +28,12 @@ struct TakesVelocity<Kind, std::void_t<decltype(std::declval<Kind>().dq_d.source
     : std::true_type {};
 
 template <class Kind, class = void>
-struct EndsTorque : std::false_type {};
+struct Saturates : std::false_type {};
 template <class Kind>
-struct EndsTorque<Kind, std::void_t<decltype(std::declval<Kind>().params.output_limit)>>
+struct Saturates<Kind, std::void_t<decltype(std::declval<Kind>().params.output_limit)>>
     : std::true_type {};
 
-/// Returns the inputs of the block that commands the torque of a pipeline that is loaded. [init]
+/// Returns what the block that gives the torque takes, of a pipeline that is loaded. [init]
 inline TorqueLaw torque_law(const Pipeline& pipeline) {
   TorqueLaw found;
   for (int i = 0; i < pipeline.count(); ++i) {
@@ -46,7 +46,7 @@ inline TorqueLaw torque_law(const Pipeline& pipeline) {
         found.q_d = law.q_d.source;
         if constexpr (TakesVelocity<Kind>::value)
           if (law.dq_d.wired()) found.dq_d = law.dq_d.source;
-        if constexpr (EndsTorque<Kind>::value) found.most = &law.params.output_limit;
+        if constexpr (Saturates<Kind>::value) found.limit = &law.params.output_limit;
       }
     });
   }

@@ -44,8 +44,9 @@ struct TrajectoryInput {
 };
 
 /// Reads and judges the trajectory of the command line, or else the pipeline's own, without sending
-/// it: the whole file, or of a pipe the waypoints that fit into the store. False: refused; prints
-/// the reason to stderr.
+/// it: the whole file, or of a pipe the waypoints that fit into the store. Where the robot has
+/// joints without end, it connects first and reads where the arm is. False: refused; prints the
+/// reason to stderr.
 bool read_input(const Session& session, const Options& options, TrajectoryInput& input);
 
 /// Judges the rest of a pipe, which is not to be sent. False: refused; prints the reason to stderr.

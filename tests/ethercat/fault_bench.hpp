@@ -47,11 +47,4 @@ inline void heal(MasterBench& bench) {
 
 using SafetyWatch = cia402::SafetyWatch<MasterBench>;
 
-/// A bench of its own for a run; the last one is deleted, so that a failed test leaves nothing.
-inline MasterBench& fresh_bench() {
-  static MasterBench* bench = nullptr;
-  delete bench;
-  return *(bench = new MasterBench);
-}
-
 }  // namespace tactus::ethercat

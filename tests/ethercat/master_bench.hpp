@@ -123,4 +123,11 @@ struct MasterBench : cia402::LoopBench<WiredHal> {
   }
 };
 
+/// A bench of its own for a run; the last one is deleted, so that a failed test leaves nothing.
+inline MasterBench& fresh_bench() {
+  static MasterBench* bench = nullptr;
+  delete bench;
+  return *(bench = new MasterBench);
+}
+
 }  // namespace tactus::ethercat

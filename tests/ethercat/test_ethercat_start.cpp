@@ -8,15 +8,9 @@
 namespace tactus::ethercat {
 namespace {
 
-MasterBench& fresh() {
-  static MasterBench* bench = nullptr;
-  delete bench;
-  return *(bench = new MasterBench);
-}
-
 // Proves ECAT-5.
 void seven_drives_are_brought_to_op_and_none_is_enabled(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   const Status status = bench.executive.start();
   if (status != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
@@ -38,7 +32,7 @@ void every_mode_gets_its_mapping(void**) {
   };
   for (const Row& row : {Row{CommandMode::kEffort, 4}, Row{CommandMode::kVelocity, 8},
                          Row{CommandMode::kPosition, 12}}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());
     ASSERT_OK(bench.hal.master.configure(bench.ethercat, bench.drive, Tool{}, row.mode, 1000));
     ASSERT_OK(bench.hal.connect(row.mode));
@@ -51,7 +45,7 @@ void every_mode_gets_its_mapping(void**) {
 /// CoE: no PDO assigned, no entries, entries, their number, the PDO, the number of PDOs. Real
 /// drives refuse the mapping of a PDO that is assigned.
 void pdos_are_mapped_while_they_are_not_assigned(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   std::string written;
   bench.hal.tamper = [&written](Frame& frame) {
@@ -74,7 +68,7 @@ void pdos_are_mapped_while_they_are_not_assigned(void**) {
 }
 
 void slaves_may_be_in_any_order_and_state(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.ethercat.slave << 4, 3, 2, 1, 7, 6, 5;
   ASSERT_OK(bench.load());
   bench.hal.line.slave(2).fall(0x001B);
@@ -90,7 +84,7 @@ void slaves_may_be_in_any_order_and_state(void**) {
 }
 
 void a_second_start_up_follows_a_first_one(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
   ASSERT_OK(bench.hal.connect(CommandMode::kEffort));
@@ -99,7 +93,7 @@ void a_second_start_up_follows_a_first_one(void**) {
 }
 
 void lost_frames_of_the_start_up_are_sent_again(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   bench.hal.lose_every = 97;
   const Status status = bench.hal.connect(CommandMode::kEffort);
@@ -117,12 +111,12 @@ void assert_refused(MasterBench& bench, Status status, const char* words) {
 // Proves ECAT-15.
 /// However far it has come: by a signal, or a refusal of the last drive.
 void a_start_up_that_is_given_up_leaves_the_slaves_in_init(void**) {
-  MasterBench& whole_way = fresh();
+  MasterBench& whole_way = fresh_bench();
   ASSERT_OK(whole_way.load());
   ASSERT_OK(whole_way.hal.connect(CommandMode::kEffort));
   const int all = whole_way.hal.exchanges;
   for (const int frames : {all / 10, all / 3, all - 120, all - 3}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());
     bench.hal.give_up_after = frames;
     ASSERT_STATUS(bench.hal.connect(CommandMode::kEffort), Status::kArming);
@@ -137,7 +131,7 @@ void a_start_up_that_is_given_up_leaves_the_slaves_in_init(void**) {
 
 /// A line that is not ours is left as it is.
 void slaves_that_are_too_few_are_not_touched(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.plant.slaves = 6;
   ASSERT_OK(bench.load());
   ASSERT_STATUS(bench.hal.connect(CommandMode::kEffort), Status::kBusTimeout);
@@ -147,11 +141,11 @@ void slaves_that_are_too_few_are_not_touched(void**) {
 }
 
 void a_segment_of_another_length_is_refused(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.plant.slaves = 6;
   ASSERT_OK(bench.load());
   assert_refused(bench, Status::kBusTimeout, "the segment has 6 slaves, expected 7");
-  MasterBench& open = fresh();
+  MasterBench& open = fresh_bench();
   ASSERT_OK(open.load());
   open.add(segment::LineFaultKind::kBreak, 0, 0, 1 << 30);
   assert_refused(open, Status::kBusTimeout, "no frame came back");
@@ -159,12 +153,12 @@ void a_segment_of_another_length_is_refused(void**) {
 
 /// Also in the cycles before OP, when the states of the slaves are known.
 void a_wire_that_falls_silent_is_named_wherever_the_start_up_is(void**) {
-  MasterBench& whole_way = fresh();
+  MasterBench& whole_way = fresh_bench();
   ASSERT_OK(whole_way.load());
   ASSERT_OK(whole_way.hal.connect(CommandMode::kEffort));
   const int all = whole_way.hal.exchanges;
   for (const int frames : {all / 3, all - 100, all - 30, all - 3}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());
     bench.hal.silent_after = frames;
     assert_refused(bench, Status::kBusTimeout, "no frame came back from the segment; check power");
@@ -173,41 +167,41 @@ void a_wire_that_falls_silent_is_named_wherever_the_start_up_is(void**) {
 }
 
 void a_wrong_drive_is_named_with_what_it_says(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.drive.rated_torque[2] = 4.0;
   ASSERT_OK(bench.load());
   assert_refused(bench, Status::kRefusedByRobot,
                  "joint 3 (slave 3): rated torque in mN m (6076h:0) is 3000, expected 4000");
-  MasterBench& weak = fresh();
+  MasterBench& weak = fresh_bench();
   weak.plant.torque_share = 0.0;
   ASSERT_OK(weak.load());
   assert_refused(weak, Status::kRefusedByRobot,
                  "joint 1 (slave 1): its own torque limit (6072h:0) is 0 permille");
-  MasterBench& other_unit = fresh();
+  MasterBench& other_unit = fresh_bench();
   other_unit.plant.velocity_unit = 0x00B44700;
   other_unit.drive.velocity_units.setConstant(16777216.0);
   ASSERT_OK(other_unit.load());
   assert_refused(
       other_unit, Status::kRefusedByRobot,
       "its velocities have 60 units per motor revolution per second (60A9h is 00B44700h)");
-  MasterBench& exchanged = fresh();
+  MasterBench& exchanged = fresh_bench();
   exchanged.drive.serial << 1003, 1002, 1001, 1004, 1005, 1006, 1007;
   ASSERT_OK(exchanged.load());
   assert_refused(exchanged, Status::kRefusedByRobot,
                  "joint 1 (slave 1): its serial number (1018h:4) is 1001, [cia402] serial is 1003");
-  MasterBench& other = fresh();
+  MasterBench& other = fresh_bench();
   other.ethercat.product = 403;
   ASSERT_OK(other.load());
   assert_refused(other, Status::kRefusedByRobot, "product (1018h:2) is 402, expected 403");
 }
 
 void the_serial_numbers_of_a_segment_are_told_until_the_file_has_them(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   ASSERT_OK(bench.start());
   assert_string_equal(bench.hal.master.unstated().c_str(),
                       "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
-  MasterBench& stated = fresh();
+  MasterBench& stated = fresh_bench();
   stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
   ASSERT_OK(stated.load());
   ASSERT_OK(stated.start());
@@ -224,7 +218,7 @@ void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {
             "its EEPROM cannot be read at word 0008h: it does not acknowledge (NACK) (0502h "
             "is 2000h)"},
         Row{0x8000, "its EEPROM cannot be read at word 0008h: it stays busy (0502h is 8000h)"}}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());
     bench.hal.tamper = [&row](Frame& frame) {
       FrameReader reader(frame);
@@ -237,13 +231,13 @@ void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {
 }
 
 void mailbox_faults_are_named(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.ethercat.sdo_ms = 50;
   ASSERT_OK(bench.load());
   bench.add(drives::FaultKind::kSdoSilence, 5, 0x6502);
   assert_refused(bench, Status::kBusTimeout,
                  "joint 5 (slave 5): object 6502h:0: no answer within 50 ms");
-  MasterBench& other = fresh();
+  MasterBench& other = fresh_bench();
   ASSERT_OK(other.load());
   other.add(drives::FaultKind::kSdoAbort, 2, 0x6502);
   assert_refused(other, Status::kRefusedByRobot,
@@ -252,7 +246,7 @@ void mailbox_faults_are_named(void**) {
 
 /// Writes are refused, and what the drive has by itself is enough.
 void a_drive_whose_mapping_cannot_be_read_is_refused(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   ASSERT_OK(bench.load());
   drives::Fault fault;
   fault.kind = drives::FaultKind::kSdoAbort;
@@ -265,14 +259,14 @@ void a_drive_whose_mapping_cannot_be_read_is_refused(void**) {
 }
 
 void settings_that_cannot_be_are_refused(void**) {
-  MasterBench& bench = fresh();
+  MasterBench& bench = fresh_bench();
   bench.ethercat.slave[3] = 3;
   ASSERT_STATUS(bench.load(), Status::kBadValue);
   assert_non_null(std::strstr(bench.hal.trouble().c_str(), "slave of joint 4 is 3"));
-  MasterBench& other = fresh();
+  MasterBench& other = fresh_bench();
   other.ethercat.watchdog_ms = 2;
   ASSERT_STATUS(other.load(), Status::kBadValue);
-  MasterBench& none = fresh();
+  MasterBench& none = fresh_bench();
   none.ethercat.interface = Value("");
   ASSERT_STATUS(none.load(), Status::kMissingKey);
 }

@@ -18,12 +18,6 @@ using segment::SmPlaces;
 // data of its only datagram (IEC 61158-4-12).
 constexpr int kLeast = 16, kMost = 1486;
 
-MasterBench& fresh() {
-  static MasterBench* bench = nullptr;
-  delete bench;
-  return *(bench = new MasterBench);
-}
-
 struct Sizes {
   int out, in;
 };
@@ -53,11 +47,11 @@ void assert_works(MasterBench& bench) {
 void mailboxes_of_every_length_work_from_the_start_up_to_a_fault(void**) {
   for (const Sizes& sizes : {Sizes{1024, 1024}, Sizes{kMost, kMost}, Sizes{kLeast, kMost},
                              Sizes{kMost, kLeast}, Sizes{513, 1311}}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     bench.plant.places.fill(SmPlaces::with_mailboxes(sizes.out, sizes.in));
     assert_works(bench);
   }
-  MasterBench& mixed = fresh();
+  MasterBench& mixed = fresh_bench();
   constexpr Sizes kMixed[] = {{128, 128},  {1024, 1024}, {kMost, kMost}, {16, 16},
                               {1024, 128}, {64, kMost},  {1400, 17}};
   for (std::size_t i = 0; i < kDof; ++i)
@@ -73,7 +67,7 @@ void a_mailbox_that_no_message_or_no_frame_fits_is_refused_with_its_limit(void**
   std::uniform_int_distribution<int> any(0, 2000), good(kLeast, kMost), odds(0, 15);
   int refused = 0;
   for (int n = 0; n < 60; ++n) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     char expected[128] = "";
     for (std::size_t i = 0; i < kDof; ++i) {
       const Sizes sizes = {odds(random) == 0 ? any(random) : good(random),

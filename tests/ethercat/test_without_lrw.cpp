@@ -10,12 +10,6 @@
 namespace tactus::ethercat {
 namespace {
 
-MasterBench& fresh() {
-  static MasterBench* bench = nullptr;
-  delete bench;
-  return *(bench = new MasterBench);
-}
-
 /// The commands of a frame by their numbers (IEC 61158-4-12): 10 is LRD, 11 LWR, 12 LRW, 14 FRMW,
 /// 4 FPRD.
 std::string commands_of(Frame& frame) {
@@ -30,7 +24,7 @@ std::string commands_of(Frame& frame) {
 // Proves ECAT-18.
 void one_drive_without_lrw_has_all_read_and_written_apart_in_one_frame(void**) {
   for (int slave = -1; slave < kDof; ++slave) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     if (slave >= 0) bench.plant.no_lrw[static_cast<std::size_t>(slave)] = true;
     ASSERT_OK(bench.load());
     ASSERT_OK(bench.start());
@@ -58,7 +52,7 @@ void a_motion_without_lrw_is_the_same(void**) {
 /// What a drive that is missing would have read is what was sent, whichever of the two it missed.
 void a_wrong_counter_of_either_leaves_the_inputs_as_they_are(void**) {
   for (const Command wrong : {Command::kLrd, Command::kLwr}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     bench.plant.no_lrw[3] = true;
     ASSERT_OK(bench.load());
     ASSERT_OK(bench.start());
@@ -85,7 +79,7 @@ void a_wrong_counter_of_either_leaves_the_inputs_as_they_are(void**) {
 
 void a_counter_that_stays_wrong_is_named(void**) {
   for (const bool lrw : {true, false}) {
-    MasterBench& bench = fresh();
+    MasterBench& bench = fresh_bench();
     bench.plant.no_lrw[6] = !lrw;
     ASSERT_OK(bench.load());
     bench.add(segment::LineFaultKind::kCounter, 0, 0, 1 << 30, 0xFFFF);

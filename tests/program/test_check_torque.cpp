@@ -77,7 +77,7 @@ void a_law_that_ends_its_torque_by_itself_hides_no_weight(void**) {
     assert_int_equal(shell("sed -i 's/^type = pd_gravity/type = pid\\nki = 0/' $S/torque.ini"), 0);
     const bool goes = check(file, path) == 0;
     assert_true(goes == (std::atof(kg) < 2.0));
-    assert_true(goes || has(errors(), "joint 2 (fer_joint2) takes at least 87 N m to be kept"));
+    assert_true(goes || has(errors(), "joint 2 (fer_joint2) takes at least 87 N m to be held"));
     const Line out = in_folder("pid");
     const int code = tactus_run(
         {"run", file.c_str(), "--trajectory", path.c_str(), "--no-figure", "--out", out.c_str()});

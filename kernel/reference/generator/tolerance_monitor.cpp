@@ -32,7 +32,7 @@ void ToleranceMonitor<Space>::put_out(const Point& reference) {
 
 template <class Space>
 Verdict ToleranceMonitor<Space>::holds(const Point& measured, double dt_s) {
-  if constexpr (Space::kKept) {
+  if constexpr (Space::kHeldByLaw) {
     const Point& before = line_[(newest_ + line_.size() - 1) % line_.size()];
     waiting_s_ = line_[newest_].q == before.q ? waiting_s_ + dt_s : 0.0;
     const double longest_s = tolerances_.goal_time_s;

@@ -25,9 +25,9 @@ class ToleranceMonitor {
   void begin(const Tolerances<Space>& tolerances);
   /// Takes the reference of this cycle. [cyclic]
   void put_out(const Point& reference);
-  /// Judges a cycle without a goal, after put_out(). In a space whose references are kept, a robot
-  /// whose reference has stayed in its place for longer than the goal time must be within the path
-  /// tolerance: kPathTolerance, or kOk. [cyclic]
+  /// Judges a cycle without a goal, after put_out(). Where every law holds the robot
+  /// (Space::kHeldByLaw), one whose reference has stayed in its place for longer than the goal time
+  /// must be within the path tolerance: kPathTolerance, or kOk. [cyclic]
   Verdict holds(const Point& measured, double dt_s);
 
   /// Judges the path tolerance: kPathTolerance with axis, value and limit, or kOk. [cyclic]

@@ -19,7 +19,7 @@ namespace tactus {
 struct JointSpace {
   using Limits = JointLimits;
   static constexpr int kChannels = kDof, kChannelSize = 1;
-  static constexpr bool kKept = true;
+  static constexpr bool kHeldByLaw = true;
   using Peaks = MotionPeaks<kChannels>;  ///< rad/s, rad/s^2, rad/s^3
   using Levels = std::array<double, kChannels>;
 

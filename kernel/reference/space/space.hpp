@@ -48,9 +48,9 @@ struct SpaceContract : std::true_type {
   /// The number of channels, and the numbers of a vector that make up one.
   static_assert(kSame<decltype(S::kChannels), const int> && S::kChannels > 0);
   static_assert(kSame<decltype(S::kChannelSize), const int> && S::kChannelSize > 0);
-  /// Whether every law keeps the robot at a reference that rests. An admittance yields from one of
-  /// the tip for as long as it is pushed.
-  static_assert(kSame<decltype(S::kKept), const bool>);
+  /// Whether every law holds the robot at a reference that rests. An admittance does not hold the
+  /// tip: it yields for as long as it is pushed.
+  static_assert(kSame<decltype(S::kHeldByLaw), const bool>);
   /// Velocity, acceleration and jerk by channel, as limits or as what a segment reaches.
   using Peaks = typename S::Peaks;
   static_assert(kSame<Peaks, MotionPeaks<S::kChannels>>);

@@ -23,7 +23,7 @@ Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quatern
 struct TaskSpace {
   using Limits = TaskLimits;
   static constexpr int kChannels = 2, kChannelSize = 3;
-  static constexpr bool kKept = false;
+  static constexpr bool kHeldByLaw = false;
   using Peaks = MotionPeaks<kChannels>;          ///< lengths; m/s and rad/s, and so on
   using Levels = std::array<double, kChannels>;  ///< translation, rotation
 
