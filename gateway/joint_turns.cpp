@@ -12,11 +12,14 @@ bool continuous(int joint) {
   return (Robot::kContinuousJoints >> joint & 1U) != 0;
 }
 
+constexpr double kDigits = 1e-4;  // rad: what a file of four decimals makes of half a turn
+
 /// Returns the angle nearest to `from` that differs from `angle` by whole turns; `angle` itself if
-/// it is within half a turn, or no number, or too far for the digits of a double.
+/// it is within half a turn as files write it, or no number, or too far for the digits of a double.
 double nearest(double angle, double from) {
   const double step = angle - from;
-  const bool turns = std::abs(step) > kHalfTurn && std::abs(step) <= JointTurns::kMostTurns * kTurn;
+  const bool turns =
+      std::abs(step) > kHalfTurn + kDigits && std::abs(step) <= JointTurns::kMostTurns * kTurn;
   return turns ? angle - kTurn * std::round(step / kTurn) : angle;
 }
 

@@ -72,8 +72,8 @@ class RunLoop {
   /// Why the arm or the trajectory was refused, or the run ended before the trajectory did; empty
   /// if nothing more is known than the name of the result. Call it after stop().
   Reason why() const;
-  /// Why the generator has given its goal up; empty if it has not.
-  Reason gave_up() const { return goal_.given_up(end_); }
+  /// Why the generator has given its goal up, by an error of its own axis; empty if it has not.
+  Reason gave_up() const { return end_.axis < 0 ? Reason() : goal_.given_up(end_); }
   /// Runs cycles as fast as the host can and logs the rows after each.
   void in_lock_step(RunLog& log, Progress& progress);
   /// Runs each cycle at its time by the monotonic clock; the writer logs rows and shows progress.

@@ -1185,18 +1185,18 @@ class Arm:
         """Takes over the arm after a stop or a fault, where it is, and returns when it can be moved.
 
         Waits for `within_s`, 0 to 86 400, until the arm is at rest; otherwise raises Refused with the reason, at once.
-        What was sent before is void.
+        Waits for as long as arming takes (`[executive] arming_ms`). What was sent before is void.
         """
         end = time.monotonic() + _number("within_s", within_s, 0, _LONGEST_WAIT_S)
         request = pb.Rearm(stops=self._session.stops)
         while True:
             self._own()
-            try:
-                self._session.ask("rearm", request)
+            call = self._session.send("rearm", request)
+            self._session.wait_long(lambda: call.final, "answer to rearm", None)
+            if not (refusal := call.refusal()):
                 break
-            except Refused as refusal:
-                if refusal.status != pb.CODE_NOT_AT_REST or time.monotonic() > end:
-                    raise
+            if refusal.status != pb.CODE_NOT_AT_REST or time.monotonic() > end:
+                raise refusal
             time.sleep(0.02)
         self._await_nominal(max(1.0, end - time.monotonic()))
 

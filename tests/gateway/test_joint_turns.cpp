@@ -115,6 +115,8 @@ void half_turns_stay_and_turns_beyond_count_go(void**) {
   } kCases[] = {
       {0.0, kPi, kPi},
       {0.0, -kPi, -kPi},
+      {0.0, 3.1416, 3.1416},  // as files write it
+      {3.141593, 0.0, 0.0},
       {kPi, -kPi, kPi},
       {-kPi, kPi, -kPi},
       {3.0, -3.0, 2.0 * kPi - 3.0},

@@ -30,11 +30,18 @@ void ToleranceMonitor<Space>::put_out(const Point& reference) {
   line_[newest_] = reference;
 }
 
+/// A reference rests in a band, as what a leader sends is never quite the same.
 template <class Space>
 Verdict ToleranceMonitor<Space>::holds(const Point& measured, double dt_s) {
   if constexpr (Space::kHeldByLaw) {
-    const Point& before = line_[(newest_ + line_.size() - 1) % line_.size()];
-    waiting_s_ = line_[newest_].q == before.q ? waiting_s_ + dt_s : 0.0;
+    typename Space::Band band = tolerances_.path;
+    band.q *= kRests;
+    const Point& now = line_[newest_];
+    if (!Space::judge_error(now, window_from_, band, Status::kPathTolerance).ok()) {
+      window_from_ = now;
+      waiting_s_ = 0.0;
+    }
+    waiting_s_ += dt_s;
     const double longest_s = tolerances_.goal_time_s;
     if (longest_s > 0.0 && waiting_s_ > longest_s) return follows(measured);
   }

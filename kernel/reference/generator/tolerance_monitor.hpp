@@ -26,8 +26,8 @@ class ToleranceMonitor {
   /// Takes the reference of this cycle. [cyclic]
   void put_out(const Point& reference);
   /// Judges a cycle without a goal, after put_out(). Where every law holds the robot
-  /// (Space::kHeldByLaw), one whose reference has stayed in its place for longer than the goal time
-  /// must be within the path tolerance: kPathTolerance, or kOk. [cyclic]
+  /// (Space::kHeldByLaw), one whose reference has stayed within kRests of the path tolerance for
+  /// longer than the goal time must be within that tolerance: kPathTolerance, or kOk. [cyclic]
   Verdict holds(const Point& measured, double dt_s);
 
   /// Judges the path tolerance: kPathTolerance with axis, value and limit, or kOk. [cyclic]
@@ -41,6 +41,7 @@ class ToleranceMonitor {
 
  private:
   static constexpr double kWindow_s = 0.04;
+  static constexpr double kRests = 0.25;  // a step within the band is less than the tolerance
 
   const Point& expected() const;
   Verdict stopped(const Point& measured, double dt_s);
@@ -51,7 +52,8 @@ class ToleranceMonitor {
   double waiting_s_ = 0.0, inside_s_ = 0.0;
 
   bool measures_velocity_ = true;
-  Point window_from_;                     // measured at the beginning of the window
+  /// Of a goal: measured at the beginning of the window. Without one: where the reference rests.
+  Point window_from_;
   double window_s_ = 0.0;                 // time since then
   Verdict found_{Status::kGoalVelocity};  // result of the last window
 };

@@ -230,6 +230,22 @@ class Owners(OnRobot):
             arm.rearm()
 
 
+class Arming(unittest.TestCase):
+    def test_drives_that_arm_slowly_are_waited_for(self):
+        text = served.JOINT_PIPELINE.read_text(encoding="utf-8")
+        plant = "" if "[plant]" in text else "[plant]\n"
+        slow = plant + "arming_cycles = 1500"
+        with tempfile.TemporaryDirectory() as folder:
+            pipeline = pathlib.Path(folder) / "slow.ini"
+            text = text.replace("[plant]", f"[plant]\n{slow}", 1) if not plant else f"{text}\n{slow}\n"
+            pipeline.write_text(text, encoding="utf-8")
+            with served.serve(pipeline) as its_address, tactus.connect(its_address, timeout_s=0.5, state_s=0.02) as arm:
+                arm.stop()
+                served.at_rest(arm)
+                arm.rearm()
+                self.assertEqual(arm.state().rung, 0)
+
+
 @unittest.skipUnless(served.SENSOR_PIPELINE.exists(), "no pipeline of this robot has a sensor")
 class Sensor(unittest.TestCase):
     def test_a_tare_returns_the_zero_that_the_simulated_sensor_has(self):

@@ -1,5 +1,6 @@
 // A robot that is not kept where its reference rests: found after the goal time, and only then.
 #include <cmath>
+#include <vector>
 
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
@@ -9,6 +10,7 @@ namespace {
 using namespace tactus;
 
 constexpr double kTolerance_rad = 0.05, kGoalTime_s = 0.5;
+constexpr double kSlowing_s = 0.3;  // of the slowest motion here, from the band to rest
 
 ReferenceBench& fresh(ReferenceBench& bench, double goal_time_s = kGoalTime_s) {
   bench.params.tolerances = {};
@@ -19,21 +21,36 @@ ReferenceBench& fresh(ReferenceBench& bench, double goal_time_s = kGoalTime_s) {
 }
 
 /// Steps a robot that swings about its reference until that is refused or `time_s` is over. Returns
-/// the time since the reference has moved, at which it was refused; infinity if it was not.
+/// the time since the reference was last a quarter of the tolerance from where it is then; infinity
+/// if it was not refused.
 double swing(ReferenceBench& bench, double amplitude_rad, double hertz, double time_s) {
-  double rests_s = 0.0;
+  std::vector<double> way;
   for (double t = 0.0; t < time_s; t += ReferenceBench::kPeriod_s) {
     const JointSpace::Point before = bench.out();
     JointSpace::Point measured = before;
     measured.q[4] += amplitude_rad * std::sin(2.0 * M_PI * hertz * t);
     const Status status = bench.step_measured(measured);
-    rests_s = bench.out().q == before.q ? rests_s + ReferenceBench::kPeriod_s : 0.0;
+    way.push_back(bench.out().q[0]);
     if (status == Status::kOk) continue;
     ASSERT_STATUS(status, Status::kPathTolerance);
     assert_true(std::abs(measured.q[4] - before.q[4]) > kTolerance_rad);
-    return rests_s;
+    std::size_t rests = 0;
+    while (rests < way.size() &&
+           std::abs(way[way.size() - 1 - rests] - way.back()) <= 0.25 * kTolerance_rad)
+      ++rests;
+    return static_cast<double>(rests) * ReferenceBench::kPeriod_s;
   }
   return kInfinity;
+}
+
+/// Sends the present place, but for `noise_rad`.
+void lead(ReferenceBench& bench, double noise_rad, Random& random) {
+  JointSpace::Point point;
+  point.q = bench.home;
+  for (double& q : point.q) q += random.uniform(-noise_rad, noise_rad);
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(point, id).ok());
+  static_cast<void>(bench.final_of(id));
 }
 
 // Proves RG-39.
@@ -48,8 +65,26 @@ void a_swing_about_a_reference_that_rests_is_found_within_half_a_swing(void**) {
     const double found_s = swing(bench, share * kTolerance_rad, hertz, 6.0);
     assert_true(std::isfinite(found_s) == (share > 1.0));
     if (share <= 1.0) continue;
-    assert_true(found_s > kGoalTime_s);
-    assert_true(found_s <= kGoalTime_s + 0.5 / hertz + 2.0 * ReferenceBench::kPeriod_s);
+    assert_true(found_s > kGoalTime_s - 2.0 * ReferenceBench::kPeriod_s);
+    assert_true(found_s <= kGoalTime_s + kSlowing_s + 0.5 / hertz);
+  }
+}
+
+void a_leader_whose_points_are_noisy_hides_no_swing(void**) {
+  Random random{12};
+  for (const double noise_rad : {1e-12, 1e-6, 1e-4, 1e-3}) {
+    for (const OnlineMode online : {OnlineMode::kForward, OnlineMode::kLimit}) {
+      static ReferenceBench bench;
+      bench.params.online = online;
+      fresh(bench);
+      double found_s = kInfinity, time_s = 0.0;
+      for (; std::isinf(found_s) && time_s < 3.0 * kGoalTime_s; time_s += 0.02) {
+        lead(bench, noise_rad, random);
+        found_s = swing(bench, 3.0 * kTolerance_rad, 25.0, 0.02);
+      }
+      assert_true(std::isfinite(found_s));
+      assert_true(time_s > kGoalTime_s - 0.02 && time_s < kGoalTime_s + 0.1);
+    }
   }
 }
 
@@ -61,7 +96,7 @@ void a_reference_that_moves_again_in_time_is_never_refused(void**) {
     fresh(bench);
     for (int i = 0; i < 40; ++i) {
       JointSpace::Point point;
-      point.q = bench.home + JointVector::Constant(i % 2 == 0 ? 0.01 : -0.01);
+      point.q = bench.home + JointVector::Constant(i % 2 == 0 ? 0.02 : -0.02);
       std::uint32_t id = 0;
       assert_true(bench.client.send(point, id).ok());
       assert_true(std::isinf(swing(bench, 3.0 * kTolerance_rad, 4.0, 0.9 * kGoalTime_s)));
@@ -120,6 +155,7 @@ void the_goal_time_of_a_goal_is_its_own(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_swing_about_a_reference_that_rests_is_found_within_half_a_swing),
+      cmocka_unit_test(a_leader_whose_points_are_noisy_hides_no_swing),
       cmocka_unit_test(a_reference_that_moves_again_in_time_is_never_refused),
       cmocka_unit_test(without_a_tolerance_or_a_goal_time_nothing_is_refused),
       cmocka_unit_test(a_goal_that_pauses_is_judged_by_its_own_tolerance),
