@@ -127,8 +127,9 @@ void RunLoop::stop() {
   if (trouble_.empty() && latched_ != Status::kOk && latched_ == pipeline.failure)
     trouble_ << "block [" << pipeline.name(pipeline.failed) << "]";
   if (latched_ == Status::kPathTolerance)
-    trouble_ << ": its reference has rested for goal_time_s, and the arm is not there; look at "
-                "gains, tool and mounting; path_tolerance = 0 lets it be pushed away";
+    trouble_ << ": its reference rests, and the arm does not stay there; look at gains, tool and "
+                "mounting; path_tolerance = 0, of a cartesian_pose hold_tolerance = 0, lets it be "
+                "pushed away";
   result_.rung = session_.executive.rung();
   left_ = session_.executive.stop();
   if (left_ != Status::kOk) left_trouble_ = session_.hal.trouble();

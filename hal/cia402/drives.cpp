@@ -69,16 +69,20 @@ void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
 }
 
 /// Until it is commanded, an enabled arm stays where it was held; a wrong sign or a wrong torque
-/// must not drive it away.
+/// must not drive it away. A torque that pushes it is found by its velocity first: the limit is of
+/// the spring and damper of the hold together, in rad of the spring.
 void Drives::judge_hold(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (following_ || goal() != Goal::kOperationEnabled) return;
-  if (std::abs(joint.q - held_[j]) <= settings_->hold_tolerance) return;
-  const Figures figures = {joint.q - held_[j], settings_->hold_tolerance};
+  const double away = joint.q - held_[j];
+  const bool leaves = mode_ == CommandMode::kEffort && away * joint.dq > 0.0;
+  const double pushed = away + (leaves ? hold_.lead_s(j) * joint.dq : 0.0);
+  if (std::abs(pushed) <= settings_->hold_tolerance) return;
+  const Figures figures = {pushed, settings_->hold_tolerance};
   moved_ = j;
   moved_from_ = held_[j];
-  fail(j, Status::kMoved, joint.last.error_code, "moved by ",
-       " rad while it was held, more than [cia402] hold_tolerance, ",
+  fail(j, Status::kMoved, joint.last.error_code, "moves by ",
+       " rad while it is held, more than [cia402] hold_tolerance, ",
        " rad; check direction, rated_torque, hold_stiffness, the encoder, and the mounting and "
        "tool of [robot]",
        &figures);

@@ -62,9 +62,9 @@ bool Drives::ready(int j) {
     fail(j, Status::kNotReferenced, last.error_code, "the drive is not referenced; home it");
   } else if (j == moved_) {
     const Figures figures = {joint.q - moved_from_, settings_->hold_tolerance};
-    fail(j, Status::kMoved, last.error_code, "has moved by ",
-         " rad since it was held, more than [cia402] hold_tolerance, ",
-         " rad, and would move on; mend the cause, then start the program anew", &figures);
+    fail(j, Status::kMoved, last.error_code, "left its place while it was held, is ",
+         " rad from there ([cia402] hold_tolerance is ",
+         " rad), and would move on; mend the cause, then start the program anew", &figures);
   }
   return phase_ != Phase::kFailed;
 }

@@ -25,6 +25,12 @@ Vector6 pose_error(const Pose& x_d, const Pose& x) {
   return stacked(x_d.p - x.p, log_so3(x_d.r * x.r.conjugate()));
 }
 
+/// Returns the sine of half the angle between two orientations of any length.
+double sine_of_half(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  const double same = a.dot(b);
+  return std::sqrt(std::max(0.0, 1.0 - same * same / (a.squaredNorm() * b.squaredNorm())));
+}
+
 /// Returns the joint furthest beyond its bounds, or -1.
 int worst_joint(const JointVector& dq, const JointVector& low, const JointVector& high) {
   int worst = -1;
@@ -102,7 +108,8 @@ Status CartesianPose::start(double dt_s) {
   q_c.value = posture_ = *q;
   dq_c.value.setZero();
   posture_dq_.setZero();
-  braked_ = at_once_ = false;
+  braked_ = at_once_ = left_ = false;
+  rests_s_ = 0.0;
   fade_.clear();
   tracking_ = 1.0;
   scale.value = 1.0;
@@ -111,7 +118,8 @@ Status CartesianPose::start(double dt_s) {
 }
 
 Status CartesianPose::resume() {
-  braked_ = at_once_ = false;
+  braked_ = at_once_ = left_ = false;
+  rests_s_ = 0.0;
   return Status::kOk;
 }
 
@@ -133,7 +141,7 @@ Status CartesianPose::step(double dt_s) {
     motion_.halt();
   q_c.value = motion_.q();
   dq_c.value = motion_.dq();
-  return status;
+  return status == Status::kOk && left_ && !braked_ ? Status::kPathTolerance : status;
 }
 
 Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
@@ -144,6 +152,7 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
         passed <= 1.0))
     return Status::kReferenceFault;
   run_down(dt_s);
+  left_ = leaves(e, dt_s);
 
   fade_.step(dt_s);
   Vector6 wanted = correction(e);
@@ -184,6 +193,19 @@ void CartesianPose::run_down(double dt_s) {
   if (braked_ && stands_) tracking_ = std::max(0.0, tracking_ - dt_s / kRunDown_s);
   if (!braked_) tracking_ = std::min(1.0, tracking_ + dt_s / kRunDown_s);
   last_x_d_ = *x_d;
+}
+
+/// True if the error has changed by more than the tolerance from the least one since kSettles_s
+/// after x_d came to rest. Corrections let it shrink as a whole, and not its parts.
+bool CartesianPose::leaves(const Vector6& e, double dt_s) {
+  const double most = params.hold_tolerance;
+  const bool rests = (x_d->p - held_x_d_.p).norm() <= kRests * most &&
+                     sine_of_half(x_d->r, held_x_d_.r) <= 0.5 * kRests * most;
+  if (!rests) held_x_d_ = *x_d;
+  rests_s_ = rests ? rests_s_ + dt_s : 0.0;
+  const bool nearer = e.squaredNorm() <= kNearer * nearest_.squaredNorm();
+  if (nearer || rests_s_ <= kSettles_s) nearest_ = e;
+  return most > 0.0 && (e - nearest_).norm() > most;
 }
 
 /// Scales the correction so that every joint can brake before it is complete: at the rate of the

@@ -38,6 +38,11 @@
 // When K changes, the difference of the correction fades (kernel/math/fade.hpp); the posture's
 // velocity changes with a bounded acceleration anyway.
 //
+// While the reference rests, so does the tip: kSettles_s after x_d has last moved by a quarter of
+// hold_tolerance, e may not change by more than that from the least one since, where a metre counts
+// as a radian. A tip that swings or circles about its reference is found within half a swing; one
+// that stands out of reach stays there, or creeps nearer.
+//
 // When braked on the path, the posture's velocity goes to zero, and once the reference is at rest,
 // the remaining error is corrected for no longer than kRunDown_s and never faster than before. When
 // braked at once, every joint stops separately with max_acceleration.
@@ -68,6 +73,7 @@ class CartesianPose {
     double max_lead = 0.1;                       ///< rad; more than the servo's lag at speed
     double max_speed = Robot::kTaskLimit.v_max;  ///< m/s
     double max_angular_speed = Robot::kTaskLimit.w_max;  ///< rad/s
+    double hold_tolerance = 0.05;                        ///< m, and rad; 0: not checked
     JointLimits limits;
     JointVector position_margin = JointVector::Constant(0.01);  ///< rad, off both limits
   } params;
@@ -108,6 +114,7 @@ class CartesianPose {
     visit.param("max_speed", params.max_speed, Range{1e-3, Robot::kTaskLimit.v_max}, "m/s");
     visit.param("max_angular_speed", params.max_angular_speed, Range{1e-3, Robot::kTaskLimit.w_max},
                 "rad/s");
+    visit.param("hold_tolerance", params.hold_tolerance, Range{0.0, 3.0}, "1");
     visit.limit("max_velocity", params.limits.dq_max, "rad/s");
     visit.limit("max_acceleration", params.limits.ddq_max, "rad/s^2");
     visit.param("position_margin", params.position_margin, Range{0.0, 0.5}, "rad");
@@ -133,7 +140,7 @@ class CartesianPose {
 
   /// Returns kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
-  /// [cyclic]
+  /// kPathTolerance: the tip leaves a reference that rests; the command goes on. [cyclic]
   Status step(double dt_s);
 
   /// Brings the arm to rest and keeps it there until the next start(); after kAtOnce without
@@ -157,9 +164,12 @@ class CartesianPose {
   static constexpr double kMaxGainPeriods = 0.5;
 
  private:
-  static constexpr double kStill = 1e-6;     // rad/s
-  static constexpr double kBend = 0.5;       // m, or rad
-  static constexpr double kRunDown_s = 0.3;  // three times 1/K at the gains of the paper
+  static constexpr double kStill = 1e-6;      // rad/s
+  static constexpr double kBend = 0.5;        // m, or rad
+  static constexpr double kRunDown_s = 0.3;   // three times 1/K at the gains of the paper
+  static constexpr double kRests = 0.25;      // of the tolerance of the hold
+  static constexpr double kNearer = 0.99;     // of the square of an error; the same is not nearer
+  static constexpr double kSettles_s = 10.0;  // goal_time_s of the generators
   struct Demand;
   struct Task;
 
@@ -168,6 +178,7 @@ class CartesianPose {
   Vector6 correction(const Vector6& e) const;
   Status command_velocity(double dt_s, JointVector& dq);
   void run_down(double dt_s);
+  bool leaves(const Vector6& e, double dt_s);
   void share_out(const DampedInverse<kDof>& inverse, double dt_s, Demand& demand) const;
   Task solve(const Demand& demand, DampedInverse<kDof>& inverse, double dt_s) const;
   JointVector posture_velocity(const Task& task, const DampedInverse<kDof>& inverse, double dt_s);
@@ -180,6 +191,10 @@ class CartesianPose {
   Fade<Vector6> fade_;     // m/s and rad/s, in base axes
   double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;
+  Pose held_x_d_;         // where the reference rests
+  double rests_s_ = 0.0;  // for how long
+  Vector6 nearest_;       // least error since it has settled
+  bool left_ = false;     // the error has changed by more than the tolerance
 };
 
 }  // namespace tactus

@@ -72,7 +72,7 @@ void an_arm_that_hangs_is_taken_over_if_the_file_says_so(void**) {
       ASSERT_STATUS(bench.arm(), Status::kMoved);
     }
     print_message("hanging unsaid it moves by %.3f rad\n", moved());
-    assert_true(moved() < 0.25);
+    assert_true(moved() < 0.08);
   }
 }
 
