@@ -21,14 +21,13 @@ bool finite(const Pose& pose) {
 }
 
 /// Returns the twist that moves x onto x_d in one second, in the base frame.
-Vector6 pose_error(const Pose& x_d, const Pose& x) {
+[[gnu::noinline]] Vector6 pose_error(const Pose& x_d, const Pose& x) {
   return stacked(x_d.p - x.p, log_so3(x_d.r * x.r.conjugate()));
 }
 
-/// Returns the sine of half the angle between two orientations of any length.
-double sine_of_half(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
-  const double same = a.dot(b);
-  return std::sqrt(std::max(0.0, 1.0 - same * same / (a.squaredNorm() * b.squaredNorm())));
+/// Returns the length of an error or a twist; a metre counts as a radian.
+[[gnu::noinline]] double length(const Vector6& v) {
+  return v.norm();
 }
 
 /// Returns the joint furthest beyond its bounds, or -1.
@@ -108,17 +107,15 @@ Status CartesianPose::start(double dt_s) {
   q_c.value = posture_ = *q;
   dq_c.value.setZero();
   posture_dq_.setZero();
-  braked_ = at_once_ = left_ = false;
-  rests_s_ = 0.0;
   fade_.clear();
   tracking_ = 1.0;
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
-  return Status::kOk;
+  return resume();
 }
 
 Status CartesianPose::resume() {
-  braked_ = at_once_ = left_ = false;
+  braked_ = at_once_ = false;
   rests_s_ = 0.0;
   return Status::kOk;
 }
@@ -158,7 +155,7 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   Vector6 wanted = correction(e);
   if (fade_.runs()) wanted += fade_.value();
   const double rate = largest_gain();
-  Demand demand{*v_d, wanted, rate > 0.0 ? kBend * wanted.norm() / rate : 0.0};
+  Demand demand{*v_d, wanted, rate > 0.0 ? kBend * length(wanted) / rate : 0.0};
   Inverse inverse(*J, params.damping_onset, demand.floor);
   const double distance = inverse.sigma();
   share_out(inverse, dt_s, demand);
@@ -198,14 +195,14 @@ void CartesianPose::run_down(double dt_s) {
 /// True if the error has changed by more than the tolerance from the least one since kSettles_s
 /// after x_d came to rest. Corrections let it shrink as a whole, and not its parts.
 bool CartesianPose::leaves(const Vector6& e, double dt_s) {
-  const double most = params.hold_tolerance;
-  const bool rests = (x_d->p - held_x_d_.p).norm() <= kRests * most &&
-                     sine_of_half(x_d->r, held_x_d_.r) <= 0.5 * kRests * most;
-  if (!rests) held_x_d_ = *x_d;
-  rests_s_ = rests ? rests_s_ + dt_s : 0.0;
-  const bool nearer = e.squaredNorm() <= kNearer * nearest_.squaredNorm();
+  rests_s_ += dt_s;
+  if (length(pose_error(*x_d, held_x_d_)) > kRests * params.hold_tolerance) {
+    held_x_d_ = *x_d;
+    rests_s_ = 0.0;
+  }
+  const bool nearer = length(e) <= kNearer * length(nearest_);
   if (nearer || rests_s_ <= kSettles_s) nearest_ = e;
-  return most > 0.0 && (e - nearest_).norm() > most;
+  return params.hold_tolerance > 0.0 && length(e - nearest_) > params.hold_tolerance;
 }
 
 /// Scales the correction so that every joint can brake before it is complete: at the rate of the

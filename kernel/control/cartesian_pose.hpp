@@ -168,7 +168,7 @@ class CartesianPose {
   static constexpr double kBend = 0.5;        // m, or rad
   static constexpr double kRunDown_s = 0.3;   // three times 1/K at the gains of the paper
   static constexpr double kRests = 0.25;      // of the tolerance of the hold
-  static constexpr double kNearer = 0.99;     // of the square of an error; the same is not nearer
+  static constexpr double kNearer = 0.999;    // of an error; the same is not nearer
   static constexpr double kSettles_s = 10.0;  // goal_time_s of the generators
   struct Demand;
   struct Task;
