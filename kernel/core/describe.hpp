@@ -11,6 +11,7 @@
 //                                     Vector3
 //   limit(name, value, unit)          a limit per joint, which the file may tighten but not widen
 //   text(name, value, meaning)        a setting that is a word or a path
+//   lines(name, list, meaning)        a setting that may be given several times, each time a line
 //   choice(name, value)               a setting that is one of an enumeration's names (names.hpp)
 //   in(name, port), optional(name, port), out(name, port)
 //   channel(name, pointer)            the mailboxes and stores through which references arrive

@@ -166,9 +166,6 @@ Status Ini::add_entry(std::string_view key, std::string_view value, int line, Lo
   } else if (value.size() > kMaxValueLength) {
     status = Status::kTooLarge;
     reason << "the value has " << value.size() << " characters; the limit is " << kMaxValueLength;
-  } else if (const IniEntry* earlier = find(section, key)) {
-    status = Status::kDuplicate;
-    reason << "the key is already given at line " << earlier->line;
   } else if (entry_count_ == kMaxEntries) {
     status = Status::kTooLarge;
     reason << "more than " << kMaxEntries << " keys";

@@ -38,7 +38,8 @@ class Ini {
   const IniEntry& entry(int index) const { return entries_[static_cast<std::size_t>(index)]; }
   /// Returns the section of that name, or null. [init]
   const IniSection* find(std::string_view name) const;
-  /// Returns the entry of that key in a section, or null. [init]
+  /// Returns the first entry of that key in a section, or null; a later one is the reader's to
+  /// judge. [init]
   const IniEntry* find(const IniSection& section, std::string_view key) const;
 
  private:

@@ -34,6 +34,10 @@ class ParameterReader : public SectionReader {
   void text(const char* key, Text<N>& /*value*/, const char* /*meaning*/) {
     fixed(key);
   }
+  template <class List>
+  void lines(const char* key, List& /*list*/, const char* /*meaning*/) {
+    fixed(key);
+  }
   template <class Enum>
   void choice(const char* key, Enum& /*value*/) {
     fixed(key);

@@ -30,17 +30,27 @@ Message& add_unit(Message& text, const char* unit) {
 
 bool SectionReader::next() {
   if (failed() || (checked_ >= 0 && !seeks_)) return false;
-  if (seeks_ && !found_) {
-    const IniEntry& entry = ini_.entry(section_.first + checked_);
-    static_cast<void>(error_.refuse(Status::kUnknownKey, entry.line, section_.name, entry.key,
-                                    Message("the section has no such key; it has ") << names_));
-    return false;
-  }
+  if (seeks_ && !judge_sought(ini_.entry(section_.first + checked_))) return false;
   seeks_ = ++checked_ < section_.count;
-  found_ = false;
+  found_ = repeats_ = false;
   names_ = {};
   if (seeks_) sought_ = ini_.entry(section_.first + checked_).key;
   return true;
+}
+
+bool SectionReader::judge_sought(const IniEntry& entry) {
+  Status status = Status::kUnknownKey;
+  Message reason;
+  if (!found_) {
+    reason << "the section has no such key; it has " << names_;
+  } else if (const IniEntry* first = ini_.find(section_, sought_); first != &entry && !repeats_) {
+    status = Status::kDuplicate;
+    reason << "the key is already given at line " << first->line;
+  } else {
+    return true;
+  }
+  static_cast<void>(error_.refuse(status, entry.line, section_.name, entry.key, reason));
+  return false;
 }
 
 void SectionReader::refuse(Status status, const char* key, std::string_view reason) {

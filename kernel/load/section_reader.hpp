@@ -2,8 +2,9 @@
 // section and binds its inputs to the outputs above it. It keeps the first mistake as the error and
 // then stops reading.
 //
-// A key that nobody reads, a typing mistake, is refused before anything else in its section. For
-// that the same visitor passes the names once for every key, to find it among them:
+// A key that nobody reads, a typing mistake, is refused before anything else in its section, and so
+// is one that is given twice, unless it is one of lines(). For that the same visitor passes the
+// names once for every key, to find it among them:
 //
 //   while (reader.next()) settings.describe(reader);
 #pragma once
@@ -57,6 +58,23 @@ class SectionReader {
     if (entry->value.size() > N) return refuse_length(key, entry->value.size(), N);
     value = Text<N>(entry->value);
   }
+  /// Reads a key that may be given any number of times, each time a line of a list, which judges it
+  /// in Status add(std::string_view text, int line, Message& why).
+  template <class List>
+  void lines(const char* key, List& list, const char* /*meaning*/) {
+    if (seeks_) {
+      repeats_ = repeats_ || sought_ == key;
+      return know(key);
+    }
+    for (int i = section_.first; i < section_.first + section_.count && !failed(); ++i) {
+      const IniEntry& entry = ini_.entry(i);
+      if (entry.key != key) continue;
+      Message why;
+      const Status status = list.add(entry.value, entry.line, why);
+      if (status != Status::kOk)
+        static_cast<void>(error_.refuse(status, entry.line, section_.name, key, why));
+    }
+  }
   template <class Enum>
   void choice(const char* key, Enum& value) {
     const int chosen = choose(key, kNames<Enum>.data(), kNames<Enum>.size());
@@ -105,6 +123,8 @@ class SectionReader {
       return refuse(Status::kTooLarge, "type", "the board has no channel left for this generator");
     offered_->*which = nullptr;
   }
+  /// Refuses a key that no name was, or that was given before.
+  bool judge_sought(const IniEntry& entry);
   void add_output(const PortEntry& entry);
   int choose(const char* key, const char* const* words, std::size_t count);
   /// Reads as many numbers as there are values, or for joints also one number for all. Without the
@@ -128,6 +148,7 @@ class SectionReader {
   std::string_view sought_;  // the key, while seeks_
   Message names_;            // those it was compared with
   bool seeks_ = false, found_ = false;
+  bool repeats_ = false;  // the key sought may be given several times
 };
 
 }  // namespace tactus
