@@ -118,6 +118,7 @@ struct Object {
   }
 };
 
+inline constexpr Object kStoreParameters = {0x1010, 1, 4};         // u32, kSaveSignature
 inline constexpr Object kSerialNumber = {0x1018, 4, 4};            // u32
 inline constexpr Object kAbortConnectionOption = {0x6007, 0, 2};   // i16
 inline constexpr Object kErrorCode = {0x603F, 0, 2};               // u16
@@ -157,6 +158,8 @@ inline constexpr Object kDigitalOutputs = {0x60FE, 1, 4};          // u32
 inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, as 60A9h says
 inline constexpr Object kSupportedModes = {0x6502, 0, 4};          // u32
 
+/// What 1010h:1 takes: "save" (CiA 301, 7.5.2.13).
+inline constexpr std::uint32_t kSaveSignature = 0x65766173;
 /// Low word of the device type, 1000h: the profile of a drive.
 inline constexpr std::uint32_t kDriveProfile = 402;
 /// Device type of a servo drive.

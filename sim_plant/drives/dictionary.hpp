@@ -80,11 +80,24 @@ class Dictionary {
 
   std::int64_t get(Slot slot) const { return values_[slot]; }
   void set(Slot slot, std::int64_t value) { values_[slot] = value; }
+  /// As set(), by SDO: counted.
+  void write(Slot slot, std::int64_t value) {
+    set(slot, value);
+    ++writes_[slot];
+  }
+  /// Writes by SDO since it exists. [any]
+  int writes(Slot slot) const { return writes_[slot]; }
+  int writes() const {
+    int sum = 0;
+    for (const int count : writes_) sum += count;
+    return sum;
+  }
 
  private:
   void reset(std::uint8_t node, std::uint16_t end);
 
   std::array<std::int64_t, count_slots()> values_{};
+  std::array<int, count_slots()> writes_{};
 };
 
 /// Returns an integer of the wire as a value of the type. [any]

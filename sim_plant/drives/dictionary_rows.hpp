@@ -66,6 +66,8 @@ inline constexpr Row kRows[] = {
     {0x1008, 0, 0, Type::kText, kRead},
     {0x1009, 0, 0, Type::kText, kRead},
     {0x100A, 0, 0, Type::kText, kRead},
+    {0x1010, 0, 0, Type::kU8, kRead, 1},
+    {0x1010, 1, 1, Type::kU32, kReadWrite, 1},  // stores on command
     {0x1014, 0, 0, Type::kU32, kReadWrite | kAddNode, 0x80},
     {0x1015, 0, 0, Type::kU16, kReadWrite},
     {0x1016, 0, 0, Type::kU8, kRead, kHeartbeatsWatched},
@@ -90,6 +92,13 @@ inline constexpr Row kRows[] = {
     TACTUS_TPDO(1, kInvalid | 0x280, 0, 0),
     TACTUS_TPDO(2, kInvalid | 0x380, 0, 0),
     TACTUS_TPDO(3, kInvalid | 0x480, 0, 0),
+    // A maker's own: of each type, of a range, of what a drive does not keep as it is written.
+    {0x2003, 0, 0, Type::kU8, kRead, 5},
+    {0x2003, 1, 1, Type::kU16, kReadWrite, 3},
+    {0x2003, 2, 2, Type::kI32, kReadWrite, -40, -1000, 1000},
+    {0x2003, 3, 3, Type::kU32, kReadWrite, 0x3F000000},  // a float, 0.5
+    {0x2003, 4, 4, Type::kU8, kRead, 7},
+    {0x2003, 5, 5, Type::kI8, kReadWrite, 2},  // keeps even numbers
     {0x6007, 0, 0, Type::kI16, kReadWrite, 1, 0, 3},
     {0x603F, 0, 0, Type::kU16, kRead | kTpdo},
     {0x6040, 0, 0, Type::kU16, kReadWrite | kRpdo | kTpdo},

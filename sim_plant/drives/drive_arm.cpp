@@ -18,6 +18,7 @@ Status DriveArm::load(const DriveArmSettings& settings, std::int64_t now_ns) {
     node.fd = settings.fd;
     node.axis = axis_settings(settings, i);
     node.boot_ns = settings.boot_ns;
+    node.store_ns = settings.store_ns;
     node.starts = settings.start;
     DriveBus& bus = buses_[static_cast<std::size_t>(place.bus)];
     nodes_[i].load(node, bus.queue(), now_ns);

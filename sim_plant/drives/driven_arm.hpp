@@ -13,6 +13,7 @@ namespace tactus::drives {
 struct DrivenArmSettings {
   bool gravity_by_drive = false;  ///< target torque 0 holds the arm
   double brake_release_s = 0.150;
+  std::int64_t store_ns = 0;                           ///< until 1010h:1 is answered
   std::uint32_t velocity_unit = kIncrementsPerSecond;  ///< 60A9h
   double torque_share = 1.0;                           ///< of the motor's torque, that 6072h allows
   PlantParams plant;

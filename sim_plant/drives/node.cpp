@@ -103,6 +103,11 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
   } else {
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
   }
+  if (answer.written && answer.index == 0x1010) {
+    stored_ = answer.frame;
+    stored_ns_ = now_ns + settings_.store_ns;
+    return;
+  }
   if (answer.sent) queue_->push(answer.frame);
   if (answer.written) note_written(answer.index, answer.sub, now_ns);
 }
@@ -168,6 +173,10 @@ void Node::advance(std::int64_t now_ns) {
     if (settings_.starts) enter(NmtState::kOperational, now_ns);
   }
   send_heartbeat(now_ns);
+  if (stored_ns_ != 0 && now_ns >= stored_ns_) {
+    stored_ns_ = 0;
+    queue_->push(stored_);
+  }
   const SdoAnswer late = sdo_.advance(now_ns, settings_.node);
   if (late.sent) queue_->push(late.frame);
   watch(now_ns);

@@ -16,6 +16,7 @@ struct NodeSettings {
   bool fd = false;  ///< TPDOs are frames of CAN FD, up to 64 bytes
   AxisSettings axis;
   std::int64_t boot_ns = 10'000'000;  ///< from power-on or reset to the boot-up message
+  std::int64_t store_ns = 0;          ///< until 1010h:1 is answered
   bool starts = false;                ///< by itself: operational after boot-up (CiA 302-2)
 };
 
@@ -103,6 +104,8 @@ class Node {
   std::int64_t syncs_ = 0;  // received since power-on
   std::int64_t boot_ns_ = 0, heartbeat_ns_ = 0, sync_deadline_ns_ = 0;
   bool guard_toggle_ = false;
+  can::CanFrame stored_;                     // the answer to 1010h:1
+  std::int64_t stored_ns_ = 0;               // when it is sent; 0: it does not store
   std::array<can::CanFrame, kPdos> held_{};  // TPDOs that a fault delays
   std::array<bool, kPdos> holds_{};
 };

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "hal/cia402/protocol.hpp"
+
 namespace tactus::drives {
 namespace {
 
@@ -104,9 +106,16 @@ SdoAbort judge_special(const Dictionary& dictionary, const DeviceState& state, s
       if (value == 1) return SdoAbort::kRange;
       return dictionary.get(slot_of(can::kSyncPeriod)) != 0 ? SdoAbort::kDeviceState
                                                             : SdoAbort::kNone;
+    case 0x1010: return value == cia402::kSaveSignature ? SdoAbort::kNone : SdoAbort::kNotStored;
     case 0x6060: return has_mode(value) ? SdoAbort::kNone : SdoAbort::kRange;
     default: return SdoAbort::kNone;
   }
+}
+
+/// What a drive keeps of a value that it takes.
+std::int64_t kept(std::uint16_t index, std::uint8_t sub, std::int64_t value) {
+  if (index == 0x1010) return 1;
+  return index == 0x2003 && sub == 5 ? value / 2 * 2 : value;
 }
 
 }  // namespace
@@ -177,7 +186,7 @@ can::SdoAbort write_object(Dictionary& dictionary, const DeviceState& state, std
   if ((found.row->access & kAtRest) != 0 && state.powered) return SdoAbort::kDeviceState;
   const SdoAbort special = judge_special(dictionary, state, index, sub, value);
   if (special != SdoAbort::kNone) return special;
-  dictionary.set(found.slot, value);
+  dictionary.write(found.slot, kept(index, sub, value));
   return SdoAbort::kNone;
 }
 

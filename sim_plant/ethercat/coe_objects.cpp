@@ -187,7 +187,7 @@ SdoAbort CoeObjects::write_mapping(std::uint16_t index, std::uint8_t sub, const 
     }
     if (bytes > kMostPdoBytes) return SdoAbort::kPdoLength;
   }
-  dictionary_.set(found.slot, value);
+  dictionary_.write(found.slot, value);
   return SdoAbort::kNone;
 }
 

@@ -38,7 +38,7 @@ void DriveSlave::power_on(const SlaveSettings& settings) {
 void DriveSlave::serve(std::int64_t now_ns) {
   std::uint16_t control = 0;
   if (esc_.take_request(control)) request(control, now_ns);
-  if (state_ >= AlState::kPreop) serve_mailbox();
+  if (state_ >= AlState::kPreop && now_ns >= stored_ns_) serve_mailbox(now_ns);
   if (state_ >= AlState::kSafeop && esc_.take_outputs()) take_outputs();
 }
 
@@ -56,7 +56,7 @@ void DriveSlave::advance(std::int64_t now_ns, std::int64_t periods) {
   inject();
 }
 
-void DriveSlave::serve_mailbox() {
+void DriveSlave::serve_mailbox(std::int64_t now_ns) {
   const SyncManager in = esc_.sm(kMailboxOutSm);
   const std::uint8_t* const bytes = esc_.bytes(kMailboxOutSm);
   if (in.enabled() && in.full() && bytes != nullptr) {
@@ -81,8 +81,9 @@ void DriveSlave::serve_mailbox() {
     }
     esc_.set_full(kMailboxOutSm, false);
     if (result.written) note_written(result);
+    if (result.written && result.index == 0x1010) stored_ns_ = now_ns + settings_.store_ns;
   }
-  post_mailbox();
+  if (now_ns >= stored_ns_) post_mailbox();
 }
 
 /// Puts the next message into the mailbox of answers if that is empty.

@@ -16,6 +16,7 @@ struct SlaveSettings {
   SmPlaces places;
   EscClock clock;
   bool lrw = true;
+  std::int64_t store_ns = 0;  ///< until 1010h:1 is answered
 };
 
 class DriveSlave {
@@ -58,7 +59,7 @@ class DriveSlave {
   void refuse(std::uint16_t code);
   void leave_operation();
   // drive_slave.cpp
-  void serve_mailbox();
+  void serve_mailbox(std::int64_t now_ns);
   void post_mailbox();
   void note_written(const CoeResult& result);
   void take_outputs();
@@ -81,6 +82,7 @@ class DriveSlave {
   AlState state_ = AlState::kInit;
   bool error_ = false, awaits_outputs_ = false, has_outputs_ = false;
   std::int64_t requested_ns_ = 0, periods_ = 0;
+  std::int64_t stored_ns_ = 0;  // when its parameters are stored; until then no mailbox is served
 };
 
 }  // namespace tactus::segment

@@ -25,6 +25,7 @@ Status Segment::load(const SegmentSettings& settings, std::int64_t now_ns) {
   for (int i = 0; i < settings.slaves; ++i) {
     SlaveSettings slave;
     slave.number = static_cast<std::uint8_t>(i + 1);
+    slave.store_ns = settings.store_ns;
     slave.axis = drives::axis_settings(settings, static_cast<std::size_t>(i));
     slave.places = settings.places[static_cast<std::size_t>(i)];
     slave.lrw = !settings.no_lrw[static_cast<std::size_t>(i)];
