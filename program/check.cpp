@@ -50,6 +50,13 @@ Status look(Hal& hal, CommandMode mode, RobotState& state) {
   return status;
 }
 
+void print_written(const char* path, const Session& session) {
+  if (session.written == nullptr) return;
+  int n = 0;
+  for (Message text = session.written(n); !text.empty(); text = session.written(++n))
+    std::printf("%s: %s\n", path, text.c_str());
+}
+
 int check(Session& session, const Options& options) {
   Expectation expectation;
   if (!expectation.start(session.expect, session.pipeline.recording,
@@ -61,6 +68,7 @@ int check(Session& session, const Options& options) {
   begin_at_once(input);
   RobotState initial;
   Status status = look(session.hal, pipeline.robot.mode(), initial);
+  print_written(options.pipeline, session);
   if (status != Status::kOk) {
     print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
     return kRefused;

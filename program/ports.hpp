@@ -47,6 +47,10 @@ class PortPrinter {
   void text(const char* key, const Text<N>&, const char* meaning) {
     std::printf("| `%s` | text: %s | | | |\n", key, meaning);
   }
+  template <class List>
+  void lines(const char* key, const List&, const char* meaning) {
+    std::printf("| `%s` | lines: %s | | | |\n", key, meaning);
+  }
   template <class Enum>
   void choice(const char* key, Enum& value) {
     std::printf("| `%s` | word | | %s |", key, name(value));

@@ -45,7 +45,9 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
     length.cycles = cycles_of(duration_s, session.pipeline.robot.period_s());
   RunLoop loop(session, input, feed, watchdog, result, length);
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
-  const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
+  const bool started = loop.start();
+  print_written(options.pipeline, session);
+  const bool guarded = started && watchdog.arm(session.realtime);
   if (started && !guarded) end_with(result, kRefused, "refused");
   if (guarded) {
     if (session.hal.clock() != nullptr)

@@ -31,6 +31,8 @@ struct Board {
   int (*scan)(const Options& options) = nullptr;  ///< the verb `scan`, on a board with a bus
   Follower* follower = nullptr;      ///< a second machine that runs the same, if there is one
   WireCounts (*counts)() = nullptr;  ///< after a run; null: its wire counts nothing
+  /// What start-ups have changed in the robot, text `n` from 0; empty behind the last.
+  Message (*written)(int n) = nullptr;
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -77,7 +79,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   Session session{board.name,      !board.real,    static_bytes,     text,
                   board.hal,       pipeline,       executive,        recorder,
                   client,          task_client,    sections.gateway, sections.realtime,
-                  sections.expect, board.follower, board.counts};
+                  sections.expect, board.follower, board.counts,     board.written};
   if (board.follower != nullptr) board.follower->prepare(session);
   switch (options.verb) {
     case Verb::kCheck: return check(session, options);

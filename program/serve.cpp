@@ -179,7 +179,9 @@ int serve(Session& session, const Options& options) {
     session.executive.in_virtual_time();
     loop.in_virtual_time();
   }
-  const bool started = loop.start(), guarded = started && watchdog.arm(session.realtime);
+  const bool started = loop.start();
+  print_written(options.pipeline, session);
+  const bool guarded = started && watchdog.arm(session.realtime);
   if (started && !guarded) end_with(result, kRefused, "refused");
   if (guarded) {
     say_where(options, listener.address().text().c_str(), page);

@@ -15,10 +15,15 @@ Status configure(const CanSections& sections, const Pipeline& pipeline, const Op
   return hal.configure(sections.can, sections.cia402, tool, robot.mode(), robot.period_us);
 }
 
+Message written(int n) {
+  return hal.master().written(n);
+}
+
 }  // namespace
 }  // namespace tactus
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<CanSections>(argc, argv, {"fer_can", hal, sizeof hal, true, configure, scan});
+  return run_board<CanSections>(
+      argc, argv, {"fer_can", hal, sizeof hal, true, configure, scan, nullptr, nullptr, written});
 }

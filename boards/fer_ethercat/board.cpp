@@ -25,6 +25,10 @@ WireCounts counts() {
            {"strange", line.strange}}};
 }
 
+Message written(int n) {
+  return hal.master().written(n);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -32,5 +36,5 @@ int main(int argc, char** argv) {
   using namespace tactus;
   return run_board<EthercatSections>(
       argc, argv,
-      {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment, nullptr, counts});
+      {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment, nullptr, counts, written});
 }

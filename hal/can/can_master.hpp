@@ -66,6 +66,8 @@ class CanMaster {
   Message trouble() const;
   /// As Hal::unstated(). [init]
   Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
+  /// As cia402::written_text(), of all start-ups. [init]
+  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
   cia402::Phase phase() const { return drives_.phase(); }
   /// Frames that a cycle sends on a bus at most. [init]
   int cycle_frames(int bus) const;

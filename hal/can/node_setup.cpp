@@ -41,12 +41,19 @@ void NodeSetup::identity(const CanSettings& can, CommandMode mode) {
          "the drive does not have the mode that [robot] commands", bit);
 }
 
+void NodeSetup::fact(std::uint32_t row) {
+  const auto& [object, what] = cia402::kFacts[row];
+  steps_[static_cast<std::size_t>(count_++)] = {Kind::kFact, object.sub, object.bytes, object.index,
+                                                row,         0xFFFFFFFF, what,         ""};
+}
+
+/// What the lines of the file set may be a fact, so they come before all but the identity.
 void NodeSetup::facts() {
-  for (std::uint32_t i = 0; i < cia402::kFactCount; ++i) {
-    const auto& [object, what] = cia402::kFacts[i];
-    steps_[static_cast<std::size_t>(count_++)] = {
-        Kind::kFact, object.sub, object.bytes, object.index, i, 0xFFFFFFFF, what, ""};
-  }
+  fact(cia402::kIdentityFact);
+  write(Kind::kLines, 0, 0, 0, 0, "");
+  for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);
+  write(Kind::kStore, cia402::kStoreParameters, cia402::kSaveSignature,
+        "its parameters cannot be stored, [cia402] store and store_ms");
 }
 
 /// What the drive does without us: it stops if heartbeats or commands are missing.

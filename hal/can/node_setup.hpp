@@ -1,7 +1,7 @@
 // NodeSetup: what is read from and written to one drive by SDO before its first PDO, as a list of
-// steps: who it is and what it says of its numbers, then watchdogs, PDOs and mode. Everything that
-// is written to the PDOs is read back. PDOs are changed in the order that CiA 301 demands
-// (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
+// steps: who it is, the file's own lines, what it says of its numbers, then watchdogs, PDOs and
+// mode. Everything that is written to the PDOs is read back. PDOs are changed in the order that CiA
+// 301 demands (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
 #pragma once
 
 #include "hal/can/pdo_layout.hpp"
@@ -16,6 +16,8 @@ struct SetupStep {
     kMayWrite,  ///< write; a drive that does not have the object is left as it is
     kAwait,     ///< read until it is `value`
     kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
+    kLines,     ///< the transfers of LineWriter
+    kStore,     ///< write, and wait longer; left out if LineWriter has changed nothing
   };
 
   Kind kind = Kind::kExpect;
@@ -27,7 +29,9 @@ struct SetupStep {
 
   bool watches = false;  ///< it stops the drive if this program ends
 
-  bool reads() const { return kind != Kind::kWrite && kind != Kind::kMayWrite; }
+  bool reads() const {
+    return kind != Kind::kWrite && kind != Kind::kMayWrite && kind != Kind::kStore;
+  }
 };
 
 class NodeSetup {
@@ -45,6 +49,7 @@ class NodeSetup {
   using Kind = SetupStep::Kind;
 
   void identity(const CanSettings& can, CommandMode mode);
+  void fact(std::uint32_t row);
   void facts();
   void watchdogs(const CanSettings& can, int period_us);
   void pdos(const CanSettings& can, const PdoLayout& layout, const Slot& slot, int period_us);

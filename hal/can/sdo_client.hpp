@@ -63,6 +63,8 @@ class SdoClient {
   /// The object that was read, after kDone. [any]
   const std::uint8_t* data() const { return data_.data(); }
   std::size_t size() const { return size_; }
+  /// False for an object of up to four bytes whose node has not said how many. [any]
+  bool size_known() const { return size_known_; }
   /// The first four bytes as an integer; bytes that the object does not have are 0. [any]
   std::uint32_t value() const { return load<std::uint32_t>(data_, 0); }
   /// Returns node, object and what became of the transfer, such as "node 3: object 6060h:0: value

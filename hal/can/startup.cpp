@@ -1,5 +1,7 @@
 #include "hal/can/startup.hpp"
 
+#include <algorithm>
+
 #include "hal/cia402/hex.hpp"
 #include "kernel/core/nanoseconds.hpp"
 
@@ -21,9 +23,6 @@ void Startup::begin(const CanSettings& can, const cia402::Cia402Settings& drive,
   mode_ = mode;
   period_us_ = period_us;
   buses_ = buses;
-  SdoTimes times;
-  times.answer_ns = can.sdo_ms * kMillisecond_ns;
-  sdo_.set_times(times);
   enter(Stage::kReset, now_ns);
 }
 
@@ -139,6 +138,7 @@ void Startup::list_steps() {
   step_ = 0;
   watched_ = false;
   facts_.clear();
+  lines_.begin(drive_->sdo, joint_, learnt_);
   steps_.begin(*can_, *layout_, node.slot, mode_, period_us_);
 }
 
@@ -146,16 +146,35 @@ void Startup::list_steps() {
 void Startup::ask(std::int64_t now_ns) {
   const SetupStep& step = steps_.step(step_);
   const std::uint8_t id = nodes_[static_cast<std::size_t>(joint_)].id();
+  const bool stores = step.kind == SetupStep::Kind::kStore;
+  SdoTimes times;
+  times.answer_ns = (stores ? drive_->store_ms : can_->sdo_ms) * kMillisecond_ns;
+  times.transfer_ns = std::max(times.transfer_ns, times.answer_ns);
+  sdo_.set_times(times);
+  if (step.kind == SetupStep::Kind::kLines) {
+    const cia402::ObjectLine& line = lines_.line();
+    const cia402::Object& object = line.object;
+    if (lines_.reads()) return sdo_.upload(id, object.index, object.sub, now_ns);
+    return sdo_.download(id, object.index, object.sub, line.bits, object.bytes, now_ns);
+  }
   if (step.reads())
     sdo_.upload(id, step.index, step.sub, now_ns);
   else
     sdo_.download(id, step.index, step.sub, step.value, step.bytes, now_ns);
 }
 
+/// Neither is the last of a drive.
+bool Startup::is_left_out(const SetupStep& step) const {
+  if (step.kind == SetupStep::Kind::kLines) return lines_.done();
+  return step.kind == SetupStep::Kind::kStore && !(drive_->store != 0 && lines_.changed());
+}
+
 /// Goes on with the next step, the next node, or the next stage.
 Status Startup::next_step(std::int64_t now_ns) {
   step_ns_ = now_ns;
-  const bool last = ++step_ == steps_.count();
+  ++step_;
+  while (step_ < steps_.count() && is_left_out(steps_.step(step_))) ++step_;
+  const bool last = step_ == steps_.count();
   if (last && !watched_) return unwatched();
   if (last && ++joint_ == kDof) {
     enter(Stage::kStart, now_ns);
@@ -168,6 +187,7 @@ Status Startup::next_step(std::int64_t now_ns) {
 
 Status Startup::finish_step(std::int64_t now_ns) {
   const SetupStep& step = steps_.step(step_);
+  if (step.kind == SetupStep::Kind::kLines) return finish_line(now_ns);
   if (sdo_.progress() == Progress::kAborted) {
     const bool fixed = sdo_.abort() == SdoAbort::kNoObject ||
                        sdo_.abort() == SdoAbort::kNoSubIndex || sdo_.abort() == SdoAbort::kReadOnly;
@@ -184,18 +204,39 @@ Status Startup::finish_step(std::int64_t now_ns) {
     return judge_value(step, now_ns);
   } else {
     watched_ = watched_ || step.watches;
+    bool& stored = learnt_.stored[static_cast<std::size_t>(joint_)];
+    stored = stored || step.kind == SetupStep::Kind::kStore;
   }
-  if (step.kind == SetupStep::Kind::kFact && step.value + 1 == cia402::kFactCount)
-    TRY(judge_facts());
+  if (step.kind == SetupStep::Kind::kFact) TRY(judge_fact(step.value));
   return next_step(now_ns);
 }
 
-Status Startup::judge_facts() {
+/// Goes on with the lines of the file, or behind the last of them.
+Status Startup::finish_line(std::int64_t now_ns) {
+  const bool done = sdo_.progress() == Progress::kDone;
+  Message said;
+  const Status status = lines_.take({done, sdo_.size_known(), sdo_.size(), sdo_.value()}, said);
+  if (status == Status::kOk && lines_.done()) return next_step(now_ns);
+  if (status == Status::kOk) {
+    ask(now_ns);
+    return Status::kArming;
+  }
+  why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
+  why_ << ": " << std::string_view(said);
+  if (!done) why_ << ": " << sdo_.describe();
+  return !done && sdo_.abort() == SdoAbort::kTimeout ? Status::kBusTimeout : status;
+}
+
+/// The identity by itself, and all facts when the last of them is known.
+Status Startup::judge_fact(std::uint32_t row) {
+  const bool identity = row == cia402::kIdentityFact;
+  if (!identity && row + 1 < cia402::kFactCount) return Status::kOk;
   nodes_[static_cast<std::size_t>(joint_)].feedback.error_code =
       static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
   const bool velocities = layout_->fd() || mode_ == CommandMode::kVelocity;
   Message said;
-  const Status status = facts_.judge(*drive_, joint_, velocities, learnt_, said);
+  const Status status = identity ? facts_.judge_identity(*drive_, joint_, learnt_, said)
+                                 : facts_.judge(*drive_, joint_, velocities, learnt_, said);
   if (status == Status::kOk) return status;
   why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
   why_ << ": " << std::string_view(said);

@@ -12,6 +12,7 @@
 #include "hal/can/node.hpp"
 #include "hal/can/node_setup.hpp"
 #include "hal/can/sdo_client.hpp"
+#include "hal/cia402/line_writer.hpp"
 
 namespace tactus::can {
 
@@ -47,8 +48,10 @@ class Startup {
   void ask(std::int64_t now_ns);
   Status next_step(std::int64_t now_ns);
   Status finish_step(std::int64_t now_ns);
+  bool is_left_out(const SetupStep& step) const;
+  Status finish_line(std::int64_t now_ns);
   Status judge_value(const SetupStep& step, std::int64_t now_ns);
-  Status judge_facts();
+  Status judge_fact(std::uint32_t row);
   Status unwatched();
   Status silent(int joint, const char* what, int limit_ms);
 
@@ -73,6 +76,7 @@ class Startup {
   std::int64_t booted_ns_ = 0;  // when the last of them came
   NodeSetup steps_;
   cia402::DriveFacts facts_;  // of joint_
+  cia402::LineWriter lines_;
   cia402::Learnt learnt_;
   std::int64_t sync_ns_ = 0;  // of the last SYNC
   int steady_ = 0;            // cycles in a row with feedback of all

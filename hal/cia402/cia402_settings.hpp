@@ -2,6 +2,7 @@
 // terms.
 #pragma once
 
+#include "hal/cia402/object_lines.hpp"
 #include "kernel/core/describe.hpp"
 #include "kernel/core/types.hpp"
 
@@ -36,7 +37,10 @@ constexpr const char* name(Encoder encoder) {
 }
 
 struct Cia402Settings {
-  JointVector serial = JointVector::Zero();                     ///< 1018h:4; 0: any
+  JointVector serial = JointVector::Zero();  ///< 1018h:4; 0: any
+  ObjectLines sdo;                           ///< objects that the file sets
+  int store = 0;        ///< 1: what these lines have changed is stored in the drive, 1010h:1
+  int store_ms = 5000;  ///< longest time for that
   JointVector rated_torque = JointVector::Constant(kRequired);  ///< 6076h, N m
   JointVector torque_limit = JointVector::Zero();  ///< N m, that 6072h allows; 0: the joint's limit
   JointVector increments =
@@ -64,6 +68,9 @@ struct Cia402Settings {
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("serial", serial, Range{0.0, 4294967295.0}, "1");
+    visit.lines("sdo", sdo, "[jointN] object type value, as 0x2003:1 u16 5");
+    visit.param("store", store, Range{0.0, 1.0}, "1");
+    visit.param("store_ms", store_ms, Range{1.0, 60000.0}, "ms");
     visit.param("rated_torque", rated_torque, Range{1e-3, 1e4}, "N m");
     visit.param("torque_limit", torque_limit, Range{0.0, 1e5}, "N m");
     visit.param("increments", increments, Range{1.0, 4294967295.0}, "1");

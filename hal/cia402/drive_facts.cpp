@@ -97,8 +97,6 @@ Message unstated(const Cia402Settings& drive, const Learnt& learnt) {
 
 Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities, Learnt& learnt,
                          Message& why) const {
-  learnt.serials[joint] = get(kSerialNumber);
-  TRY(judge_serial(drive, joint, why));
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
   const double stated = drive.velocity_units[joint];
@@ -130,7 +128,9 @@ Status DriveFacts::judge_velocities(double stated, double told, Message& why) co
 }
 
 /// Drives of one kind differ in nothing else, and a joint must not move for another.
-Status DriveFacts::judge_serial(const Cia402Settings& drive, int joint, Message& why) const {
+Status DriveFacts::judge_identity(const Cia402Settings& drive, int joint, Learnt& learnt,
+                                  Message& why) const {
+  learnt.serials[joint] = get(kSerialNumber);
   const double stated = drive.serial[joint];
   if (stated == 0.0 || (has(kSerialNumber) && get(kSerialNumber) == stated)) return Status::kOk;
   why << "its serial number (1018h:4) is ";

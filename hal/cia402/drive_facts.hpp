@@ -47,12 +47,17 @@ inline constexpr Fact kFacts[] = {
     {kErrorCode, "error code"},
 };
 inline constexpr std::uint32_t kFactCount = std::size(kFacts);
+/// The fact that is judged before the others are read: which drive it is.
+inline constexpr std::uint32_t kIdentityFact = 0;
+static_assert(kFacts[kIdentityFact].object.mapping() == kSerialNumber.mapping());
 
 /// What a start-up has learnt from the drives of all joints.
 struct Learnt {
   JointVector velocity_units = JointVector::Zero();  ///< per motor revolution per second; NaN: not
                                                      ///< known
   JointVector serials = JointVector::Zero();         ///< 0: not told
+  std::array<std::uint32_t, kDof> written{};         ///< bit i: by line i of the file
+  std::array<bool, kDof> stored{};                   ///< by the drive, in its own memory
 };
 
 /// The line for the file that has the serial numbers compared from now on; empty if they are, or if
@@ -73,6 +78,9 @@ class DriveFacts {
     return has(object) ? values_[row_of(object)] : 0;
   }
 
+  /// Compares the serial number with that of the file; nothing is written to a drive before. Fails
+  /// as judge(). [init]
+  Status judge_identity(const Cia402Settings& drive, int joint, Learnt& learnt, Message& why) const;
   /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
   /// wire carries velocities of this drive, whose unit must be known. Fills in what is `learnt` of
   /// the joint. kRefusedByRobot; `why` has object, value, what was expected and the line that
@@ -91,7 +99,6 @@ class DriveFacts {
   double of_turn(std::uint32_t unit, double increments) const;
   double position_units(double increments) const;
   double told_velocity_units(double increments) const;
-  Status judge_serial(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_torque(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_positions(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_velocities(double stated, double told, Message& why) const;

@@ -185,9 +185,9 @@ void CoeClient::take_answer(const std::uint8_t* body, std::size_t size) {
 
 void CoeClient::take_upload(const std::uint8_t* body, std::size_t size) {
   const std::uint8_t command = body[0];
+  size_known_ = (command & (can::kExpedited | can::kSizeGiven)) != can::kExpedited;
   if ((command & can::kExpedited) != 0) {
-    const bool given = (command & can::kSizeGiven) != 0;
-    size_ = can::kExpeditedBytes - (given ? command >> can::kUnusedShift & 3U : 0U);
+    size_ = can::kExpeditedBytes - (size_known_ ? command >> can::kUnusedShift & 3U : 0U);
     std::memcpy(data_.data(), body + kSdoHead, size_);
     return end(Progress::kDone, SdoAbort::kNone);
   }

@@ -46,6 +46,8 @@ class CoeClient {
   can::SdoAbort abort() const { return abort_; }
   const std::uint8_t* data() const { return data_.data(); }
   std::size_t size() const { return size_; }
+  /// False for an object of up to four bytes whose slave has not said how many. [any]
+  bool size_known() const { return size_known_; }
   /// The first four bytes as an integer; bytes that the object does not have are 0. [any]
   std::uint32_t value() const { return get<std::uint32_t>(data_.data()); }
   /// "object 6060h:0: value out of range (06090030h)". [any]
@@ -69,6 +71,7 @@ class CoeClient {
   can::SdoAbort abort_ = can::SdoAbort::kNone;
   std::int64_t answer_ns_ = 500'000'000, heard_ns_ = 0;
   bool to_send_ = false, toggle_ = false, silent_ = false, too_large_ = false;
+  bool size_known_ = false;
   int wrong_ = 0;               // messages that are no answer to the transfer
   const char* wrong_why_ = "";  // the last of them
   std::uint8_t counter_ = 0, sub_ = 0;

@@ -67,6 +67,8 @@ class EthercatMaster {
   Message trouble() const;
   /// As Hal::unstated(). [init]
   Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
+  /// As cia402::written_text(), of all start-ups. [init]
+  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
 
  private:
   enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };

@@ -35,12 +35,20 @@ void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
          "the drive does not have the mode that [robot] commands", bit);
 }
 
+void SlaveSetup::fact(std::uint32_t row) {
+  const auto& [object, what] = cia402::kFacts[row];
+  steps_[static_cast<std::size_t>(count_++)] = {
+      SetupStep::Kind::kFact, object.sub, 0, object.index, row, 0xFFFFFFFF, what, ""};
+}
+
+/// What the lines of the file set may be a fact, so they come before all but the identity.
 void SlaveSetup::facts() {
-  for (std::uint32_t i = 0; i < cia402::kFactCount; ++i) {
-    const auto& [object, what] = cia402::kFacts[i];
-    steps_[static_cast<std::size_t>(count_++)] = {
-        SetupStep::Kind::kFact, object.sub, 0, object.index, i, 0xFFFFFFFF, what, ""};
-  }
+  fact(cia402::kIdentityFact);
+  steps_[static_cast<std::size_t>(count_++)].kind = SetupStep::Kind::kLines;
+  for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);
+  write(cia402::kStoreParameters, cia402::kSaveSignature,
+        "its parameters cannot be stored, [cia402] store and store_ms");
+  steps_[static_cast<std::size_t>(count_ - 1)].kind = SetupStep::Kind::kStore;
 }
 
 void SlaveSetup::options(CommandMode mode, int period_us) {

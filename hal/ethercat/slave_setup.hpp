@@ -1,7 +1,8 @@
 // SlaveSetup: what is read from and written to one drive by SDO before its first cycle, as a list
-// of steps: who it is and what it says of its numbers, then options, mode and PDOs, in the order
-// that CoE demands: no PDO assigned, no entries, entries, their number, assignment. A drive whose
-// PDOs cannot be changed is left as it is; what is then read back decides.
+// of steps: who it is, the file's own lines, what it says of its numbers, then options, mode and
+// PDOs, in the order that CoE demands: no PDO assigned, no entries, entries, their number,
+// assignment. A drive whose PDOs cannot be changed is left as it is; what is then read back
+// decides.
 #pragma once
 
 #include "hal/cia402/drive_facts.hpp"
@@ -14,6 +15,8 @@ struct SetupStep {
   enum class Kind : std::uint8_t {
     kExpect,    ///< read; it must be `value`, in the bits of `mask`
     kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
+    kLines,     ///< the transfers of LineWriter
+    kStore,     ///< write, and wait longer; left out if LineWriter has changed nothing
     kMayWrite,  ///< write; a drive that does not take it is left as it is
   };
 
@@ -23,6 +26,8 @@ struct SetupStep {
   std::uint32_t value = 0, mask = 0xFFFFFFFF;
   const char* what = "";    ///< the object in words
   const char* remedy = "";  ///< for a value that is not the expected one
+
+  bool reads() const { return kind == Kind::kExpect || kind == Kind::kFact; }
 };
 
 class SlaveSetup {
@@ -36,6 +41,7 @@ class SlaveSetup {
 
  private:
   void identity(const EthercatSettings& ethercat, CommandMode mode);
+  void fact(std::uint32_t row);
   void facts();
   void options(CommandMode mode, int period_us);
   void pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted);

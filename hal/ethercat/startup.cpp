@@ -40,7 +40,6 @@ void Startup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settin
     slave.boxes.station = static_cast<std::uint16_t>(kFirstStation + slave.position);
     order_[static_cast<std::size_t>(slave.position)] = j;
   }
-  coe_.set_time(ethercat.sdo_ms * kMillisecond_ns);
   coe_.cancel();
   port_.reset();
   has_clocks_ = image_.lrw = true;
@@ -219,6 +218,7 @@ Status Startup::await_state(const Answer& answer, AlState state) {
     step_ = attempts_ = 0;
     port_.reset();
     facts_.clear();
+    lines_.begin(drive_->sdo, joint(), learnt_);
     steps_.begin(*ethercat_, mode_, period_us_);
     ask_object(now_ns_);
     return Status::kOk;

@@ -6,6 +6,7 @@
 // and the slaves go to SAFEOP.
 #pragma once
 
+#include "hal/cia402/line_writer.hpp"
 #include "hal/ethercat/sii_reader.hpp"
 #include "hal/ethercat/slave.hpp"
 #include "hal/ethercat/slave_setup.hpp"
@@ -100,6 +101,12 @@ class Startup {
   Status finish_step();
   Status judge_expected(const SetupStep& step);
   Status take_fact(const SetupStep& step);
+  Status take_line();
+  Status take_stored(const SetupStep& step);
+  bool stores() const {
+    return stage_ == Stage::kSetup && steps_.step(step_).kind == SetupStep::Kind::kStore;
+  }
+  bool is_left_out(const SetupStep& step) const;
   Status finish_mapping();
   // startup_clock.cpp
   Request clock_request() const;
@@ -134,6 +141,7 @@ class Startup {
   SiiReader eeprom_;
   SlaveSetup steps_;
   cia402::DriveFacts facts_;  // of the present slave
+  cia402::LineWriter lines_;
   cia402::Learnt learnt_;
   MappingReader mapping_;
   ImageShape image_;

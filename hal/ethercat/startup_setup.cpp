@@ -13,10 +13,17 @@ constexpr int kAttempts = 2;  // of a transfer that gets no answer: a frame with
 /// Begins the transfer of the present step.
 void Startup::ask_object(std::int64_t now_ns) {
   const std::size_t bytes = at().boxes.out_bytes;
+  coe_.set_time((stores() ? drive_->store_ms : ethercat_->sdo_ms) * kMillisecond_ns);
   if (stage_ == Stage::kMapping)
     return coe_.upload(bytes, mapping_.index(), mapping_.sub(), now_ns);
   const SetupStep& step = steps_.step(step_);
-  if (step.kind != SetupStep::Kind::kMayWrite)
+  if (step.kind == SetupStep::Kind::kLines) {
+    const cia402::ObjectLine& line = lines_.line();
+    const cia402::Object& object = line.object;
+    if (lines_.reads()) return coe_.upload(bytes, object.index, object.sub, now_ns);
+    return coe_.download(bytes, object.index, object.sub, line.bits, object.bytes, now_ns);
+  }
+  if (step.reads())
     coe_.upload(bytes, step.index, step.sub, now_ns);
   else
     coe_.download(bytes, step.index, step.sub, step.value, step.bytes, now_ns);
@@ -27,14 +34,15 @@ Status Startup::take_mailbox(const Answer& answer) {
   (void)port_.take(at().boxes, answer, emergency, now_ns_);  // of the time before: no matter
   if (coe_.progress() == CoeClient::Progress::kBusy) return Status::kOk;
   const bool silent = coe_.abort() == can::SdoAbort::kTimeout;
-  if (silent && ++attempts_ < kAttempts) {
+  if (silent && !stores() && ++attempts_ < kAttempts) {
     ask_object(now_ns_);
     return Status::kOk;
   }
   attempts_ = 0;
   if (silent) {
     Message what = coe_.describe();
-    what << "; power the drive off and on, or raise [ethercat] sdo_ms";
+    what << "; power the drive off and on, or raise "
+         << (stores() ? "[cia402] store_ms" : "[ethercat] sdo_ms");
     return refuse(Status::kBusTimeout, what);
   }
   return stage_ == Stage::kMapping ? finish_mapping() : finish_step();
@@ -44,7 +52,17 @@ Status Startup::finish_step() {
   const SetupStep& step = steps_.step(step_);
   if (step.kind == SetupStep::Kind::kExpect) TRY(judge_expected(step));
   if (step.kind == SetupStep::Kind::kFact) TRY(take_fact(step));
-  if (++step_ == steps_.count()) {
+  if (step.kind == SetupStep::Kind::kStore) TRY(take_stored(step));
+  if (step.kind == SetupStep::Kind::kLines) {
+    TRY(take_line());
+    if (!lines_.done()) {
+      ask_object(now_ns_);
+      return Status::kOk;
+    }
+  }
+  ++step_;
+  while (step_ < steps_.count() && is_left_out(steps_.step(step_))) ++step_;
+  if (step_ == steps_.count()) {
     stage_ = Stage::kMapping;
     mapping_.begin(at().data);
   }
@@ -65,7 +83,34 @@ Status Startup::judge_expected(const SetupStep& step) {
   return refuse(Status::kRefusedByRobot, what);
 }
 
-/// A fact that the drive does not have is none; the last one has all of them judged.
+/// Neither is the last of a drive.
+bool Startup::is_left_out(const SetupStep& step) const {
+  if (step.kind == SetupStep::Kind::kLines) return lines_.done();
+  return step.kind == SetupStep::Kind::kStore && !(drive_->store != 0 && lines_.changed());
+}
+
+Status Startup::take_line() {
+  const bool done = coe_.progress() == CoeClient::Progress::kDone;
+  Message what;
+  const Status status = lines_.take({done, coe_.size_known(), coe_.size(), coe_.value()}, what);
+  if (status == Status::kOk) return status;
+  if (!done) what << ": " << std::string_view(coe_.describe()) << kManual;
+  return refuse(status, what);
+}
+
+Status Startup::take_stored(const SetupStep& step) {
+  bool& stored = learnt_.stored[static_cast<std::size_t>(joint())];
+  if (coe_.progress() == CoeClient::Progress::kDone) {
+    stored = true;
+    return Status::kOk;
+  }
+  Message what(step.what);
+  what << ": " << std::string_view(coe_.describe()) << kManual;
+  return refuse(Status::kRefusedByRobot, what);
+}
+
+/// A fact that the drive does not have is none; the identity is judged by itself, and all facts
+/// when the last of them is known.
 Status Startup::take_fact(const SetupStep& step) {
   Message what;
   if (coe_.progress() == CoeClient::Progress::kDone) {
@@ -75,9 +120,11 @@ Status Startup::take_fact(const SetupStep& step) {
     what << step.what << ": " << std::string_view(coe_.describe()) << kManual;
     return refuse(Status::kRefusedByRobot, what);
   }
-  if (step.value + 1 < cia402::kFactCount) return Status::kOk;
+  const bool identity = step.value == cia402::kIdentityFact;
+  if (!identity && step.value + 1 < cia402::kFactCount) return Status::kOk;
   at().feedback.error_code = static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
-  const Status status = facts_.judge(*drive_, joint(), true, learnt_, what);
+  const Status status = identity ? facts_.judge_identity(*drive_, joint(), learnt_, what)
+                                 : facts_.judge(*drive_, joint(), true, learnt_, what);
   return status == Status::kOk ? status : refuse(status, what);
 }
 

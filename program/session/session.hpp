@@ -34,6 +34,8 @@ struct Session {
   const ExpectSection& expect;
   Follower* follower = nullptr;      ///< null: there is none
   WireCounts (*counts)() = nullptr;  ///< null: its wire counts nothing
+  /// What start-ups have changed in the robot, text `n` from 0; null: they change nothing.
+  Message (*written)(int n) = nullptr;
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and
@@ -50,6 +52,9 @@ int check(Session& session, const Options& options);
 
 /// Connects, reads the state of the robot and disconnects; no drive is enabled.
 Status look(Hal& hal, CommandMode mode, RobotState& state);
+
+/// Prints what start-ups have changed in the robot.
+void print_written(const char* path, const Session& session);
 
 /// Returns a status in words, with joint, value and limit if the guard found it, then the robot's
 /// own reason.

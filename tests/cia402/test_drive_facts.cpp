@@ -37,6 +37,7 @@ struct Drive1 {
       for (std::uint32_t row = 0; row < kFactCount; ++row)
         if (kFacts[row].object.mapping() == said.object.mapping()) facts.set(row, said.value);
     why = {};
+    TRY(facts.judge_identity(drive, 0, learnt, why));
     return facts.judge(drive, 0, velocities, learnt, why);
   }
   bool says(const char* text) const { return std::strstr(why.c_str(), text) != nullptr; }

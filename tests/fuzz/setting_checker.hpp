@@ -37,6 +37,10 @@ class SettingChecker {
   }
   template <std::size_t N>
   void text(const char*, const Text<N>&, const char*) {}
+  template <class List>
+  void lines(const char*, const List& list, const char*) {
+    for (int i = 0; i < list.count(); ++i) MUST(list[i].line > 0 && list[i].joint < kDof);
+  }
   template <class Enum>
   void choice(const char*, Enum value) {
     MUST(static_cast<std::size_t>(value) < kNames<Enum>.size());
