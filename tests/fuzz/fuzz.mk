@@ -7,7 +7,7 @@ FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CA
 # replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(GATEWAY) $(KERNEL) \
-              $(wildcard hal/serial/*.cpp) hal/os/cycle_clock.cpp hal/os/ordinary_thread.cpp tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
+              $(wildcard hal/serial/*.cpp) hal/cia402/object_lines.cpp hal/os/cycle_clock.cpp hal/os/ordinary_thread.cpp tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 ifeq ($(BOARD),fer_can)
 FUZZED     := $(wildcard hal/can/*.cpp hal/ethercat/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp sim_plant/ethercat/*.cpp) $(KERNEL) tests/wcet/can/can_cycle.cpp \
               tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp

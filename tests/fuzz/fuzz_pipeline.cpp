@@ -1,6 +1,7 @@
 // Fuzzes pipeline files. A refusal must name a line and a reason; an accepted file must keep its
 // ranges and run: whatever its gains, only finite commands within limits are written.
 #include "gateway/reference_client.hpp"
+#include "hal/cia402/cia402_settings.hpp"
 #include "hal/ur/ur_settings.hpp"
 #include "kernel/cycle/executive.hpp"
 #include "kernel/load/loader.hpp"
@@ -16,14 +17,18 @@ using namespace tactus;
 
 constexpr Capabilities kOffered = {true, true, true, 1000, 10000, true};
 
-/// The sections of a board whose robot is both simulated and real.
+/// The sections of a board whose robot is simulated, and real in two ways.
 struct Sections : SimSections {
   ur::UrSettings ur;
+  cia402::Cia402Settings cia402;
+
+  Sections() { cia402.rated_torque.setOnes(); }
 
   template <class Visitor>
   void describe(Visitor& visit) {
     SimSections::describe(visit);
     visit.section("ur", ur);
+    visit.section("cia402", cia402);
   }
 };
 
