@@ -44,6 +44,7 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   since_refresh_ = PdoLayout::kRefresh;
   now_ns_ = -1;
   farewells_ = 0;
+  carried_ = {};
   connected_ = true;
   return Status::kOk;
 }
@@ -65,7 +66,7 @@ bool CanMaster::is_ours(const Node* node, std::uint16_t id) const {
 /// The bus on which a drive is asked by SDO: another may have a drive with the same number.
 int CanMaster::asked_bus() const {
   if (!connected_) return startup_.bus();
-  return nodes_[static_cast<std::size_t>(checked_ % kDof)].bus;
+  return nodes_[static_cast<std::size_t>(carried_.joint)].bus;
 }
 
 void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
@@ -120,7 +121,7 @@ Status CanMaster::read(const CycleTime& now, RobotState& state) {
   if (first)  // what it holds is of the start-up; from now on there is one sample per cycle
     for (cia402::DriveFeedback& feedback : feedbacks) feedback.fresh = true;
   drives_.watch(feedbacks, sampled_ns_);
-  check_modes();
+  carry_request();
   drives_.show(state);
   return conflict_ < 0 ? Status::kOk : Status::kBusConflict;
 }
@@ -155,38 +156,25 @@ void CanMaster::count_feedback(Node& node) {
   node.unanswered = surplus < 0 ? -surplus : 0;
 }
 
-/// While the brakes open, every drive is asked for the mode that it is in.
-void CanMaster::check_modes() {
-  if (drives_.phase() < Phase::kReleasing || drives_.phase() > Phase::kArmed) {
-    checked_ = 0;
-    asked_ = false;
-    return;
-  }
-  if (checked_ == kDof) return;
-  const Node& node = nodes_[static_cast<std::size_t>(checked_)];
-  const cia402::Object& display = cia402::kModeDisplay;
-  if (!asked_) {
-    asked_ = true;
-    sdo_.upload(node.id(), display.index, display.sub, now_ns_);
-    return;
+/// Carries what is asked of a drive, one request at a time.
+void CanMaster::carry_request() {
+  const cia402::ObjectRequest& request = drives_.request();
+  if (request.number == 0 || request.number != carried_.number) {
+    carried_ = request;
+    if (request.number == 0) return;
+    const auto [index, sub, bytes] = request.object;
+    const std::uint8_t id = nodes_[static_cast<std::size_t>(request.joint)].id();
+    if (request.writes) return sdo_.download(id, index, sub, request.value, bytes, now_ns_);
+    return sdo_.upload(id, index, sub, now_ns_);
   }
   sdo_.advance(now_ns_);
   if (sdo_.progress() == Progress::kBusy) return;
-  const auto mode = static_cast<cia402::Mode>(sdo_.value());
-  constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
-  if (sdo_.progress() == Progress::kAborted)
-    drives_.fail(checked_, Status::kBusTimeout, 0, kWhat,
-                 "cannot be read: ", meaning(sdo_.abort()));
-  else if (mode != cia402::mode_of(mode_))
-    drives_.fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
-                 name(mode));
-  ++checked_;
-  asked_ = false;
+  const bool aborted = sdo_.progress() == Progress::kAborted;
+  drives_.answer(sdo_.value(), aborted ? meaning(sdo_.abort()) : nullptr);
 }
 
 void CanMaster::write(const RobotCommand& command) {
   if (!connected_) return;
-  drives_.hold_back(checked_ < kDof);
   drives_.step(command, commands_, now_ns_);
   for (Outbox& outbox : out_) outbox.clear();
   send_commands();

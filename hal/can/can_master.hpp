@@ -85,7 +85,7 @@ class CanMaster {
   void judge(Node& node);
   void count_feedback(Node& node);
   int asked_bus() const;
-  void check_modes();
+  void carry_request();
   void send_commands();
   void send_heartbeat();
   void send_farewell();
@@ -110,10 +110,9 @@ class CanMaster {
   std::int64_t sampled_ns_ = 0;    // begin of the cycle that sent the last SYNC
   std::int64_t heartbeat_ns_ = 0;  // of our last heartbeat
   int since_refresh_ = 0;          // cycles since the controlwords were sent
-  int checked_ = 0;                // joints whose display of the mode was checked in this arming
-  bool asked_ = false;
-  int farewells_ = 0;  // frames of farewell that are left, two for every joint
-  int conflict_ = -1;  // identifier that somebody else sent
+  cia402::ObjectRequest carried_;  // to a drive
+  int farewells_ = 0;              // frames of farewell that are left, two for every joint
+  int conflict_ = -1;              // identifier that somebody else sent
 };
 
 }  // namespace tactus::can

@@ -62,6 +62,15 @@ constexpr Mode mode_of(CommandMode mode) {
   return Mode::kCyclicTorque;
 }
 
+/// An object that a bus reads from a drive, or writes to it, by SDO while the process data goes on.
+struct ObjectRequest {
+  int number = 0;  ///< of this request; 0: there is none
+  int joint = 0;   ///< from 0
+  Object object{};
+  bool writes = false;
+  std::uint32_t value = 0;  ///< that is written
+};
+
 using Feedbacks = std::array<DriveFeedback, kDof>;
 using DriveCommands = std::array<DriveCommand, kDof>;
 

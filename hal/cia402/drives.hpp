@@ -59,8 +59,12 @@ class Drives {
   void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
   /// Takes every drive a step towards what is requested. [cyclic]
   void step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns);
-  /// While it is true, arming does not end: the bus has still to ask its drives. [cyclic]
-  void hold_back(bool waits) { held_back_ = waits; }
+  /// What the bus is to ask a drive. It may change before it is answered: then the new one counts.
+  /// [cyclic]
+  const ObjectRequest& request() const { return request_; }
+  /// Takes the answer to request(): what was read, or why it was not done, a constant text.
+  /// [cyclic]
+  void answer(std::uint32_t value, const char* refused);
   /// True if no drive has power any more, as far as is known. [cyclic]
   bool off() const { return phase_ == Phase::kOff; }
   /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
@@ -145,6 +149,8 @@ class Drives {
                      const JointVector& dq);
   void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
   void enter(Phase phase, std::int64_t now_ns);
+  void ask(int joint, const Object& object);
+  void judge_mode(std::uint32_t value, const char* refused);
   std::int64_t half_period_ns() const { return static_cast<std::int64_t>(0.5e9 * period_s_); }
 
   const Cia402Settings* settings_ = nullptr;
@@ -159,7 +165,9 @@ class Drives {
   int unsteady_ = 0;        // the last joint that did
   double jump_ = 0.0;       // how far from a cycle to the next, rad
   bool following_ = false;  // commands, in the last cycle
-  bool held_back_ = false;
+  ObjectRequest request_;
+  int asked_ = 0;    // the number of the last request
+  int checked_ = 0;  // joints whose display of the mode was checked in this arming
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
   int moved_ = -1;                          // the joint that left its hold since attach(); -1: none
   double moved_from_ = 0.0;                 // rad: where it was held

@@ -17,6 +17,7 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   set_target(command, following_, out);
   count_confirmations();
   advance(now_ns);
+  if (phase_ != Phase::kReleasing) request_ = {};
 }
 
 void Drives::count_confirmations() {
@@ -129,7 +130,7 @@ void Drives::advance(std::int64_t now_ns) {
     case Phase::kReleasing:
       // To the nearest cycle: a wake-up some microseconds early must not cost a whole one.
       if (now_ns - since_ns_ + half_period_ns() >= settings_->brake_ms * kMillisecond_ns &&
-          !held_back_)
+          checked_ == kDof)
         enter(Phase::kArmed, now_ns);
       break;
     case Phase::kStopping:
@@ -146,9 +147,34 @@ void Drives::enter(Phase phase, std::int64_t now_ns) {
   since_ns_ = now_ns;
   if (phase == Phase::kOff)
     for (Joint& joint : joints_) joint.reason = Status::kOk;
+  if (phase == Phase::kReleasing) {
+    checked_ = 0;
+    ask(0, kModeDisplay);
+  }
   if (phase != Phase::kEnabling) return;
   for (int j = 0; j < kDof; ++j) held_[j] = joints_[static_cast<std::size_t>(j)].q;
   hold_.start(held_);
+}
+
+void Drives::ask(int joint, const Object& object) {
+  request_ = {++asked_, joint, object, false, 0};
+}
+
+void Drives::answer(std::uint32_t value, const char* refused) {
+  request_ = {};
+  if (phase_ == Phase::kReleasing) judge_mode(value, refused);
+}
+
+/// While the brakes open, every drive is asked for the mode that it is in.
+void Drives::judge_mode(std::uint32_t value, const char* refused) {
+  constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
+  const auto mode = static_cast<Mode>(value);
+  if (refused != nullptr)
+    return fail(checked_, Status::kBusTimeout, 0, kWhat, "cannot be read: ", refused);
+  if (mode != mode_of(mode_))
+    return fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
+                name(mode));
+  if (++checked_ < kDof) ask(checked_, kModeDisplay);
 }
 
 /// False, and a fault, for a command that the drives cannot take.

@@ -55,8 +55,8 @@ void EthercatMaster::connect(const std::uint8_t* source, std::int64_t now_ns) {
   why_ = {};
   phase_ = Phase::kStartsUp;
   now_ns_ = -1;
-  has_out_ = arrived_ = own_extra_ = asks_ = stops_ = false;
-  steady_ = cycles_ = asked_ = boxed_ = checked_ = 0;
+  has_out_ = arrived_ = own_extra_ = stops_ = false;
+  steady_ = cycles_ = asked_ = boxed_ = carried_ = 0;
   commands_ = {};
   startup_.exchange().set_source(source);
   startup_.begin(*ethercat_, *drive_, mode_, period_us_, now_ns);
@@ -146,7 +146,7 @@ void EthercatMaster::take_mailbox() {
     slave.feedback.emergency = slave.feedback.emergency || emergency.code != 0;
   }
   // Without its frame, or with a mailbox that was full, the drive is asked again.
-  if (answer.counter != 1) asks_ = false;
+  if (answer.counter != 1) carried_ = 0;
   coe_.advance(now_ns_);
   const bool waits = coe_.progress() == CoeClient::Progress::kBusy || port_.busy();
   if (!waits) boxed_ = boxed_ + 1 == kDof ? 0 : boxed_ + 1;
@@ -181,7 +181,7 @@ Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
     slaves_[j].feedback.emergency = false;
   }
   drives_.watch(feedbacks, sampled_ns_);
-  check_modes();
+  carry_request();
   drives_.show(state);
   return Status::kOk;
 }
@@ -189,7 +189,6 @@ Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
 void EthercatMaster::write(const RobotCommand& command) {
   if (phase_ != Phase::kRuns) return;
   stops_ = command.request == DriveRequest::kDisable;
-  drives_.hold_back(checked_ < kDof);
   drives_.step(command, commands_, now_ns_);
   compose(commands_, nullptr);
   sampled_ns_ = now_ns_;

@@ -90,7 +90,7 @@ class EthercatMaster {
   void take_mailbox();
   void compose(const cia402::DriveCommands& commands, const Request* extra);
   // ethercat_modes.cpp
-  void check_modes();
+  void carry_request();
   void start_clock(std::int64_t slack_ns);
   CyclicFrame::Came close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
   Message clock_text() const;
@@ -119,8 +119,7 @@ class EthercatMaster {
   std::int64_t now_ns_ = -1, sampled_ns_ = 0;
   int asked_ = 0;    // slave whose state is read
   int boxed_ = 0;    // slave whose mailbox is served
-  int checked_ = 0;  // drives whose mode has been asked for since arming
-  bool asks_ = false;
+  int carried_ = 0;  // number of the request that is under way; 0: none
 };
 
 }  // namespace tactus::ethercat

@@ -1,38 +1,27 @@
-// EthercatMaster: what it asks the drives while their brakes open, how it judges the clock of the
-// segment, and what it says of a fault.
+// EthercatMaster: what it asks the drives, how it judges the clock of the segment, and what it says
+// of a fault.
 #include "hal/cia402/hex.hpp"
 #include "hal/ethercat/ethercat_master.hpp"
 
 namespace tactus::ethercat {
 
-/// While the brakes open, every drive is asked for the mode that it is in.
-void EthercatMaster::check_modes() {
-  if (drives_.phase() < cia402::Phase::kReleasing || drives_.phase() > cia402::Phase::kArmed) {
-    checked_ = 0;
-    asks_ = false;
-    return;
-  }
-  if (checked_ == kDof) return;
-  const Slave& slave = slaves_[static_cast<std::size_t>(checked_)];
-  const cia402::Object& display = cia402::kModeDisplay;
-  if (!asks_) {
-    asks_ = true;
-    boxed_ = checked_;
+/// Carries what is asked of a drive, one request at a time.
+void EthercatMaster::carry_request() {
+  const cia402::ObjectRequest& request = drives_.request();
+  if (request.number == 0 || request.number != carried_) {
+    carried_ = request.number;
+    if (request.number == 0) return;
+    const Slave& slave = slaves_[static_cast<std::size_t>(request.joint)];
+    const auto [index, sub, bytes] = request.object;
+    const std::uint16_t room = slave.boxes.out_bytes;
+    boxed_ = request.joint;
     port_.reset();
-    coe_.upload(slave.boxes.out_bytes, display.index, display.sub, now_ns_);
-    return;
+    if (request.writes) return coe_.download(room, index, sub, request.value, bytes, now_ns_);
+    return coe_.upload(room, index, sub, now_ns_);
   }
   if (coe_.progress() == CoeClient::Progress::kBusy) return;
-  const auto mode = static_cast<cia402::Mode>(coe_.value());
-  constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
-  if (coe_.progress() != CoeClient::Progress::kDone)
-    drives_.fail(checked_, Status::kBusTimeout, 0, kWhat,
-                 "cannot be read: ", can::meaning(coe_.abort()));
-  else if (mode != cia402::mode_of(mode_))
-    drives_.fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
-                 cia402::name(mode));
-  ++checked_;
-  asks_ = false;
+  const bool done = coe_.progress() == CoeClient::Progress::kDone;
+  drives_.answer(coe_.value(), done ? nullptr : can::meaning(coe_.abort()));
 }
 
 void EthercatMaster::start_clock(std::int64_t slack_ns) {

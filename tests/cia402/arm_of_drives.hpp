@@ -50,7 +50,8 @@ struct ArmOfDrives {
   RobotState state;
   RobotCommand command;
   std::int64_t now_ns = 0;
-  bool told = true;  // feedback is fresh
+  bool told = true;     // feedback is fresh
+  bool answers = true;  // what the drives are asked by SDO
   bool measures_velocity = false;
   int silent = -1;  // joint whose feedback is not
 
@@ -74,6 +75,8 @@ struct ArmOfDrives {
       feedbacks[j].statusword = fakes[j].word;
     }
     drives.watch(feedbacks, now_ns);
+    if (answers && drives.request().number != 0)
+      drives.answer(static_cast<std::uint32_t>(mode_of(command.mode)), nullptr);
     drives.show(state);
     command.request = request;
     drives.step(command, commands, now_ns);

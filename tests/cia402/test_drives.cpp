@@ -242,11 +242,11 @@ void an_arm_that_has_moved_while_it_was_held_is_not_enabled_again(void**) {
 
 void arming_does_not_end_while_the_bus_asks_its_drives(void**) {
   ArmOfDrives arm;
-  arm.drives.hold_back(true);
+  arm.answers = false;
   arm.cycles(200, DriveRequest::kArm);
   assert_true(arm.all(DriveState::kArming));
-  arm.drives.hold_back(false);
-  arm.cycles(2, DriveRequest::kArm);
+  arm.answers = true;
+  arm.cycles(kDof + 2, DriveRequest::kArm);
   assert_true(arm.all(DriveState::kEnabled));
 }
 
