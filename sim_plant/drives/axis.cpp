@@ -18,6 +18,7 @@ constexpr Slot kAbortOption = slot_of(0x6007), kQuickStopOption = slot_of(0x605A
                kPeriodValue = slot_of(0x60C2, 1), kPeriodIndex = slot_of(0x60C2, 2);
 constexpr std::int64_t kCoast = 0, kSlowRamp = 1, kFirstThatStays = 5;
 constexpr std::uint16_t kResetBit = 0x0080;
+constexpr std::uint16_t kReferenced = 0x4000;  // of the statusword, the manufacturer's
 
 std::uint16_t bits_of(State state) {
   for (const cia402::StatePattern& row : cia402::kStatePatterns)
@@ -36,6 +37,7 @@ void Axis::power_on(const AxisSettings& settings) {
   dictionary_.set(kMaxSpeed, std::llround(settings.max_speed_rad_s * 9.5492966));  // rpm
   controlword_ = 0;
   brake_stuck_ = false;
+  homing_.power_on(settings.homing);
   motion_ = Motion::kOff;
   enter(State::kSwitchOnDisabled);
 }
@@ -59,6 +61,7 @@ void Axis::follow_mode() {
 bool Axis::command(std::uint16_t controlword, bool causes_gone) {
   const bool reset = (controlword & ~controlword_ & kResetBit) != 0;
   controlword_ = controlword;
+  homing_.command(controlword, homes());
   if (reset && state_ == State::kFault && causes_gone) {
     enter(State::kSwitchOnDisabled);
     return true;
@@ -153,6 +156,9 @@ double Axis::period_s() const {
 std::uint16_t Axis::statusword() const {
   unsigned word = bits_of(state_) | cia402::kVoltageEnabled | cia402::kRemote;
   if (limited_) word |= cia402::kInternalLimit;
+  if (settings_.homing.shows && homing_.referenced()) word |= kReferenced;
+  if (dictionary_.get(kDisplay) == static_cast<int>(cia402::Mode::kHoming))
+    return static_cast<std::uint16_t>(word | homing_.bits());
   const bool follows = state_ == State::kOperationEnabled && motion_ == Motion::kFollow && !brake_;
   if (follows) word |= cia402::kFollowsCommand;
   if (beyond_s_ > 0.0) word |= 0x2000;

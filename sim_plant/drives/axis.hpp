@@ -1,13 +1,13 @@
 // Axis: the CiA 402 part of one drive: state machine, modes of operation, motor torque and brake.
 //
-// The brake is closed unless operation is enabled in one of the cyclic modes; it opens
+// The brake is closed unless operation is enabled in homing or one of the cyclic modes; it opens
 // `brake_release_s` later, while the motor's torque acts already. Statusword bit 12 and object
 // 60FEh:1, bit 0 show when it has opened. A stop by a ramp is the drive's own velocity loop, which
 // begins with the torque in force; at standstill the brake closes and the state changes. A stop
 // that coasts closes the brake at once.
 #pragma once
 
-#include "sim_plant/drives/dictionary.hpp"
+#include "sim_plant/drives/axis_homing.hpp"
 #include "sim_plant/drives/joint_servo.hpp"
 #include "sim_plant/drives/transitions.hpp"
 
@@ -26,6 +26,7 @@ struct AxisSettings {
   ServoGains gains{400.0};
   double brake_release_s = 0.150;
   bool gravity_by_drive = false;  ///< target torque 0 holds the arm
+  HomingSettings homing;
 };
 
 /// A joint as its drive measures it.
@@ -36,7 +37,7 @@ struct JointSample {
 
 class Axis {
  public:
-  explicit Axis(Dictionary& dictionary) : dictionary_(dictionary) {}
+  explicit Axis(Dictionary& dictionary) : dictionary_(dictionary), homing_(dictionary) {}
 
   /// Power comes on: switch on disabled, brake closed; the objects that say what the drive can do.
   /// [any]
@@ -54,6 +55,7 @@ class Axis {
   /// Drops into "switch on disabled", as by a safety input. [any]
   void disable();
   void stick_brake(bool stuck) { brake_stuck_ = stuck; }
+  void spoil_homing(HomingFault fault) { homing_.spoil(fault); }
 
   /// Begins a period of the plant. `own_feed_forward`: the velocity of the target positions is
   /// derived from them. Returns an error of the drive, 0: none. [cyclic]
@@ -66,6 +68,7 @@ class Axis {
   double period_s() const;  ///< of 60C2h
   cia402::State state() const { return state_; }
   bool braked() const { return brake_; }
+  bool referenced() const { return homing_.referenced(); }
   bool powered() const { return motion_ != Motion::kOff; }
   bool servoed() const;  ///< follows a velocity or position by its own loop
   std::uint16_t statusword() const;
@@ -82,9 +85,11 @@ class Axis {
   double torque_unit() const;    // N m per permille
   double follow(const JointSample& sample, double dt_s);
   std::uint16_t watch(const JointSample& sample, double period_s);
+  bool homes() const;
   void update_brake(const JointSample& sample, double period_s);
 
   Dictionary& dictionary_;
+  AxisHoming homing_;
   AxisSettings settings_;
   cia402::State state_ = cia402::State::kNotReadyToSwitchOn;
   cia402::State after_ = cia402::State::kNotReadyToSwitchOn;  // a stop

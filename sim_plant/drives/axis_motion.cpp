@@ -14,7 +14,7 @@ constexpr double kLongestStop_s = 2.0;   // then the brake closes in motion
 constexpr double kBrakeMonitor_s = 0.5;  // a brake that has not opened by then blocks the motor
 constexpr std::uint16_t kBlocked = 0x7121, kOverspeed = 0x8400, kFollowingError = 0x8611;
 constexpr std::int64_t kNoWindow = 0xFFFFFFFF;
-constexpr std::int64_t kCsp = 8, kCsv = 9, kCst = 10;
+constexpr std::int64_t kHomingMode = 6, kCsp = 8, kCsv = 9, kCst = 10;
 constexpr Slot kPosition = slot_of(0x6064), kWindow = slot_of(0x6065),
                kWindowTime = slot_of(0x6066), kVelocity = slot_of(0x606C),
                kTarget = slot_of(0x6071), kDemand = slot_of(0x6074), kActual = slot_of(0x6077),
@@ -65,10 +65,15 @@ bool Axis::servoed() const {
   return motion_ != Motion::kFollow || dictionary_.get(kDisplay) != kCst;
 }
 
+bool Axis::homes() const {
+  return motion_ == Motion::kFollow && dictionary_.get(kDisplay) == kHomingMode;
+}
+
 std::uint16_t Axis::begin_period(const JointSample& sample, double period_s,
                                  bool own_feed_forward) {
   dq_ = sample.dq;
   update_brake(sample, period_s);
+  if (homes() && !brake_) homing_.step(sample.q, rad_per_increment());
   const std::int64_t target = dictionary_.get(kTargetPosition);
   feed_forward_ = real(dictionary_.get(kVelocityOffset)) * velocity_unit();
   if (own_feed_forward && has_target_)
@@ -87,7 +92,7 @@ std::uint16_t Axis::begin_period(const JointSample& sample, double period_s,
 void Axis::update_brake(const JointSample& sample, double period_s) {
   if (motion_ != Motion::kFollow || !brake_) return;
   const std::int64_t mode = dictionary_.get(kDisplay);
-  if (mode < kCsp || mode > kCst) return;
+  if (mode != kHomingMode && (mode < kCsp || mode > kCst)) return;
   enabled_s_ += period_s;
   // The loop begins with the torque that the brake has held.
   servo_.start(sample.gravity_Nm - real(dictionary_.get(kTorqueOffset)) * torque_unit());
@@ -102,7 +107,8 @@ std::uint16_t Axis::watch(const JointSample& sample, double period_s) {
   const bool positioned =
       motion_ == Motion::kFollow && !brake_ && dictionary_.get(kDisplay) == kCsp;
   const std::int64_t window = dictionary_.get(kWindow);
-  const double error_rad = real(dictionary_.get(kTargetPosition)) * rad_per_increment() - sample.q;
+  const double error_rad = real(dictionary_.get(kTargetPosition)) * rad_per_increment() +
+                           homing_.origin_rad() - sample.q;
   const bool beyond =
       positioned && window != kNoWindow && std::abs(error_rad) > real(window) * rad_per_increment();
   beyond_s_ = beyond ? beyond_s_ + period_s : 0.0;
@@ -135,6 +141,9 @@ double Axis::follow(const JointSample& sample, double dt_s) {
     wanted = real(dictionary_.get(kTarget)) * torque_unit() + offset;
   } else if (brake_) {
     wanted = servo_.integral_Nm + offset;
+  } else if (mode == kHomingMode) {
+    wanted =
+        servo_.step(settings_.gains, homing_.velocity(rad_per_increment()), sample.dq, limit, dt_s);
   } else if (mode == kCsv || mode == kCsp) {
     double v_c = feed_forward_;
     if (mode == kCsv)
@@ -143,8 +152,8 @@ double Axis::follow(const JointSample& sample, double dt_s) {
     else
       v_c += settings_.gains.kp *
              (real(dictionary_.get(kTargetPosition) + dictionary_.get(kPositionOffset)) *
-                  rad_per_increment() -
-              sample.q);
+                  rad_per_increment() +
+              homing_.origin_rad() - sample.q);
     wanted = servo_.step(settings_.gains, v_c, sample.dq, limit, dt_s) + offset;
   }
   demand_Nm_ = std::clamp(wanted, -limit, limit);
@@ -156,8 +165,10 @@ double Axis::follow(const JointSample& sample, double dt_s) {
 
 void Axis::report(const JointSample& sample) {
   const double scale = rad_per_increment();
+  homing_.measure(sample.q);
+  const double q = sample.q - homing_.origin_rad();
   const auto position = static_cast<std::int32_t>(
-      static_cast<std::uint32_t>(std::llround(std::clamp(sample.q / scale, -9e18, 9e18))));
+      static_cast<std::uint32_t>(std::llround(std::clamp(q / scale, -9e18, 9e18))));
   dictionary_.set(kPosition, position);
   dictionary_.set(kVelocity, rounded(sample.dq / velocity_unit(), 32));
   dictionary_.set(kActual, rounded(tau_Nm_ / torque_unit(), 16));

@@ -123,6 +123,7 @@ inline constexpr Row kRows[] = {
     {0x6078, 0, 0, Type::kI16, kRead | kTpdo},
     {0x6079, 0, 0, Type::kU32, kRead | kTpdo, 48000},
     {0x607A, 0, 0, Type::kI32, kReadWrite | kRpdo | kTpdo},
+    {0x607C, 0, 0, Type::kI32, kReadWrite},
     {0x607D, 0, 0, Type::kU8, kRead, 2},
     {0x607D, 1, 1, Type::kI32, kReadWrite, -2147483647 - 1},
     {0x607D, 2, 2, Type::kI32, kReadWrite, 2147483647},
@@ -135,6 +136,10 @@ inline constexpr Row kRows[] = {
     {0x6091, 0, 0, Type::kU8, kRead, 2},
     {0x6091, 1, 1, Type::kU32, kReadWrite | kAtRest, 1, 1},
     {0x6091, 2, 2, Type::kU32, kReadWrite | kAtRest, 1, 1},
+    {0x6098, 0, 0, Type::kI8, kReadWrite, 0, -128, 37},
+    {0x6099, 0, 0, Type::kU8, kRead, 2},
+    {0x6099, 1, 1, Type::kU32, kReadWrite, 534000},  // 0.2 rad/s
+    {0x6099, 2, 2, Type::kU32, kReadWrite, 53400},
     {0x60A8, 0, 0, Type::kU32, kRead, 0x00B50000},                 // increments
     {0x60A9, 0, 0, Type::kU32, kReadWrite | kAtRest, 0x00B50300},  // increments/s, or revolutions
     {0x60B0, 0, 0, Type::kI32, kReadWrite | kRpdo | kTpdo},
@@ -149,7 +154,7 @@ inline constexpr Row kRows[] = {
     {0x60FE, 1, 1, Type::kU32, kReadWrite | kRpdo | kTpdo},  // bit 0: the brake is closed
     {0x60FE, 2, 2, Type::kU32, kReadWrite},
     {0x60FF, 0, 0, Type::kI32, kReadWrite | kRpdo | kTpdo},
-    {0x6502, 0, 0, Type::kU32, kRead | kTpdo, 0x380},
+    {0x6502, 0, 0, Type::kU32, kRead | kTpdo, 0x3A0},
 };
 #undef TACTUS_RPDO
 #undef TACTUS_TPDO

@@ -30,6 +30,7 @@ AxisSettings axis_settings(const DrivenArmSettings& settings, std::size_t joint)
   axis.brake_release_s = settings.brake_release_s;
   axis.gravity_by_drive = settings.gravity_by_drive;
   axis.velocity_unit = settings.velocity_unit;
+  axis.homing = settings.homing[joint];
   axis.torque_share = settings.torque_share;
   return axis;
 }

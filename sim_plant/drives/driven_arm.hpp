@@ -16,6 +16,7 @@ struct DrivenArmSettings {
   std::int64_t store_ns = 0;                           ///< until 1010h:1 is answered
   std::uint32_t velocity_unit = kIncrementsPerSecond;  ///< 60A9h
   double torque_share = 1.0;                           ///< of the motor's torque, that 6072h allows
+  std::array<HomingSettings, kDof> homing{};
   PlantParams plant;
 };
 

@@ -24,14 +24,15 @@ enum class FaultKind : std::uint8_t {
   kSaturatedTorque,   ///< 6077h shows 32767
   kReboot,            ///< resets itself and sends boot-up; once
   kWarning,           ///< statusword bit 7; 603Fh shows `value`, 0: what it did
+  kHomingFails,       ///< `value` 1: does not end; 2, 3: an error at rest, or while it moves
 };
 
 /// Names of the kinds in their order, as the program's option has them.
-inline constexpr std::array<const char*, 17> kFaultNames = {
+inline constexpr std::array<const char*, 18> kFaultNames = {
     "drop_tpdo",      "duplicate_tpdo",  "delay_tpdo",         "truncate_tpdo",
     "stop_heartbeat", "emergency",       "switch_on_disabled", "wrong_mode",
     "brake_stuck",    "sdo_abort",       "sdo_silence",        "wrong_identity",
     "wrong_mapping",  "nonsense_status", "saturated_torque",   "reboot",
-    "warning"};
+    "warning",        "homing_fails"};
 
 }  // namespace tactus::drives

@@ -190,6 +190,8 @@ void Node::begin_period(const JointSample& sample, double period_s, std::int64_t
     for (int i = 0; i < rpdo.settings.count && rpdo.settings.valid; ++i)
       mapped = mapped || rpdo.settings.entries[static_cast<std::size_t>(i)].slot == kVelocityOffset;
   axis_.stick_brake(faults_.active(FaultKind::kBrakeStuck, syncs_) != nullptr);
+  const Fault* const fails = faults_.active(FaultKind::kHomingFails, syncs_);
+  axis_.spoil_homing(static_cast<HomingFault>(fails != nullptr ? fails->value & 3U : 0U));
   const std::uint16_t code = axis_.begin_period(sample, period_s, !mapped);
   if (code != 0) raise(code, true);
   inject(now_ns);

@@ -121,7 +121,7 @@ std::int64_t kept(std::uint16_t index, std::uint8_t sub, std::int64_t value) {
 }  // namespace
 
 bool has_mode(std::int64_t mode) {
-  return mode == 0 || (mode >= 8 && mode <= 10);
+  return mode == 0 || mode == 6 || (mode >= 8 && mode <= 10);
 }
 
 MappedEntry judge_entry(std::uint32_t entry, bool receives) {

@@ -35,7 +35,7 @@ can::SdoAbort write_object(Dictionary& dictionary, const DeviceState& state, std
 /// Judges a write as far as index, sub-index, access and size go; `size` 0: not known. [any]
 can::SdoAbort judge_access(std::uint16_t index, std::uint8_t sub, std::size_t size);
 
-/// True for the modes of the drive, CSP, CSV, CST, and for "no mode". [any]
+/// True for the modes of the drive, homing, CSP, CSV, CST, and for "no mode". [any]
 bool has_mode(std::int64_t mode);
 
 /// True if PDO number `n` (0 to 3) of the records at `communication` exists. [any]

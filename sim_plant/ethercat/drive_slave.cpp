@@ -169,6 +169,8 @@ void DriveSlave::begin_period(const drives::JointSample& sample, double period_s
   for (std::size_t i = 0; i < outputs_.count; ++i)
     mapped = mapped || outputs_.entries[i].slot == kVelocityOffset;
   axis_.stick_brake(faults_.active(drives::FaultKind::kBrakeStuck, periods_) != nullptr);
+  const drives::Fault* const fails = faults_.active(drives::FaultKind::kHomingFails, periods_);
+  axis_.spoil_homing(static_cast<drives::HomingFault>(fails != nullptr ? fails->value & 3U : 0U));
   if (const std::uint16_t code = axis_.begin_period(sample, period_s, !mapped)) raise(code);
 }
 

@@ -16,7 +16,8 @@ std::string describe_faults() {
   for (const char* name : kLineFaultNames) text += std::string(" ") + name;
   return text +
          ". Of a drive: emergency switch_on_disabled wrong_mode brake_stuck sdo_abort sdo_silence "
-         "wrong_identity wrong_mapping nonsense_status saturated_torque reboot warning";
+         "wrong_identity wrong_mapping nonsense_status saturated_torque reboot warning "
+         "homing_fails";
 }
 
 std::string take(const std::string& interface, SegmentOptions& options) {
