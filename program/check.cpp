@@ -26,6 +26,17 @@ void print_place(const char* path, const JointVector& q) {
   std::printf(" rad\n");
 }
 
+/// Homing moves the arm before a reference or the guard does.
+void print_homing(const Session& session, const char* path) {
+  const Message joints = session.to_home != nullptr ? session.to_home() : Message();
+  if (joints.empty()) return;
+  std::fprintf(
+      stderr,
+      "%s: note: arming will home %s: their drives do not know where they are, so that their "
+      "positions above mean nothing yet, and move them by themselves, without the guard\n",
+      path, joints.c_str());
+}
+
 /// A law of torques overshoots by its gains and the arm's inertia: says if the file does not give
 /// by how much.
 void print_room(const char* path, const Guard::Params& guard) {
@@ -74,6 +85,7 @@ int check(Session& session, const Options& options) {
     return kRefused;
   }
   if (!session.simulated) print_place(options.pipeline, initial.q);
+  print_homing(session, options.pipeline);
   if (const Message line = session.hal.unstated(); !line.empty())
     std::fprintf(stderr,
                  "%s: note: another robot would be taken for this one; to compare, add %s\n",

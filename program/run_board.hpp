@@ -33,6 +33,7 @@ struct Board {
   WireCounts (*counts)() = nullptr;  ///< after a run; null: its wire counts nothing
   /// What start-ups have changed in the robot, text `n` from 0; empty behind the last.
   Message (*written)(int n) = nullptr;
+  Message (*to_home)() = nullptr;  ///< joints that arming homes; null: it homes none
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -79,7 +80,8 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   Session session{board.name,      !board.real,    static_bytes,     text,
                   board.hal,       pipeline,       executive,        recorder,
                   client,          task_client,    sections.gateway, sections.realtime,
-                  sections.expect, board.follower, board.counts,     board.written};
+                  sections.expect, board.follower, board.counts,     board.written,
+                  board.to_home};
   if (board.follower != nullptr) board.follower->prepare(session);
   switch (options.verb) {
     case Verb::kCheck: return check(session, options);

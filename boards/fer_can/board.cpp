@@ -11,8 +11,12 @@ can::CanHal hal;
 
 Status configure(const CanSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  const Tool& tool = robot.tool.value;
-  return hal.configure(sections.can, sections.cia402, tool, robot.mode(), robot.period_us);
+  return hal.configure(sections.can, sections.cia402, robot.tool.value, robot.mode(),
+                       robot.period_us, pipeline.executive.arming_ms);
+}
+
+Message to_home() {
+  return hal.master().to_home();
 }
 
 Message written(int n) {
@@ -25,5 +29,6 @@ Message written(int n) {
 int main(int argc, char** argv) {
   using namespace tactus;
   return run_board<CanSections>(
-      argc, argv, {"fer_can", hal, sizeof hal, true, configure, scan, nullptr, nullptr, written});
+      argc, argv,
+      {"fer_can", hal, sizeof hal, true, configure, scan, nullptr, nullptr, written, to_home});
 }

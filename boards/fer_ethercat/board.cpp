@@ -12,8 +12,8 @@ ethercat::EthercatHal hal;
 
 Status configure(const EthercatSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  const Tool& tool = robot.tool.value;
-  return hal.configure(sections.ethercat, sections.cia402, tool, robot.mode(), robot.period_us);
+  return hal.configure(sections.ethercat, sections.cia402, robot.tool.value, robot.mode(),
+                       robot.period_us, pipeline.executive.arming_ms);
 }
 
 WireCounts counts() {
@@ -29,12 +29,16 @@ Message written(int n) {
   return hal.master().written(n);
 }
 
+Message to_home() {
+  return hal.master().to_home();
+}
+
 }  // namespace
 }  // namespace tactus
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<EthercatSections>(
-      argc, argv,
-      {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment, nullptr, counts, written});
+  return run_board<EthercatSections>(argc, argv,
+                                     {"fer_ethercat", hal, sizeof hal, true, configure,
+                                      scan_segment, nullptr, counts, written, to_home});
 }

@@ -11,10 +11,10 @@ constexpr int kMostUnsent = 3;  // cycles in a row whose frames a full queue may
 }  // namespace
 
 Status CanHal::configure(const CanSettings& can, const cia402::Cia402Settings& drive,
-                         const Tool& tool, CommandMode mode, int period_us) {
+                         const Tool& tool, CommandMode mode, int period_us, int arming_ms) {
   can_ = &can;
   mode_ = mode;
-  return master_.configure(can, drive, tool, mode, period_us);
+  return master_.configure(can, drive, tool, mode, period_us, arming_ms);
 }
 
 Status CanHal::connect(CommandMode mode) {

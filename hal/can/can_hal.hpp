@@ -18,7 +18,7 @@ class CanHal final : public Hal {
   /// Takes the settings of the pipeline file, which must outlive the use of the Hal. As
   /// CanMaster::configure(); trouble() says more. [init]
   Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
-                   CommandMode mode, int period_us);
+                   CommandMode mode, int period_us, int arming_ms);
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the buses and starts the drives up, in all no longer than `connect_ms`. kNotOffered,

@@ -21,7 +21,7 @@ class CanMaster {
   /// Takes the settings, which must outlive the master. kBadValue, kTooLarge, kOverBudget for
   /// buses that cannot carry a cycle; `why` names key, value and limit. [init]
   Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
-                   CommandMode mode, int period_us);
+                   CommandMode mode, int period_us, int arming_ms);
 
   int buses() const { return buses_; }
   /// Name of a bus, from 0. [init]
@@ -68,6 +68,8 @@ class CanMaster {
   Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
   /// As cia402::written_text(), of all start-ups. [init]
   Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
+  /// As Drives::to_home(). [init]
+  Message to_home() const { return drives_.to_home(); }
   cia402::Phase phase() const { return drives_.phase(); }
   /// Frames that a cycle sends on a bus at most. [init]
   int cycle_frames(int bus) const;

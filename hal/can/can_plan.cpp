@@ -4,7 +4,7 @@
 namespace tactus::can {
 
 Status CanMaster::configure(const CanSettings& can, const cia402::Cia402Settings& drive,
-                            const Tool& tool, CommandMode mode, int period_us) {
+                            const Tool& tool, CommandMode mode, int period_us, int arming_ms) {
   can_ = &can;
   drive_ = &drive;
   mode_ = mode;
@@ -32,7 +32,7 @@ Status CanMaster::configure(const CanSettings& can, const cia402::Cia402Settings
   TRY(read_interfaces());
   TRY(place_joints());
   TRY(judge_load());
-  return drives_.configure(drive, tool, period_us, why_);
+  return drives_.configure(drive, tool, period_us, arming_ms, why_);
 }
 
 /// Gives every joint its bus, node and place. Whole numbers, and no node twice on a bus.

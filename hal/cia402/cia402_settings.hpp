@@ -53,6 +53,9 @@ struct Cia402Settings {
   Encoder encoder = Encoder::kMultiTurn;
   int referenced_bit =
       -1;  ///< of the statusword, if the drive has one; -1: it is always referenced
+  /// 6098h of a drive that does not know its position after power-on; 0: arming homes none.
+  JointVector homing_method = JointVector::Zero();
+  int homing_ms = 30000;  ///< longest homing of a joint
   Gravity gravity = Gravity::kCommand;
   /// The hold between enabling and the first command, in effort mode.
   JointVector hold_stiffness = JointVector::Constant(200.0);  ///< N m/rad
@@ -80,6 +83,8 @@ struct Cia402Settings {
     visit.param("position_offset", position_offset, Range{-1e3, 1e3}, "rad");
     visit.choice("encoder", encoder);
     visit.param("referenced_bit", referenced_bit, Range{-1.0, 15.0}, "1");
+    visit.param("homing_method", homing_method, Range{-128.0, 37.0}, "1");
+    visit.param("homing_ms", homing_ms, Range{1.0, 600000.0}, "ms");
     visit.choice("gravity", gravity);
     visit.param("hold_stiffness", hold_stiffness, Range{0.0, 1e5}, "N m/rad");
     visit.param("hold_damping", hold_damping, Range{0.0, 1e4}, "N m s/rad");

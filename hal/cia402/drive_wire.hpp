@@ -47,6 +47,7 @@ constexpr const char* lost_text(Status lost) {
 
 struct DriveCommand {
   std::uint16_t controlword = 0;
+  bool homes = false;  ///< its mode of operation is homing, not that of the commands
   std::int16_t target_torque = 0, torque_offset = 0;      ///< permille of the rated torque
   std::int32_t target_position = 0;                       ///< increments
   std::int32_t target_velocity = 0, velocity_offset = 0;  ///< as 60A9h says

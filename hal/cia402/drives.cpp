@@ -26,34 +26,40 @@ Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why
   return Status::kOk;
 }
 
-/// Finds the turn of a single-turn encoder that is nearest to the middle of the joint's range, and
-/// follows one that counts from 0 again in the midst of a motion.
 Status Drives::attach_joint(int j, const DriveFeedback& feedback, Message& why) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.reason = Status::kOk;
   joint.code = 0;
   joint.missed = joint.limited = joint.owed = joint.confirmed = 0;
+  joint.homes = false;
+  joint.dq = joint.tau = 0.0;
+  joint.last = feedback;
+  joint.placed = settings_->homing_method[j] == 0.0 || referenced(j);
+  if (place(j, feedback.position) || !joint.placed) return Status::kOk;
+  why = joint_text(j);
+  why << ": its drive counts " << static_cast<int>(feedback.position) << " increments, which is "
+      << joint.q << " rad, outside of " << limits_.q_min[j] << " to " << limits_.q_max[j]
+      << " rad; reference the drive, or correct [cia402] position_offset, direction or increments";
+  return Status::kNotReferenced;
+}
+
+/// Begins to follow the count of a drive; returns whether the joint is then in its range. Finds the
+/// turn of a single-turn encoder that is nearest to the middle of this range, and follows one that
+/// counts from 0 again in the midst of a motion.
+bool Drives::place(int j, std::int32_t count) {
+  Joint& joint = joints_[static_cast<std::size_t>(j)];
   joint.watch.start();
-  joint.counter.start(feedback.position);
+  joint.counter.start(count);
   if (settings_->encoder == Encoder::kSingleTurn) {
     const double turn = joint.units.encoder;
     const double middle = 0.5 * (limits_.q_min[j] + limits_.q_max[j]);
-    const double turns = (middle - joint.units.q(feedback.position)) * joint.units.direction /
-                         (turn * joint.units.angle_step());
-    joint.counter.start(feedback.position,
-                        static_cast<std::int64_t>(std::floor(turns + 0.5) * turn),
+    const double turns =
+        (middle - joint.units.q(count)) * joint.units.direction / (turn * joint.units.angle_step());
+    joint.counter.start(count, static_cast<std::int64_t>(std::floor(turns + 0.5) * turn),
                         static_cast<std::int64_t>(turn));
   }
   joint.q = joint.units.q(joint.counter.total());
-  joint.dq = joint.tau = 0.0;
-  joint.last = feedback;
-  const Range range = {limits_.q_min[j], limits_.q_max[j]};
-  if (range.contains(joint.q)) return Status::kOk;
-  why = joint_text(j);
-  why << ": its drive counts " << static_cast<int>(feedback.position) << " increments, which is "
-      << joint.q << " rad, outside of " << range.lo << " to " << range.hi
-      << " rad; reference the drive, or correct [cia402] position_offset, direction or increments";
-  return Status::kNotReferenced;
+  return Range{limits_.q_min[j], limits_.q_max[j]}.contains(joint.q);
 }
 
 void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
@@ -124,6 +130,7 @@ void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_
   count_missed(joint, feedback);
   joint.last = feedback;
   if (!feedback.fresh) return;
+  joint.placed = joint.placed && (settings_->homing_method[j] == 0.0 || referenced(j));
   const double before = joint.q;
   joint.q = joint.units.q(joint.counter.follow(feedback.position));
   if (!(std::abs(joint.q - before) <= limits_.dq_max[j] * period_s_ * periods)) {
@@ -163,9 +170,9 @@ void Drives::judge(int j) {
     fail(j, Status::kBusTimeout, code,
          "no feedback in more cycles than [cia402] max_missed, of which one is forgotten after 1000"
          " cycles; check load and cabling of its bus");
-  } else if (enabled() && joint.last.emergency) {
+  } else if (operates(j) && joint.last.emergency) {
     fail(j, Status::kDriveFault, code, error_text(joint.last.error_code));
-  } else if (enabled() && state_of(joint.last.statusword) != State::kOperationEnabled) {
+  } else if (operates(j) && state_of(joint.last.statusword) != State::kOperationEnabled) {
     const State state = state_of(joint.last.statusword);
     fail(j, Status::kDriveFault, code, code != 0 ? error_text(joint.last.error_code) : name(state));
   }
@@ -180,7 +187,8 @@ void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what
   failed.code = code;
   if (phase_ == Phase::kFailed) return;
   phase_ = Phase::kFailed;
-  failure_ = {joint, code, what, detail, rest, figures != nullptr, {}};
+  const std::uint16_t seen = reason == Status::kNotReferenced ? failed.last.statusword : 0;
+  failure_ = {joint, code, seen, what, detail, rest, figures != nullptr, {}};
   if (figures != nullptr) failure_.figures = *figures;
 }
 
@@ -192,6 +200,7 @@ Message Drives::why() const {
   text << failure_.detail;
   if (failure_.has_figures) text << failure_.figures.limit;
   text << failure_.rest;
+  if (failure_.seen != 0) text << " (statusword " << hex(failure_.seen) << ")";
   if (failure_.code != 0) text << " (error code " << hex(failure_.code) << ")";
   return text;
 }

@@ -2,8 +2,9 @@
 // all.
 //
 // A bus hands the newest process data to watch() and takes the commands of step(), in every cycle.
-// Arming: every drive is taken to "switched on", its old fault cleared; then all of them are
-// enabled in the same cycle, and hold the arm while their brakes open. An arm that moves then is
+// Arming: every drive is taken to "switched on", its old fault cleared; one that has lost its
+// reference is homed by the method of the file, one after the other; then all of them are enabled
+// in the same cycle, and hold the arm while their brakes open. An arm that moves then is
 // not armed again before the next attach(): it would move on. As soon as one drive leaves
 // "operation enabled", is silent for too long or reports an error, all drives get a quick stop in
 // that cycle, and no command before the next arming.
@@ -14,6 +15,7 @@
 #include "hal/cia402/drive_wire.hpp"
 #include "hal/cia402/feedback_watch.hpp"
 #include "hal/cia402/hold_effort.hpp"
+#include "hal/cia402/homing.hpp"
 #include "hal/cia402/joint_units.hpp"
 #include "kernel/core/hal.hpp"
 
@@ -29,6 +31,7 @@ inline Message joint_text(int joint) {
 enum class Phase : std::uint8_t {
   kOff,
   kSwitchingOn,  ///< faults are cleared; no torque
+  kHoming,       ///< of one drive, alone; the brakes of the others are closed
   kEnabling,     ///< all at once
   kReleasing,    ///< the motors hold the arm; the brakes open
   kArmed,        ///< holds, or follows commands
@@ -44,16 +47,22 @@ class Drives {
   /// Cycles after which one without feedback is forgotten. What comes after it may be older by one.
   static constexpr int kForgotten = 1000;
 
-  /// Takes the settings, which must outlive the use of the drives. kMissingKey,
-  /// kBadValue, with `why`: a rated torque, direction, encoder or bit that cannot be, a torque
-  /// limit that is beyond the drive's numbers. [init]
-  Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, Message& why);
+  /// Takes the settings, which must outlive the use of the drives, the period and the longest time
+  /// of arming. kMissingKey, kBadValue, with `why`: a rated torque, direction, encoder, bit or
+  /// method that cannot be, a torque limit that is beyond the drive's numbers, an arming that could
+  /// end in the midst of homing. [init]
+  Status configure(const Cia402Settings& settings, const Tool& tool, int period_us, int arming_ms,
+                   Message& why);
   /// Takes the units of velocity per motor revolution per second; NaN where they are not known and
   /// no velocity travels. Before attach(). [init]
   void set_velocity_units(const JointVector& units);
   /// Takes over the drives as they are, disabled or not, for commands of `mode`. kNotReferenced
-  /// for a position outside the joint's range. [init]
+  /// for a position outside the joint's range, unless arming homes the drive. [init]
   Status attach(CommandMode mode, const Feedbacks& feedbacks, Message& why);
+
+  /// The joints that arming would home now, with their methods: "joint 2 (method 35)"; empty: none.
+  /// [init]
+  Message to_home() const;
 
   /// Takes the newest process data, sampled at `sampled_ns`, and finds faults. [cyclic]
   void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
@@ -101,6 +110,8 @@ class Drives {
     int limited = 0;               // the same, in which it limits its command by its own word
     int owed = 0, since_owed = 0;  // cycles without feedback that are not forgotten, cycles since
     int confirmed = 0;             // samples in a row that show it disabled
+    bool homes = false;            // its mode is homing, or was not seen to be another
+    bool placed = true;            // q is of a drive that knows its position
     Status reason = Status::kOk;   // of its failure
     std::uint32_t code = 0;
 
@@ -115,6 +126,7 @@ class Drives {
   struct Failure {
     int joint = -1;  // -1: nothing has failed
     std::uint32_t code = 0;
+    std::uint16_t seen = 0;  // statusword of a drive that is not referenced
     const char *what = "", *detail = "", *rest = "";
     bool has_figures = false;
     Figures figures;
@@ -124,6 +136,9 @@ class Drives {
   /// limit and remedy.
   Status judge_torque(int j, Message& why) const;
   Status judge_position(int j, Message& why) const;
+  Status judge_homing(int j, Message& why) const;
+  Status judge_arming_time(int arming_ms, Message& why) const;
+  bool place(int j, std::int32_t count);
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
   void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
   void count_missed(Joint& joint, const DriveFeedback& feedback);
@@ -131,7 +146,9 @@ class Drives {
   void judge_hold(int j);
   void judge_belief(int j);
   bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
-  bool rising() const { return phase_ == Phase::kSwitchingOn || phase_ == Phase::kEnabling; }
+  bool rising() const { return phase_ >= Phase::kSwitchingOn && phase_ <= Phase::kEnabling; }
+  bool homes(int j) const { return phase_ == Phase::kHoming && j == homing_.joint; }
+  bool operates(int j) const { return enabled() || (homes(j) && homing_.operates()); }
   Drive drive_of(const Joint& joint) const;
   bool follows(const RobotCommand& command);
 
@@ -142,6 +159,7 @@ class Drives {
   void advance(std::int64_t now_ns);
   bool ready(int j);
   Goal goal() const;
+  Goal goal_of(int j) const;
   bool all_reached() const;
   void judge_rise();
   void judge_steadiness();
@@ -150,7 +168,18 @@ class Drives {
   void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
   void enter(Phase phase, std::int64_t now_ns);
   void ask(int joint, const Object& object);
+  void tell(int joint, const Object& object, std::int8_t value);
   void judge_mode(std::uint32_t value, const char* refused);
+  // Homing, and where a joint is: drives_homing.cpp.
+  bool referenced(int j) const;
+  bool needs_homing(int j) const;
+  void go_up(std::int64_t now_ns);
+  void begin_homing(int j, std::int64_t now_ns);
+  void enter(Homing::Step step, std::int64_t now_ns);
+  void home(std::int64_t now_ns);
+  void judge_display(Mode wanted, Homing::Step next, std::int64_t now_ns);
+  void judge_motion(std::int64_t now_ns);
+  bool judge_place(int j);
   std::int64_t half_period_ns() const { return static_cast<std::int64_t>(0.5e9 * period_s_); }
 
   const Cia402Settings* settings_ = nullptr;
@@ -165,6 +194,7 @@ class Drives {
   int unsteady_ = 0;        // the last joint that did
   double jump_ = 0.0;       // how far from a cycle to the next, rad
   bool following_ = false;  // commands, in the last cycle
+  Homing homing_;
   ObjectRequest request_;
   int asked_ = 0;    // the number of the last request
   int checked_ = 0;  // joints whose display of the mode was checked in this arming

@@ -12,12 +12,13 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   if (follow && !follows(command)) take(DriveRequest::kArm);  // failed: stops now
   set_controlwords(out, now_ns);
   judge_rise();
+  if (phase_ == Phase::kHoming) home(now_ns);
   if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
   following_ = follow && phase_ == Phase::kArmed;
   set_target(command, following_, out);
   count_confirmations();
   advance(now_ns);
-  if (phase_ != Phase::kReleasing) request_ = {};
+  if (phase_ != Phase::kReleasing && phase_ != Phase::kHoming) request_ = {};
 }
 
 void Drives::count_confirmations() {
@@ -31,8 +32,13 @@ void Drives::count_confirmations() {
 }
 
 void Drives::set_controlwords(DriveCommands& out, std::int64_t now_ns) {
-  for (std::size_t j = 0; j < kDof; ++j)
-    out[j].controlword = joints_[j].machine.step(joints_[j].last.statusword, goal(), now_ns);
+  for (int j = 0; j < kDof; ++j) {
+    Joint& joint = joints_[static_cast<std::size_t>(j)];
+    std::uint16_t word = joint.machine.step(joint.last.statusword, goal_of(j), now_ns);
+    if (homes(j) && homing_.step == Homing::Step::kMove && word == kEnableOperation)
+      word |= kStartHoming;
+    out[static_cast<std::size_t>(j)].controlword = word;
+  }
 }
 
 /// A fault stays until the drives are requested to be disabled; only then they can be armed again.
@@ -42,6 +48,7 @@ void Drives::take(DriveRequest request) {
   } else if (phase_ == Phase::kOff) {
     phase_ = Phase::kSwitchingOn;
     since_ns_ = -1;
+    homing_.homed = 0;
     failure_ = {};
     for (Joint& joint : joints_) {
       joint.reason = Status::kOk;
@@ -56,10 +63,9 @@ void Drives::take(DriveRequest request) {
 bool Drives::ready(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   const DriveFeedback& last = joint.last;
-  const int bit = settings_->referenced_bit;
   if (last.lost != Status::kOk) {
     fail(j, last.lost, last.error_code, lost_text(last.lost));
-  } else if (bit >= 0 && (last.statusword >> bit & 1U) == 0) {
+  } else if (!referenced(j) && settings_->homing_method[j] == 0.0) {
     fail(j, Status::kNotReferenced, last.error_code, "the drive is not referenced; home it");
   } else if (j == moved_) {
     const Figures figures = {joint.q - moved_from_, settings_->hold_tolerance};
@@ -72,7 +78,8 @@ bool Drives::ready(int j) {
 
 Goal Drives::goal() const {
   switch (phase_) {
-    case Phase::kSwitchingOn: return Goal::kSwitchedOn;
+    case Phase::kSwitchingOn:
+    case Phase::kHoming: return Goal::kSwitchedOn;
     case Phase::kEnabling:
     case Phase::kReleasing:
     case Phase::kArmed: return Goal::kOperationEnabled;
@@ -81,6 +88,11 @@ Goal Drives::goal() const {
     case Phase::kFailed: break;
   }
   return Goal::kDisabled;
+}
+
+/// Of one drive: the one that is homed is enabled alone.
+Goal Drives::goal_of(int j) const {
+  return homes(j) && homing_.enables() ? Goal::kOperationEnabled : goal();
 }
 
 /// A drive that goes to fault on its way, or stays in a state for too long, ends arming.
@@ -121,7 +133,7 @@ void Drives::advance(std::int64_t now_ns) {
   switch (phase_) {
     case Phase::kSwitchingOn:
       if (!all_reached() || since_ns_ < 0) since_ns_ = now_ns;
-      if (all_reached() && steady_ >= kSteady) enter(Phase::kEnabling, now_ns);
+      if (all_reached() && steady_ >= kSteady) go_up(now_ns);
       if (now_ns - since_ns_ > settings_->step_ms * kMillisecond_ns && rising()) judge_steadiness();
       break;
     case Phase::kEnabling:
@@ -137,6 +149,7 @@ void Drives::advance(std::int64_t now_ns) {
       if (all_reached()) enter(Phase::kOff, now_ns);
       break;
     case Phase::kOff:
+    case Phase::kHoming:
     case Phase::kArmed:
     case Phase::kFailed: break;
   }
@@ -160,9 +173,18 @@ void Drives::ask(int joint, const Object& object) {
   request_ = {++asked_, joint, object, false, 0};
 }
 
+void Drives::tell(int joint, const Object& object, std::int8_t value) {
+  request_ = {++asked_, joint, object, true, static_cast<std::uint8_t>(value)};
+}
+
 void Drives::answer(std::uint32_t value, const char* refused) {
   request_ = {};
-  if (phase_ == Phase::kReleasing) judge_mode(value, refused);
+  if (phase_ == Phase::kReleasing) return judge_mode(value, refused);
+  if (phase_ != Phase::kHoming) return;
+  if (refused != nullptr)
+    return fail(homing_.joint, Status::kBusTimeout, 0, homing_.refused_text(), refused);
+  homing_.answered = true;
+  homing_.shown = static_cast<Mode>(value);
 }
 
 /// While the brakes open, every drive is asked for the mode that it is in.
@@ -205,6 +227,7 @@ void Drives::set_target(const RobotCommand& command, bool follow, DriveCommands&
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     DriveCommand to;
     to.controlword = out[static_cast<std::size_t>(j)].controlword;
+    to.homes = joint.homes && !(homes(j) && homing_.returns());
     to.target_torque = joint.units.torque(tau[j]);
     to.target_position = joint.count_of(follow ? command.value[j] : held_[j]);
     if (follow) {

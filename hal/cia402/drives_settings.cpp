@@ -6,12 +6,15 @@ namespace tactus::cia402 {
 namespace {
 
 constexpr int kFirstFreeBit = 7;  // of a statusword, beyond those of the state
+// Bits of a statusword that are the manufacturer's (IEC 61800-7-201): the others say something
+// else.
+constexpr int kOwnBit = 8, kFirstOwnBit = 14;
 constexpr auto kMostPermille = std::numeric_limits<std::int16_t>::max();
 
 }  // namespace
 
 Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
-                         Message& why) {
+                         int arming_ms, Message& why) {
   settings_ = &settings;
   period_s_ = 1e-6 * period_us;
   hold_.configure(settings, tool, period_s_);
@@ -26,7 +29,9 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
     why << ": [cia402] ";
     TRY(judge_torque(j, why));
     TRY(judge_position(j, why));
+    TRY(judge_homing(j, why));
   }
+  TRY(judge_arming_time(arming_ms, why));
   why = {};
   return Status::kOk;
 }
@@ -71,6 +76,37 @@ Status Drives::judge_position(int j, Message& why) const {
   why << "encoder = single_turn knows its place within a turn, " << turn_rad
       << " rad with gear_ratio " << units.gear << ", less than the range of the joint, "
       << range_rad << " rad; use multi_turn, or an encoder at the joint (gear_ratio 1)";
+  return Status::kBadValue;
+}
+
+/// Without a bit that says whether a drive is homed, every arming would move the arm.
+Status Drives::judge_homing(int j, Message& why) const {
+  const double method = settings_->homing_method[j];
+  const int bit = settings_->referenced_bit;
+  if (method == 0.0) return Status::kOk;
+  if (std::floor(method) != method) {
+    why << "homing_method is " << method << "; methods (6098h) are whole numbers";
+    return Status::kBadValue;
+  }
+  if (bit == kOwnBit || bit >= kFirstOwnBit) return Status::kOk;
+  why << "homing_method is " << method << " with referenced_bit " << bit
+      << "; a drive is homed only where a bit of its own, 8, 14 or 15, says whether it is";
+  return Status::kBadValue;
+}
+
+/// The time of an arming must not end in the midst of homing.
+Status Drives::judge_arming_time(int arming_ms, Message& why) const {
+  constexpr int kStates = 4;  // that a drive may stay in on the way up, beside a fault
+  const auto homed = static_cast<int>((settings_->homing_method.array() != 0.0).count());
+  const std::int64_t homing_ms = std::int64_t{homed} * settings_->homing_ms;
+  const std::int64_t least_ms =
+      homing_ms + settings_->reset_ms + kStates * settings_->step_ms + settings_->brake_ms;
+  if (homed == 0 || arming_ms >= least_ms) return Status::kOk;
+  why = Message("[executive] arming_ms is ");
+  why << arming_ms << ", less than the " << static_cast<std::size_t>(least_ms)
+      << " ms that arming may take: [cia402] homing_ms, " << settings_->homing_ms << ", for "
+      << homed << (homed == 1 ? " joint" : " joints")
+      << " with a homing_method, and reset_ms, 4 step_ms and brake_ms";
   return Status::kBadValue;
 }
 

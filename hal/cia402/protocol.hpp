@@ -16,6 +16,12 @@ inline constexpr std::uint16_t kRemote = 0x0200;
 inline constexpr std::uint16_t kInternalLimit = 0x0800;
 inline constexpr std::uint16_t kFollowsCommand = 0x1000;  ///< in the cyclic synchronous modes
 
+// The same in homing mode (CiA 402-2 / IEC 61800-7-201, homing mode): attained and reached without
+// an error is homed.
+inline constexpr std::uint16_t kTargetReached = 0x0400;
+inline constexpr std::uint16_t kHomingAttained = 0x1000;
+inline constexpr std::uint16_t kHomingError = 0x2000;
+
 enum class State : std::uint8_t {
   kNotReadyToSwitchOn,
   kSwitchOnDisabled,
@@ -74,6 +80,8 @@ inline constexpr std::uint16_t kShutdown = 0x0006;
 inline constexpr std::uint16_t kSwitchOn = 0x0007;
 inline constexpr std::uint16_t kEnableOperation = 0x000F;
 inline constexpr std::uint16_t kFaultReset = 0x0080;  ///< its rising edge
+/// Beside "enable operation", in homing mode: its rising edge starts, 0 interrupts.
+inline constexpr std::uint16_t kStartHoming = 0x0010;
 
 /// Modes of operation, 6060h and 6061h. Bit mode - 1 of 6502h: the drive has it.
 enum class Mode : std::int8_t {
@@ -148,6 +156,7 @@ inline constexpr Object kFeedConstant = {0x6092, 1, 4};            // u32, per k
 inline constexpr Object kFeedTurns = {0x6092, 2, 4};               // u32, of the shaft
 inline constexpr Object kVelocityFactor = {0x6096, 1, 4};          // u32, per kVelocityDivisor
 inline constexpr Object kVelocityDivisor = {0x6096, 2, 4};         // u32
+inline constexpr Object kHomingMethod = {0x6098, 0, 1};            // i8
 inline constexpr Object kPositionUnit = {0x60A8, 0, 4};            // u32
 inline constexpr Object kVelocityUnit = {0x60A9, 0, 4};            // u32
 inline constexpr Object kVelocityOffset = {0x60B1, 0, 4};          // i32, as 60A9h says

@@ -11,10 +11,10 @@ constexpr std::int64_t kAnswer_ns = 200'000;  // between two looks at the interf
 }  // namespace
 
 Status EthercatHal::configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
-                              const Tool& tool, CommandMode mode, int period_us) {
+                              const Tool& tool, CommandMode mode, int period_us, int arming_ms) {
   ethercat_ = &ethercat;
   mode_ = mode;
-  return master_.configure(ethercat, drive, tool, mode, period_us);
+  return master_.configure(ethercat, drive, tool, mode, period_us, arming_ms);
 }
 
 Status EthercatHal::connect(CommandMode mode) {

@@ -21,7 +21,7 @@ class EthercatHal final : public Hal, private Clock {
   /// Takes the settings of the pipeline file, which must outlive the use of the Hal. As
   /// EthercatMaster::configure(); trouble() says more. [init]
   Status configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
-                   const Tool& tool, CommandMode mode, int period_us);
+                   const Tool& tool, CommandMode mode, int period_us, int arming_ms);
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the interface and starts the slaves up, in all no longer than `connect_ms`. kNotOffered,

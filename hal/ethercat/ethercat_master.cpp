@@ -13,14 +13,14 @@ constexpr std::int64_t kAnyTime_ns = std::int64_t{1} << 62;
 
 Status EthercatMaster::configure(const EthercatSettings& ethercat,
                                  const cia402::Cia402Settings& drive, const Tool& tool,
-                                 CommandMode mode, int period_us) {
+                                 CommandMode mode, int period_us, int arming_ms) {
   ethercat_ = &ethercat;
   drive_ = &drive;
   mode_ = mode;
   period_us_ = period_us;
   phase_ = Phase::kOff;
   TRY(judge_places());
-  return drives_.configure(drive, tool, period_us, why_);
+  return drives_.configure(drive, tool, period_us, arming_ms, why_);
 }
 
 Status EthercatMaster::judge_places() {

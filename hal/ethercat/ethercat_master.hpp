@@ -23,7 +23,7 @@ class EthercatMaster {
   /// Takes the settings, which must outlive the master. kMissingKey, kBadValue, kTooLarge; `why`
   /// names key, value and limit. [init]
   Status configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
-                   const Tool& tool, CommandMode mode, int period_us);
+                   const Tool& tool, CommandMode mode, int period_us, int arming_ms);
   const char* interface() const { return ethercat_->interface.c_str(); }
 
   /// Begins the start-up with the sender's Ethernet address; connecting() is called until it does
@@ -69,6 +69,8 @@ class EthercatMaster {
   Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
   /// As cia402::written_text(), of all start-ups. [init]
   Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
+  /// As Drives::to_home(). [init]
+  Message to_home() const { return drives_.to_home(); }
 
  private:
   enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };

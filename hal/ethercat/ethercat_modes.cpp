@@ -5,7 +5,8 @@
 
 namespace tactus::ethercat {
 
-/// Carries what is asked of a drive, one request at a time.
+/// Carries what is asked of a drive, one request at a time. A mode that is mapped is written by the
+/// cycle alone: a drive may refuse it by SDO.
 void EthercatMaster::carry_request() {
   const cia402::ObjectRequest& request = drives_.request();
   if (request.number == 0 || request.number != carried_) {
@@ -13,6 +14,8 @@ void EthercatMaster::carry_request() {
     if (request.number == 0) return;
     const Slave& slave = slaves_[static_cast<std::size_t>(request.joint)];
     const auto [index, sub, bytes] = request.object;
+    if (index == cia402::kModeOfOperation.index && slave.data.commands_mode())
+      return drives_.answer(request.value, nullptr);
     const std::uint16_t room = slave.boxes.out_bytes;
     boxed_ = request.joint;
     port_.reset();

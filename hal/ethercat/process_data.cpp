@@ -82,7 +82,7 @@ void ProcessData::encode(const cia402::DriveCommand& command, std::uint8_t* imag
       static_cast<std::uint32_t>(command.target_position),
       static_cast<std::uint32_t>(command.target_velocity),
       static_cast<std::uint32_t>(command.velocity_offset),
-      mode_,
+      command.homes ? static_cast<std::uint8_t>(cia402::Mode::kHoming) : mode_,
   };
   for (int i = 0; i < kOutputs; ++i) {
     const auto n = static_cast<std::size_t>(i);

@@ -27,6 +27,8 @@ class ProcessData {
   /// Finds the objects in the layouts. Returns the one that is missing, or does not begin with a
   /// byte; null: none. [init]
   const char* resolve(CommandMode mode);
+  /// True if the cycle writes the mode of operation. [cyclic]
+  bool commands_mode() const { return out_[kOutputs - 1] >= 0; }
   /// Fills in feedback from the image. [cyclic]
   void decode(const std::uint8_t* image, cia402::DriveFeedback& feedback) const;
   /// Writes a command, and the mode of operation where it is mapped, into the image. [cyclic]

@@ -36,6 +36,7 @@ struct Session {
   WireCounts (*counts)() = nullptr;  ///< null: its wire counts nothing
   /// What start-ups have changed in the robot, text `n` from 0; null: they change nothing.
   Message (*written)(int n) = nullptr;
+  Message (*to_home)() = nullptr;  ///< null: arming homes no joint
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

@@ -18,7 +18,7 @@ struct Plan {
     can.commands = Commands::kPacked;
     drive.rated_torque.setConstant(3.0);
   }
-  Status judge() { return master.configure(can, drive, Tool{}, CommandMode::kEffort, 1000); }
+  Status judge() { return master.configure(can, drive, Tool{}, CommandMode::kEffort, 1000, 10000); }
 };
 
 Plan& fresh() {

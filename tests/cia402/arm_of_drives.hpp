@@ -13,6 +13,8 @@ struct FakeDrive {
   std::uint16_t word = 0x0250;  // switch on disabled
   bool stays = false;           // ignores every command
   bool reset_seen_low = true;
+  std::uint16_t shows = 0, hides = 0;  // bits of the statusword that are not of its state
+  int mode = 0;                        // 0: that of the commands
 
   /// From, the command's bits, to: the transitions of the standard.
   void obey(std::uint16_t control) {
@@ -59,7 +61,7 @@ struct ArmOfDrives {
     settings.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
     settings.brake_ms = 10;
     Message why;
-    assert_int_equal(static_cast<int>(drives.configure(settings, Tool{}, 1000, why)), 0);
+    assert_int_equal(static_cast<int>(drives.configure(settings, Tool{}, 1000, 10000, why)), 0);
     const JointLimits limits;
     for (int j = 0; j < kDof; ++j)
       feedbacks[static_cast<std::size_t>(j)].position = static_cast<std::int32_t>(
@@ -68,15 +70,22 @@ struct ArmOfDrives {
     assert_int_equal(static_cast<int>(drives.attach(mode, feedbacks, why)), 0);
   }
 
+  void answer(const ObjectRequest& request) {
+    FakeDrive& drive = fake(request.joint);
+    if (request.writes && request.object.index == 0x6060)
+      drive.mode = static_cast<int>(request.value);
+    const auto mode = static_cast<std::uint32_t>(mode_of(command.mode));
+    drives.answer(drive.mode != 0 ? static_cast<std::uint32_t>(drive.mode) : mode, nullptr);
+  }
   void cycle(DriveRequest request) {
     for (std::size_t j = 0; j < kDof; ++j) {
       feedbacks[j].fresh = told && static_cast<int>(j) != silent;
       feedbacks[j].has_velocity = measures_velocity;
-      feedbacks[j].statusword = fakes[j].word;
+      feedbacks[j].statusword =
+          static_cast<std::uint16_t>((fakes[j].word & ~fakes[j].hides) | fakes[j].shows);
     }
     drives.watch(feedbacks, now_ns);
-    if (answers && drives.request().number != 0)
-      drives.answer(static_cast<std::uint32_t>(mode_of(command.mode)), nullptr);
+    if (answers && drives.request().number != 0) answer(drives.request());
     drives.show(state);
     command.request = request;
     drives.step(command, commands, now_ns);

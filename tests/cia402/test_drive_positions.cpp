@@ -57,23 +57,23 @@ void more_than_a_turn_of_the_encoder_in_the_range_is_refused(void**) {
   Message why;
   arm.settings.encoder = Encoder::kSingleTurn;
   arm.settings.gear_ratio[2] = 10.0;
-  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, 10000, why), Status::kBadValue);
   assert_string_equal(
       why.c_str(),
       "joint 3: [cia402] encoder = single_turn knows its place within a turn, 0.628"
       "319 rad with gear_ratio 10, less than the range of the joint, 5.7946 rad; use"
       " multi_turn, or an encoder at the joint (gear_ratio 1)");
   arm.settings.encoder = Encoder::kMultiTurn;
-  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, why));
+  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, 10000, why));
 }
 
 void increments_of_a_single_turn_are_whole(void**) {
   ArmOfDrives arm;
   Message why;
   arm.settings.increments[6] = 1.5;
-  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, why));
+  ASSERT_OK(arm.drives.configure(arm.settings, Tool{}, 1000, 10000, why));
   arm.settings.encoder = Encoder::kSingleTurn;
-  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, 10000, why), Status::kBadValue);
   assert_string_equal(
       why.c_str(), "joint 7: [cia402] increments is 1.5; a single turn has a whole number of them");
 }

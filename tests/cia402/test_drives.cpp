@@ -172,7 +172,7 @@ void a_torque_limit_beyond_the_drives_numbers_is_refused(void**) {
   ArmOfDrives arm;
   arm.settings.rated_torque[1] = 2.0;
   Message why;
-  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, why), Status::kBadValue);
+  ASSERT_STATUS(arm.drives.configure(arm.settings, Tool{}, 1000, 10000, why), Status::kBadValue);
   assert_non_null(std::strstr(why.c_str(),
                               "joint 2: [cia402] rated_torque is 2 N m, of which 32767 permille are"
                               " 65.534 N m, less than the joint's torque limit of 87 N m"));

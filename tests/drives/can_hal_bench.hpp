@@ -47,7 +47,8 @@ struct CanHalBench : cia402::LoopRig {
 
   Status load() {
     TRY(LoopRig::load(cia402::kHoldingPipeline, hal.capabilities()));
-    TRY(hal.configure(can, drive, Tool{}, pipeline.robot.mode(), pipeline.robot.period_us));
+    TRY(hal.configure(can, drive, Tool{}, pipeline.robot.mode(), pipeline.robot.period_us,
+                      pipeline.executive.arming_ms));
     drives::DriveArmSettings plant;
     plant.plant.rotor_inertia.setConstant(0.1);
     plant.fd = can.frames == Frames::kFd;

@@ -74,10 +74,16 @@ inline bool pushes(const MasterBench& bench) {
   for (int j = 0; j < kDof; ++j) any = any || command_seen(bench, j).torque != 0;
   return any;
 }
+inline drives::Axis& axis(MasterBench& bench, int j) {
+  return bench.hal.arm.node(j).axis();
+}
+inline std::uint16_t word_sent(const MasterBench& bench, int j) {
+  return command_seen(bench, j).word;
+}
 /// Whether a drive exerts a torque, by its own account and not by what it tells.
 inline bool powered(MasterBench& bench) {
   bool any = false;
-  for (int j = 0; j < kDof; ++j) any = any || bench.hal.arm.node(j).axis().powered();
+  for (int j = 0; j < kDof; ++j) any = any || axis(bench, j).powered();
   return any;
 }
 

@@ -170,7 +170,7 @@ struct MasterBench : cia402::LoopBench<WiredHal> {
   Status load(const char* text = cia402::kHoldingPipeline) {
     TRY(LoopRig::load(text, hal.capabilities()));
     TRY(hal.master.configure(can, drive, pipeline.robot.tool.value, pipeline.robot.mode(),
-                             pipeline.robot.period_us));
+                             pipeline.robot.period_us, pipeline.executive.arming_ms));
     plant.fd = can.frames == Frames::kFd;
     for (int j = 0; j < kDof; ++j)
       plant.joints[static_cast<std::size_t>(j)] = {static_cast<int>(can.bus[j]) - 1,

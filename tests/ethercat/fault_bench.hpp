@@ -34,10 +34,17 @@ inline bool pushes(const MasterBench& bench) {
   for (int j = 0; j < kDof; ++j) any = any || get<std::int16_t>(outputs_sent(bench, j) + 2) != 0;
   return any;
 }
+inline drives::Axis& axis(MasterBench& bench, int j) {
+  return bench.hal.line.slave(j).axis();
+}
+inline std::uint16_t word_sent(const MasterBench& bench, int j) {
+  return bench.hal.master.connected() ? get<std::uint16_t>(outputs_sent(bench, j))
+                                      : std::uint16_t{0};
+}
 /// Whether a drive exerts a torque, by its own account and not by what it tells.
 inline bool powered(MasterBench& bench) {
   bool any = false;
-  for (int j = 0; j < kDof; ++j) any = any || bench.hal.line.slave(j).axis().powered();
+  for (int j = 0; j < kDof; ++j) any = any || axis(bench, j).powered();
   return any;
 }
 /// Ends what disturbs line and drives.

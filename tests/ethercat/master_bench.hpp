@@ -98,7 +98,7 @@ struct MasterBench : cia402::LoopBench<WiredHal> {
   Status load(const char* text = cia402::kHoldingPipeline) {
     TRY(LoopRig::load(text, hal.capabilities()));
     TRY(hal.master.configure(ethercat, drive, pipeline.robot.tool.value, pipeline.robot.mode(),
-                             pipeline.robot.period_us));
+                             pipeline.robot.period_us, pipeline.executive.arming_ms));
     hal.period_ns = period_ns();
     return hal.line.load(plant, 0);
   }

@@ -34,7 +34,8 @@ void every_mode_gets_its_mapping(void**) {
                          Row{CommandMode::kPosition, 12}}) {
     MasterBench& bench = fresh_bench();
     ASSERT_OK(bench.load());
-    ASSERT_OK(bench.hal.master.configure(bench.ethercat, bench.drive, Tool{}, row.mode, 1000));
+    ASSERT_OK(
+        bench.hal.master.configure(bench.ethercat, bench.drive, Tool{}, row.mode, 1000, 10000));
     ASSERT_OK(bench.hal.connect(row.mode));
     assert_int_equal(bench.hal.master.slave(3).data.outputs.bytes(), row.outputs);
     assert_int_equal(bench.hal.line.slave(3).dictionary().get(drives::slot_of(0x6061)),

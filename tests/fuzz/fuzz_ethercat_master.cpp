@@ -30,7 +30,8 @@ struct Bench {
     drive.brake_ms = 20;
     segment::SegmentSettings settings;
     settings.brake_release_s = 0.005;
-    if (master.configure(ethercat, drive, Tool{}, CommandMode::kEffort, 1000) != Status::kOk ||
+    if (master.configure(ethercat, drive, Tool{}, CommandMode::kEffort, 1000, 10000) !=
+            Status::kOk ||
         line.load(settings, 0) != Status::kOk)
       return false;
     const std::uint8_t source[6] = {0x02, 0, 0, 0, 0, 1};

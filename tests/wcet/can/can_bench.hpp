@@ -30,7 +30,7 @@ struct CanBench {
       drive.rated_torque[j] = limits.tau_max[j] / kMostOfRated;
     }
     drives.load(can, drive);
-    return master.configure(can, drive, Tool{}, CommandMode::kEffort, 1000) == Status::kOk;
+    return master.configure(can, drive, Tool{}, CommandMode::kEffort, 1000, 10000) == Status::kOk;
   }
   /// Takes what the drives have sent. [cyclic]
   void collect() {
