@@ -169,8 +169,9 @@ void CanMaster::carry_request() {
   }
   sdo_.advance(now_ns_);
   if (sdo_.progress() == Progress::kBusy) return;
-  const bool aborted = sdo_.progress() == Progress::kAborted;
-  drives_.answer(sdo_.value(), aborted ? meaning(sdo_.abort()) : nullptr);
+  if (sdo_.progress() == Progress::kAborted)
+    return drives_.answer(0, {status_of(sdo_.abort()), meaning(sdo_.abort())});
+  drives_.answer(sdo_.value());
 }
 
 void CanMaster::write(const RobotCommand& command) {

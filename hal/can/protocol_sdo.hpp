@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/core/status.hpp"
+
 namespace tactus::can {
 
 inline constexpr std::size_t kSdoSize = 8;         ///< bytes of every frame
@@ -83,6 +85,11 @@ constexpr const char* meaning(SdoAbort abort) {
     case SdoAbort::kNoData: return "no data available";
   }
   return "unknown abort code";
+}
+
+/// Returns what an abort is for a robot: no answer, or a refusal. [any]
+constexpr Status status_of(SdoAbort abort) {
+  return abort == SdoAbort::kTimeout ? Status::kBusTimeout : Status::kRefusedByRobot;
 }
 
 }  // namespace tactus::can

@@ -72,6 +72,12 @@ struct ObjectRequest {
   std::uint32_t value = 0;  ///< that is written
 };
 
+/// Why a request was not done.
+struct ObjectRefusal {
+  Status status = Status::kOk;  ///< kOk: it was; kBusTimeout, kRefusedByRobot
+  const char* why = "";         ///< a constant text
+};
+
 using Feedbacks = std::array<DriveFeedback, kDof>;
 using DriveCommands = std::array<DriveCommand, kDof>;
 

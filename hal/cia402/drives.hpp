@@ -71,9 +71,8 @@ class Drives {
   /// What the bus is to ask a drive. It may change before it is answered: then the new one counts.
   /// [cyclic]
   const ObjectRequest& request() const { return request_; }
-  /// Takes the answer to request(): what was read, or why it was not done, a constant text.
-  /// [cyclic]
-  void answer(std::uint32_t value, const char* refused);
+  /// Takes the answer to request(): what was read, or why it was not done. [cyclic]
+  void answer(std::uint32_t value, const ObjectRefusal& refused = {});
   /// True if no drive has power any more, as far as is known. [cyclic]
   bool off() const { return phase_ == Phase::kOff; }
   /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
@@ -169,7 +168,7 @@ class Drives {
   void enter(Phase phase, std::int64_t now_ns);
   void ask(int joint, const Object& object);
   void tell(int joint, const Object& object, std::int8_t value);
-  void judge_mode(std::uint32_t value, const char* refused);
+  void judge_mode(std::uint32_t value, const ObjectRefusal& refused);
   // Homing, and where a joint is: drives_homing.cpp.
   bool referenced(int j) const;
   bool needs_homing(int j) const;

@@ -177,22 +177,22 @@ void Drives::tell(int joint, const Object& object, std::int8_t value) {
   request_ = {++asked_, joint, object, true, static_cast<std::uint8_t>(value)};
 }
 
-void Drives::answer(std::uint32_t value, const char* refused) {
+void Drives::answer(std::uint32_t value, const ObjectRefusal& refused) {
   request_ = {};
   if (phase_ == Phase::kReleasing) return judge_mode(value, refused);
   if (phase_ != Phase::kHoming) return;
-  if (refused != nullptr)
-    return fail(homing_.joint, Status::kBusTimeout, 0, homing_.refused_text(), refused);
+  if (refused.status != Status::kOk)
+    return fail(homing_.joint, refused.status, 0, homing_.refused_text(), refused.why);
   homing_.answered = true;
   homing_.shown = static_cast<Mode>(value);
 }
 
 /// While the brakes open, every drive is asked for the mode that it is in.
-void Drives::judge_mode(std::uint32_t value, const char* refused) {
+void Drives::judge_mode(std::uint32_t value, const ObjectRefusal& refused) {
   constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
   const auto mode = static_cast<Mode>(value);
-  if (refused != nullptr)
-    return fail(checked_, Status::kBusTimeout, 0, kWhat, "cannot be read: ", refused);
+  if (refused.status != Status::kOk)
+    return fail(checked_, refused.status, 0, kWhat, "cannot be read: ", refused.why);
   if (mode != mode_of(mode_))
     return fail(checked_, Status::kDriveFault, 0, kWhat, "is not that of the commands, but ",
                 name(mode));

@@ -36,11 +36,12 @@ void Drives::go_up(std::int64_t now_ns) {
   enter(Phase::kEnabling, now_ns);
 }
 
-/// A drive is homed once in an arming: then it must show its reference.
+/// A drive is homed once in an arming: then it must show its reference, within `step_ms`.
 void Drives::begin_homing(int j, std::int64_t now_ns) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   const std::uint32_t bit = 1U << static_cast<unsigned>(j);
   if ((homing_.homed & bit) != 0) {
+    if (now_ns - since_ns_ <= settings_->step_ms * kMillisecond_ns) return;
     const Figures figures = {settings_->homing_method[j],
                              static_cast<double>(settings_->referenced_bit)};
     return fail(j, Status::kNotReferenced, joint.last.error_code, "has ended homing by method ",

@@ -98,14 +98,14 @@ Status Drives::judge_homing(int j, Message& why) const {
 Status Drives::judge_arming_time(int arming_ms, Message& why) const {
   constexpr int kStates = 4;  // that a drive may stay in on the way up, beside a fault
   const auto homed = static_cast<int>((settings_->homing_method.array() != 0.0).count());
-  const std::int64_t homing_ms = std::int64_t{homed} * settings_->homing_ms;
+  const std::int64_t each_ms = std::int64_t{settings_->homing_ms} + settings_->step_ms;
   const std::int64_t least_ms =
-      homing_ms + settings_->reset_ms + kStates * settings_->step_ms + settings_->brake_ms;
+      homed * each_ms + settings_->reset_ms + kStates * settings_->step_ms + settings_->brake_ms;
   if (homed == 0 || arming_ms >= least_ms) return Status::kOk;
   why = Message("[executive] arming_ms is ");
   why << arming_ms << ", less than the " << static_cast<std::size_t>(least_ms)
-      << " ms that arming may take: [cia402] homing_ms, " << settings_->homing_ms << ", for "
-      << homed << (homed == 1 ? " joint" : " joints")
+      << " ms that arming may take: [cia402] homing_ms, " << settings_->homing_ms
+      << ", and step_ms for " << homed << (homed == 1 ? " joint" : " joints")
       << " with a homing_method, and reset_ms, 4 step_ms and brake_ms";
   return Status::kBadValue;
 }

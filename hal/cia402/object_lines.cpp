@@ -53,6 +53,7 @@ constexpr KeptRow kKept[] = {
     {0x6060, 0x6060, "[robot] decides the mode of operation"},
     {0x6071, 0x6071, kCommand},
     {0x607A, 0x607A, kCommand},
+    {0x6098, 0x6098, "[cia402] homing_method decides it"},
     {0x60B0, 0x60B2, kCommand},  // offsets
     {0x60C1, 0x60C1, kCommand},  // interpolation data
     {0x60C2, 0x60C2, "[robot] period_us decides it"},

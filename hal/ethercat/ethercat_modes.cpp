@@ -15,7 +15,7 @@ void EthercatMaster::carry_request() {
     const Slave& slave = slaves_[static_cast<std::size_t>(request.joint)];
     const auto [index, sub, bytes] = request.object;
     if (index == cia402::kModeOfOperation.index && slave.data.commands_mode())
-      return drives_.answer(request.value, nullptr);
+      return drives_.answer(request.value);
     const std::uint16_t room = slave.boxes.out_bytes;
     boxed_ = request.joint;
     port_.reset();
@@ -23,8 +23,9 @@ void EthercatMaster::carry_request() {
     return coe_.upload(room, index, sub, now_ns_);
   }
   if (coe_.progress() == CoeClient::Progress::kBusy) return;
-  const bool done = coe_.progress() == CoeClient::Progress::kDone;
-  drives_.answer(coe_.value(), done ? nullptr : can::meaning(coe_.abort()));
+  if (coe_.progress() != CoeClient::Progress::kDone)
+    return drives_.answer(0, {can::status_of(coe_.abort()), can::meaning(coe_.abort())});
+  drives_.answer(coe_.value());
 }
 
 void EthercatMaster::start_clock(std::int64_t slack_ns) {

@@ -75,7 +75,7 @@ struct ArmOfDrives {
     if (request.writes && request.object.index == 0x6060)
       drive.mode = static_cast<int>(request.value);
     const auto mode = static_cast<std::uint32_t>(mode_of(command.mode));
-    drives.answer(drive.mode != 0 ? static_cast<std::uint32_t>(drive.mode) : mode, nullptr);
+    drives.answer(drive.mode != 0 ? static_cast<std::uint32_t>(drive.mode) : mode);
   }
   void cycle(DriveRequest request) {
     for (std::size_t j = 0; j < kDof; ++j) {

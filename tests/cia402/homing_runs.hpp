@@ -141,7 +141,7 @@ void suffer(const HomingEvent<Bench>& event, Bench& bench, int at, int& reaction
   ASSERT_OK(bench.connect());
   HomingWatch<Bench> watch(bench);
   Status status = bench.executive.arm();
-  int since = -1, unpowered = 0;
+  int since = 0, unpowered = 0;
   for (int i = 0; i < 12000 && status == Status::kArming; ++i) {
     if (i == at) event.begin(bench);
     if (i >= at) ++since;

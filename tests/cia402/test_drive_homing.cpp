@@ -93,7 +93,7 @@ void what_is_left_of_an_earlier_homing_says_nothing(void**) {
     HomingArm arm;
     arm.after = 3;
     arm.ends = static_cast<std::uint16_t>(left);
-    while (arm.started < 7) {
+    for (int i = 0; i < 1000 && arm.started < 7; ++i) {
       arm.cycle(DriveRequest::kArm);
       arm.follow();
     }
@@ -132,17 +132,62 @@ void an_end_that_is_none_is_refused_in_its_words(void**) {
       "0237h)");
 }
 
-void a_drive_that_reports_an_error_in_its_homing_is_stopped(void**) {
-  HomingArm arm;
-  while (arm.started < 3) {
+/// Until its drive moves.
+void begin_homing(HomingArm& arm) {
+  for (int i = 0; i < 1000 && arm.started < 3; ++i) {
     arm.cycle(DriveRequest::kArm);
     arm.follow();
   }
+  assert_int_equal(arm.started, 3);
+}
+
+void expect_all_stopped(const HomingArm& arm) {
+  for (const DriveCommand& sent : arm.commands) assert_int_equal(sent.controlword, 0x0002);
+}
+
+void a_drive_that_reports_an_error_in_its_homing_is_stopped(void**) {
+  HomingArm arm;
+  begin_homing(arm);
   arm.feedbacks[kHomed].emergency = true;
   arm.feedbacks[kHomed].error_code = 0x8611;
   arm.cycle(DriveRequest::kArm);
-  for (const DriveCommand& sent : arm.commands) assert_int_equal(sent.controlword, 0x0002);
+  expect_all_stopped(arm);
   assert_non_null(std::strstr(arm.drives.why().c_str(), "joint 3: following error"));
+}
+
+void a_drive_that_leaves_operation_in_its_homing_is_not_enabled_again(void**) {
+  for (const int word : {0x0231, 0x0233, 0x0217, 0x021F}) {
+    HomingArm arm;
+    begin_homing(arm);
+    arm.fake(kHomed).word = static_cast<std::uint16_t>(word);
+    arm.cycle(DriveRequest::kArm);
+    expect_all_stopped(arm);
+    arm.cycle(DriveRequest::kArm);
+    ASSERT_STATUS(arm.joint(kHomed).reason, Status::kDriveFault);
+  }
+}
+
+/// A mode that changes under a drive that is stopping would take its torque away.
+void a_drive_stops_in_the_mode_in_which_it_was_homed(void**) {
+  HomingArm arm;
+  begin_homing(arm);
+  for (int i = 0; i < 20; ++i) {
+    arm.cycle(DriveRequest::kDisable);
+    if (i == 0) expect_all_stopped(arm);
+    for (int j = 0; j < kDof; ++j)
+      assert_int_equal(arm.commands[static_cast<std::size_t>(j)].homes, j == kHomed);
+  }
+}
+
+/// Its own bit may come after the end of the homing mode.
+void a_reference_that_is_shown_late_is_awaited(void**) {
+  HomingArm arm;
+  arm.ends = kReached | kAttained;
+  arm.home_and_arm(300);
+  assert_int_equal(arm.drives.phase(), Phase::kSwitchingOn);
+  arm.fake(kHomed).shows = kOwn;
+  arm.home_and_arm();
+  assert_true(arm.all(DriveState::kEnabled));
 }
 
 /// Somebody else may home a drive between connecting and arming.
@@ -203,12 +248,12 @@ void settings_that_would_home_without_need_or_in_no_time_are_refused(void**) {
   expect_settings_refused(settings, 600000, "joint 6: [cia402] homing_method is 17.5; methods");
   settings.homing_method[5] = 17;
   expect_settings_refused(
-      settings, 63199,
-      "[executive] arming_ms is 63199, less than the 63200 ms that arming may take: [cia402] "
-      "homing_ms, 30000, for 2 joints");
+      settings, 64199,
+      "[executive] arming_ms is 64199, less than the 64200 ms that arming may take: [cia402] "
+      "homing_ms, 30000, and step_ms for 2 joints");
   Drives drives;
   Message why;
-  ASSERT_OK(drives.configure(settings, Tool{}, 1000, 63200, why));
+  ASSERT_OK(drives.configure(settings, Tool{}, 1000, 64200, why));
 }
 
 }  // namespace
@@ -222,6 +267,9 @@ int main() {
       cmocka_unit_test(what_is_left_of_an_earlier_homing_says_nothing),
       cmocka_unit_test(an_end_that_is_none_is_refused_in_its_words),
       cmocka_unit_test(a_drive_that_reports_an_error_in_its_homing_is_stopped),
+      cmocka_unit_test(a_drive_that_leaves_operation_in_its_homing_is_not_enabled_again),
+      cmocka_unit_test(a_drive_stops_in_the_mode_in_which_it_was_homed),
+      cmocka_unit_test(a_reference_that_is_shown_late_is_awaited),
       cmocka_unit_test(a_drive_is_not_enabled_outside_its_range_though_it_was_homed_elsewhere),
       cmocka_unit_test(a_mode_that_is_shown_late_is_awaited_until_its_time),
       cmocka_unit_test(settings_that_would_home_without_need_or_in_no_time_are_refused),
