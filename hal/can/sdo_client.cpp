@@ -53,27 +53,33 @@ void SdoClient::ask(const CanFrame& request) {
 void SdoClient::download(std::uint8_t node, std::uint16_t index, std::uint8_t sub,
                          std::uint32_t value, std::uint8_t bytes, std::int64_t now_ns) {
   assert(bytes >= 1 && bytes <= kExpeditedBytes);
-  std::array<std::uint8_t, kExpeditedBytes> data{};
-  store(data, 0, value);
-  download_bytes(node, index, sub, data.data(), std::min<std::size_t>(bytes, data.size()), now_ns);
+  begin(node, index, sub, now_ns);
+  size_ = std::min<std::size_t>(bytes, kExpeditedBytes);
+  store(data_, 0, value & (~std::uint32_t{0} >> 8 * (kExpeditedBytes - size_)));
+  send_expedited();
 }
 
 void SdoClient::download_bytes(std::uint8_t node, std::uint16_t index, std::uint8_t sub,
                                const std::uint8_t* bytes, std::size_t size, std::int64_t now_ns) {
   begin(node, index, sub, now_ns);
   if (size > kCapacity) return end(SdoAbort::kTooLong, Cause::kValue);  // no abort to the node
+  store(data_, 0, std::uint32_t{0});
   std::copy_n(bytes, size, data_.begin());
   size_ = size;
+  if (size >= 1 && size <= kExpeditedBytes) return send_expedited();
   phase_ = Phase::kWrite;
-  if (size >= 1 && size <= kExpeditedBytes) {
-    CanFrame request =
-        frame(kDownload | kSizeGiven | kExpedited | unused(kExpeditedBytes, size, kUnusedShift));
-    std::copy_n(bytes, size, request.data.begin() + kDataAt);
-    sent_ = size;
-    return ask(request);
-  }
   CanFrame request = frame(kDownload | kSizeGiven);
   store(request.data, kDataAt, static_cast<std::uint32_t>(size));
+  ask(request);
+}
+
+/// Sends the whole object, of 1 to 4 bytes; those behind it are 0.
+void SdoClient::send_expedited() {
+  phase_ = Phase::kWrite;
+  CanFrame request =
+      frame(kDownload | kSizeGiven | kExpedited | unused(kExpeditedBytes, size_, kUnusedShift));
+  store(request.data, kDataAt, load<std::uint32_t>(data_, 0));
+  sent_ = size_;
   ask(request);
 }
 

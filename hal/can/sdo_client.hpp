@@ -81,6 +81,7 @@ class SdoClient {
   CanFrame frame(std::uint8_t command) const;
   void ask(const CanFrame& request);
   void ask_for_segment();
+  void send_expedited();
   void send_segment();
   void take_downloaded(const CanFrame& answer);
   void take_segment_downloaded(const CanFrame& answer);
