@@ -43,17 +43,33 @@ CycleDesk::CycleDesk(CycleMail& mail, Executive& executive, Pipeline& pipeline)
 }
 
 void CycleDesk::work(Status status) {
+  watch_faults();
   const bool begins = waits_ && !executive_.busy();
   if (begins || status == Status::kArming) {
-    waits_ = false;
-    const Status armed = executive_.arm();
-    if (armed != Status::kArming) finish(armed);
+    if (mail_.orders.size() == 0) arm();
   } else if (rearm_ != 0 && !waits_) {
     finish(status);  // arming has ended otherwise
   }
   end_tare();
   take_parameters();
   take_order();
+}
+
+/// A rearm that was asked for before a fault does not undo it.
+void CycleDesk::watch_faults() {
+  const bool refused = refuses(executive_.rung());
+  const bool fault = refused && !refused_ && executive_.latched() != Status::kHalted;
+  refused_ = refused;
+  if (!fault) return;
+  ++faults_;
+  if (waits_) finish(Status::kEpochVoid);
+}
+
+/// Not while orders wait: one of them may be a Stop, which the rearm must not come before.
+void CycleDesk::arm() {
+  waits_ = false;
+  const Status armed = executive_.arm();
+  if (armed != Status::kArming) finish(armed);
 }
 
 /// The result of a rearm that is under way.
@@ -76,6 +92,10 @@ void CycleDesk::take_order() {
   }
   if (message.order == CycleOrder::kTare) return begin_tare(message.id);
   finish(Status::kHalted);  // a rearm that a newer one replaces
+  if (message.faults != faults_) {
+    static_cast<void>(mail_.results.post({message.id, {Status::kEpochVoid}}));
+    return;
+  }
   rearm_ = message.id;
   waits_ = true;
 }
@@ -139,6 +159,7 @@ void CycleDesk::tell(const CycleTime& now) {
   told.slips = executive_.telemetry().slips;
   told.overruns = executive_.telemetry().overruns;
   told.lost = lost_;
+  told.faults = faults_;
   told.rung = static_cast<std::uint8_t>(executive_.rung());
   told.phase = static_cast<std::uint8_t>(motion.phase);
   told.status = executive_.latched();

@@ -23,6 +23,7 @@ enum class CycleOrder : std::uint8_t {
 struct OrderMessage {
   std::uint32_t id = 0;
   CycleOrder order = CycleOrder::kStop;
+  std::uint32_t faults = 0;  ///< of the newest snapshot that its sender had
 };
 struct OrderResult {
   std::uint32_t id = 0;
@@ -43,7 +44,8 @@ struct CycleSnapshot {
   std::int64_t stamp_ns = 0;  ///< its begin
   double time_s = 0.0;        ///< of the generator
   std::uint32_t cycle = 0, slips = 0, overruns = 0;
-  std::uint32_t lost = 0;  ///< snapshots for which there was no space, up to now
+  std::uint32_t lost = 0;    ///< snapshots for which there was no space, up to now
+  std::uint32_t faults = 0;  ///< that have stopped an arm which took references, up to now
   std::uint8_t rung = 0, phase = 0, has = 0;
   Status status = Status::kOk;
   const char *first = nullptr, *second = nullptr;  ///< names of what collides; null: nothing

@@ -191,7 +191,7 @@ Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
   const bool space = what == CycleOrder::kStop ||
                      (static_cast<std::ptrdiff_t>(mail_.orders.space()) > kForStops &&
                       std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
-  if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what}))
+  if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what, newest_.faults}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
   *free = {next_order_, from, what};
   next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;

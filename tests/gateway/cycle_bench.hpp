@@ -29,6 +29,10 @@ struct ObedientHal final : Hal {
   Status write(const RobotCommand& sent) override {
     command = sent;
     if (sent.request == DriveRequest::kFollow) state.q = sent.value;
+    const bool off = sent.request == DriveRequest::kDisable;
+    for (Drive& drive : state.drives)
+      if (!off || drive.state != DriveState::kFault)
+        drive.state = off ? DriveState::kDisabled : DriveState::kEnabled;
     return Status::kOk;
   }
   Status disconnect() override { return Status::kOk; }
