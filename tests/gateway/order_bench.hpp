@@ -17,6 +17,7 @@ struct OrderClient {
   struct Message {
     Asked asked;
     std::uint32_t told = 0;  // the newest stop that its client knew of
+    int place = 0;           // among all messages that came
     bool taken = false, final = false;
   };
   int slot = -1, session = 0;
@@ -32,7 +33,8 @@ struct OrderWorld {
   std::array<OrderClient, kClients> clients;
   std::int64_t late_ns = 0;  // of the server's clock before the cycle's
   bool moved = false;
-  std::uint64_t digest = 0;  // of everything that was told
+  int places = 0, executed = 0;  // of messages; of the newest control that was executed
+  std::uint64_t digest = 0;      // of everything that was told
 };
 
 class OrderBench {
@@ -54,7 +56,7 @@ class OrderBench {
   /// A client composes a message, which its link holds up.
   void send(int client, const Asked& asked) {
     OrderClient& its = world.clients[static_cast<std::size_t>(client)];
-    if (its.there()) its.messages[++its.sent] = {asked, its.told};
+    if (its.there()) its.messages[++its.sent] = {asked, its.told, 0, false, false};
   }
   bool holds_up(int client) const {
     const OrderClient& its = world.clients[static_cast<std::size_t>(client)];
@@ -67,6 +69,7 @@ class OrderBench {
     push(its, its.arrived, message);
     world.model.begin_turn();
     const Status expected = world.model.take(its.session, message.asked, message.told, now_ns());
+    message.place = ++world.places;
     message.taken = expected == Status::kOk;
     message.final = !message.taken || !has_report(message.asked.kind);
     expected_ = &its;
@@ -99,7 +102,7 @@ class OrderBench {
     its.session = static_cast<int>(cycles.next_session++);
     its.slot = cycles.server->open(static_cast<std::uint64_t>(its.session), now_ns());
     const std::uint32_t number = ++its.sent;
-    its.messages[number] = {{}, 0, true, true};
+    its.messages[number] = {{}, 0, 0, true, true};
     its.arrived = its.answered = number;
     RawMessage& hello = whole_;
     hello.size = 0;
@@ -107,7 +110,7 @@ class OrderBench {
     push_bytes(its, hello);
     hello.size = 0;
     const std::uint32_t watch = its.answered = its.arrived = ++its.sent;
-    its.messages[watch] = {{}, 0, true, true};
+    its.messages[watch] = {{}, 0, 0, true, true};
     hello.number(1, watch).message(ask::kSubscribe, RawMessage().number(1, 1));
     push_bytes(its, hello);
     world.model.begin_turn();
@@ -182,7 +185,7 @@ class OrderBench {
   void send_trajectory() {
     OrderClient& its = world.clients[0];
     const auto push = [&](std::uint32_t kind, const RawMessage& body) {
-      its.messages[++its.sent] = {{kind}, 0, true, true};
+      its.messages[++its.sent] = {{kind}, 0, 0, true, true};
       its.answered = its.arrived = its.sent;
       whole_.size = 0;
       push_bytes(its, whole_.number(1, its.sent).message(kind, body));
@@ -267,7 +270,8 @@ class OrderBench {
     const bool executed = value[2] == kExecuted;
     assert_true(executed || words);
     if (message.asked.kind == ask::kStop) assert_true(executed);
-    if (!executed) return;
+    if (!executed || message.place < world.executed || by_order(message)) return;
+    world.executed = message.place;  // clients are read one after the other
     if (message.asked.kind == ask::kPause) world.model.paused = true;
     if (message.asked.kind == ask::kResume) world.model.paused = false;
     if (message.asked.kind == ask::kOverride) world.model.executed_override = message.asked.rate;
