@@ -33,8 +33,9 @@ struct OrderWorld {
   std::array<OrderClient, kClients> clients;
   std::int64_t late_ns = 0;  // of the server's clock before the cycle's
   bool moved = false;
-  int places = 0, executed = 0;  // of messages; of the newest control that was executed
-  std::uint64_t digest = 0;      // of everything that was told
+  int places = 0;                 // of messages
+  std::array<int, 2> executed{};  // place of the newest override, and of the newest other control
+  std::uint64_t digest = 0;       // of everything that was told
 };
 
 class OrderBench {
@@ -270,8 +271,9 @@ class OrderBench {
     const bool executed = value[2] == kExecuted;
     assert_true(executed || words);
     if (message.asked.kind == ask::kStop) assert_true(executed);
-    if (!executed || message.place < world.executed || by_order(message)) return;
-    world.executed = message.place;  // clients are read one after the other
+    int& newest = world.executed[message.asked.kind == ask::kOverride ? 0 : 1];
+    if (!executed || message.place < newest || by_order(message)) return;
+    newest = message.place;  // clients are read one after the other
     if (message.asked.kind == ask::kPause) world.model.paused = true;
     if (message.asked.kind == ask::kResume) world.model.paused = false;
     if (message.asked.kind == ask::kOverride) world.model.executed_override = message.asked.rate;
