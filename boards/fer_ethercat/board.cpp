@@ -18,11 +18,17 @@ Status configure(const EthercatSections& sections, const Pipeline& pipeline, con
 
 WireCounts counts() {
   const ethercat::LineCounts& line = hal.master().counts();
-  return {{{"frames", line.frames},
-           {"lost", line.lost},
-           {"late", line.late},
-           {"wrong_counter", line.counter},
-           {"strange", line.strange}}};
+  const ethercat::Sync0Watch& sync0 = hal.master().sync0();
+  WireCounts counts = {{{"frames", line.frames},
+                        {"lost", line.lost},
+                        {"late", line.late},
+                        {"wrong_counter", line.counter},
+                        {"strange", line.strange}}};
+  if (!sync0.known()) return counts;
+  counts[5] = {"after_sync0", sync0.without_frame()};
+  counts[6] = {"clocks_apart_ns", hal.master().apart_ns()};
+  counts[7] = {"before_sync0_us", sync0.least_ns() / 1000, sync0.most_ns() / 1000};
+  return counts;
 }
 
 Message written(int n) {

@@ -1,7 +1,8 @@
 // ClockSteer: keeps the moments at which frames are sent in step with the reference clock of the
 // segment: a phase-locked loop over the reference time that comes back with every frame.
 //
-//   e_k = (t_k - t_0) mod T, from -T/2 to T/2        t_k: reference time of frame k, T: the period
+//   e_k = (t_k - t_0) mod T, from -T/2 to T/2        t_k: reference time of frame k, T: the period,
+//                                                    t_0: that of the first, or given
 //   correction_k = -(kp e_k + ki sum e)              added to the period until the next frame
 #pragma once
 
@@ -22,17 +23,27 @@ class ClockSteer {
     sum_ns_ = 0.0;
     correction_ns_ = error_ns_ = 0;
   }
-  /// Takes the reference time of a frame. [cyclic]
-  void take(std::int64_t reference_ns) {
-    if (!known_) begin_ns_ = reference_ns;
+  /// Begins with a phase: frames are to be sent whole periods from `phase_ns`, t_0. [init]
+  void start(std::int64_t period_ns, std::int64_t phase_ns) {
+    start(period_ns);
+    begin_ns_ = phase_ns;
     known_ = true;
+  }
+  /// Phase error of a frame by its reference time, ns. [cyclic]
+  std::int64_t error_of(std::int64_t reference_ns) const {
     // The time of a segment may be any number.
     const auto since = static_cast<std::int64_t>(static_cast<std::uint64_t>(reference_ns) -
                                                  static_cast<std::uint64_t>(begin_ns_));
     std::int64_t error = since % period_ns_;
     if (error > period_ns_ / 2) error -= period_ns_;
     if (error < -period_ns_ / 2) error += period_ns_;
-    error_ns_ = error;
+    return error;
+  }
+  /// Takes the reference time of a frame. [cyclic]
+  void take(std::int64_t reference_ns) {
+    if (!known_) begin_ns_ = reference_ns;
+    known_ = true;
+    const std::int64_t error = error_ns_ = error_of(reference_ns);
     const double most_ns = kMostShare * static_cast<double>(period_ns_);
     sum_ns_ = within(sum_ns_ + kIntegral * static_cast<double>(error), most_ns);
     const double whole_ns = kProportional * static_cast<double>(error) + sum_ns_;

@@ -1,5 +1,7 @@
 #include "hal/ethercat/ethercat_hal.hpp"
 
+#include <algorithm>
+
 #include "hal/net/deadline.hpp"
 #include "kernel/core/loop_bound.hpp"
 
@@ -34,15 +36,16 @@ Status EthercatHal::connect(CommandMode mode) {
 
 Status EthercatHal::start_up() {
   const Deadline deadline(ethercat_->connect_ms);
-  const std::int64_t whole_ns = deadline.left_ns();
+  began_ns_ = Deadline::now_ns();
   master_.connect(socket_.address(), 0);
   while (deadline.left_ns() > 0) {
     receive();
     TRY(judge_link());
-    const Status status = master_.connecting(whole_ns - deadline.left_ns());
+    const Status status = master_.connecting(Deadline::now_ns() - began_ns_);
     send();
     if (status != Status::kArming) return status;
-    if (socket_.wait(kAnswer_ns)) continue;
+    const std::int64_t due_ns = master_.until_due_ns(Deadline::now_ns() - began_ns_);
+    if (socket_.wait(due_ns > 0 ? std::min(due_ns, kAnswer_ns) : kAnswer_ns)) continue;
     master_.why() = Message("a signal ended the start-up; no drive was enabled");
     return Status::kHalted;
   }

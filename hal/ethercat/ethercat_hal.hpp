@@ -59,6 +59,7 @@ class EthercatHal final : public Hal, private Clock {
   Frame frame_;
   Status fault_ = Status::kNotStarted;  // of the wire
   std::int64_t now_ns_ = -1;            // of the last cycle; -1: there was none
+  std::int64_t began_ns_ = 0;           // of the last start-up
   std::int64_t planned_ns_ = -1;        // beginning of the last cycle; -1: there was none
 };
 

@@ -19,7 +19,7 @@ constexpr int kMostWaits = 100;  // for the frame of a cycle, as others may come
 Status EthercatHal::wait(CycleTime& now) {
   const std::int64_t period_ns = std::int64_t{1000} * master_.period_us();
   const std::int64_t before_ns = Deadline::now_ns();
-  if (planned_ns_ < 0) planned_ns_ = before_ns;
+  if (planned_ns_ < 0) planned_ns_ = began_ns_ + master_.in_step(before_ns - began_ns_);
   planned_ns_ += period_ns + master_.steer().correction();
   if (planned_ns_ < before_ns)
     planned_ns_ += ((before_ns - planned_ns_) / period_ns + 1) * period_ns;

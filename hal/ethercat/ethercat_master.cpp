@@ -20,6 +20,7 @@ Status EthercatMaster::configure(const EthercatSettings& ethercat,
   period_us_ = period_us;
   phase_ = Phase::kOff;
   TRY(judge_places());
+  TRY(judge_times());
   return drives_.configure(drive, tool, period_us, arming_ms, why_);
 }
 
@@ -40,6 +41,16 @@ Status EthercatMaster::judge_places() {
       return Status::kBadValue;
     }
     taken[static_cast<std::size_t>(number - 1)] = true;
+  }
+  return Status::kOk;
+}
+
+Status EthercatMaster::judge_times() {
+  why_ = Message("[ethercat] ");
+  if (ethercat_->sync0_us >= period_us_) {
+    why_ << "sync0_us is " << ethercat_->sync0_us << ", which must be less than the period of "
+         << period_us_ << " us";
+    return Status::kBadValue;
   }
   const int timeout_ms = ethercat_->timeout_ms(period_us_);
   if (1000 * timeout_ms <= 2 * period_us_) {
@@ -68,9 +79,10 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
   if (status != Status::kOk) return status;
   phase_ = Phase::kOperates;
   since_ns_ = now_ns;
-  sent_ns_ = now_ns - std::int64_t{1000} * period_us_;
+  sent_ns_ = now_ns - period_ns();
+  due_ns_ = now_ns;
   cyclic_.start(startup_.image(), startup_.has_clocks(), startup_.exchange().source());
-  steer_.start(std::int64_t{1000} * period_us_);
+  start_steering();
   start_clock(slack_ns());
   port_.reset();
   coe_.cancel();
@@ -79,10 +91,11 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
 
 /// Cycles with outputs that move nothing; then OP is requested, and awaited.
 Status EthercatMaster::operating(std::int64_t now_ns) {
-  if (now_ns - sent_ns_ < std::int64_t{1000} * period_us_) return Status::kArming;
+  if (now_ns < due_ns_) return Status::kArming;
   const CyclicFrame::Came came = close_cycle(sent_ns_, now_ns);
   sent_ns_ = now_ns;
-  if (cyclic_.missing() * std::int64_t{1000} * period_us_ > kSilence_ns) return startup_.silent();
+  due_ns_ = in_step(now_ns + period_ns());
+  if (cyclic_.missing() * period_ns() > kSilence_ns) return startup_.silent();
   bool all = true;
   for (const Slave& slave : slaves_) all = all && slave.al_status == kOperational;
   steady_ = came == CyclicFrame::Came::kInputs && all ? steady_ + 1 : 0;

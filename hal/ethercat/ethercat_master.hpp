@@ -13,6 +13,7 @@
 #include "hal/ethercat/cyclic_frame.hpp"
 #include "hal/ethercat/reference_clock.hpp"
 #include "hal/ethercat/startup.hpp"
+#include "hal/ethercat/sync0_watch.hpp"
 
 namespace tactus::ethercat {
 
@@ -58,6 +59,17 @@ class EthercatMaster {
   Message label(int joint) const { return ethercat::label(joint, slave(joint)); }
   const LineCounts& counts() const { return cyclic_.counts(); }
   const ClockSteer& steer() const { return steer_; }
+  /// With SYNC0: how the frames of the cycles came before it; without: nothing has been seen. [any]
+  const Sync0Watch& sync0() const { return sync0_; }
+  /// As Startup::apart_ns(). [any]
+  std::int64_t apart_ns() const { return startup_.apart_ns(); }
+  /// The moment next to `near_ns`, in the time of connecting(), at which a frame is in step with
+  /// SYNC0; without SYNC0 any is. [init]
+  std::int64_t in_step(std::int64_t near_ns) const;
+  /// Time until connecting() sends its next frame by itself, ns; 0: it waits for an answer. [init]
+  std::int64_t until_due_ns(std::int64_t now_ns) const {
+    return phase_ == Phase::kOperates ? std::max(due_ns_ - now_ns, std::int64_t{0}) : 0;
+  }
   cia402::Phase phase() const { return drives_.phase(); }
   /// Leaves a frame that takes all slaves to INIT; the exchange is over. [any]
   void leave();
@@ -81,11 +93,11 @@ class EthercatMaster {
   static constexpr int kAgain = 100;    // cycles after which it is requested again
   static constexpr int kMostUnanswered = 2;
 
-  std::int64_t slack_ns() const {
-    return std::int64_t{1000} * period_us_ * (drive_->max_missed + 1);
-  }
+  std::int64_t period_ns() const { return std::int64_t{1000} * period_us_; }
+  std::int64_t slack_ns() const { return period_ns() * (drive_->max_missed + 1); }
   // ethercat_master.cpp
   Status judge_places();
+  Status judge_times();
   Status operating(std::int64_t now_ns);
   void take_cycle();
   void take_state();
@@ -94,6 +106,7 @@ class EthercatMaster {
   // ethercat_modes.cpp
   void carry_request();
   void start_clock(std::int64_t slack_ns);
+  void start_steering();
   CyclicFrame::Came close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
   Message clock_text() const;
   Status not_operating();
@@ -110,6 +123,7 @@ class EthercatMaster {
   CyclicFrame cyclic_;
   ClockSteer steer_;
   ReferenceClock clock_;
+  Sync0Watch sync0_;
   cia402::Drives drives_;
   cia402::DriveCommands commands_;
   Phase phase_ = Phase::kOff;
@@ -117,7 +131,8 @@ class EthercatMaster {
   bool has_out_ = false, arrived_ = false, own_extra_ = false;
   bool stops_ = false;  // the drives are to be disabled
   int steady_ = 0, cycles_ = 0;
-  std::int64_t since_ns_ = 0, sent_ns_ = 0;
+  std::int64_t since_ns_ = 0, sent_ns_ = 0, due_ns_ = 0;
+  std::int64_t in_step_ns_ = 0;  // when a frame was, or would have been, in step with SYNC0
   std::int64_t now_ns_ = -1, sampled_ns_ = 0;
   int asked_ = 0;    // slave whose state is read
   int boxed_ = 0;    // slave whose mailbox is served

@@ -35,16 +35,37 @@ void EthercatMaster::start_clock(std::int64_t slack_ns) {
   clock_.start(has_64_bits, slack_ns);
 }
 
+void EthercatMaster::start_steering() {
+  steer_.start(period_ns());
+  sync0_ = {};
+  if (!ethercat_->has_sync0()) return;
+  steer_.start(period_ns(), startup_.phase_ns());
+  sync0_.start(period_ns(), startup_.phase_ns(), std::int64_t{1000} * ethercat_->sync0_us);
+  in_step_ns_ = sent_ns_;
+}
+
+std::int64_t EthercatMaster::in_step(std::int64_t near_ns) const {
+  if (!ethercat_->has_sync0()) return near_ns;
+  const std::int64_t half_ns = period_ns() / 2;
+  const std::int64_t rest_ns = (near_ns - in_step_ns_ + half_ns) % period_ns();
+  return near_ns + half_ns - rest_ns - (rest_ns < 0 ? period_ns() : 0);
+}
+
 /// Closes the cycle of a frame that was sent after `sent_ns`. One whose clock does not run is
 /// an old one: its inputs are none.
 CyclicFrame::Came EthercatMaster::close_cycle(std::int64_t sent_ns, std::int64_t now_ns) {
   const CyclicFrame::Came came = cyclic_.close();
   arrived_ = came != CyclicFrame::Came::kNothing;
+  const bool runs = phase_ == Phase::kRuns;
+  if (runs) sync0_.count_frame();
   if (arrived_) take_state();
   if (!arrived_ || !cyclic_.has_reference()) return came;
   if (clock_.take(cyclic_.reference_ns(), sent_ns, now_ns) != ReferenceClock::Verdict::kRuns)
     return CyclicFrame::Came::kNothing;
-  if (phase_ == Phase::kRuns) steer_.take(clock_.time_ns());
+  const std::int64_t reference_ns = clock_.time_ns();
+  if (!runs) in_step_ns_ = sent_ns - steer_.error_of(reference_ns);
+  if (runs) steer_.take(reference_ns);
+  if (runs && ethercat_->has_sync0()) sync0_.take(reference_ns);
   return came;
 }
 
@@ -70,8 +91,7 @@ Status EthercatMaster::not_operating() {
     why_ = label(j);
     why_ << ": is in " << name(static_cast<AlState>(slave.al_status & kAlStateBits))
          << ", not in OP, after [ethercat] state_ms, " << ethercat_->state_ms
-         << " ms: " << al_code_text(slave.al_code) << " ("
-         << std::string_view(cia402::hex(slave.al_code)) << ")";
+         << " ms: " << std::string_view(startup_.code_text(slave.al_code));
     return Status::kRefusedByRobot;
   }
   if (cyclic_.exchanged()) {

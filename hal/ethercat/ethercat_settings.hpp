@@ -21,12 +21,17 @@ struct EthercatSettings {
   /// the cycles are a period apart by their stamps, however long they take: for an emulated
   /// segment.
   int frame_wait_ms = 0;
+  /// SYNC0 comes this long after the moment at which frames are sent; -1: there is none, and the
+  /// drives are synchronized by the frame.
+  int sync0_us = -1;
   double vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any
 
   /// Time-out of the process data, ms. [init]
   int timeout_ms(int period_us) const {
     return watchdog_ms > 0 ? watchdog_ms : (10 * period_us + 999) / 1000;
   }
+
+  bool has_sync0() const { return sync0_us >= 0; }
 
   template <class Visitor>
   void describe(Visitor& visit) {
@@ -38,6 +43,7 @@ struct EthercatSettings {
     visit.param("clock_frames", clock_frames, Range{0.0, 100000.0}, "1");
     visit.param("watchdog_ms", watchdog_ms, Range{0.0, 6000.0}, "ms");
     visit.param("frame_wait_ms", frame_wait_ms, Range{0.0, 1000.0}, "ms");
+    visit.param("sync0_us", sync0_us, Range{-1.0, 1000000.0}, "us");
     visit.param("vendor", vendor, Range{0.0, 4294967295.0}, "1");
     visit.param("product", product, Range{0.0, 4294967295.0}, "1");
   }

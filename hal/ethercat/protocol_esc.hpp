@@ -34,6 +34,9 @@ inline constexpr std::uint16_t kDcControlReg = 0x0980, kSyncStartReg = 0x0990,
                                kSyncCycleReg = 0x09A0;
 inline constexpr std::uint16_t kRam = 0x1000;
 
+/// kDcControlReg: the cyclic unit runs, and gives SYNC0.
+inline constexpr std::uint16_t kSync0On = 0x0300;
+
 // Features, kFeaturesReg.
 inline constexpr std::uint16_t kHasClock = 0x0004, kHasLongClock = 0x0008, kNoLrw = 0x0200;
 
@@ -72,7 +75,8 @@ struct AlCodeText {
 inline constexpr std::uint16_t kAlInvalidChange = 0x0011, kAlUnknownState = 0x0012,
                                kAlMailboxSetup = 0x0016, kAlSmSetup = 0x0017, kAlNoOutputs = 0x0019,
                                kAlWatchdog = 0x001B, kAlOutputSetup = 0x001D,
-                               kAlInputSetup = 0x001E;
+                               kAlInputSetup = 0x001E, kAlNoSync = 0x002D, kAlSyncSetup = 0x0030,
+                               kAlSyncCycle = 0x0035, kAlSync0Cycle = 0x0036;
 
 inline constexpr AlCodeText kAlCodes[] = {
     {0x0000, "no error"},
@@ -131,6 +135,11 @@ constexpr const char* al_code_text(std::uint16_t code) {
   for (const AlCodeText& row : kAlCodes)
     if (row.code == code) return row.text;
   return "unknown";
+}
+
+/// True if a drive says with this code that SYNC0 is missing, or does not have its period. [any]
+constexpr bool concerns_sync0(std::uint16_t code) {
+  return code == kAlNoSync || code == kAlSyncSetup || code == kAlSyncCycle || code == kAlSync0Cycle;
 }
 
 // A sync manager: start u16, length u16, control, status, activate, PDI control.

@@ -10,6 +10,10 @@ namespace {
 constexpr std::uint32_t kRampThenOff = 2;  // quick stop and fault reaction: the quick-stop ramp
 constexpr std::uint32_t kFaultOnLostMaster = 1;  // abort of the connection
 
+// Types of synchronization (ETG.1020).
+constexpr std::uint16_t kOutputSync = 0x1C32, kInputSync = 0x1C33;
+constexpr std::uint32_t kBySync0 = 2;
+
 }  // namespace
 
 void SlaveSetup::begin(const EthercatSettings& ethercat, CommandMode mode, int period_us) {
@@ -17,6 +21,7 @@ void SlaveSetup::begin(const EthercatSettings& ethercat, CommandMode mode, int p
   identity(ethercat, mode);
   facts();
   options(mode, period_us);
+  if (ethercat.has_sync0()) sync0();
   pdo(kRxAssign, kRxMapping, wanted_outputs(mode));
   pdo(kTxAssign, kTxMapping, wanted_inputs());
 }
@@ -64,6 +69,11 @@ void SlaveSetup::options(CommandMode mode, int period_us) {
   // Where it is mapped, the cycle writes it too; arming asks for its display.
   write(cia402::kModeOfOperation, static_cast<std::uint8_t>(cia402::mode_of(mode)),
         "mode of operation");
+}
+
+void SlaveSetup::sync0() {
+  write(kOutputSync, 1, 2, kBySync0, "synchronization of the outputs");
+  write(kInputSync, 1, 2, kBySync0, "synchronization of the inputs");
 }
 
 void SlaveSetup::pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted) {

@@ -43,6 +43,7 @@ void Startup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settin
   coe_.cancel();
   port_.reset();
   has_clocks_ = image_.lrw = true;
+  phase_ns_ = apart_ns_ = 0;
   enter(Stage::kCount);
   exchange_.ask(request(), now_ns);
 }
@@ -113,6 +114,7 @@ Request Startup::request() {
     case Stage::kSetup:
     case Stage::kMapping: return port_.next(at().boxes, kMaxData);
     case Stage::kProcessData: return process_request();
+    case Stage::kSync0: return sync0_request();
     case Stage::kSafeop: return state_request(AlState::kSafeop);
     default: return clock_request();
   }
@@ -150,6 +152,7 @@ Status Startup::take(const Answer& answer) {
       at().features = answer.word(8);
       image_.lrw = image_.lrw && (at().features & kNoLrw) == 0;
       has_clocks_ = has_clocks_ && at().has_clock();
+      TRY(judge_clock());
       stage_ = Stage::kEeprom;
       step_ = 0;
       eeprom_.begin(at().boxes.station, kSiiVendor);
@@ -167,6 +170,7 @@ Status Startup::take(const Answer& answer) {
     case Stage::kSetup:
     case Stage::kMapping: return take_mailbox(answer);
     case Stage::kProcessData: return take_process_data();
+    case Stage::kSync0: return take_sync0(answer);
     case Stage::kSafeop: return await_state(answer, AlState::kSafeop);
     default: return take_times(answer);
   }
@@ -205,8 +209,7 @@ Status Startup::await_state(const Answer& answer, AlState state) {
   }
   const std::uint16_t status = answer.word(), code = answer.word(4);
   if (answer.counter == 1 && (status & kAlErrorBit) != 0) {
-    what << "refuses " << name(state) << ": " << al_code_text(code) << " ("
-         << std::string_view(cia402::hex(code)) << ")";
+    what << "refuses " << name(state) << ": " << std::string_view(code_text(code));
     return refuse(Status::kRefusedByRobot, what);
   }
   if (answer.counter == 1 && status == static_cast<std::uint16_t>(state)) {

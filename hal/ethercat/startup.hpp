@@ -49,6 +49,13 @@ class Startup {
   const cia402::Learnt& learnt() const { return learnt_; }
   /// True if all slaves have a clock. [any]
   bool has_clocks() const { return has_clocks_; }
+  /// With SYNC0: a reference time from which frames are to be sent whole periods apart, ns. [any]
+  std::int64_t phase_ns() const { return phase_ns_; }
+  /// With SYNC0: the largest distance of a clock to that of the first slave after they have been
+  /// steered, ns. [any]
+  std::int64_t apart_ns() const { return apart_ns_; }
+  /// An AL status code in words, and what helps: "no valid outputs (0019h)". [init]
+  Message code_text(std::uint16_t code) const;
 
  private:
   enum class Stage : std::uint8_t {
@@ -70,6 +77,7 @@ class Startup {
     kOffsets,
     kFilter,
     kSteer,
+    kSync0,
     kSafeop,
     kDone
   };
@@ -112,6 +120,13 @@ class Startup {
   Request clock_request() const;
   Status take_times(const Answer& answer);
   void set_delays();
+  // startup_sync0.cpp
+  Status judge_clock();
+  Request sync0_request() const;
+  Status take_sync0(const Answer& answer);
+  Status judge_difference(std::uint32_t shown);
+  Status judge_start(std::int64_t reference_ns);
+  void plan_start(std::int64_t reference_ns);
 
   Slave& at() { return slaves_[static_cast<std::size_t>(order_[static_cast<std::size_t>(at_)])]; }
   const Slave& at() const {
@@ -146,6 +161,8 @@ class Startup {
   MappingReader mapping_;
   ImageShape image_;
   bool has_clocks_ = false;
+  std::int64_t phase_ns_ = 0, apart_ns_ = 0;
+  std::int64_t start_ns_ = 0;  // of SYNC0 of the present slave
 };
 
 }  // namespace tactus::ethercat

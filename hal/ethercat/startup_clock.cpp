@@ -31,6 +31,7 @@ Request Startup::clock_request() const {
 
 /// Also the stages around it.
 Status Startup::take_times(const Answer& answer) {
+  const Stage steered = ethercat_->has_sync0() ? Stage::kSync0 : Stage::kSafeop;
   switch (stage_) {
     case Stage::kLatch: enter(Stage::kTimes); break;
     case Stage::kTimes:
@@ -41,9 +42,9 @@ Status Startup::take_times(const Answer& answer) {
       if (stage_ == Stage::kOffsets) set_delays();
       break;
     case Stage::kOffsets: next_slave(Stage::kOffsets, Stage::kFilter); break;
-    case Stage::kFilter: enter(ethercat_->clock_frames > 0 ? Stage::kSteer : Stage::kSafeop); break;
+    case Stage::kFilter: enter(ethercat_->clock_frames > 0 ? Stage::kSteer : steered); break;
     default:
-      if (++step_ >= ethercat_->clock_frames) enter(Stage::kSafeop);
+      if (++step_ >= ethercat_->clock_frames) enter(steered);
   }
   return Status::kOk;
 }

@@ -76,7 +76,11 @@ void write_wire(std::FILE* file, const Session& session) {
   const char* separator = "  \"wire\": {";
   for (const WireCount& count : session.counts()) {
     if (count.name == nullptr) break;
-    std::fprintf(file, "%s\"%s\": %" PRId64, separator, count.name, count.value);
+    std::fprintf(file, "%s\"%s\": ", separator, count.name);
+    if (count.most < 0)
+      std::fprintf(file, "%" PRId64, count.value);
+    else
+      std::fprintf(file, "[%" PRId64 ", %" PRId64 "]", count.value, count.most);
     separator = ", ";
   }
   std::fprintf(file, "},\n");
@@ -87,7 +91,9 @@ void print_wire(const Session& session) {
   const char* separator = "  wire: ";
   for (const WireCount& count : session.counts()) {
     if (count.name == nullptr) break;
-    std::printf("%s%" PRId64 " %s", separator, count.value, count.name);
+    std::printf("%s%" PRId64, separator, count.value);
+    if (count.most >= 0) std::printf(" to %" PRId64, count.most);
+    std::printf(" %s", count.name);
     separator = ", ";
   }
   std::printf("\n");

@@ -9,7 +9,8 @@ namespace tactus {
 struct WireCount {
   const char* name = nullptr;  ///< null: there is none
   std::int64_t value = 0;
+  std::int64_t most = -1;  ///< `value` to `most` is a range; -1: it is a number
 };
-using WireCounts = std::array<WireCount, 5>;
+using WireCounts = std::array<WireCount, 8>;
 
 }  // namespace tactus

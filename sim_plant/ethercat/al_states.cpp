@@ -1,4 +1,6 @@
 // DriveSlave: the states of the application layer (ETG.1000.6, EtherCAT state machine).
+#include <cmath>
+
 #include "sim_plant/ethercat/drive_slave.hpp"
 
 namespace tactus::segment {
@@ -54,10 +56,17 @@ std::uint16_t DriveSlave::judge(AlState to) const {
       const std::size_t out = objects_.process_data(true).bytes;
       const std::size_t in = objects_.process_data(false).bytes;
       if (!places_fit(2, places.outputs, out, true)) return kAlOutputSetup;
-      return places_fit(3, places.inputs, in, false) ? std::uint16_t{0} : kAlInputSetup;
+      return places_fit(3, places.inputs, in, false) ? judge_sync0() : kAlInputSetup;
     }
     default: return 0;
   }
+}
+
+std::uint16_t DriveSlave::judge_sync0() const {
+  if (!settings_.sync0) return 0;
+  if (!esc_.sync0()) return kAlSyncSetup;
+  const bool in_period = esc_.reg32(kSyncCycleReg) == std::llround(axis_.period_s() * 1e9);
+  return in_period ? std::uint16_t{0} : kAlSync0Cycle;
 }
 
 /// True if a sync manager is where the drive has it. Without bytes it is off.

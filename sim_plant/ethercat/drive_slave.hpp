@@ -17,6 +17,7 @@ struct SlaveSettings {
   EscClock clock;
   bool lrw = true;
   std::int64_t store_ns = 0;  ///< until 1010h:1 is answered
+  bool sync0 = false;         ///< it demands SYNC0, with the period of 60C2h
 };
 
 class DriveSlave {
@@ -54,6 +55,7 @@ class DriveSlave {
   // al_states.cpp
   void request(std::uint16_t control, std::int64_t now_ns);
   std::uint16_t judge(AlState to) const;
+  std::uint16_t judge_sync0() const;
   bool places_fit(std::size_t sm, std::uint16_t start, std::size_t length, bool written) const;
   void enter(AlState state);
   void refuse(std::uint16_t code);

@@ -30,7 +30,7 @@ void Esc::power_on(const SiiImage& image, const EscClock& clock, bool lrw) {
   image_ = &image;
   clock_ = clock;
   outputs_ns_ = -1;
-  requested_ = outputs_ = expired_ = latched_ = false;
+  requested_ = outputs_ = expired_ = latched_ = sync0_ = false;
   const std::uint8_t head[8] = {kType, kRevision, 0, 0, kFmmus, kSms, kRamKiB, kPorts};
   std::memcpy(memory_.data(), head, sizeof head);
   const unsigned features = kHasClock | kHasLongClock | (lrw ? 0U : kNoLrw);
@@ -143,6 +143,10 @@ std::uint16_t Esc::status() const {
 }
 std::uint16_t Esc::reg16(std::uint16_t reg) const {
   return get<std::uint16_t>(&memory_[reg]);
+}
+
+std::uint32_t Esc::reg32(std::uint16_t reg) const {
+  return get<std::uint32_t>(&memory_[reg]);
 }
 
 SyncManager Esc::sm(std::size_t i) const {

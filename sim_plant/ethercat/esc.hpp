@@ -2,7 +2,8 @@
 // FMMUs, EEPROM, clock and watchdog. Datagrams come from the wire, process() carries them out in
 // place; the other functions are for the application behind it. Time is passed in.
 //
-// What is not modelled: ports (the segment knows the line), EEPROM writes, SYNC and latch pins,
+// What is not modelled: ports (the segment knows the line), EEPROM writes, the pulses of SYNC0 and
+// SYNC1, latch pins,
 // interrupts of the frames, and the three buffers of a buffered sync manager, which are one.
 #pragma once
 
@@ -66,6 +67,9 @@ class Esc {
   std::uint16_t reg16(std::uint16_t reg) const;
   void set_line(bool last);
   EscClock& clock() { return clock_; }
+  /// True if SYNC0 is on, and its start time had not passed when it was switched on. [any]
+  bool sync0() const { return sync0_; }
+  std::uint32_t reg32(std::uint16_t reg) const;
 
  private:
   using Datagram = ethercat::Datagram;
@@ -92,7 +96,7 @@ class Esc {
   const SiiImage* image_ = nullptr;
   EscClock clock_;
   std::int64_t now_ns_ = 0, outputs_ns_ = -1, port_ns_ = 0;
-  bool requested_ = false, outputs_ = false, expired_ = false, latched_ = false;
+  bool requested_ = false, outputs_ = false, expired_ = false, latched_ = false, sync0_ = false;
 };
 
 }  // namespace tactus::segment

@@ -147,6 +147,12 @@ void Esc::after_write(std::size_t at, std::size_t size, const std::uint8_t* from
   if (covers(at, size, kTimeDelayReg + 3))
     clock_.set_delay(get<std::uint32_t>(&memory_[kTimeDelayReg]));
   if (covers(at, size, kTimeSpeedReg)) clock_.reset_filter();
+  if (covers(at, size, kDcControlReg + 1)) {
+    const std::uint64_t left = get<std::uint64_t>(&memory_[kSyncStartReg]) -
+                               static_cast<std::uint64_t>(clock_.system(now_ns_));
+    const bool on = (reg16(kDcControlReg) & kSync0On) == kSync0On;
+    sync0_ = on && (sync0_ || static_cast<std::int64_t>(left) > 0);
+  }
 }
 
 /// Reads of 8 bytes, never busy; what is not a read is refused.

@@ -29,6 +29,7 @@ Status Segment::load(const SegmentSettings& settings, std::int64_t now_ns) {
     slave.axis = drives::axis_settings(settings, static_cast<std::size_t>(i));
     slave.places = settings.places[static_cast<std::size_t>(i)];
     slave.lrw = !settings.no_lrw[static_cast<std::size_t>(i)];
+    slave.sync0 = settings.sync0[static_cast<std::size_t>(i)];
     slave.clock =
         EscClock(kApart_ns * (i + 1), i % 2 == 0 ? settings.drift_ppb : -settings.drift_ppb);
     slaves_[static_cast<std::size_t>(i)].power_on(slave);

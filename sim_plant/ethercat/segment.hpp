@@ -18,6 +18,7 @@ struct SegmentSettings : drives::DrivenArmSettings {
   int slaves = kDof;
   std::array<SmPlaces, kDof> places;  ///< of each slave
   std::array<bool, kDof> no_lrw{};    ///< slaves that do not have LRW
+  std::array<bool, kDof> sync0{};     ///< slaves that demand SYNC0
   std::int64_t drift_ppb = 20'000;    ///< of the clocks, alternately faster and slower
   std::uint64_t seed = 1;             ///< of faults by probability
 };

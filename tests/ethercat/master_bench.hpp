@@ -23,6 +23,7 @@ class WiredHal final : public Hal {
   int lose_every = 0;                  ///< frames of the start-up do not come back: each so many
   Frame sent;                          ///< the last one
   std::function<void(Frame&)> tamper;  ///< with frames that come back
+  std::function<void(Frame&)> change;  ///< those that are sent
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   Status connect(CommandMode) override {
@@ -39,7 +40,7 @@ class WiredHal final : public Hal {
       status = master.connecting(time_ns_ - began_ns);
       deliver();
     }
-    begin_ns_ = time_ns_ += period_ns;
+    begin_ns_ = time_ns_ = began_ns + master.in_step(time_ns_ + period_ns - began_ns);
     return fault_ = status;
   }
   Status read(const CycleTime& now, RobotState& state) override {
@@ -60,12 +61,14 @@ class WiredHal final : public Hal {
     return Status::kOk;
   }
   Message trouble() override { return master.trouble(); }
+  std::int64_t time_ns() const { return time_ns_; }  ///< of the segment
 
  private:
   void deliver() {
     Frame frame;
     while (master.take(frame)) {
       sent = frame;
+      if (change) change(frame);
       line.receive(frame, time_ns_);
       ++exchanges;
     }

@@ -45,7 +45,7 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
 }
 
 WireCounts counts() {
-  return {{{"frames", 4500}, {"lost", 3}}};
+  return {{{"frames", 4500}, {"lost", 3}, {"before_sync0_us", 412, 517}}};
 }
 
 // Proves CAN-15, ECAT-12.
@@ -72,7 +72,9 @@ void drives_that_did_not_confirm_end_a_run_that_reached_its_goal_with_exit_code_
   assert_true(has(file_of("a/summary.json"),
                   "\"result\": {\"code\": 1, \"name\": \"drives not disabled\", \"why\": \"no data "
                   "from the robot in time (96): joint 3: it has not confirmed\"}"));
-  assert_true(has(file_of("a/summary.json"), "  \"wire\": {\"frames\": 4500, \"lost\": 3},\n"));
+  assert_true(
+      has(file_of("a/summary.json"),
+          "  \"wire\": {\"frames\": 4500, \"lost\": 3, \"before_sync0_us\": [412, 517]},\n"));
   assert_true(doubtful().threads_at_the_end > 1);
   assert_int_equal(threads(), 1);
 }

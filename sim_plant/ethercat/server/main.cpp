@@ -37,6 +37,7 @@ SegmentSettings settings_of(const SegmentOptions& options) {
   settings.drift_ppb = static_cast<std::int64_t>(options.drift_ppm * 1e3);
   settings.seed = options.seed;
   if (options.no_lrw > 0) settings.no_lrw[static_cast<std::size_t>(options.no_lrw - 1)] = true;
+  if (options.sync0 > 0) settings.sync0[static_cast<std::size_t>(options.sync0 - 1)] = true;
   settings.places.fill(SmPlaces::with_mailboxes(options.mailbox_out, options.mailbox_in));
   return settings;
 }

@@ -55,6 +55,9 @@ bool parse_segment_options(int argc, char** argv, SegmentOptions& options, int& 
   app.add_option("--no-lrw", options.no_lrw,
                  "the slave, from 1, that cannot read and write in one datagram (default 0: none)")
       ->check(CLI::Range(0, 7));
+  app.add_option("--sync0", options.sync0,
+                 "the slave, from 1, that demands SYNC0 (default 0: none)")
+      ->check(CLI::Range(0, 7));
   parser.add_faults_and_duration(app, describe_faults());
   return parser.parse(app, argc, argv, exit_code, [&] { return take(interface, options); });
 }

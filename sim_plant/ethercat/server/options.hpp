@@ -11,6 +11,7 @@ struct SegmentOptions : drives::ArmOptions {
   int descriptor = -1;      ///< an open socket that carries frames as packets
   int slaves = kJoints;
   int no_lrw = 0;                           ///< the slave that does not have LRW, from 1; 0: none
+  int sync0 = 0;                            ///< the slave that demands SYNC0, from 1; 0: none
   int priority = 0;                         ///< of SCHED_FIFO; 0: none
   double drift_ppm = 20.0;                  ///< of the clocks
   int mailbox_out = 128, mailbox_in = 128;  ///< bytes, of requests and of answers
