@@ -53,14 +53,13 @@ void CycleDesk::work(Status status) {
   end_tare();
   take_parameters();
   take_order();
+  refused_ = refuses(executive_.rung());  // not before: an arming may have ended here
 }
 
 /// A rearm that was asked for before a fault does not undo it.
 void CycleDesk::watch_faults() {
-  const bool refused = refuses(executive_.rung());
-  const bool fault = refused && !refused_ && executive_.latched() != Status::kHalted;
-  refused_ = refused;
-  if (!fault) return;
+  const bool stopped = refuses(executive_.rung()) && !refused_;
+  if (!stopped || executive_.latched() == Status::kHalted) return;
   ++faults_;
   if (waits_) finish(Status::kEpochVoid);
 }

@@ -35,7 +35,6 @@ struct OrderWorld {
   bool moved = false;
   int places = 0;                 // of messages
   std::array<int, 2> executed{};  // place of the newest override, and of the newest other control
-  std::uint64_t digest = 0;       // of everything that was told
 };
 
 class OrderBench {
@@ -232,8 +231,6 @@ class OrderBench {
       if (whole.field == 1 && inner.field == 25) value[25] = inner.value;
       if (inner.field == (whole.field == 2 ? 3U : 4U)) words = inner.block_size > 0;
     }
-    for (std::size_t i = 1; i < 5; ++i)
-      world.digest = (world.digest ^ value[i] ^ whole.field << 9) * 1099511628211U;
     if (whole.field == 1) its.told = static_cast<std::uint32_t>(value[25]);
     if (whole.field == 2) take_answer(its, value, words);
     if (whole.field == 3) take_report(its, value, words);

@@ -164,7 +164,6 @@ void nothing_moves_the_arm_that_was_asked_before_it_was_stopped_in_any_order(voi
     tried += explorer.orders;
   }
   order.clear();
-  print_message("%ld orders\n", tried);
 }
 
 }  // namespace
