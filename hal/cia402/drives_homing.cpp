@@ -32,7 +32,7 @@ void Drives::go_up(std::int64_t now_ns) {
   for (int j = 0; j < kDof; ++j)
     if (needs_homing(j)) return begin_homing(j, now_ns);
   for (int j = 0; j < kDof; ++j)
-    if (!judge_place(j)) return;
+    if (!ready(j) || !judge_place(j)) return;
   enter(Phase::kEnabling, now_ns);
 }
 
@@ -85,6 +85,8 @@ void Drives::home(std::int64_t now_ns) {
     return fail(homing_.joint, Status::kNotReferenced, joint.last.error_code, "homing by method ",
                 " does not end within [cia402] homing_ms, ", " ms", &figures);
   }
+  if (homing_.step < Step::kMove && referenced(homing_.joint))  // it was late, and is not lost
+    return enter(Step::kDisable, now_ns);
   switch (homing_.step) {
     case Step::kSelect:
       if (homing_.answered) enter(Step::kSelected, now_ns);

@@ -33,6 +33,8 @@ constexpr const char* kWatch = "it is part of the watch over this program";
 constexpr const char* kMapping = "this program sets up the process data";
 constexpr const char* kStopping = "it decides how the drive stops without this program";
 constexpr const char* kCommand = "it is a command, which only the cycle gives";
+constexpr const char* kSafety = "functional safety is for its maker's tool";
+constexpr const char* kUnit = "it changes a unit, a sign or the zero that nobody compares";
 constexpr KeptRow kKept[] = {
     {0x1005, 0x1007, kSync},
     {0x100C, 0x100D, kWatch},  // node guarding
@@ -41,24 +43,36 @@ constexpr KeptRow kKept[] = {
     {0x1012, 0x1014, "this program relies on the default identifiers"},  // TIME, EMCY
     {0x1016, 0x1017, kWatch},
     {0x1019, 0x1019, kSync},
+    {0x1024, 0x1024, kCommand},   // of the operating system
     {0x1029, 0x1029, kStopping},  // error behaviour
+    {0x10F1, 0x10F1, kStopping},  // the same of EtherCAT
     {0x1200, 0x12FF, "this program relies on the default SDO channel"},
+    {0x1300, 0x13FF, kSafety},
     {0x1400, 0x1BFF, kMapping},
     {0x1C00, 0x1C4F, kMapping},  // sync managers
     {0x1F00, 0x1FFF, "it starts the device, or loads its program"},
     {0x6007, 0x6007, kStopping},
     {0x6040, 0x6040, kCommand},
-    {0x605A, 0x605A, kStopping},
-    {0x605E, 0x605E, kStopping},
+    {0x605A, 0x605E, kStopping},
     {0x6060, 0x6060, "[robot] decides the mode of operation"},
     {0x6071, 0x6071, kCommand},
     {0x607A, 0x607A, kCommand},
+    {0x607C, 0x607C, kUnit},      // home offset
+    {0x607E, 0x607E, kUnit},      // polarity
+    {0x6085, 0x6085, kStopping},  // quick stop deceleration
+    {0x6089, 0x608C, kUnit},
+    {0x6093, 0x6095, kUnit},
+    {0x6097, 0x6097, kUnit},
     {0x6098, 0x6098, "[cia402] homing_method decides it"},
     {0x60B0, 0x60B2, kCommand},  // offsets
     {0x60C1, 0x60C1, kCommand},  // interpolation data
     {0x60C2, 0x60C2, "[robot] period_us decides it"},
+    {0x60C6, 0x60C6, kStopping},  // largest deceleration
+    {0x60E0, 0x60E1, "it limits the torque, which is compared in 6072h alone"},
     {0x60FE, 0x60FE, "it may release the brake"},
     {0x60FF, 0x60FF, kCommand},
+    {0x6600, 0x66FF, kSafety},
+    {0xF000, 0xFFFF, "it configures the device as a whole"},
 };
 
 bool begins(std::string_view text, std::string_view with) {

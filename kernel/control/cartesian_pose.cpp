@@ -192,17 +192,22 @@ void CartesianPose::run_down(double dt_s) {
   last_x_d_ = *x_d;
 }
 
-/// True if the error has changed by more than the tolerance from the least one since kSettles_s
-/// after x_d came to rest. Corrections let it shrink as a whole, and not its parts.
+/// True if the error differs by more than the tolerance from its mean, or has grown by more from
+/// the least one, since kSettles_s after x_d came to rest. An arm that comes nearer lets it shrink,
+/// and one that creeps at the edge of its reach turns it slowly.
 bool CartesianPose::leaves(const Vector6& e, double dt_s) {
   rests_s_ += dt_s;
   if (length(pose_error(*x_d, held_x_d_)) > kRests * params.hold_tolerance) {
     held_x_d_ = *x_d;
     rests_s_ = 0.0;
   }
-  const bool nearer = length(e) <= kNearer * length(nearest_);
-  if (nearer || rests_s_ <= kSettles_s) nearest_ = e;
-  return params.hold_tolerance > 0.0 && length(e - nearest_) > params.hold_tolerance;
+  const double error = length(e), most = params.hold_tolerance;
+  const bool settled = rests_s_ > kSettles_s;
+  const bool nearer = error < (settled ? kNearer : 1.0) * least_;
+  mean_ += std::min(1.0, dt_s / kMean_s) * (e - mean_);
+  if (nearer || rests_s_ == 0.0) mean_ = e;
+  if (nearer || !settled) least_ = error;
+  return most > 0.0 && settled && (length(e - mean_) > most || error > least_ + most);
 }
 
 /// Scales the correction so that every joint can brake before it is complete: at the rate of the

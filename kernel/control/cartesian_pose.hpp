@@ -39,9 +39,9 @@
 // velocity changes with a bounded acceleration anyway.
 //
 // While the reference rests, so does the tip: kSettles_s after x_d has last moved by a quarter of
-// hold_tolerance, e may not change by more than that from the least one since, where a metre counts
-// as a radian. A tip that swings or circles about its reference is found within half a swing; one
-// that stands out of reach stays there, or creeps nearer.
+// hold_tolerance, e may not differ by more than that from its mean, where a metre counts as a
+// radian, nor |e| grow by more. A tip that swings or circles about its reference is found within
+// half a swing; one that stands out of reach stays there, or creeps along its edge.
 //
 // When braked on the path, the posture's velocity goes to zero, and once the reference is at rest,
 // the remaining error is corrected for no longer than kRunDown_s and never faster than before. When
@@ -169,6 +169,7 @@ class CartesianPose {
   static constexpr double kRunDown_s = 0.3;   // three times 1/K at the gains of the paper
   static constexpr double kRests = 0.25;      // of the tolerance of the hold
   static constexpr double kNearer = 0.999;    // of an error; the same is not nearer
+  static constexpr double kMean_s = 2.5;      // time constant of the error's mean
   static constexpr double kSettles_s = 10.0;  // goal_time_s of the generators
   struct Demand;
   struct Task;
@@ -191,10 +192,11 @@ class CartesianPose {
   Fade<Vector6> fade_;     // m/s and rad/s, in base axes
   double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;
-  Pose held_x_d_;         // where the reference rests
-  double rests_s_ = 0.0;  // for how long
-  Vector6 nearest_;       // least error since it has settled
-  bool left_ = false;     // the error has changed by more than the tolerance
+  Pose held_x_d_;                   // where the reference rests
+  double rests_s_ = 0.0;            // for how long
+  Vector6 mean_ = Vector6::Zero();  // of the error
+  double least_ = 0.0;              // |error| since it has settled
+  bool left_ = false;               // the error has changed by more than the tolerance
 };
 
 }  // namespace tactus

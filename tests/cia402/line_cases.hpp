@@ -25,7 +25,7 @@ struct LineObject {
 };
 inline constexpr LineObject kLineObjects[] = {
     {0x2003, 1, "u16", 0, 65535}, {0x2003, 2, "i32", -1000, 1000}, {0x2003, 3, "f32", -4, 4},
-    {0x6065, 0, "u32", 1, 4e9},   {0x605D, 0, "i16", 1, 4},        {0x607D, 1, "i32", -2e9, 2e9},
+    {0x6065, 0, "u32", 1, 4e9},   {0x6084, 0, "u32", 1, 4e9},      {0x607D, 1, "i32", -2e9, 2e9},
 };
 inline constexpr int kLineObjectCount = 6;
 

@@ -82,7 +82,7 @@ void a_tip_that_circles_is_found(void**) {
   Status status = Status::kOk;
   double t = 0.0;
   for (; status == Status::kOk && t < 2.0 * kSettles_s; t += bench.dt_s)
-    status = measured(bench, 0.04 * Vector3(std::cos(9.0 * t), 0.0, std::sin(9.0 * t)), {});
+    status = measured(bench, 0.06 * Vector3(std::cos(9.0 * t), 0.0, std::sin(9.0 * t)), {});
   ASSERT_STATUS(status, Status::kPathTolerance);
   assert_true(t > kSettles_s && t < kSettles_s + 0.4);
 }
@@ -99,8 +99,9 @@ void a_tip_that_stands_out_of_reach_or_comes_nearer_is_not_refused(void**) {
   PoseBench& bench = fresh();
   Random random{6};
   for (int k = 0; k < 25'000; ++k) {
-    const double way_m = 0.6 - 1e-5 * k + random.uniform(-0.02, 0.02);
-    ASSERT_OK(measured(bench, {0.0, way_m, 0.0}, {0.0, 0.0, 1.5}));
+    const double way_m = 0.6 - 1e-5 * k + random.uniform(-0.02, 0.02), turn_rad = 1e-5 * k;
+    ASSERT_OK(measured(bench, {0.0, way_m, 0.0},
+                       1.5 * Vector3(std::sin(turn_rad), 0.0, std::cos(turn_rad))));
   }
 }
 
