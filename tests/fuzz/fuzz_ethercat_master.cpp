@@ -28,6 +28,7 @@ struct Bench {
     ethercat.clock_frames = 2;
     drive.rated_torque << 3.0, 3.0, 3.0, 3.0, 0.5, 0.5, 0.5;
     drive.brake_ms = 20;
+    drive.hold_tolerance = 1.0;  // these brakes open before the torque has risen
     segment::SegmentSettings settings;
     settings.brake_release_s = 0.005;
     if (master.configure(ethercat, drive, Tool{}, CommandMode::kEffort, 1000, 10000) !=
