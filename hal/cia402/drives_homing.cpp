@@ -3,6 +3,7 @@
 // Homing is a motion of the drive's own, without the guard. Only a drive that shows that it is not
 // referenced is homed, alone: all others are switched on, with their brakes closed.
 #include "hal/cia402/drives.hpp"
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::cia402 {
@@ -31,8 +32,11 @@ Message Drives::to_home() const {
 void Drives::go_up(std::int64_t now_ns) {
   for (int j = 0; j < kDof; ++j)
     if (needs_homing(j)) return begin_homing(j, now_ns);
-  for (int j = 0; j < kDof; ++j)
+  LoopBound<kDof> joints;
+  for (int j = 0; j < kDof; ++j) {
+    joints.tick();
     if (!ready(j) || !judge_place(j)) return;
+  }
   enter(Phase::kEnabling, now_ns);
 }
 
