@@ -6,6 +6,12 @@
 
 namespace tactus {
 
+namespace {
+
+constexpr int kMostExponent = 400;  // beyond it a double is 0 or infinite
+
+}  // namespace
+
 void Digits::note(std::string_view number) {
   const std::size_t end = std::min(number.find_first_of("eE"), number.size());
   int exponent = 0;
@@ -13,7 +19,7 @@ void Digits::note(std::string_view number) {
     const char* const first = number.data() + end + (number[end + 1] == '+' ? 2 : 1);
     std::from_chars(first, number.data() + number.size(), exponent);
   }
-  int decimals = -exponent, significant = 0;
+  int decimals = -std::clamp(exponent, -kMostExponent, kMostExponent), significant = 0;
   bool behind_point = false;
   for (const char letter : number.substr(0, end)) {
     behind_point |= letter == '.';
