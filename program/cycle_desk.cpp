@@ -1,7 +1,9 @@
 #include "program/cycle_desk.hpp"
 
+#include <algorithm>
 #include <string_view>
 
+#include "kernel/core/loop_bound.hpp"
 #include "kernel/pipeline/only_block.hpp"
 
 namespace tactus {
@@ -26,6 +28,17 @@ const Pose* find_tip(const PortTable& ports) {
         return static_cast<const Pose*>(ports[k].value);
   }
   return nullptr;
+}
+
+/// True if the arm is braked or disabled and nobody has asked for that.
+bool is_fault(const Event& event) {
+  switch (event.cause) {
+    case Cause::kHalt:
+    case Cause::kOff:
+    case Cause::kArm:
+    case Cause::kAtRest: return false;
+    default: return event.to != event.from && refuses(event.to);
+  }
 }
 
 }  // namespace
@@ -53,15 +66,21 @@ void CycleDesk::work(Status status) {
   end_tare();
   take_parameters();
   take_order();
-  refused_ = refuses(executive_.rung());  // not before: an arming may have ended here
 }
 
-/// A rearm that was asked for before a fault does not undo it.
+/// A rearm that was asked for before a fault does not undo it, whether the arm moved or was being
+/// stopped.
 void CycleDesk::watch_faults() {
-  const bool stopped = refuses(executive_.rung()) && !refused_;
-  if (!stopped || executive_.latched() == Status::kHalted) return;
-  ++faults_;
-  if (waits_) finish(Status::kEpochVoid);
+  const EventLog& log = executive_.events();
+  events_ = std::max(events_, log.lost());
+  const std::uint32_t before = faults_;
+  Event event;
+  LoopBound<EventLog::kCapacity> events;
+  for (; log.read(events_, event); ++events_) {
+    events.tick();
+    faults_ += is_fault(event) ? 1 : 0;
+  }
+  if (waits_ && faults_ != before) finish(Status::kEpochVoid);
 }
 
 /// Not while orders wait: one of them may be a Stop, which the rearm must not come before.

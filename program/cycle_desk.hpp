@@ -44,8 +44,8 @@ class CycleDesk {
   Vector6 zero_before_ = Vector6::Zero();
   std::uint32_t rearm_ = 0;        // number of a rearm that is under way; 0: none
   bool waits_ = false;             // it has not begun: the arm is still being brought to rest
-  bool refused_ = true;            // references, after the cycle before
-  std::uint32_t faults_ = 0;       // that have stopped an arm which took references
+  std::uint32_t events_ = 0;       // of the executive, that are read
+  std::uint32_t faults_ = 0;       // that have braked or disabled the arm
   std::uint32_t lost_ = 0;         // snapshots
   PortMail* port_mail_ = nullptr;  // null: nobody watches the wires
   PortValues port_values_;         // that are being told

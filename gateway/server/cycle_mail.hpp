@@ -45,7 +45,7 @@ struct CycleSnapshot {
   double time_s = 0.0;        ///< of the generator
   std::uint32_t cycle = 0, slips = 0, overruns = 0;
   std::uint32_t lost = 0;    ///< snapshots for which there was no space, up to now
-  std::uint32_t faults = 0;  ///< that have stopped an arm which took references, up to now
+  std::uint32_t faults = 0;  ///< that have braked or disabled the arm, up to now
   std::uint8_t rung = 0, phase = 0, has = 0;
   Status status = Status::kOk;
   const char *first = nullptr, *second = nullptr;  ///< names of what collides; null: nothing

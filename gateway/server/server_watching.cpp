@@ -15,14 +15,12 @@ void Server::take_snapshots(std::int64_t now_ns) {
   while (mail_.snapshots.take(snapshot)) {
     const auto from = static_cast<Rung>(newest_.rung), to = static_cast<Rung>(snapshot.rung);
     const bool changed = seen_ && from != to;
+    if (seen_ && snapshot.faults != newest_.faults) stops_.add(StopCount::kNobody);
     newest_ = snapshot;
     seen_ = true;
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
-    if (refuses(to) && !refuses(from)) {
-      begin_epoch();
-      if (snapshot.status != Status::kHalted) stops_.add(StopCount::kNobody);
-    }
+    if (refuses(to) && !refuses(from)) begin_epoch();
     Message text(name(to));
     if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
     if (snapshot.first != nullptr) text << ": " << snapshot.first << " with " << snapshot.second;

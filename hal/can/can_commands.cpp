@@ -73,6 +73,24 @@ void CanMaster::send_farewell() {
   }
 }
 
+/// Process data, and the quick stop in it, does not reach a node that has left "operational". NMT
+/// stop lets the drive's own reaction act (6007h, CiA 402-2), as for a lost connection. The nodes
+/// take turns, in the place of a request. False: there is no such node.
+bool CanMaster::stop_strays() {
+  LoopBound<kDof> nodes;
+  for (int i = 0; i < kDof; ++i) {
+    nodes.tick();
+    stray_ = stray_ + 1 < kDof ? stray_ + 1 : 0;
+    const Node& node = nodes_[static_cast<std::size_t>(stray_)];
+    const NmtState state = node.heart.state();
+    const bool out_of_reach = state != NmtState::kOperational && state != NmtState::kStopped;
+    if (!node.heart.known() || !out_of_reach || drives_.confirmed(stray_)) continue;
+    outbox(node.bus).add(nmt_frame(NmtCommand::kStop, node.id()));
+    return true;
+  }
+  return false;
+}
+
 void CanMaster::leave() {
   if (!connected_) return;
   connected_ = false;

@@ -183,7 +183,7 @@ void CanMaster::write(const RobotCommand& command) {
   CanFrame request;
   if (farewells_ > 0)
     send_farewell();
-  else if (sdo_.take(request))
+  else if (!stop_strays() && sdo_.take(request))
     outbox(asked_bus()).add(request);
   LoopBound<4> buses;
   for (int i = 0; i < buses_; ++i) {

@@ -91,6 +91,7 @@ class CanMaster {
   void send_commands();
   void send_heartbeat();
   void send_farewell();
+  bool stop_strays();
   static CanFrame unwatched_frame(std::uint8_t node);
 
   const CanSettings* can_ = nullptr;
@@ -113,6 +114,7 @@ class CanMaster {
   std::int64_t heartbeat_ns_ = 0;  // of our last heartbeat
   int since_refresh_ = 0;          // cycles since the controlwords were sent
   cia402::ObjectRequest carried_;  // to a drive
+  int stray_ = 0;                  // the joint whose drive was looked at last, from 0
   int farewells_ = 0;              // frames of farewell that are left, two for every joint
   int conflict_ = -1;              // identifier that somebody else sent
 };

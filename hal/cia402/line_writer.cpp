@@ -33,9 +33,9 @@ Status LineWriter::take(const Transferred& transfer, Message& why) {
   if (!transfer.done || !fits) return refuse(transfer, why);
   if (stage_ == Stage::kWrite) {
     changed_ = true;
-    learnt_->written[static_cast<std::size_t>(joint_)] |= 1U << at_;
     stage_ = Stage::kReadBack;
   } else if (line().is(transfer.value)) {
+    if (stage_ == Stage::kReadBack) learnt_->written[static_cast<std::size_t>(joint_)] |= 1U << at_;
     next(at_ + 1);
   } else if (stage_ == Stage::kCompare) {
     stage_ = Stage::kWrite;

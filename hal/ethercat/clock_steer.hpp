@@ -8,6 +8,8 @@
 
 #include <cstdint>
 
+#include "hal/ethercat/reference_clock.hpp"
+
 namespace tactus::ethercat {
 
 class ClockSteer {
@@ -31,10 +33,7 @@ class ClockSteer {
   }
   /// Phase error of a frame by its reference time, ns. [cyclic]
   std::int64_t error_of(std::int64_t reference_ns) const {
-    // The time of a segment may be any number.
-    const auto since = static_cast<std::int64_t>(static_cast<std::uint64_t>(reference_ns) -
-                                                 static_cast<std::uint64_t>(begin_ns_));
-    std::int64_t error = since % period_ns_;
+    std::int64_t error = passed_between(begin_ns_, reference_ns) % period_ns_;
     if (error > period_ns_ / 2) error -= period_ns_;
     if (error < -period_ns_ / 2) error += period_ns_;
     return error;

@@ -6,6 +6,13 @@
 
 namespace tactus::ethercat {
 
+/// Returns the time from one reading of a clock to a later one, ns. The time of a segment may be
+/// any number. [any]
+constexpr std::int64_t passed_between(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
+                                   static_cast<std::uint64_t>(from_ns));
+}
+
 class ReferenceClock {
  public:
   enum class Verdict : std::uint8_t {
@@ -31,12 +38,9 @@ class ReferenceClock {
       since_ns_ = sent_ns;
       return verdict_ = Verdict::kRuns;
     }
-    // The time of a segment may be any number.
-    const std::uint64_t since =
-        static_cast<std::uint64_t>(shown_ns) - static_cast<std::uint64_t>(time_ns_);
-    const auto passed_ns = has_64_bits_
-                               ? static_cast<std::int64_t>(since)
-                               : std::int64_t{static_cast<std::int32_t>(since & 0xFFFFFFFF)};
+    const std::int64_t since_ns = passed_between(time_ns_, shown_ns);
+    const std::int64_t passed_ns =
+        has_64_bits_ ? since_ns : std::int64_t{static_cast<std::int32_t>(since_ns & 0xFFFFFFFF)};
     if (passed_ns == 0) return verdict_ = Verdict::kStands;
     if (passed_ns < 0 || passed_ns - (now_ns - since_ns_) > slack_ns_)
       return verdict_ = Verdict::kJumps;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "hal/ethercat/reference_clock.hpp"
+
 namespace tactus::ethercat {
 
 class Sync0Watch {
@@ -20,10 +22,7 @@ class Sync0Watch {
   void count_frame() { ++frames_; }
   /// Takes the reference time at which the last frame passed. [cyclic]
   void take(std::int64_t reference_ns) {
-    // The time of a segment may be any number.
-    const auto since = static_cast<std::int64_t>(static_cast<std::uint64_t>(reference_ns) -
-                                                 static_cast<std::uint64_t>(phase_ns_)) -
-                       shift_ns_;
+    const std::int64_t since = passed_between(phase_ns_, reference_ns) - shift_ns_;
     const std::int64_t rest = since % period_ns_;
     const std::int64_t passed_ns = rest < 0 ? rest + period_ns_ : rest;  // since the last pulse
     const std::int64_t pulse = (since - passed_ns) / period_ns_;

@@ -2,8 +2,8 @@
 // at its limit switch. What must hold in every cycle is judged by what the frames command and what
 // the drives do by their own account; an event may come in any cycle.
 //
-// A bench has in addition axis(bench, joint), word_sent(bench, joint), spoil(bench, joint, kind,
-// value) and silence(bench, joint).
+// A bench has in addition axis(bench, joint), word_sent(bench, joint) and inject(bench, joint,
+// kind, value), a fault of a drive.
 #pragma once
 
 #include "sim_plant/drives/axis.hpp"
@@ -134,6 +134,33 @@ struct HomingEvent {
 };
 
 template <class Bench>
+void request_stop(Bench& bench) {
+  bench.executive.halt();
+}
+template <class Bench, drives::FaultKind kind, std::uint32_t value, int joint>
+void drive_fault(Bench& bench) {
+  inject(bench, joint, kind, value);
+}
+/// What the arm and its drives do, over any wire.
+// clang-format off
+template <class Bench>
+inline constexpr HomingEvent<Bench> kOfDrives[] = {
+    {"stop requested", request_stop<Bench>, Status::kHalted, 1, false, false},
+    {"EMCY and fault of the drive that is homed", drive_fault<Bench, drives::FaultKind::kEmergency, 0x7121, kAtSwitch>, Status::kDriveFault, 4, true, false},
+    {"EMCY and fault of another drive", drive_fault<Bench, drives::FaultKind::kEmergency, 0x7121, 6>, Status::kDriveFault, 4, true, false},
+    {"switch on disabled by itself", drive_fault<Bench, drives::FaultKind::kSwitchOnDisabled, 0, kAtSwitch>, Status::kDriveFault, 4, true, false},
+    {"reboot of the drive that is homed", drive_fault<Bench, drives::FaultKind::kReboot, 0, kAtSwitch>, Status::kBusTimeout, 6, false, true},
+    {"no answers by SDO", drive_fault<Bench, drives::FaultKind::kSdoSilence, 0, kAtSwitch>, Status::kBusTimeout, 1500, true, false},
+    {"6060h is refused", drive_fault<Bench, drives::FaultKind::kSdoAbort, 0x6060, kAtSwitch>, Status::kRefusedByRobot, 1500, true, false},
+    {"6098h is refused", drive_fault<Bench, drives::FaultKind::kSdoAbort, 0x6098, kAtSwitch>, Status::kRefusedByRobot, 1500, true, false},
+    {"6061h shows another mode", drive_fault<Bench, drives::FaultKind::kWrongMode, 9, kAtSwitch>, Status::kDriveFault, 1500, true, false},
+    {"homing ends in an error", drive_fault<Bench, drives::FaultKind::kHomingFails, 2, kAtSwitch>, Status::kNotReferenced, 1500, true, false},
+    {"homing ends in an error while it moves", drive_fault<Bench, drives::FaultKind::kHomingFails, 3, kHere>, Status::kNotReferenced, 1500, true, false},
+    {"homing does not end", drive_fault<Bench, drives::FaultKind::kHomingFails, 1, kAtSwitch>, Status::kNotReferenced, 3000, true, false},
+};
+// clang-format on
+
+template <class Bench>
 void suffer(const HomingEvent<Bench>& event, Bench& bench, int at, int& reaction, int& off) {
   constexpr int kMostOff = 150;  // cycles: the quick stop of an emulated drive until it stands
   count_from_power_on(bench);
@@ -179,15 +206,18 @@ void suffer(const HomingEvent<Bench>& event, Bench& bench, int at, int& reaction
   expect_homed(bench, watch);
 }
 
-/// Every event in every cycle of an arming that homes, or every `apart`-th.
-template <class Bench>
-void suffer_everything(const HomingEvent<Bench>* begin, const HomingEvent<Bench>* end,
-                       Bench& (*fresh)(), int last, int apart) {
-  for (const HomingEvent<Bench>* event = begin; event != end; ++event) {
+/// Every event in every cycle of an arming that homes, or every `apart`-th: those of the drives and
+/// those of the wire.
+template <class Bench, std::size_t count>
+void suffer_everything(const HomingEvent<Bench> (&of_wire)[count], Bench& (*fresh)(), int last,
+                       int apart) {
+  const auto suffer_it = [&](const HomingEvent<Bench>& event) {
     int reaction = 0, off = 0;
-    for (int at = 1; at < last; at += apart) suffer(*event, fresh(), at, reaction, off);
-    print_message("| %s | %s | %d | %d |\n", event->name, name(event->status), reaction, off);
-  }
+    for (int at = 1; at < last; at += apart) suffer(event, fresh(), at, reaction, off);
+    print_message("| %s | %s | %d | %d |\n", event.name, name(event.status), reaction, off);
+  };
+  for (const HomingEvent<Bench>& event : kOfDrives<Bench>) suffer_it(event);
+  for (const HomingEvent<Bench>& event : of_wire) suffer_it(event);
 }
 
 }  // namespace tactus::cia402

@@ -119,6 +119,14 @@ struct LineCases {
     return Wire::dictionary(bench, joint).writes(drives::slot_of(0x1010, 1));
   }
 
+  static void try_all() {
+    leave_what_they_say();
+    spare_the_drive_of_another_joint();
+    set_what_is_judged();
+    refuse_what_a_drive_does_not_take();
+    store_in_its_own_time();
+  }
+
   static void leave_what_they_say() {
     Random random{20};
     int lines = 0, written = 0;

@@ -121,7 +121,11 @@ class WiredHal final : public Hal {
   /// Drives to master.
   void collect(std::int64_t now_ns) {
     arm.advance(time_ns_);
-    for (const CanFrame& frame : strange) master.receive(0, frame, now_ns);
+    for (const CanFrame& frame : strange) {
+      master.receive(0, frame, now_ns);
+      for (std::size_t bus = 0; bus < static_cast<std::size_t>(master.buses()); ++bus)
+        arm.receive(bus, frame, time_ns_);
+    }
     strange.clear();
     for (int bus = 0; bus < master.buses(); ++bus) {
       const std::vector<CanFrame> late = std::move(held_up_[static_cast<std::size_t>(bus)]);

@@ -38,7 +38,6 @@ void somebody_else_who_commands_the_drives_is_a_conflict(void**) {
     const CanFrame frames[] = {
         foreign(0x080, {}),                     // SYNC
         foreign(0x000, {0x01, 0x00}),           // NMT start
-        foreign(0x000, {0x80, 0x03}),           // NMT pre-operational
         foreign(0x201, {0x0F, 0x00, 0x10, 0}),  // commands
         foreign(0x77F, {0x05}),                 // our heartbeat
     };
@@ -51,6 +50,26 @@ void somebody_else_who_commands_the_drives_is_a_conflict(void**) {
       assert_needs_start(bench, Status::kBusConflict, 3);
     }
   }
+}
+
+/// It hears no quick stop; heartbeats tell of it, at the latest after 50 ms, and NMT stop reaches
+/// it.
+void a_drive_that_is_taken_to_pre_operational_is_stopped(void**) {
+  int longest = 0;
+  for (const Buses buses : kLayouts) {
+    for (int at = 0; at < 50; at += 7) {
+      MasterBench& bench = following(buses);
+      ASSERT_OK(bench.cycles(at));
+      bench.hal.strange = {foreign(0x000, {0x80, at % 2 == 0 ? 0x00 : 1 + at / 8})};
+      ASSERT_STATUS(bench.cycle(), Status::kBusConflict);
+      SafetyWatch watch(bench);
+      for (int i = 0; i < 300; ++i) ASSERT_STATUS(watch.cycle(), Status::kBusConflict);
+      assert_false(powered(bench));
+      longest = std::max(longest, watch.longest_off());
+    }
+  }
+  print_message("without power after %d cycles\n", longest);
+  assert_in_range(longest, 1, 120);
 }
 
 void feedback_of_a_second_node_with_the_number_of_a_drive_is_a_conflict(void**) {
@@ -198,6 +217,7 @@ int main() {
   using namespace tactus::can;
   const CMUnitTest tests[] = {
       cmocka_unit_test(somebody_else_who_commands_the_drives_is_a_conflict),
+      cmocka_unit_test(a_drive_that_is_taken_to_pre_operational_is_stopped),
       cmocka_unit_test(feedback_of_a_second_node_with_the_number_of_a_drive_is_a_conflict),
       cmocka_unit_test(a_flood_of_frames_that_concern_nobody_changes_nothing),
       cmocka_unit_test(feedback_of_every_other_length_is_none),

@@ -48,6 +48,9 @@ inline bool powered(MasterBench& bench) {
   return any;
 }
 /// Ends what disturbs line and drives.
+inline void inject(MasterBench& bench, int joint, drives::FaultKind kind, std::uint32_t value = 0) {
+  bench.add(kind, joint + 1, value);
+}
 inline void heal(MasterBench& bench) {
   bench.hal.line.clear_faults();
 }

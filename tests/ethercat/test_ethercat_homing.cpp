@@ -13,37 +13,17 @@ MasterBench& fresh() {
   return bench;
 }
 
-template <FaultKind kind, std::uint32_t value, int joint>
-void drive_fault(MasterBench& bench) {
-  bench.add(kind, joint + 1, value);
-}
 void lose_frames(MasterBench& bench) {
   bench.add(LineFaultKind::kLose, 0, 0, kForGood);
 }
 void cut_line(MasterBench& bench) {
   bench.add(LineFaultKind::kBreak, 5, 0, kForGood);
 }
-void stop(MasterBench& bench) {
-  bench.executive.halt();
-}
 
-constexpr auto kFault = Status::kDriveFault;
 // clang-format off
-constexpr HomingEvent<MasterBench> kEvents[] = {
-    {"stop requested", stop, Status::kHalted, 1, false, false},
+constexpr HomingEvent<MasterBench> kOfTheWire[] = {
     {"frames lost", lose_frames, Status::kBusTimeout, 6, false, true},
     {"line cut before slave 5", cut_line, Status::kBusTimeout, 6, false, true},
-    {"EMCY and fault of the drive that is homed", drive_fault<FaultKind::kEmergency, 0x7121, kAtSwitch>, kFault, 4, true, false},
-    {"EMCY and fault of another drive", drive_fault<FaultKind::kEmergency, 0x7121, 6>, kFault, 4, true, false},
-    {"switch on disabled by itself", drive_fault<FaultKind::kSwitchOnDisabled, 0, kAtSwitch>, kFault, 4, true, false},
-    {"reboot of the drive that is homed", drive_fault<FaultKind::kReboot, 0, kAtSwitch>, Status::kBusTimeout, 6, false, true},
-    {"no answers by SDO", drive_fault<FaultKind::kSdoSilence, 0, kAtSwitch>, Status::kBusTimeout, 1500, true, false},
-    {"6060h is refused", drive_fault<FaultKind::kSdoAbort, 0x6060, kAtSwitch>, Status::kRefusedByRobot, 1500, true, false},
-    {"6098h is refused", drive_fault<FaultKind::kSdoAbort, 0x6098, kAtSwitch>, Status::kRefusedByRobot, 1500, true, false},
-    {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9, kAtSwitch>, kFault, 1500, true, false},
-    {"homing ends in an error", drive_fault<FaultKind::kHomingFails, 2, kAtSwitch>, Status::kNotReferenced, 1500, true, false},
-    {"homing ends in an error while it moves", drive_fault<FaultKind::kHomingFails, 3, kHere>, Status::kNotReferenced, 1500, true, false},
-    {"homing does not end", drive_fault<FaultKind::kHomingFails, 1, kAtSwitch>, Status::kNotReferenced, 3000, true, false},
 };
 // clang-format on
 
@@ -103,7 +83,7 @@ void a_mode_that_is_mapped_is_requested_by_the_cycle_alone(void**) {
 // Proves ECAT-22.
 void whatever_comes_in_the_midst_of_homing_stops_all_drives(void**) {
   constexpr int kLast = 255, kApart = 5;  // cycles
-  cia402::suffer_everything(std::begin(kEvents), std::end(kEvents), fresh, kLast, kApart);
+  cia402::suffer_everything(kOfTheWire, fresh, kLast, kApart);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct OrderWorld {
   std::array<OrderClient, kClients> clients;
   std::int64_t late_ns = 0;  // of the server's clock before the cycle's
   bool moved = false;
+  std::uint32_t events = 0;       // of the executive, that the model knows
   int places = 0;                 // of messages
   std::array<int, 2> executed{};  // place of the newest override, and of the newest other control
 };
@@ -45,6 +46,7 @@ class OrderBench {
   /// Three clients; the first owns the motion with priority 5, and a trajectory of it runs.
   void start() {
     cycles.start();
+    world.events = cycles.executive.events().count();
     for (int i = 0; i < OrderWorld::kClients; ++i) join(i);
     say(0, {ask::kLease, 5.0});
     send_trajectory();
@@ -284,8 +286,12 @@ class OrderBench {
     const bool moved = world.moved;
     world.moved = commands(after) && reference_moves();
     if (up || (before == Rung::kDisabled && after == Rung::kArming)) assert_true(model.may_arm);
-    if (!refuses(before) && refuses(after) && cycles.executive.latched() != Status::kHalted)
-      model.fault();
+    Event event;
+    for (; cycles.executive.events().read(world.events, event); ++world.events) {
+      const bool asked_for = event.status == Status::kOk || event.status == Status::kHalted ||
+                             event.status == Status::kArming;
+      if (event.from != event.to && !asked_for && event.cause != Cause::kAtRest) model.fault();
+    }
     if (world.moved && !moved && begun_) assert_true(model.may_resume || model.resumed);
     model.resumed = model.may_resume;
     if (override > model.cycle_override && !up) assert_true(model.may_raise);

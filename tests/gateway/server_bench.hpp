@@ -38,6 +38,7 @@ struct ServerBench : BenchClock {
   ReferenceGenerator<JointSpace> generator;
   ReferenceGenerator<JointSpace>::Params params;
   Rung rung = Rung::kNominal;
+  std::uint32_t faults = 0;
   Status why = Status::kHalted;  // it is not nominal
   std::uint32_t cycles = 0;
   Server server{setup(), joints, poses, mail};
@@ -109,6 +110,7 @@ struct ServerBench : BenchClock {
     told.stamp_ns = now_ns;
     told.time_s = generator.time_s();
     told.cycle = cycles;
+    told.faults = faults;
     told.rung = static_cast<std::uint8_t>(rung);
     told.status = refuses(rung) ? why : Status::kOk;
     told.q = generator.reference().q;

@@ -88,6 +88,7 @@ void what_was_asked_before_a_fault_or_a_lost_lease_does_not_move_the_arm(void**)
     const std::uint32_t told = two.a.stops;
     two.bench.why = Status::kCollision;
     if (fault) two.bench.rung = Rung::kDisabled;
+    two.bench.faults = fault ? 1 : 0;
     two.run(100);
     two.a.lease(5, 60000);
     two.run(2);
