@@ -70,12 +70,8 @@ void NodeSetup::watchdogs(const CanSettings& can, int period_us) {
   write(Kind::kMayWrite, kSyncIdObject, 0, 4, kSyncId, "identifier of SYNC");
   // The commands have a time-out; a watch over SYNC would stop the arm for half a period of jitter.
   write(Kind::kMayWrite, kSyncPeriod, 0, 4, 0, "SYNC period");
-  // The period as value * 10^index s.
-  const bool whole_ms = period_us % 1000 == 0;
-  const int value = whole_ms ? period_us / 1000 : period_us / 100;
-  const std::int8_t index = whole_ms ? -3 : -4;
-  write(Kind::kMayWrite, cia402::kPeriodValue, static_cast<std::uint32_t>(value),
-        "interpolation time period");
+  const auto [value, index] = cia402::period_object(period_us);
+  write(Kind::kMayWrite, cia402::kPeriodValue, value, "interpolation time period");
   write(Kind::kMayWrite, cia402::kPeriodIndex, static_cast<std::uint8_t>(index),
         "interpolation time index");
 }

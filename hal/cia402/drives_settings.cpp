@@ -32,6 +32,12 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
     TRY(judge_homing(j, why));
   }
   TRY(judge_arming_time(arming_ms, why));
+  why = Message("[robot] period_us is ");
+  if (period_object(period_us).value == 0) {
+    why << period_us << ", which a drive cannot be told: 60C2h takes a whole number up to 255 of "
+        << "1 ms, 100 us, 10 us or 1 us";
+    return Status::kBadValue;
+  }
   why = {};
   return Status::kOk;
 }

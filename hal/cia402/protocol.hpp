@@ -167,6 +167,23 @@ inline constexpr Object kDigitalOutputs = {0x60FE, 1, 4};          // u32
 inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, as 60A9h says
 inline constexpr Object kSupportedModes = {0x6502, 0, 4};          // u32
 
+/// A period as 60C2h has it: value * 10^index s.
+struct PeriodObject {
+  std::uint8_t value = 0;  ///< 0: no number of 8 bits says it
+  std::int8_t index = 0;
+};
+/// Returns the object for a period, in the largest unit from 1 ms to 1 us that has it exactly.
+/// [any]
+constexpr PeriodObject period_object(int period_us) {
+  int value = period_us, index = -6;
+  for (int i = 0; i < 3 && value % 10 == 0; ++i) {
+    value /= 10;
+    ++index;
+  }
+  if (value > 255) return {};
+  return {static_cast<std::uint8_t>(value), static_cast<std::int8_t>(index)};
+}
+
 /// What 1010h:1 takes: "save" (CiA 301, 7.5.2.13).
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;
 /// Low word of the device type, 1000h: the profile of a drive.

@@ -40,7 +40,8 @@ void EthercatMaster::start_steering() {
   sync0_ = {};
   if (!ethercat_->has_sync0()) return;
   steer_.start(period_ns(), startup_.phase_ns());
-  sync0_.start(period_ns(), startup_.phase_ns(), std::int64_t{1000} * ethercat_->sync0_us);
+  sync0_.start(period_ns(), startup_.phase_ns(), std::int64_t{1000} * ethercat_->sync0_us,
+               startup_.sync0_ns());
   in_step_ns_ = sent_ns_;
 }
 

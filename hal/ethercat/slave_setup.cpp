@@ -60,12 +60,9 @@ void SlaveSetup::options(CommandMode mode, int period_us) {
   write(cia402::kAbortConnectionOption, kFaultOnLostMaster, "abort connection option");
   write(cia402::kQuickStopOption, kRampThenOff, "quick stop option");
   write(cia402::kFaultReactionOption, kRampThenOff, "fault reaction option");
-  // The period as value * 10^index s.
-  const bool whole_ms = period_us % 1000 == 0;
-  const int value = whole_ms ? period_us / 1000 : period_us / 100;
-  const auto index = static_cast<std::uint8_t>(whole_ms ? -3 : -4);
-  write(cia402::kPeriodValue, static_cast<std::uint32_t>(value), "interpolation time");
-  write(cia402::kPeriodIndex, index, "interpolation time index");
+  const auto [value, index] = cia402::period_object(period_us);
+  write(cia402::kPeriodValue, value, "interpolation time");
+  write(cia402::kPeriodIndex, static_cast<std::uint8_t>(index), "interpolation time index");
   // Where it is mapped, the cycle writes it too; arming asks for its display.
   write(cia402::kModeOfOperation, static_cast<std::uint8_t>(cia402::mode_of(mode)),
         "mode of operation");

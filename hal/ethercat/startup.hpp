@@ -51,6 +51,8 @@ class Startup {
   bool has_clocks() const { return has_clocks_; }
   /// With SYNC0: a reference time from which frames are to be sent whole periods apart, ns. [any]
   std::int64_t phase_ns() const { return phase_ns_; }
+  /// Reference time of the first SYNC0 of the slave that was started last, ns. [init]
+  std::int64_t sync0_ns() const { return start_ns_; }
   /// With SYNC0: the largest distance of a clock to that of the first slave after they have been
   /// steered, ns. [any]
   std::int64_t apart_ns() const { return apart_ns_; }

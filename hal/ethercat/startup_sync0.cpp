@@ -65,7 +65,7 @@ Request Startup::sync0_request() const {
 
 Status Startup::take_sync0(const Answer& answer) {
   if (answer.counter < 1)
-    return refuse(Status::kRefusedByRobot, "does not take SYNC0 (registers 0980h to 09A3h)");
+    return refuse(Status::kRefusedByRobot, "does not take SYNC0 (registers 092Ch, 0980h to 09A3h)");
   switch (step_++) {
     case kDifference: return judge_difference(get<std::uint32_t>(answer.data));
     case kTime: plan_start(get<std::int64_t>(answer.data)); break;

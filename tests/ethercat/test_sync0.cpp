@@ -165,12 +165,13 @@ void the_summary_has_the_times_before_sync0_that_the_frames_had(void**) {
     ASSERT_OK(bench.load());
     ASSERT_OK(bench.connect());
     const auto times = steered(bench, 500, [&](int) { return random.below(80'000); });
-    const Pulses pulses = pulses_of(bench, 0);
+    const Pulses pulses = pulses_of(bench, 0), last = pulses_of(bench, kDof - 1);
     std::int64_t least = INT64_MAX, most = 0, skipped = 0;
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {  // the last frame has not been read
+      if (last.before(times[k]) < 0) continue;            // nor has SYNC0 begun
       least = std::min(least, pulses.until_next(times[k]));
       most = std::max(most, pulses.until_next(times[k]));
-      if (k > 0)
+      if (last.before(times[k - 1]) >= 0)
         skipped +=
             std::max(pulses.before(times[k]) - pulses.before(times[k - 1]) - 1, std::int64_t{0});
     }
@@ -191,6 +192,8 @@ void a_frame_counts_that_is_later_than_its_room(void**) {
   ASSERT_OK(bench.load());
   ASSERT_OK(bench.connect());
   const Sync0Watch& seen = bench.hal.master.sync0();
+  static_cast<void>(steered(bench, 150, punctual));
+  assert_true(seen.known());
   static_cast<void>(steered(bench, 50, [](int k) { return k % 10 == 5 ? 250 * kUs_ns : 0; }));
   assert_int_equal(seen.without_frame(), 0);
   bench.add(segment::LineFaultKind::kLose, 0, 5, 2);
@@ -202,6 +205,21 @@ void a_frame_counts_that_is_later_than_its_room(void**) {
   bench.now_ns += 2 * bench.period_ns();  // cycles that were missed
   static_cast<void>(steered(bench, 50, punctual));
   assert_int_equal(seen.without_frame(), 5);
+}
+
+/// Periods that 60C2h cannot say are refused; of the others a drive compares SYNC0 with 60C2h.
+void the_drives_have_the_period_or_it_is_refused(void**) {
+  for (const int period_us : {500, 555, 750, 999, 1250, 2550, 2560, 3001, 8000, 19'999}) {
+    MasterBench& bench = fresh_bench();
+    bench.plant.sync0.fill(true);
+    bench.ethercat.sync0_us = period_us / 2;
+    std::string text = cia402::kHoldingPipeline;
+    text.replace(text.find("1000"), 4, std::to_string(period_us));
+    const Status status = bench.load(text.c_str());
+    const bool can = period_us % 1000 == 0 || (period_us % 10 == 0 && period_us <= 2550);
+    ASSERT_STATUS(status, can ? Status::kOk : Status::kBadValue);
+    if (can) ASSERT_OK(bench.connect());
+  }
 }
 
 /// Its pulses would begin when the clock has wrapped.
@@ -361,6 +379,7 @@ int main() {
       cmocka_unit_test(sync0_of_all_slaves_comes_at_its_time_after_the_steered_frames),
       cmocka_unit_test(the_summary_has_the_times_before_sync0_that_the_frames_had),
       cmocka_unit_test(a_frame_counts_that_is_later_than_its_room),
+      cmocka_unit_test(the_drives_have_the_period_or_it_is_refused),
       cmocka_unit_test(a_start_time_that_has_passed_is_written_again),
       cmocka_unit_test(clocks_are_waited_for_and_one_that_does_not_follow_is_refused),
       cmocka_unit_test(a_slave_without_the_clock_that_is_needed_is_refused),
