@@ -72,6 +72,24 @@ void what_differs_from_its_default_becomes_a_line(void**) {
                       "# 2006h:0 = $NODEID+1: it depends on the node's number; give --node\n");
 }
 
+/// A file is what somebody has sent: it writes no line but those of its objects.
+void a_hostile_file_prints_no_line_that_it_has_not(void**) {
+  const std::string file = object("2003", "0x0006", "5", "") + object("2004", "0x0008", "nan", "") +
+                           object("2005", "0x0008", "1e400", "") +
+                           "[2006]\nParameterName\nDataType\nAccessType\nParameterValue=1\n" +
+                           object("2007", "0x0006", "7", "ParameterName=a\n  store = 1\n") +
+                           object("2008", "0x0006", "8", "ParameterName=\x0b\x7f\n");
+  assert_string_equal(lines_of(file).c_str(),
+                      "sdo = 0x2003:0 u16 5  # P\n"
+                      "# 2004h:0 = nan: nan is out of range; f32 is -3.40282346e+38 to "
+                      "3.40282346e+38\n"
+                      "# 2005h:0 = 1e400: 1e400 is out of range; f32 is -3.40282346e+38 to "
+                      "3.40282346e+38\n"
+                      "# 2006h:0 = 1: its data type, 0000h, is none of a line\n"
+                      "sdo = 0x2007:0 u16 7  # a\n"
+                      "sdo = 0x2008:0 u16 8  # ?\n");
+}
+
 void what_it_prints_is_what_the_loader_takes(void**) {
   std::string file;
   for (int index = 0x1000; index <= 0xFFFF; index += 3) {
@@ -104,6 +122,7 @@ int main() {
   using namespace tactus::cia402;
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_differs_from_its_default_becomes_a_line),
+      cmocka_unit_test(a_hostile_file_prints_no_line_that_it_has_not),
       cmocka_unit_test(what_it_prints_is_what_the_loader_takes),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -212,9 +212,9 @@ void a_held_joint_that_comes_back_fast_is_not_refused(void**) {
   ArmOfDrives arm;
   arm.arm();
   for (int i = 0; i < 20; ++i) {
-    move_held(arm, 200, 400);  // 0.03 rad at 0.075 rad/s, and back at 0.9
-    move_held(arm, -2400, 32);
-    move_held(arm, -200, 16);
+    move_held(arm, 200, 400);  // 0.03 rad at 0.075 rad/s, and back at 2.1
+    move_held(arm, -5600, 14);
+    move_held(arm, -200, 8);
   }
   assert_true(arm.all(DriveState::kEnabled));
 }
