@@ -49,29 +49,20 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
   braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
   telemetry_ = {};
-  next_ = 0;
   add_capsules(tip, section.tool_radius);
   add_pairs();
+  begin_anew();
 }
 
 void Collision::add_capsules(const Vector3& tip, double tool_radius) {
   for (std::size_t i = 0; i < RobotCapsules::kCapsules.size(); ++i) {
     const LinkCapsule& entry = RobotCapsules::kCapsules[i];
     const Capsule shape = {vector_of(entry.a), vector_of(entry.b), entry.radius};
-    bodies_[i] = {entry.link, entry.link, shape, reach_of(shape, entry.link)};
+    bodies_[i] = {entry.link, shape, reach_of(shape, entry.link)};
   }
   const Capsule tool = {dense(from_flange<Robot>(Vector3::Zero())), dense(from_flange<Robot>(tip)),
                         tool_radius};
-  bodies_.back() = {kToolBody, kDof, tool, reach_of(tool, kDof)};
-}
-
-/// True if two bodies of the arm can meet: not on one link or on neighbours, and not always
-/// touching.
-bool Collision::meets(int first, int second) const {
-  if (second - first < 2) return false;
-  for (const LinkPair& pair : RobotCapsules::kTouching)
-    if (pair.first == first && pair.second == second) return false;
-  return !is_allowed(first, second);
+  bodies_.back() = {kDof, tool, reach_of(tool, kDof)};
 }
 
 bool Collision::is_allowed(int first, int second) const {
@@ -79,20 +70,42 @@ bool Collision::is_allowed(int first, int second) const {
 }
 
 void Collision::add_pairs() {
-  pair_count_ = box_pair_count_ = 0;
-  for (int second = 0; second < kCapsules; ++second) {
-    const Body& moving = body(second);
+  pair_count_ = 0;
+  for (int second = 0; second < kArmCapsules; ++second)
     for (int first = 0; first < second; ++first)
-      if (meets(body(first).body, moving.body))
-        pairs_[static_cast<std::size_t>(pair_count_++)] = {second, first, body(first).link};
-    for (int box = 0; box < scene_->box_count() && moving.link > 0; ++box)
-      if (!is_allowed(kFirstBoxBody + box, moving.body))
-        box_pairs_[static_cast<std::size_t>(box_pair_count_++)] = {second, box, 0};
+      if (can_meet(first, second) && !is_allowed(body_of(first), body_of(second)))
+        add_pair(second, first, bodies_[static_cast<std::size_t>(first)].link, false);
+  for (int second = 0; second < kArmCapsules; ++second)
+    for (int box = 0; box < scene_->box_count() && body_of(second) > 0; ++box)
+      if (!is_allowed(kFirstBoxBody + box, body_of(second))) add_pair(second, box, 0, true);
+}
+
+void Collision::add_pair(int second, int first, int axis, bool of_box) {
+  pairs_[static_cast<std::size_t>(pair_count_++)] = {kNoCredit, static_cast<std::uint8_t>(second),
+                                                     static_cast<std::uint8_t>(first),
+                                                     static_cast<std::uint8_t>(axis), of_box};
+}
+
+/// Takes the boxes as they are now, and lets a check begin without credit.
+void Collision::begin_anew() {
+  for (int i = 0; i < scene_->box_count(); ++i) {
+    const auto box = static_cast<std::size_t>(i);
+    const Cuboid& cuboid = *scene_->boxes[box];
+    boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
   }
+  next_ = 0;
+  forget();
+}
+
+/// No pair has credit any more.
+void Collision::forget() {
+  travelled_.setZero();
+  for (Pair& pair : pairs_) pair.credit = kNoCredit;
 }
 
 Status Collision::check(const RobotState& measured) {
-  next_ = 0;
+  if (scene_ == nullptr) return Status::kNotStarted;
+  begin_anew();
   Status status = step(measured);
   LoopBound<kCheckedPositions> positions;
   while (status == Status::kOk && next_ > 0) {
@@ -105,27 +118,69 @@ Status Collision::check(const RobotState& measured) {
 Status Collision::step(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
-  if (next_ == 0) begin(measured);
+  travel(measured.q);
   LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
-    const Status status = check_next();
+    const Status status = next_ == 0 ? look_now(measured) : look_ahead();
     if (status != Status::kOk) return end(status);
     ++next_;
+    if (due_count_ == 0 || next_ == kCheckedPositions) return end(Status::kOk);
   }
-  return next_ < kCheckedPositions ? Status::kOk : end(Status::kOk);
+  return Status::kOk;
 }
 
-void Collision::begin(const RobotState& measured) {
+/// Adds up the angles. A sum that has grown large begins anew: rounding would eat into the credits.
+void Collision::travel(const JointVector& q) {
+  constexpr double kLarge = 100.0;  // rad
+  travelled_ += (q - last_q_).cwiseAbs();
+  last_q_ = q;
+  if (!(travelled_.array() < kLarge).all()) forget();
+}
+
+/// Looks at the pairs whose credit does not last until rest. They are due ahead if it still does
+/// not.
+Status Collision::look_now(const RobotState& measured) {
   q_ = measured.q;
   dq_ = measured.dq;
-  LoopBound<kMaxObstacles> obstacles;
-  for (int i = 0; i < scene_->box_count(); ++i) {
-    obstacles.tick();
-    const auto box = static_cast<std::size_t>(i);
-    const Cuboid& cuboid = *scene_->boxes[box];
-    boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
+  from_ = travelled_;
+  const Ways until_rest = ways(from_ + stopping_range(braking_, dq_));
+  bool placed = false;
+  due_count_ = 0;
+  LoopBound<kMaxPairs> pairs;
+  for (int i = 0; i < pair_count_; ++i) {
+    pairs.tick();
+    Pair& pair = pairs_[static_cast<std::size_t>(i)];
+    const double lasting = margin_ + until_rest[pair.second][pair.axis];
+    if (pair.credit > lasting) continue;
+    if (!placed) place(q_, from_);
+    placed = true;
+    const double distance = proved_distance(pair);
+    if (!(distance > margin_)) return contact(pair, 0.0);
+    pair.credit = distance + placed_[pair.second].ways[pair.axis];
+    if (!(pair.credit > lasting))
+      due_[static_cast<std::size_t>(due_count_++)] = static_cast<std::uint8_t>(i);
   }
+  return Status::kOk;
+}
+
+/// Looks at the pairs that are due, in section next_ - 1 of the way to rest. For most of them the
+/// credit lasts until there.
+Status Collision::look_ahead() {
+  const JointBox box = stopping_box(braking_, q_, dq_, next_ - 1);
+  const Ways until_there = ways(from_ + (box.middle - q_).cwiseAbs() + box.half);
+  bool placed = false;
+  LoopBound<kMaxPairs> pairs;
+  for (int i = 0; i < due_count_; ++i) {
+    pairs.tick();
+    const Pair& pair = pairs_[due_[static_cast<std::size_t>(i)]];
+    if (pair.credit > margin_ + until_there[pair.second][pair.axis]) continue;
+    if (!placed) place(box.middle, box.half);
+    placed = true;
+    const double sweep_m = placed_[pair.second].ways[pair.axis];
+    if (!(proved_distance(pair) > margin_ + sweep_m)) return contact(pair, sweep_m);
+  }
+  return Status::kOk;
 }
 
 Status Collision::end(Status status) {
@@ -134,51 +189,43 @@ Status Collision::end(Status status) {
   return status;
 }
 
-/// Checks all pairs in position next_: now, or in a section of the way to rest.
-Status Collision::check_next() {
-  place(next_ == 0 ? JointBox{q_, JointVector::Zero()}
-                   : stopping_box(braking_, q_, dq_, next_ - 1));
-  LoopBound<kMaxPairs> pairs;
-  for (int i = 0; i < pair_count_; ++i) {
-    pairs.tick();
-    const Pair& pair = pairs_[static_cast<std::size_t>(i)];
-    const Swept& second = swept(pair.second);
-    if (!apart(second.capsule, swept(pair.first).capsule, margin_ + second.ways[pair.axis]))
-      return contact(pair, body(pair.first).body);
+/// Returns how far a point of each capsule can move against the links before each joint, if the
+/// joints turn by such angles: the sum from joint k up.
+Collision::Ways Collision::ways(const JointVector& angles) const {
+  Ways result;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    double way = 0.0;
+    for (int joint = kDof - 1; joint >= 0; --joint) {
+      way += bodies_[i].reach[joint] * angles[joint];
+      result[i][joint] = way;
+    }
   }
-  LoopBound<kMaxBoxPairs> box_pairs;
-  for (int i = 0; i < box_pair_count_; ++i) {
-    box_pairs.tick();
-    const Pair& pair = box_pairs_[static_cast<std::size_t>(i)];
-    const Swept& second = swept(pair.second);
-    const BoxShape& box = boxes_[static_cast<std::size_t>(pair.first)];
-    if (!apart(second.capsule, box, margin_ + second.ways[pair.axis]))
-      return contact(pair, kFirstBoxBody + pair.first);
-  }
-  return Status::kOk;
+  return result;
 }
 
-/// Places the arm at the middle of a section, and finds how far each capsule can move in it against
-/// the links before each joint.
-void Collision::place(const JointBox& box) {
-  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(box.middle));
+/// Places the arm, and finds how far its points move if the joints turn by such angles.
+void Collision::place(const JointVector& q, const JointVector& angles) {
+  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(q));
+  const Ways moved = ways(angles);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
     const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
-    swept_[i].capsule = {frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius};
-    double way = 0.0;
-    for (int joint = kDof - 1; joint >= 0; --joint) {
-      way += body.reach[joint] * box.half[joint];
-      swept_[i].ways[joint] = way;
-    }
+    placed_[i] = {{frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius}, moved[i]};
   }
 }
 
-Status Collision::contact(const Pair& pair, int first_body) {
-  telemetry_.first = scene_->names[static_cast<std::size_t>(first_body)];
-  telemetry_.second = scene_->names[static_cast<std::size_t>(body(pair.second).body)];
+double Collision::proved_distance(const Pair& pair) const {
+  const Capsule& moving = placed_[pair.second].capsule;
+  return pair.of_box ? separation(moving, boxes_[pair.first])
+                     : separation(moving, placed_[pair.first].capsule);
+}
+
+Status Collision::contact(const Pair& pair, double sweep_m) {
+  const int first = pair.of_box ? kFirstBoxBody + pair.first : body_of(pair.first);
+  telemetry_.first = scene_->names[static_cast<std::size_t>(first)];
+  telemetry_.second = scene_->names[static_cast<std::size_t>(body_of(pair.second))];
   telemetry_.predicted = next_ > 0;
-  telemetry_.sweep_m = swept(pair.second).ways[pair.axis];
+  telemetry_.sweep_m = sweep_m;
   return Status::kCollision;
 }
 

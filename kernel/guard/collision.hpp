@@ -6,9 +6,16 @@
 // contact is a distance that is not proved to be more than `margin`: now, at the measured joints,
 // and in every position the joints can take until the arm is at rest (stopping.hpp).
 //
-// A check looks at ten positions of the arm: now, and in nine sections of the way to rest. All of
-// them follow from the state and the boxes of the cycle in which it begins. It is spread evenly
-// over N = [collision] cycles, and the next check begins in the cycle after.
+// Most checks look at nothing, for every pair has a credit: the distance that was proved last, plus
+// the way that its second body can have made until then. That way is the sum over the joints k
+// between the bodies of (reach_k times the angle that joint k has travelled since start()), where
+// reach_k is the largest distance of the body's points from axis k. While the credit is more than
+// the margin, the way until now and the farthest way until rest, the pair stays apart.
+//
+// A pair without that credit is looked at: now, where its credit begins anew, and if that does not
+// last until rest, in nine sections of the way to rest. These ten positions of the arm follow from
+// the state of the cycle in which the check begins, and are spread evenly over N = [collision]
+// cycles. The next check begins in the cycle after.
 //
 // Guarantee. If a check of the state (q, dq) ends without a contact, the capsules and boxes of
 // every pair that is checked are more than `margin` apart from then until the arm is at rest, if
@@ -19,11 +26,10 @@
 //   - from then on, if that next check finds a contact, every joint brakes with `braking`, reached
 //     with the jerk of [guard]: the executive brakes at once after a fault of a row.
 // Nothing between the checked positions is missed. In a section of the way joint k is within half_k
-// of the middle. Against link i < j, a point of link j moves by at most the sum over k = i+1 ... j
-// of (half_k times its largest distance from axis k), and the pair is made thicker by that.
+// of the middle. A point of the second body moves by at most the sum of half_k times reach_k, and
+// the pair is made thicker by that.
 //
-// Fails closed: NaN and a degenerate direction are contacts. Cost: every position takes the same
-// kinematics and, pair by pair, the same arithmetic, however near the arm is.
+// Fails closed: NaN and a degenerate direction are contacts, and give no credit.
 #pragma once
 
 #include "kernel/core/hal.hpp"
@@ -44,7 +50,8 @@ class Collision {
   };
 
   /// Sets up the pairs, and lets a check begin anew. `limits` are those of [guard]; `tip` is the
-  /// tool tip, m, in the flange frame. The scene must outlive this object. [init]
+  /// tool tip, m, in the flange frame. The boxes stay where they are then. The scene must outlive
+  /// this object. [init]
   [[gnu::cold]] void start(const CollisionSection& section, const JointLimits& limits,
                            const Vector3& tip, double period_s);
 
@@ -53,57 +60,69 @@ class Collision {
   /// kStateNotFinite if q or dq is not finite; kNotStarted before start(). [cyclic]
   Status step(const RobotState& measured);
 
-  /// Does a whole check of a state, instead of the one that is under way. Returns as step(). [init]
+  /// Does a whole check of a state and of the boxes as they are now, without credit, instead of the
+  /// one that is under way. Returns as step(). [init]
   Status check(const RobotState& measured);
 
   const Telemetry& telemetry() const { return telemetry_; }
 
  private:
-  static constexpr int kCapsules = static_cast<int>(RobotCapsules::kCapsules.size()) + 1;
-  static constexpr int kMaxPairs = kCapsules * (kCapsules - 1) / 2;
-  static constexpr int kMaxBoxPairs = kCapsules * kMaxObstacles;
+  static constexpr int kMaxPairs = count_pairs() + kArmCapsules * kMaxObstacles;
+  static_assert(kMaxPairs <= 256, "a pair's number has 8 bits");
 
   /// A capsule; `reach` is the largest distance of its points from each joint's axis, m.
   struct Body {
-    int body = 0, link = 0;  // number in the scene; the link it moves with
-    Capsule shape;           // in the frame of the link
+    int link = 0;   // that it moves with
+    Capsule shape;  // in the frame of the link
     JointVector reach = JointVector::Zero();
   };
+  static constexpr double kNoCredit = -1.0;
+
   /// The second capsule moves against another one, or against a box; `axis` is the first joint
   /// between them, from 0.
   struct Pair {
-    int second = 0, first = 0, axis = 0;
+    double credit = kNoCredit;  // m
+    std::uint8_t second = 0, first = 0, axis = 0;
+    bool of_box = false;
   };
-  struct Swept {
+  struct Placed {
     Capsule capsule;
-    JointVector ways = JointVector::Zero();  // m: from joint k up, in the section
+    JointVector ways = JointVector::Zero();  // m: from joint k up
   };
+  using Ways = std::array<JointVector, kArmCapsules>;
 
   [[gnu::cold]] void add_capsules(const Vector3& tip, double tool_radius);
   [[gnu::cold]] void add_pairs();
-  bool meets(int first, int second) const;
+  [[gnu::cold]] void add_pair(int second, int first, int axis, bool of_box);
   bool is_allowed(int first, int second) const;
-  void begin(const RobotState& measured);
+  void begin_anew();
+  void forget();
+  void travel(const JointVector& q);
+  Status look_now(const RobotState& measured);
+  Status look_ahead();
   Status end(Status status);
-  Status check_next();
-  void place(const JointBox& box);
-  Status contact(const Pair& pair, int first_body);
-  const Body& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
-  const Swept& swept(int index) const { return swept_[static_cast<std::size_t>(index)]; }
+  Status contact(const Pair& pair, double sweep_m);
+  Ways ways(const JointVector& angles) const;
+  void place(const JointVector& q, const JointVector& angles);
+  double proved_distance(const Pair& pair) const;
 
   const CollisionScene* scene_ = nullptr;
   double margin_ = 0.0;
-  int positions_ = 0;  // checked in a cycle
+  int positions_ = 0;  // looked at in a cycle
   Braking braking_;
-  std::array<Body, kCapsules> bodies_;
-  std::array<Pair, kMaxPairs> pairs_;         // of two capsules
-  std::array<Pair, kMaxBoxPairs> box_pairs_;  // `first` is a box
-  int pair_count_ = 0, box_pair_count_ = 0;
-
-  int next_ = 0;        // position; 0: a check begins
-  JointVector q_, dq_;  // of this check
+  std::array<Body, kArmCapsules> bodies_;
   std::array<BoxShape, kMaxObstacles> boxes_;
-  std::array<Swept, kCapsules> swept_;  // in this position
+  std::array<Pair, kMaxPairs> pairs_;
+  int pair_count_ = 0;
+
+  JointVector last_q_ = JointVector::Zero();
+  JointVector travelled_ = JointVector::Zero();  // each joint's angles, to and fro, rad
+
+  int next_ = 0;                               // position; 0: a check begins
+  JointVector q_, dq_, from_;                  // in which it began, and what had been travelled
+  std::array<std::uint8_t, kMaxPairs> due_{};  // pairs that it looks at ahead
+  int due_count_ = 0;
+  std::array<Placed, kArmCapsules> placed_;  // in this position
   Telemetry telemetry_;
 };
 

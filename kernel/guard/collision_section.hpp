@@ -7,13 +7,13 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/load_error.hpp"
+#include "kernel/guard/collision_pairs.hpp"
 #include "kernel/guard/stopping.hpp"
 #include "kernel/robots/robot.hpp"
 
 namespace tactus {
 
 /// The numbers of a scene's bodies: the links, base first, then the tool, then the boxes.
-inline constexpr int kToolBody = kDof + 1;
 inline constexpr int kFirstBoxBody = kToolBody + 1;
 inline constexpr int kMaxObstacles = 8;
 inline constexpr int kMaxBodies = kFirstBoxBody + kMaxObstacles;

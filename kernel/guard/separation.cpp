@@ -58,16 +58,19 @@ double first_along(const Vector3& n, const Vector3& d) {
   return at_b > 0.0 ? 0.0 : at_b;
 }
 
-/// True if the gap along n, which is as long as n times the gap in m, is more than `reach`.
-bool separates(const Vector3& n, double gap, double reach) {
-  return gap > reach * std::sqrt(n.squaredNorm());
+/// Returns the gap of two cores along n, m, less their radii. `gap` is as long as n times it. What
+/// is left of n where the cores meet is rounding: a direction as short as that proves nothing.
+double along(const Vector3& n, double gap, double radii) {
+  constexpr double kShortest = 1e-12;
+  const double length = std::sqrt(n.squaredNorm());
+  return (length > kShortest ? gap / length : 0.0) - radii;
 }
 
 }  // namespace
 
 // Ericson, Real-Time Collision Detection, 2005, section 5.1.9: the nearest points of two segments
 // p = a + s d. If t has to be moved to an end, s follows; otherwise it keeps its value.
-bool apart(const Capsule& capsule, const Capsule& other, double margin) {
+double separation(const Capsule& capsule, const Capsule& other) {
   const Vector3 d1 = capsule.b - capsule.a, d2 = other.b - other.a, r = capsule.a - other.a;
   const double a = d1.squaredNorm(), b = d1.dot(d2), c = d1.dot(r);
   const double e = d2.squaredNorm(), f = d2.dot(r);
@@ -75,17 +78,17 @@ bool apart(const Capsule& capsule, const Capsule& other, double margin) {
   const double t = part(b * on_line + f, e), s = part(b * t - c, a);
   const Vector3 n = r + s * d1 - t * d2;
   const double gap = n.dot(r) + first_along(n, d1) + first_along(n, -d2);
-  return separates(n, gap, capsule.radius + other.radius + margin);
+  return along(n, gap, capsule.radius + other.radius);
 }
 
-bool apart(const Capsule& capsule, const BoxShape& box, double margin) {
+double separation(const Capsule& capsule, const BoxShape& box) {
   const Vector3 a = box.r.transpose() * (capsule.a - box.centre);
   const Vector3 d = box.r.transpose() * (capsule.b - capsule.a);
   const Vector3 at = a + nearest_to_box(a, d, box.half) * d;
   Vector3 n;
   for (int i = 0; i < 3; ++i) n[i] = beyond(at[i], box.half[i]);
   const double gap = n.dot(a) + first_along(n, d) - n.cwiseAbs().dot(box.half);
-  return separates(n, gap, capsule.radius + margin);
+  return along(n, gap, capsule.radius);
 }
 
 }  // namespace tactus

@@ -1,9 +1,9 @@
-// Proves that a capsule is apart from another capsule or from a box, at a fixed cost.
+// Proves how far a capsule is apart from another capsule or from a box, at a fixed cost.
 //
-// The nearest points of the capsule's segment and of the other shape are found in closed form. The
-// shapes count as apart only if the direction between these points separates them: along it all of
-// one shape is before all of the other. A nearest point that rounding has moved can thus spoil a
-// proof, but not make a false one. NaN proves nothing.
+// The nearest points of the capsule's segment and of the other shape are found in closed form. What
+// is proved is the gap along the direction between these points: from the end of one shape to the
+// beginning of the other. A nearest point that rounding has moved can thus spoil a proof, but not
+// make a false one.
 #pragma once
 
 #include "kernel/core/types.hpp"
@@ -22,8 +22,9 @@ struct BoxShape {
   Vector3 centre = Vector3::Zero(), half = Vector3::Zero();  ///< m, base frame
 };
 
-/// True if it is proved that the shapes are more than `margin` >= 0 m apart. [cyclic]
-bool apart(const Capsule& capsule, const Capsule& other, double margin);
-bool apart(const Capsule& capsule, const BoxShape& box, double margin);
+/// Returns a distance that the shapes are apart at least, m: theirs but for rounding. A negative
+/// one and NaN prove nothing. [cyclic]
+double separation(const Capsule& capsule, const Capsule& other);
+double separation(const Capsule& capsule, const BoxShape& box);
 
 }  // namespace tactus

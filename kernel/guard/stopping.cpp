@@ -57,4 +57,15 @@ JointBox stopping_box(const Braking& braking, const JointVector& q, const JointV
   return box;
 }
 
+// A joint gets farthest in the direction in which it moves, on the ramp that is common to all.
+JointVector stopping_range(const Braking& braking, const JointVector& dq) {
+  const double t_r = braking.reaction_s, t_s = stopping_time(braking, dq);
+  JointVector range;
+  for (int j = 0; j < kDof; ++j) {
+    const double speed = std::abs(dq[j]), faster = speed + braking.acceleration[j] * t_r;
+    range[j] = 0.5 * ((speed + faster) * t_r + faster * t_s);
+  }
+  return range;
+}
+
 }  // namespace tactus

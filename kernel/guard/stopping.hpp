@@ -39,4 +39,8 @@ inline constexpr int kSections = 1 + kBrakes;
 JointBox stopping_box(const Braking& braking, const JointVector& q, const JointVector& dq,
                       int section);
 
+/// Returns how far each joint gets from where it is, at most, until it rests, rad: a bound for all
+/// sections. [cyclic]
+JointVector stopping_range(const Braking& braking, const JointVector& dq);
+
 }  // namespace tactus

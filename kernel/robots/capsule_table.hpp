@@ -16,7 +16,14 @@ struct LinkPair {
   int first, second;
 };
 
-/// The links of robot R as capsules: kLinkNames, kCapsules, kTouching.
+/// Two capsules, by their numbers in kCapsules from 0, the lower number first.
+struct CapsulePair {
+  int first, second;
+};
+
+/// The links of robot R as capsules: kLinkNames; kCapsules; kTouching, of which every capsule of
+/// the one link may touch every one of the other; kNever, which cannot come within 10 mm of each
+/// other at positions up to 0.05 rad beyond the joints' limits.
 template <class R>
 struct Capsules;
 

@@ -37,6 +37,10 @@ struct Capsules<Gen3> {
 
   /// What is no neighbour touches in few positions.
   static constexpr std::array<LinkPair, 0> kTouching = {};
+
+  /// Capsules that cannot meet: between them are joints that do not bend as far.
+  static constexpr std::array<CapsulePair, 9> kNever = {
+      {{0, 2}, {0, 3}, {1, 3}, {1, 4}, {3, 5}, {3, 6}, {4, 6}, {4, 7}, {5, 7}}};
 };
 
 }  // namespace tactus

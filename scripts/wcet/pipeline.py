@@ -62,34 +62,36 @@ def robot(path):
 
 
 def robot_table(robot):
-    """Returns of a robot's table: the link of every capsule; the names of the links; pairs of links that always touch. The
-    tool comes after the last link."""
+    """Returns of a robot's table: the link of every capsule; the names of the links; pairs of links that always touch, and of
+    capsules that never do. The tool comes after the last link."""
     text = (ROOT / "kernel/robots" / f"{robot}_capsules.hpp").read_text(encoding="utf-8")
     links = [int(link) for link in re.findall(r"^\s*\{(\d+),\s*\{", text, re.MULTILINE)]
     names = re.findall(r'"(\w+)"', re.search(r"kLinkNames = \{(.*?)\}", text, re.DOTALL)[1])
-    touching = re.findall(r"\{(\d+), (\d+)\}", re.search(r"kTouching = (.*?);", text, re.DOTALL)[1])
-    return [*links, max(links) + 1], [*names, "tool"], {(int(first), int(second)) for first, second in touching}
+    pairs = lambda name: {
+        (int(first), int(second))
+        for first, second in re.findall(r"\{(\d+), (\d+)\}", re.search(rf"{name} = (.*?);", text, re.DOTALL)[1])
+    }
+    return [*links, max(links) + 1], [*names, "tool"], pairs("kTouching"), pairs("kNever")
 
 
 def tell_collision(facts, path):
     """Adds the number of shapes, pairs and positions that a cycle checks for collisions."""
     keys, boxes = dict(sections(path)), [name for name, word in blocks(path) if word == "BoxObstacle"]
-    links, names, touching = robot_table(robot(path))
+    links, names, touching, never = robot_table(robot(path))
     settings = keys.get("collision", {})
     allowed = {frozenset(pair.split()) for pair in settings.get("allow", "").split(",")}
     checked = lambda first, second: frozenset((first, second)) not in allowed
     pairs = sum(
-        second - first >= 2 and (first, second) not in touching and checked(names[first], names[second])
-        for i, second in enumerate(links) for first in links[:i]
+        second - first >= 2 and (first, second) not in touching and (j, i) not in never and checked(names[first], names[second])
+        for i, second in enumerate(links) for j, first in enumerate(links[:i])
     )  # fmt: skip
     box_pairs = sum(link > 0 and checked(names[link], box) for link in links for box in boxes)
     text = (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8")
     cycles = int(settings.get("cycles", re.search(r"cycles = (\d+);", text)[1]))
     facts.add("loop", r"Collision::", r"bodies_\.size\(\)", str(len(links)))
-    facts.add("loop", r"Collision::", r"< scene_->box_count\(\)", str(len(boxes)))
     facts.add("loop", r"Collision::", r"i < positions_", str(POSITIONS // cycles))
-    facts.add("loop", r"Collision::", r"i < pair_count_", str(pairs))
-    facts.add("loop", r"Collision::", r"i < box_pair_count_", str(box_pairs))
+    facts.add("loop", r"Collision::", r"i < (pair|due)_count_", str(pairs + box_pairs))
+    facts.add("calls", r"Collision::", r"separation\(.*BoxShape", str(box_pairs))
 
 
 def stages(analysis, steps):

@@ -103,7 +103,15 @@ struct Stop {
       dq += step_s * ddq;
     }
   }
-  /// The nearest distance until rest, at `samples` instants.
+  /// Beyond the mechanical stops, where pairs meet that never can.
+  static bool impossible(const JointVector& q) {
+    for (int i = 0; i < kDof; ++i) {
+      const JointLimit& limit = Robot::kLimits[static_cast<std::size_t>(i)];
+      if (q[i] < limit.q_min - 0.05 || q[i] > limit.q_max + 0.05) return true;
+    }
+    return false;
+  }
+  /// The nearest distance until rest, or until a mechanical stop, at `samples` instants.
   double nearest_until_rest(int samples) {
     const JointVector own_s = dq.cwiseAbs().cwiseQuotient(bench.section.limits.ddq_max);
     const double all_s = own_s.maxCoeff();
@@ -120,6 +128,7 @@ struct Stop {
                       (dq[i] * own -
                        0.5 * own * own * std::copysign(bench.section.limits.ddq_max[i], dq[i]));
       }
+      if (impossible(now)) break;
       least = std::min(least, bench.nearest(now).distance);
     }
     return least;

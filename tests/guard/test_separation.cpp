@@ -108,14 +108,15 @@ void compare(const Capsule& one, const Other& other, int& clear, int& met) {
   const auto gap = static_cast<double>(searched(one, other));
   const double by_fcl = distance(one, other);
   if (gap <= 0.0) {
-    assert_false(apart(one, other, 0.0));
+    assert_false(separation(one, other) > 0.0);
     assert_true(by_fcl <= kFclClose);
     ++met;
     return;
   }
-  assert_false(apart(one, other, gap + kClose) || apart(one, other, by_fcl + kFclClose));
-  if (gap > kClose) assert_true(apart(one, other, gap - kClose));
-  if (by_fcl > kFclClose) assert_true(apart(one, other, by_fcl - kFclClose));
+  assert_false(separation(one, other) > gap + kClose ||
+               separation(one, other) > by_fcl + kFclClose);
+  if (gap > kClose) assert_true(separation(one, other) > gap - kClose);
+  if (by_fcl > kFclClose) assert_true(separation(one, other) > by_fcl - kFclClose);
   ++clear;
 }
 
@@ -146,16 +147,16 @@ void degenerate_shapes_are_no_exception(void**) {
   for (const double gap : {-0.3, -1e-3, -1e-9, 1e-9, 1e-3, 0.1, 1.0}) {
     const bool clear = gap > 0.0;
     const Vector3 up = (0.2 + gap) * z, beside = (0.6 + gap) * y;
-    assert_int_equal(apart(along, Capsule{up - x, up + x, 0.1}, 0.0), clear);
-    assert_int_equal(apart(along, Capsule{up - y, up + y, 0.1}, 0.0), clear);
-    assert_int_equal(apart(along, Capsule{x + (0.2 + gap) * x, 3.0 * x, 0.1}, 0.0), clear);
-    assert_int_equal(apart(point, Capsule{up, up, 0.1}, 0.0), clear);
-    assert_int_equal(apart(Capsule{beside, beside, 0.1}, box, 0.0), clear);
-    assert_int_equal(apart(Capsule{beside - x, beside + x, 0.1}, box, 0.0), clear);
+    assert_int_equal(separation(along, Capsule{up - x, up + x, 0.1}) > 0.0, clear);
+    assert_int_equal(separation(along, Capsule{up - y, up + y, 0.1}) > 0.0, clear);
+    assert_int_equal(separation(along, Capsule{x + (0.2 + gap) * x, 3.0 * x, 0.1}) > 0.0, clear);
+    assert_int_equal(separation(point, Capsule{up, up, 0.1}) > 0.0, clear);
+    assert_int_equal(separation(Capsule{beside, beside, 0.1}, box) > 0.0, clear);
+    assert_int_equal(separation(Capsule{beside - x, beside + x, 0.1}, box) > 0.0, clear);
   }
-  assert_false(apart(along, along, 0.0));
-  assert_false(apart(point, point, 0.0));
-  assert_false(apart(point, box, 0.0));
+  assert_false(separation(along, along) > 0.0);
+  assert_false(separation(point, point) > 0.0);
+  assert_false(separation(point, box) > 0.0);
 }
 
 // Proves COL-4.
@@ -164,18 +165,19 @@ void degenerate_shapes_are_no_exception(void**) {
 template <class Other>
 void assert_nan_is_no_proof(const Capsule& one, const Other& other) {
   static_assert(sizeof one % sizeof(double) == 0 && sizeof other % sizeof(double) == 0);
-  assert_true(apart(one, other, 0.0));
+  assert_true(separation(one, other) > 0.0);
   Capsule bad = one;
   for (std::size_t i = 0; i < sizeof bad / sizeof(double); ++i, bad = one) {
     put_nan(&bad, i);
-    assert_false(apart(bad, other, 0.0));
+    assert_false(separation(bad, other) > 0.0);
   }
   Other bad_other = other;
   for (std::size_t i = 0; i < sizeof bad_other / sizeof(double); ++i, bad_other = other) {
     put_nan(&bad_other, i);
-    assert_false(apart(one, bad_other, 0.0));
+    assert_false(separation(one, bad_other) > 0.0);
   }
-  for (const double margin : {std::nan(""), HUGE_VAL}) assert_false(apart(one, other, margin));
+  for (const double margin : {std::nan(""), HUGE_VAL})
+    assert_false(separation(one, other) > margin);
 }
 
 void what_is_not_a_number_is_not_apart(void**) {

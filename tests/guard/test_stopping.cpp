@@ -45,6 +45,7 @@ bool is_inside(const StoppingBoxes& boxes, const JointVector& q) {
 void assert_contains(const Braking& braking, const JointVector& q0, const JointVector& dq0,
                      Draw& draw) {
   const StoppingBoxes boxes = stopping_boxes(braking, q0, dq0);
+  const JointVector range = stopping_range(braking, dq0).array() + 1e-9;
   constexpr int kSteps = 40;
   JointVector q = q0, dq = dq0;
   const double h = braking.reaction_s / kSteps;
@@ -69,6 +70,7 @@ void assert_contains(const Braking& braking, const JointVector& q0, const JointV
                          (1.0 - share[j]) * (own - 0.5 * own * own / own_s[j]));
     }
     assert_true(is_inside(boxes, now));
+    assert_true(((now - q0).array().abs() <= range.array()).all());
   }
 }
 
@@ -118,6 +120,10 @@ void the_last_section_ends_where_the_ramps_do(void**) {
   ASSERT_NEAR(last.middle[1] - last.half[1], -0.2, 1e-15);
   ASSERT_NEAR(last.middle[1] + last.half[1], -0.1, 1e-15);
   ASSERT_NEAR(last.half[2], 0.0, 0.0);
+  const JointVector range = stopping_range(braking, dq);
+  ASSERT_NEAR(range[0], 0.4, 1e-15);
+  ASSERT_NEAR(range[1], 0.2, 1e-15);
+  ASSERT_NEAR(range[2], 0.0, 0.0);
 }
 
 // Proves COL-4.
