@@ -9,16 +9,32 @@ bool is_fault(State state) {
   return state == State::kFault || state == State::kFaultReactionActive;
 }
 
+/// How far up a state is; 0: without power.
+int height(State state) {
+  switch (state) {
+    case State::kReadyToSwitchOn: return 1;
+    case State::kSwitchedOn: return 2;
+    case State::kOperationEnabled: return 3;
+    default: return 0;
+  }
+}
+
 }  // namespace
 
 std::uint16_t DriveMachine::step(std::uint16_t statusword, Goal goal, std::int64_t now_ns) {
   const State state = state_of(statusword);
   const bool turns_up = goal_ == Goal::kDisabled && goal != Goal::kDisabled;
   if (state != state_ || goal != goal_) since_ns_ = now_ns;
-  if (turns_up) left_fault_ = false;
+  const bool fell = height(state) < height(state_);
   state_ = state;
   known_ = is_standard(statusword);
   goal_ = goal;
+  if (turns_up) {
+    left_fault_ = false;
+    falls_ = 0;
+  } else if (fell && !reached() && !falls_back()) {
+    ++falls_;
+  }
   left_fault_ = left_fault_ || !is_fault(state);
   late_ = !reached() && now_ns - since_ns_ > limit_ns();
   return goal == Goal::kDisabled ? stop_word() : enable_word(now_ns);

@@ -27,6 +27,9 @@ struct DriveTimes {
 
 class DriveMachine {
  public:
+  /// Falls on a way up that are bridged; the text of Drives::judge_rise() says it.
+  static constexpr int kMostFalls = 3;
+
   /// Takes the time-outs. [init]
   void configure(const DriveTimes& times) { times_ = times; }
 
@@ -42,6 +45,9 @@ class DriveMachine {
   bool late() const { return late_; }
   /// True if the drive went to fault on its way up, after a fault from before was reset. [cyclic]
   bool faulted() const;
+  /// True if the drive has fallen back on its way up more than kMostFalls times: from one state to
+  /// a lower one that is below the goal. [cyclic]
+  bool falls_back() const { return falls_ > kMostFalls; }
 
  private:
   std::uint16_t stop_word() const;
@@ -55,6 +61,7 @@ class DriveMachine {
   bool left_fault_ = false;    // seen without a fault on this way up
   bool known_ = false;         // the statusword shows a state of the standard
   bool late_ = false;
+  std::uint8_t falls_ = 0;  // on this way up, at most one more than are bridged
 };
 
 }  // namespace tactus::cia402

@@ -186,8 +186,8 @@ void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what
   failed.reason = reason;
   failed.code = code;
   if (phase_ == Phase::kFailed) return;
+  const std::uint16_t seen = rising() ? failed.last.statusword : 0;
   phase_ = Phase::kFailed;
-  const std::uint16_t seen = reason == Status::kNotReferenced ? failed.last.statusword : 0;
   failure_ = {joint, code, seen, what, detail, rest, figures != nullptr, {}};
   if (figures != nullptr) failure_.figures = *figures;
 }

@@ -125,7 +125,7 @@ class Drives {
   struct Failure {
     int joint = -1;  // -1: nothing has failed
     std::uint32_t code = 0;
-    std::uint16_t seen = 0;  // statusword of a drive that is not referenced
+    std::uint16_t seen = 0;  // the last statusword, of a drive that was to be enabled
     const char *what = "", *detail = "", *rest = "";
     bool has_figures = false;
     Figures figures;
@@ -161,6 +161,7 @@ class Drives {
   Goal goal_of(int j) const;
   bool all_reached() const;
   void judge_rise();
+  void judge_time();
   void judge_steadiness();
   JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
                      const JointVector& dq);
@@ -193,11 +194,13 @@ class Drives {
   int unsteady_ = 0;        // the last joint that did
   double jump_ = 0.0;       // how far from a cycle to the next, rad
   bool following_ = false;  // commands, in the last cycle
+  int rise_left_ = 0;       // cycles until the executive ends this arming
   Homing homing_;
   ObjectRequest request_;
   int asked_ = 0;    // the number of the last request
   int checked_ = 0;  // joints whose display of the mode was checked in this arming
   JointVector held_ = JointVector::Zero();  // rad: of the hold of positions
+  int most_rise_ = 0;                       // cycles of an arming, by [executive] arming_ms
   int moved_ = -1;                          // the joint that left its hold since attach(); -1: none
   double moved_from_ = 0.0;                 // rad: where it was held
   Failure failure_;

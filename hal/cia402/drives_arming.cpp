@@ -12,6 +12,7 @@ void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t 
   if (follow && !follows(command)) take(DriveRequest::kArm);  // failed: stops now
   set_controlwords(out, now_ns);
   judge_rise();
+  judge_time();
   if (phase_ == Phase::kHoming) home(now_ns);
   if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
   following_ = follow && phase_ == Phase::kArmed;
@@ -48,6 +49,7 @@ void Drives::take(DriveRequest request) {
   } else if (phase_ == Phase::kOff) {
     phase_ = Phase::kSwitchingOn;
     since_ns_ = -1;
+    rise_left_ = most_rise_;
     homing_.homed = 0;
     failure_ = {};
     for (Joint& joint : joints_) {
@@ -95,17 +97,39 @@ Goal Drives::goal_of(int j) const {
   return homes(j) && homing_.enables() ? Goal::kOperationEnabled : goal();
 }
 
-/// A drive that goes to fault on its way, or stays in a state for too long, ends arming.
+/// A drive that goes to fault on its way, falls back again and again, or stays in a state for too
+/// long, ends arming.
 void Drives::judge_rise() {
   for (int j = 0; j < kDof && rising(); ++j) {
     const Joint& joint = joints_[static_cast<std::size_t>(j)];
     if (joint.machine.faulted())
       fail(j, Status::kDriveFault, joint.last.error_code,
            "went to fault while it was armed: ", error_text(joint.last.error_code));
+    else if (joint.machine.falls_back())
+      fail(j, Status::kDriveFault, joint.last.error_code,
+           "has fallen back more than 3 times while it was armed, now to '",
+           name(joint.machine.state()), "'; look at its supply and its enable input");
     else if (joint.machine.late())
       fail(j, Status::kDriveFault, joint.last.error_code, "stays in '", name(joint.machine.state()),
            "' for longer than [cia402] step_ms or reset_ms");
   }
+}
+
+/// Names the joint that all others wait for a cycle before the executive, which does not know it,
+/// ends arming.
+void Drives::judge_time() {
+  if (!rising() || --rise_left_ > 1) return;
+  int late = -1;  // the last that is not where it is to be
+  LoopBound<kDof> joints;
+  for (int j = 0; j < kDof; ++j) {
+    joints.tick();
+    if (!joints_[static_cast<std::size_t>(j)].machine.reached()) late = j;
+  }
+  if (phase_ == Phase::kHoming) late = homing_.joint;
+  if (late < 0) return;
+  const Joint& joint = joints_[static_cast<std::size_t>(late)];
+  fail(late, Status::kArmingTime, joint.last.error_code,
+       "is not enabled within [executive] arming_ms, but in '", name(joint.machine.state()), "'");
 }
 
 /// A drive that was lost cannot say that it has stopped; its own watchdogs stop it.

@@ -17,6 +17,7 @@ Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int p
                          int arming_ms, Message& why) {
   settings_ = &settings;
   period_s_ = 1e-6 * period_us;
+  most_rise_ = static_cast<int>((std::int64_t{1000} * arming_ms + period_us - 1) / period_us);
   hold_.configure(settings, tool, period_s_);
   const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
                             settings.stop_ms * kMillisecond_ns};

@@ -2,8 +2,11 @@
 // expected to make of it, and the way from there to the rearm.
 #pragma once
 
+#include <string>
+
 #include "hal/cia402/drives.hpp"
 #include "tests/cia402/safety_watch.hpp"
+#include "tests/support/random.hpp"
 
 namespace tactus::cia402 {
 
@@ -123,6 +126,42 @@ void judge_faults(const FaultRow<Bench>* begin, const FaultRow<Bench>* end,
                     : worst.arms == Status::kOk ? "arm()"
                                                 : "start()");
     }
+}
+
+/// Arms while drives of random joints drop to "switch on disabled" at random: `weaken` makes one do
+/// so with a probability in each period.
+template <class Bench>
+void arm_drives_that_fall(Bench& (*fresh)(), void (*weaken)(Bench& bench, int joint, double p)) {
+  Random random{402};
+  int armed = 0, refused = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    Bench& bench = fresh();
+    ASSERT_OK(bench.load());
+    ASSERT_OK(bench.connect());
+    std::string weak;
+    for (int j = 0; j < kDof; ++j)
+      if (random.below(4) == 0) weak += static_cast<char>('1' + j);
+    const double p = random.uniform(0.0, random.below(2) == 0 ? 0.002 : 0.5);
+    for (const char joint : weak) weaken(bench, joint - '1', p);
+    const Status status = bench.arm();
+    if (status == Status::kOk) {
+      ++armed;
+      bool all = true;
+      for (int j = 0; j < kDof; ++j) all = all && axis(bench, j).powered();
+      if (!all) ASSERT_STATUS(bench.cycles(5), Status::kDriveFault);  // it has just fallen
+      continue;
+    }
+    ++refused;
+    ASSERT_STATUS(status, Status::kDriveFault);
+    const std::string named = told_of(bench, Cause::kDrive).joints;
+    assert_int_equal(named.size(), 1);
+    assert_true(weak.find(named) != std::string::npos);
+    const std::string why = bench.hal.trouble().c_str();
+    assert_true(why.rfind("joint " + named, 0) == 0);
+    if (p > 0.1) print_message("%s\n", why.c_str());
+  }
+  print_message("%d armed, %d refused\n", armed, refused);
+  assert_true(armed > 3 && refused > 3);
 }
 
 }  // namespace tactus::cia402

@@ -40,6 +40,18 @@ void every_fault_on_two_classic_buses_stops_all_drives_or_is_bridged(void**) {
   every_fault_stops_all_drives_or_is_bridged<Buses::kClassicPacked>();
 }
 
+// Proves CAN-3.
+void drives_that_fall_back_are_armed_all_or_named(void**) {
+  cia402::arm_drives_that_fall<MasterBench>(
+      [](void) -> MasterBench& { return fresh_bench(); },
+      [](MasterBench& bench, int joint, double p) {
+        drives::Fault fault;
+        fault.kind = FaultKind::kSwitchOnDisabled;
+        fault.probability = p;
+        assert_true(bench.hal.arm.node(joint).faults().add(fault));
+      });
+}
+
 }  // namespace
 }  // namespace tactus::can
 
@@ -49,6 +61,7 @@ int main() {
       cmocka_unit_test(every_fault_on_can_fd_stops_all_drives_or_is_bridged),
       cmocka_unit_test(every_fault_on_three_classic_buses_stops_all_drives_or_is_bridged),
       cmocka_unit_test(every_fault_on_two_classic_buses_stops_all_drives_or_is_bridged),
+      cmocka_unit_test(drives_that_fall_back_are_armed_all_or_named),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -178,6 +178,18 @@ void a_slave_that_fell_is_named_with_its_code(void**) {
   assert_non_null(std::strstr(said.c_str(), "fatal synchronization error (002Ch)"));
 }
 
+// Proves CAN-3.
+void drives_that_fall_back_are_armed_all_or_named(void**) {
+  cia402::arm_drives_that_fall<MasterBench>(fresh_bench,
+                                            [](MasterBench& bench, int joint, double p) {
+                                              drives::Fault fault;
+                                              fault.node = joint + 1;
+                                              fault.kind = FaultKind::kSwitchOnDisabled;
+                                              fault.probability = p;
+                                              assert_true(bench.hal.line.add(fault));
+                                            });
+}
+
 }  // namespace
 }  // namespace tactus::ethercat
 
@@ -192,6 +204,7 @@ int main() {
       cmocka_unit_test(a_stop_waits_for_two_frames_at_most),
       cmocka_unit_test(copies_of_frames_are_strange),
       cmocka_unit_test(a_slave_that_fell_is_named_with_its_code),
+      cmocka_unit_test(drives_that_fall_back_are_armed_all_or_named),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
