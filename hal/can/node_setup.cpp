@@ -20,6 +20,7 @@ void NodeSetup::begin(const CanSettings& can, const PdoLayout& layout, const Slo
                       CommandMode mode, int period_us) {
   count_ = 0;
   identity(can, mode);
+  identifying_ = count_;
   facts();
   watchdogs(can, period_us);
   pdos(can, layout, slot, period_us);
@@ -39,6 +40,7 @@ void NodeSetup::identity(const CanSettings& can, CommandMode mode) {
   const std::uint32_t bit = 1U << (static_cast<int>(cia402::mode_of(mode)) - 1);
   expect(cia402::kSupportedModes.index, 0, 4, bit, "supported modes",
          "the drive does not have the mode that [robot] commands", bit);
+  fact(cia402::kIdentityFact);
 }
 
 void NodeSetup::fact(std::uint32_t row) {
@@ -49,7 +51,6 @@ void NodeSetup::fact(std::uint32_t row) {
 
 /// What the lines of the file set may be a fact, so they come before all but the identity.
 void NodeSetup::facts() {
-  fact(cia402::kIdentityFact);
   write(Kind::kLines, 0, 0, 0, 0, "");
   for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);
   write(Kind::kStore, cia402::kStoreParameters, cia402::kSaveSignature,

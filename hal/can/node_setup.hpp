@@ -1,7 +1,8 @@
 // NodeSetup: what is read from and written to one drive by SDO before its first PDO, as a list of
-// steps: who it is, the file's own lines, what it says of its numbers, then watchdogs, PDOs and
-// mode. Everything that is written to the PDOs is read back. PDOs are changed in the order that CiA
-// 301 demands (7.5.2.36): invalid, no entries, entries, their number, parameters, valid.
+// steps: who it is, which all drives are asked before the first is set up; the file's own lines,
+// what it says of its numbers, then watchdogs, PDOs and mode. Everything that is written to the
+// PDOs is read back. PDOs are changed in the order that CiA 301 demands (7.5.2.36): invalid, no
+// entries, entries, their number, parameters, valid.
 #pragma once
 
 #include "hal/can/pdo_layout.hpp"
@@ -43,6 +44,8 @@ class NodeSetup {
              int period_us);
 
   int count() const { return count_; }
+  /// How many steps, the first ones, only ask who the drive is. [init]
+  int identifying() const { return identifying_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
 
  private:
@@ -62,7 +65,7 @@ class NodeSetup {
   void write(Kind kind, const cia402::Object& object, std::uint32_t value, const char* what);
 
   std::array<SetupStep, kMaxSteps> steps_;
-  int count_ = 0;
+  int count_ = 0, identifying_ = 0;
 };
 
 }  // namespace tactus::can

@@ -30,11 +30,13 @@ void Startup::enter(Stage stage, std::int64_t now_ns) {
   stage_ = stage;
   since_ns_ = now_ns;
   joint_ = steady_ = boot_ups_ = 0;
-  if (stage == Stage::kSetup) {
+  if (stage == Stage::kIdentify) {
     // A drive that starts by itself (CiA 302-2) is operational, and takes no mapping there.
     for (const Node& node : nodes_)
       out_[static_cast<std::size_t>(node.bus)].add(
           nmt_frame(NmtCommand::kPreOperational, node.id()));
+  }
+  if (stage == Stage::kIdentify || stage == Stage::kSetup) {
     list_steps();
     ask(now_ns);
   }
@@ -51,6 +53,7 @@ void Startup::enter(Stage stage, std::int64_t now_ns) {
 Status Startup::advance(std::int64_t now_ns) {
   switch (stage_) {
     case Stage::kReset: return reset(now_ns);
+    case Stage::kIdentify:
     case Stage::kSetup: return setup(now_ns);
     case Stage::kStart: return start(now_ns);
     case Stage::kSync: return sync(now_ns);
@@ -83,7 +86,7 @@ Status Startup::reset(std::int64_t now_ns) {
   for (const Node& node : nodes_) boot_ups += node.heart.boot_ups();
   if (boot_ups != boot_ups_) booted_ns_ = now_ns;
   boot_ups_ = boot_ups;
-  if (now_ns - booted_ns_ >= kSettled_ns) enter(Stage::kSetup, now_ns);
+  if (now_ns - booted_ns_ >= kSettled_ns) enter(Stage::kIdentify, now_ns);
   return Status::kArming;
 }
 
@@ -131,15 +134,21 @@ Status Startup::setup(std::int64_t now_ns) {
   return status;
 }
 
-/// Lists the steps of the node of joint_.
+/// Lists the steps of the node of joint_, and begins with the first of the stage.
 void Startup::list_steps() {
   const Node& node = nodes_[static_cast<std::size_t>(joint_)];
   bus_ = node.bus;
-  step_ = 0;
   watched_ = false;
   facts_.clear();
   lines_.begin(drive_->sdo, joint_, learnt_);
   steps_.begin(*can_, *layout_, node.slot, mode_, period_us_);
+  step_ = stage_ == Stage::kIdentify ? 0 : steps_.identifying();
+  leave_out();
+}
+
+/// Behind the last step of the stage.
+int Startup::steps_end() const {
+  return stage_ == Stage::kIdentify ? steps_.identifying() : steps_.count();
 }
 
 /// Sends the request of step `step_`.
@@ -169,15 +178,19 @@ bool Startup::is_left_out(const SetupStep& step) const {
   return step.kind == SetupStep::Kind::kStore && !(drive_->store != 0 && lines_.changed());
 }
 
+void Startup::leave_out() {
+  while (step_ < steps_end() && is_left_out(steps_.step(step_))) ++step_;
+}
+
 /// Goes on with the next step, the next node, or the next stage.
 Status Startup::next_step(std::int64_t now_ns) {
   step_ns_ = now_ns;
   ++step_;
-  while (step_ < steps_.count() && is_left_out(steps_.step(step_))) ++step_;
-  const bool last = step_ == steps_.count();
-  if (last && !watched_) return unwatched();
+  leave_out();
+  const bool last = step_ == steps_end(), identified = stage_ == Stage::kIdentify;
+  if (last && !identified && !watched_) return unwatched();
   if (last && ++joint_ == kDof) {
-    enter(Stage::kStart, now_ns);
+    enter(identified ? Stage::kSetup : Stage::kStart, now_ns);
     return Status::kArming;
   }
   if (last) list_steps();

@@ -1,7 +1,9 @@
 // Startup: takes the drives from power-on to cyclic operation, one stage after the other:
 //
 //   reset     NMT reset communication; every node answers with its boot-up message
-//   setup     NMT pre-operational; the steps of NodeSetup for one node after the other, by SDO
+//   identify  NMT pre-operational; every node says by SDO who it is. Nothing is written to any
+//             drive before all of them are those of the file
+//   setup     the other steps of NodeSetup for one node after the other, by SDO
 //   start     NMT start; every node's heartbeat says "operational"
 //   sync      a SYNC in every period, until all nodes have sent feedback in kSteady cycles in a row
 //
@@ -37,7 +39,7 @@ class Startup {
   int bus() const { return bus_; }
 
  private:
-  enum class Stage : std::uint8_t { kReset, kSetup, kStart, kSync, kDone };
+  enum class Stage : std::uint8_t { kReset, kIdentify, kSetup, kStart, kSync, kDone };
 
   Status reset(std::int64_t now_ns);
   Status setup(std::int64_t now_ns);
@@ -45,6 +47,8 @@ class Startup {
   Status sync(std::int64_t now_ns);
   void enter(Stage stage, std::int64_t now_ns);
   void list_steps();
+  int steps_end() const;
+  void leave_out();
   void ask(std::int64_t now_ns);
   Status next_step(std::int64_t now_ns);
   Status finish_step(std::int64_t now_ns);
@@ -68,7 +72,7 @@ class Startup {
 
   Stage stage_ = Stage::kReset;
   std::int64_t since_ns_ = 0;  // in this stage
-  int joint_ = 0;              // that is being set up
+  int joint_ = 0;              // that is asked or set up
   int step_ = 0;
   std::int64_t step_ns_ = 0;    // when the step began
   bool watched_ = false;        // the drive has a watchdog of its own

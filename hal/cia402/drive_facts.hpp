@@ -78,8 +78,8 @@ class DriveFacts {
     return has(object) ? values_[row_of(object)] : 0;
   }
 
-  /// Compares the serial number with that of the file; nothing is written to a drive before. Fails
-  /// as judge(). [init]
+  /// Compares the serial number with that of the file; nothing is written to any drive before all
+  /// are judged. Fails as judge(). [init]
   Status judge_identity(const Cia402Settings& drive, int joint, Learnt& learnt, Message& why) const;
   /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
   /// wire carries velocities of this drive, whose unit must be known. Fills in what is `learnt` of

@@ -19,6 +19,7 @@ constexpr std::uint32_t kBySync0 = 2;
 void SlaveSetup::begin(const EthercatSettings& ethercat, CommandMode mode, int period_us) {
   count_ = 0;
   identity(ethercat, mode);
+  identifying_ = count_;
   facts();
   options(mode, period_us);
   if (ethercat.has_sync0()) sync0();
@@ -38,6 +39,7 @@ void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
   const std::uint32_t bit = 1U << (static_cast<int>(cia402::mode_of(mode)) - 1);
   expect(cia402::kSupportedModes.index, 0, bit, "supported modes",
          "the drive does not have the mode that [robot] commands", bit);
+  fact(cia402::kIdentityFact);
 }
 
 void SlaveSetup::fact(std::uint32_t row) {
@@ -48,7 +50,6 @@ void SlaveSetup::fact(std::uint32_t row) {
 
 /// What the lines of the file set may be a fact, so they come before all but the identity.
 void SlaveSetup::facts() {
-  fact(cia402::kIdentityFact);
   steps_[static_cast<std::size_t>(count_++)].kind = SetupStep::Kind::kLines;
   for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);
   write(cia402::kStoreParameters, cia402::kSaveSignature,

@@ -1,8 +1,8 @@
 // SlaveSetup: what is read from and written to one drive by SDO before its first cycle, as a list
-// of steps: who it is, the file's own lines, what it says of its numbers, then options, mode and
-// PDOs, in the order that CoE demands: no PDO assigned, no entries, entries, their number,
-// assignment. A drive whose PDOs cannot be changed is left as it is; what is then read back
-// decides.
+// of steps: who it is, which all drives are asked before the first is set up; the file's own lines,
+// what it says of its numbers, then options, mode and PDOs, in the order that CoE demands: no PDO
+// assigned, no entries, entries, their number, assignment. A drive whose PDOs cannot be changed is
+// left as it is; what is then read back decides.
 #pragma once
 
 #include "hal/cia402/drive_facts.hpp"
@@ -37,6 +37,8 @@ class SlaveSetup {
   /// Lists the steps of a drive for commands of `mode`. [init]
   void begin(const EthercatSettings& ethercat, CommandMode mode, int period_us);
   int count() const { return count_; }
+  /// How many steps, the first ones, only ask who the drive is. [init]
+  int identifying() const { return identifying_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
 
  private:
@@ -55,7 +57,7 @@ class SlaveSetup {
   }
 
   std::array<SetupStep, kMaxSteps> steps_;
-  int count_ = 0;
+  int count_ = 0, identifying_ = 0;
 };
 
 /// Reads back what is assigned and mapped: names one object after the other and takes its value.

@@ -111,6 +111,7 @@ Request Startup::request() {
     case Stage::kCategories: return eeprom_.next();
     case Stage::kMailboxes: return area_request();
     case Stage::kPreop: return state_request(AlState::kPreop);
+    case Stage::kIdentify:
     case Stage::kSetup:
     case Stage::kMapping: return port_.next(at().boxes, kMaxData);
     case Stage::kProcessData: return process_request();
@@ -167,6 +168,7 @@ Status Startup::take(const Answer& answer) {
       }
       break;
     case Stage::kPreop: return await_state(answer, AlState::kPreop);
+    case Stage::kIdentify:
     case Stage::kSetup:
     case Stage::kMapping: return take_mailbox(answer);
     case Stage::kProcessData: return take_process_data();
@@ -217,13 +219,7 @@ Status Startup::await_state(const Answer& answer, AlState state) {
       next_slave(Stage::kSafeop, Stage::kDone);
       return Status::kOk;
     }
-    stage_ = Stage::kSetup;
-    step_ = attempts_ = 0;
-    port_.reset();
-    facts_.clear();
-    lines_.begin(drive_->sdo, joint(), learnt_);
-    steps_.begin(*ethercat_, mode_, period_us_);
-    ask_object(now_ns_);
+    begin_steps(Stage::kIdentify);
     return Status::kOk;
   }
   if (now_ns_ - since_ns_ <= ethercat_->state_ms * kMillisecond_ns) return Status::kOk;

@@ -1,9 +1,10 @@
 // Startup: takes all slaves of the segment from any state to SAFEOP, with the process data of a
 // cycle configured: a sequence of single datagrams. Frames in, frames out, time passed in.
 //
-// The line is counted and brought to INIT; then one slave after the other gets its address, shows
-// its EEPROM, goes to PREOP, is set up by SDO and gets its process data; then the clocks are set,
-// and the slaves go to SAFEOP.
+// The line is counted and brought to INIT; then one slave after the other shows its
+// EEPROM, goes to PREOP and says by SDO who it is; nothing is written to any drive before all of
+// them are those of the file. Then one after the other is set up by SDO, all get their process
+// data, the clocks are set, and the slaves go to SAFEOP.
 #pragma once
 
 #include "hal/cia402/line_writer.hpp"
@@ -71,6 +72,7 @@ class Startup {
     kCategories,
     kMailboxes,
     kPreop,
+    kIdentify,
     kSetup,
     kMapping,
     kProcessData,
@@ -106,6 +108,9 @@ class Startup {
   Status take_process_data();
   Status place_image();
   // startup_setup.cpp
+  void begin_steps(Stage stage);
+  int steps_end() const;
+  void leave_out();
   void ask_object(std::int64_t now_ns);
   Status take_mailbox(const Answer& answer);
   Status finish_step();

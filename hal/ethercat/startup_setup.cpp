@@ -1,4 +1,4 @@
-// Startup: the set-up of a drive by SDO.
+// Startup: what is read from and written to a drive by SDO.
 #include "hal/cia402/hex.hpp"
 #include "hal/ethercat/startup.hpp"
 
@@ -9,6 +9,28 @@ constexpr const char* kManual = "; see this object in the drive's manual";
 constexpr int kAttempts = 2;  // of a transfer that gets no answer: a frame with it may be lost
 
 }  // namespace
+
+/// Begins to ask the present slave who it is, or to set it up.
+void Startup::begin_steps(Stage stage) {
+  stage_ = stage;
+  attempts_ = 0;
+  port_.reset();
+  facts_.clear();
+  lines_.begin(drive_->sdo, joint(), learnt_);
+  steps_.begin(*ethercat_, mode_, period_us_);
+  step_ = stage == Stage::kIdentify ? 0 : steps_.identifying();
+  leave_out();
+  ask_object(now_ns_);
+}
+
+/// Behind the last step of the stage.
+int Startup::steps_end() const {
+  return stage_ == Stage::kIdentify ? steps_.identifying() : steps_.count();
+}
+
+void Startup::leave_out() {
+  while (step_ < steps_end() && is_left_out(steps_.step(step_))) ++step_;
+}
 
 /// Begins the transfer of the present step.
 void Startup::ask_object(std::int64_t now_ns) {
@@ -61,8 +83,13 @@ Status Startup::finish_step() {
     }
   }
   ++step_;
-  while (step_ < steps_.count() && is_left_out(steps_.step(step_))) ++step_;
-  if (step_ == steps_.count()) {
+  leave_out();
+  if (step_ == steps_end() && stage_ == Stage::kIdentify) {
+    next_slave(Stage::kFeatures, Stage::kSetup);
+    if (stage_ == Stage::kSetup) begin_steps(Stage::kSetup);
+    return Status::kOk;
+  }
+  if (step_ == steps_end()) {
     stage_ = Stage::kMapping;
     mapping_.begin(at().data);
   }
@@ -147,7 +174,8 @@ Status Startup::finish_mapping() {
     return refuse(Status::kRefusedByRobot, what);
   }
   if (at_ + 1 == kDof) TRY(place_image());
-  next_slave(Stage::kFeatures, Stage::kProcessData);
+  next_slave(Stage::kSetup, Stage::kProcessData);
+  if (stage_ == Stage::kSetup) begin_steps(Stage::kSetup);
   return Status::kOk;
 }
 

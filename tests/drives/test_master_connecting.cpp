@@ -91,6 +91,34 @@ void the_serial_numbers_of_a_bus_are_told_until_the_file_has_them(void**) {
   assert_true(stated.hal.master.unstated().empty());
 }
 
+int downloads(const std::vector<CanFrame>& log) {
+  int count = 0;
+  for (const CanFrame& frame : log)
+    count += frame.id > 0x600 && frame.id <= 0x67F && (frame.data[0] & 0xE0) == 0x20;
+  return count;
+}
+
+/// Wrong drives are found, whatever is wrong, before a byte is written to any drive of any bus.
+void no_drive_is_written_to_before_all_have_said_who_they_are(void**) {
+  for (const Buses buses : {Buses::kFdPacked, Buses::kClassicPlain})
+    for (const int joint : kJoints)
+      for (const bool serial : {true, false}) {
+        MasterBench& bench = fresh_bench(buses);
+        bench.hal.logs = true;
+        bench.can.product = 402;
+        bench.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
+        if (serial) bench.drive.serial[joint] = 1008;
+        ASSERT_OK(bench.load());
+        if (!serial) inject(bench, joint, FaultKind::kWrongIdentity, 403);
+        assert_refused(bench, joint, Status::kRefusedByRobot);
+        assert_true(says(bench, serial ? "[cia402] serial is 1008" : "product (1018h:2) is 403"));
+        assert_int_equal(downloads(bench.hal.log), 0);
+        bench.drive.serial[joint] = 1001 + joint;
+        ASSERT_OK(bench.start());
+        assert_true(downloads(bench.hal.log) > 7 * 20);
+      }
+}
+
 void a_drive_that_answers_no_request_is_a_time_out(void**) {
   MasterBench& bench = fresh_bench();
   bench.hal.logs = true;
@@ -275,6 +303,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(an_abort_of_any_step_refuses_the_start_and_names_the_object),
       cmocka_unit_test(the_serial_numbers_of_a_bus_are_told_until_the_file_has_them),
+      cmocka_unit_test(no_drive_is_written_to_before_all_have_said_who_they_are),
       cmocka_unit_test(a_drive_that_answers_no_request_is_a_time_out),
       cmocka_unit_test(objects_that_a_drive_need_not_have_may_be_absent),
       cmocka_unit_test(drives_that_start_by_themselves_are_set_up),
