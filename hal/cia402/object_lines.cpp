@@ -1,5 +1,6 @@
 #include "hal/cia402/object_lines.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -152,7 +153,29 @@ Status read_type(std::string_view word, ObjectLine& line, Message& why) {
   return Status::kBadValue;
 }
 
+/// With as few digits as tell it from all others; nine always do.
+void append_single(Message& text, float value) {
+  constexpr int kMost = 9;
+  for (int digits = 1; digits <= kMost; ++digits) {
+    Text<24> written;
+    double read = 0.0;
+    written.append(static_cast<double>(value), digits);
+    const bool same = parse_number(written, read) && static_cast<float>(read) == value;
+    if (same || digits == kMost) return static_cast<void>(text << std::string_view(written));
+  }
+}
+
+/// True for "0", "-0.00", "0e5".
+bool is_written_as_zero(std::string_view word) {
+  for (const char c : word) {
+    if (c == 'e' || c == 'E') break;
+    if (c >= '1' && c <= '9') return false;
+  }
+  return true;
+}
+
 Status read_float(std::string_view word, ObjectLine& line, Message& why) {
+  constexpr float kLeast = std::numeric_limits<float>::min();
   constexpr double kMost = std::numeric_limits<float>::max();
   double value = 0.0;
   if (!parse_number(word, value)) {
@@ -160,10 +183,19 @@ Status read_float(std::string_view word, ObjectLine& line, Message& why) {
     return Status::kBadValue;
   }
   if (!(value >= -kMost && value <= kMost)) {
-    why << "f32 " << word << " is out of range; it must be in [" << -kMost << ", " << kMost << "]";
+    why << "f32 " << word << " is out of range; it must be in [";
+    append_single(why, static_cast<float>(-kMost));
+    why << ", ";
+    append_single(why, static_cast<float>(kMost));
+    why << "]";
     return Status::kBadValue;
   }
   const auto single = static_cast<float>(value);
+  if (!(std::abs(single) >= kLeast) && !is_written_as_zero(word)) {
+    why << "f32 " << word << " is too small; write 0, or at least ";
+    append_single(why, kLeast);
+    return Status::kBadValue;
+  }
   std::memcpy(&line.bits, &single, sizeof single);
   return Status::kOk;
 }
@@ -225,7 +257,7 @@ void ObjectLine::append(Message& text, std::uint32_t value) const {
   switch (type) {
     case ValueType::kF32:
       std::memcpy(&single, &value, sizeof single);
-      text << static_cast<double>(single);
+      append_single(text, single);
       break;
     case ValueType::kI8: text << int{static_cast<std::int8_t>(value)}; break;
     case ValueType::kI16: text << int{static_cast<std::int16_t>(value)}; break;

@@ -7,19 +7,19 @@
 namespace tactus {
 namespace {
 
-constexpr int kSignificant = 6;  // digits of a double in a message
+constexpr int kMostSignificant = 9;
 // Values of Decimal::point for which a number has no exponent: 0.00001 to 999999000.
 constexpr int kSmallestPlain = -4, kLargestPlain = 9;
 
 /// The decimal digits of a positive finite value, 0.d1 d2 d3 ... * 10^point, without trailing
 /// zeros.
 struct Decimal {
-  char digits[kSignificant];
-  int count = kSignificant, point = kSignificant;
+  char digits[kMostSignificant];
+  int count, point;
 
-  explicit Decimal(double value) {
+  Decimal(double value, int significant) : count(significant), point(significant) {
     double limit = 1.0;
-    for (int i = 0; i < kSignificant; ++i) limit *= 10.0;
+    for (int i = 0; i < significant; ++i) limit *= 10.0;
     for (int i = 0; i < 330 && value >= limit; ++i, ++point) value /= 10.0;
     for (int i = 0; i < 330 && value < limit / 10.0; ++i, --point) value *= 10.0;
     auto rounded = static_cast<long>(value + 0.5);
@@ -27,7 +27,7 @@ struct Decimal {
       rounded /= 10;
       ++point;
     }
-    for (int i = kSignificant; i-- > 0; rounded /= 10)
+    for (int i = significant; i-- > 0; rounded /= 10)
       digits[i] = static_cast<char>('0' + rounded % 10);
     while (count > 1 && digits[count - 1] == '0') --count;
   }
@@ -75,7 +75,8 @@ std::size_t append_int(char* buffer, std::size_t size, std::size_t capacity, lon
   return size;
 }
 
-std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, double value) {
+std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, double value,
+                          int significant) {
   if (std::isnan(value)) return append_text(buffer, size, capacity, "nan");
   if (value < 0.0) {
     size = append_text(buffer, size, capacity, "-");
@@ -86,7 +87,7 @@ std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, 
   if (has_more_digits(value))
     return append_int(buffer, size, capacity, static_cast<std::uint32_t>(value));
 
-  const Decimal decimal(value);
+  const Decimal decimal(value, significant);
   const bool plain = decimal.point >= kSmallestPlain && decimal.point <= kLargestPlain;
   const int whole = plain ? decimal.point : 1;  // digits before the point
   if (whole <= 0) size = append_text(buffer, size, capacity, "0");

@@ -14,9 +14,11 @@ namespace tactus {
 /// [any]
 std::size_t append_text(char* buffer, std::size_t size, std::size_t capacity,
                         std::string_view text);
-/// Do the same for an integer, and for a double with six significant digits: "0.785398", "1.5e-6".
+/// Do the same for an integer, and for a double with at most so many significant digits, 1 to 9:
+/// "0.785398", "1.5e-6".
 std::size_t append_int(char* buffer, std::size_t size, std::size_t capacity, long long value);
-std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, double value);
+std::size_t append_double(char* buffer, std::size_t size, std::size_t capacity, double value,
+                          int significant);
 
 template <std::size_t N>
 class Text {
@@ -39,8 +41,9 @@ class Text {
     size_ = append_int(buffer_.data(), size_, N, static_cast<long long>(value));
     return *this;
   }
-  Text& operator<<(double value) {
-    size_ = append_double(buffer_.data(), size_, N, value);
+  Text& operator<<(double value) { return append(value, 6); }
+  Text& append(double value, int significant) {
+    size_ = append_double(buffer_.data(), size_, N, value, significant);
     return *this;
   }
   /// Appends the range as a requirement: "> 0", ">= 0", "> 0 and at most 1", "in [0, 16]".

@@ -3,7 +3,11 @@
 // Proves CAN-20, ECAT-20.
 #include "hal/cia402/object_lines.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -96,7 +100,13 @@ void a_line_with_a_mistake_is_refused_where_it_is(void**) {
                  "u32 99999999999999999999999 is out of range; it must be in [0, 4294967295]");
   assert_refused("0x2003:1 f32 nan", "'nan' is not a finite number");
   assert_refused("0x2003:1 f32 3.5e38",
-                 "f32 3.5e38 is out of range; it must be in [-3.40282e38, 3.40282e38]");
+                 "f32 3.5e38 is out of range; it must be in [-3.4028235e38, 3.4028235e38]");
+  for (const char* text : {"1e-50", "-1e-50", "1e-400", "0.0001e-45", "1.17549e-38", "-1e-45"})
+    assert_refused(
+        std::string("0x2003:1 f32 ") + text,
+        (std::string("f32 ") + text + " is too small; write 0, or at least 1.1754944e-38").c_str());
+  for (const char* text : {"0", "-0", "0.000", "0e-99", "1.1754944e-38", "-1.1754944e-38"})
+    ASSERT_OK(fresh().load(std::string("sdo = 0x2003:1 f32 ") + text + "\n"));
   for (const char* text : {"1.5", "five", "0x", "-", "0xG", "1e3", "5u", "--5", "+5"})
     assert_refused(
         std::string("0x2003:1 u16 ") + text,
@@ -176,6 +186,47 @@ void an_object_is_given_once_for_a_joint(void**) {
                       "8: [cia402] store: the key is already given at line 7");
 }
 
+/// What is told of a value of any bits has the fewest digits that a reader of singles, here the C
+/// library's, takes back to it.
+void a_single_is_told_with_the_fewest_digits_that_give_it_back(void**) {
+  Random random{9};
+  ObjectLine line;
+  line.type = ValueType::kF32;
+  line.object.bytes = 4;
+  std::array<int, 10> by_digits{};
+  for (int trial = 0; trial < 200000; ++trial) {
+    const auto high = static_cast<std::uint32_t>(random.below(65536));
+    std::uint32_t bits = high << 16 | static_cast<std::uint32_t>(random.below(65536));
+    if (trial % 2 == 0) bits &= 0xFFFF0000;
+    float value = 0.0F;
+    if (trial % 3 == 0) {  // as people write them
+      value = static_cast<float>(random.below(100000) * std::pow(10.0, random.below(20) - 10));
+      std::memcpy(&bits, &value, sizeof bits);
+    }
+    std::memcpy(&value, &bits, sizeof value);
+    if (!std::isfinite(value)) continue;
+    Message said;
+    line.append(said, bits);
+    if (std::strtof(said.c_str(), nullptr) != value) print_error("%08x: %s\n", bits, said.c_str());
+    assert_true(std::strtof(said.c_str(), nullptr) == value);
+    int digits = 0;
+    bool leads = true;
+    for (const char* at = said.c_str(); *at != '\0' && *at != 'e'; ++at) {
+      leads = leads && (*at < '1' || *at > '9');
+      digits += *at >= '0' && *at <= '9' && !leads;
+    }
+    if (value == std::floor(value) && std::abs(value) < 4294967296.0F) continue;  // all of them
+    char shorter[400];
+    std::snprintf(shorter, sizeof shorter, "%.*g", std::max(digits - 1, 1),
+                  static_cast<double>(value));
+    assert_true(digits <= 1 || std::strtof(shorter, nullptr) != value);
+    ++by_digits[static_cast<std::size_t>(digits)];
+  }
+  for (const int digits : {1, 5, 6, 7, 8, 9})
+    print_message("%d digits: %d\n", digits, by_digits[static_cast<std::size_t>(digits)]);
+  assert_true(by_digits[9] > 100 && by_digits[5] > 100);
+}
+
 /// Whatever the text is, it is a line within its type's range or a refusal with a reason.
 void any_text_is_a_line_or_a_refusal(void**) {
   constexpr const char* kObjects[] = {"0x2003:1", "0x5FFF:0xFF", "0x6040:0", "8195:1", ":"};
@@ -214,6 +265,7 @@ int main() {
       cmocka_unit_test(a_line_with_a_mistake_is_refused_where_it_is),
       cmocka_unit_test(an_object_of_the_start_up_or_the_cycle_is_refused_with_the_reason),
       cmocka_unit_test(an_object_is_given_once_for_a_joint),
+      cmocka_unit_test(a_single_is_told_with_the_fewest_digits_that_give_it_back),
       cmocka_unit_test(any_text_is_a_line_or_a_refusal),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
