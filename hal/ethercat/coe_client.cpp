@@ -64,14 +64,14 @@ void CoeClient::end(Progress progress, SdoAbort abort) {
   to_send_ = false;
 }
 
-bool CoeClient::take(std::uint8_t* mailbox, std::size_t size) {
+bool CoeClient::take(std::uint8_t* mailbox, std::size_t size, std::uint8_t& counter) {
   if (!to_send_) return false;
   to_send_ = false;
   std::memset(mailbox, 0, size);
   const std::size_t body = write_body(mailbox + kCoeBody);
-  counter_ = static_cast<std::uint8_t>(counter_ % 7 + 1);
+  counter = static_cast<std::uint8_t>(counter % 7 + 1);
   put(mailbox, static_cast<std::uint16_t>(kCoeBytes + body));
-  mailbox[5] = static_cast<std::uint8_t>(kMailboxCoe | counter_ << kMailboxCounterShift);
+  mailbox[5] = static_cast<std::uint8_t>(kMailboxCoe | counter << kMailboxCounterShift);
   put(mailbox + kMailboxBytes, static_cast<std::uint16_t>(kCoeSdoRequest << kCoeServiceShift));
   return true;
 }

@@ -32,8 +32,9 @@ class CoeClient {
                       const std::uint8_t* bytes, std::size_t size, std::int64_t now_ns);
 
   /// Writes the next message into `mailbox`, and zeros behind it up to `size` bytes; those are the
-  /// whole mailbox, or kMostMessage. False: there is none. [any]
-  bool take(std::uint8_t* mailbox, std::size_t size);
+  /// whole mailbox, or kMostMessage. `counter` is that of the last message to this slave, and is
+  /// counted on: one with the same is not served again (ETG.1000.4). False: there is none. [any]
+  bool take(std::uint8_t* mailbox, std::size_t size, std::uint8_t& counter);
   /// Takes a message of the slave out of a mailbox of `size` bytes, of which kMostMessage are there
   /// at most; what is no answer to the transfer is ignored. Returns true, and the emergency, if it
   /// is one. [any]
@@ -74,7 +75,7 @@ class CoeClient {
   bool size_known_ = false;
   int wrong_ = 0;               // messages that are no answer to the transfer
   const char* wrong_why_ = "";  // the last of them
-  std::uint8_t counter_ = 0, sub_ = 0;
+  std::uint8_t sub_ = 0;
   std::uint16_t index_ = 0;
   std::uint16_t refused_ = 0;        // detail of the slave's mailbox error; 0: there was none
   std::size_t room_ = 0;             // bytes of a body in the slave's mailbox

@@ -215,7 +215,7 @@ void EthercatMaster::compose(const cia402::DriveCommands& commands, const Reques
     slaves_[j].data.encode(commands[j], cyclic_.image());
   }
   own_extra_ = extra != nullptr;
-  const Slave& boxed = slaves_[static_cast<std::size_t>(boxed_)];
+  Slave& boxed = slaves_[static_cast<std::size_t>(boxed_)];
   const Slave& asked = slaves_[static_cast<std::size_t>(asked_)];
   cyclic_.compose(asked.boxes.station,
                   own_extra_ ? *extra : port_.next(boxed.boxes, cyclic_.room()), out_);

@@ -22,6 +22,7 @@ struct Mailboxes {
 
   std::uint16_t station = 0;
   std::uint16_t out = 0, out_bytes = 0, in = 0, in_bytes = 0;
+  std::uint8_t counter = 0;  ///< of the last message to the slave, 1 to 7; 0: there was none
 };
 
 class MailboxPort {
@@ -36,11 +37,11 @@ class MailboxPort {
   }
   /// Returns the next datagram to the slave, with at most `room` bytes of data, which are
   /// Request::kKept or more. [any]
-  Request next(const Mailboxes& boxes, std::size_t room) {
+  Request next(Mailboxes& boxes, std::size_t room) {
     if (done_ == 0) {
       Request write(Command::kFpwr, address_of(boxes.station, boxes.out),
                     std::min<std::size_t>(boxes.out_bytes, room));
-      if (client_.take(write.data.data(), write.kept())) {
+      if (client_.take(write.data.data(), write.kept(), boxes.counter)) {
         phase_ = Phase::kWrites;
         asked_ = write.size;
         return write;

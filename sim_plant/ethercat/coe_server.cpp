@@ -20,7 +20,7 @@ constexpr std::size_t kLeastSegment = 7;
 void CoeServer::reset(std::size_t bytes) {
   room_ = std::min(bytes, kMostMailbox);
   count_ = 0;
-  counter_ = 0;
+  counter_ = seen_ = 0;
   transfer_ = Transfer::kNone;
   information_.reset();
 }
@@ -89,6 +89,10 @@ CoeResult CoeServer::receive(const std::uint8_t* message, std::size_t size, bool
   preop_ = preop;
   powered_ = powered;
   if (size < kMailboxBytes) return result;
+  // A message with the counter of the one before is that message again; 0 is none (ETG.1000.4).
+  const int number = message[5] >> kMailboxCounterShift & 7;
+  if (number != 0 && number == seen_) return result;
+  seen_ = static_cast<std::uint8_t>(number);
   const std::size_t length = get<std::uint16_t>(message);
   if ((message[5] & kMailboxTypeBits) != kMailboxCoe) {
     error(kMailboxUnsupported);

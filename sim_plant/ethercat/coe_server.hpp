@@ -63,8 +63,9 @@ class CoeServer {
   CoeInformation information_;
   std::array<MailboxMessage, kQueue> queue_;
   std::size_t first_ = 0, count_ = 0;
-  std::size_t room_ = 0;  // of a mailbox
-  std::uint8_t counter_ = 0;
+  std::size_t room_ = 0;      // of a mailbox
+  std::uint8_t counter_ = 0;  // of the last message to the master
+  std::uint8_t seen_ = 0;     // and of the last from it; 0: none
   bool preop_ = false, powered_ = false;
   Transfer transfer_ = Transfer::kNone;
   bool toggle_ = false;

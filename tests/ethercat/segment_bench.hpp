@@ -112,7 +112,7 @@ struct SegmentBench {
   int mailbox(int slave, const std::uint8_t* body, std::size_t size) {
     std::array<std::uint8_t, kMostMailbox> message{};
     put(message.data(), static_cast<std::uint16_t>(size));
-    message[5] = kMailboxCoe | 1 << kMailboxCounterShift;
+    message[5] = kMailboxCoe;  // without a counter
     std::memcpy(message.data() + kMailboxBytes, body, size);
     const SmPlaces& at = places(slave);
     if (send(Command::kFpwr, address_of(station(slave), at.mailbox_out), message.data(),

@@ -18,9 +18,10 @@ struct Bench {
   CoeClient client;
   std::array<std::uint8_t, kBox> box{};
   can::Emergency emergency;
+  std::uint8_t counter = 0;
 
   void expect(const std::uint8_t* bytes, std::size_t size) {
-    assert_true(client.take(box.data(), box.size()));
+    assert_true(client.take(box.data(), box.size(), counter));
     assert_memory_equal(box.data(), bytes, size);
     for (std::size_t i = size; i < box.size(); ++i) assert_int_equal(box[i], 0);
   }
@@ -62,7 +63,7 @@ void one_to_four_bytes_are_written_in_one_message(void**) {
 void an_abort_of_the_drive_ends_the_transfer_with_its_code(void**) {
   Bench bench;
   bench.client.upload(kBox, 0x1234, 1, 0);
-  (void)bench.client.take(bench.box.data(), kBox);
+  (void)bench.client.take(bench.box.data(), kBox, bench.counter);
   const std::uint8_t other[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x80, 0x35, 0x12, 1, 0, 0, 2, 6};
   bench.answer(other, sizeof other);  // on another object
   assert_true(bench.client.progress() == Progress::kBusy);
@@ -77,7 +78,7 @@ void an_abort_of_the_drive_ends_the_transfer_with_its_code(void**) {
 void an_object_that_is_too_large_is_refused_by_us(void**) {
   Bench bench;
   bench.client.upload(kBox, 0x1008, 0, 0);
-  (void)bench.client.take(bench.box.data(), kBox);
+  (void)bench.client.take(bench.box.data(), kBox, bench.counter);
   const std::uint8_t answer[] = {10,   0,    0,    0, 0,    0x13, 0,    0x30,
                                  0x41, 0x08, 0x10, 0, 0x40, 0x42, 0x0F, 0};
   bench.answer(answer, sizeof answer);
@@ -104,7 +105,7 @@ void an_error_of_the_mailbox_is_told_as_that(void**) {
         Row{9, "a code that the standard does not have (error 0009h of ETG.1000.4)"}}) {
     Bench bench;
     bench.client.upload(kBox, 0x1000, 0, 0);
-    (void)bench.client.take(bench.box.data(), kBox);
+    (void)bench.client.take(bench.box.data(), kBox, bench.counter);
     const std::uint8_t error[] = {4, 0, 0, 0, 0, 0x10, 1, 0, row.code, 0};
     bench.answer(error, sizeof error);
     assert_true(bench.client.progress() == CoeClient::Progress::kAborted);
@@ -120,6 +121,7 @@ void a_message_that_fills_a_long_mailbox_is_taken_out_of_its_first_bytes(void**)
   constexpr std::size_t kLong = 1486;
   constexpr std::uint8_t kLengthLow = 0xC8, kLengthHigh = 5;  // 1480
   std::array<std::uint8_t, CoeClient::kMostMessage> kept{};
+  std::uint8_t counter = 0;
   can::Emergency emergency;
   const auto answer = [&](CoeClient& client, const std::uint8_t* bytes, std::size_t size) {
     kept.fill(0xA5);
@@ -129,7 +131,7 @@ void a_message_that_fills_a_long_mailbox_is_taken_out_of_its_first_bytes(void**)
   for (const std::uint8_t size : {std::uint8_t{100}, std::uint8_t{128}, std::uint8_t{129}}) {
     CoeClient client;
     client.upload(kLong, 0x1008, 0, 0);
-    (void)client.take(kept.data(), kept.size());
+    (void)client.take(kept.data(), kept.size(), counter);
     const std::uint8_t whole[] = {kLengthLow, kLengthHigh, 0,    0,    0,    0x13, 0, 0x30,
                                   0x41,       0x08,        0x10, 0x00, size, 0,    0, 0};
     answer(client, whole, sizeof whole);
@@ -138,10 +140,10 @@ void a_message_that_fills_a_long_mailbox_is_taken_out_of_its_first_bytes(void**)
   }
   CoeClient client;
   client.upload(kLong, 0x1008, 0, 0);
-  (void)client.take(kept.data(), kept.size());
+  (void)client.take(kept.data(), kept.size(), counter);
   const std::uint8_t begun[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x41, 0x08, 0x10, 0, 128, 0, 0, 0};
   answer(client, begun, sizeof begun);
-  assert_true(client.take(kept.data(), kept.size()));
+  assert_true(client.take(kept.data(), kept.size(), counter));
   const std::uint8_t segment[] = {kLengthLow, kLengthHigh, 0, 0, 0, 0x13, 0, 0x30, 0x01};
   answer(client, segment, sizeof segment);
   assert_true(client.abort() == SdoAbort::kTooLong);
@@ -151,7 +153,7 @@ void messages_that_are_no_answer_are_told_with_their_number(void**) {
   Bench bench;
   bench.client.set_time(1'000'000'000);
   bench.client.upload(kBox, 0x1000, 0, 0);
-  (void)bench.client.take(bench.box.data(), kBox);
+  (void)bench.client.take(bench.box.data(), kBox, bench.counter);
   const std::uint8_t other[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x43, 0, 0x11, 0, 0, 0, 0, 0};
   const std::uint8_t longer[] = {0xFF, 0, 0, 0, 0, 0x13, 0, 0x30, 0x43, 0, 0x10, 0, 0, 0, 0, 0};
   bench.answer(other, sizeof other);
@@ -166,7 +168,7 @@ void messages_that_are_no_answer_are_told_with_their_number(void**) {
 void an_emergency_is_no_answer(void**) {
   Bench bench;
   bench.client.upload(kBox, 0x1000, 0, 0);
-  (void)bench.client.take(bench.box.data(), kBox);
+  (void)bench.client.take(bench.box.data(), kBox, bench.counter);
   const std::uint8_t message[] = {10, 0, 0, 0, 0, 0x13, 0, 0x10, 0x10, 0x43, 0x09, 0, 0, 0, 0, 0};
   assert_true(bench.answer(message, sizeof message));
   assert_int_equal(bench.emergency.code, 0x4310);
@@ -194,9 +196,9 @@ void answers_that_break_the_protocol_end_the_transfer(void**) {
                          Row{0x01, SdoAbort::kTooShort}, Row{0x0E, SdoAbort::kTooShort}}) {
     Bench bench;
     bench.client.upload(kBox, 0x1008, 0, 0);
-    (void)bench.client.take(bench.box.data(), kBox);
+    (void)bench.client.take(bench.box.data(), kBox, bench.counter);
     bench.answer(first, sizeof first);
-    assert_true(bench.client.take(bench.box.data(), kBox));
+    assert_true(bench.client.take(bench.box.data(), kBox, bench.counter));
     std::uint8_t segment[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0, 1, 2, 3, 4, 5, 6, 7};
     segment[8] = row.command;
     bench.answer(segment, sizeof segment);
@@ -213,8 +215,8 @@ void transfers_are_the_same_through_mailboxes_of_every_length(void**) {
   dictionary.reset(1);
   objects.reset();
   for (std::size_t room = 16; room <= kBox; ++room) {
-    server.reset(room);
     for (const bool writes : {false, true}) {
+      server.reset(room);
       Bench bench;
       const std::uint8_t speed[] = {static_cast<std::uint8_t>(room), 0, 0, 0, 0};
       if (writes)
@@ -222,7 +224,7 @@ void transfers_are_the_same_through_mailboxes_of_every_length(void**) {
       else
         bench.client.upload(room, 0x1008, 0, 0);
       for (int n = 0; n < 100 && bench.client.progress() == Progress::kBusy; ++n) {
-        if (bench.client.take(bench.box.data(), room))
+        if (bench.client.take(bench.box.data(), room, bench.counter))
           (void)server.receive(bench.box.data(), room, true, false);
         segment::MailboxMessage answer;
         while (server.take(answer)) {
@@ -249,17 +251,17 @@ void a_long_write_goes_in_segments(void**) {
   bench.client.download_bytes(24, 0x2000, 1, bytes, sizeof bytes, 0);
   const std::uint8_t begin[] = {18, 0, 0, 0, 0, 0x13, 0, 0x20, 0x21, 0, 0x20, 1,
                                 30, 0, 0, 0, 0, 1,    2, 3,    4,    5, 6,    7};
-  assert_true(bench.client.take(bench.box.data(), 24));
+  assert_true(bench.client.take(bench.box.data(), 24, bench.counter));
   assert_memory_equal(bench.box.data(), begin, sizeof begin);
   const std::uint8_t begun[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x60, 0, 0x20, 1, 0, 0, 0, 0};
   bench.answer(begun, sizeof begun);
-  assert_true(bench.client.take(bench.box.data(), 24));
+  assert_true(bench.client.take(bench.box.data(), 24, bench.counter));
   assert_int_equal(bench.box[0], 18);
   assert_int_equal(bench.box[8], 0x00);
   assert_memory_equal(bench.box.data() + 9, bytes + 8, 15);
   const std::uint8_t first[] = {10, 0, 0, 0, 0, 0x13, 0, 0x30, 0x20, 0, 0, 0, 0, 0, 0, 0};
   bench.answer(first, sizeof first);
-  assert_true(bench.client.take(bench.box.data(), 24));
+  assert_true(bench.client.take(bench.box.data(), 24, bench.counter));
   assert_int_equal(bench.box[0], 10);
   assert_int_equal(bench.box[8], 0x11);  // toggled, 7 bytes, the last
   assert_memory_equal(bench.box.data() + 9, bytes + 23, 7);

@@ -180,13 +180,13 @@ void what_is_no_coe_message_is_answered_as_an_error(void**) {
     std::uint8_t length, type, service, code;
   };
   for (const Row& row : {Row{10, 0x14, 0x20, 0x02},      // FoE: unsupported protocol
-                         Row{10, 0x13, 0x10, 0x04},      // an emergency: service not supported
-                         Row{10, 0x13, 0x30, 0x04},      // an SDO answer
-                         Row{10, 0x13, 0x00, 0x05},      // no service: invalid header
-                         Row{10, 0x13, 0x90, 0x05},      //
-                         Row{1, 0x13, 0x20, 0x06},       // too short
-                         Row{9, 0x13, 0x20, 0x06},       //
-                         Row{123, 0x13, 0x20, 0x08}}) {  // longer than the mailbox: invalid size
+                         Row{10, 0x03, 0x10, 0x04},      // an emergency: service not supported
+                         Row{10, 0x03, 0x30, 0x04},      // an SDO answer
+                         Row{10, 0x03, 0x00, 0x05},      // no service: invalid header
+                         Row{10, 0x03, 0x90, 0x05},      //
+                         Row{1, 0x03, 0x20, 0x06},       // too short
+                         Row{9, 0x03, 0x20, 0x06},       //
+                         Row{123, 0x03, 0x20, 0x08}}) {  // longer than the mailbox: invalid size
     std::array<std::uint8_t, 128> message{};
     message[0] = row.length;
     message[5] = row.type;

@@ -105,7 +105,7 @@ struct LossyBench {
   std::mt19937 random{20261128};
   std::uint32_t loses = 0;  ///< of 1000 datagrams
 
-  void exchange(const Mailboxes& boxes, std::size_t room) {
+  void exchange(Mailboxes& boxes, std::size_t room) {
     const Request request = port.next(boxes, room);
     assert_true(request.size <= room);
     std::array<std::uint8_t, 1500> bytes{};
@@ -121,7 +121,7 @@ struct LossyBench {
     client.advance(wire.now_ns);
   }
   /// Reads an object, again and again until an answer comes; whatever else comes must be none.
-  void read(const Mailboxes& boxes, std::size_t room, std::uint16_t index, std::uint8_t sub) {
+  void read(Mailboxes& boxes, std::size_t room, std::uint16_t index, std::uint8_t sub) {
     for (int attempt = 0; attempt < 100; ++attempt) {
       client.upload(boxes.out_bytes, index, sub, wire.now_ns);
       while (client.progress() == CoeClient::Progress::kBusy) exchange(boxes, room);
@@ -154,8 +154,8 @@ void a_mailbox_that_shares_frames_is_accessed_in_several_of_them(void**) {
       wire.load();
       wire.to_preop();
       bench->port.reset();
-      const Mailboxes boxes = {0x1001, places.mailbox_out, places.mailbox_out_bytes,
-                               places.mailbox_in, places.mailbox_in_bytes};
+      Mailboxes boxes = {0x1001, places.mailbox_out, places.mailbox_out_bytes, places.mailbox_in,
+                         places.mailbox_in_bytes};
       const std::size_t room = rooms(bench->random);
       for (int i = 0; i < 3; ++i) {
         bench->read(boxes, room, 0x1008, 0);
