@@ -25,7 +25,7 @@ std::uint16_t DriveMachine::step(std::uint16_t statusword, Goal goal, std::int64
   const State state = state_of(statusword);
   const bool turns_up = goal_ == Goal::kDisabled && goal != Goal::kDisabled;
   if (state != state_ || goal != goal_) since_ns_ = now_ns;
-  const bool fell = height(state) < height(state_);
+  const bool fell = state != state_ && height(state) < height(state_);
   state_ = state;
   known_ = is_standard(statusword);
   goal_ = goal;
