@@ -19,12 +19,22 @@ CLI::Validator shorter_than(std::size_t size) {
       [size](std::string& text) { return text.size() < size ? "" : "the text is too long"; }, "");
 }
 
+/// Reads MAJOR.MINOR.BUGFIX.BUILD; false: prints why not to stderr.
 bool parse_version(const std::string& text, unsigned (&version)[4]) {
   int used = 0;
   const int read = std::sscanf(text.c_str(), "%3u.%3u.%9u.%9u%n", &version[0], &version[1],
                                &version[2], &version[3], &used);
-  return read == 4 && static_cast<std::size_t>(used) == text.size() &&
-         (version[0] == 3 || version[0] == 5);
+  const bool whole = read == 4 && static_cast<std::size_t>(used) == text.size() &&
+                     text.find_first_not_of("0123456789.") == std::string::npos;
+  if (!whole)
+    std::fprintf(stderr,
+                 "--software: '%s' has not four whole numbers with a point between them; give "
+                 "them all, as in 3.15.8.106339 or 5.11.1.108318\n",
+                 text.c_str());
+  else if (version[0] != 3 && version[0] != 5)
+    std::fprintf(stderr, "--software: '%s': the first number is %u; it must be 3 or 5\n",
+                 text.c_str(), version[0]);
+  return whole && (version[0] == 3 || version[0] == 5);
 }
 
 }  // namespace
@@ -58,8 +68,10 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   app.add_flag("--sensor-errors", options.sensor_errors,
                "force and speeds have noise and bias like a robot's (default: exact)");
   app.add_option("--seed", options.seed, "seed of these errors (default 1)");
-  app.add_option("--software", version,
-                 "software version (default 3.15.8.106339); 5 has the cycle of an e-Series");
+  app.add_option(
+      "--software", version,
+      "software version, four numbers (default 3.15.8.106339); a first number of 5 has the "
+      "cycle of an e-Series");
   app.add_option("--payload", payload, "payload on the pendant: kg, and its centre of mass, m")
       ->expected(4)
       ->check(finite(-100.0, 100.0));
@@ -80,10 +92,6 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
     return false;
   }
   if (!parse_version(version, options.version)) {
-    std::fprintf(stderr,
-                 "--software: '%s' is not a version like 3.15.8.106339; the first number must be 3 "
-                 "or 5\n",
-                 version.c_str());
     exit_code = kRefused;
     return false;
   }

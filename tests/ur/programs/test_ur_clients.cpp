@@ -1,6 +1,8 @@
 // Tests behaviour that existing clients rely on: single lines streamed at the cycle's rate, several
 // secondary programs at once, the old numbers of outputs, and the programs of the ROS driver of
 // 2015 and of its successor. The texts are our own, with the relevant lines.
+#include <unistd.h>
+
 #include "sim_plant/ur/server/options.hpp"
 #include "tests/ur/programs/ur_control_computer.hpp"
 
@@ -164,8 +166,30 @@ void the_version_of_the_command_line_has_room_for_old_revisions(void**) {
   assert_true(parsed("3.2.19171.0", options));
   assert_int_equal(options.version[1], 2);
   assert_int_equal(options.version[2], 19171);
-  for (const char* wrong : {"3.2.19171", "6.1.0.0", "3.2.x.0", "3.2.0.0.1"})
-    assert_false(parsed(wrong, options));
+  assert_true(parsed("5.11.1.108318", options));
+  constexpr struct {
+    const char *version, *why;
+  } kWrong[] = {{"5.0", "'5.0' has not four whole numbers"},
+                {"3.2.19171", "'3.2.19171' has not four whole numbers"},
+                {"3.2.x.0", "'3.2.x.0' has not four whole numbers"},
+                {"3.2.-1.0", "'3.2.-1.0' has not four whole numbers"},
+                {"3.2.0.0.1", "'3.2.0.0.1' has not four whole numbers"},
+                {"6.1.0.0", "'6.1.0.0': the first number is 6; it must be 3 or 5\n"}};
+  for (const auto& [version, why] : kWrong) {
+    std::FILE* const said = std::tmpfile();
+    const int errors = dup(2);
+    dup2(fileno(said), 2);
+    const bool taken = parsed(version, options);
+    dup2(errors, 2);
+    close(errors);
+    char text[512] = "";
+    std::rewind(said);
+    const std::size_t size = std::fread(text, 1, sizeof text - 1, said);
+    std::fclose(said);
+    assert_false(taken);
+    assert_non_null(std::strstr(text, why));
+    assert_true(std::strstr(text, "the first number") == nullptr || text[size - 2] == '5');
+  }
 }
 
 // Proves URE-2.
