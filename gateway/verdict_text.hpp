@@ -9,6 +9,17 @@ namespace tactus {
 /// The axes of a verdict are joints, or directions of the tool tip.
 enum class VerdictAxes { kJoints, kTip };
 
+/// What has ended the cycles, and of which axes it speaks.
+struct FaultVerdict {
+  FaultVerdict() = default;
+  FaultVerdict(Status status) : verdict{status} {}  // NOLINT: a status without joint and value
+  explicit FaultVerdict(const Verdict& found, VerdictAxes of = VerdictAxes::kJoints)
+      : verdict(found), axes(of) {}
+
+  Verdict verdict;
+  VerdictAxes axes = VerdictAxes::kJoints;
+};
+
 /// "following error beyond its limit (76)". [any]
 Message describe(Status status);
 

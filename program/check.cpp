@@ -6,6 +6,7 @@
 
 #include "program/reach/reach_warnings.hpp"
 #include "program/results/expectation.hpp"
+#include "program/session/fault_verdict.hpp"
 #include "program/session/rehearsal.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
@@ -81,7 +82,7 @@ int check(Session& session, const Options& options) {
   Status status = look(session.hal, pipeline.robot.mode(), initial);
   print_written(options.pipeline, session);
   if (status != Status::kOk) {
-    print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
+    print_stop(options.pipeline, "refused", status, session.hal.trouble());
     return kRefused;
   }
   if (!session.simulated) print_place(options.pipeline, initial.q);
@@ -101,7 +102,7 @@ int check(Session& session, const Options& options) {
     status = guard.start(pipeline.guard, pipeline.robot.mode(), held, pipeline.robot.period_s(),
                          {held.stamp_ns});
   if (status != Status::kOk) {
-    print_stop(options.pipeline, "refused", status, guard.telemetry());
+    print_stop(options.pipeline, "refused", fault_verdict(status, guard, pipeline));
     if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
     return kRefused;
   }

@@ -5,6 +5,7 @@
 
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/pipeline/only_block.hpp"
+#include "program/session/fault_verdict.hpp"
 
 namespace tactus {
 namespace {
@@ -181,6 +182,7 @@ void CycleDesk::tell(const CycleTime& now) {
   told.rung = static_cast<std::uint8_t>(executive_.rung());
   told.phase = static_cast<std::uint8_t>(motion.phase);
   told.status = executive_.latched();
+  told.fault = fault_verdict(told.status, executive_.guard(), pipeline_);
   if (told.status == Status::kCollision) {
     told.first = pipeline_.collision_check.telemetry().first;
     told.second = pipeline_.collision_check.telemetry().second;

@@ -71,10 +71,10 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
     std::fprintf(stderr, "%s: %s: %s\n", input.path.c_str(), result.name, result.why.c_str());
   if (!loop.ended_as_planned() && (guarded || !started)) explain(session, options, loop);
   if (loop.left() == Status::kOk) return;
-  print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
+  print_stop(options.pipeline, "not disabled", loop.left(), loop.left_trouble());
   if (result.code != 0) return;
   end_with(result, kEndedOtherwise, "drives not disabled");
-  result.why = stop_reason(loop.left(), {}, loop.left_trouble());
+  result.why = stop_reason(loop.left(), loop.left_trouble());
 }
 
 RunInputs inputs_of(const Options& options, const TrajectoryInput& input) {
@@ -141,17 +141,15 @@ void judge(const Options& options, RunResult& result) {
 
 }  // namespace
 
-Reason stop_reason(Status status, const Guard::Telemetry& guard, std::string_view trouble) {
-  const Verdict verdict = {status, -1, guard.tripped_joint, guard.tripped_value,
-                           guard.tripped_limit};
-  Reason text(describe(verdict, VerdictAxes::kJoints));
+Reason stop_reason(const FaultVerdict& fault, std::string_view trouble) {
+  Reason text(describe(fault.verdict, fault.axes));
   if (!trouble.empty()) text << ": " << trouble;
   return text;
 }
 
-void print_stop(const char* subject, const char* event, Status status,
-                const Guard::Telemetry& guard, std::string_view trouble) {
-  std::fprintf(stderr, "%s: %s: %s\n", subject, event, stop_reason(status, guard, trouble).c_str());
+void print_stop(const char* subject, const char* event, const FaultVerdict& fault,
+                std::string_view trouble) {
+  std::fprintf(stderr, "%s: %s: %s\n", subject, event, stop_reason(fault, trouble).c_str());
 }
 
 void print_collision(const Collision::Telemetry& told) {
@@ -166,8 +164,8 @@ void explain(const Session& session, const Options& options, const RunLoop& loop
   if (loop.cut_short())
     std::fprintf(stderr, "%s: interrupted while connecting to the robot\n", options.pipeline);
   else
-    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", latched,
-               session.executive.guard().telemetry(), loop.trouble());
+    print_stop(options.pipeline, loop.armed() ? "stopped" : "refused", loop.fault(),
+               loop.trouble());
   if (const Reason before = loop.gave_up(); !before.empty())
     std::fprintf(stderr, "  after its goal was given up: %s\n", before.c_str());
   if (latched == Status::kCollision) print_collision(session.pipeline.collision_check.telemetry());

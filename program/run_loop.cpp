@@ -6,6 +6,7 @@
 #include "hal/os/cycle_clock.hpp"
 #include "hal/os/realtime.hpp"
 #include "program/heap_count.hpp"
+#include "program/session/fault_verdict.hpp"
 
 namespace tactus {
 namespace {
@@ -121,15 +122,17 @@ CycleTime RunLoop::time_of(const CycleTime& now) {
 }
 
 void RunLoop::stop() {
-  latched_ = session_.executive.latched();
-  if (latched_ != Status::kOk) trouble_ = session_.hal.trouble();
   const Pipeline& pipeline = session_.pipeline;
-  if (trouble_.empty() && latched_ != Status::kOk && latched_ == pipeline.failure)
+  fault_ = fault_verdict(session_.executive.latched(), session_.executive.guard(), pipeline);
+  if (latched() != Status::kOk) trouble_ = session_.hal.trouble();
+  if (trouble_.empty() && latched() != Status::kOk && latched() == pipeline.failure)
     trouble_ << "block [" << pipeline.name(pipeline.failed) << "]";
-  if (latched_ == Status::kPathTolerance)
+  if (latched() == Status::kPathTolerance)
     trouble_ << ": its reference rests, and the arm does not stay there; look at gains, tool and "
-                "mounting; path_tolerance = 0, of a cartesian_pose hold_tolerance = 0, lets it be "
-                "pushed away";
+                "mounting; "
+             << (fault_.axes == VerdictAxes::kTip ? "hold_tolerance" : "path_tolerance")
+             << " = 0 lets it be pushed away";
+  if (cut_while_arming()) trouble_ << "it ended before the arm was armed";
   result_.rung = session_.executive.rung();
   left_ = session_.executive.stop();
   if (left_ != Status::kOk) left_trouble_ = session_.hal.trouble();
@@ -144,6 +147,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   }
   watchdog_.cycle_completed();
   halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
+  unarmed_ = unarmed_ || (halted_ && session_.executive.rung() == Rung::kArming);
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
   commanded_ += commanded ? 1 : 0;
   if (desk_ != nullptr) return served(status);
@@ -182,7 +186,9 @@ Reason RunLoop::why() const {
   if (result_.fault != Status::kOk) {
     Reason text = gave_up();
     if (!text.empty()) text << "; then ";
-    return text << stop_reason(result_.fault, session_.executive.guard().telemetry(), trouble_);
+    return text << stop_reason(
+               fault_verdict(result_.fault, session_.executive.guard(), session_.pipeline),
+               trouble_);
   }
   if (std::string_view(result_.name) == name(Outcome::kRefused)) return input_.refusal;
   if (pending_ && planned_end_) return goal_.unfinished(ended_s_);

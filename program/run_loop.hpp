@@ -55,13 +55,17 @@ class RunLoop {
   /// at once after their last cycle: drives watch for the commands of every cycle.
   void stop();
   /// The fault that ended the cycles, and the robot's words on it.
-  Status latched() const { return latched_; }
+  Status latched() const { return fault_.verdict.status; }
+  const FaultVerdict& fault() const { return fault_; }
   const Message& trouble() const { return trouble_; }
   /// kOk, or why the drives may not be disabled, and the robot's words on it.
   Status left() const { return left_; }
   const Message& left_trouble() const { return left_trouble_; }
   /// True once the arm has been commanded.
   bool armed() const { return armed_; }
+  /// True if the arm has never been commanded, or was being armed again, when a signal came, and no
+  /// fault is the reason.
+  bool cut_while_arming() const { return latched() == Status::kHalted && (unarmed_ || !armed_); }
   /// True if a signal came while the robot was being connected to.
   bool cut_short() const { return cut_short_; }
   /// True if the time of the run has passed, and nothing else ended it.
@@ -114,12 +118,14 @@ class RunLoop {
   double ended_s_ = 0.0;       // when the time of the run had passed
   bool pending_ = false;       // the goal was sent, and its final report has not come
   std::int64_t commanded_ = 0;
-  Status latched_ = Status::kOk, left_ = Status::kOk;
+  FaultVerdict fault_;
+  Status left_ = Status::kOk;
   Message trouble_, left_trouble_;
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
   bool refused_ = false;     // the trajectory was refused
   bool halted_ = false;      // a signal has come
+  bool unarmed_ = false;     // while the arm was being armed
   bool broken_off_ = false;  // a later part of it was
 };
 

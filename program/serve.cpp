@@ -118,22 +118,22 @@ bool end_log(const Session& session, const Options& options, const RunLoop& loop
 }
 
 /// The session did not succeed if a fault, or a refusal to arm, was all that was left of it when it
-/// was ended.
+/// was ended, nor if it was ended before the arm was armed.
 void judge(const RunLoop& loop, RunResult& result) {
   const Status latched = loop.latched();
-  if (result.code == 0 && latched != Status::kOk && latched != Status::kHalted)
-    end_with(result, latched);
+  const bool ended_well = latched == Status::kOk || latched == Status::kHalted;
+  if (result.code == 0 && (!ended_well || loop.cut_while_arming())) end_with(result, latched);
   if (result.code != 0) result.why = loop.why();
   if (result.code != 0 || loop.left() == Status::kOk) return;
   end_with(result, kEndedOtherwise, "drives not disabled");
-  result.why = stop_reason(loop.left(), {}, loop.left_trouble());
+  result.why = stop_reason(loop.left(), loop.left_trouble());
 }
 
 /// Says how it ended, and returns the exit code.
 int finish(const Session& session, const Options& options, const RunLoop& loop,
            const RunResult& result) {
   if (loop.left() != Status::kOk)
-    print_stop(options.pipeline, "not disabled", loop.left(), {}, loop.left_trouble());
+    print_stop(options.pipeline, "not disabled", loop.left(), loop.left_trouble());
   if (result.code == 0) return kSucceeded;
   explain(session, options, loop);
   return loop.commanded() > 0 ? kEndedOtherwise : kRefused;

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "gateway/verdict_text.hpp"
 #include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
 #include "kernel/core/types.hpp"
@@ -48,6 +49,7 @@ struct CycleSnapshot {
   std::uint32_t faults = 0;  ///< that have braked or disabled the arm, up to now
   std::uint8_t rung = 0, phase = 0, has = 0;
   Status status = Status::kOk;
+  FaultVerdict fault;  ///< that status, with joint or axis, value and limit if they are known
   const char *first = nullptr, *second = nullptr;  ///< names of what collides; null: nothing
   double override = 1.0, speed_scaling = 1.0;
   JointVector q = JointVector::Zero(), dq = JointVector::Zero(), tau = JointVector::Zero();

@@ -22,7 +22,8 @@ void Server::take_snapshots(std::int64_t now_ns) {
     if (!changed) continue;
     if (refuses(to) && !refuses(from)) begin_epoch();
     Message text(name(to));
-    if (snapshot.status != Status::kOk) text << ": " << describe(snapshot.status);
+    if (snapshot.status != Status::kOk)
+      text << ": " << describe(snapshot.fault.verdict, snapshot.fault.axes);
     if (snapshot.first != nullptr) text << ": " << snapshot.first << " with " << snapshot.second;
     tell_events("rung", snapshot.status, text, -1, now_ns);
   }

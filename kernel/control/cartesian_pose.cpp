@@ -84,6 +84,11 @@ double CartesianPose::excess(const Vector6& v) const {
       {1.0, v.head<3>().norm() / params.max_speed, v.tail<3>().norm() / params.max_angular_speed});
 }
 
+/// Returns the error e of the measured pose.
+Vector6 CartesianPose::error() const {
+  return pose_error(*x_d, *x) - params.measurement_delay * *v_d;
+}
+
 /// Returns the twist that corrects an error, within the tip's speed limits.
 Vector6 CartesianPose::correction(const Vector6& e) const {
   const Vector6 wanted = stacked(params.position_gain.cwiseProduct(e.head<3>()),
@@ -121,7 +126,7 @@ Status CartesianPose::resume() {
 }
 
 void CartesianPose::retune(const Params& next, const JointLimits& /*limits*/) {
-  const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
+  const Vector6 e = error();
   const Vector6 before = correction(e) + fade_.value();
   params = next;
   fade_.start(before - correction(e), kFade_s);
@@ -143,7 +148,7 @@ Status CartesianPose::step(double dt_s) {
 
 Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   if (!(finite(*x) && J->allFinite() && q->allFinite())) return Status::kStateNotFinite;
-  const Vector6 e = pose_error(*x_d, *x) - params.measurement_delay * *v_d;
+  const Vector6 e = error();
   const double passed = speed_scaling.wired() ? *speed_scaling : 1.0;
   if (!(e.allFinite() && v_d->allFinite() && q_posture->allFinite() && passed >= 0.0 &&
         passed <= 1.0))
@@ -208,6 +213,15 @@ bool CartesianPose::leaves(const Vector6& e, double dt_s) {
   if (nearer || rests_s_ == 0.0) mean_ = e;
   if (nearer || !settled) least_ = error;
   return most > 0.0 && settled && (length(e - mean_) > most || error > least_ + most);
+}
+
+Verdict CartesianPose::held() const {
+  if (!left_) return {};
+  const Vector6 e = error(), swing = e - mean_;
+  const double grown = length(e) - least_, swung = length(swing);
+  const Vector6& way = swung > grown ? swing : e;
+  const int axis = way.head<3>().norm() < way.tail<3>().norm() ? 3 : 0;
+  return {Status::kPathTolerance, -1, axis, std::max(swung, grown), params.hold_tolerance};
 }
 
 /// Scales the correction so that every joint can brake before it is complete: at the rate of the

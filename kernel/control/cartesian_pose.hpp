@@ -54,6 +54,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
+#include "kernel/core/verdict.hpp"
 #include "kernel/math/damped_inverse.hpp"
 #include "kernel/math/fade.hpp"
 #include "kernel/math/joint_integrator.hpp"
@@ -142,6 +143,10 @@ class CartesianPose {
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
   /// kPathTolerance: the tip leaves a reference that rests; the command goes on. [cyclic]
   Status step(double dt_s);
+  /// What the last step() found of a reference that rests: kPathTolerance with axis 0, translation,
+  /// or 3, rotation, with the change of the error (a metre counts as a radian) and hold_tolerance;
+  /// or kOk. A brake changes nothing of it. [between two cycles]
+  Verdict held() const;
 
   /// Brings the arm to rest and keeps it there until the next start(); after kAtOnce without
   /// following the reference. [cyclic]
@@ -176,6 +181,7 @@ class CartesianPose {
 
   double largest_gain() const;
   double excess(const Vector6& v) const;
+  Vector6 error() const;
   Vector6 correction(const Vector6& e) const;
   Status command_velocity(double dt_s, JointVector& dq);
   void run_down(double dt_s);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "program/session/fault_verdict.hpp"
+
 namespace tactus {
 namespace {
 
@@ -82,7 +84,7 @@ bool TrajectoryRehearsal::refuse(Status status) {
   Text<127> event(spent ? "refused: the law would be at its limit at t = "
                         : "refused: the run would stop at t = ");
   event << input_.start_s + time_s() << " s";
-  print_stop(input_.path.c_str(), event.c_str(), status, guard_.telemetry());
+  print_stop(input_.path.c_str(), event.c_str(), fault_verdict(status, guard_, pipeline));
   if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
   if (law_.q_d != nullptr && (spent || status == Status::kLimiting)) print_torque();
   return false;

@@ -5,6 +5,7 @@
 
 #include "gateway/gateway_section.hpp"
 #include "gateway/reference_client.hpp"
+#include "gateway/verdict_text.hpp"
 #include "hal/os/realtime_settings.hpp"
 #include "kernel/cycle/executive.hpp"
 #include "kernel/pipeline/channels.hpp"
@@ -57,12 +58,12 @@ Status look(Hal& hal, CommandMode mode, RobotState& state);
 /// Prints what start-ups have changed in the robot.
 void print_written(const char* path, const Session& session);
 
-/// Returns a status in words, with joint, value and limit if the guard found it, then the robot's
-/// own reason.
-Reason stop_reason(Status status, const Guard::Telemetry& guard, std::string_view trouble = {});
+/// Returns a fault in words, with joint or axis, value and limit if they are known, then the
+/// robot's own reason.
+Reason stop_reason(const FaultVerdict& fault, std::string_view trouble = {});
 /// Prints "subject: event: " and the reason.
-void print_stop(const char* subject, const char* event, Status status,
-                const Guard::Telemetry& guard, std::string_view trouble = {});
+void print_stop(const char* subject, const char* event, const FaultVerdict& fault,
+                std::string_view trouble = {});
 /// Prints the pair of a contact.
 void print_collision(const Collision::Telemetry& told);
 

@@ -71,7 +71,7 @@ bool take_angles(const Session& session, const Options& options,
     if (status == Status::kOk)
       stream.take_angles(wrap, state.q);
     else
-      print_stop(options.pipeline, "refused", status, {}, session.hal.trouble());
+      print_stop(options.pipeline, "refused", status, session.hal.trouble());
     return status == Status::kOk;
   }
 }

@@ -10,6 +10,7 @@ namespace tactus {
 namespace {
 
 constexpr double kSettles_s = 10.0, kMost = 0.05;  // m, and rad
+const Vector3 kNone = Vector3::Zero();
 
 PoseBench& fresh(double dt_s = 1e-3) {
   static PoseBench* present = nullptr;
@@ -35,6 +36,10 @@ double swing(PoseBench& bench, const Vector3& way_m, const Vector3& turn_rad, do
     const Status status = measured(bench, share * way_m, share * turn_rad);
     if (status == Status::kOk) continue;
     ASSERT_STATUS(status, Status::kPathTolerance);
+    const Verdict held = bench.law.held();
+    ASSERT_STATUS(held.status, status);
+    assert_int_equal(held.axis, way_m.isZero() ? 3 : 0);
+    assert_true(held.value > held.limit && held.limit == kMost);
     return t;
   }
   return kInfinity;
@@ -51,8 +56,8 @@ void a_swing_beyond_the_tolerance_is_found_within_half_a_swing(void**) {
     const Vector3 way = share * kMost * vectors.axis();
     const Vector3 turn = share * kMost * vectors.axis();
     const bool turns = i % 2 == 0;
-    const double found_s = swing(bench, turns ? Vector3::Zero() : way,
-                                 turns ? turn : Vector3::Zero(), hertz, kSettles_s + 3.0);
+    const double found_s =
+        swing(bench, turns ? kNone : way, turns ? turn : kNone, hertz, kSettles_s + 3.0);
     if (std::abs(share - 1.0) < 0.01) continue;
     assert_true(std::isfinite(found_s) == (share > 1.0));
     if (share > 1.0)
@@ -82,16 +87,17 @@ void a_tip_that_circles_is_found(void**) {
   Status status = Status::kOk;
   double t = 0.0;
   for (; status == Status::kOk && t < 2.0 * kSettles_s; t += bench.dt_s)
-    status = measured(bench, 0.06 * Vector3(std::cos(9.0 * t), 0.0, std::sin(9.0 * t)), {});
+    status = measured(bench, 0.06 * Vector3(std::cos(9.0 * t), 0.0, std::sin(9.0 * t)), kNone);
   ASSERT_STATUS(status, Status::kPathTolerance);
   assert_true(t > kSettles_s && t < kSettles_s + 0.4);
+  ASSERT_NEAR(bench.law.held().value, 0.06, 0.01);  // from the mean of a circle, its centre
 }
 
 void a_reference_that_moves_in_time_is_not_refused(void**) {
   PoseBench& bench = fresh();
   for (int i = 0; i < 4; ++i) {
     bench.x_d.p.y() += i % 2 == 0 ? 0.02 : -0.02;
-    assert_true(std::isinf(swing(bench, {0.1, 0.0, 0.0}, {}, 3.0, 0.9 * kSettles_s)));
+    assert_true(std::isinf(swing(bench, {0.1, 0.0, 0.0}, kNone, 3.0, 0.9 * kSettles_s)));
   }
 }
 
@@ -114,7 +120,7 @@ void noise_of_a_reference_hides_no_swing(void**) {
     bench.x_d.p.z() += random.uniform(-1e-3, 1e-3);
     bench.x_d.r = exp_so3({random.uniform(-1e-3, 1e-3), 0.0, 0.0}) * bench.x_d.r;
     if (random.below(2) == 0) bench.x_d.r.coeffs() *= -1.0;
-    found_s = swing(bench, {0.0, 0.08, 0.0}, {}, 4.0, 0.5);
+    found_s = swing(bench, {0.0, 0.08, 0.0}, kNone, 4.0, 0.5);
   }
   assert_true(std::isfinite(found_s) && time_s < kSettles_s + 1.0);
 }
@@ -128,12 +134,12 @@ void without_a_tolerance_nothing_is_refused(void**) {
 /// The arm is stopped by others then; it may be moved, and is watched anew when it goes on.
 void a_braked_arm_is_not_watched(void**) {
   PoseBench& bench = fresh();
-  const Vector3 way(0.2, 0.0, 0.0), none = Vector3::Zero();
-  assert_true(std::isfinite(swing(bench, way, none, 2.0, kSettles_s + 1.0)));
+  const Vector3 way(0.2, 0.0, 0.0);
+  assert_true(std::isfinite(swing(bench, way, kNone, 2.0, kSettles_s + 1.0)));
   bench.law.brake(Status::kPathTolerance, BrakeWay::kOnPath);
-  assert_true(std::isinf(swing(bench, way, none, 2.0, kSettles_s + 1.0)));
+  assert_true(std::isinf(swing(bench, way, kNone, 2.0, kSettles_s + 1.0)));
   ASSERT_OK(bench.law.resume());
-  const double found_s = swing(bench, way, none, 2.0, kSettles_s + 1.0);
+  const double found_s = swing(bench, way, kNone, 2.0, kSettles_s + 1.0);
   assert_true(found_s > kSettles_s - 2e-3 && std::isfinite(found_s));
 }
 

@@ -113,6 +113,7 @@ struct ServerBench : BenchClock {
     told.faults = faults;
     told.rung = static_cast<std::uint8_t>(rung);
     told.status = refuses(rung) ? why : Status::kOk;
+    told.fault = told.status;
     told.q = generator.reference().q;
     told.override = generator.motion_state().override;
     told.outputs = generator.outputs();

@@ -217,11 +217,28 @@ void a_collision_is_an_event_that_says_with_what(void**) {
   told.stamp_ns = two.bench.now_ns;
   told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
   told.status = Status::kCollision;
+  told.fault = told.status;
   told.first = "hand";
   told.second = "wall";
   assert_true(two.bench.mail.snapshots.post(told));
   two.run(1);
   assert_string_equal(two.a.event, "stop: collision (77): hand with wall");
+}
+
+void a_fault_of_a_joint_is_an_event_with_joint_value_and_limit(void**) {
+  TwoClients& two = fresh_clients();
+  two.a.send(ask::kSubscribe, RawMessage().number(3, 1));
+  two.run(2);
+  CycleSnapshot told;
+  told.stamp_ns = two.bench.now_ns;
+  told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
+  told.status = Status::kPathTolerance;
+  told.fault = FaultVerdict({told.status, -1, 3, 0.25, 0.125});
+  assert_true(two.bench.mail.snapshots.post(told));
+  two.run(1);
+  const Line said = Line("stop: joint 4 (")
+                    << Robot::kJointNames[3] << "): path error 0.25 rad exceeds 0.125 rad (49)";
+  assert_string_equal(two.a.event, said.c_str());
 }
 
 }  // namespace
@@ -230,6 +247,7 @@ void a_collision_is_an_event_that_says_with_what(void**) {
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_fault_of_a_joint_is_an_event_with_joint_value_and_limit),
       cmocka_unit_test(the_first_message_is_hello_and_is_answered_by_a_welcome),
       cmocka_unit_test(a_message_may_come_byte_by_byte),
       cmocka_unit_test(unknown_fields_are_ignored_and_unknown_requirements_refused),

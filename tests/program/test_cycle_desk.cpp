@@ -1,6 +1,7 @@
 // Tests the cycle's end of the mailboxes between cycle and server.
 #include "program/cycle_desk.hpp"
 
+#include <cmath>
 #include <optional>
 
 #include "kernel/load/loader.hpp"
@@ -15,6 +16,7 @@ namespace {
 struct Bench {
   SimHal hal;
   RoomyPipeline pipeline;
+  ChannelMemory<JointSpace> channel;
   CycleMail mail;
   Executive executive{hal, pipeline};
   std::optional<CycleDesk> desk;
@@ -26,7 +28,7 @@ struct Bench {
   void load(std::string_view text) {
     LoadError error;
     HostSections sections;
-    Loader loader({}, hal.capabilities(), sections);
+    Loader loader({&channel, nullptr}, hal.capabilities(), sections);
     ASSERT_OK(loader.load(text, pipeline, error));
     hal.set_period(1e-3);
     ASSERT_OK(hal.load(PlantParams(), 1));
@@ -107,6 +109,27 @@ void a_collision_is_told_with_what_it_is(void**) {
   assert_non_null(told.first);
   assert_string_equal(told.first, "wall");
   assert_string_equal(told.second, "link6");
+}
+
+/// A law without the gravity of the arm.
+void a_joint_that_does_not_stay_at_its_reference_is_told_with_value_and_limit(void**) {
+  Bench bench;
+  bench.load(
+      "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+      "[jrg]\ntype = joint_reference_generator\nq = robot.q\npath_tolerance = 0.05\n"
+      "goal_time_s = 0.3\n"
+      "[pd]\ntype = pid\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\nkp = 200\nki = 0\nkd = 20\n");
+  CycleSnapshot told;
+  for (int i = 0; i < 1000 && told.status != Status::kPathTolerance; ++i) {
+    bench.cycle();
+    while (bench.mail.snapshots.take(told)) {
+    }
+  }
+  const Verdict& fault = told.fault.verdict;
+  ASSERT_STATUS(fault.status, Status::kPathTolerance);
+  assert_true(fault.axis >= 0 && fault.value > fault.limit && fault.limit == 0.05);
+  ASSERT_NEAR(fault.value, std::abs(told.q_d[fault.axis] - told.q[fault.axis]), 1e-12);
+  assert_true(told.fault.axes == VerdictAxes::kJoints);
 }
 
 void orders_wait_while_nobody_takes_their_results(void**) {
@@ -267,6 +290,7 @@ int main() {
       cmocka_unit_test(a_cycle_takes_one_order_however_many_wait),
       cmocka_unit_test(a_cycle_posts_one_snapshot_and_counts_those_without_space),
       cmocka_unit_test(a_collision_is_told_with_what_it_is),
+      cmocka_unit_test(a_joint_that_does_not_stay_at_its_reference_is_told_with_value_and_limit),
       cmocka_unit_test(orders_wait_while_nobody_takes_their_results),
       cmocka_unit_test(a_stop_disables_the_arm_and_a_rearm_takes_it_over_again),
       cmocka_unit_test(a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once),

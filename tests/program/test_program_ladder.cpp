@@ -15,6 +15,19 @@ constexpr const char* kPositions =
     "[plant]\nservo_time_constant_s = 0.02\n"
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
     "[recorder]\nsignals = robot.dq jrg.q_d\n";
+constexpr const char* kTorques =
+    "[robot]\nname = fer\nperiod_us = 1000\ntau_c = pd.tau\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\ndq = robot.dq\n";
+constexpr const char* kPd =
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
+constexpr const char* kTip =
+    "[robot]\nname = fer\nperiod_us = 1000\nq_c = cpc.q_c\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[trg]\ntype = task_reference_generator\nx = model.x\n"
+    "[cpc]\ntype = cartesian_pose\nx_d = trg.x_d\nx = model.x\nJ = model.J\nq = robot.q\n"
+    "position_gain = 400 400 400\nrotation_gain = 400 400 400\nhold_tolerance = 0.001\n";
 /// Half a radian of joint 1 in the given number of seconds.
 constexpr const char* kFast = "1.5,0.5,-0.785398,0,-2.356194,0,1.570796,0.785398\n";
 constexpr const char* kSlow = "40,0.5,-0.785398,0,-2.356194,0,1.570796,0.785398\n";
@@ -77,6 +90,26 @@ void a_block_that_ends_the_chain_is_named(void**) {
   assert_true(has(errors(), "(73): block [sensor]\n"));
 }
 
+/// A tool that the file does not state; gains that are too high for a servo that lags.
+void a_reference_that_is_not_held_is_told_with_joint_or_axis_value_and_limit(void**) {
+  const Line sags = write("sags.ini", {kTorques, "path_tolerance = 0.05\ngoal_time_s = 0.5\n", kPd,
+                                       "[plant]\npayload_kg = 3\n"});
+  assert_int_equal(run_into("held", sags.c_str(), "1", nullptr, "2"), 1);
+  assert_true(has(errors(), "sags.ini: stopped: joint 6 (fer_joint6): path error 0.1"));
+  assert_true(has(file_of("held/summary.json"), "\"why\": \"joint 6 (fer_joint6): path error 0.1"));
+  assert_true(has(errors(),
+                  " rad exceeds 0.05 rad (49): block [jrg]: its reference rests, and the arm does "
+                  "not stay there; look at gains, tool and mounting; path_tolerance = 0 lets it be "
+                  "pushed away\n"));
+  const Line swings = write("swings.ini", {kTip,
+                                           "[plant]\nservo_time_constant_s = 0.05\n"
+                                           "delay_cycles = 4\nposition_noise_rad = 3e-4\n"});
+  assert_int_equal(run_into("held", swings.c_str(), "1", nullptr, "14"), 1);
+  assert_true(has(errors(), "swings.ini: stopped: rotation: path error 0.00"));
+  assert_true(has(errors(), " rad exceeds 0.001 rad (49): block [cpc]: its reference rests, "));
+  assert_true(has(errors(), "; hold_tolerance = 0 lets it be pushed away\n"));
+}
+
 /// In the middle of its motion.
 void a_run_whose_time_has_passed_brakes_the_arm_before_it_ends(void**) {
   const Line pipeline = write("cut.ini", {kPositions});
@@ -128,6 +161,7 @@ int main(int, char** argv) {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_run_whose_arm_does_not_follow_ends_with_the_cause_once_the_arm_is_at_rest),
       cmocka_unit_test(a_block_that_ends_the_chain_is_named),
+      cmocka_unit_test(a_reference_that_is_not_held_is_told_with_joint_or_axis_value_and_limit),
       cmocka_unit_test(a_run_whose_time_has_passed_brakes_the_arm_before_it_ends),
       cmocka_unit_test(an_interrupt_brakes_the_arm_before_the_run_ends),
       cmocka_unit_test(the_summary_tells_the_times_of_every_block_and_row),

@@ -132,6 +132,18 @@ void a_session_that_a_fault_has_ended_does_not_succeed(void**) {
   assert_true(has(file_of("session/summary.json"), kResult));
 }
 
+/// The drives of this plant take longer to arm than the session lasts.
+void a_session_that_is_ended_before_the_arm_is_armed_does_not_succeed(void**) {
+  const Line file = write("served.ini", {kServed, kBusyHost, "arming_ms = 100000\n",
+                                         "[plant]\narming_cycles = 100000\n"});
+  assert_int_equal(interrupt(file.c_str()), 2);
+  assert_true(has(errors(),
+                  "served.ini: refused: halted on request (82): it ended before the arm was "
+                  "armed\n"));
+  assert_true(has(file_of("session/summary.json"),
+                  "\"name\": \"kHalted\", \"why\": \"halted on request (82): it ended before"));
+}
+
 // Proves GW-11.
 
 void a_client_in_python_comes_through_the_tunnel_with_the_key_only(void**) {
@@ -162,6 +174,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_file_at_the_path_of_the_socket_is_named),
       cmocka_unit_test(the_log_of_a_session_is_written_where_out_says),
       cmocka_unit_test(a_session_that_a_fault_has_ended_does_not_succeed),
+      cmocka_unit_test(a_session_that_is_ended_before_the_arm_is_armed_does_not_succeed),
       cmocka_unit_test(a_client_in_python_comes_through_the_tunnel_with_the_key_only),
       cmocka_unit_test(a_network_address_needs_a_key_file_that_is_the_users_alone),
   };

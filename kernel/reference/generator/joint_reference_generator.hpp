@@ -62,6 +62,7 @@ struct JointReferenceGenerator : StreamOutputs<> {
     if (channel != nullptr) generator_.attach(*channel);
     generator_.brake(why, way);
   }
+  Verdict held() const { return generator_.held(); }
   bool at_rest() const { return generator_.reference().standing(); }
   MotionState motion_state() const { return generator_.motion_state(); }
   /// Keeps the reference where it has come to rest. [init]

@@ -95,6 +95,10 @@ class ReferenceGenerator {
   /// Clamps to 0..1; NaN counts as 0. Must be called before step(). [cyclic]
   void scale_speed(double scaling);
 
+  /// How the robot follows a reference without a goal, as the last step() has judged it:
+  /// kPathTolerance with axis, value and limit, or kOk. [between two cycles]
+  Verdict held() const { return running_.any() ? Verdict() : monitor_.follows(measured_); }
+
   /// The executive brakes for the reason `why`. Aborts the running and the waiting trajectory,
   /// brings the reference to rest within limits, on its path or at once, and refuses requests with
   /// `why` until the next start. Must be called in every cycle in which they are refused. [cyclic]

@@ -33,6 +33,10 @@ double swing(ReferenceBench& bench, double amplitude_rad, double hertz, double t
     way.push_back(bench.out().q[0]);
     if (status == Status::kOk) continue;
     ASSERT_STATUS(status, Status::kPathTolerance);
+    const Verdict held = bench.generator.held();
+    ASSERT_STATUS(held.status, status);
+    assert_int_equal(held.axis, 4);
+    assert_true(held.value > kTolerance_rad && held.limit == kTolerance_rad);
     assert_true(std::abs(measured.q[4] - before.q[4]) > kTolerance_rad);
     std::size_t rests = 0;
     while (rests < way.size() &&

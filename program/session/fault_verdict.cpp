@@ -1,0 +1,37 @@
+#include "program/session/fault_verdict.hpp"
+
+#include <type_traits>
+
+#include "kernel/pipeline/with_block.hpp"
+
+namespace tactus {
+namespace {
+
+template <class Kind, class = void>
+constexpr bool kHolds = false;
+template <class Kind>
+constexpr bool kHolds<Kind, std::void_t<decltype(&Kind::held)>> = true;
+
+/// What a block has found of a reference that rests. A generator watches joints, a law the tip.
+template <class Kind>
+FaultVerdict held(const Kind& block) {
+  if constexpr (kHolds<Kind>)
+    return FaultVerdict(block.held(), std::is_same_v<Kind, CartesianPose> ? VerdictAxes::kTip
+                                                                          : VerdictAxes::kJoints);
+  else
+    return {};
+}
+
+}  // namespace
+
+FaultVerdict fault_verdict(Status status, const Guard& guard, const Pipeline& pipeline) {
+  if (status == Status::kPathTolerance && pipeline.failure == status) {
+    const FaultVerdict found =
+        with_block(pipeline[pipeline.failed], [](const auto& block) { return held(block); });
+    if (!found.verdict.ok()) return found;
+  }
+  const Guard::Telemetry& told = guard.telemetry();
+  return FaultVerdict({status, -1, told.tripped_joint, told.tripped_value, told.tripped_limit});
+}
+
+}  // namespace tactus
