@@ -6,6 +6,7 @@
 
 #include "program/reach/reach_warnings.hpp"
 #include "program/results/expectation.hpp"
+#include "program/results/realtime_result.hpp"
 #include "program/session/fault_verdict.hpp"
 #include "program/session/rehearsal.hpp"
 #include "program/session/session.hpp"
@@ -53,6 +54,22 @@ void print_room(const char* path, const Guard::Params& guard) {
       path, Guard::kPositionTolerance, 100.0 * Guard::kVelocityTolerance);
 }
 
+/// Judges the host where the file says that an unfit one ends the start, as a run does and by
+/// taking the same steps. Only what runs in real time asks for that, so that a simulated arm is not
+/// refused.
+bool judge_host(const Session& session, const Options& options) {
+  const RealtimeSettings& settings = session.realtime;
+  if (settings.required == Required::kWarn) return true;
+  if (!settings.watchdog.empty())
+    std::fprintf(stderr, "%s: note: not judged: [realtime] watchdog: to open it starts it\n",
+                 options.pipeline);
+  Realtime realtime;
+  if (prepare(realtime, settings)) return true;
+  if (!session.simulated) return false;
+  std::fprintf(stderr, "%s: note: that ends `serve` and `run --realtime` here\n", options.pipeline);
+  return true;
+}
+
 }  // namespace
 
 Status look(Hal& hal, CommandMode mode, RobotState& state) {
@@ -75,7 +92,7 @@ int check(Session& session, const Options& options) {
                          session.pipeline.robot.period_s(), options.pipeline))
     return kRefused;
   TrajectoryInput input;
-  if (!read_input(session, options, input)) return kRefused;
+  if (!read_input(session, options, input) || !judge_host(session, options)) return kRefused;
   Pipeline& pipeline = session.pipeline;
   begin_at_once(input);
   RobotState initial;

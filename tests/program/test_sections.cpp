@@ -136,6 +136,13 @@ void a_real_robot_does_not_start_without_real_time_unless_the_file_says_so(void*
     const bool refuses = *required == '\0' ? real : required[11] == 'r';
     assert_int_equal(code == 2 && errors().find(kRefusal) != std::string_view::npos, refuses);
     assert_true(refuses || has(errors(), "note: real time is not certain: cpu ("));
+    // `check` judges what a run does; of a simulated arm, which may run in virtual time, it tells.
+    const int checked = tactus_run({"check", path.c_str()});
+    assert_int_equal(errors().find(kRefusal) != std::string_view::npos, refuses);
+    assert_true(real ||
+                (checked == 0 && (!refuses || has(errors(), "that ends `serve` and `run"))));
+    assert_true(!refuses || !real ||
+                (checked == 2 && errors().find("connection") == std::string_view::npos));
   }
 }
 
