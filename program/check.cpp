@@ -92,7 +92,8 @@ int check(Session& session, const Options& options) {
                          session.pipeline.robot.period_s(), options.pipeline))
     return kRefused;
   TrajectoryInput input;
-  if (!read_input(session, options, input) || !judge_host(session, options)) return kRefused;
+  if (!read_input(session, options, input)) return kRefused;
+  const bool fit = judge_host(session, options);
   Pipeline& pipeline = session.pipeline;
   begin_at_once(input);
   RobotState initial;
@@ -132,7 +133,7 @@ int check(Session& session, const Options& options) {
   const bool goes = judge_reach(session, input, initial.q) &&
                     TrajectoryRehearsal(session, input, guard, initial).run();
   if (pipeline.robot.mode() == CommandMode::kEffort) print_room(options.pipeline, pipeline.guard);
-  if (!judge_rest(session, input) || !goes) return kRefused;
+  if (!judge_rest(session, input) || !goes || !fit) return kRefused;
   print_long_way(input);
   std::printf("%s: accepted", options.pipeline);
   if (input.given())
