@@ -183,22 +183,26 @@ Message describe(Status status) {
   return add_code(text, status);
 }
 
-const char* goal_remedy(Status status, VerdictAxes axes) {
+Message goal_remedy(Status status, VerdictAxes axes, bool law) {
   const bool joints = axes == VerdictAxes::kJoints;
+  Message text;
   switch (status) {
     case Status::kPathTolerance:
-      return joints ? "give the trajectory more time, raise the gains of the law, or path_tolerance"
-                    : "give the trajectory more time, raise the gains of the law, or "
-                      "path_position_tolerance and path_angle_tolerance";
+      text << "give the trajectory more time, "
+           << (law ? "raise the gains of the law, or " : "or raise ");
+      return text << (joints ? "path_tolerance"
+                             : "path_position_tolerance and path_angle_tolerance");
     case Status::kGoalTolerance:
-      return joints ? "raise the gains of the law, goal_tolerance or goal_time_s; an arm that sags "
-                      "has another tool or mounting than [robot] says"
-                    : "raise the gains of the law, goal_position_tolerance and "
-                      "goal_angle_tolerance, or goal_time_s; an arm that sags has another tool or "
-                      "mounting than [robot] says";
+      text << "raise " << (law ? "the gains of the law, " : "")
+           << (joints ? "goal_tolerance or"
+                      : "goal_position_tolerance and goal_angle_tolerance, or")
+           << " goal_time_s";
+      if (law) text << "; an arm that sags has another tool or mounting than [robot] says";
+      return text;
     case Status::kGoalVelocity:
-      return "raise the damping of the law, stopped_velocity or goal_time_s";
-    default: return nullptr;
+      return text << "raise " << (law ? "the damping of the law, " : "")
+                  << "stopped_velocity or goal_time_s";
+    default: return text;
   }
 }
 

@@ -32,7 +32,7 @@ Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfi
 /// known to help. [any]
 const char* remedy(const Verdict& verdict);
 /// What to do about a goal that was not followed or reached: settings of the reference generator
-/// and of the law. Null for any other Status. [any]
-const char* goal_remedy(Status status, VerdictAxes axes);
+/// and, if there is one with gains, of the law. Empty for any other Status. [any]
+Message goal_remedy(Status status, VerdictAxes axes, bool law);
 
 }  // namespace tactus

@@ -34,6 +34,11 @@ int finish_connecting(int socket, const Deadline& deadline) {
 
 }  // namespace
 
+bool is_ipv4(const char* address) {
+  in_addr number{};
+  return inet_pton(AF_INET, address, &number) == 1;
+}
+
 /// Returns 0, EINPROGRESS or the errno.
 int Socket::open(const char* address, int port) {
   close();

@@ -11,6 +11,9 @@
 
 namespace tactus::ur {
 
+/// True for four numbers with points between them; names are not looked up. [any]
+bool is_ipv4(const char* address);
+
 class Socket {
  public:
   Socket() = default;

@@ -42,7 +42,8 @@ Status RtdeClient::converse(const char* address, int port, const Deadline& deadl
   protocol_ = 2;
   phase_ = RtdePhase::kConnect;
   if (const Status status = stream_.connect(address, port, deadline, why); status != Status::kOk) {
-    why << "; is this the robot's IPv4 address, and is it on?";
+    why << (is_ipv4(address) ? "; is this the robot's IPv4 address, and is it on?"
+                             : "; write the robot's IPv4 address, four numbers with points");
     return status;
   }
   while (phase_ != RtdePhase::kRunning && !(phase_ == RtdePhase::kOutputs && recipe_void_)) {

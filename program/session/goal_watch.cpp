@@ -1,6 +1,9 @@
 #include "program/session/goal_watch.hpp"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "kernel/pipeline/with_block.hpp"
 
 namespace tactus {
 namespace {
@@ -11,6 +14,17 @@ template <class Space>
 double goal_time_s(const ReferenceClient<Space>& client) {
   const Tolerances<Space>* const tolerances = client.tolerances();
   return tolerances != nullptr ? std::max(tolerances->goal_time_s, 0.0) : 0.0;
+}
+
+/// True if the pipeline has a law whose gains can be raised; drives that take positions have
+/// theirs.
+bool has_law(const Pipeline& pipeline) {
+  bool found = false;
+  for (int i = 0; i < pipeline.count(); ++i)
+    with_block(pipeline[i], [&found](const auto& block) {
+      found = found || kTunes<std::decay_t<decltype(block)>>;
+    });
+  return found;
 }
 
 }  // namespace
@@ -38,9 +52,9 @@ Verdict GoalWatch::last_verdict() const {
 }
 
 Reason GoalWatch::given_up(const Verdict& verdict) const {
-  const char* const remedy = goal_remedy(verdict.status, axes());
+  const Message remedy = goal_remedy(verdict.status, axes(), has_law(session_.pipeline));
   Reason text;
-  if (remedy == nullptr) return text;
+  if (remedy.empty()) return text;
   text << (verdict.status == Status::kPathTolerance ? "path not followed: " : "goal not reached: ");
   return text << describe(verdict, axes()) << "; " << remedy;
 }
@@ -59,8 +73,7 @@ Reason GoalWatch::unfinished(double time_s) const {
     return text << " s; give a longer --duration";
   }
   const Verdict verdict = last_verdict();
-  if (goal_remedy(verdict.status, axes()) != nullptr) {
-    text << given_up(verdict);
+  if (text << given_up(verdict); !text.empty()) {
     return text << ", or give a longer --duration";
   }
   text << "the run ended " << time_s - end_s << " s after the planned end of the trajectory";

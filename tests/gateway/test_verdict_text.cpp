@@ -49,8 +49,12 @@ void a_goal_that_was_missed_is_an_error_of_position_or_a_velocity_and_has_a_reme
              "rotation: position error 0.03 rad exceeds 0.02 rad (50)");
   for (const Status status :
        {Status::kPathTolerance, Status::kGoalTolerance, Status::kGoalVelocity})
-    assert_non_null(goal_remedy(status, VerdictAxes::kTip));
-  assert_null(goal_remedy(Status::kHalted, VerdictAxes::kJoints));
+    for (const bool law : {false, true}) {
+      const Message said = goal_remedy(status, VerdictAxes::kTip, law);
+      assert_int_equal(std::string_view(said).find("of the law") != std::string_view::npos, law);
+      assert_false(said.empty());
+    }
+  assert_true(goal_remedy(Status::kHalted, VerdictAxes::kJoints, true).empty());
 }
 
 void a_verdict_on_one_direction_names_it(void**) {
