@@ -142,7 +142,7 @@ void a_contact_on_the_way_to_rest_was_said_before(void**) {
   RandomStates states;
   const double reaction_s = 4 * CollisionBench::kPeriod_s + 0.003, margin = bench.section.margin;
   int contacts = 0, predicted = 0;
-  for (int i = 0; i < 2400; ++i) {
+  for (int i = 0; i < 4000; ++i) {
     states.next();
     const double speed = 0.3 + 0.7 * (i % 8) / 7.0;
     const Status status = bench.check(states.q, speed * states.dq);
