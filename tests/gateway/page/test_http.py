@@ -173,7 +173,7 @@ class PlaceTest(unittest.TestCase):
         with socket.create_server(("127.0.0.1", 0)) as taken:
             served = Served("taken", taken.getsockname()[1])
             client = served.client()
-            self.assertEqual(client.ask(ping=client.pb.Ping()).status, 0)
+            client.ready()
             self.assertEqual(served.end(), 0)
         self.assertIn("there is no page: Address already in use", served.said())
         self.assertIn("the server goes on", served.said())
