@@ -25,6 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   objects.reset();
   server.reset(kBox);
   CoeClient client;
+  std::uint8_t counter = 0;
   std::int64_t now_ns = 0;
   // Each record: what to do, the length of a message, its bytes.
   for (std::size_t at = 0; at + 2 <= size;) {
@@ -42,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         client.upload(kBox, 0x1008, 0, now_ns);
     }
     std::array<std::uint8_t, kBox> request{};
-    if (client.take(request.data(), request.size()))
+    if (client.take(request.data(), request.size(), counter))
       MUST(get<std::uint16_t>(request.data()) + kMailboxBytes <= kBox);
     can::Emergency emergency;
     if ((kind & 1) != 0)
