@@ -12,6 +12,9 @@ namespace tactus::ur {
 
 using fuzz::wire;
 
+bool is_ipv4(const char*) {
+  return true;
+}
 Status Socket::connect(const char*, int, const Deadline&, Message&) {
   socket_ = 1;
   return Status::kOk;
