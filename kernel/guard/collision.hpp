@@ -6,11 +6,11 @@
 // contact is a distance that is not proved to be more than `margin`: now, at the measured joints,
 // and in every position the joints can take until the arm is at rest (stopping.hpp).
 //
-// Most checks look at nothing, for every pair has a credit: the distance that was proved last, plus
-// the way that its second body can have made until then. That way is the sum over the joints k
-// between the bodies of (reach_k times the angle that joint k has travelled since start()), where
-// reach_k is the largest distance of the body's points from axis k. While the credit is more than
-// the margin, the way until now and the farthest way until rest, the pair stays apart.
+// Every pair has a credit: the distance that was proved last, plus the way that its second body can
+// have made until then. That way is the sum over the joints k between the bodies of (reach_k times
+// the angle that joint k has travelled, to and fro), where reach_k is the largest distance of the
+// body's points from axis k. While the credit exceeds the margin plus the way until now plus the
+// farthest way until rest, the pair stays apart, and its shapes are not looked at.
 //
 // A pair without that credit is looked at: now, where its credit begins anew, and if that does not
 // last until rest, in nine sections of the way to rest. These ten positions of the arm follow from

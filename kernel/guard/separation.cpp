@@ -61,7 +61,7 @@ double first_along(const Vector3& n, const Vector3& d) {
 /// Returns the gap of two cores along n, m, less their radii. `gap` is as long as n times it. What
 /// is left of n where the cores meet is rounding: a direction as short as that proves nothing.
 double along(const Vector3& n, double gap, double radii) {
-  constexpr double kShortest = 1e-12;
+  constexpr double kShortest = 1e-12;  // m
   const double length = std::sqrt(n.squaredNorm());
   return (length > kShortest ? gap / length : 0.0) - radii;
 }

@@ -41,7 +41,7 @@ struct Capsules<Fer> {
   /// limits.
   static constexpr std::array<LinkPair, 1> kTouching = {{{1, 3}}};
 
-  /// Capsules that cannot meet: between them are joints that do not bend as far.
+  /// The joints between these capsules do not bend so far that they meet.
   // clang-format off
   static constexpr std::array<CapsulePair, 15> kNever = {{
       {0, 2}, {0, 3}, {0, 4}, {1, 4}, {2, 4}, {2, 5}, {3, 5}, {3, 7}, {4, 7}, {3, 8}, {4, 8}, {5, 8},

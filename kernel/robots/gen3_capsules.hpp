@@ -38,7 +38,7 @@ struct Capsules<Gen3> {
   /// What is no neighbour touches in few positions.
   static constexpr std::array<LinkPair, 0> kTouching = {};
 
-  /// Capsules that cannot meet: between them are joints that do not bend as far.
+  /// The joints between these capsules do not bend so far that they meet.
   static constexpr std::array<CapsulePair, 9> kNever = {
       {{0, 2}, {0, 3}, {1, 3}, {1, 4}, {3, 5}, {3, 6}, {4, 6}, {4, 7}, {5, 7}}};
 };

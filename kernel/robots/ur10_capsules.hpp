@@ -41,7 +41,7 @@ struct Capsules<Ur10> {
   /// above the base, which the tube never meets; the tool begins inside the round end of wrist 2.
   static constexpr std::array<LinkPair, 2> kTouching = {{{0, 2}, {5, 7}}};
 
-  /// Capsules that cannot meet: between them are joints that do not bend as far.
+  /// The joints between these capsules do not bend so far that they meet.
   static constexpr std::array<CapsulePair, 7> kNever = {
       {{0, 4}, {1, 4}, {4, 7}, {5, 7}, {4, 8}, {4, 9}, {6, 9}}};
 };

@@ -67,7 +67,10 @@ inline UrArmBench& fresh_arm(const Settings& settings = {}, int period_us = 8000
   g_robot.reset();
   g_robot.emplace(settings);
   UrArmBench& bench = g_arm.emplace(period_us, outputs);
-  bench.pipeline.executive.max_slip = 1000;  // lateness of the host is not tested here
+  // Lateness of the host is not tested here: neither long pauses nor frequent ones.
+  bench.pipeline.executive.max_slip = 1000;
+  bench.pipeline.executive.max_late = 16;
+  bench.pipeline.executive.late_window = 1;
   bench.settings.packet_wait = 500.0;
   bench.settings.connect_ms = bench.settings.program_ms = 2000;
   bench.settings.power_ms = 20000;
