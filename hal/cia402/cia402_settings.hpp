@@ -68,6 +68,10 @@ struct Cia402Settings {
   int limited_ms = 50;  ///< a drive may limit what is commanded; 0: for as long as it wants
   int max_missed = 3;   ///< cycles in a row without feedback of a joint that are bridged
 
+  /// From enabling until the first command, ms: a brake that opens as late as it may must leave the
+  /// time in which a hold that fails is found.
+  int held_ms() const { return brake_ms + 100; }
+
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("serial", serial, Range{0.0, 4294967295.0}, "1");

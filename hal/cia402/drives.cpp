@@ -76,13 +76,14 @@ void Drives::watch(const Feedbacks& feedbacks, std::int64_t sampled_ns) {
 
 /// Until it is commanded, an enabled arm stays where it was held; a wrong sign or a wrong torque
 /// must not drive it away. A torque that pushes it is found by its velocity first: the limit is of
-/// the spring and damper of the hold together, in rad of the spring.
+/// the place where it will be in kLead_s.
 void Drives::judge_hold(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (following_ || goal() != Goal::kOperationEnabled) return;
+  constexpr double kLead_s = 0.05;
   const double away = joint.q - held_[j];
   const bool leaves = mode_ == CommandMode::kEffort && away * joint.dq > 0.0;
-  const double pushed = away + (leaves ? hold_.lead_s(j) * joint.dq : 0.0);
+  const double pushed = away + (leaves ? kLead_s * joint.dq : 0.0);
   if (std::abs(pushed) <= settings_->hold_tolerance) return;
   const Figures figures = {pushed, settings_->hold_tolerance};
   moved_ = j;

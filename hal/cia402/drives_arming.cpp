@@ -165,7 +165,7 @@ void Drives::advance(std::int64_t now_ns) {
       break;
     case Phase::kReleasing:
       // To the nearest cycle: a wake-up some microseconds early must not cost a whole one.
-      if (now_ns - since_ns_ + half_period_ns() >= settings_->brake_ms * kMillisecond_ns &&
+      if (now_ns - since_ns_ + half_period_ns() >= settings_->held_ms() * kMillisecond_ns &&
           checked_ == kDof)
         enter(Phase::kArmed, now_ns);
       break;

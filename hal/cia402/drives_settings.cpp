@@ -107,7 +107,7 @@ Status Drives::judge_arming_time(int arming_ms, Message& why) const {
   const auto homed = static_cast<int>((settings_->homing_method.array() != 0.0).count());
   const std::int64_t each_ms = std::int64_t{settings_->homing_ms} + settings_->step_ms;
   const std::int64_t least_ms =
-      homed * each_ms + settings_->reset_ms + kStates * settings_->step_ms + settings_->brake_ms;
+      homed * each_ms + settings_->reset_ms + kStates * settings_->step_ms + settings_->held_ms();
   if (homed == 0 || arming_ms >= least_ms) return Status::kOk;
   why = Message("[executive] arming_ms is ");
   why << arming_ms << ", less than the " << static_cast<std::size_t>(least_ms)

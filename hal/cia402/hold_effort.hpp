@@ -42,21 +42,12 @@ class HoldEffort {
     return tau_;
   }
 
-  /// Returns the time, s, in which a velocity becomes the angle that the spring counts as much as
-  /// the damper counts the velocity, or kLongestLead_s. [cyclic]
-  double lead_s(int j) const {
-    const double longest = kLongestLead_s * stiffness_[j];
-    return damping_[j] < longest ? damping_[j] / stiffness_[j] : kLongestLead_s;
-  }
-
   /// Returns g(q), N m, of arm and tool. [cyclic]
   JointVector weight(const JointVector& q) const {
     return gravity<Robot>(joint_trig<Robot>(q), tool_);
   }
 
  private:
-  static constexpr double kLongestLead_s = 0.05;
-
   JointLimits limits_;
   JointVector stiffness_ = JointVector::Zero(), damping_ = JointVector::Zero();
   JointVector step_Nm_ = JointVector::Zero();

@@ -1,5 +1,6 @@
 #include "hal/cia402/object_lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -176,13 +177,13 @@ bool is_written_as_zero(std::string_view word) {
 
 Status read_float(std::string_view word, ObjectLine& line, Message& why) {
   constexpr float kLeast = std::numeric_limits<float>::min();
-  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kMost = std::numeric_limits<float>::max(), kWrittenMost = 3.4028235e38;
   double value = 0.0;
   if (!parse_number(word, value)) {
     why << "'" << word << "' is not a finite number";
     return Status::kBadValue;
   }
-  if (!(value >= -kMost && value <= kMost)) {
+  if (!(std::abs(value) <= kWrittenMost)) {
     why << "f32 " << word << " is out of range; it must be in [";
     append_single(why, static_cast<float>(-kMost));
     why << ", ";
@@ -190,7 +191,7 @@ Status read_float(std::string_view word, ObjectLine& line, Message& why) {
     why << "]";
     return Status::kBadValue;
   }
-  const auto single = static_cast<float>(value);
+  const auto single = static_cast<float>(std::clamp(value, -kMost, kMost));
   if (!(std::abs(single) >= kLeast) && !is_written_as_zero(word)) {
     why << "f32 " << word << " is too small; write 0, or at least ";
     append_single(why, kLeast);

@@ -51,7 +51,7 @@ inline constexpr cia402::FaultRow<MasterBench> kFaultRows[] = {
     {"switch on disabled by itself", drive_fault<FaultKind::kSwitchOnDisabled>, kFault, {0, 2, 2}, 3, Status::kOk},
     {"brake does not open", drive_fault<FaultKind::kBrakeStuck>, kFault, {508, 501, 0}, 3, Status::kOk},
     {"reboot", drive_fault<FaultKind::kReboot>, kTimeout, {5, 5, 5}, 3, Status::kConnectionLost},
-    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {210, 203, 2}, 3, Status::kOk},
+    {"measured torque saturated", drive_fault<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {310, 303, 2}, 3, Status::kOk},
     {"6061h shows another mode", drive_fault<FaultKind::kWrongMode, 9>, kFault, {20, 16, 0}, 3, Status::kOk},
     {"statusword bit 7, warning", drive_fault<FaultKind::kWarning, 0x4210>, Status::kOk, kNever, 0, Status::kOk},
 };

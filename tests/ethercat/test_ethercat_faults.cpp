@@ -42,7 +42,7 @@ constexpr cia402::FaultRow<MasterBench> kRows[] = {
     {"switch on disabled by itself", drive<FaultKind::kSwitchOnDisabled>, kFault, {0, 3, 3}, 3, Status::kOk},
     {"brake does not open", drive<FaultKind::kBrakeStuck>, kFault, {512, 505, 0}, 3, Status::kOk},
     {"restart", drive<FaultKind::kReboot>, kTimeout, {6, 6, 6}, 14, Status::kNotAtRest},
-    {"measured torque saturated", drive<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {230, 210, 3}, 3, Status::kOk},
+    {"measured torque saturated", drive<FaultKind::kSaturatedTorque>, Status::kStateInvalid, {330, 310, 3}, 3, Status::kOk},
     {"6061h shows another mode", drive<FaultKind::kWrongMode, 9>, kFault, {60, 60, 0}, 3, Status::kOk},
     {"statusword bit 7, warning", drive<FaultKind::kWarning, 0x4210>, Status::kOk, kNever, 0, Status::kOk},
 };
