@@ -113,7 +113,7 @@ Status Drives::judge_arming_time(int arming_ms, Message& why) const {
   why << arming_ms << ", less than the " << static_cast<std::size_t>(least_ms)
       << " ms that arming may take: [cia402] homing_ms, " << settings_->homing_ms
       << ", and step_ms for " << homed << (homed == 1 ? " joint" : " joints")
-      << " with a homing_method, and reset_ms, 4 step_ms and brake_ms";
+      << " with a homing_method, and reset_ms, 4 step_ms, brake_ms and 100 ms of watching the hold";
   return Status::kBadValue;
 }
 

@@ -99,7 +99,7 @@ struct ArmOfDrives {
     for (int i = 0; i < count; ++i) cycle(request);
   }
   void arm() {
-    cycles(40, DriveRequest::kArm);
+    cycles(30 + settings.held_ms(), DriveRequest::kArm);
     assert_true(all(DriveState::kEnabled));
   }
   bool all(DriveState wanted) const {

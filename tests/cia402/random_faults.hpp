@@ -26,7 +26,7 @@ class RandomRun {
       : random_(random), bench_(bench), watch_(bench), account_(account) {}
 
   void go(void (*begin_fault)(Bench& bench, Random& random)) {
-    constexpr int kCycles = 1000;
+    constexpr int kCycles = 1400;
     // A quick stop of a drive ends after [cia402] stop_ms by cutting the voltage; before it, frames
     // may be missing until the drive's time-out. A few cycles to see and to send it.
     constexpr int kMostOff = 2000 + 10 + 5;

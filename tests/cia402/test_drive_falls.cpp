@@ -76,7 +76,7 @@ void arming_ends_with_all_joints_enabled_or_names_one_that_fell(void**) {
   Tally tally;
   for (int run = 0; run < 2000; ++run) {
     const auto weak = static_cast<std::uint32_t>(1 + random.below((1 << kDof) - 1));
-    arm_with_falls(random, weak, 1 + random.below(60), tally);
+    arm_with_falls(random, weak, 1 + random.below(600), tally);
   }
   print_message("%d armed, %d refused, after %d cycles at most\n", tally.armed, tally.refused,
                 tally.longest);
@@ -89,7 +89,7 @@ Phase phase_after(ArmOfDrives& arm, int joint, int times, int every) {
     arm.cycle(DriveRequest::kArm);
     if (i % every == every - 1 && fall(arm, joint, 0)) --times;
   }
-  arm.cycles(60, DriveRequest::kArm);
+  arm.cycles(50 + arm.settings.held_ms(), DriveRequest::kArm);
   return arm.drives.phase();
 }
 

@@ -248,12 +248,12 @@ void settings_that_would_home_without_need_or_in_no_time_are_refused(void**) {
   expect_settings_refused(settings, 600000, "joint 6: [cia402] homing_method is 17.5; methods");
   settings.homing_method[5] = 17;
   expect_settings_refused(
-      settings, 64199,
-      "[executive] arming_ms is 64199, less than the 64200 ms that arming may take: [cia402] "
+      settings, 64299,
+      "[executive] arming_ms is 64299, less than the 64300 ms that arming may take: [cia402] "
       "homing_ms, 30000, and step_ms for 2 joints");
   Drives drives;
   Message why;
-  ASSERT_OK(drives.configure(settings, Tool{}, 1000, 64200, why));
+  ASSERT_OK(drives.configure(settings, Tool{}, 1000, 64300, why));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ constexpr std::int64_t kJitter_ns = 30'000;
 int cycles_to_arm(std::int64_t shift_ns) {
   ArmOfDrives arm;
   int cycles = 0;
-  for (; arm.drives.phase() != Phase::kArmed && cycles < 100; ++cycles) {
+  for (; arm.drives.phase() != Phase::kArmed && cycles < 200; ++cycles) {
     const std::int64_t now_ns = arm.now_ns;
     if (arm.drives.phase() == Phase::kReleasing) arm.now_ns += shift_ns;
     arm.cycle(DriveRequest::kArm);
@@ -22,7 +22,7 @@ int cycles_to_arm(std::int64_t shift_ns) {
 // Proves CAN-3.
 void arming_takes_as_many_cycles_whatever_the_jitter_of_their_beginnings(void**) {
   const int cycles = cycles_to_arm(0);
-  assert_in_range(cycles, 10, 40);
+  assert_in_range(cycles, 110, 140);
   assert_int_equal(cycles_to_arm(-kJitter_ns), cycles);
   assert_int_equal(cycles_to_arm(kJitter_ns), cycles);
 }
