@@ -77,8 +77,8 @@ CROSS_m55   := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
 INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 --param early-inlining-insns=6 \
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
-# Streams of chunks, and parameters that change at run time, take memory that they do not have.
-BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
+# Streams of chunks, parameters that change at run time, and convex bodies take memory that they do not have.
+BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 -DTACTUS_CONVEX=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
               -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf -Wno-psabi $(INLINING)
 FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
 # Its vectors have no double precision, so they gain nothing.
@@ -91,6 +91,8 @@ endif
 # A program without libraries of its own needs the C library and no other.
 LINK     := $(if $(filter host,$(ARCH)),-fuse-ld=lld) $(SANITIZER)
 LDFLAGS  := $(if $(LDLIBS)$(SANITIZE),,-static-libstdc++ -static-libgcc)
+# What kernel and gateway need; the kernel asks libccd where the arm's surroundings are no boxes.
+LIBS     = $(GATEWAY_LIBS) -Wl,--as-needed -lccd
 AR       := $(CROSS_$(ARCH))ar
 NM       := $(CROSS_$(ARCH))nm
 CXXFLAGS += $(FLAGS_$(ARCH)) $(VARIANT_FLAGS) $(if $(SANITIZE)$(findstring clang,$(CXX)),,-fstack-usage -fcallgraph-info=su)
@@ -106,7 +108,8 @@ RUN_OPTIONS += $(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),--always --out out/$(
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
               kernel/core/status.cpp kernel/model/mounting.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp \
               gateway/reference_client.cpp tests/bare_metal/board.cpp
-KERNEL   := $(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp)
+# Bare cores have no libccd, and no convex bodies.
+KERNEL   := $(filter-out $(if $(BARE),kernel/guard/convex%),$(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp))
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
 GATEWAY  := $(wildcard gateway/*.cpp $(addsuffix /*.cpp,$(addprefix gateway/,smoothing page server sockets)))
@@ -217,13 +220,13 @@ build/%.a:
 build/%.members: always
 	$(call kept,echo $(MEMBERS))
 $(B)/linked: always
-	$(call kept,echo $(call quote,$(CXX) $(LINK) $(LDFLAGS) $(SRCS) $(LDLIBS) $(TESTLIBS) $(GATEWAY_LIBS)))
+	$(call kept,echo $(call quote,$(CXX) $(LINK) $(LDFLAGS) $(SRCS) $(LDLIBS) $(TESTLIBS) $(LIBS)))
 $(B)/$(NAME): $(call obj,$(SRCS)) $(B)/libprogram.a $(KERNEL_LIB) $(B)/linked
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) $(LDFLAGS) -o $@ $(filter %.o %.a,$^) $(LDLIBS) $(LIBS)
 $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread $(LIBS)
 
 include program/install.mk
 include gateway/ctl/ctl.mk

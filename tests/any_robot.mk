@@ -7,7 +7,7 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   gateway/test_joint_turns \
   guard/test_collision guard/test_collision_credit guard/test_collision_never guard/test_collision_rules \
   guard/test_collision_spread guard/test_collision_timing \
-  guard/test_guard_motion guard/test_separation guard/test_stopping \
+  guard/test_convex guard/test_convex_scene guard/test_guard_motion guard/test_separation guard/test_stopping \
   load/test_board_sections load/test_collision_file math/test_joint_integrator \
   pipeline/test_closed_loop pipeline/test_collision_pipelines pipeline/test_contact_pipelines \
   pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_recordings pipeline/test_room pipeline/test_stops \

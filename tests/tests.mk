@@ -64,10 +64,10 @@ $(TESTS): | build/libfcl_oracle.so
 OF_PRODUCT := $(O)/liboracles.a $(B)/libprogram.a $(KERNEL_LIB) $(B)/linked
 $(filter-out $(B)/tests/ctl/%,$(SINGLE:%.cpp=$(B)/%)): $(B)/%: $(O)/%.o $(OF_PRODUCT)
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(LIBS)
 $(patsubst %,$(B)/%/tests,$(filter-out tests/ctl,$(JOINED))): %/tests: %/unit.o $(OF_PRODUCT) | build/libfcl_oracle.so
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(LIBS)
 $(patsubst %,$(B)/%/unit.o,$(filter-out tests/ctl,$(JOINED))): %/unit.o: %/unit.cpp $(O)/flags | $(O)/quick.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)

@@ -20,6 +20,8 @@ class PortLister {
   void limit(const char*, const JointVector&, const char*) {}
   template <std::size_t N>
   void text(const char*, const Text<N>&, const char*) {}
+  template <class List>
+  void lines(const char*, const List&, const char*) {}
   template <class Enum>
   void choice(const char*, Enum&) {}
   template <class Space>

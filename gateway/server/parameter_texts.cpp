@@ -67,6 +67,11 @@ class ParameterWriter {
   void text(const char* key, const Text<N>& value, const char* /*meaning*/) {
     if (takes(key, "", false)) to_.value = Value(value);
   }
+  /// Lines of a list do not fit in the text of a value: their number stands for them.
+  template <class List>
+  void lines(const char* key, const List& list, const char* /*meaning*/) {
+    if (takes(key, "", false)) to_.value = Value("") << list.count() << " lines";
+  }
   template <class Enum>
   void choice(const char* key, const Enum& value) {
     if (!takes(key, "", false)) return;

@@ -40,7 +40,7 @@ struct ObjectLine {
 
 class ObjectLines {
  public:
-  static constexpr int kMost = 32;
+  static constexpr int kMost = 32, kLeast = 0;
 
   /// Reads a line. `why` has the place in it, the value and the limit, or the reason why this
   /// object is not for a line. [init]

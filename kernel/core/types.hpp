@@ -18,10 +18,13 @@ struct Pose {
   Eigen::Quaterniond r = Eigen::Quaterniond(1.0, 0.0, 0.0, 0.0);  ///< unit quaternion (w, x, y, z)
 };
 
-/// A box, given by its centre and the lengths of its edges.
+struct Convex;
+
+/// A box, given by its centre and the lengths of its edges: full, or the box around another body.
 struct Cuboid {
   Pose pose;                       ///< of its centre; axes along the edges
   Vector3 size = Vector3::Zero();  ///< m
+  const Convex* inside = nullptr;  ///< the body, in the axes of the box; null: the box is full
 };
 
 /// The tool mounted on the flange, in the flange frame, and the gravity that pulls at it and at the

@@ -49,19 +49,23 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
   braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
   telemetry_ = {};
-  add_capsules(tip, section.tool_radius);
+  add_capsules(section, tip);
   add_pairs();
   begin_anew();
 }
 
-void Collision::add_capsules(const Vector3& tip, double tool_radius) {
+void Collision::add_capsules(const CollisionSection& section, const Vector3& tip) {
   for (std::size_t i = 0; i < RobotCapsules::kCapsules.size(); ++i) {
     const LinkCapsule& entry = RobotCapsules::kCapsules[i];
     const Capsule shape = {vector_of(entry.a), vector_of(entry.b), entry.radius};
     bodies_[i] = {entry.link, shape, reach_of(shape, entry.link)};
   }
+  double radius = section.tool_radius;
+  tool_hull_ = {};
+  if constexpr (kConvexBodies)
+    if (section.tool_points.count() > 0) radius = add_tool_hull(section.tool_points, radius, tip);
   const Capsule tool = {dense(from_flange<Robot>(Vector3::Zero())), dense(from_flange<Robot>(tip)),
-                        tool_radius};
+                        radius};
   bodies_.back() = {kDof, tool, reach_of(tool, kDof)};
 }
 
@@ -119,6 +123,7 @@ Status Collision::step(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
   travel(measured.q);
+  directions_ = kMostDirections;
   LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
@@ -155,7 +160,8 @@ Status Collision::look_now(const RobotState& measured) {
     if (pair.credit > lasting) continue;
     if (!placed) place(q_, from_);
     placed = true;
-    const double distance = proved_distance(pair);
+    double distance = proved_distance(pair, lasting);
+    if (kConvexBodies && !(distance > margin_)) distance = proved_distance(pair, margin_);
     if (!(distance > margin_)) return contact(pair, 0.0);
     pair.credit = distance + placed_[pair.second].ways[pair.axis];
     if (!(pair.credit > lasting))
@@ -178,7 +184,8 @@ Status Collision::look_ahead() {
     if (!placed) place(box.middle, box.half);
     placed = true;
     const double sweep_m = placed_[pair.second].ways[pair.axis];
-    if (!(proved_distance(pair) > margin_ + sweep_m)) return contact(pair, sweep_m);
+    const double needed = margin_ + sweep_m;
+    if (!(proved_distance(pair, needed) > needed)) return contact(pair, sweep_m);
   }
   return Status::kOk;
 }
@@ -212,12 +219,19 @@ void Collision::place(const JointVector& q, const JointVector& angles) {
     const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
     placed_[i] = {{frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius}, moved[i]};
   }
+  if constexpr (kConvexBodies) place_tool(frames.back());
 }
 
-double Collision::proved_distance(const Pair& pair) const {
+/// Returns a distance of the pair that is proved; where that of capsules and boxes is not more than
+/// what is wanted, that of the bodies in them.
+double Collision::proved_distance(const Pair& pair, double wanted) {
   const Capsule& moving = placed_[pair.second].capsule;
-  return pair.of_box ? separation(moving, boxes_[pair.first])
-                     : separation(moving, placed_[pair.first].capsule);
+  const double distance = pair.of_box ? separation(moving, boxes_[pair.first])
+                                      : separation(moving, placed_[pair.first].capsule);
+  if constexpr (kConvexBodies)
+    if (!(distance > wanted) && is_convex(pair))
+      return std::max(distance, convex_distance(pair, wanted));
+  return distance;
 }
 
 Status Collision::contact(const Pair& pair, double sweep_m) {

@@ -6,6 +6,11 @@
 // contact is a distance that is not proved to be more than `margin`: now, at the measured joints,
 // and in every position the joints can take until the arm is at rest (stopping.hpp).
 //
+// Of a body that is inside a box, and of a tool that is the hull of points, the box and the capsule
+// around it are looked at first, in closed form; where that proves too little, the bodies
+// themselves (convex.hpp). A cycle tries at most kMostDirections for them; what it could not prove
+// with these counts as a contact.
+//
 // Every pair has a credit: the distance that was proved last, plus the way that its second body can
 // have made until then. That way is the sum over the joints k between the bodies of (reach_k times
 // the angle that joint k has travelled, to and fro), where reach_k is the largest distance of the
@@ -34,6 +39,7 @@
 
 #include "kernel/core/hal.hpp"
 #include "kernel/guard/collision_section.hpp"
+#include "kernel/guard/convex.hpp"
 #include "kernel/guard/separation.hpp"
 #include "kernel/guard/stopping.hpp"
 #include "kernel/model/link_frames.hpp"
@@ -85,13 +91,19 @@ class Collision {
     std::uint8_t second = 0, first = 0, axis = 0;
     bool of_box = false;
   };
+  static constexpr int kMostDirections = 256;
   struct Placed {
     Capsule capsule;
     JointVector ways = JointVector::Zero();  // m: from joint k up
   };
+  /// The tool as the hull of points.
+  struct ToolHull {
+    LinkFrame flange;  // its axes, and the middle of the hull, in the frame of the last link
+    Solid placed;      // kHull, if the file gives points
+  };
   using Ways = std::array<JointVector, kArmCapsules>;
 
-  [[gnu::cold]] void add_capsules(const Vector3& tip, double tool_radius);
+  [[gnu::cold]] void add_capsules(const CollisionSection& section, const Vector3& tip);
   [[gnu::cold]] void add_pairs();
   [[gnu::cold]] void add_pair(int second, int first, int axis, bool of_box);
   bool is_allowed(int first, int second) const;
@@ -104,7 +116,15 @@ class Collision {
   Status contact(const Pair& pair, double sweep_m);
   Ways ways(const JointVector& angles) const;
   void place(const JointVector& q, const JointVector& angles);
-  double proved_distance(const Pair& pair) const;
+  double proved_distance(const Pair& pair, double wanted);
+
+  // In convex_pairs.cpp; a board without convex bodies has none of these.
+  double add_tool_hull(const Hull& points, double rounding, const Vector3& tip);
+  void place_tool(const LinkFrame& last_link);
+  bool is_hull(int capsule) const;
+  bool is_convex(const Pair& pair) const;
+  double convex_distance(const Pair& pair, double wanted);
+  Solid arm_solid(int capsule) const;
 
   const CollisionScene* scene_ = nullptr;
   double margin_ = 0.0;
@@ -123,6 +143,8 @@ class Collision {
   std::array<std::uint8_t, kMaxPairs> due_{};  // pairs that it looks at ahead
   int due_count_ = 0;
   std::array<Placed, kArmCapsules> placed_;  // in this position
+  std::array<ToolHull, kConvexBodies ? 1 : 0> tool_hull_;
+  int directions_ = 0;  // left in this cycle
   Telemetry telemetry_;
 };
 

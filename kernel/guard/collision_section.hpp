@@ -8,6 +8,7 @@
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/guard/collision_pairs.hpp"
+#include "kernel/guard/convex.hpp"
 #include "kernel/guard/stopping.hpp"
 #include "kernel/robots/robot.hpp"
 
@@ -39,7 +40,8 @@ struct CollisionSection {
   int cycles = 5;             ///< over which a check is spread, evenly
   int budget_us = 250;        ///< in each of them
   double margin = 0.01;       ///< m: a smaller distance is a contact
-  double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip
+  double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip,
+  Hull tool_points;           ///< or this hull, in the flange frame, and what is within tool_radius
   double delay_s = 0.0;       ///< total delay of the measured state and the brake, s
   JointLimits limits;         ///< only ddq_max: each joint's deceleration, braked at once, rad/s^2
   Value allow;                ///< "tool table, link7 table"
@@ -51,7 +53,9 @@ struct CollisionSection {
     visit.param("cycles", cycles, Range{1.0, 1.0 * kCheckedPositions}, "cycles");
     visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
     visit.param("margin", margin, Range{1e-3, 0.5}, "m");
-    visit.param("tool_radius", tool_radius, Range{1e-3, 0.5}, "m");
+    visit.param("tool_radius", tool_radius, Range{1e-4, 0.5}, "m");
+    if constexpr (kConvexBodies)
+      visit.lines("tool_point", tool_points, "x y z, m, of the tool's hull, in the flange frame");
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
     visit.limit("braking", limits.ddq_max, "rad/s^2");
     visit.text("allow", allow, "pairs that may touch: tool table, link7 table");

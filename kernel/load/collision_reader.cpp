@@ -21,11 +21,12 @@ Status add_boxes(const PortTable& ports, CollisionScene& scene, const CollisionP
     const int line = place.ini.find(name)->line;
     if (scene.body_count == kMaxBodies)
       return place.error.refuse(Status::kTooLarge, line, name, {},
-                                Message("more than ") << kMaxObstacles << " boxes in the file");
+                                Message("more than ")
+                                    << kMaxObstacles << " bodies around the arm in the file");
     for (int body = 0; body < kFirstBoxBody; ++body)
       if (std::string_view(name) == scene.names[static_cast<std::size_t>(body)])
         return place.error.refuse(Status::kBadValue, line, name, {},
-                                  "a body of the arm has this name; rename the box");
+                                  "a body of the arm has this name; rename the block");
     scene.boxes[static_cast<std::size_t>(scene.box_count())] =
         static_cast<const Cuboid*>(ports[i].value);
     scene.names[static_cast<std::size_t>(scene.body_count++)] = ports[i].block.c_str();
@@ -102,6 +103,8 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
                         Message("")
                             << collision.cycles << " cycles do not share the " << kCheckedPositions
                             << " positions of a check evenly; give 1, 2, 5 or 10");
+  if (collision.tool_points.count() > 0 && ini.find(*section, "tool_radius") == nullptr)
+    collision.tool_radius = 0.0;
   TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;

@@ -59,7 +59,7 @@ class SectionReader {
     value = Text<N>(entry->value);
   }
   /// Reads a key that may be given any number of times, each time a line of a list, which judges it
-  /// in Status add(std::string_view text, int line, Message& why).
+  /// in Status add(std::string_view text, int line, Message& why); the list needs kLeast of them.
   template <class List>
   void lines(const char* key, List& list, const char* /*meaning*/) {
     if (seeks_) {
@@ -74,6 +74,7 @@ class SectionReader {
       if (status != Status::kOk)
         static_cast<void>(error_.refuse(status, entry.line, section_.name, key, why));
     }
+    if (!failed() && list.count() < List::kLeast) refuse_missing(key, "1");
   }
   template <class Enum>
   void choice(const char* key, Enum& value) {

@@ -11,7 +11,7 @@
 #include "kernel/control/pd_gravity.hpp"
 #include "kernel/control/pid.hpp"
 #include "kernel/control/wrench_front_end.hpp"
-#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/guard/obstacle.hpp"
 #include "kernel/model/robot_model.hpp"
 #include "kernel/reference/generator/frame.hpp"
 #include "kernel/reference/generator/joint_reference_generator.hpp"
@@ -41,6 +41,12 @@ using Kinds = KindList<TACTUS_KINDS>;
 using Kinds = KindList<RobotModel,               //
                        Frame,                    //
                        BoxObstacle,              //
+#if TACTUS_CONVEX
+                       SphereObstacle,           //
+                       CapsuleObstacle,          //
+                       CylinderObstacle,         //
+                       ConvexObstacle,           //
+#endif
                        JointReferenceGenerator,  //
                        TaskReferenceGenerator,   //
                        PdGravity,                //

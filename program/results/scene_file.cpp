@@ -1,5 +1,6 @@
 #include "program/results/scene_file.hpp"
 
+#include "kernel/guard/convex.hpp"
 #include "program/results/result_file.hpp"
 
 namespace tactus {
@@ -37,6 +38,20 @@ void write_arm(std::FILE* file) {
   std::fprintf(file, "\n  ],\n");
 }
 
+/// What a box has inside: points in its axes, from its centre, or half the size of a cylinder.
+void write_inside(std::FILE* file, const Convex& body) {
+  constexpr const char* kCores[] = {"segment", "box", "cylinder", "hull"};
+  std::fprintf(file, ", \"inside\": {\"core\": \"%s\", \"rounding\": %.9g, ",
+               kCores[static_cast<std::size_t>(body.core)], body.rounding);
+  write_numbers(file, "half", body.half.data(), 3);
+  std::fprintf(file, ", \"points\": [");
+  for (int i = 0; body.hull != nullptr && i < body.hull->count(); ++i) {
+    const Vector3 point = (*body.hull)[i] - body.middle;
+    std::fprintf(file, "%s[%.9g, %.9g, %.9g]", i > 0 ? ", " : "", point.x(), point.y(), point.z());
+  }
+  std::fprintf(file, "]}");
+}
+
 void write_boxes(std::FILE* file, const PortTable& ports) {
   std::fprintf(file, "  \"boxes\": [");
   const char* separator = "\n    ";
@@ -51,6 +66,7 @@ void write_boxes(std::FILE* file, const PortTable& ports) {
     write_numbers(file, "rotation", rotation, 4);
     std::fprintf(file, ", ");
     write_numbers(file, "size", box.size.data(), 3);
+    if (box.inside != nullptr) write_inside(file, *box.inside);
     std::fprintf(file, "}");
     separator = ",\n    ";
   }

@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 
-from reporting import expected, page, panels, view
+from reporting import arm, expected, page, panels, view
 from reporting.inputs import InputError, read_text
 
 FRAMES_HZ = 50
@@ -35,6 +35,10 @@ def data(run):
     entry, found = panels.task_entry(run), expected.contact(run)
     there = [box["name"] for box in expected.surroundings(run)]
     boxes = [{**box, "there": box["name"] in there} for box in run.scene["boxes"]]
+    for box in boxes:
+        if box.pop("inside", None):
+            corners, triangles = arm.surface(next(given for given in run.scene["boxes"] if given["name"] == box["name"]))
+            box.update(corners=np.round(corners, 4).ravel().tolist(), triangles=triangles.ravel().tolist())
     shown = {key: run.scene[key] for key in ("joints", "flange", "capsules", "tool")}
     result = {
         "name": run.name,

@@ -1,6 +1,7 @@
 """The arm of scene.json: where its links and its tip are at given joint positions."""
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 QUARTER_TURNS = {-1: (0, -1), 0: (1, 0), 1: (0, 1), 2: (-1, 0)}  # cosine and sine
 
@@ -51,6 +52,27 @@ def capsules(scene):
     if np.any(tool["tip"]):
         shapes.append((len(scene["joints"]) + 1, [0, 0, 0], tool["tip"], tool["radius"]))
     return shapes
+
+
+def surface(box):
+    """Returns the corners of a body of scene.json in its box's axes [n, 3] and the triangles between them [m, 3]."""
+    inside = box.get("inside") or {"core": "box", "half": np.array(box["size"]) / 2, "rounding": 0.0}
+    half, turns = np.array(inside["half"], dtype=float), np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+    points = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
+    points = np.array(inside["points"]) if inside["core"] == "hull" else points * half
+    if inside["core"] == "cylinder":
+        points = np.array([[half[0] * np.cos(a), half[0] * np.sin(a), z] for a in turns for z in (half[2], -half[2])])
+    if inside["rounding"] > 0.0:  # a ball about every point
+        rises = np.linspace(-np.pi / 2, np.pi / 2, 13)
+        ball = np.array([[np.cos(a) * np.cos(b), np.sin(a) * np.cos(b), np.sin(b)] for a in turns for b in rises])
+        points = (points[:, None] + inside["rounding"] * ball).reshape(-1, 3)
+    hull = ConvexHull(points, qhull_options="QJ")
+    used, triangles = np.unique(hull.simplices, return_inverse=True)
+    corners, triangles = points[used], triangles.reshape(-1, 3)
+    one, other, third = np.moveaxis(corners[triangles], 1, 0)
+    inward = np.sum(np.cross(other - one, third - one) * hull.equations[:, :3], axis=1) < 0.0
+    triangles[inward] = triangles[inward, ::-1]
+    return corners, triangles
 
 
 def corners(box):

@@ -1,6 +1,7 @@
 """Small pictures of the runs: the arm half way, the path of its tip, and what is around it, seen from the side."""
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from reporting import arm, expected, panels, view
 
@@ -62,6 +63,11 @@ def draw_boxes(axes, run, to_view):
         corners, edges = arm.corners(box)
         seen = corners @ to_view.T
         all_corners.append(seen)
+        if "inside" in box:
+            points = (box["centre"] + arm.surface(box)[0] @ arm.rotation_matrix(box["rotation"]).T) @ to_view.T
+            outline = points[ConvexHull(points[:, :2]).vertices, :2]
+            axes.fill(*outline.T, facecolor=BOX if box in there else "none", edgecolor="#7a6a4a", alpha=0.4, linewidth=0.5)
+            continue
         if box in there:
             for bit in (1, 2, 4):
                 for side in (0, bit):

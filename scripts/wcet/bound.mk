@@ -29,6 +29,6 @@ certificate-host: $(KERNEL_LIB) $(B)/stack_painter
 	@grep -E '^(memory|stack|painted)' $(B)/certificate.txt
 $(B)/stack_painter: $(call obj,tests/wcet/stack_painter.cpp $(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^
+	$(Q)$(CXX) $(LINK) -o $@ $^ $(LIBS)
 $(O)/tests/wcet/stack_painter.o: private CXXFLAGS += -DPIPELINE_FILE='"pipelines/$(firstword $(WCET_PIPELINES)).ini"'
 $(O)/tests/wcet/stack_painter.o: $(WCET_PIPELINES:%=pipelines/%.ini)

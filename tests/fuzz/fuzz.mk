@@ -29,5 +29,5 @@ fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
 $(eval $(call archive,$(O)/libfuzzed.a,$(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)))
 $(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
 	$(call say,LD    $@)
-	$(Q)$(call timed,link) $(CXX) $(subst fuzzer-no-link,fuzzer,$(LINK)) -o $@ $^ $(GATEWAY_LIBS)
+	$(Q)$(call timed,link) $(CXX) $(subst fuzzer-no-link,fuzzer,$(LINK)) -o $@ $^ $(LIBS)
 endif

@@ -37,6 +37,9 @@ class SettingChecker {
   }
   template <std::size_t N>
   void text(const char*, const Text<N>&, const char*) {}
+  void lines(const char*, const Hull& hull, const char*) {
+    for (int i = 0; i < hull.count(); ++i) MUST(hull[i].allFinite());
+  }
   template <class List>
   void lines(const char*, const List& list, const char*) {
     for (int i = 0; i < list.count(); ++i) MUST(list[i].line > 0 && list[i].joint < kDof);

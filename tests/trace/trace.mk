@@ -11,8 +11,8 @@ $(B)/trace: $(call obj,tests/trace/m7/main.cpp $(TRACE) $(BARE_START)) $(KERNEL_
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_$(ARCH)) -nostartfiles -nostdlib -Wl,--gc-sections $(MEASURE_LD:%=-T %) -o $@ $(WHOLE_KERNEL) -lm -lgcc
 else
-# Linked statically where that is possible, so that an emulator needs no libraries of the machine.
-$(B)/trace: $(call obj,tests/trace/main.cpp $(TRACE)) $(KERNEL_LIB)
+# Linked statically where that is possible, so that an emulator needs no libraries of the machine; libccd is a shared one.
+$(B)/trace: $(call obj,tests/trace/main.cpp tests/trace/no_libccd.cpp $(TRACE)) $(KERNEL_LIB)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(or $(SANITIZER),-static) -o $@ $^
 $(B)/tests/trace/test_trace: $(O)/tests/trace/trace.o | $(B)/trace

@@ -50,7 +50,7 @@ ifeq ($(ARCH),host)
 wcet-host: $(if $(WCET_PIPELINES),$(B)/wcet-replay build/wcet/count_plugin.so) $(WCET_PIPELINES:%=build/wcet/%/run.tape) ;
 $(B)/wcet-record: $(O)/tests/wcet/record.o $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^ -lmujoco $(GATEWAY_LIBS)
+	$(Q)$(CXX) $(LINK) -o $@ $^ -lmujoco $(LIBS)
 build/wcet/%/run.tape: pipelines/%.ini
 	@mkdir -p $(@D)
 	$(Q)$(B)/wcet-record $< $@
@@ -58,7 +58,7 @@ $(WCET_PIPELINES:%=build/wcet/%/run.tape): $(B)/wcet-record
 $(O)/tests/wcet/replay.o: private CXXFLAGS := $(filter-out -DEIGEN_NO_MALLOC,$(SEAMFLAGS)) -DNDEBUG
 $(B)/wcet-replay: $(O)/tests/wcet/replay.o $(call obj,$(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(SANITIZER) -o $@ $^
+	$(Q)$(CXX) $(SANITIZER) -o $@ $^ $(LIBS)
 build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	$(call say,LD    $@)
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
@@ -75,7 +75,7 @@ ifeq ($(SANITIZE),fuzzer-no-link)
 wcet-searches: $(WCET_PIPELINES:%=$(B)/wcet-search-%) ;
 $(WCET_PIPELINES:%=$(B)/wcet-search-%): $(B)/wcet-search-%: $(O)/tests/wcet/search-%.o $(call obj,$(PLAYER)) $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^
+	$(Q)$(CXX) -fsanitize=fuzzer -o $@ $^ $(LIBS)
 $(O)/tests/wcet/search-%.o: tests/wcet/search.cpp pipelines/%.ini $(O)/flags
 	$(call say,CXX   $<)
 	$(Q)$(CXX) $(filter-out -fsanitize=%,$(CXXFLAGS)) -DPIPELINE_FILE='"pipelines/$*.ini"' -c $< -o $@

@@ -108,7 +108,7 @@ function path(points, radius, colour) {
 /** Returns an arrow that set() puts in place. */
 function arrow() {
   const look = { color: COLOURS.force, depthTest: false, transparent: true };
-  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial(look);
+  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial({ ...look, side: THREE.DoubleSide });
   const shaft = new THREE.Mesh(new THREE.CylinderBufferGeometry(0.006, 0.006, 1, 24), material);
   const head = new THREE.Mesh(new THREE.ConeBufferGeometry(0.02, 0.05, 32), material);
   shaft.position.y = 0.5;
@@ -127,9 +127,13 @@ function arrow() {
   return group;
 }
 
-/** Returns a box of scene.json; one that is not there is drawn by its edges. */
+/** Returns a box of scene.json, or the body inside it; one that is not there is drawn by its edges. */
 function box(given) {
-  const shape = new THREE.BoxBufferGeometry(...given.size), group = new THREE.Group();
+  const shape = given.triangles ? new THREE.BufferGeometry() : new THREE.BoxBufferGeometry(...given.size), group = new THREE.Group();
+  if (given.triangles) {
+    shape.setAttribute("position", new THREE.Float32BufferAttribute(given.corners, 3));
+    shape.setIndex(given.triangles);
+  }
   if (given.there) {
     const look = { color: COLOURS.box, transparent: true, opacity: 0.3, depthWrite: false };
     group.add(new THREE.Mesh(shape, new THREE.MeshBasicMaterial(look)));

@@ -9,5 +9,5 @@ bench-policies:                               ## replay chunks of a policy throu
 	$(Q)scripts/policies/bench $(POLICY_BOARDS:%=build/%/policy_replay)
 $(B)/policy_replay: $(call obj,$(POLICIES)) $(B)/libprogram.a $(KERNEL_LIB)
 	$(call say,LD    $@)
-	$(Q)$(CXX) $(LINK) -o $@ $^ $(GATEWAY_LIBS)
+	$(Q)$(CXX) $(LINK) -o $@ $^ $(LIBS)
 $(B)/tests/bench/policies/test_policies: | $(B)/policy_replay

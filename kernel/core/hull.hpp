@@ -1,0 +1,53 @@
+// Hull: the points of a convex body, as a file lists them.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "kernel/core/loop_bound.hpp"
+#include "kernel/core/status.hpp"
+#include "kernel/core/text.hpp"
+#include "kernel/core/vectors.hpp"
+
+#ifndef TACTUS_CONVEX
+#define TACTUS_CONVEX 1
+#endif
+
+namespace tactus {
+
+/// A board on which memory is short has boxes and capsules only: TACTUS_CONVEX=0.
+inline constexpr bool kConvexBodies = TACTUS_CONVEX != 0;
+
+/// The convex hull of the points that a file lists, m, in the frame of the body. Points inside it
+/// cost time and do not matter.
+class Hull {
+ public:
+  static constexpr int kMost = kConvexBodies ? 64 : 0, kLeast = 0;
+
+  /// Reads "x y z". `why` has the word, its value and the limit. [init]
+  Status add(std::string_view text, int line, Message& why);
+
+  int count() const { return count_; }
+  const Vector3& operator[](int i) const { return points_[static_cast<std::size_t>(i)]; }
+  /// Returns the point that is farthest along n; all are looked at. At least one must be there.
+  /// [cyclic]
+  const Vector3& farthest(const Vector3& n) const {
+    int at = 0;
+    double most = points_[0].dot(n);
+    LoopBound<kMost + 1> points;  // a board may have none
+    for (int i = 1; i < count_; ++i) {
+      points.tick();
+      const double height = (*this)[i].dot(n);
+      if (!(height > most)) continue;
+      most = height;
+      at = i;
+    }
+    return (*this)[at];
+  }
+
+ private:
+  std::array<Vector3, kMost> points_;
+  int count_ = 0;
+};
+
+}  // namespace tactus
