@@ -11,7 +11,7 @@
 #include <array>
 #include <string_view>
 
-#include "kernel/guard/box_obstacle.hpp"
+#include "kernel/guard/obstacle.hpp"
 #include "kernel/load/section_reader.hpp"
 #include "kernel/reference/generator/frame.hpp"
 #include "sim_plant/ur/motion/surroundings.hpp"
