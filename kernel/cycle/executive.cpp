@@ -153,6 +153,12 @@ void Executive::run_rows() {
   timing_.close(Stage::kRows, rows_begin_ns);
 }
 
+/// Begins to look for rest; what was seen before does not count.
+void Executive::await_rest(int longest_ms) {
+  const int blocks = pipeline_.executive.rest_blocks(pipeline_.robot.period_us);
+  rest_.start(static_cast<std::int32_t>(cycles_of(longest_ms)), static_cast<std::uint16_t>(blocks));
+}
+
 /// Finds a braked arm that has come to rest, has not done so in time, or moves again.
 void Executive::watch_rest() {
   const RestWatch::Result found = rest_.add(measured_.dq, pipeline_.executive.rest_velocity);
@@ -214,7 +220,7 @@ void Executive::walk(Cause cause, Status status, const Finding& found) {
   if (refuses(to) &&
       (latched_ == Status::kOk || latched_ == Status::kArming || to == Rung::kArming))
     latched_ = status;
-  if (brakes(to)) rest_.start(cycles_of(pipeline_.executive.stop_ms));
+  if (brakes(to)) await_rest(pipeline_.executive.stop_ms);
   arming_ = to == Rung::kArming ? cycles_of(pipeline_.executive.arming_ms) : 0;
   disabling_ = to == Rung::kDisabled ? cycles_of(pipeline_.executive.disabling_ms) : 0;
 }

@@ -77,7 +77,7 @@ class Executive {
   /// True while the arm is being brought to rest, or its drives are being disabled: cycles must go
   /// on.
   bool busy() const { return (brakes(rung()) && !rest_.at_rest()) || disabling_ > 0; }
-  /// True if the arm was at rest in the last ten cycles.
+  /// True if the arm has been at rest for `[executive] rest_ms`.
   bool at_rest() const { return rest_.still(); }
   /// Time at which the next cycle is due, ns.
   std::int64_t next_ns() const { return now_.stamp_ns + period_ns_; }
@@ -104,6 +104,7 @@ class Executive {
   RobotCommand guarded();
   void write(const RobotCommand& command);
   void run_rows();
+  void await_rest(int longest_ms);
   void watch_rest();
   void watch_overruns(std::uint64_t took_ns);
   void watch_times();

@@ -25,6 +25,7 @@ Status Executive::start() {
   seen_ = 0;
   measured_ = {};
   requested_ = DriveRequest::kDisable;
+  await_rest(0);
   watch_anew();
   wire_ =
       pipeline_.schedule.count() > 0 ? hal_.connect(pipeline_.robot.mode()) : Status::kMissingKey;
@@ -42,7 +43,7 @@ Status Executive::arm() {
   }
   if (disabling_ > 0) return Status::kNotAtRest;
   if (wire_ != Status::kOk) return refuse(wire_);
-  rest_.start(0);
+  await_rest(0);
   for (std::size_t i = 0; i < kDof; ++i)  // a warning that stands is in the log
     if (!measured_.drives[i].warns) warned_ &= static_cast<std::uint8_t>(~(1U << i));
   walk(Cause::kArm, Status::kArming);

@@ -53,6 +53,20 @@ Status add(Pipeline& pipeline, const Row& row, const char* section, const RowPla
   }
 }
 
+/// Refuses a stop or an arming that would be given up before the arm can be at rest.
+Status check_rest(const Pipeline& pipeline, const RowPlace& place) {
+  const ExecutiveSection& settings = pipeline.executive;
+  const int period_us = pipeline.robot.period_us;
+  const int rest_ms =
+      settings.rest_blocks(period_us) * ExecutiveSection::kRestBlock * period_us / 1000;
+  const bool arms = settings.arming_ms > rest_ms;
+  const int longest_ms = arms ? settings.stop_ms : settings.arming_ms;
+  if (longest_ms > rest_ms) return Status::kOk;
+  return place.refuse(Status::kBadValue, "executive", arms ? "stop_ms" : "arming_ms",
+                      Message("") << longest_ms << " ms; it must be more than " << rest_ms
+                                  << " ms: rest_ms in whole blocks of 10 cycles");
+}
+
 Status check_collision(void* collision, const RobotState& measured, double) {
   return static_cast<Collision*>(collision)->step(measured);
 }
@@ -61,6 +75,7 @@ Status check_collision(void* collision, const RobotState& measured, double) {
 
 Status read_schedule(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   const RowPlace place{ini, error};
+  TRY(check_rest(pipeline, place));
   const RecorderSection& recorder = pipeline.recorder;
   const int budget_us = pipeline.executive.budget(pipeline.robot.period_us);
   TRY(add(pipeline, {"control", 1, 0, budget_us}, "executive", place));

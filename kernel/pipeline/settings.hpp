@@ -98,6 +98,8 @@ struct RobotSection : OutputsSection<> {
 
 /// [executive]
 struct ExecutiveSection {
+  static constexpr int kRestBlock = 10;  ///< cycles whose velocities are judged together
+
   int budget_us = 0;         ///< intended longest time of the control chain; 0: half a period
   int max_slip = 3;          ///< missed periods in a row that are bridged; more: hold; more than
                              ///< twice as many: stop
@@ -106,9 +108,11 @@ struct ExecutiveSection {
   int max_overruns = 3;      ///< cycles longer than the period, within the window; more: one rung
   int overrun_window = 100;  ///< cycles
   int clean_cycles = 1000;   ///< cycles without an overrun until optional rows run again
-  int stop_ms = 3000;        ///< longest time in which a brake must come to rest
-  int arming_ms = 10000;     ///< longest time in which all drives must become enabled
+  int stop_ms = 3000;        ///< longest time in which a brake must come to rest; beyond rest_ms
+  int arming_ms = 10000;     ///< longest time in which all drives must become enabled, and the arm
+                             ///< be at rest; beyond rest_ms
   int disabling_ms = 2000;   ///< longest time in which they must then become disabled
+  int rest_ms = 100;         ///< time without motion, in whole blocks, after which it is at rest
   double rest_velocity = 0.01;  ///< rad/s of every joint; the arm is at rest below it
 
   template <class Visitor>
@@ -123,7 +127,13 @@ struct ExecutiveSection {
     visit.param("stop_ms", stop_ms, Range{1.0, 60000.0}, "ms");
     visit.param("arming_ms", arming_ms, Range{1.0, 600000.0}, "ms");
     visit.param("disabling_ms", disabling_ms, Range{1.0, 60000.0}, "ms");
+    visit.param("rest_ms", rest_ms, Range{1.0, 60000.0}, "ms");
     visit.param("rest_velocity", rest_velocity, kPositive, "rad/s");
+  }
+  /// Blocks that together last rest_ms, at least.
+  int rest_blocks(int period_us) const {
+    const int block_us = kRestBlock * period_us;
+    return (1000 * rest_ms + block_us - 1) / block_us;
   }
   int budget(int period_us) const { return budget_us > 0 ? budget_us : (period_us + 1) / 2; }
 };

@@ -11,7 +11,7 @@ inline constexpr const char* kServe =
     "d=$(dirname $P); export T=$R/build/tactusctl${d##*/ur10_sim} TACTUS_SOCKET=unix:$S/socket; "
     "serve() { : >$S/server.log; rm -f $S/all; { sed 's|trajectories/|'$R'/pipelines/&|' "
     "$R/pipelines/$1.ini; printf "
-    "'\\n[executive]\\nmax_slip=1000\\nmax_late=16\\nlate_window=1\\n'; } "
+    "'\\n[executive]\\nmax_slip=1000\\nmax_late=16\\nlate_window=1\\nrest_ms=10\\n'; } "
     ">$S/served.ini; $P serve $S/served.ini --listen $TACTUS_SOCKET >$S/server.log 2>&1 & "
     "echo $! >$S/pid; n=0; until grep -q 'serves unix' $S/server.log; do "
     "n=$((n+1)); test $n -lt 600 || return 1; sleep 0.1; done; }; "

@@ -162,7 +162,8 @@ struct FaultRun {
 
   void load(std::size_t mode) {
     Text<511> text("[robot]\nname = fer\nperiod_us = 1000\n");
-    text << kEnds[mode] << "[executive]\narming_ms = 40\ndisabling_ms = 20\nstop_ms = 100\n"
+    text << kEnds[mode]
+         << "[executive]\narming_ms = 40\ndisabling_ms = 20\nstop_ms = 100\nrest_ms = 10\n"
          << "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
          << "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\nkp = 400\nkd = "
             "40\n";

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "kernel/cycle/event_log.hpp"
-#include "kernel/cycle/rest_watch.hpp"
 #include "kernel/pipeline/rate_watch.hpp"
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
@@ -126,50 +125,6 @@ void overruns_are_too_many_as_counting_the_window_says(void**) {
   }
 }
 
-// Proves LAD-4.
-
-/// Adds the same velocity for a whole block and returns the result of its last cycle; the others
-/// have none.
-RestWatch::Result add_block(RestWatch& watch, double dq) {
-  for (int i = 1; i < RestWatch::kCycles; ++i)
-    assert_true(watch.add(JointVector::Constant(dq), 0.01) == RestWatch::Result::kNothing);
-  return watch.add(JointVector::Constant(dq), 0.01);
-}
-
-void rest_is_a_block_of_cycles_whose_mean_is_small_and_is_reported_once(void**) {
-  RestWatch watch;
-  watch.start(1000);
-  assert_true(add_block(watch, 0.0101) == RestWatch::Result::kNothing);
-  assert_true(add_block(watch, -0.0101) == RestWatch::Result::kNothing);
-  assert_false(watch.at_rest());
-  assert_true(add_block(watch, -0.0099) == RestWatch::Result::kAtRest);
-  assert_true(watch.at_rest() && watch.still());
-  assert_true(add_block(watch, 0.0199) == RestWatch::Result::kNothing);
-  assert_true(watch.at_rest() && !watch.still());
-  assert_true(add_block(watch, -0.0201) == RestWatch::Result::kMoved);
-  assert_true(add_block(watch, 0.0) == RestWatch::Result::kNothing);
-}
-
-/// Its mean is zero, but it is not at rest.
-void a_joint_that_reverses_is_not_at_rest(void**) {
-  RestWatch watch;
-  watch.start(1000);
-  for (int i = 0; i < RestWatch::kCycles; ++i)
-    assert_true(watch.add(JointVector::Constant(0.01 * (2 * i + 1 - RestWatch::kCycles)), 0.01) ==
-                RestWatch::Result::kNothing);
-  assert_false(watch.still());
-}
-
-void a_brake_that_takes_too_long_is_reported_once_and_nan_is_no_rest(void**) {
-  RestWatch watch;
-  watch.start(55);
-  const JointVector dq = JointVector::Constant(std::nan(""));
-  for (int i = 1; i < 55; ++i) assert_true(watch.add(dq, 0.01) == RestWatch::Result::kNothing);
-  assert_true(watch.add(dq, 0.01) == RestWatch::Result::kTooLong);
-  for (int i = 0; i < 55; ++i) assert_true(watch.add(dq, 0.01) == RestWatch::Result::kNothing);
-  assert_false(watch.at_rest());
-}
-
 // Proves LAD-8.
 
 Event numbered(std::uint32_t i) {
@@ -235,9 +190,6 @@ int main() {
       cmocka_unit_test(efforts_without_a_chain_are_disabled_and_go_the_same_way_with_one),
       cmocka_unit_test(only_arming_leads_up_but_for_optional_rows),
       cmocka_unit_test(overruns_are_too_many_as_counting_the_window_says),
-      cmocka_unit_test(rest_is_a_block_of_cycles_whose_mean_is_small_and_is_reported_once),
-      cmocka_unit_test(a_joint_that_reverses_is_not_at_rest),
-      cmocka_unit_test(a_brake_that_takes_too_long_is_reported_once_and_nan_is_no_rest),
       cmocka_unit_test(the_log_keeps_the_newest_and_counts_the_lost),
       cmocka_unit_test(a_reader_in_another_thread_gets_whole_events_or_none),
   };

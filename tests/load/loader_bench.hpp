@@ -22,7 +22,7 @@ inline constexpr std::string_view kValid =
     "[stiff]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = soft.tau\n"
     "kp = 100\nkd = 1e1\n"
     "[executive]\nmax_slip = 7\nbudget_us = 1500\nmax_overruns = 2\noverrun_window = 50\n"
-    "clean_cycles = 300\nstop_ms = 700\nrest_velocity = 0.02\n"
+    "clean_cycles = 300\nstop_ms = 700\nrest_ms = 50\nrest_velocity = 0.02\n"
     "[recorder]\ndivisor = 5\noffset = 3\nbudget_us = 400\nsignals = robot.q stiff.tau "
     "model.x\ntracking = jrg.q_d robot.q\n";
 

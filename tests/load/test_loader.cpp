@@ -33,6 +33,7 @@ void settings_arrive_in_their_sections(void**) {
   assert_int_equal(pipeline.executive.overrun_window, 50);
   assert_int_equal(pipeline.executive.clean_cycles, 300);
   assert_int_equal(pipeline.executive.stop_ms, 700);
+  assert_int_equal(pipeline.executive.rest_ms, 50);
   assert_true(pipeline.executive.rest_velocity == 0.02);
   assert_int_equal(bench.board.plant.delay_cycles, 3);
   assert_true(bench.board.plant.friction == 0.0);
@@ -141,7 +142,7 @@ void a_sensor_the_robot_does_not_have_is_not_read(void**) {
   ASSERT_OK(bench.load(recorded, sensing));
   ASSERT_STATUS(bench.load(recorded, kTorqueRobot), Status::kNotOffered);
   assert_string_equal(bench.error.message().c_str(),
-                      "53: [recorder] signals: robot.ft: the robot has no such sensor");
+                      "54: [recorder] signals: robot.ft: the robot has no such sensor");
   // No block accepts a sensor's wrench as a joint vector, with or without the sensor.
   const std::string_view wired = with("q = robot.q", "q = robot.ft");
   ASSERT_STATUS(bench.load(wired, sensing), Status::kWrongQuantity);

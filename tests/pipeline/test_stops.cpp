@@ -1,6 +1,8 @@
 // Tests a stop in the middle of every shipped pipeline: the arm comes to rest, and the event log
 // names the cause.
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 
@@ -99,6 +101,53 @@ void a_long_slip_ends_at_rest(void**) {
   for (const Run& run : kRuns) assert_ends_at_rest(run, Stop::kLongSlip, Rung::kDisabled);
 }
 
+// Proves LAD-17.
+
+/// Has the last joint leave `q` by 2 rad within 5 s.
+void turn_last_joint(PipelineBench& bench, const JointVector& q) {
+  Trajectory<JointSpace>* turn = bench.client.acquire();
+  assert_non_null(turn);
+  turn->count = 2;
+  turn->fields = kVelocityField;
+  for (int i = 0; i < 2; ++i) {
+    Waypoint<JointSpace>& waypoint = turn->waypoints[i];
+    waypoint = {};
+    waypoint.time_s = 5.0 * i;
+    waypoint.point.q = q;
+    waypoint.point.q[kDof - 1] += 2.0 * i;
+  }
+  std::uint32_t id = 0;
+  assert_true(bench.client.send(*turn, id).ok());
+}
+
+/// Wrist 3 has a tenth to a quarter of its critical damping, so that it swings on after its
+/// reference has stopped.
+void a_lightly_damped_loop_that_is_stopped_in_motion_is_held(void**) {
+  need_one_of({"ur10_jrg_pid"});
+  static std::optional<PipelineBench> bench_;
+  for (const char* kd : {"10 5 0.4", "10 5 0.5", "10 5 0.6", "10 5 0.8"}) {
+    PipelineBench& bench = bench_.emplace();
+    const Executive& executive = bench.executive;
+    bench.start("ur10_jrg_pid", "10 5 2", kd, five_waypoints());
+    turn_last_joint(bench, bench.output<JointVector>("robot.q"));
+    while (bench.time_s() < 2.0) bench.cycle();
+    assert_true(bench.output<JointVector>("robot.dq")[kDof - 1] > 0.4);
+    stop(bench, Stop::kSlip);
+    double fastest = 0.0;  // rad/s, once the reference is at rest
+    int held = 0;          // cycles
+    while (held < 2000) {
+      static_cast<void>(bench.executive.cycle(bench.next()));
+      assert_true(executive.rung() == Rung::kHold);
+      held += executive.busy() ? 0 : 1;
+      if (bench.output<JointVector>("jrg.dq_d").isZero(0.0))
+        fastest = std::max(fastest, std::abs(bench.output<JointVector>("robot.dq")[kDof - 1]));
+    }
+    if (fastest < 0.2) print_error("kd %s: %g rad/s\n", kd, fastest);
+    assert_true(fastest > 0.2);
+    ASSERT_STATUS(executive.latched(), Status::kSlip);
+  }
+}
+
 // Proves LAD-13.
 
 /// The arm brakes on its path first, and at once if a collision is detected meanwhile. The log and
@@ -126,7 +175,7 @@ void a_brake_on_the_path_becomes_one_at_once_and_is_told(void**) {
   ASSERT_STATUS(event.status, Status::kCollision);
   JointVector dq = bench.output<JointVector>("cpc.dq_c");
   const JointVector most = JointLimits().ddq_max * bench.pipeline.robot.period_s();
-  for (int k = 0; k < 100 && executive.busy(); ++k) {
+  for (int k = 0; k < 300 && executive.busy(); ++k) {
     static_cast<void>(executive.cycle(bench.next()));
     const JointVector& now = bench.output<JointVector>("cpc.dq_c");
     for (int i = 0; i < kDof; ++i)
@@ -146,6 +195,7 @@ int main() {
       cmocka_unit_test(a_collision_ends_at_rest),
       cmocka_unit_test(a_slip_ends_at_rest_and_is_held),
       cmocka_unit_test(a_long_slip_ends_at_rest),
+      cmocka_unit_test(a_lightly_damped_loop_that_is_stopped_in_motion_is_held),
       cmocka_unit_test(a_brake_on_the_path_becomes_one_at_once_and_is_told),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -38,10 +38,10 @@ inline constexpr const char* kPipeline =
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
     "[recorder]\ndivisor = 10\ntracking = jrg.q_d robot.q\n";
 /// Tolerates what a busy host does to a run in real time: late cycles, overruns, and a second
-/// without a cycle.
+/// without a cycle. The arm is armed before a client has joined.
 inline constexpr const char* kBusyHost =
     "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
-    "overrun_window = 1\n";
+    "overrun_window = 1\nrest_ms = 10\n";
 inline constexpr const char* kWithoutGenerator =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
 inline constexpr const char* kHeader = "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,q7_rad\n";

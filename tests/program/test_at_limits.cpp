@@ -12,6 +12,7 @@ constexpr const char* kNoise =
     "position_noise_rad = 1e-3\nvelocity_noise_rad_s = 0.02\n"
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
     "stopped_velocity = 0\n";  // the goal is not what is tested
+constexpr const char* kRest = "[executive]\nrest_velocity = 0.02\n";  // as much as the noise
 constexpr const char* kRecorder = "[recorder]\nsignals = robot.q robot.dq\n";
 constexpr double kFastest = 2.175;   // rad/s, joint 1
 constexpr double kHighest = 2.8973;  // rad, joint 1
@@ -41,7 +42,7 @@ Line trajectory() {
 
 int run_at_limits(const char* guard) {
   const Line pipeline = write("at.ini", {"[robot]\nname = fer\nperiod_us = 1000\nq_c = jrg.q_d\n",
-                                         guard, "[plant]\n", kNoise, kRecorder});
+                                         guard, kRest, "[plant]\n", kNoise, kRecorder});
   const Line csv = trajectory(), out = in_folder("at");
   return tactus_run(
       {"run", pipeline.c_str(), "--trajectory", csv.c_str(), "--no-figure", "--out", out.c_str()});
