@@ -11,12 +11,10 @@
 
 namespace tactus {
 
-/// Form gives the word in the file, its settings in describe(), and the half size of its box, m, in
-/// its axes, after close().
+/// Form has the settings of a shape in describe(), and gives the size of its box and what is inside
+/// by close().
 template <class Form>
 struct Obstacle {
-  static constexpr const char* kType = Form::kType;
-
   struct Params {
     Vector3 centre = Vector3::Constant(Form::kCentre);  ///< m, in `frame`
     Form form;
@@ -47,7 +45,6 @@ struct Obstacle {
 };
 
 struct BoxForm {
-  static constexpr const char* kType = "box";
   static constexpr double kCentre = kRequired;
   Vector3 size = Vector3::Constant(kRequired);  ///< m, from face to face
 
@@ -57,10 +54,11 @@ struct BoxForm {
   }
   void close(Cuboid& box) { box.size = size; }
 };
-using BoxObstacle = Obstacle<BoxForm>;
+struct BoxObstacle : Obstacle<BoxForm> {
+  static constexpr const char* kType = "box";
+};
 
 struct SphereForm {
-  static constexpr const char* kType = "sphere";
   static constexpr double kCentre = kRequired;
   double radius = kRequired;  ///< m
   Convex inside;
@@ -75,13 +73,14 @@ struct SphereForm {
     box.inside = &inside;
   }
 };
-using SphereObstacle = Obstacle<SphereForm>;
+struct SphereObstacle : Obstacle<SphereForm> {
+  static constexpr const char* kType = "sphere";
+};
 
 /// Along z, with the flat ends of a cylinder or the round ends of a capsule.
 template <Convex::Core core>
 struct RodForm {
   static constexpr bool kRound = core == Convex::Core::kBox;
-  static constexpr const char* kType = kRound ? "capsule" : "cylinder";
   static constexpr double kCentre = kRequired;
   double radius = kRequired;  ///< m
   double length = kRequired;  ///< m, of a capsule without its round ends
@@ -101,12 +100,15 @@ struct RodForm {
     box.inside = &inside;
   }
 };
-using CapsuleObstacle = Obstacle<RodForm<Convex::Core::kBox>>;
-using CylinderObstacle = Obstacle<RodForm<Convex::Core::kCylinder>>;
+struct CapsuleObstacle : Obstacle<RodForm<Convex::Core::kBox>> {
+  static constexpr const char* kType = "capsule";
+};
+struct CylinderObstacle : Obstacle<RodForm<Convex::Core::kCylinder>> {
+  static constexpr const char* kType = "cylinder";
+};
 
 /// The convex hull of points, and all that is within `rounding` of it.
 struct ConvexForm {
-  static constexpr const char* kType = "convex";
   static constexpr double kCentre = 0.0;
   struct Points : Hull {
     static constexpr int kLeast = 1;
@@ -126,6 +128,8 @@ struct ConvexForm {
     box.inside = &inside;
   }
 };
-using ConvexObstacle = Obstacle<ConvexForm>;
+struct ConvexObstacle : Obstacle<ConvexForm> {
+  static constexpr const char* kType = "convex";
+};
 
 }  // namespace tactus

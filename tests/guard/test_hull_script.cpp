@@ -92,6 +92,8 @@ void assert_inside(const std::vector<Vector3>& points, double unit_m, const Prin
   }
 }
 
+// Proves COL-13.
+
 void a_mesh_is_inside_the_body_that_is_printed(void**) {
   Random random{21};
   for (const int count : {5, 60, 400}) {
