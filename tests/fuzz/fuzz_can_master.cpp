@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto bench = std::make_unique<CanBench>();
   bench->drive.brake_ms = 20;
   MUST(bench->load(true) && bench->connect());
-  for (int i = 0; i < 80; ++i) bench->quiet_cycle(DriveRequest::kArm);
+  for (int i = 0; i < 60 + bench->drive.held_ms(); ++i) bench->quiet_cycle(DriveRequest::kArm);
   bench->command.value.setConstant(1.0);
   bench->quiet_cycle(DriveRequest::kFollow);
   MUST(bench->master.phase() == cia402::Phase::kArmed);

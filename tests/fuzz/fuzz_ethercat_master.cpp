@@ -76,7 +76,7 @@ struct Bench {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto bench = std::make_unique<Bench>();
   MUST(bench->connect());
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < 60 + bench->drive.held_ms(); ++i) {
     bench->cycle(DriveRequest::kArm);
     bench->carry();
   }

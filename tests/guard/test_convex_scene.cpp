@@ -17,6 +17,8 @@ constexpr double kWedge[][3] = {{0.0, 0.0, 0.0},  {0.3, 0.0, 0.0},  {0.0, 0.3, 0
 constexpr double kGripper[][3] = {{-0.1, -0.02, 0.0}, {0.1, -0.02, 0.0}, {-0.1, 0.02, 0.0},
                                   {0.1, 0.02, 0.0},   {-0.03, 0.0, 0.1}, {0.03, 0.0, 0.1}};
 
+constexpr double kRoundTool_m = 0.02;
+
 Message text_of(const double (&point)[3]) {
   Message text;
   for (const double value : point) text << value << " ";
@@ -54,7 +56,7 @@ struct Scene {
     add(rail, "rail");
     add(drum, "drum");
     add(wedge, "wedge");
-    real.section.tool_radius = 0.003;
+    real.section.tool_radius = kRoundTool_m;
     boxes.section.tool_radius =
         0.12;  // the gripper's points are nearer to the line from flange to tip
     describe();
@@ -106,7 +108,7 @@ std::vector<OracleBody> arm_at(const JointVector& q) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) placed[i] += flange.r[i][j] * point[j];
     arm.back().points.push_back(placed);
-    arm.back().rounding = 0.003;
+    arm.back().rounding = kRoundTool_m;
   }
   return arm;
 }
