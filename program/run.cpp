@@ -153,9 +153,10 @@ void print_stop(const char* subject, const char* event, const FaultVerdict& faul
 }
 
 void print_collision(const Collision::Telemetry& told) {
-  std::fprintf(
-      stderr, "  %s with %s, %s\n", told.first, told.second,
-      told.predicted ? "before the arm could have come to rest" : "at the present position");
+  std::fprintf(stderr, "  %s with %s, %s\n", told.first, told.second,
+               told.unproved    ? "as far as could be proved within a cycle"
+               : told.predicted ? "before the arm could have come to rest"
+                                : "at the present position");
 }
 
 void explain(const Session& session, const Options& options, const RunLoop& loop) {

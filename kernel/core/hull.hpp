@@ -24,7 +24,8 @@ class Hull {
  public:
   static constexpr int kMost = kConvexBodies ? 64 : 0, kLeast = 0;
 
-  /// Reads "x y z". `why` has the word, its value and the limit. [init]
+  /// Reads "x y z, x y z": any number of points. `why` has the word, its value and the limit.
+  /// [init]
   Status add(std::string_view text, int line, Message& why);
 
   int count() const { return count_; }

@@ -110,20 +110,26 @@ void Collision::forget() {
 Status Collision::check(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
   begin_anew();
-  Status status = step(measured);
+  constexpr int kEnough = 1 << 20;
+  directions_ = kEnough;
+  Status status = advance(measured);
   LoopBound<kCheckedPositions> positions;
   while (status == Status::kOk && next_ > 0) {
     positions.tick();
-    status = step(measured);
+    status = advance(measured);
   }
   return status;
 }
 
 Status Collision::step(const RobotState& measured) {
   if (scene_ == nullptr) return Status::kNotStarted;
+  directions_ = kMostDirections;
+  return advance(measured);
+}
+
+Status Collision::advance(const RobotState& measured) {
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
   travel(measured.q);
-  directions_ = kMostDirections;
   LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
@@ -240,6 +246,7 @@ Status Collision::contact(const Pair& pair, double sweep_m) {
   telemetry_.second = scene_->names[static_cast<std::size_t>(body_of(pair.second))];
   telemetry_.predicted = next_ > 0;
   telemetry_.sweep_m = sweep_m;
+  telemetry_.unproved = directions_ <= 0;
   return Status::kCollision;
 }
 

@@ -51,6 +51,7 @@ class Collision {
   struct Telemetry {
     const char *first = "", *second = "";  ///< the pair of the contact
     bool predicted = false;                ///< ahead, not at the measured joints
+    bool unproved = false;                 ///< no direction was left to prove that there is none
     double sweep_m = 0.0;                  ///< thickness added to the pair
     std::int64_t checks = 0;               ///< ended, by a contact too
   };
@@ -91,7 +92,7 @@ class Collision {
     std::uint8_t second = 0, first = 0, axis = 0;
     bool of_box = false;
   };
-  static constexpr int kMostDirections = 256;
+  static constexpr int kMostDirections = 512;
   struct Placed {
     Capsule capsule;
     JointVector ways = JointVector::Zero();  // m: from joint k up
@@ -110,6 +111,7 @@ class Collision {
   void begin_anew();
   void forget();
   void travel(const JointVector& q);
+  Status advance(const RobotState& measured);
   Status look_now(const RobotState& measured);
   Status look_ahead();
   Status end(Status status);

@@ -55,7 +55,8 @@ struct CollisionSection {
     visit.param("margin", margin, Range{1e-3, 0.5}, "m");
     visit.param("tool_radius", tool_radius, Range{1e-4, 0.5}, "m");
     if constexpr (kConvexBodies)
-      visit.lines("tool_point", tool_points, "x y z, m, of the tool's hull, in the flange frame");
+      visit.lines("tool_point", tool_points,
+                  "x y z, x y z: of the tool's hull, in the flange frame, m");
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
     visit.limit("braking", limits.ddq_max, "rad/s^2");
     visit.text("allow", allow, "pairs that may touch: tool table, link7 table");

@@ -118,7 +118,7 @@ struct ConvexForm {
 
   template <class Visitor>
   void describe(Visitor& visit) {
-    visit.lines("point", points, "x y z, m, of the hull, from centre; at most 64");
+    visit.lines("point", points, "x y z, x y z: of the hull, from centre, m");
     visit.param("rounding", rounding, Range{0.0, 1.0}, "m");
   }
   void close(Cuboid& box) {

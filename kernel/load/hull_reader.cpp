@@ -3,29 +3,48 @@
 #include "kernel/load/number.hpp"
 
 namespace tactus {
+namespace {
 
-Status Hull::add(std::string_view text, int /*line*/, Message& why) {
+/// Reads "x y z" and nothing else.
+Status read_point(std::string_view text, Vector3& point, Message& why) {
   constexpr Range kRange = {-10.0, 10.0};
-  if (count_ == kMost) {
-    why << "more than " << kMost << " points; scripts/hull makes fewer of them";
-    return Status::kTooLarge;
-  }
-  Vector3 point;
+  std::string_view rest = text;
   for (int i = 0; i < 3; ++i) {
-    const std::string_view word = take_word(text);
+    const std::string_view word = take_word(rest);
+    if (word.empty()) {
+      why << "'" << trim(text) << "' is " << i << " numbers; a point is 3, m";
+      return Status::kBadValue;
+    }
     if (!parse_number(word, point[i])) {
-      why << "'" << word << "' is not a finite number; a point is 3 numbers, m";
+      why << "'" << word << "' is not a finite number";
       return Status::kBadValue;
     }
     if (kRange.contains(point[i])) continue;
     why << point[i] << " m is out of range; it must be " << kRange;
     return Status::kBadValue;
   }
-  if (!trim(text).empty()) {
-    why << "'" << trim(text) << "' is too much; a point is 3 numbers, m";
-    return Status::kBadValue;
+  if (trim(rest).empty()) return Status::kOk;
+  why << "'" << trim(rest)
+      << "' is too much; a point is 3 numbers, m, and a comma is before the next";
+  return Status::kBadValue;
+}
+
+}  // namespace
+
+Status Hull::add(std::string_view text, int /*line*/, Message& why) {
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    more = comma != std::string_view::npos;
+    if (count_ == kMost) {
+      why << "more than " << kMost << " points; scripts/hull makes fewer of them";
+      return Status::kTooLarge;
+    }
+    Vector3 point;
+    const Status status = read_point(text.substr(0, comma), point, why);
+    if (status != Status::kOk) return status;
+    points_[static_cast<std::size_t>(count_++)] = point;
+    if (more) text.remove_prefix(comma + 1);
   }
-  points_[static_cast<std::size_t>(count_++)] = point;
   return Status::kOk;
 }
 

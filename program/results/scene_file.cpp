@@ -38,18 +38,24 @@ void write_arm(std::FILE* file) {
   std::fprintf(file, "\n  ],\n");
 }
 
+void write_points(std::FILE* file, const Hull& hull, const Vector3& origin) {
+  std::fprintf(file, "\"points\": [");
+  for (int i = 0; i < hull.count(); ++i) {
+    const Vector3 point = hull[i] - origin;
+    std::fprintf(file, "%s[%.9g, %.9g, %.9g]", i > 0 ? ", " : "", point.x(), point.y(), point.z());
+  }
+  std::fprintf(file, "]");
+}
+
 /// What a box has inside: points in its axes, from its centre, or half the size of a cylinder.
 void write_inside(std::FILE* file, const Convex& body) {
   constexpr const char* kCores[] = {"segment", "box", "cylinder", "hull"};
   std::fprintf(file, ", \"inside\": {\"core\": \"%s\", \"rounding\": %.9g, ",
                kCores[static_cast<std::size_t>(body.core)], body.rounding);
   write_numbers(file, "half", body.half.data(), 3);
-  std::fprintf(file, ", \"points\": [");
-  for (int i = 0; body.hull != nullptr && i < body.hull->count(); ++i) {
-    const Vector3 point = (*body.hull)[i] - body.middle;
-    std::fprintf(file, "%s[%.9g, %.9g, %.9g]", i > 0 ? ", " : "", point.x(), point.y(), point.z());
-  }
-  std::fprintf(file, "]}");
+  std::fprintf(file, ", ");
+  write_points(file, body.hull != nullptr ? *body.hull : Hull(), body.middle);
+  std::fprintf(file, "}");
 }
 
 void write_boxes(std::FILE* file, const PortTable& ports) {
@@ -102,7 +108,9 @@ bool write_scene(const char* path, const Pipeline& pipeline) {
   write_arm(file);
   std::fprintf(file, "  \"tool\": {");
   write_numbers(file, "tip", pipeline.robot.tool.value.tip.p.data(), 3);
-  std::fprintf(file, ", \"radius\": %.9g},\n", pipeline.collision.tool_radius);
+  std::fprintf(file, ", \"radius\": %.9g, ", pipeline.collision.tool_radius);
+  write_points(file, pipeline.collision.tool_points, Vector3::Zero());
+  std::fprintf(file, "},\n");
   write_boxes(file, pipeline.ports);
   write_limits(file, pipeline.guard.limits);
   std::fprintf(file, "}\n");

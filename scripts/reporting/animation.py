@@ -26,6 +26,12 @@ def packed(values, rows):
     return base64.b64encode(np.ascontiguousarray(values[rows], "<f4").tobytes()).decode()
 
 
+def mesh(body):
+    """Returns the surface of a body of scene.json as the page takes it."""
+    corners, triangles = arm.surface(body)
+    return {"corners": np.round(corners, 4).ravel().tolist(), "triangles": triangles.ravel().tolist()}
+
+
 def data(run):
     """Returns the data of one run, or None if it recorded no joint positions, or only one."""
     t, kind = run.log["time_s"], expected.kind(run)
@@ -36,10 +42,11 @@ def data(run):
     there = [box["name"] for box in expected.surroundings(run)]
     boxes = [{**box, "there": box["name"] in there} for box in run.scene["boxes"]]
     for box in boxes:
-        if box.pop("inside", None):
-            corners, triangles = arm.surface(next(given for given in run.scene["boxes"] if given["name"] == box["name"]))
-            box.update(corners=np.round(corners, 4).ravel().tolist(), triangles=triangles.ravel().tolist())
+        if "inside" in box:
+            box.update(mesh(box.pop("inside")))
     shown = {key: run.scene[key] for key in ("joints", "flange", "capsules", "tool")}
+    if tool_points := shown["tool"].get("points"):
+        shown["tool"] = {**shown["tool"], **mesh({"core": "hull", "points": tool_points, "rounding": shown["tool"]["radius"]})}
     result = {
         "name": run.name,
         "caption": f"<b>{page.escape(run.name)}</b>, {CAPTIONS[kind]}",

@@ -54,10 +54,9 @@ def capsules(scene):
     return shapes
 
 
-def surface(box):
-    """Returns the corners of a body of scene.json in its box's axes [n, 3] and the triangles between them [m, 3]."""
-    inside = box.get("inside") or {"core": "box", "half": np.array(box["size"]) / 2, "rounding": 0.0}
-    half, turns = np.array(inside["half"], dtype=float), np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+def surface(inside):
+    """Returns the corners of what is inside a box of scene.json [n, 3], and the triangles between them [m, 3]."""
+    half, turns = np.array(inside.get("half", 0.0), dtype=float), np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     points = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
     points = np.array(inside["points"]) if inside["core"] == "hull" else points * half
     if inside["core"] == "cylinder":

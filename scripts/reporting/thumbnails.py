@@ -64,7 +64,7 @@ def draw_boxes(axes, run, to_view):
         seen = corners @ to_view.T
         all_corners.append(seen)
         if "inside" in box:
-            points = (box["centre"] + arm.surface(box)[0] @ arm.rotation_matrix(box["rotation"]).T) @ to_view.T
+            points = (box["centre"] + arm.surface(box["inside"])[0] @ arm.rotation_matrix(box["rotation"]).T) @ to_view.T
             outline = points[ConvexHull(points[:, :2]).vertices, :2]
             axes.fill(*outline.T, facecolor=BOX if box in there else "none", edgecolor="#7a6a4a", alpha=0.4, linewidth=0.5)
             continue

@@ -137,7 +137,9 @@ void nan_and_used_up_directions_prove_nothing(void**) {
 void a_point_of_a_hull_is_three_numbers_in_range(void**) {
   constexpr struct {
     const char *text, *why;
-  } kCases[] = {{"1 2", "'' is not a finite number; a point is 3 numbers, m"},
+  } kCases[] = {{"1 2", "'1 2' is 2 numbers; a point is 3, m"},
+                {"1 2 3,", "'' is 0 numbers"},
+                {"1 2 3, 4 5", "'4 5' is 2 numbers"},
                 {"1 2 3 4", "'4' is too much"},
                 {"1 nan 3", "'nan' is not a finite number"},
                 {"1 2 10.5", "10.5 m is out of range; it must be in [-10, 10]"}};
@@ -149,7 +151,9 @@ void a_point_of_a_hull_is_three_numbers_in_range(void**) {
   }
   Hull hull;
   Message why;
-  for (int i = 0; i < Hull::kMost; ++i) ASSERT_OK(hull.add("1 2 3", 1, why));
+  ASSERT_OK(hull.add("1 2 3,4 5 6 , 7 8 -9e-1", 1, why));
+  assert_true(hull.count() == 3 && hull[2] == Vector3(7.0, 8.0, -0.9));
+  for (int i = 3; i < Hull::kMost; ++i) ASSERT_OK(hull.add("1 2 3", 1, why));
   ASSERT_STATUS(hull.add("1 2 3", 1, why), Status::kTooLarge);
   assert_non_null(std::strstr(why.c_str(), "more than 64 points"));
 }

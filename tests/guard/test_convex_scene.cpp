@@ -177,6 +177,39 @@ void an_arm_in_a_body_is_a_contact(void**) {
   assert_true(inside > tries(3000, 300) / 20);
 }
 
+/// Eight inclined plates, in whose boxes the arm is and which are far from it: it can be armed.
+void plates_that_are_far_away_do_not_keep_an_arm_from_being_armed(void**) {
+  static CollisionBench bench;
+  static std::array<ConvexObstacle, kMaxObstacles - CollisionBench::kBoxes> plates;
+  Random random{8};
+  const JointVector q = 0.5 * (bench.limits.q_min + bench.limits.q_max);
+  std::vector<OracleBody> arm = arm_at(q);
+  for (ConvexObstacle& plate : plates) {
+    OracleBody body;
+    const auto far = [&](const OracleBody& of) { return bracket(of, body, 100).least > 0.15; };
+    do {
+      plate = {};
+      body.points.clear();
+      Message why;
+      const Vector3 at = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
+                          random.uniform(-1.0, 1.5)};
+      for (int i = 0; i < 3; ++i) {
+        const double corner[3] = {at.x() + random.uniform(-1.5, 1.5),
+                                  at.y() + random.uniform(-1.5, 1.5),
+                                  at.z() + random.uniform(-1.5, 1.5)};
+        ASSERT_OK(plate.params.form.points.add(text_of(corner), 1, why));
+        body.points.emplace_back(corner);
+      }
+    } while (!std::all_of(arm.begin(), arm.end(), far));
+    ASSERT_OK(plate.start());
+    bench.add_box("plate", plate.box.value);
+  }
+  bench.allow(bench.body("table"), kToolBody);
+  bench.limits.ddq_max.setConstant(0.01);
+  bench.start();
+  ASSERT_OK(bench.check(q, JointVector::Zero()));
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -185,6 +218,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(what_passes_is_apart_and_a_contact_is_one_of_the_boxes_too),
       cmocka_unit_test(an_arm_in_a_body_is_a_contact),
+      cmocka_unit_test(plates_that_are_far_away_do_not_keep_an_arm_from_being_armed),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -116,8 +116,9 @@ void a_mesh_is_inside_the_body_that_is_printed(void**) {
 void what_is_no_mesh_is_refused(void**) {
   constexpr struct {
     const char *text, *why;
-  } kCases[] = {{"v 1 2 x\n", "a point is not three numbers"},
-                {"v 1 2\n", "a point is not three numbers"},
+  } kCases[] = {{"v 1 2 x\n", "line 1: 'v 1 2 x' is no point of three numbers"},
+                {"v 0 0 0\nv 1 2\n", "line 2: 'v 1 2' is no point"},
+                {"v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nv 0 0 1e-9\n", "Is --scale right?"},
                 {"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "3 points; a hull needs 4 at least"},
                 {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n", "in one plane"},
                 {"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 nan\n", "not finite"},

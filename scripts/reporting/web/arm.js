@@ -54,7 +54,8 @@ class Arm {
     this.flange.add(this.tip);
     for (const material of look) {
       for (const c of scene.capsules) links[c.link].add(capsule(c.a, c.b, c.radius, material.link));
-      if (this.tip.position.length() > 0)
+      if (scene.tool.triangles) this.flange.add(new THREE.Mesh(surface(scene.tool), material.tool));
+      else if (this.tip.position.length() > 0)
         this.flange.add(capsule([0, 0, 0], scene.tool.tip, scene.tool.radius, material.tool));
     }
     this.last = links[links.length - 1];
@@ -127,13 +128,19 @@ function arrow() {
   return group;
 }
 
+/** Returns the surface of a convex body with flat faces. */
+function surface({ corners, triangles }) {
+  const shape = new THREE.BufferGeometry();
+  shape.setAttribute("position", new THREE.Float32BufferAttribute(corners, 3));
+  shape.setIndex(triangles);
+  const flat = shape.toNonIndexed();
+  flat.computeVertexNormals();
+  return flat;
+}
+
 /** Returns a box of scene.json, or the body inside it; one that is not there is drawn by its edges. */
 function box(given) {
-  const shape = given.triangles ? new THREE.BufferGeometry() : new THREE.BoxBufferGeometry(...given.size), group = new THREE.Group();
-  if (given.triangles) {
-    shape.setAttribute("position", new THREE.Float32BufferAttribute(given.corners, 3));
-    shape.setIndex(given.triangles);
-  }
+  const shape = given.triangles ? surface(given) : new THREE.BoxBufferGeometry(...given.size), group = new THREE.Group();
   if (given.there) {
     const look = { color: COLOURS.box, transparent: true, opacity: 0.3, depthWrite: false };
     group.add(new THREE.Mesh(shape, new THREE.MeshBasicMaterial(look)));
