@@ -49,16 +49,6 @@ Status find_body(std::string_view name, const CollisionScene& scene, const Colli
                       Message("unknown body '") << name << "'; expected one of " << bodies(scene));
 }
 
-/// Takes the text before the next comma off the list; `more` is true if there was a comma.
-std::string_view take_pair(std::string_view& list, bool& more) {
-  std::size_t size = 0;
-  while (size < list.size() && list[size] != ',') ++size;
-  const std::string_view pair(list.data(), size);
-  more = size < list.size();
-  list.remove_prefix(more ? size + 1 : size);
-  return pair;
-}
-
 /// Reads "tool table": two names and nothing else.
 Status allow_pair(std::string_view pair, CollisionScene& scene, const CollisionPlace& place) {
   std::string_view rest = pair;
@@ -109,7 +99,7 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;
   for (bool more = !list.empty(); more;)
-    TRY(allow_pair(take_pair(list, more), collision.scene, place));
+    TRY(allow_pair(take_item(list, more), collision.scene, place));
   return Status::kOk;
 }
 

@@ -33,17 +33,15 @@ Status read_point(std::string_view text, Vector3& point, Message& why) {
 
 Status Hull::add(std::string_view text, int /*line*/, Message& why) {
   for (bool more = true; more;) {
-    const std::size_t comma = text.find(',');
-    more = comma != std::string_view::npos;
+    const std::string_view item = take_item(text, more);
     if (count_ == kMost) {
       why << "more than " << kMost << " points; scripts/hull makes fewer of them";
       return Status::kTooLarge;
     }
     Vector3 point;
-    const Status status = read_point(text.substr(0, comma), point, why);
+    const Status status = read_point(item, point, why);
     if (status != Status::kOk) return status;
     points_[static_cast<std::size_t>(count_++)] = point;
-    if (more) text.remove_prefix(comma + 1);
   }
   return Status::kOk;
 }

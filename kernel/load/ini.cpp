@@ -73,6 +73,15 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
+std::string_view take_item(std::string_view& list, bool& more) {
+  std::size_t size = 0;
+  while (size < list.size() && list[size] != ',') ++size;
+  const std::string_view item(list.data(), size);
+  more = size < list.size();
+  list.remove_prefix(more ? size + 1 : size);
+  return item;
+}
+
 const IniSection* Ini::find(std::string_view name) const {
   for (int i = 0; i < section_count_; ++i) {
     if (section(i).name == name) return &section(i);

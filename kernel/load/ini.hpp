@@ -66,4 +66,7 @@ std::string_view trim(std::string_view text);
 /// Takes the first word off `text`; empty if there is none left. [any]
 std::string_view take_word(std::string_view& text);
 
+/// Takes the text before the next comma off a list; `more` is true if there was a comma. [init]
+std::string_view take_item(std::string_view& list, bool& more);
+
 }  // namespace tactus

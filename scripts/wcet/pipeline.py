@@ -89,7 +89,7 @@ def tell_collision(facts, path):
     text = (ROOT / "kernel/guard/collision_section.hpp").read_text(encoding="utf-8")
     cycles = int(settings.get("cycles", re.search(r"cycles = (\d+);", text)[1]))
     facts.add("loop", r"Collision::", r"bodies_\.size\(\)", str(len(links)))
-    facts.add("calls", r"Collision::step", r"Collision::look_(now|ahead)", str(POSITIONS // cycles))
+    facts.add("calls", r"Collision::(step|advance)", r"Collision::look_(now|ahead)", str(POSITIONS // cycles))
     facts.add("calls", r"Collision::look_", r"Collision::place", "1")
     facts.add("calls", r"Collision::look_", r"separation\(.*Capsule const&\)", str(pairs))
     facts.add("calls", r"Collision::look_", r"separation\(.*BoxShape", str(box_pairs))
