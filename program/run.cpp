@@ -154,7 +154,7 @@ void print_stop(const char* subject, const char* event, const FaultVerdict& faul
 
 void print_collision(const Collision::Telemetry& told) {
   std::fprintf(stderr, "  %s with %s, %s\n", told.first, told.second,
-               told.unproved    ? "as far as could be proved within a cycle"
+               told.unproved    ? "not proved apart with the directions of a cycle"
                : told.predicted ? "before the arm could have come to rest"
                                 : "at the present position");
 }

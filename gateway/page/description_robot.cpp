@@ -46,21 +46,30 @@ void corners(const Cuboid& box, Json& to) {
   to.close(']');
 }
 
-/// Constant frames and the boxes in them are placed as every arming places them. A box in a frame
-/// that moves stays where that is at arming, which is not known yet.
+template <class Body>
+void boxes_of(Pipeline& pipeline, Json& to) {
+  for_each<Body>(pipeline, [&](const Name& name, Body& body) {
+    bool constant = !body.frame.wired();
+    for_each<Frame>(pipeline, [&](const Name&, const Frame& frame) {
+      constant = constant || body.frame.source == &frame.x.value;
+    });
+    if (!constant || body.start() != Status::kOk) return;
+    to.open('{').string(name, "name");
+    corners(body.box.value, to);
+    to.close('}');
+  });
+}
+
+/// Constant frames and the bodies in them are placed as every arming places them; a body is shown
+/// by its box. One in a frame that moves stays where that is at arming, which is not known yet.
 void boxes(Pipeline& pipeline, Json& to) {
   for_each<Frame>(pipeline, [](const Name&, Frame& frame) { static_cast<void>(frame.start()); });
   to.open('[', "boxes");
-  for_each<BoxObstacle>(pipeline, [&](const Name& name, BoxObstacle& box) {
-    bool constant = !box.frame.wired();
-    for_each<Frame>(pipeline, [&](const Name&, const Frame& frame) {
-      constant = constant || box.frame.source == &frame.x.value;
-    });
-    if (!constant || box.start() != Status::kOk) return;
-    to.open('{').string(name, "name");
-    corners(box.box.value, to);
-    to.close('}');
-  });
+  boxes_of<BoxObstacle>(pipeline, to);
+  boxes_of<SphereObstacle>(pipeline, to);
+  boxes_of<CapsuleObstacle>(pipeline, to);
+  boxes_of<CylinderObstacle>(pipeline, to);
+  boxes_of<ConvexObstacle>(pipeline, to);
   to.close(']');
 }
 

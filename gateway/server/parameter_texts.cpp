@@ -67,10 +67,10 @@ class ParameterWriter {
   void text(const char* key, const Text<N>& value, const char* /*meaning*/) {
     if (takes(key, "", false)) to_.value = Value(value);
   }
-  /// Lines of a list do not fit in the text of a value: their number stands for them.
+  /// The entries of a list do not fit in the text of a value: their number stands for them.
   template <class List>
   void lines(const char* key, const List& list, const char* /*meaning*/) {
-    if (takes(key, "", false)) to_.value = Value("") << list.count() << " lines";
+    if (takes(key, "", false)) to_.value = Value("") << list.count() << " entries";
   }
   template <class Enum>
   void choice(const char* key, const Enum& value) {

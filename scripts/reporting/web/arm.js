@@ -109,7 +109,7 @@ function path(points, radius, colour) {
 /** Returns an arrow that set() puts in place. */
 function arrow() {
   const look = { color: COLOURS.force, depthTest: false, transparent: true };
-  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial({ ...look, side: THREE.DoubleSide });
+  const group = new THREE.Group(), material = new THREE.MeshBasicMaterial(look);
   const shaft = new THREE.Mesh(new THREE.CylinderBufferGeometry(0.006, 0.006, 1, 24), material);
   const head = new THREE.Mesh(new THREE.ConeBufferGeometry(0.02, 0.05, 32), material);
   shaft.position.y = 0.5;
