@@ -8,6 +8,7 @@
 #include "program/results/expectation.hpp"
 #include "program/results/realtime_result.hpp"
 #include "program/session/fault_verdict.hpp"
+#include "program/session/lateness.hpp"
 #include "program/session/rehearsal.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
@@ -124,6 +125,8 @@ int check(Session& session, const Options& options) {
     if (status == Status::kCollision) print_collision(pipeline.collision_check.telemetry());
     return kRefused;
   }
+  if (pipeline.collision.present)
+    print_lateness(options.pipeline, *session.following, pipeline.collision);
   Report report;
   while (poll_report(session, input, report)) {
     if (report.outcome != Outcome::kRefused) continue;

@@ -39,6 +39,9 @@ class PortPrinter {
   void optional(const char* key, const Vector3&, const Range& range, const char* unit) {
     row(key, "3 numbers", unit, Message("none"), range);
   }
+  void optional(const char* key, const JointVector&, const Range& range, const char* unit) {
+    row(key, "number per joint", unit, Message("none"), range);
+  }
   void limit(const char* key, const JointVector& value, const char* unit) {
     std::printf("| `%s` | limit per joint | %s | %s | > 0, at most the default |\n", key, unit,
                 vector(value.data(), kDof, true).c_str());

@@ -10,6 +10,7 @@
 #include "program/ports.hpp"
 #include "program/results/run_folder.hpp"
 #include "program/session/files.hpp"
+#include "program/session/lateness.hpp"
 #include "program/session/trajectory_input.hpp"
 
 namespace tactus {
@@ -34,6 +35,8 @@ struct Board {
   /// What start-ups have changed in the robot, text `n` from 0; empty behind the last.
   Message (*written)(int n) = nullptr;
   Message (*to_home)() = nullptr;  ///< joints that arming homes; null: it homes none
+  /// Time constant of the robot's servo for positions, s; null: it is not known.
+  double (*servo_s)(const Sections& sections) = nullptr;
 };
 
 /// Owns every object of the board but its Hal, as statics, and allocates nothing after them.
@@ -62,6 +65,9 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   Loader loader(memory.channels(), offered, sections);
   std::string_view text;
   if (!load_pipeline(options.pipeline, loader, pipeline, text)) return refused(options);
+  const Following loop =
+      following(pipeline, board.servo_s != nullptr ? board.servo_s(sections) : 0.0);
+  if (!settle_lateness(options.pipeline, text, loop, pipeline)) return refused(options);
   const Status status = board.configure(sections, pipeline, options);
   if (status != Status::kOk) {
     const Message trouble = board.hal.trouble();
@@ -81,7 +87,7 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
                   board.hal,       pipeline,       executive,        recorder,
                   client,          task_client,    sections.gateway, sections.realtime,
                   sections.expect, board.follower, board.counts,     board.written,
-                  board.to_home};
+                  board.to_home,   &loop};
   if (board.follower != nullptr) board.follower->prepare(session);
   switch (options.verb) {
     case Verb::kCheck: return check(session, options);

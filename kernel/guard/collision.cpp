@@ -41,13 +41,18 @@ double jerk_ramp_s(const JointLimits& limits, const JointVector& braking) {
 }  // namespace
 
 void Collision::start(const CollisionSection& section, const JointLimits& limits,
-                      const Vector3& tip, double period_s) {
+                      const Vector3& tip, double period_s, const JointVector* reference) {
   scene_ = &section.scene;
   margin_ = section.margin;
   positions_ = kCheckedPositions / section.cycles;
-  const JointVector& braking = section.limits.ddq_max;
+  const JointVector& braking = section.braking;
   braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
+  if (reference == nullptr) braking_.reaction_s += section.lateness.maxCoeff();
+  lateness_ = section.lateness;
+  overshoot_ = section.overshoot;
+  period_s_ = period_s;
+  followed_ = reference;
   telemetry_ = {};
   add_capsules(section, tip);
   add_pairs();
@@ -97,6 +102,7 @@ void Collision::begin_anew() {
     const Cuboid& cuboid = *scene_->boxes[box];
     boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
   }
+  if (followed_ != nullptr) last_followed_ = *followed_;
   next_ = 0;
   forget();
 }
@@ -130,10 +136,11 @@ Status Collision::step(const RobotState& measured) {
 Status Collision::advance(const RobotState& measured) {
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
   travel(measured.q);
+  follow(measured);
   LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
-    const Status status = next_ == 0 ? look_now(measured) : look_ahead();
+    const Status status = next_ == 0 ? look_now() : look_ahead();
     if (status != Status::kOk) return end(status);
     ++next_;
     if (due_count_ == 0 || next_ == kCheckedPositions) return end(Status::kOk);
@@ -144,18 +151,39 @@ Status Collision::advance(const RobotState& measured) {
 /// Adds up the angles. A sum that has grown large begins anew: rounding would eat into the credits.
 void Collision::travel(const JointVector& q) {
   constexpr double kLarge = 100.0;  // rad
-  travelled_ += (q - last_q_).cwiseAbs();
-  last_q_ = q;
-  if (!(travelled_.array() < kLarge).all()) forget();
+  bool small = true;
+  for (int i = 0; i < kDof; ++i) {
+    travelled_[i] += std::abs(q[i] - last_q_[i]);
+    last_q_[i] = q[i];
+    small = small && travelled_[i] < kLarge;
+  }
+  if (!small) forget();
+}
+
+/// Takes the reference of a check that begins: its velocity is that of the last period.
+void Collision::follow(const RobotState& measured) {
+  const JointVector& followed = followed_ != nullptr ? *followed_ : measured.q;
+  for (int i = 0; i < kDof; ++i) {
+    const double position = followed[i];
+    const double velocity =
+        followed_ != nullptr ? (position - last_followed_[i]) / period_s_ : measured.dq[i];
+    last_followed_[i] = position;
+    if (next_ > 0) continue;
+    q_[i] = measured.q[i];
+    reference_.q[i] = 0.5 * (q_[i] + position);
+    reference_.dq[i] = velocity;
+    const double lag = std::abs(q_[i] - position);
+    reference_.error[i] = 0.5 * lag + lateness_[i] * std::abs(measured.dq[i]) + overshoot_[i] * lag;
+  }
 }
 
 /// Looks at the pairs whose credit does not last until rest. They are due ahead if it still does
 /// not.
-Status Collision::look_now(const RobotState& measured) {
-  q_ = measured.q;
-  dq_ = measured.dq;
+Status Collision::look_now() {
   from_ = travelled_;
-  const Ways until_rest = ways(from_ + stopping_range(braking_, dq_));
+  const JointVector range = stopping_range(braking_, reference_.dq);
+  reference_.error += overshoot_.cwiseProduct(range);
+  const Ways until_rest = ways(from_ + range + 2.0 * reference_.error);
   bool placed = false;
   due_count_ = 0;
   LoopBound<kMaxPairs> pairs;
@@ -179,7 +207,8 @@ Status Collision::look_now(const RobotState& measured) {
 /// Looks at the pairs that are due, in section next_ - 1 of the way to rest. For most of them the
 /// credit lasts until there.
 Status Collision::look_ahead() {
-  const JointBox box = stopping_box(braking_, q_, dq_, next_ - 1);
+  JointBox box = stopping_box(braking_, reference_.q, reference_.dq, next_ - 1);
+  box.half += reference_.error;
   const Ways until_there = ways(from_ + (box.middle - q_).cwiseAbs() + box.half);
   bool placed = false;
   LoopBound<kMaxPairs> pairs;

@@ -4,7 +4,9 @@
 // different links that are not neighbours, and every moving capsule against every box of the file,
 // except the pairs that [collision] allows and those that always touch by the robot's table. A
 // contact is a distance that is not proved to be more than `margin`: now, at the measured joints,
-// and in every position the joints can take until the arm is at rest (stopping.hpp).
+// and in every position the joints can take until the arm is at rest: the reference that they
+// follow moves within limits and brakes (stopping.hpp), and the joints stay between where they are
+// and where it gets, but for the overshoot of the loop, [collision] lateness and overshoot.
 //
 // Of a body that is inside a box, and of a tool that is the hull of points, the box and the capsule
 // around it are looked at first, in closed form; where that proves too little, the bodies
@@ -26,10 +28,12 @@
 // every pair that is checked are more than `margin` apart from then until the arm is at rest, if
 //   - the joints are where they were measured, with at most the delay delay_s, and the tables are
 //     true;
-//   - no joint exceeds the acceleration limit of [guard] until the next check ends, N cycles after
-//     this one, and one cycle more: in all 2 N cycles after the measurement;
-//   - from then on, if that next check finds a contact, every joint brakes with `braking`, reached
-//     with the jerk of [guard]: the executive brakes at once after a fault of a row.
+//   - the reference of no joint exceeds the acceleration limit of [guard] until the next check
+//     ends, N cycles after this one, and one cycle more: in all 2 N cycles after the measurement;
+//   - from then on, if that next check finds a contact, every reference brakes with `braking`,
+//     reached with the jerk of [guard]: the executive brakes at once after a fault of a row;
+//   - no joint leaves the range between where it was and where its reference gets by more than
+//     `lateness` times its velocity and `overshoot` times the lag and the way of the reference.
 // Nothing between the checked positions is missed. In a section of the way joint k is within half_k
 // of the middle. A point of the second body moves by at most the sum of half_k times reach_k, and
 // the pair is made thicker by that.
@@ -57,10 +61,15 @@ class Collision {
   };
 
   /// Sets up the pairs, and lets a check begin anew. `limits` are those of [guard]; `tip` is the
-  /// tool tip, m, in the flange frame. The boxes stay where they are then. The scene must outlive
-  /// this object. [init]
+  /// tool tip, m, in the flange frame; `reference` are the positions that the joints follow, rad,
+  /// null if they are not known. The boxes stay where they are then. Scene and reference must
+  /// outlive this object. [init]
   [[gnu::cold]] void start(const CollisionSection& section, const JointLimits& limits,
-                           const Vector3& tip, double period_s);
+                           const Vector3& tip, double period_s,
+                           const JointVector* reference = nullptr);
+
+  /// Lets a check begin anew, with a reference that rests and boxes as they are now. [init]
+  void begin_anew();
 
   /// Does a cycle's part of a check. `measured` counts in the cycle in which a check begins.
   /// Returns kCollision, with the pair in telemetry, and lets the next check begin;
@@ -102,17 +111,21 @@ class Collision {
     LinkFrame flange;  // its axes, and the middle of the hull, in the frame of the last link
     Solid placed;      // kHull, if the file gives points
   };
+  /// Where the joints follow to: none is farther from it than `error` until it rests.
+  struct Reference {
+    JointVector q, dq, error;  // rad, rad/s
+  };
   using Ways = std::array<JointVector, kArmCapsules>;
 
   [[gnu::cold]] void add_capsules(const CollisionSection& section, const Vector3& tip);
   [[gnu::cold]] void add_pairs();
   [[gnu::cold]] void add_pair(int second, int first, int axis, bool of_box);
   bool is_allowed(int first, int second) const;
-  void begin_anew();
   void forget();
+  void follow(const RobotState& measured);
   void travel(const JointVector& q);
   Status advance(const RobotState& measured);
-  Status look_now(const RobotState& measured);
+  Status look_now();
   Status look_ahead();
   Status end(Status status);
   Status contact(const Pair& pair, double sweep_m);
@@ -132,6 +145,10 @@ class Collision {
   double margin_ = 0.0;
   int positions_ = 0;  // looked at in a cycle
   Braking braking_;
+  JointVector lateness_, overshoot_;
+  double period_s_ = 0.0;
+  const JointVector* followed_ = nullptr;
+  JointVector last_followed_ = JointVector::Zero();
   std::array<Body, kArmCapsules> bodies_;
   std::array<BoxShape, kMaxObstacles> boxes_;
   std::array<Pair, kMaxPairs> pairs_;
@@ -141,7 +158,8 @@ class Collision {
   JointVector travelled_ = JointVector::Zero();  // each joint's angles, to and fro, rad
 
   int next_ = 0;                               // position; 0: a check begins
-  JointVector q_, dq_, from_;                  // in which it began, and what had been travelled
+  JointVector q_, from_;                       // in which it began, and what had been travelled
+  Reference reference_;                        // in which it began
   std::array<std::uint8_t, kMaxPairs> due_{};  // pairs that it looks at ahead
   int due_count_ = 0;
   std::array<Placed, kArmCapsules> placed_;  // in this position

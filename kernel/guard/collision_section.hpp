@@ -43,8 +43,13 @@ struct CollisionSection {
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip,
   Hull tool_points;           ///< or this hull, in the flange frame, and what is within tool_radius
   double delay_s = 0.0;       ///< total delay of the measured state and the brake, s
-  JointLimits limits;         ///< only ddq_max: each joint's deceleration, braked at once, rad/s^2
-  Value allow;                ///< "tool table, link7 table"
+  /// By which time of its velocity a joint that begins at a resting reference leaves it, s, and by
+  /// which share of a step of the reference it overshoots. NaN: not known, a contact.
+  JointVector lateness = JointVector::Constant(kRequired);
+  JointVector overshoot = JointVector::Constant(kRequired);
+  double unknown_payload = 0.0;                 ///< kg at the tip, unknown to a law of torques
+  JointVector braking = JointLimits().ddq_max;  ///< each joint's, braked at once, rad/s^2
+  Value allow;                                  ///< "tool table, link7 table"
 
   CollisionScene scene;
 
@@ -58,7 +63,10 @@ struct CollisionSection {
       visit.lines("tool_point", tool_points,
                   "x y z, x y z: of the tool's hull, in the flange frame, m");
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
-    visit.limit("braking", limits.ddq_max, "rad/s^2");
+    visit.optional("lateness", lateness, Range{0.0, 1.0}, "s");
+    visit.optional("overshoot", overshoot, Range{0.0, 1.0}, "");
+    visit.param("unknown_payload", unknown_payload, Range{0.0, 100.0}, "kg");
+    visit.limit("braking", braking, "rad/s^2");
     visit.text("allow", allow, "pairs that may touch: tool table, link7 table");
   }
 };

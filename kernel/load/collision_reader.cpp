@@ -95,7 +95,11 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
                             << " positions of a check evenly; give 1, 2, 5 or 10");
   if (collision.tool_points.count() > 0 && ini.find(*section, "tool_radius") == nullptr)
     collision.tool_radius = 0.0;
-  TRY(check_braking(pipeline.deceleration(), place, collision.limits.ddq_max));
+  const bool given = !collision.lateness.hasNaN(), of_torques = pipeline.robot.tau_c.wired();
+  if (!given && !of_torques) collision.lateness.setZero();
+  if (collision.overshoot.hasNaN())
+    collision.overshoot.setConstant(given || of_torques ? 1.0 : 0.0);
+  TRY(check_braking(pipeline.deceleration(), place, collision.braking));
   TRY(add_boxes(pipeline.ports, collision.scene, place));
   std::string_view list = collision.allow;
   for (bool more = !list.empty(); more;)

@@ -43,6 +43,13 @@ constexpr bool kLimitsBraking = false;
 template <class Kind>
 constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
 
+/// A law: it turns joint positions into a torque.
+template <class Kind, class = void>
+constexpr bool kFollows = false;
+template <class Kind>
+constexpr bool kFollows<Kind, std::void_t<decltype(std::declval<Kind>().q_d.source),
+                                          decltype(std::declval<Kind>().tau.value)>> = true;
+
 template <class Kind, class = void>
 constexpr bool kKeepsJoints = false;
 template <class Kind>
@@ -78,7 +85,8 @@ Status Pipeline::start(const RobotState& measured) {
   failure = Status::kOk;
   robot.set_measured(measured);
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
-  collision_check.start(collision, guard.effective(), robot.tool.value.tip.p, robot.period_s());
+  collision_check.start(collision, guard.effective(), robot.tool.value.tip.p, robot.period_s(),
+                        reference());
   return collision.present ? collision_check.check(measured) : Status::kOk;
 }
 
@@ -102,10 +110,23 @@ MotionState Pipeline::motion_state() const {
   return state;
 }
 
+const JointVector* Pipeline::reference() const {
+  const JointVector* found = robot.q_c.wired() ? robot.q_c.source : nullptr;
+  for (int i = 0; i < count_; ++i) {
+    with_block(blocks_[static_cast<std::size_t>(i)], [&](const auto& block) {
+      if constexpr (kFollows<std::decay_t<decltype(block)>>)
+        if (&block.tau.value == robot.tau_c.source) found = block.q_d.source;
+    });
+  }
+  return found;
+}
+
 Status Pipeline::resume(const RobotState& measured) {
   failure = Status::kOk;
   robot.set_measured(measured);
-  return for_each_block([this](auto& block) { return resume_block(block, robot.period_s()); });
+  TRY(for_each_block([this](auto& block) { return resume_block(block, robot.period_s()); }));
+  collision_check.begin_anew();
+  return Status::kOk;
 }
 
 Status Pipeline::step(const RobotState& measured, Timing* timing) {

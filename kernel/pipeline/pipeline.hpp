@@ -93,6 +93,9 @@ class Pipeline {
   /// Returns the deceleration of every joint in a brake at once, rad/s^2: the guard's limit, or a
   /// block's own. [init]
   [[gnu::cold]] JointVector deceleration() const;
+  /// Returns the joint positions that the command follows, rad: those of the robot's own servo, or
+  /// of the law that gives the torque; null if there are none. [init]
+  [[gnu::cold]] const JointVector* reference() const;
 
  private:
   template <class Act>

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "program/session/fault_verdict.hpp"
+#include "program/session/lateness.hpp"
 
 namespace tactus {
 namespace {
@@ -23,6 +24,7 @@ TrajectoryRehearsal::TrajectoryRehearsal(Session& session, TrajectoryInput& inpu
       guard_(guard),
       goal_(session, input),
       state_(state),
+      late_(state),
       law_(torque_law(session.pipeline)) {
   const Guard::Params& params = session.pipeline.guard;
   limiting_.start(params.limiting_share,
@@ -45,6 +47,20 @@ void TrajectoryRehearsal::obey(const RobotCommand& command) {
   state_.dq = (state_.q - before) / period_s;
 }
 
+/// Moves each joint towards its reference, by the implicit Euler step of its equation.
+void TrajectoryRehearsal::follow() {
+  const Following& loop = *session_.following;
+  const double dt_s = session_.pipeline.robot.period_s();
+  for (int i = 0; i < kDof; ++i) {
+    const double pull = loop.kp[i] * (state_.q[i] - late_.q[i]);
+    const double along = loop.damps_error ? loop.kd[i] * state_.dq[i] : 0.0;
+    const double m = loop.m[i] + dt_s * (loop.kd[i] + dt_s * loop.kp[i]);
+    late_.dq[i] = (loop.m[i] * late_.dq[i] + dt_s * (pull + along)) / m;
+    late_.q[i] += dt_s * late_.dq[i];
+  }
+  late_.stamp_ns = state_.stamp_ns;
+}
+
 /// One cycle, as the executive's, from the command of the one before.
 Status TrajectoryRehearsal::cycle() {
   Pipeline& pipeline = session_.pipeline;
@@ -57,10 +73,11 @@ Status TrajectoryRehearsal::cycle() {
   obey(command);
   state_.stamp_ns += std::int64_t{1000} * pipeline.robot.period_us;
   ++cycle_;
+  if (pipeline.collision.present) follow();
   status = guard_.check(state_, {state_.stamp_ns});
   if (status == Status::kOk) status = pipeline.step(state_);
   if (status == Status::kOk && pipeline.collision.present)
-    status = pipeline.collision_check.step(state_);
+    status = pipeline.collision_check.step(late_);
   return status;
 }
 

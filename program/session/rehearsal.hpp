@@ -1,7 +1,8 @@
 // TrajectoryRehearsal: the chain runs a trajectory with a robot that is at once where it is told to
 // be, and whose sensors feel what they feel now. So `tactus check` finds what the law and the guard
 // make of a trajectory that admission accepts, before anything moves. A robot that takes torques is
-// at once where its law is to hold it: then the law asks for what that takes.
+// at once where its law is to hold it: then the law asks for what that takes. The collision check
+// sees the arm that lags as the loop lets it (lateness.hpp).
 #pragma once
 
 #include "kernel/cycle/limiting_watch.hpp"
@@ -27,6 +28,7 @@ class TrajectoryRehearsal {
  private:
   Status cycle();
   void obey(const RobotCommand& command);
+  void follow();
   bool saturated(const RobotCommand& command) const;
   void print_torque() const;
   const char* unrehearsed() const;
@@ -40,7 +42,7 @@ class TrajectoryRehearsal {
   Guard& guard_;
   GoalWatch goal_;
   LimitingWatch limiting_;
-  RobotState state_;
+  RobotState state_, late_;  // at once, and as the joints follow
   TorqueLaw law_;
   std::int64_t cycle_ = 0;
   Report report_;

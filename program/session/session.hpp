@@ -19,6 +19,8 @@ namespace tactus {
 /// Why a run ended as it did, in words.
 using Reason = Text<767>;
 
+struct Following;
+
 struct Session {
   const char* board;
   bool simulated;            ///< the robot is a plant in this program
@@ -37,7 +39,8 @@ struct Session {
   WireCounts (*counts)() = nullptr;  ///< null: its wire counts nothing
   /// What start-ups have changed in the robot, text `n` from 0; null: they change nothing.
   Message (*written)(int n) = nullptr;
-  Message (*to_home)() = nullptr;  ///< null: arming homes no joint
+  Message (*to_home)() = nullptr;        ///< null: arming homes no joint
+  const Following* following = nullptr;  ///< how the joints follow; null: at once
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

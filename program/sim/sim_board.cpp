@@ -17,10 +17,16 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
   return robot().load(sections.plant.mounted_as(pipeline.robot.mounting), options.seed);
 }
 
+double servo_s(const SimSections& sections) {
+  return sections.plant.servo_time_constant_s;
+}
+
 }  // namespace
 
 int run_sim_board(int argc, char** argv, const char* name) {
-  return run_board<SimSections>(argc, argv, {name, robot(), 0, false, configure});
+  Board<SimSections> board{name, robot(), 0, false, configure};
+  board.servo_s = servo_s;
+  return run_board(argc, argv, board);
 }
 
 }  // namespace tactus

@@ -18,6 +18,8 @@ void collision_check(benchmark::State& bench) {
   boxes[1].pose = {{-0.2, 0.5, 0.6}, Eigen::Quaterniond(0.8, 0.3, -0.4, 0.2).normalized()};
   boxes[1].size = {0.1, 0.2, 1.2};
   static CollisionSection section;
+  section.lateness.setZero();
+  section.overshoot.setZero();
   section.scene = CollisionScene();
   for (const Cuboid& box : boxes) {
     section.scene.boxes[static_cast<std::size_t>(section.scene.box_count())] = &box;

@@ -29,7 +29,9 @@ class SettingChecker {
   void optional(const char* key, double value, const Range& range, const char* unit) {
     if (!std::isnan(value)) param(key, value, range, unit);
   }
-  void optional(const char* key, const Vector3& value, const Range& range, const char* unit) {
+  template <int size>
+  void optional(const char* key, const Eigen::Matrix<double, size, 1>& value, const Range& range,
+                const char* unit) {
     if (!std::isnan(value[0])) param(key, value, range, unit);
   }
   void limit(const char*, const JointVector& value, const char*) {

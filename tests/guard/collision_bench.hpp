@@ -34,6 +34,8 @@ struct CollisionBench {
     add_box("table", boxes[0]);
     add_box("beam", boxes[1]);
     section.cycles = 2;
+    section.lateness.setZero();
+    section.overshoot.setZero();
   }
   void add_box(const char* name, const Cuboid& box) {
     CollisionScene& scene = section.scene;

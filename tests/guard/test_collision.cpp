@@ -113,7 +113,7 @@ struct Stop {
   }
   /// The nearest distance until rest, or until a mechanical stop, at `samples` instants.
   double nearest_until_rest(int samples) {
-    const JointVector own_s = dq.cwiseAbs().cwiseQuotient(bench.section.limits.ddq_max);
+    const JointVector own_s = dq.cwiseAbs().cwiseQuotient(bench.section.braking);
     const double all_s = own_s.maxCoeff();
     JointVector share;  // the common ramp's share of the speed
     for (int i = 0; i < kDof; ++i) share[i] = std::clamp(2.0 * unit(), 0.0, 1.0);
@@ -123,10 +123,10 @@ struct Stop {
       JointVector now = q;
       for (int i = 0; i < kDof && all_s > 0.0; ++i) {
         const double own = std::min(s, own_s[i]);
-        now[i] += share[i] * dq[i] * (s - s * s / (2.0 * all_s)) +
-                  (1.0 - share[i]) *
-                      (dq[i] * own -
-                       0.5 * own * own * std::copysign(bench.section.limits.ddq_max[i], dq[i]));
+        now[i] +=
+            share[i] * dq[i] * (s - s * s / (2.0 * all_s)) +
+            (1.0 - share[i]) *
+                (dq[i] * own - 0.5 * own * own * std::copysign(bench.section.braking[i], dq[i]));
       }
       if (impossible(now)) break;
       least = std::min(least, bench.nearest(now).distance);

@@ -24,7 +24,7 @@ struct EveryPair {
                        {dense(from_flange<Robot>(Vector3::Zero())),
                         dense(from_flange<Robot>(bench.tip)), bench.section.tool_radius}};
     braking.acceleration = bench.limits.ddq_max;
-    braking.deceleration = bench.section.limits.ddq_max;
+    braking.deceleration = bench.section.braking;
     braking.reaction_s = 2 * bench.section.cycles * CollisionBench::kPeriod_s +
                          (braking.acceleration + braking.deceleration)
                              .cwiseQuotient(bench.limits.dddq_max)

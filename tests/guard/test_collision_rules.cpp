@@ -133,6 +133,15 @@ void what_is_not_finite_is_no_pass(void**) {
     ASSERT_STATUS(bench.check(huge * ready_pose(), JointVector::Zero()), Status::kCollision);
     ASSERT_STATUS(bench.check(ready_pose(), JointVector::Constant(huge)), Status::kCollision);
   }
+  for (JointVector* key : {&bench.section.lateness, &bench.section.overshoot})
+    for (double& value : *key) {  // nobody has said it
+      key->setZero();
+      value = std::nan("");
+      bench.start();
+      ASSERT_STATUS(bench.check(ready_pose(), JointVector::Zero()), Status::kCollision);
+      key->setZero();
+    }
+  bench.start();
   bench.boxes[1].pose.p.x() = std::nan("");
   ASSERT_STATUS(bench.check(ready_pose(), JointVector::Zero()), Status::kCollision);
   assert_string_equal(bench.collision.telemetry().first, "beam");

@@ -52,7 +52,7 @@ struct Turn {
   double left(double reaction_s) const {
     const double faster = dq[joint] + acceleration() * reaction_s;
     JointVector end = q;
-    end[joint] += way(reaction_s) + faster * faster / (2.0 * bench.section.limits.ddq_max[joint]);
+    end[joint] += way(reaction_s) + faster * faster / (2.0 * bench.section.braking[joint]);
     return bench.nearest(end).distance;
   }
 };
@@ -85,7 +85,7 @@ void until_the_brake_begins_the_cycles_of_two_checks_count_and_no_more(void**) {
     Turn turn{bench, stretched_out(bench), kDof - 1};
     bench.tip = {0.6, 0.0, 0.05};
     bench.limits.ddq_max[kDof - 1] = 0.01;
-    bench.section.limits.ddq_max.setConstant(1e4);
+    bench.section.braking.setConstant(1e4);
     bench.section.cycles = cycles;
     turn.place();
     const double margin = bench.section.margin;

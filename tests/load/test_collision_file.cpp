@@ -18,7 +18,7 @@ void the_file_says_boxes_and_pairs(void**) {
                 "[cell]\ntype = frame\nposition = 1 2 3\nrotation = 0 0 1.5707963267948966\n"
                 "[floor]\ntype = box\ncentre = 0 0 -0.1\nsize = 2 3 0.2\n"
                 "[post]\ntype = box\nframe = cell.x\ncentre = 0.5 0 0\nsize = 0.1 0.2 1\n"
-                "[collision]\nmargin = 0.02\ncycles = 2\n"
+                "[collision]\nmargin = 0.02\ncycles = 2\nlateness = 0\n"
                 "allow = floor %s,  tool post\n",
                 Robot::kName, RobotCapsules::kLinkNames[1]);
   ASSERT_OK(bench.load(text.data()));
@@ -64,7 +64,7 @@ void without_a_braking_in_the_file_every_joint_brakes_as_the_arm_does(void**) {
     const Status status = bench.load(text.data(), positions);
     if (status != Status::kOk) print_error("%s\n", bench.error.message().c_str());
     ASSERT_OK(status);
-    const JointVector& braking = bench.pipeline.collision.limits.ddq_max;
+    const JointVector& braking = bench.pipeline.collision.braking;
     assert_true(braking == JointVector::Constant(file.braking));
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "program/session/files.hpp"
+#include "program/session/lateness.hpp"
 #include "program/session/session.hpp"
 #include "program/session/trajectory_input.hpp"
 #include "program/sim/sim_sections.hpp"
@@ -76,6 +77,12 @@ struct PipelineBench {
     load(("pipelines/" + name + ".ini").c_str(), from, to);
     return arm();
   }
+  /// Arms the robot of a file with this text, and sends it nothing. Returns as arm() does.
+  Status arm_with(const std::string& pipeline_text) {
+    text = pipeline_text;
+    load_text();
+    return arm();
+  }
   CycleTime next() { return {armed_ns_ + ++cycles * period_ns()}; }
   void cycle() {
     ASSERT_OK(executive.cycle(next()));
@@ -107,6 +114,9 @@ struct PipelineBench {
     const std::size_t at = text.find(from);
     assert_true(at != std::string::npos);
     text.replace(at, std::string_view(from).size(), to);
+    load_text();
+  }
+  void load_text() {
     for (std::size_t i = 0; i < kStores; ++i) {
       channel.stores[i].waypoints = waypoints[i].data();
       task_channel.stores[i].waypoints = poses[i].data();
@@ -114,7 +124,11 @@ struct PipelineBench {
     }
     Loader loader({&channel, &task_channel}, hal.capabilities(), board);
     LoadError error;
-    ASSERT_OK(loader.load(text, pipeline, error));
+    const Status status = loader.load(text, pipeline, error);
+    if (status != Status::kOk) print_error("%s\n", error.message().c_str());
+    ASSERT_OK(status);
+    assert_true(settle_lateness("text", text,
+                                following(pipeline, board.plant.servo_time_constant_s), pipeline));
     hal.set_period(pipeline.robot.period_s());
     board.plant.arming_cycles = 200;  // as drives on a bus do
     ASSERT_OK(hal.load(board.plant, 1));
