@@ -5,7 +5,7 @@
 #include "gateway/trajectory_csv.hpp"
 #include "gateway/verdict_text.hpp"
 #include "tests/load/loader_bench.hpp"
-#include "tests/load/refused_files.hpp"
+#include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -57,7 +57,7 @@ Message words(const Verdict& verdict) {
 
 void every_hostile_trajectory_gets_the_verdict_of_its_first_line(void**) {
   ReferenceClient<JointSpace>& client = start();
-  const auto as_expected = [&](const RefusedFile& file) {
+  const auto as_expected = [&](const FileCase& file) {
     Trajectory<JointSpace>* trajectory = client.acquire();
     CsvError error;
     assert_non_null(trajectory);
@@ -65,7 +65,7 @@ void every_hostile_trajectory_gets_the_verdict_of_its_first_line(void**) {
     trajectory->exact = true;
     return file.expects(words(judge(client, *trajectory)));
   };
-  assert_true(judge_refused_files("tests/hostile", ".csv", as_expected) >= 90);
+  assert_true(judge_cases("tests/hostile", as_expected) >= 98);
 }
 
 Trajectory<JointSpace>& two_waypoints(ReferenceClient<JointSpace>& client) {

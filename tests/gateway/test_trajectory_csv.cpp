@@ -4,7 +4,7 @@
 
 #include "gateway/trajectory_columns.hpp"
 #include "tests/gateway/csv_bench.hpp"
-#include "tests/load/refused_files.hpp"
+#include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -145,18 +145,18 @@ void line_ends_blanks_marks_and_comments_make_no_difference(void**) {
 
 // Proves CSV-2.
 
-void every_file_with_a_mistake_is_refused_with_its_message(void**) {
-  const int count = judge_refused_files("tests/refused", ".csv", [](const RefusedFile& file) {
+void every_case_with_a_mistake_is_refused_with_its_message(void**) {
+  const int count = judge_cases("tests/refused/trajectories", [](const FileCase& file) {
     return !read(file.path.data()) && file.expects(g_error.message());
   });
-  assert_true(count >= 60);
+  assert_true(count >= 63);
 }
 
 void what_is_no_file_is_refused_with_the_reason_of_the_system(void**) {
   assert_false(read("/tmp"));
   assert_string_equal(g_error.message().c_str(),
                       "Is a directory; give the path of a trajectory file");
-  assert_false(read("tests/refused/there_is_none.csv"));
+  assert_false(read("tests/there_is_none.csv"));
   assert_string_equal(g_error.message().c_str(),
                       "No such file or directory; give the path of a trajectory file");
   assert_false(read_text(""));
@@ -196,7 +196,7 @@ int main() {
       cmocka_unit_test(a_trajectory_of_20001_waypoints_comes_back_whole_and_one_more_is_refused),
       cmocka_unit_test(a_group_left_out_is_zero_and_not_among_the_fields),
       cmocka_unit_test(line_ends_blanks_marks_and_comments_make_no_difference),
-      cmocka_unit_test(every_file_with_a_mistake_is_refused_with_its_message),
+      cmocka_unit_test(every_case_with_a_mistake_is_refused_with_its_message),
       cmocka_unit_test(what_is_no_file_is_refused_with_the_reason_of_the_system),
       cmocka_unit_test(no_damage_crashes_the_reader_and_no_number_it_lets_pass_is_not_finite),
   };

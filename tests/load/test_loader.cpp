@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tests/load/loader_bench.hpp"
-#include "tests/load/refused_files.hpp"
+#include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -202,12 +202,12 @@ void a_schedule_that_cannot_be_met_is_refused_with_its_frame(void**) {
 
 // Proves CFG-2, CFG-5, SCH-2.
 
-void every_file_with_a_mistake_is_refused_with_its_message(void**) {
-  const int count = judge_refused_files("tests/refused", ".ini", [](const RefusedFile& file) {
+void every_case_with_a_mistake_is_refused_with_its_message(void**) {
+  const int count = judge_cases("tests/refused/pipelines", [](const FileCase& file) {
     return bench.load(file.text) == bench.error.status && bench.error.status != Status::kOk &&
            file.expects(bench.error.message());
   });
-  assert_true(count >= 150);
+  assert_true(count >= 212);
 }
 
 void a_file_of_no_bytes_is_refused(void**) {
@@ -260,7 +260,7 @@ int main() {
       cmocka_unit_test(tightened_limits_are_those_references_are_judged_by),
       cmocka_unit_test(the_schedule_has_the_control_chain_and_the_recorder),
       cmocka_unit_test(a_schedule_that_cannot_be_met_is_refused_with_its_frame),
-      cmocka_unit_test(every_file_with_a_mistake_is_refused_with_its_message),
+      cmocka_unit_test(every_case_with_a_mistake_is_refused_with_its_message),
       cmocka_unit_test(a_file_of_no_bytes_is_refused),
       cmocka_unit_test(the_first_mistake_is_the_one_reported),
       cmocka_unit_test(the_longest_value_is_quoted_whole),

@@ -1,14 +1,14 @@
 // Tests the program's refusals: exit code, place and reason.
 #include <string>
 
-#include "tests/load/refused_files.hpp"
 #include "tests/program/program_bench.hpp"
+#include "tests/support/cases.hpp"
 
 namespace tactus {
 namespace {
 
 /// "path:12: ..." or, if it concerns the whole file, "path: ...".
-bool refused_as_expected(const RefusedFile& file, int code) {
+bool refused_as_expected(const FileCase& file, int code) {
   const std::string_view text = errors(), path = file.path.data();
   const bool digit = file.expected.front() >= '0' && file.expected.front() <= '9';
   const std::size_t begin = path.size() + (digit ? 1 : 2);
@@ -21,7 +21,7 @@ bool refused_as_expected(const RefusedFile& file, int code) {
 // Proves CFG-2.
 
 void every_pipeline_with_a_mistake_is_refused_with_its_message_and_exit_code_2(void**) {
-  const int count = judge_refused_files("tests/refused", ".ini", [](const RefusedFile& file) {
+  const int count = judge_cases("tests/refused/pipelines", [](const FileCase& file) {
     return refused_as_expected(file, tactus_run({"check", file.path.data()}));
   });
   assert_true(count > 0);
@@ -31,7 +31,7 @@ void every_pipeline_with_a_mistake_is_refused_with_its_message_and_exit_code_2(v
 
 void every_trajectory_with_a_mistake_is_refused_with_its_message_and_exit_code_2(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
-  const int count = judge_refused_files("tests/refused", ".csv", [&](const RefusedFile& file) {
+  const int count = judge_cases("tests/refused/trajectories", [&](const FileCase& file) {
     return refused_as_expected(
         file, tactus_run({"check", pipeline.c_str(), "--trajectory", file.path.data()}));
   });
@@ -42,15 +42,24 @@ void every_trajectory_with_a_mistake_is_refused_with_its_message_and_exit_code_2
 
 void run_refuses_as_check_does_and_writes_nothing(void**) {
   const Line pipeline = write("p.ini", {kPipeline}), out = in_folder("refused");
-  const int pipelines = judge_refused_files("tests/refused", "n.ini", [&](const RefusedFile& file) {
-    return refused_as_expected(
-        file, tactus_run({"run", file.path.data(), "--no-figure", "--out", out.c_str()}));
+  int runs = 0;
+  const auto chosen = [&](const FileCase& file) {  // those with an n at the end
+    runs += file.name.back() == 'n';
+    return file.name.back() == 'n';
+  };
+  const int pipelines = judge_cases("tests/refused/pipelines", [&](const FileCase& file) {
+    return !chosen(file) ||
+           refused_as_expected(
+               file, tactus_run({"run", file.path.data(), "--no-figure", "--out", out.c_str()}));
   });
-  const int trajectories = judge_refused_files("tests/refused", "n.csv", [&](const RefusedFile& f) {
-    return refused_as_expected(f, tactus_run({"run", pipeline.c_str(), "--trajectory",
-                                              f.path.data(), "--no-figure", "--out", out.c_str()}));
+  assert_true(pipelines > 0 && runs >= 23);
+  const int trajectories = judge_cases("tests/refused/trajectories", [&](const FileCase& file) {
+    return !chosen(file) ||
+           refused_as_expected(
+               file, tactus_run({"run", pipeline.c_str(), "--trajectory", file.path.data(),
+                                 "--no-figure", "--out", out.c_str()}));
   });
-  assert_true(pipelines > 5 && trajectories > 2);  // those with an n at the end
+  assert_true(trajectories > 0 && runs >= 28);
   assert_false(exists("refused"));
 }
 
@@ -61,7 +70,7 @@ void check_refuses_every_trajectory_that_breaks_a_limit_and_no_other(void**) {
   text.erase(text.find("[plant]"), text.find("[model]") - text.find("[plant]"));
   const Line pipeline =
       write("p.ini", {text.c_str(), "[guard]\nstop_reserve = 0.1\n[gateway]\ntimes = exact\n"});
-  const auto as_expected = [&](const RefusedFile& file) {
+  const auto as_expected = [&](const FileCase& file) {
     const char* path = file.path.data();
     const int code = tactus_run({"check", pipeline.c_str(), "--trajectory", path});
     if (file.expected == "accepted") return code == 0 && has(output(), ": accepted, ");
@@ -73,7 +82,7 @@ void check_refuses_every_trajectory_that_breaks_a_limit_and_no_other(void**) {
     return code == 2 && has(errors(), begin) && output().empty() &&
            has(errors(), file.expected.substr(place, end - place));
   };
-  assert_true(judge_refused_files("tests/hostile", ".csv", as_expected) > 0);
+  assert_true(judge_cases("tests/hostile", as_expected) > 0);
 }
 
 // Proves RUN-1, CFG-2.
