@@ -1,10 +1,12 @@
-# The Python client with its generated module, in one folder that can be copied anywhere.
+# The Python client with its generated module, in one folder that can be copied anywhere. pip takes gateway/python itself (setup.py).
+CLIENT := $(wildcard gateway/python/tactus/*.py) gateway/python/tactus/py.typed
 .PHONY: python
-python: build/python/tactus.py build/python/tactus_pb2.py      ## write the Python client into build/python
-build/python/tactus.py: gateway/python/tactus.py
+python: $(CLIENT:gateway/%=build/%) build/python/tactus/tactus_pb2.py      ## write the Python client into build/python
+build/python/tactus/%: gateway/python/tactus/%
 	$(call say,PY    $@)
-	$(Q)cp $< $@
-build/python/tactus_pb2.py: gateway/tactus.proto
+	$(Q)install -D -m 644 $< $@
+build/python/tactus/tactus_pb2.py: gateway/tactus.proto
 	$(call say,PY    $@)
+	$(Q)mkdir -p $(@D)
 	$(Q)protoc -I$(<D) --python_out=$(@D) --pyi_out=$(@D) $<
 $(filter $(B)/tests/gateway/test_python%,$(TESTS)): | python

@@ -21,7 +21,7 @@ import threading
 import time
 
 sys.path.insert(0, "build/python")
-import tactus_pb2 as pb
+from tactus import tactus_pb2 as pb
 
 
 class Client:

@@ -68,6 +68,12 @@ void every_example_runs(void**) {
   run_module("test_examples");
 }
 
+// Proves PYT-13.
+
+void the_package_is_installed_by_pip_or_copied(void**) {
+  run_module("test_package");
+}
+
 // Proves PYT-8.
 
 void a_client_that_is_killed_leaves_the_arm_at_rest_and_free(void**) {
@@ -89,6 +95,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_server_is_started_with_a_key_and_in_virtual_time),
       cmocka_unit_test(parameters_change_while_the_arm_moves),
       cmocka_unit_test(every_example_runs),
+      cmocka_unit_test(the_package_is_installed_by_pip_or_copied),
       cmocka_unit_test(a_client_that_is_killed_leaves_the_arm_at_rest_and_free),
   };
   return run_program_tests(argv[0], tests);

@@ -12,7 +12,7 @@ import tempfile
 import threading
 import time
 
-import tactus_pb2 as pb
+from tactus import tactus_pb2 as pb
 
 JOINTS = 6
 ZERO = [1.0, -2.0, 3.0, 0.1, 0.2, -0.3]  # of a tare

@@ -3,7 +3,7 @@
 import unittest
 
 import numpy as np
-import tactus
+from tactus.clock import Clock
 
 OFFSET_NS = 86_400_000_000_000
 
@@ -11,7 +11,7 @@ OFFSET_NS = 86_400_000_000_000
 def estimate(drift, one_way_ns, stalls=0.0, seconds=30, seed=1):
     """Returns the error of the estimate at the end of an exchange every 100 ms, and its own bound. [ns]"""
     rng = np.random.default_rng(seed)
-    clock = tactus._Clock()
+    clock = Clock()
 
     def server(local):
         return int(local + OFFSET_NS + drift * local)
@@ -43,7 +43,7 @@ class Clocks(unittest.TestCase):
         self.assertLess(abs(error), 200_000)
 
     def test_many_exchanges_do_not_shorten_the_memory(self):
-        clock = tactus._Clock()
+        clock = Clock()
         for local in range(0, 10_000_000_000, 1_000_000):  # 1 kHz, as of a stream
             clock.add(local, local + OFFSET_NS, local + OFFSET_NS, local + 200_000)
         self.assertGreater(clock._kept[-1][0] - clock._kept[0][0], 9_000_000_000)

@@ -8,8 +8,8 @@ import unittest
 import numpy as np
 import stand_in
 import tactus
-import tactus_pb2 as pb
 from stand_in import JOINTS, Peer
+from tactus import tactus_pb2 as pb
 
 TIMEOUT_S = 0.3
 

@@ -9,9 +9,9 @@ from unittest import mock
 import numpy as np
 import stand_in
 import tactus
-import tactus_pb2 as pb
 from connected import connected, sent
 from stand_in import JOINTS, OFFSET_NS, ZERO, Peer
+from tactus import tactus_pb2 as pb
 
 NAN, INF, COMPLEX = float("nan"), float("inf"), 1 + 0.01j
 HERE, ONE = np.zeros(JOINTS), dict(t=[1.0], q=np.zeros((1, JOINTS)))
@@ -265,7 +265,7 @@ class Arguments(unittest.TestCase):
                 else:
                     super().take(message, kind)
 
-        interrupted = mock.patch.object(tactus, "_robot", side_effect=KeyboardInterrupt)
+        interrupted = mock.patch("tactus.connection.robot_of", side_effect=KeyboardInterrupt)
         for peer, within, error in (
             (Refuses, contextlib.nullcontext(), tactus.Refused),
             (Peer, interrupted, KeyboardInterrupt),

@@ -12,6 +12,7 @@ import unittest
 
 import served
 import tactus
+from tactus.simulation import await_server
 
 
 class Keys(unittest.TestCase):
@@ -39,7 +40,7 @@ class Keys(unittest.TestCase):
         ]
         server = cls.enterClassContext(subprocess.Popen(command, stdout=log, stderr=log))
         cls.addClassCleanup(server.terminate)
-        tactus._await_server(server, cls.address, log, cls.key)
+        await_server(server, cls.address, log, cls.key)
 
     def test_with_the_key_the_arm_moves(self):
         with tactus.connect(self.address, key=self.key) as arm:
@@ -95,7 +96,7 @@ class VirtualTime(unittest.TestCase):
             command = [served.PROGRAM, "serve", served.JOINT_PIPELINE, "--listen", f"unix:{folder}/s", *options]
             with subprocess.Popen(command, stdout=log, stderr=log) as server:
                 try:
-                    tactus._await_server(server, f"unix:{folder}/s", log)
+                    await_server(server, f"unix:{folder}/s", log)
                     with tactus.connect(f"unix:{folder}/s") as arm:
                         server.send_signal(signal.SIGSTOP)
                         time.sleep(0.2)

@@ -6,9 +6,9 @@ import unittest
 
 import numpy as np
 import tactus
-import tactus_pb2 as pb
 from connected import connected, sent
 from stand_in import JOINTS, Peer
+from tactus import tactus_pb2 as pb
 
 
 class Trajectories(unittest.TestCase):
