@@ -89,9 +89,7 @@ void print_written(const char* path, const Session& session) {
 
 int check(Session& session, const Options& options) {
   Expectation expectation;
-  if (!expectation.start(session.expect, session.pipeline.recording,
-                         session.pipeline.robot.period_s(), options.pipeline))
-    return kRefused;
+  if (!expectation.start(session.expect, session.pipeline, options.pipeline)) return kRefused;
   TrajectoryInput input;
   if (!read_input(session, options, input)) return kRefused;
   const bool fit = judge_host(session, options);

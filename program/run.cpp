@@ -131,12 +131,22 @@ void print_files(const TrajectoryInput& input, const RunResult& result, const Fi
               parent.c_str(), name.c_str());
 }
 
-/// A run that has not seen what its file states does not succeed.
-void judge(const Options& options, RunResult& result) {
-  result.expectation.take(result.tracking.data(), result.tracking_count);
-  if (result.code != 0 || result.expectation.met()) return;
-  end_with(result, kEndedOtherwise, "not as stated");
-  result.expectation.print_misses(options.pipeline);
+/// A run that has not seen what its file states does not succeed. One that was stopped as it
+/// states has not failed by that.
+void judge(const Session& session, const Options& options, RunResult& result) {
+  Expectation& expectation = result.expectation;
+  StopExpectation& stop = expectation.stop();
+  expectation.take(result.tracking.data(), result.tracking_count);
+  stop.take(result.fault, session.pipeline.collision_check.telemetry(),
+            result.cycles > 0 && session.executive.at_rest());
+  if (stop.stated() && stop.met()) {
+    end_with(result, 0, "succeeded");
+    result.fault = Status::kOk;
+    result.why = {};
+  }
+  if (expectation.met() || (result.code != 0 && stop.met())) return;
+  if (result.code == 0) end_with(result, kEndedOtherwise, "not as stated");
+  expectation.print_misses(options.pipeline);
 }
 
 }  // namespace
@@ -186,8 +196,7 @@ int run(Session& session, const Options& options) {
   Realtime realtime;
   const bool accepted =
       read_input(session, options, input) &&
-      result.expectation.start(session.expect, session.pipeline.recording,
-                               session.pipeline.robot.period_s(), options.pipeline);
+      result.expectation.start(session.expect, session.pipeline, options.pipeline);
   if (!accepted ||
       (options.realtime && !(writer.start() && feed.start() && watchdog.start(session.realtime) &&
                              prepare(realtime, session.realtime)))) {
@@ -215,7 +224,7 @@ int run(Session& session, const Options& options) {
   result.config_hash = input.hash(fnv1a(session.text));
   realtime.release();  // or the program that draws the figure would inherit it
 
-  judge(options, result);
+  judge(session, options, result);
   const bool written = log.close() && write_results(folder, session, input, pipeline, result);
   if (!written && result.code == 0) end_with(result, kEndedOtherwise, "not recorded");
   print_table(pipeline, session, result);

@@ -5,7 +5,7 @@ PARTS  := $(SIM)
 LDLIBS += -lmujoco
 
 # The runs of `make run`: pipeline, or pipeline:trajectory.
-RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
+RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_cpc_vase fer_trg_ac_cpc_pid
 
 # The kinds of block on a Cortex-M7, where memory is short: those of the longest pipeline.
 KINDS_m7 := RobotModel, Frame, BoxObstacle, TaskReferenceGenerator, WrenchFrontEnd, Admittance, CartesianPose, Pid

@@ -13,14 +13,23 @@ bool tracks(const Recording& recording, Quantity quantity) {
   });
 }
 
+const char* said(bool met) {
+  return met ? "true" : "false";
+}
+
+const char* verdict(bool met) {
+  return met ? "as expected" : "not as expected";
+}
+
 }  // namespace
 
-bool Expectation::start(const ExpectSection& section, const Recording& recording, double period_s,
-                        const char* path) {
+bool Expectation::start(const ExpectSection& section, const Pipeline& pipeline, const char* path) {
   *this = {};
   section_ = section;
+  const double period_s = pipeline.robot.period_s();
   share_ = section.average_s > 0.0 ? -std::expm1(-period_s / section.average_s) : 1.0;
-  return !refuse_contradiction(recording, path);
+  return !refuse_contradiction(pipeline.recording, path) &&
+         stop_.start(section.collision_stop, pipeline, path);
 }
 
 /// Prints why the section cannot be judged; false if it can.
@@ -75,7 +84,8 @@ std::array<Expectation::Bound, 4> Expectation::bounds() const {
 
 bool Expectation::met() const {
   const auto all = bounds();
-  return std::all_of(all.begin(), all.end(), [](const Bound& bound) { return bound.met(); });
+  return stop_.met() &&
+         std::all_of(all.begin(), all.end(), [](const Bound& bound) { return bound.met(); });
 }
 
 void Expectation::print_misses(const char* path) const {
@@ -84,6 +94,9 @@ void Expectation::print_misses(const char* path) const {
     std::fprintf(stderr, "%s: [expect] %s: the largest %s was %.9g %s, expected %s %.9g %s%s\n",
                  path, b.key, b.what, b.seen, b.unit, b.side(), b.limit, b.unit, b.hint);
   }
+  if (!stop_.met())
+    std::fprintf(stderr, "%s: [expect] collision_stop: the arm was %s, expected %s\n", path,
+                 stop_.seen().c_str(), stop_.expected().c_str());
 }
 
 void Expectation::write(std::FILE* file) const {
@@ -96,7 +109,11 @@ void Expectation::write(std::FILE* file) const {
     separator = ", ";
     any = true;
   }
-  if (any) std::fprintf(file, ", \"met\": %s},\n", met() ? "true" : "false");
+  if (stop_.stated())
+    std::fprintf(file, "%s\"collision_stop\": {\"seen\": \"%s\", \"stated\": \"%s\", \"met\": %s}",
+                 separator, stop_.seen().c_str(), stop_.pair().c_str(), said(stop_.met()));
+  any = any || stop_.stated();
+  if (any) std::fprintf(file, ", \"met\": %s},\n", said(met()));
 }
 
 void Expectation::print() const {
@@ -104,9 +121,12 @@ void Expectation::print() const {
   for (const Bound& b : bounds()) {
     if (!b.stated) continue;
     std::printf("%s  largest %s %.3g %s, expected %s %g: %s\n", line, b.what, b.seen, b.unit,
-                b.side(), b.limit, b.met() ? "as expected" : "not as expected");
+                b.side(), b.limit, verdict(b.met()));
     line = "";
   }
+  if (stop_.stated())
+    std::printf("%s  %s, expected %s: %s\n", line, stop_.seen().c_str(), stop_.expected().c_str(),
+                verdict(stop_.met()));
 }
 
 }  // namespace tactus

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "program/results/stop_expectation.hpp"
 #include "program/results/tracking_error.hpp"
 #include "program/session/expect_section.hpp"
 
@@ -13,12 +14,14 @@ class Expectation {
  public:
   /// False: the section contradicts itself, or what it bounds is not measured; prints
   /// "path: [expect] key: reason" to stderr. [init]
-  bool start(const ExpectSection& section, const Recording& recording, double period_s,
-             const char* path);
+  bool start(const ExpectSection& section, const Pipeline& pipeline, const char* path);
   /// Takes the wrench of a cycle. [cyclic]
   void add();
   /// Takes the tracking errors of the whole run, `count` of them. [any]
   void take(const TrackingError* errors, int count);
+
+  /// The stop that is stated, which takes how the run ended.
+  StopExpectation& stop() { return stop_; }
 
   bool met() const;
   /// Prints the bounds that were missed to stderr; nothing if all were met.
@@ -43,6 +46,7 @@ class Expectation {
   bool refuse_contradiction(const Recording& recording, const char* path) const;
 
   ExpectSection section_;
+  StopExpectation stop_;
   double share_ = 1.0;                          // of a cycle in the average
   Vector3 average_ = Vector3::Zero();           // N
   double largest_ = 0.0;                        // N

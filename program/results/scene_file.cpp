@@ -25,8 +25,14 @@ void write_arm(std::FILE* file) {
   }
   std::fprintf(file, "\n  ],\n  \"flange\": ");
   write_frame(file, Robot::kFlange);
-  std::fprintf(file, ",\n  \"capsules\": [");
-  const char* separator = "\n    ";
+  std::fprintf(file, ",\n  \"links\": [");
+  const char* separator = "";
+  for (const char* const link : RobotCapsules::kLinkNames) {
+    std::fprintf(file, "%s\"%s\"", separator, link);
+    separator = ", ";
+  }
+  std::fprintf(file, "],\n  \"capsules\": [");
+  separator = "\n    ";
   for (const LinkCapsule& capsule : RobotCapsules::kCapsules) {
     std::fprintf(file, "%s{\"link\": %d, ", separator, capsule.link);
     write_numbers(file, "a", capsule.a, 3);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/core/describe.hpp"
+#include "kernel/core/load_error.hpp"
 #include "kernel/core/port.hpp"
 
 namespace tactus {
@@ -14,6 +15,7 @@ struct ExpectSection {
   double average_s = 0.5;  ///< time constant of the average; noise does not count as contact
   /// Largest tracking error of a joint and of the tip's position; 0: not stated.
   double tracking_rad = 0.0, tracking_m = 0.0;
+  Value collision_stop;  ///< "tool table": before these two meet, the arm is stopped
 
   /// True if a bound of the force can fail. [any]
   bool states_force() const { return contact_force_min > 0.0 || contact_force_max < 1e4; }
@@ -26,6 +28,8 @@ struct ExpectSection {
     visit.param("average_s", average_s, Range{0.0, 60.0}, "s");
     visit.param("tracking_rad", tracking_rad, kNonNegative, "rad");
     visit.param("tracking_m", tracking_m, kNonNegative, "m");
+    visit.text("collision_stop", collision_stop,
+               "pair before whose contact [collision] stops the arm: tool table");
   }
 };
 

@@ -1,6 +1,8 @@
 """What a run should show, computed from its pipeline file and its reference, and what it showed.
 
-Four cases, the first that applies:
+Five cases, the first that applies:
+- The file states a stop: `[expect] collision_stop`. The run has judged cause, pair and rest; the distance of the two is
+  measured here, at the joints of the log, and is to be the check's margin at least.
 - An admittance meets a box. At rest its spring and the touched surface balance: with the stiffness K along the face's
   normal, the penetration p of the reference, the requested force F_d and the surface's stiffness k, the force is
   (K p + F_d) / (1 + K / k).
@@ -16,7 +18,7 @@ import ipaddress
 
 import numpy as np
 
-from reporting import arm, friction, panels
+from reporting import arm, clearance, friction, panels
 from reporting.settings import Settings
 from reporting.units import words
 
@@ -222,6 +224,23 @@ def judge_stated(run, what, unit):
     return Judgement(what, words(seen, unit), f"at most {words(stated, unit)}", *STATED, bool(seen <= stated))
 
 
+def stop_stated(run):
+    """Returns the two bodies before whose contact the pipeline file wants the arm to be stopped, or None."""
+    entry = run.summary.get("expect", {}).get("collision_stop")
+    return entry and entry["stated"].split()
+
+
+def judge_stop(run):
+    """Returns the judgement of the stop that the pipeline file states."""
+    entry, names = run.summary["expect"]["collision_stop"], stop_stated(run)
+    margin, near = run.settings.number("collision", "margin"), clearance.nearest(run, names)
+    when = "".join([f" ({event['time_s']:g} s)" for event in run.summary["events"] if event["to"] == "stop"][:1])
+    place = words(near, "m") if near > 0.0 else "they met"
+    seen = f"stopped at {place}{when}" if entry["met"] else f"{entry['seen']}{when}; nearest: {place}"
+    what, told = " to ".join(names), f"stopped at {words(margin, 'm')} or more"
+    return Judgement(what, seen, told, *STATED, entry["met"] and bool(near >= margin))
+
+
 def tolerance(run, reference, is_pose):
     """Returns the goal tolerance of the generator of a reference, m or the smallest of the joints, rad."""
     block = reference.partition(".")[0]
@@ -232,6 +251,8 @@ def tolerance(run, reference, is_pose):
 
 def judge(run):
     """Returns what the run was supposed to show and what it showed, or None if nothing was tracked."""
+    if stop_stated(run):
+        return judge_stop(run)
     entry = panels.task_entry(run)
     if entry is None:
         return None

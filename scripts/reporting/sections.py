@@ -225,6 +225,8 @@ def judged(section, run, pictures):
         section.picture = plots.svg(0.62, thumbnails.draw_alone, run, width=0.9)
         section.still = thumbnails.still(run)
         section.animation = animation.data(run)
+        if section.animation and expected.stop_stated(run):
+            section.animation["caption"] += page.escape(f"; {section.judgement.what}: {section.judgement.seen}")
         parts += figures_of(run)
     return [*parts, *limit_parts(run, pictures), *error_tables(run), timing_table(section.summary)]
 

@@ -1,4 +1,4 @@
-"""Small pictures of the runs: the arm half way, the path of its tip, and what is around it, seen from the side."""
+"""Small pictures of the runs: the arm half way, or where it was to be stopped, the path of its tip, and what is around it, seen from the side."""
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -31,7 +31,8 @@ def draw(axes, run):
     wanted = desired_path(run)
     if wanted is not None:
         ways.insert(0, (wanted[rows], DESIRED, 0.7))
-    frames = [frame[0] for frame in arm.link_frames(run.scene, q[[len(q) // 2]])]
+    shown = q[-1:] if expected.stop_stated(run) else q[[len(q) // 2]]
+    frames = [frame[0] for frame in arm.link_frames(run.scene, shown)]
     to_view = view.to_view(view.eye(run))
     shapes = []  # (depth, radius, ends, colour)
     for link, a, b, radius in arm.capsules(run.scene):
