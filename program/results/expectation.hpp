@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdio>
 
-#include "program/results/stop_expectation.hpp"
 #include "program/results/tracking_error.hpp"
 #include "program/session/expect_section.hpp"
+#include "program/session/stop_expectation.hpp"
 
 namespace tactus {
 

@@ -5,6 +5,7 @@
 
 #include "program/session/fault_verdict.hpp"
 #include "program/session/lateness.hpp"
+#include "program/session/stop_expectation.hpp"
 
 namespace tactus {
 namespace {
@@ -95,6 +96,18 @@ double TrajectoryRehearsal::time_s() const {
   return static_cast<double>(cycle_) * session_.pipeline.robot.period_s();
 }
 
+/// Whether the file states such an end; kOk: no stop. Prints a note if it states another.
+bool TrajectoryRehearsal::stated(Status status) {
+  Pipeline& pipeline = session_.pipeline;
+  StopExpectation stop;
+  stop.start(session_.expect.collision_stop, pipeline, input_.path.c_str());
+  stop.take(status, pipeline.collision_check.telemetry(), true);
+  if (stop.stated() && !stop.met())
+    std::fprintf(stderr, "%s: note: [expect] collision_stop: in the rehearsal the arm was %s\n",
+                 input_.path.c_str(), stop.seen().c_str());
+  return stop.stated() && stop.met();
+}
+
 bool TrajectoryRehearsal::refuse(Status status) {
   Pipeline& pipeline = session_.pipeline;
   const bool spent = status == Status::kEffortLimit;  // a run falls behind, and gives its goal up
@@ -152,8 +165,9 @@ bool TrajectoryRehearsal::run() {
     if (time_s() > end_s) return true;
     if (cycle_ == kMostCycles) return in_part();
     const Status status = cycle();
-    if (status != Status::kOk) return refuse(status);
+    if (status != Status::kOk) return stated(status) || refuse(status);
   }
+  static_cast<void>(stated(Status::kOk));
   if (report_.outcome == Outcome::kRefused) print_verdict(input_, report_.verdict);
   if (report_.outcome == Outcome::kAborted) {
     const Reason why = report_.verdict.ok() ? GoalWatch::left() : goal_.given_up(report_.verdict);

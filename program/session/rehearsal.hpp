@@ -21,7 +21,7 @@ class TrajectoryRehearsal {
                       const RobotState& state);
 
   /// Runs until the trajectory has ended, or as far as its store holds it. False: the run would
-  /// stop; prints when and why to stderr. True without a rehearsal for
+  /// stop, and not as [expect] states; prints when and why to stderr. True without a rehearsal for
   /// torques of no law of positions, and for wrenches that a contact is to answer.
   bool run();
 
@@ -34,6 +34,7 @@ class TrajectoryRehearsal {
   const char* unrehearsed() const;
   bool ended();
   double time_s() const;
+  bool stated(Status status);
   bool refuse(Status status);
   bool in_part() const;
 

@@ -64,6 +64,13 @@ void another_pair_or_cause_or_no_rest_is_not_as_expected(void**) {
   assert_true(has(output(), "\n0 of 4 runs as expected\n"));
 }
 
+void check_accepts_the_stop_that_is_stated(void**) {
+  for (const char* run : {"fer_trg_cpc_vase", "other", "away"})
+    assert_int_equal(shell((Line("cd $S/t && ./tactus check pipelines/") << run << ".ini").c_str()),
+                     std::string_view(run) == "other" ? 2 : 0);
+  assert_true(has(errors(), "in the rehearsal the arm was not stopped"));
+}
+
 /// The report measures by itself: of the same run, a wider margin is not kept.
 void a_distance_below_the_margin_is_not_as_expected(void**) {
   assert_int_equal(run_all("fer_trg_cpc_vase",
@@ -131,6 +138,7 @@ int main(int, char** argv) {
       cmocka_unit_test_setup(an_arm_that_is_stopped_as_stated_succeeds, plant_vase),
       cmocka_unit_test(an_arm_that_is_not_stopped_is_not_as_expected),
       cmocka_unit_test(another_pair_or_cause_or_no_rest_is_not_as_expected),
+      cmocka_unit_test(check_accepts_the_stop_that_is_stated),
       cmocka_unit_test(a_distance_below_the_margin_is_not_as_expected),
       cmocka_unit_test(a_stop_that_cannot_be_judged_is_refused),
       cmocka_unit_test(the_report_measures_distances_by_itself),

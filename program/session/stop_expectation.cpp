@@ -1,4 +1,4 @@
-#include "program/results/stop_expectation.hpp"
+#include "program/session/stop_expectation.hpp"
 
 #include <algorithm>
 #include <cstdio>
