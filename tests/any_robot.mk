@@ -9,7 +9,8 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   guard/test_collision_spread guard/test_collision_timing \
   guard/test_convex guard/test_convex_scene guard/test_guard_motion guard/test_separation guard/test_stopping \
   load/test_board_sections load/test_collision_file math/test_joint_integrator \
-  pipeline/test_closed_loop pipeline/test_collision_pipelines pipeline/test_contact_pipelines \
+  pipeline/test_closed_loop pipeline/test_collision_lateness pipeline/test_collision_pipelines \
+  pipeline/test_contact_pipelines \
   pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_recordings pipeline/test_room pipeline/test_stops \
   pipeline/test_tuning program/test_reach program/test_sections \
   reference/generator/test_start_times reference/motion/test_chunk_properties reference/motion/test_every_motion \

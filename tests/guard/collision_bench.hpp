@@ -47,7 +47,9 @@ struct CollisionBench {
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     allowed[a][b] = allowed[b][a] = true;
   }
-  void start() { collision.start(section, limits, tip, kPeriod_s); }
+  void start(const JointVector* reference = nullptr) {
+    collision.start(section, limits, tip, kPeriod_s, reference);
+  }
   Status check(const JointVector& q, const JointVector& dq) { return collision.check(at(q, dq)); }
   Status step(const JointVector& q, const JointVector& dq) { return collision.step(at(q, dq)); }
   int body(const char* name) const {

@@ -41,17 +41,29 @@ std::string pose_control(const std::string& of) {
          "\nx = model.x\nJ = model.J\nq = robot.q\n"
          "position_gain = 10 10 10\nrotation_gain = 10 10 10\n";
 }
-/// The gains of fer_jrg_pdgc.ini.
-const std::string kPd =
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
-/// The gains of fer_trg_ac_cpc_pid.ini.
+/// Returns the lines of a shipped pipeline of this robot that begin with these words.
+std::string lines(const char* chain, std::initializer_list<std::string_view> words) {
+  std::ifstream file("pipelines/" + of_this_robot(chain) + ".ini");
+  std::string found;
+  for (std::string line; std::getline(file, line);)
+    for (const std::string_view word : words)
+      if (line.compare(0, word.size(), word) == 0) found += line + "\n";
+  return found;
+}
+std::string pd() {
+  return "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n" +
+         lines("_jrg_pdgc", {"kp ", "kd "});
+}
 std::string pid(const std::string& q_d, const std::string& dq_d) {
   return "[pid]\ntype = pid\nq_d = " + q_d + "\ndq_d = " + dq_d +
-         "\nq = robot.q\ndq = robot.dq\n"
-         "g = model.g\nkp = 600 600 600 600 250 150 50\nki = 0\nkd = 30 30 30 30 10 10 5\n";
+         "\nq = robot.q\ndq = robot.dq\ng = model.g\nki = 0\n" +
+         lines("_trg_ac_cpc_pid", {"kp ", "kd "});
 }
-const std::string kRoom = "[guard]\nvelocity_allowance = 0.6\nposition_allowance = 0.12\n";
+/// A loop that overshoots is not to be stopped by the guard.
+std::string room(const char* chain) {
+  const std::string own = lines(chain, {"velocity_allowance ", "position_allowance "});
+  return "[guard]\n" + (kDof == 6 ? own : "velocity_allowance = 0.6\nposition_allowance = 0.12\n");
+}
 
 struct Step {
   double time_s;
@@ -108,7 +120,7 @@ class Trial {
     return q;
   }
   JointVector free_posture(JointVector q) {
-    while (oracle_.nearest(q).distance < 0.04) q = posture();
+    while (oracle_.nearest(q).distance < 0.02) q = posture();
     return q;
   }
   /// Points, each of which comes while the arm still moves to the one before.
@@ -241,23 +253,22 @@ void poses_that_yield(void**) {
                              kPoses + kAdmittance + pose_control("ac.x_c\nv_d = ac.v_c")});
 }
 void torques_without_a_velocity(void**) {
-  need_one_of({"fer_jrg_pdgc"});
-  assert_rests_before_a_box({"JRG -> PD", "tau_c = pd.tau\n" + kRoom, kJoints + kPd});
+  assert_rests_before_a_box({"JRG -> PD", "tau_c = pd.tau\n" + room("_jrg_pdgc"), kJoints + pd()});
 }
 void torques_with_a_velocity(void**) {
-  need_one_of({"fer_jrg_pdgc"});
+  need_one_of({"fer_trg_ac_cpc_pid", "ur10_trg_ac_cpc_pid"});
   assert_rests_before_a_box(
-      {"JRG -> PID", "tau_c = pid.tau\n" + kRoom, kJoints + pid("jrg.q_d", "jrg.dq_d")});
+      {"JRG -> PID", "tau_c = pid.tau\n" + room("_jrg_pid"), kJoints + pid("jrg.q_d", "jrg.dq_d")});
 }
 void torques_of_an_unknown_load(void**) {
-  need_one_of({"fer_jrg_pdgc"});
-  assert_rests_before_a_box({"JRG -> PID, 2.5 kg", "tau_c = pid.tau\n" + kRoom,
+  need_one_of({"fer_trg_ac_cpc_pid", "ur10_trg_ac_cpc_pid"});
+  assert_rests_before_a_box({"JRG -> PID, 2.5 kg", "tau_c = pid.tau\n" + room("_jrg_pid"),
                              kJoints + pid("jrg.q_d", "jrg.dq_d"), 2.5});
 }
 void torques_to_poses(void**) {
-  need_one_of({"fer_jrg_pdgc"});
+  need_one_of({"fer_trg_ac_cpc_pid", "ur10_trg_ac_cpc_pid"});
   assert_rests_before_a_box(
-      {"TRG -> CPC -> PID", "tau_c = pid.tau\n" + kRoom,
+      {"TRG -> CPC -> PID", "tau_c = pid.tau\n" + room("_jrg_pid"),
        kPoses + pose_control("trg.x_d\nv_d = trg.v_d") + pid("cpc.q_c", "cpc.dq_c")});
 }
 
