@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMeasurement_s = 5.0;
 
-/// What one host made of the same cycles, twice.
+/// Two measurements of the same cycles on one host.
 struct Measurement {
   Histogram ours, theirs;
   std::int64_t missed = 0;

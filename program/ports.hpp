@@ -118,7 +118,7 @@ class SectionPrinter {
   }
 };
 
-/// What a board and its robot offer.
+/// The offer of a board and its robot.
 void print_board(const char* board, const Capabilities& offered);
 /// Every kind of block.
 void print_blocks();

@@ -32,7 +32,7 @@ struct Board {
   int (*scan)(const Options& options) = nullptr;  ///< the verb `scan`, on a board with a bus
   Follower* follower = nullptr;      ///< a second machine that runs the same, if there is one
   WireCounts (*counts)() = nullptr;  ///< after a run; null: its wire counts nothing
-  /// What start-ups have changed in the robot, text `n` from 0; empty behind the last.
+  /// Returns change `n`, from 0, that start-ups made in the robot; empty behind the last.
   Message (*written)(int n) = nullptr;
   Message (*to_home)() = nullptr;  ///< joints that arming homes; null: it homes none
   /// Time constant of the robot's servo for positions, s; null: it is not known.

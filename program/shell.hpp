@@ -1,4 +1,4 @@
-// What a shell says of a program that it was to run.
+// The answer of a shell about a program that it was to run.
 #pragma once
 
 namespace tactus {

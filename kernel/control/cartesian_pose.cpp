@@ -263,7 +263,7 @@ CartesianPose::Task CartesianPose::solve(const Demand& demand, Inverse& inverse,
 }
 
 /// Returns the null-space velocity that moves the free joints towards the posture or, braked, to
-/// rest. The posture of the start moves nobody's elbow while the tip is to stand.
+/// rest. The posture of the start moves no elbow while the tip rests.
 JointVector CartesianPose::posture_velocity(const Task& task, const Inverse& inverse, double dt_s) {
   const JointVector most = kPostureShare * dt_s * params.limits.ddq_max;
   const JointVector& posture = q_posture.wired() ? *q_posture : posture_;

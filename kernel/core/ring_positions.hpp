@@ -12,7 +12,8 @@ namespace tactus {
 template <template <class> class Atomic = std::atomic>
 class RingPositions {
  public:
-  /// Empties the ring and sets its number of rows; nobody else may use it during the call. [init]
+  /// Empties the ring and sets its number of rows; no other thread may use it during the call.
+  /// [init]
   void start(std::uint32_t rows) {
     rows_ = rows;
     head_.store(0, std::memory_order_relaxed);

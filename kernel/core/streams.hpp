@@ -1,4 +1,5 @@
-// Whether a board has streams: chunks of targets, velocities, and the digital outputs beside them.
+// The streams that a board has, if any: chunks of targets, velocities, and the digital outputs
+// beside them.
 #pragma once
 
 #include <type_traits>

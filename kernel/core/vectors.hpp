@@ -16,7 +16,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix3 = Eigen::Matrix<double, 3, 3>;
 
 /// Returns a twist, an acceleration or a wrench: linear part or force above angular part or moment.
-/// Of fixed size throughout, unlike Eigen's comma initializer, which a small build would loop over.
+/// The size is fixed throughout, unlike Eigen's comma initializer, which a small build would loop
+/// over.
 inline Vector6 stacked(const Vector3& linear, const Vector3& angular) {
   Vector6 both;
   both.head<3>() = linear;

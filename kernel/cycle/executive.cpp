@@ -231,7 +231,7 @@ void Executive::log(Cause cause, Status status, const Finding& found, Rung from,
                static_cast<std::int8_t>(found.joint)});
 }
 
-/// What the guard has found.
+/// Returns the joint, value and limit that the guard found.
 Executive::Finding Executive::tripped() const {
   return {guard_.telemetry().tripped_value, guard_.telemetry().tripped_joint};
 }

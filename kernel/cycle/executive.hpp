@@ -89,7 +89,7 @@ class Executive {
   Status latched() const { return latched_; }
 
  private:
-  /// What a cause has found, for the event log.
+  /// The finding of a cause, for the event log.
   struct Finding {
     double value = 0.0;
     int joint = -1;

@@ -8,7 +8,7 @@
 // follow moves within limits and brakes (stopping.hpp), and the joints stay between where they are
 // and where it gets, but for the overshoot of the loop, [collision] lateness and overshoot.
 //
-// Of a body that is inside a box, and of a tool that is the hull of points, the box and the capsule
+// For a body that is inside a box, and a tool that is the hull of points, the box and the capsule
 // around it are looked at first, in closed form; where that proves too little, the bodies
 // themselves (convex.hpp). A cycle tries at most kMostDirections for them; what it could not prove
 // with these counts as a contact.
@@ -111,7 +111,7 @@ class Collision {
     LinkFrame flange;  // its axes, and the middle of the hull, in the frame of the last link
     Solid placed;      // kHull, if the file gives points
   };
-  /// Where the joints follow to: none is farther from it than `error` until it rests.
+  /// The motion that the joints follow: none is farther from it than `error` until it rests.
   struct Reference {
     JointVector q, dq, error;  // rad, rad/s
   };

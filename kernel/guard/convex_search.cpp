@@ -16,7 +16,8 @@ namespace {
 /// on bodies of an arm's size that are some mm apart, in mm it does not.
 constexpr double kScale = 1000.0;
 
-/// What the callbacks of a search share. libccd asks for the point of the first body first.
+/// The data that the callbacks of a search share. libccd asks for the point of the first body
+/// first.
 struct Search {
   const Solid& one;
   const Solid& other;

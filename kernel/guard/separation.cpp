@@ -13,7 +13,7 @@ double part(double x, double y) {
   return p < 0.0 ? 0.0 : p > 1.0 ? 1.0 : p;
 }
 
-/// What is left of x beyond a box of half size h.
+/// Returns the part of x that is beyond a box of half size h.
 double beyond(double x, double h) {
   return x > h ? x - h : x < -h ? x + h : 0.0;
 }

@@ -52,7 +52,7 @@ class Ini {
 
 /// False if the line contains a control character; UTF-8 is allowed. [any]
 bool is_text(std::string_view line);
-/// What is said of a line that is not.
+/// The message about a line that contains one.
 inline constexpr const char* kNotText =
     "the line contains bytes that are not text; save the file as UTF-8, its line ends those of "
     "Linux or Windows";

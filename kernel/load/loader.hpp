@@ -10,9 +10,9 @@
 
 namespace tactus {
 
-/// What the memory of the kernel's types depends on. It is an argument of Loader::load(), so that a
-/// program for another robot, or with another number of targets, than the library that it links
-/// with has no such function: the linker's message names both.
+/// The switches on which the memory of the kernel's types depends. It is an argument of
+/// Loader::load(), so that a program for another robot, or with another number of targets, than the
+/// library that it links with has no such function: the linker's message names both.
 template <class OfRobot, int chunk_targets>
 struct Layout {};
 using OwnLayout = Layout<Robot, kChunkTargets>;

@@ -23,7 +23,7 @@ Status judge_block(const Kind& block, double period_s) {
     return block.judge();
 }
 
-/// What is to be done about parameters that do not fit together.
+/// The remedy for parameters that do not fit together.
 const char* remedy(Status status) {
   switch (status) {
     case Status::kUnstableGain:

@@ -38,7 +38,7 @@ class ParameterBook {
   /// Reads a set. Refused: `error` has section, key and reason, and nothing has changed. Otherwise
   /// tuning() is it until commit() or drop(). [init]
   Status prepare(const ParameterText* set, int count, LoadError& error);
-  /// What Pipeline::retune() is to be given.
+  /// The argument of Pipeline::retune().
   const Tuning& tuning() const { return tuning_; }
   /// The cycle has taken the set. [init]
   void commit() { copy(Copy::kNext, Copy::kPresent); }

@@ -2,9 +2,9 @@
 // section and binds its inputs to the outputs above it. It keeps the first mistake as the error and
 // then stops reading.
 //
-// A key that nobody reads, a typing mistake, is refused before anything else in its section, and so
-// is one that is given twice, unless it is one of lines(). For that the same visitor passes the
-// names once for every key, to find it among them:
+// A key that no section reads, a typing mistake, is refused before anything else in its section,
+// and so is one that is given twice, unless it is one of lines(). For that the same visitor passes
+// the names once for every key, to find it among them:
 //
 //   while (reader.next()) settings.describe(reader);
 #pragma once

@@ -10,7 +10,7 @@
 namespace tactus {
 
 struct Tuning {
-  /// Of each block a copy of its kind with the new parameters; null: it keeps its own.
+  /// A copy of each block with the new parameters; null: it keeps its own.
   std::array<const void*, kMaxBlocks> copies{};
 };
 

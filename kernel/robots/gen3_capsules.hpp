@@ -35,7 +35,7 @@ struct Capsules<Gen3> {
   }};
   // clang-format on
 
-  /// What is no neighbour touches in few positions.
+  /// Links that are no neighbours touch in few positions.
   static constexpr std::array<LinkPair, 0> kTouching = {};
 
   /// The joints between these capsules do not bend so far that they meet.

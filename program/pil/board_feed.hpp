@@ -34,7 +34,7 @@ class FileFeed {
   bool at_end_ = false, whole_ = false;
 };
 
-/// Of either space; idle until a trajectory begins.
+/// A trajectory of either space; idle until a trajectory begins.
 class BoardFeed {
  public:
   bool begin(bool poses, BoardClient& board, const char* path, const GatewaySection& gateway,

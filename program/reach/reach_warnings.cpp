@@ -30,7 +30,7 @@ void add_place(Words& text, const Finding& found) {
       found.place.y(), found.place.z());
 }
 
-/// Where the tip stays, and the joint that holds it back.
+/// The pose in which the tip stays, and the joint that holds it back.
 void add_distance(Words& text, const Finding& found) {
   add_place(text, found);
   add(text, "it stays %.3g m and %.3g rad away", found.value, found.angle_rad);

@@ -1,4 +1,4 @@
-// What `tactus check` says of a path of the tip that the arm cannot follow.
+// The words of `tactus check` about a path of the tip that the arm cannot follow.
 #pragma once
 
 #include "program/session/session.hpp"

@@ -19,7 +19,7 @@ class ResultFile {
 
   /// Begins the file at `path` anew. False: prints the reason to stderr.
   bool open(const char* path);
-  /// Where to write; what cannot be written is found by close().
+  /// The stream to write to; close() finds what could not be written.
   std::FILE* stream() const { return stream_; }
   const FilePath& path() const { return path_; }
 

@@ -19,8 +19,8 @@ constexpr const char* kEarlier = "earlier_run";
 constexpr const char *kSummary = "summary.json", *kIncomplete = "incomplete.txt",
                      *kRefusedRun = "refused.txt", *kPipeline = "pipeline.ini";
 
-/// What a run can leave. The summary is the first to be moved or removed: without it nothing is
-/// taken for a run that has ended.
+/// The files that a run can leave. The summary is the first to be moved or removed: without it
+/// nothing is taken for a run that has ended.
 constexpr const char* kResults[] = {
     kSummary,  "summary.json.part", kPipeline,    "scene.json", "waypoints.csv",
     "log.csv", "figure.png",        "figure.pdf", kIncomplete,  kRefusedRun};

@@ -53,7 +53,7 @@ void write_points(std::FILE* file, const Hull& hull, const Vector3& origin) {
   std::fprintf(file, "]");
 }
 
-/// What a box has inside: points in its axes, from its centre, or half the size of a cylinder.
+/// The body inside a box: points in its axes, from its centre, or half the size of a cylinder.
 void write_inside(std::FILE* file, const Convex& body) {
   constexpr const char* kCores[] = {"segment", "box", "cylinder", "hull"};
   std::fprintf(file, ", \"inside\": {\"core\": \"%s\", \"rounding\": %.9g, ",

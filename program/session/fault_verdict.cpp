@@ -12,7 +12,7 @@ constexpr bool kHolds = false;
 template <class Kind>
 constexpr bool kHolds<Kind, std::void_t<decltype(&Kind::held)>> = true;
 
-/// What a block has found of a reference that rests. A generator watches joints, a law the tip.
+/// The finding of a block about a reference that rests. A generator watches joints, a law the tip.
 template <class Kind>
 FaultVerdict held(const Kind& block) {
   if constexpr (kHolds<Kind>)

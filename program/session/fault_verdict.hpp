@@ -1,4 +1,4 @@
-// What the kernel knows of the fault that ended the cycles: joint or axis, value and limit.
+// The fault that ended the cycles, as the kernel knows it: joint or axis, value and limit.
 #pragma once
 
 #include "gateway/verdict_text.hpp"

@@ -9,7 +9,7 @@ struct TrajectoryInput;
 
 class Follower {
  public:
-  /// What is to be run. [init]
+  /// Takes the session that is to be run. [init]
   virtual void prepare(const Session& session) = 0;
   /// The trajectory begins with the next cycle. False: refused; prints the reason to stderr.
   virtual bool begin(const TrajectoryInput& input) = 0;

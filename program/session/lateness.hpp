@@ -22,8 +22,8 @@
 
 namespace tactus {
 
-/// What is not modelled by the law, kg m^2: the rotor seen at the joint. The figure that the plants
-/// take (sim_plant/arm/plant_params.hpp).
+/// The inertia that the model lacks, kg m^2: the rotor seen at the joint. The figure that the
+/// plants take (sim_plant/arm/plant_params.hpp).
 inline constexpr double kRotorInertia = 0.1;
 
 /// Returns the lateness, s, of a joint of `inertia` > 0, kg m^2, under `kp` and `kd` > 0. [init]

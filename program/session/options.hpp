@@ -11,7 +11,7 @@ enum class Verb : std::uint8_t { kRun, kCheck, kPorts, kDoctor, kJitter, kScan, 
 /// Exit codes of every program.
 enum ExitCode : int { kSucceeded = 0, kEndedOtherwise = 1, kRefused = 2 };
 
-/// What stress-ng loads while `jitter` measures.
+/// The load by stress-ng while `jitter` measures.
 struct Load {
   bool cpu = false, memory = false, disk = false;
 

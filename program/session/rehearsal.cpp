@@ -96,7 +96,7 @@ double TrajectoryRehearsal::time_s() const {
   return static_cast<double>(cycle_) * session_.pipeline.robot.period_s();
 }
 
-/// Whether the file states such an end; kOk: no stop. Prints a note if it states another.
+/// Returns true if the file states such an end (kOk: no stop). Prints a note if it states another.
 bool TrajectoryRehearsal::stated(Status status) {
   Pipeline& pipeline = session_.pipeline;
   StopExpectation stop;

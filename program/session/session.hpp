@@ -37,7 +37,7 @@ struct Session {
   const ExpectSection& expect;
   Follower* follower = nullptr;      ///< null: there is none
   WireCounts (*counts)() = nullptr;  ///< null: its wire counts nothing
-  /// What start-ups have changed in the robot, text `n` from 0; null: they change nothing.
+  /// Returns change `n`, from 0, that start-ups made in the robot; null: they make none.
   Message (*written)(int n) = nullptr;
   Message (*to_home)() = nullptr;        ///< null: arming homes no joint
   const Following* following = nullptr;  ///< how the joints follow; null: at once

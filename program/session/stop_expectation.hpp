@@ -21,7 +21,7 @@ class StopExpectation {
 
   bool stated() const { return !first_.empty(); }
   bool met() const { return !stated() || met_; }
-  /// What was seen and what is stated, for people.
+  /// The end that was seen, and the one that is stated, for people.
   const Message& seen() const { return seen_; }
   Message expected() const { return Message("a stop ") << before(first_, second_); }
   /// The two names, as they are stated.
