@@ -51,6 +51,7 @@ void Collision::start(const CollisionSection& section, const JointLimits& limits
   if (reference == nullptr) braking_.reaction_s += section.lateness.maxCoeff();
   lateness_ = section.lateness;
   overshoot_ = section.overshoot;
+  section_ = &section;
   period_s_ = period_s;
   followed_ = reference;
   telemetry_ = {};
@@ -113,9 +114,10 @@ void Collision::forget() {
   for (Pair& pair : pairs_) pair.credit = kNoCredit;
 }
 
-Status Collision::check(const RobotState& measured) {
+Status Collision::check(const RobotState& measured, const Vector3& gravity) {
   if (scene_ == nullptr) return Status::kNotStarted;
   begin_anew();
+  gravity_ = &gravity;
   constexpr int kEnough = 1 << 20;
   directions_ = kEnough;
   Status status = advance(measured);
@@ -124,6 +126,7 @@ Status Collision::check(const RobotState& measured) {
     positions.tick();
     status = advance(measured);
   }
+  gravity_ = nullptr;
   return status;
 }
 
@@ -174,6 +177,22 @@ void Collision::follow(const RobotState& measured) {
     reference_.dq[i] = velocity;
     const double lag = std::abs(q_[i] - position);
     reference_.error[i] = 0.5 * lag + lateness_[i] * std::abs(measured.dq[i]) + overshoot_[i] * lag;
+  }
+  if (next_ == 0 && gravity_ != nullptr) give_way();
+}
+
+/// Between here and there is the arm after its drives are enabled: the payload that its law does
+/// not know pulls at the tip.
+void Collision::give_way() {
+  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(q_));
+  const Vector3 tip = frames.back().at(bodies_.back().shape.b);
+  const Vector3 weight = section_->unknown_payload * *gravity_;
+  for (int i = 0; i < kDof; ++i) {
+    const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
+    const double pull = weight.dot(joint.r.col(2).cross(tip - joint.p));
+    const double way = section_->compliance[i] * pull;
+    reference_.q[i] += 0.5 * way;
+    reference_.error[i] += 0.5 * std::abs(way);
   }
 }
 

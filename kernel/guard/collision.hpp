@@ -77,8 +77,9 @@ class Collision {
   Status step(const RobotState& measured);
 
   /// Does a whole check of a state and of the boxes as they are now, without credit, instead of the
-  /// one that is under way. Returns as step(). [init]
-  Status check(const RobotState& measured);
+  /// one that is under way. As its drives are enabled, the arm gives way to `unknown_payload` under
+  /// `gravity`, m/s^2 in the base frame. Returns as step(). [init]
+  Status check(const RobotState& measured, const Vector3& gravity);
 
   const Telemetry& telemetry() const { return telemetry_; }
 
@@ -123,6 +124,7 @@ class Collision {
   bool is_allowed(int first, int second) const;
   void forget();
   void follow(const RobotState& measured);
+  [[gnu::cold]] void give_way();
   void travel(const JointVector& q);
   Status advance(const RobotState& measured);
   Status look_now();
@@ -146,6 +148,8 @@ class Collision {
   int positions_ = 0;  // looked at in a cycle
   Braking braking_;
   JointVector lateness_, overshoot_;
+  const CollisionSection* section_ = nullptr;
+  const Vector3* gravity_ = nullptr;  // m/s^2, while the arm is armed
   double period_s_ = 0.0;
   const JointVector* followed_ = nullptr;
   JointVector last_followed_ = JointVector::Zero();

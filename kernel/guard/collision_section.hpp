@@ -47,6 +47,8 @@ struct CollisionSection {
   /// which share of a step of the reference it overshoots. NaN: not known, a contact.
   JointVector lateness = JointVector::Constant(kRequired);
   JointVector overshoot = JointVector::Constant(kRequired);
+  /// By how much each joint gives way to a torque that the law does not know, rad/(N m).
+  JointVector compliance = JointVector::Constant(kRequired);
   double unknown_payload = 0.0;                 ///< kg at the tip, unknown to a law of torques
   JointVector braking = JointLimits().ddq_max;  ///< each joint's, braked at once, rad/s^2
   Value allow;                                  ///< "tool table, link7 table"
@@ -64,7 +66,8 @@ struct CollisionSection {
                   "x y z, x y z: of the tool's hull, in the flange frame, m");
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
     visit.optional("lateness", lateness, Range{0.0, 1.0}, "s");
-    visit.optional("overshoot", overshoot, Range{0.0, 1.0}, "");
+    visit.optional("overshoot", overshoot, Range{0.0, 1.0}, "1");
+    visit.optional("compliance", compliance, Range{0.0, 10.0}, "rad/(N m)");
     visit.param("unknown_payload", unknown_payload, Range{0.0, 100.0}, "kg");
     visit.limit("braking", braking, "rad/s^2");
     visit.text("allow", allow, "pairs that may touch: tool table, link7 table");

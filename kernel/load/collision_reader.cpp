@@ -96,6 +96,7 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
   if (collision.tool_points.count() > 0 && ini.find(*section, "tool_radius") == nullptr)
     collision.tool_radius = 0.0;
   const bool given = !collision.lateness.hasNaN(), of_torques = pipeline.robot.tau_c.wired();
+  if (collision.compliance.hasNaN()) collision.compliance.setZero();
   if (!given && !of_torques) collision.lateness.setZero();
   if (collision.overshoot.hasNaN())
     collision.overshoot.setConstant(given || of_torques ? 1.0 : 0.0);

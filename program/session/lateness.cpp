@@ -67,11 +67,11 @@ double least_error(double m, double kp, double kd, double begin, double slope) {
 }  // namespace
 
 double lateness(double inertia, double kp, double kd) {
-  return -least_error(inertia, kp, kd, 0.0, -1.0);
+  return std::abs(least_error(inertia, kp, kd, 0.0, -1.0));
 }
 
 double overshoot(double inertia, double kp, double kd, bool takes_velocity) {
-  return -least_error(inertia, kp, kd, 1.0, takes_velocity ? -kd / inertia : 0.0);
+  return std::abs(least_error(inertia, kp, kd, 1.0, takes_velocity ? -kd / inertia : 0.0));
 }
 
 JointVector largest_inertia(const Tool& tool, double payload_kg) {
@@ -111,6 +111,8 @@ Following following(const Pipeline& pipeline, double servo_s) {
     loop.overshoot[i] =
         moves ? overshoot(loop.m[i], loop.kp[i], loop.kd[i], loop.damps_error) : 0.0;
   }
+  if (loop.of_torques)  // it swings
+    loop.compliance = (1.0 + loop.overshoot.array()) / loop.kp.array();
   return loop;
 }
 
@@ -121,6 +123,7 @@ bool settle_lateness(const char* path, std::string_view text, const Following& l
   if (!pipeline.collision.present || ini.parse(text, error) != Status::kOk) return true;
   const IniSection& section = *ini.find("collision");
   if (ini.find(section, "overshoot") == nullptr) pipeline.collision.overshoot = loop.overshoot;
+  if (ini.find(section, "compliance") == nullptr) pipeline.collision.compliance = loop.compliance;
   if (ini.find(section, "lateness") != nullptr) return true;
   pipeline.collision.lateness = loop.lateness_s;
   if (loop.why.empty()) return true;
@@ -144,13 +147,10 @@ void print_key(const char* path, const char* key, const char* unit, const JointV
               : loop.of_torques ? "from gains and largest inertias"
                                 : "of the robot's servo");
   constexpr double kRounded = 0.9;  // of a figure with two digits
-  for (int i = 0; i < kDof && loop.why.empty(); ++i) {
-    if (used[i] >= kRounded * computed[i]) continue;
-    std::fprintf(stderr,
-                 "%s: note: [collision] %s: joint %d: %g%s; by gains and inertia it is %.2g%s\n",
-                 path, key, i + 1, used[i], unit, computed[i], unit);
-    return;
-  }
+  if (!loop.why.empty() || (used.array() >= kRounded * computed.array()).all()) return;
+  std::fprintf(stderr, "%s: note: [collision] %s: by gains and inertia it is", path, key);
+  for (const double value : computed) std::fprintf(stderr, " %.2g", value);
+  std::fprintf(stderr, "%s\n", unit);
 }
 
 }  // namespace
@@ -158,6 +158,8 @@ void print_key(const char* path, const char* key, const char* unit, const JointV
 void print_lateness(const char* path, const Following& loop, const CollisionSection& section) {
   print_key(path, "lateness", " s", section.lateness, loop.lateness_s, loop);
   print_key(path, "overshoot", "", section.overshoot, loop.overshoot, loop);
+  if (section.unknown_payload > 0.0)
+    print_key(path, "compliance", " rad/(N m)", section.compliance, loop.compliance, loop);
 }
 
 }  // namespace tactus

@@ -46,6 +46,7 @@ struct Following {
   bool of_torques = false;                             ///< not a servo of the robot
   JointVector lateness_s = JointVector::Zero();        ///< NaN: not known
   JointVector overshoot = JointVector::Constant(1.0);  ///< the worst, where it is not known
+  JointVector compliance = JointVector::Zero();        ///< rad/(N m), to a torque at once
   Message why;                                         ///< it is not known
 };
 
@@ -53,8 +54,8 @@ struct Following {
 /// servo for positions and velocities, s; 0 also: not known. [init]
 Following following(const Pipeline& pipeline, double servo_s);
 
-/// Gives [collision] the lateness and overshoot of the loop where the file gives none. Prints why
-/// not, with path and line, and returns false, if the lateness is not known. [init]
+/// Gives [collision] lateness, overshoot and compliance of the loop where the file gives none.
+/// Prints why not, with path and line, and returns false, if the lateness is not known. [init]
 bool settle_lateness(const char* path, std::string_view text, const Following& loop,
                      Pipeline& pipeline);
 

@@ -48,6 +48,8 @@ inline void add_gains(const Pid& law, TorqueLaw& found) {
   found.kp = params.gains.kp;
   found.kd = params.gains.kd;
   found.damps_error = params.derivative == Derivative::kError;
+  if (!found.damps_error && !params.gains.ki.isZero(0.0))
+    found.nonlinear = "its integral makes up for kd on the measurement";
   if (!(found.kp.array() > 0.0).all()) found.nonlinear = "kp is 0";
   if (!(found.kd.array() > 0.0).all()) found.nonlinear = "kd is 0";
   if (!params.derivative_time_constant.isZero(0.0)) found.nonlinear = "it filters the derivative";

@@ -20,6 +20,7 @@ void collision_check(benchmark::State& bench) {
   static CollisionSection section;
   section.lateness.setZero();
   section.overshoot.setZero();
+  section.compliance.setZero();
   section.scene = CollisionScene();
   for (const Cuboid& box : boxes) {
     section.scene.boxes[static_cast<std::size_t>(section.scene.box_count())] = &box;
@@ -34,7 +35,7 @@ void collision_check(benchmark::State& bench) {
       random.next();
       state.q = random.q;
       state.dq = 0.3 * random.dq;
-    } while (collision.check(state) != Status::kOk);
+    } while (collision.check(state, {0.0, 0.0, -9.81}) != Status::kOk);
   }
   std::size_t i = 0;
   for (auto _ : bench) benchmark::DoNotOptimize(collision.step(states[i++ % kStates]));

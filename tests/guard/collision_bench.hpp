@@ -20,6 +20,7 @@ struct CollisionBench {
   static constexpr double kPeriod_s = 0.001;
   static constexpr int kBoxes = 2;
   Vector3 tip = {0.03, -0.02, 0.12};
+  Vector3 gravity = {0.0, 0.0, -kGravity_m_s2};
   std::array<Cuboid, kBoxes> boxes;
   CollisionSection section;
   JointLimits limits;
@@ -36,6 +37,7 @@ struct CollisionBench {
     section.cycles = 2;
     section.lateness.setZero();
     section.overshoot.setZero();
+    section.compliance.setZero();
   }
   void add_box(const char* name, const Cuboid& box) {
     CollisionScene& scene = section.scene;
@@ -50,7 +52,9 @@ struct CollisionBench {
   void start(const JointVector* reference = nullptr) {
     collision.start(section, limits, tip, kPeriod_s, reference);
   }
-  Status check(const JointVector& q, const JointVector& dq) { return collision.check(at(q, dq)); }
+  Status check(const JointVector& q, const JointVector& dq) {
+    return collision.check(at(q, dq), gravity);
+  }
   Status step(const JointVector& q, const JointVector& dq) { return collision.step(at(q, dq)); }
   int body(const char* name) const {
     for (int i = 0; i < section.scene.body_count; ++i)

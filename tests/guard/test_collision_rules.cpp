@@ -133,7 +133,8 @@ void what_is_not_finite_is_no_pass(void**) {
     ASSERT_STATUS(bench.check(huge * ready_pose(), JointVector::Zero()), Status::kCollision);
     ASSERT_STATUS(bench.check(ready_pose(), JointVector::Constant(huge)), Status::kCollision);
   }
-  for (JointVector* key : {&bench.section.lateness, &bench.section.overshoot})
+  for (JointVector* key :
+       {&bench.section.lateness, &bench.section.overshoot, &bench.section.compliance})
     for (double& value : *key) {  // nobody has said it
       key->setZero();
       value = std::nan("");

@@ -72,13 +72,14 @@ struct Step {
 
 class Trial {
  public:
-  Trial(const Chain& chain, std::uint64_t seed) : chain_(chain), random_(seed) {
+  /// The box is on the way to the first point; near an arm that `holds`.
+  Trial(const Chain& chain, std::uint64_t seed, bool holds = false) : chain_(chain), random_(seed) {
     oracle_.tip = Vector3::Zero();
     for (Cuboid& box : oracle_.boxes)
       box = {{{9.0, 9.0, 9.0}, {1.0, 0.0, 0.0, 0.0}}, {0.1, 0.1, 0.1}};
     from_ = free_posture(posture());
     plan();
-    place_box();
+    holds ? place_box(0.0, 0.0, 0.011) : place_box(0.3, 1.0, 0.05);
     payload_kg_ = uniform(0.0, chain.payload_kg);
   }
   /// Returns false if no arm could be armed here.
@@ -99,6 +100,11 @@ class Trial {
       static_cast<void>(cycle());
     look();
     return status;
+  }
+  /// Holds the arm where it is.
+  void hold() {
+    while (bench_->time_s() < 1.0) static_cast<void>(cycle());
+    look();
   }
   double nearest() const { return nearest_; }  ///< m, of the box, since the trial was made or reset
   void forget() { nearest_ = 1.0; }
@@ -134,16 +140,16 @@ class Trial {
     }
     end_s_ = time_s + 1.0;
   }
-  /// On the way to the first point.
-  void place_box() {
+  /// About a share of the way to the first point, and at least so far, m, from the arm.
+  void place_box(double least_share, double largest_share, double distance) {
     Cuboid& box = oracle_.boxes[0];
     do {
-      const JointVector q = from_ + uniform(0.3, 1.0) * (plan_[0].goal - from_);
+      const JointVector q = from_ + uniform(least_share, largest_share) * (plan_[0].goal - from_);
       FclPlace link;
       kdl_link(q.data(), static_cast<int>(uniform(3.0, kDof + 0.99)), link.p, link.r);
       for (int i = 0; i < 3; ++i) box.pose.p[i] = link.p[i] + uniform(-0.2, 0.2);
       for (double& edge : box.size) edge = uniform(0.02, 0.2);
-    } while (to_box(from_) < 0.05);
+    } while (to_box(from_) < distance);
   }
   std::string text(bool checked) const {
     std::string q;
@@ -272,6 +278,29 @@ void torques_to_poses(void**) {
        kPoses + pose_control("trg.x_d\nv_d = trg.v_d") + pid("cpc.q_c", "cpc.dq_c")});
 }
 
+// Proves COL-16.
+
+/// The load pulls when the drives are enabled. No brake helps then: near a box the arm is not
+/// armed.
+void an_unknown_load_that_pulls_at_once(void**) {
+  const Chain chain = {"JRG -> PD, 2.5 kg", "tau_c = pd.tau\n" + room("_jrg_pdgc"), kJoints + pd(),
+                       2.5};
+  int armed = 0, refused = 0;
+  for (int seed = 0; seed < trials(tries(60, 10)); ++seed) {
+    static std::optional<Trial> trial;
+    trial.emplace(chain, static_cast<std::uint64_t>(seed), true);
+    if (!trial->begin(true)) {
+      ++refused;
+      continue;
+    }
+    ++armed;
+    trial->hold();
+    assert_true(trial->nearest() > kMargin);
+  }
+  print_message("%d armed, %d not\n", armed, refused);
+  assert_true(armed > 5 && refused > 5);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -286,6 +315,7 @@ int main() {
       cmocka_unit_test(torques_with_a_velocity),
       cmocka_unit_test(torques_of_an_unknown_load),
       cmocka_unit_test(torques_to_poses),
+      cmocka_unit_test(an_unknown_load_that_pulls_at_once),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

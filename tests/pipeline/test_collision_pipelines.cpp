@@ -29,6 +29,7 @@ void assert_free(const Run& run) {
     section.cycles = pipeline.robot.period_us > 4000 ? 1 : 5;
     section.lateness.setZero();
     section.overshoot.setZero();
+    section.compliance.setZero();
     reference = nullptr;
   }
   Collision collision;
@@ -69,6 +70,7 @@ void the_excitation_is_free(void**) {
   CollisionSection section;
   section.lateness.setZero();
   section.overshoot.setZero();
+  section.compliance.setZero();
   collision.start(section, JointLimits(), Vector3::Zero(), 0.001);
   // Comments, then the header: time_s, q1_rad ... q7_rad, dq1_rad_s ...
   char line[512] = "";

@@ -129,12 +129,12 @@ void check_says_the_lateness_and_where_it_is_from(void**) {
   assert_true(number_after(output(), "overshoot = ") < 0.1);
   assert_int_equal(check({kPipeline, kSection, "unknown_payload = 3\n"}), 0);
   assert_true(number_after(output(), "lateness = ") > computed_s);
+  assert_true(number_after(output(), "compliance = ") > 0.001);
   assert_int_equal(check({kPipeline, kSection, "lateness = 0.2\n"}), 0);
   assert_true(has(output(), "lateness = 0.2 0.2 0.2 0.2 0.2 0.2 0.2 s, as the file gives it"));
   assert_false(has(errors(), "[collision] lateness"));
   assert_int_equal(check({kPipeline, kSection, "lateness = 0\n"}), 0);
-  assert_true(
-      has(errors(), "note: [collision] lateness: joint 1: 0 s; by gains and inertia it is"));
+  assert_true(has(errors(), "note: [collision] lateness: by gains and inertia it is 0.0"));
 }
 
 void what_is_not_known_has_to_be_given(void**) {
@@ -144,6 +144,10 @@ void what_is_not_known_has_to_be_given(void**) {
   assert_int_equal(check({text.c_str(), kSection}), 2);
   assert_true(has(errors(), "lateness.ini:28: [collision] lateness: missing; "));
   assert_true(has(errors(), "[pd]: it filters the derivative"));
+  text.replace(text.find("ki = 0"), 6, "ki = 1\nderivative = measurement");
+  text.erase(text.find("derivative_time"), sizeof "derivative_time_constant = 0.01");
+  assert_int_equal(check({text.c_str(), kSection}), 2);
+  assert_true(has(errors(), "[pd]: its integral makes up for kd on the measurement"));
   assert_int_equal(check({text.c_str(), kSection, "lateness = 0.1\n"}), 0);
   assert_int_equal(check({kWithoutGenerator, kSection}), 2);
   assert_true(has(errors(), "no pd_gravity and no pid gives the torque"));
