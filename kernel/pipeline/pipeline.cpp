@@ -87,7 +87,8 @@ Status Pipeline::start(const RobotState& measured) {
   TRY(for_each_block([this](auto& block) { return start_block(block, robot.period_s()); }));
   collision_check.start(collision, guard.effective(), robot.tool.value.tip.p, robot.period_s(),
                         reference());
-  return collision.present ? collision_check.check(measured, robot.tool.value.gravity) : Status::kOk;
+  return collision.present ? collision_check.check(measured, robot.tool.value.gravity)
+                           : Status::kOk;
 }
 
 bool Pipeline::at_rest() const {

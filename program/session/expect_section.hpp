@@ -15,7 +15,7 @@ struct ExpectSection {
   double average_s = 0.5;  ///< time constant of the average; noise does not count as contact
   /// Largest tracking error of a joint and of the tip's position; 0: not stated.
   double tracking_rad = 0.0, tracking_m = 0.0;
-  Value collision_stop;  ///< "tool table": before these two meet, the arm is stopped
+  Text<63> collision_stop;  ///< "tool table": before these two meet, the arm is stopped
 
   /// True if a bound of the force can fail. [any]
   bool states_force() const { return contact_force_min > 0.0 || contact_force_max < 1e4; }
