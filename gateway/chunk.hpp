@@ -12,7 +12,7 @@
 
 #include <array>
 
-#include "kernel/reference/motion/chunk.hpp"
+#include "kernel/streams/chunk.hpp"
 
 namespace tactus {
 

@@ -8,8 +8,8 @@
 #include "gateway/chunk.hpp"
 #include "gateway/part_account.hpp"
 #include "gateway/state_history.hpp"
-#include "kernel/reference/generator/messages.hpp"
 #include "kernel/reference/motion/admission_room.hpp"
+#include "kernel/streams/stream_messages.hpp"
 
 namespace tactus {
 

@@ -7,9 +7,9 @@
 #pragma once
 
 #include "hal/net/protocol_bytes.hpp"
-#include "kernel/reference/generator/messages.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/stream_messages.hpp"
 
 namespace tactus {
 

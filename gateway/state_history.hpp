@@ -5,7 +5,7 @@
 #include <array>
 
 #include "kernel/reference/generator/feedback.hpp"
-#include "kernel/reference/motion/chunk.hpp"
+#include "kernel/streams/chunk.hpp"
 
 namespace tactus {
 

@@ -2,9 +2,9 @@
 // at most one for each space.
 #pragma once
 
-#include "kernel/reference/generator/messages.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/stream_messages.hpp"
 
 namespace tactus {
 

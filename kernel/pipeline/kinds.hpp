@@ -13,9 +13,9 @@
 #include "kernel/control/wrench_front_end.hpp"
 #include "kernel/guard/obstacle.hpp"
 #include "kernel/model/robot_model.hpp"
-#include "kernel/reference/generator/frame.hpp"
-#include "kernel/reference/generator/joint_reference_generator.hpp"
-#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "kernel/reference/blocks/frame.hpp"
+#include "kernel/reference/blocks/joint_reference_generator.hpp"
+#include "kernel/reference/blocks/task_reference_generator.hpp"
 
 namespace tactus {
 

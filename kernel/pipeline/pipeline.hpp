@@ -15,7 +15,7 @@
 #include "kernel/pipeline/settings.hpp"
 #include "kernel/pipeline/timing.hpp"
 #include "kernel/pipeline/tuning.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/streams/generator_streams.hpp"
 
 namespace tactus {
 

@@ -1,7 +1,7 @@
 // The paper's square: task-space generator, Cartesian pose control, ideal servo, with the tip by
 // Orocos KDL. 65 s at 0.033 m/s, quintic from corner to corner; twice around, to stay within reach.
 #include "gateway/reference_client.hpp"
-#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "kernel/reference/blocks/task_reference_generator.hpp"
 #include "tests/control/pose_bench.hpp"
 #include "tests/oracles/kdl.hpp"
 #include "tests/support/testing.hpp"

@@ -2,7 +2,7 @@
 // messages of any content; time passes, connections end, cycles run meanwhile.
 #include "gateway/server/server.hpp"
 #include "kernel/cycle/ladder.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace {

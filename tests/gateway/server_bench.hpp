@@ -7,7 +7,7 @@
 #include "gateway/server/server.hpp"
 #include "kernel/cycle/ladder.hpp"
 #include "kernel/load/loader.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/testing.hpp"
 

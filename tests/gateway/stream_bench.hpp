@@ -10,7 +10,7 @@
 
 #include "gateway/trajectory_stream.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/testing.hpp"
 

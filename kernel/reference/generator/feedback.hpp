@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "kernel/core/mailbox.hpp"
-#include "kernel/reference/motion/chunk.hpp"
+#include "kernel/core/streams.hpp"
 #include "kernel/reference/motion/path_progress.hpp"
 #include "kernel/reference/space/interpolation.hpp"
 

@@ -1,19 +1,18 @@
 // The messages between a client and a reference generator. Every request and every control gets
-// exactly one final report.
+// exactly one final report. On a board with streams, kernel/streams/stream_messages.hpp completes
+// them.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
 
-#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/mailbox.hpp"
+#include "kernel/core/streams.hpp"
 #include "kernel/core/verdict.hpp"
 #include "kernel/reference/generator/feedback.hpp"
 #include "kernel/reference/motion/admission_settings.hpp"
-#include "kernel/reference/motion/chunk.hpp"
 #include "kernel/reference/motion/trajectory.hpp"
-#include "kernel/reference/motion/velocity.hpp"
 
 namespace tactus {
 
@@ -25,19 +24,11 @@ enum class RequestKind : std::uint8_t {
   kVelocity,    ///< move at a velocity
 };
 
-/// What comes with a point on a board with streams.
-struct PointDetails {
-  DigitalOutputs outputs;     ///< set when it takes effect
-  double stamp_s = kNoStamp;  ///< when it was made, s, by a clock of its sender
-  std::uint64_t sender = 0;   ///< a point of another one continues no stream
-};
-
-/// What a request has besides on a board with streams.
+// Of kernel/streams.
 template <class Space>
-struct StreamRequest {
-  Velocity<Space> velocity;  ///< kVelocity
-  PointDetails details;      ///< kPoint
-};
+struct ChunkStores;
+template <class Space>
+struct StreamRequest;
 
 template <class Space>
 struct Request : OnlyWithStreams<StreamRequest<Space>> {
@@ -137,7 +128,7 @@ inline constexpr std::size_t kReportsPerRequest = 10;
 /// The messages and stores between one client and one reference generator. The board owns it, with
 /// its mailboxes, as a ChannelMemory.
 template <class Space>
-struct ReferenceChannel : ChunkStores<Space> {
+struct ReferenceChannel : OnlyWithStreams<ChunkStores<Space>> {
   ReferenceChannel(MessageQueue<Request<Space>>& its_requests, MessageQueue<Report>& its_reports,
                    FeedbackQueue<Space>& its_feedback)
       : requests(its_requests), reports(its_reports), feedback(its_feedback) {}

@@ -3,15 +3,17 @@
 // each with exactly one final report.
 //
 // Its state is the phase of its motion (motion_phase.hpp), a trajectory that may wait for its start
-// time, and the reason for which it refuses everything while the executive brakes.
+// time, and the reason for which it refuses everything while the executive brakes. On a board with
+// streams, kernel/streams completes it: requests of streams, and what they leave behind.
 #pragma once
 
 #include "kernel/core/brake.hpp"
+#include "kernel/core/digital_outputs.hpp"
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/generator/epoch_gate.hpp"
+#include "kernel/reference/generator/feedback.hpp"
+#include "kernel/reference/generator/messages.hpp"
 #include "kernel/reference/generator/tolerance_monitor.hpp"
 #include "kernel/reference/motion/motion.hpp"
-#include "kernel/reference/motion/output_delay.hpp"
 
 namespace tactus {
 
@@ -46,21 +48,9 @@ struct MotionState {
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
-/// The account of points, chunks and velocities.
+// Of kernel/streams.
 template <class Space>
-struct StreamAccount {
-  EpochGate gate;
-  std::uint32_t id = 0;      ///< the last one that took effect
-  bool expired = false;      ///< no successor came in time, and the client was told
-  bool saturates = false;    ///< the client was told that points are beyond a range
-  std::uint64_t sender = 0;  ///< of the last point
-  /// Time in which a point still counts as a successor of one that was refused for its step.
-  double step_s = 0.0;
-  bool approaches = false;  ///< the reference is on its way to such a successor
-  /// Kept as they are by every stop. A start commands none, so that none that people have changed
-  /// in the meantime changes back.
-  OutputDelay outputs;
-};
+struct StreamAccount;
 
 template <class Space>
 class ReferenceGenerator {
@@ -144,6 +134,7 @@ class ReferenceGenerator {
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
   void take_append(const Request<Space>& request);
+  void take_other(const Request<Space>& request);
   void take_stream(const Request<Space>& request);
   void take_chunk(const Request<Space>& request);
   Verdict judge_targets(const ChunkCurve<Space>& chunk, Verdict& told) const;

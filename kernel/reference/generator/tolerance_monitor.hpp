@@ -6,7 +6,8 @@
 #include <array>
 #include <cstddef>
 
-#include "kernel/reference/generator/messages.hpp"
+#include "kernel/core/verdict.hpp"
+#include "kernel/reference/motion/trajectory.hpp"
 
 namespace tactus {
 

@@ -6,18 +6,32 @@
 // the reference from a new base at its beginning; the state-to-state law takes it to zero
 // (offset_law.hpp), and then the reference equals the base bit by bit. The difference in
 // feed-forward fades out.
+//
+// On a board with streams, kernel/streams completes it: what moves the base in the phases of
+// streams, and the members that begin them.
 #pragma once
 
-#include "kernel/reference/motion/approach.hpp"
-#include "kernel/reference/motion/chunk_plan.hpp"
+#include <array>
+
+#include "kernel/core/streams.hpp"
 #include "kernel/reference/motion/motion_phase.hpp"
 #include "kernel/reference/motion/path.hpp"
 #include "kernel/reference/motion/path_law.hpp"
 #include "kernel/reference/motion/path_progress.hpp"
 #include "kernel/reference/motion/point_stream.hpp"
-#include "kernel/reference/motion/velocity.hpp"
 
 namespace tactus {
+
+// Of kernel/streams.
+template <class Space>
+struct ChunkCurve;
+template <class Space>
+class ChunkPlan;
+template <class Space>
+struct MotionStreams;
+template <class Space>
+struct Velocity;
+struct PassedOutputs;
 
 template <class Space>
 class Motion {
@@ -92,9 +106,9 @@ class Motion {
   bool silent() const { return phase_ == Phase::kReaching && stream_.silent(time_s_); }
   bool gives_velocity() const { return stream_.gives_velocity(); }
   /// The chunks it goes along with; none outside the phases tracking and expiring.
-  const ChunkPlan<Space>& plan() const { return plan_; }
+  const ChunkPlan<Space>& plan() const;
   /// Hands over the digital outputs of the targets that were passed last. [cyclic]
-  PassedInPeriod take_outputs();
+  std::array<PassedOutputs, 2> take_outputs();
   /// What limits keep the reference off its base.
   const typename Space::Difference& offset() const { return offset_; }
   /// True if no successor of the last chunk or velocity has come in time.
@@ -103,18 +117,13 @@ class Motion {
   double margin_s() const;
 
  private:
-  struct Streamed {
-    Velocity<Space> velocity;
-    Approach<Space> approach;
-  };
-
   /// Feed-forward fades out in this time, or in the period of a stream.
   static constexpr double kFade_s = 0.1;
 
   void tell(MotionEvent event) {
     phase_ = next(phase_, event);
     if constexpr (kStreams) {
-      if (!streams(phase_)) plan_.clear();
+      if (!streams(phase_)) streams_.plan.clear();
     }
   }
   bool streaming() const { return phase_ == Phase::kReaching && stream_.moves(time_s_); }
@@ -151,9 +160,7 @@ class Motion {
   bool paused_ = false, lost_path_ = false;
   double braking_s_ = 0.0;
   PointStream<Space> stream_;  // the base while points are streamed
-  ChunkPlan<Space> plan_;      // the base while chunks are followed
-  OnlyWithStreams<Streamed> streamed_;
-  double velocity_until_s_ = 0.0;
+  OnlyWithStreams<MotionStreams<Space>> streams_;
 
   typename Space::Difference offset_;
   typename Space::Effort effort_;  // feed-forward that fades out

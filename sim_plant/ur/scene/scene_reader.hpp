@@ -13,7 +13,7 @@
 
 #include "kernel/guard/obstacle.hpp"
 #include "kernel/load/section_reader.hpp"
-#include "kernel/reference/generator/frame.hpp"
+#include "kernel/reference/blocks/frame.hpp"
 #include "sim_plant/ur/motion/surroundings.hpp"
 
 namespace tactus::ur {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gateway/reference_client.hpp"
-#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/blocks/joint_reference_generator.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

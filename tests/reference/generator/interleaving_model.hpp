@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "kernel/reference/generator/messages.hpp"
+#include "kernel/streams/stream_messages.hpp"
 
 namespace tactus {
 

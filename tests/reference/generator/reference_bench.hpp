@@ -5,8 +5,8 @@
 #include <array>
 
 #include "gateway/reference_client.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/joint_space.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/support/middle_of_range.hpp"
 #include "tests/support/random.hpp"
 

@@ -3,7 +3,7 @@
 #include "kernel/reference/generator/feedback.hpp"
 
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "kernel/reference/blocks/task_reference_generator.hpp"
 #include "tests/reference/generator/feedback_bench.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // References given in the client's own frames.
-#include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
 

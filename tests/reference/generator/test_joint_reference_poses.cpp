@@ -1,7 +1,7 @@
 // Pose and twist that the joint-space generator puts out: compared with Orocos KDL at seeded
 // joints, with and without a tool, and with each other's derivative along a trajectory.
 #include "gateway/reference_client.hpp"
-#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/blocks/joint_reference_generator.hpp"
 #include "tests/oracles/kdl.hpp"
 #include "tests/support/model_cases.hpp"
 #include "tests/support/rotation_cases.hpp"

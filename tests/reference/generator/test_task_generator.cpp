@@ -1,7 +1,7 @@
 // The task-space reference generator as a block: it starts where the tip is, puts out the
 // references it was given, and neither steps nor breaks a limit whatever is requested at any time.
 #include "gateway/reference_client.hpp"
-#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "kernel/reference/blocks/task_reference_generator.hpp"
 #include "tests/reference/space/task_cases.hpp"
 #include "tests/support/testing.hpp"
 

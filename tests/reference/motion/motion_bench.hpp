@@ -6,9 +6,9 @@
 
 #include "gateway/reference_client.hpp"
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/generator_streams.hpp"
 #include "tests/support/middle_of_range.hpp"
 
 namespace tactus {

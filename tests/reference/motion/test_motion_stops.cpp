@@ -1,5 +1,5 @@
 // Stops on and off the path: their time, and that no joint moves back.
-#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/blocks/joint_reference_generator.hpp"
 #include "tests/reference/motion/checked_motion.hpp"
 
 namespace {

@@ -13,9 +13,9 @@
 #pragma once
 
 #include "kernel/core/digital_outputs.hpp"
-#include "kernel/reference/motion/chunk.hpp"
 #include "kernel/reference/space/offset_law.hpp"
 #include "kernel/reference/space/space.hpp"
+#include "kernel/streams/chunk.hpp"
 
 namespace tactus {
 
@@ -36,8 +36,7 @@ struct PassedOutputs {
 /// Of the last target of a chunk that ends, and of its successor.
 using PassedInPeriod = std::array<PassedOutputs, 2>;
 
-/// `streams` is true, or the class below takes its place.
-template <class Space, bool streams = kStreams>
+template <class Space>
 class ChunkPlan {
  public:
   using Point = typename Space::Point;
@@ -151,8 +150,5 @@ class ChunkPlan {
   PassedTarget passed_target_;
   PassedInPeriod passed_;
 };
-
-template <class Space>
-class ChunkPlan<Space, false> {};
 
 }  // namespace tactus

@@ -1,4 +1,4 @@
-#include "kernel/reference/generator/joint_reference_generator.hpp"
+#include "kernel/reference/blocks/joint_reference_generator.hpp"
 
 #include "kernel/model/forward_kinematics.hpp"
 #include "kernel/reference/space/task_space.hpp"

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "kernel/core/port.hpp"
-#include "kernel/reference/generator/generator_settings.hpp"
-#include "kernel/reference/generator/stream_outputs.hpp"
+#include "kernel/reference/blocks/generator_settings.hpp"
+#include "kernel/reference/blocks/stream_outputs.hpp"
 #include "kernel/reference/space/task_space.hpp"
 
 namespace tactus {

@@ -1,12 +1,12 @@
-#include "kernel/reference/motion/chunk_plan.hpp"
+#include "kernel/streams/chunk_plan.hpp"
 
 #include <algorithm>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/motion/fading_time.hpp"
 #include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/fading_time.hpp"
 
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
@@ -17,9 +17,9 @@ constexpr double kBridged_s = 0.25;
 
 }  // namespace
 
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::install(ChunkCurve<Space>& chunk, const Placement& placement,
-                                        double ahead_s, double now_s) {
+template <class Space>
+void ChunkPlan<Space>::install(ChunkCurve<Space>& chunk, const Placement& placement, double ahead_s,
+                               double now_s) {
   Piece piece = {&chunk, placement, 0.0, ahead_s};
   const double first_s = piece.first_s();
   piece.start_s = std::max(first_s, now_s);
@@ -35,8 +35,8 @@ void ChunkPlan<Space, streams>::install(ChunkCurve<Space>& chunk, const Placemen
   pieces_[count_++] = piece;
 }
 
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::clear() {
+template <class Space>
+void ChunkPlan<Space>::clear() {
   LoopBound<kChunkStores> all;
   while (count_ > 0) {
     all.tick();
@@ -46,8 +46,8 @@ void ChunkPlan<Space, streams>::clear() {
   passed_target_ = {};
 }
 
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::drop_first() {
+template <class Space>
+void ChunkPlan<Space>::drop_first() {
   now().chunk->release();
   --count_;
   LoopBound<kChunkStores> others;
@@ -57,16 +57,15 @@ void ChunkPlan<Space, streams>::drop_first() {
   }
 }
 
-template <class Space, bool streams>
-bool ChunkPlan<Space, streams>::due(double now_s) const {
+template <class Space>
+bool ChunkPlan<Space>::due(double now_s) const {
   const std::size_t next = entered_ ? 1 : 0;
   return count_ > next && pieces_[next].start_s <= now_s;
 }
 
-template <class Space, bool streams>
-typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double now_s,
-                                                       const Point& reference, const Limits& limits,
-                                                       bool fades) {
+template <class Space>
+typename Space::Point ChunkPlan<Space>::enter(double before_s, double now_s, const Point& reference,
+                                              const Limits& limits, bool fades) {
   LoopBound<kChunkStores> begun;
   while (due(now_s)) {
     begun.tick();
@@ -93,9 +92,8 @@ typename Space::Point ChunkPlan<Space, streams>::enter(double before_s, double n
 
 /// Leads to the first knot: from the reference by one quintic, if it `fades` and there is time;
 /// else along the tangent of the curve.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const Limits& limits,
-                                        bool fades) {
+template <class Space>
+void ChunkPlan<Space>::lead_in(double s, const Point& reference, const Limits& limits, bool fades) {
   const Point first = now().knot(0), origin = first.at_rest();
   const double lead_s = now().chunk->first_s() - s;
   Point from = Space::without_held(reference, now().placement);
@@ -113,8 +111,8 @@ void ChunkPlan<Space, streams>::lead_in(double s, const Point& reference, const 
 }
 
 /// Makes the segment of path time s the present one; before the first knot, the first.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::follow(double s) {
+template <class Space>
+void ChunkPlan<Space>::follow(double s) {
   target_ = knot_after(*now().chunk, s);
   const auto to = static_cast<std::size_t>(target_);
   const auto& knots = now().chunk->knots;
@@ -125,8 +123,8 @@ void ChunkPlan<Space, streams>::follow(double s) {
 }
 
 /// Returns the first knot, from the second on, that is later than s; the last if there is none.
-template <class Space, bool streams>
-int ChunkPlan<Space, streams>::knot_after(const ChunkCurve<Space>& chunk, double s) {
+template <class Space>
+int ChunkPlan<Space>::knot_after(const ChunkCurve<Space>& chunk, double s) {
   int before = 0, found = chunk.count - 1;
   LoopBound<8> halvings;  // of 256 knots
   while (found - before > 1) {
@@ -137,17 +135,17 @@ int ChunkPlan<Space, streams>::knot_after(const ChunkCurve<Space>& chunk, double
   return found;
 }
 
-template <class Space, bool streams>
-bool ChunkPlan<Space, streams>::runs_out(double now_s) const {
+template <class Space>
+bool ChunkPlan<Space>::runs_out(double now_s) const {
   if (!entered_ || stops_ || now().chunk->ends) return false;
   const bool succeeded = count_ > 1 && pieces_[1].start_s <= now().end_s() + kTimeRounding_s;
   return !succeeded && now_s - now().zero_s >= now().chunk->brake_s;
 }
 
-template <class Space, bool streams>
-typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Point& base,
-                                                      const Point& reference, const Limits& limits,
-                                                      bool fades) {
+template <class Space>
+typename Space::Point ChunkPlan<Space>::stop(double before_s, const Point& base,
+                                             const Point& reference, const Limits& limits,
+                                             bool fades) {
   const bool slower_at_once = stop_path_time(before_s);
   if (!slower_at_once && !diverges(before_s + stop_.duration())) return base;
   const Point slower = curve(path_time(before_s));
@@ -157,8 +155,8 @@ typename Space::Point ChunkPlan<Space, streams>::stop(double before_s, const Poi
 
 /// True if what is left of the disagreement at `time_s` would still grow: a base that rests by then
 /// would go back.
-template <class Space, bool streams>
-bool ChunkPlan<Space, streams>::diverges(double time_s) const {
+template <class Space>
+bool ChunkPlan<Space>::diverges(double time_s) const {
   const double x = time_s - jump_s_;
   if (!(x < fade_s_)) return false;
   const Difference left = faded(jump_, x / fade_s_, fade_s_);
@@ -167,8 +165,8 @@ bool ChunkPlan<Space, streams>::diverges(double time_s) const {
 
 /// Stops path time at the end of the chunk. From full rate if there is still time for it, else from
 /// a lower one: then returns true, as the base is no longer what it was.
-template <class Space, bool streams>
-bool ChunkPlan<Space, streams>::stop_path_time(double before_s) {
+template <class Space>
+bool ChunkPlan<Space>::stop_path_time(double before_s) {
   const ChunkCurve<Space>& chunk = *now().chunk;
   const double s = before_s - now().zero_s, left_s = std::max(chunk.end_s() - s, 0.0);
   const double rate = std::min(left_s / chunk.brake_way_s, 1.0);
@@ -179,9 +177,8 @@ bool ChunkPlan<Space, streams>::stop_path_time(double before_s) {
   return rate < 1.0;
 }
 
-template <class Space, bool streams>
-typename ChunkPlan<Space, streams>::PathTime ChunkPlan<Space, streams>::path_time(
-    double now_s) const {
+template <class Space>
+typename ChunkPlan<Space>::PathTime ChunkPlan<Space>::path_time(double now_s) const {
   const double end_s = now().chunk->end_s();
   if (!stops_) {
     const double s = now_s - now().zero_s;
@@ -191,8 +188,8 @@ typename ChunkPlan<Space, streams>::PathTime ChunkPlan<Space, streams>::path_tim
   return {std::min(state.p, end_s), std::max(state.v, 0.0), state.a};
 }
 
-template <class Space, bool streams>
-typename Space::Point ChunkPlan<Space, streams>::curve(const PathTime& time) const {
+template <class Space>
+typename Space::Point ChunkPlan<Space>::curve(const PathTime& time) const {
   const double t = std::min(time.s - segment_s_, segment_.duration());
   return segment_.at(t).at_rate(time.rate, time.slope);
 }
@@ -200,9 +197,9 @@ typename Space::Point ChunkPlan<Space, streams>::curve(const PathTime& time) con
 /// Fades the difference from the base, which moves for `lasts_s`. A fade that went on when the
 /// curve has come to rest would take the reference back; in its place the base is the curve at
 /// once.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::fade_in(double before_s, double lasts_s, const Point& reference,
-                                        const Point& base, const Limits& limits, bool fades) {
+template <class Space>
+void ChunkPlan<Space>::fade_in(double before_s, double lasts_s, const Point& reference,
+                               const Point& base, const Limits& limits, bool fades) {
   jump_ = Space::difference(reference, base);
   jump_s_ = before_s;
   seam_ = jump_.x.cwiseAbs().maxCoeff();
@@ -215,8 +212,8 @@ void ChunkPlan<Space, streams>::fade_in(double before_s, double lasts_s, const P
 
 /// Takes the places of the reference, of where it can stop and of the knots ahead, and a little
 /// more than what they span.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::bound(const Point& reference, const Limits& limits) {
+template <class Space>
+void ChunkPlan<Space>::bound(const Point& reference, const Limits& limits) {
   constexpr double kMore = 0.01, kLeast = 1e-6;
   const Point rest = Space::rest_of(reference, limits);
   lowest_ = Space::place(reference).cwiseMin(Space::place(rest));
@@ -233,8 +230,8 @@ void ChunkPlan<Space, streams>::bound(const Point& reference, const Limits& limi
   highest_ += more;
 }
 
-template <class Space, bool streams>
-typename Space::Point ChunkPlan<Space, streams>::move_on(double now_s) {
+template <class Space>
+typename Space::Point ChunkPlan<Space>::move_on(double now_s) {
   const PathTime time = path_time(now_s);
   if (time.s >= segment_end_s_ && target_ < now().chunk->count - 1) follow(time.s);
   const Point point = curve(time);
@@ -242,14 +239,14 @@ typename Space::Point ChunkPlan<Space, streams>::move_on(double now_s) {
   return x < fade_s_ ? Space::sum(point, faded(jump_, x / fade_s_, fade_s_)) : point;
 }
 
-template <class Space, bool streams>
-bool ChunkPlan<Space, streams>::ended(double now_s) const {
+template <class Space>
+bool ChunkPlan<Space>::ended(double now_s) const {
   if (count_ != 1 || !entered_) return count_ == 0;
   return path_time(now_s).rate <= 0.0 && now_s - jump_s_ >= fade_s_;
 }
 
-template <class Space, bool streams>
-double ChunkPlan<Space, streams>::margin_s(double now_s) const {
+template <class Space>
+double ChunkPlan<Space>::margin_s(double now_s) const {
   if (count_ == 0 || stops_) return 0.0;
   const Piece& last = pieces_[count_ - 1];
   return last.chunk->ends ? kInfinity : last.zero_s + last.chunk->brake_s - now_s;

@@ -76,12 +76,10 @@ struct StreamState {
 };
 
 /// The stores of chunks of a channel, and what is told of them.
-template <class Space, bool streams = kStreams>
+template <class Space>
 struct ChunkStores {
   std::array<ChunkCurve<Space>, kChunkStores> chunks;
   StreamState stream;
 };
-template <class Space>
-struct ChunkStores<Space, false> {};
 
 }  // namespace tactus

@@ -2,10 +2,10 @@
 #include <algorithm>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/motion/chunk_plan.hpp"
 #include "kernel/reference/motion/time_rounding.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
+#include "kernel/streams/chunk_plan.hpp"
 
 #if TACTUS_CHUNK_TARGETS > 0
 namespace tactus {
@@ -21,8 +21,8 @@ double ahead_s(const ChunkCurve<Space>& chunk) {
 
 /// The newest chunk whose beginning has come, less its lead, has the outputs; those of the older
 /// ones that are later than its beginning are void.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::pass_outputs(double now_s) {
+template <class Space>
+void ChunkPlan<Space>::pass_outputs(double now_s) {
   std::size_t newest = count_ - 1;
   LoopBound<kChunkStores> waiting;
   while (newest > 0 && now_s + ahead_s(*pieces_[newest].chunk) <
@@ -35,8 +35,8 @@ void ChunkPlan<Space, streams>::pass_outputs(double now_s) {
 
 /// Finds the outputs of the last target of a chunk that is about to be dropped at its end, unless
 /// the next one has them already.
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::pass_last_targets(double now_s) {
+template <class Space>
+void ChunkPlan<Space>::pass_last_targets(double now_s) {
   const ChunkCurve<Space>& next = *pieces_[1].chunk;
   const bool taken_over =
       passed_target_.epoch == next.epoch && passed_target_.sequence == next.sequence;
@@ -44,8 +44,8 @@ void ChunkPlan<Space, streams>::pass_last_targets(double now_s) {
   if (at_end && !taken_over) pass_targets(0, now_s);
 }
 
-template <class Space, bool streams>
-void ChunkPlan<Space, streams>::pass_targets(std::size_t i, double now_s) {
+template <class Space>
+void ChunkPlan<Space>::pass_targets(std::size_t i, double now_s) {
   const Piece& piece = pieces_[i];
   const ChunkCurve<Space>& chunk = *piece.chunk;
   if (chunk.outputs_mask == 0) return;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/core/describe.hpp"
-#include "kernel/reference/generator/reference_generator.hpp"
+#include "kernel/streams/generator_streams.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "kernel/reference/generator/task_reference_generator.hpp"
+#include "kernel/reference/blocks/task_reference_generator.hpp"
 
 namespace tactus {
 
