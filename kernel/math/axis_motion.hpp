@@ -31,10 +31,10 @@ AxisState moved(const AxisState& from, double t, double jerk);
 /// A sequence of phases of constant jerk, followed by motion at constant velocity.
 class AxisPlan {
  public:
-  struct Phase {
+  struct JerkPhase {
     double duration, jerk;
   };
-  static constexpr int kPhases = 12;  ///< most phases of a plan
+  static constexpr int kMostPhases = 12;  ///< most phases of a plan
 
   /// A plan whose duration and states are NaN.
   AxisPlan() = default;
@@ -44,35 +44,35 @@ class AxisPlan {
     p_ = p;
     v_ = v;
     duration_ = 0.0;
-    phases_ = lead_ = 0;
+    phases_ = return_phases_ = 0;
   }
   /// Appends a phase. One not longer than zero is ignored; one too many makes the duration NaN.
   /// [any]
   void append(double duration, double jerk) {
     if (duration <= 0.0) return;
-    duration_ = phases_ < kPhases ? duration_ + duration : kNaN;
-    if (phases_ < kPhases) phase_[static_cast<std::size_t>(phases_++)] = {duration, jerk};
+    duration_ = phases_ < kMostPhases ? duration_ + duration : kNaN;
+    if (phases_ < kMostPhases) phase_[static_cast<std::size_t>(phases_++)] = {duration, jerk};
   }
   /// Sets the end state (p, v, 0). [any]
   void end_at(double p, double v) {
     p_ = p;
     v_ = v;
   }
-  /// Declares the phases appended up to now the lead: the return inside the limits, which stretch()
-  /// keeps. [any]
-  void end_lead() { lead_ = phases_; }
-  /// Removes the phases after the lead. [any]
-  void cut_to_lead();
+  /// Declares the phases appended up to now the return inside the limits, which stretch() keeps.
+  /// [any]
+  void end_return() { return_phases_ = phases_; }
+  /// Removes the phases after the return. [any]
+  void cut_to_return();
 
   /// Returns the state at t >= 0; from the end on exactly {p + v (t - duration), v, 0}. [cyclic]
   AxisState at(double t) const;
   double duration() const { return duration_; }
 
   int phases() const { return phases_; }
-  int lead() const { return lead_; }
-  AxisState after_lead() const;
-  double lead_duration() const;
-  const Phase& phase(int i) const { return phase_[static_cast<std::size_t>(i)]; }
+  int return_phases() const { return return_phases_; }
+  AxisState after_return() const;
+  double return_duration() const;
+  const JerkPhase& phase(int i) const { return phase_[static_cast<std::size_t>(i)]; }
 
  private:
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -80,8 +80,8 @@ class AxisPlan {
   AxisState from_{kNaN, kNaN, kNaN};
   double p_ = kNaN, v_ = kNaN;  // at the end
   double duration_ = kNaN;
-  int phases_ = 0, lead_ = 0;
-  std::array<Phase, kPhases> phase_;
+  int phases_ = 0, return_phases_ = 0;
+  std::array<JerkPhase, kMostPhases> phase_;
 };
 
 /// Plans the shortest motion to (p, v, 0), v clipped to the limits. A state outside the limits
