@@ -44,7 +44,7 @@ Status Admittance::judge() const {
 Status Admittance::start() {
   TRY(judge());
   for (int i = 0; i < 6; ++i) axes_[static_cast<std::size_t>(i)] = axis_of(i);
-  fade_.clear();
+  transfer_.clear();
   period_s_ = 0.0;
   braked_ = false;
   limited.value = false;
@@ -60,8 +60,8 @@ Status Admittance::step(double dt_s) {
   const Matrix3 to_axes = frame().transpose();
   const Vector6 wrench = *h - *h_d;
   const Vector6 force = stacked(to_axes * wrench.head<3>(), to_axes * wrench.tail<3>());
-  fade_.step(dt_s);
-  const Vector6 fading = fade_.value();
+  transfer_.step(dt_s);
+  const Vector6 fading = transfer_.value();
   limited.value = false;
   LoopBound<6> axes;
   for (int i = 0; i < 6; ++i) {
@@ -110,7 +110,7 @@ MassSpringDamper::State Admittance::Axis::bounded(const MassSpringDamper::State&
 
 void Admittance::retune(const Params& next, const JointLimits& /*limits*/) {
   params = next;
-  Vector6 difference = fade_.value();
+  Vector6 difference = transfer_.value();
   for (int i = 0; i < 6; ++i) {
     Axis& axis = axes_[static_cast<std::size_t>(i)];
     const Axis before = axis;
@@ -119,7 +119,7 @@ void Admittance::retune(const Params& next, const JointLimits& /*limits*/) {
     difference[i] += (axis.stiffness - before.stiffness) * axis.state.x +
                      (axis.damping - before.damping) * axis.state.v;
   }
-  fade_.start(difference, kFade_s);
+  transfer_.start(difference, kTransfer_s);
   period_s_ = 0.0;  // the next step computes the coefficients
 }
 

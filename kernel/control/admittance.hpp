@@ -27,7 +27,7 @@
 // max_velocity, when the axis reaches max_displacement.
 //
 // When M, D or K change, e and v stay, and so does the force on the mass: the difference of spring
-// and damper fades (kernel/math/fade.hpp).
+// and damper fades (kernel/math/bumpless_transfer.hpp).
 //
 // When braked, v goes to zero on each axis with half the robot's acceleration limit of the tip,
 // within the same bounds, and e is held there: neither wrench nor spring moves it any more.
@@ -40,7 +40,7 @@
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
-#include "kernel/math/fade.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 #include "kernel/math/mass_spring_damper.hpp"
 
 namespace tactus {
@@ -156,7 +156,8 @@ class Admittance {
   /// True if the displacement does not move. [between two cycles]
   bool at_rest() const;
   /// Changes the tunable parameters: displacement, velocity and the force on each mass go on, and
-  /// what spring and damper exert differently fades in kFade_s. [between two cycles], after a step
+  /// what spring and damper exert differently fades in kTransfer_s. [between two cycles], after a
+  /// step
   void retune(const Params& next, const JointLimits& limits);
 
  private:
@@ -187,7 +188,7 @@ class Admittance {
   std::array<Axis, 6> axes_;  // three translations, three rotations
   double period_s_ = 0.0;     // of the laws
   bool braked_ = false;
-  Fade<Vector6> fade_;  // N and N m, in the compliant axes
+  BumplessTransfer<Vector6> transfer_;  // N and N m, in the compliant axes
 };
 
 }  // namespace tactus

@@ -112,7 +112,7 @@ Status CartesianPose::start(double dt_s) {
   q_c.value = posture_ = *q;
   dq_c.value.setZero();
   posture_dq_.setZero();
-  fade_.clear();
+  transfer_.clear();
   tracking_ = 1.0;
   scale.value = 1.0;
   sigma.value = damping.value = 0.0;
@@ -127,9 +127,9 @@ Status CartesianPose::resume() {
 
 void CartesianPose::retune(const Params& next, const JointLimits& /*limits*/) {
   const Vector6 e = error();
-  const Vector6 before = correction(e) + fade_.value();
+  const Vector6 before = correction(e) + transfer_.value();
   params = next;
-  fade_.start(before - correction(e), kFade_s);
+  transfer_.start(before - correction(e), kTransfer_s);
 }
 
 Status CartesianPose::step(double dt_s) {
@@ -156,9 +156,9 @@ Status CartesianPose::command_velocity(double dt_s, JointVector& dq) {
   run_down(dt_s);
   left_ = leaves(e, dt_s);
 
-  fade_.step(dt_s);
+  transfer_.step(dt_s);
   Vector6 wanted = correction(e);
-  if (fade_.runs()) wanted += fade_.value();
+  if (transfer_.runs()) wanted += transfer_.value();
   const double rate = largest_gain();
   Demand demand{*v_d, wanted, rate > 0.0 ? kBend * length(wanted) / rate : 0.0};
   Inverse inverse(*J, params.damping_onset, demand.floor);

@@ -35,8 +35,8 @@
 //   - a large error is corrected no faster than the joints can brake with half their acceleration;
 //   - JointIntegrator bounds the result: position, velocity, lead, acceleration.
 //
-// When K changes, the difference of the correction fades (kernel/math/fade.hpp); the posture's
-// velocity changes with a bounded acceleration anyway.
+// When K changes, the difference of the correction fades (kernel/math/bumpless_transfer.hpp); the
+// posture's velocity changes with a bounded acceleration anyway.
 //
 // While the reference rests, so does the tip: kSettles_s after x_d has last moved by a quarter of
 // hold_tolerance, e may not differ by more than that from its mean, where a metre counts as a
@@ -55,8 +55,8 @@
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/core/verdict.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 #include "kernel/math/damped_inverse.hpp"
-#include "kernel/math/fade.hpp"
 #include "kernel/math/joint_integrator.hpp"
 
 namespace tactus {
@@ -159,8 +159,8 @@ class CartesianPose {
   /// Lets the joint command go on from where it is; a remaining error fades in again, and the
   /// posture stays that of the start. [init]
   Status resume();
-  /// Changes the tunable parameters: the correction goes on, and its difference fades in kFade_s.
-  /// [between two cycles], after a step
+  /// Changes the tunable parameters: the correction goes on, and its difference fades in
+  /// kTransfer_s. [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
 
   /// Bound of gain times period. An ideal servo without delay is stable below 2 and does not
@@ -194,8 +194,8 @@ class CartesianPose {
   JointVector posture_ = JointVector::Zero();  // joints at start()
   JointVector posture_dq_ = JointVector::Zero();
   bool braked_ = false, at_once_ = false;
-  bool stands_ = false;    // the reference
-  Fade<Vector6> fade_;     // m/s and rad/s, in base axes
+  bool stands_ = false;                 // the reference
+  BumplessTransfer<Vector6> transfer_;  // m/s and rad/s, in base axes
   double tracking_ = 1.0;  // share of the correction; falls when braked, reference at rest
   Pose last_x_d_;
   Pose held_x_d_;                   // where the reference rests

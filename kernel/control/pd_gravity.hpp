@@ -11,7 +11,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
-#include "kernel/math/fade.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 
 namespace tactus {
 
@@ -41,7 +41,7 @@ struct PdGravity {
   /// If the reference is at the measured position and the robot at rest, the first torque is
   /// gravity. [init]
   Status start() {
-    fade_.clear();
+    transfer_.clear();
     return step(0.0);
   }
   /// The torque goes on, with what is left of a change of the gains. [init]
@@ -49,9 +49,9 @@ struct PdGravity {
 
   /// Returns kCommandNotFinite if the torque is not finite. [cyclic]
   Status step(double dt_s) {
-    fade_.step(dt_s);
+    transfer_.step(dt_s);
     tau.value = torque(params);
-    if (fade_.runs()) tau.value += fade_.value();
+    if (transfer_.runs()) tau.value += transfer_.value();
     return tau.value.allFinite() ? Status::kOk : Status::kCommandNotFinite;
   }
   /// No effect: the block has no motion of its own. [cyclic]
@@ -66,7 +66,7 @@ struct PdGravity {
   void retune(const Params& next, const JointLimits& limits) {
     const JointVector difference = tau.value - torque(next);
     params = next;
-    fade_.start(difference, fading_time(difference, limits));
+    transfer_.start(difference, transfer_time(difference, limits));
   }
 
  private:
@@ -74,7 +74,7 @@ struct PdGravity {
     return with.kp.cwiseProduct(*q_d - *q) - with.kd.cwiseProduct(*dq) + *g;
   }
 
-  Fade<JointVector> fade_;
+  BumplessTransfer<JointVector> transfer_;
 };
 
 }  // namespace tactus

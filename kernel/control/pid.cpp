@@ -31,7 +31,7 @@ Status Pid::start() {
   TRY(judge());
   if (!tau_measured->allFinite()) return Status::kCommandNotFinite;
   frozen_ = false;
-  fade_.clear();
+  transfer_.clear();
   const JointVector e = error(params.dead_band), de = error_rate(0.0);
   JointVector integral = JointVector::Zero();
   if (tau_measured.wired()) {
@@ -44,7 +44,7 @@ Status Pid::start() {
 Status Pid::step(double dt_s) {
   const JointVector e = error(params.dead_band), de = filtered(error_rate(dt_s), dt_s);
   const JointVector others = other_terms(params, e, de);
-  fade_.step(dt_s);
+  transfer_.step(dt_s);
   JointVector integral;
   for (int i = 0; i < kDof; ++i) integral[i] = integrated(i, e[i], others[i], dt_s);
   return put_out(e, de, integral);
@@ -67,7 +67,7 @@ Status Pid::put_out(const JointVector& e, const JointVector& de, const JointVect
   q_d_ = *q_d;
   integral_ = integral;
   tau.value = clamped(sum, params.output_limit);
-  if (fade_.runs()) tau.value = clamped(tau.value + fade_.value(), params.output_limit);
+  if (transfer_.runs()) tau.value = clamped(tau.value + transfer_.value(), params.output_limit);
   return Status::kOk;
 }
 
@@ -137,7 +137,7 @@ void Pid::retune(const Params& next, const JointLimits& limits) {
   const JointVector difference = tau.value - clamped(torque(next), next.output_limit);
   params = next;
   e_ = error(next.dead_band);
-  fade_.start(difference, fading_time(difference, limits));
+  transfer_.start(difference, transfer_time(difference, limits));
 }
 
 }  // namespace tactus

@@ -6,7 +6,7 @@
 //
 // The integral is that of Ki e, in N m, by the trapezoidal rule: exact for an error that is linear
 // between samples, and a change of Ki causes no step. When another gain changes, the difference
-// fades (kernel/math/fade.hpp). A velocity that is not wired is the
+// fades (kernel/math/bumpless_transfer.hpp). A velocity that is not wired is the
 // difference of the position. The rate of the error is low-passed with the pole of the continuous
 // filter, exp(-dt/T); the filter is exact for a rate that is constant over the past period, so at
 // every period the response is that of the continuous one to within half a period times the slope
@@ -25,7 +25,7 @@
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
-#include "kernel/math/fade.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 
 namespace tactus {
 
@@ -158,7 +158,7 @@ class Pid {
   JointVector q_ = JointVector::Zero(), q_d_ = JointVector::Zero();
   JointVector integral_ = JointVector::Zero();  // N m
   bool frozen_ = false;
-  Fade<JointVector> fade_;
+  BumplessTransfer<JointVector> transfer_;
 };
 
 }  // namespace tactus

@@ -21,7 +21,7 @@ Status WrenchFrontEnd::start() {
   period_s_ = 0.0;
   last_ = *ft;
   unchanged_ = samples_ = cycles_ = 0;
-  fade_.clear();
+  transfer_.clear();
   request_.end({Status::kNotStarted});
   return check();
 }
@@ -35,9 +35,9 @@ Status WrenchFrontEnd::step(double dt_s) {
   const bool rested = (taring.value || request_.runs()) && sample(load, dt_s);
   if (taring.value) return tare(rested, dt_s);
   filter(at_tip(load - bias.value, R), dt_s);
-  fade_.step(dt_s);
+  transfer_.step(dt_s);
   h.value = contact();
-  if (fade_.runs()) h.value += fade_.value();
+  if (transfer_.runs()) h.value += transfer_.value();
   if (request_.runs()) tare_again(rested, R, dt_s);
   return h.value.allFinite() ? Status::kOk : Status::kSensorNotFinite;
 }
@@ -49,7 +49,7 @@ Vector6 WrenchFrontEnd::contact() const {
 
 void WrenchFrontEnd::retune(const Params& next, const JointLimits& /*limits*/) {
   params = next;
-  fade_.start(h.value - contact(), kFade_s);
+  transfer_.start(h.value - contact(), kTransfer_s);
 }
 
 Status WrenchFrontEnd::check() const {
@@ -113,7 +113,7 @@ void WrenchFrontEnd::tare_again(bool rested, const Matrix3& R, double dt_s) {
   if (verdict.ok()) {
     bias.value += change;
     filtered_ -= at_tip(change, R);
-    fade_.start(h.value - contact(), kFade_s);
+    transfer_.start(h.value - contact(), kTransfer_s);
   }
   request_.end(verdict);
 }

@@ -22,7 +22,7 @@
 //
 // A sensor drifts. begin_tare() asks for a new bias while the block runs, by the same interval.
 // Until it has passed, h comes from the old bias, so that a law goes on to yield. Then the new bias
-// holds, and what h changes by fades in kFade_s:
+// holds, and what h changes by fades in kTransfer_s:
 //
 //   h(t) = contact by the new bias + s(t) (h before - contact by the new bias)     fade.hpp
 //
@@ -36,7 +36,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/port.hpp"
 #include "kernel/core/status.hpp"
-#include "kernel/math/fade.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 #include "kernel/math/tare_request.hpp"
 
 namespace tactus {
@@ -103,7 +103,7 @@ class WrenchFrontEnd {
   /// The result of the last one: kOk, kTareLimit, kSensorNotSteady, why it was braked, or
   /// kNotStarted if the block was started anew. [between two cycles]
   Verdict tared() const { return request_.verdict(); }
-  /// Changes the tunable parameters: h goes on, and its difference fades in kFade_s.
+  /// Changes the tunable parameters: h goes on, and its difference fades in kTransfer_s.
   /// [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
 
@@ -127,7 +127,7 @@ class WrenchFrontEnd {
   double gain_ = 0.0, period_s_ = 0.0;  // of the filter, and the period for which it holds
   Vector6 last_ = Vector6::Zero();      // ft of the last cycle
   int unchanged_ = 0;                   // cycles without a change of ft
-  Fade<Vector6> fade_;
+  BumplessTransfer<Vector6> transfer_;
   TareRequest<> request_;
   // The tare's interval: sum, extremes and number of samples; and the cycles since its begin.
   Vector6 sum_ = Vector6::Zero(), low_ = Vector6::Zero(), high_ = Vector6::Zero();

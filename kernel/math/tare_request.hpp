@@ -11,7 +11,7 @@
 #include "kernel/core/describe.hpp"
 #include "kernel/core/types.hpp"
 #include "kernel/core/verdict.hpp"
-#include "kernel/math/fade.hpp"
+#include "kernel/math/bumpless_transfer.hpp"
 
 namespace tactus {
 

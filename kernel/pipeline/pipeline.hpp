@@ -83,8 +83,8 @@ class Pipeline {
   [[gnu::cold]] Status resume(const RobotState& measured);
   /// Changes the parameters of all blocks of which `tuning` has a copy, or of none: the first block
   /// that refuses is in the verdict. While the chain `runs`, no command steps
-  /// (kernel/math/fade.hpp), and a law may refuse what it would ask for; otherwise the next
-  /// start() begins with the new parameters. [between two cycles]
+  /// (kernel/math/bumpless_transfer.hpp), and a law may refuse what it would ask for; otherwise the
+  /// next start() begins with the new parameters. [between two cycles]
   TuningVerdict retune(const Tuning& tuning, bool runs);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]
   void brake(Status why, BrakeWay way);

@@ -84,7 +84,7 @@ void h_goes_on_without_a_step(void**) {
     for (WrenchFrontEnd* front : {&b.front, &twin}) assert_true(front->ft.source == &b.ft);
     ASSERT_OK(b.front.begin_tare());
     Vector6 apart = kNone;
-    const double most = 1.5 * kPeriod_s / kFade_s * b.most_at_tip(20.0, 2.0);
+    const double most = 1.5 * kPeriod_s / kTransfer_s * b.most_at_tip(20.0, 2.0);
     for (int k = 0; k < 1000; ++k) {
       b.feel(k < 300 ? kNone : Vector6(0.1 * h));
       b.ft += noise(b.random);
@@ -112,7 +112,7 @@ void h_goes_on_with_a_dead_band_that_has_just_changed(void**) {
     WrenchFrontEnd::Params next = b.front.params;
     next.dead_force = between(b.random, 0.0, 12.0);
     b.front.retune(next, JointLimits());
-    const double most = 1.5 * kPeriod_s / kFade_s * b.most_at_tip(9.0, 0.9);
+    const double most = 1.5 * kPeriod_s / kTransfer_s * b.most_at_tip(9.0, 0.9);
     for (Vector6 before = b.front.h.value; b.front.tares() || b.front.h.value != kNone;) {
       ASSERT_OK(b.front.step(kPeriod_s));
       assert_true((b.front.h.value - before).norm() <= 2.0 * most);

@@ -18,11 +18,28 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "kernel/core/names.hpp"
-#include "kernel/reference/motion/reference_state.hpp"
 
 namespace tactus {
+
+/// The two states of the paper's figure, and its transitions.
+enum class ReferenceState : std::uint8_t { kOnlineReference, kTrajectoryExecution };
+
+enum class ReferenceEvent : std::uint8_t {
+  kTrajectoryAccepted,
+  kTrajectoryCompleted,
+  kTrajectoryCanceled,
+  kNewReference,
+};
+
+/// Returns the state after `event`, the same from both states: an accepted trajectory is executed,
+/// and everything else ends the one that is. [any]
+constexpr ReferenceState next(ReferenceState /*state*/, ReferenceEvent event) {
+  return event == ReferenceEvent::kTrajectoryAccepted ? ReferenceState::kTrajectoryExecution
+                                                      : ReferenceState::kOnlineReference;
+}
 
 enum class Phase : std::uint8_t {
   kHolding,

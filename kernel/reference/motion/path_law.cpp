@@ -93,11 +93,11 @@ Interval PathLaw<Space>::advice(const Path<Space>& path, const Limits& limits, d
     const Local at =
         i == 0 ? path.local(s, ahead.far, ahead.near) : path.local(s, ahead.near, ahead.far);
     const double rate = std::clamp(rate_ + slope_ * time_s, 0.0, 1.0);
-    const typename Space::Rates offset = at.d2 * (rate * rate);
+    const typename Space::Rates at_zero = at.d2 * (rate * rate);
     Interval there = kAnySlope;
     for (std::size_t c = 0; c < limits.a.size(); ++c) {
       const Eigen::Index k = static_cast<Eigen::Index>(c) * n;
-      keep<n>(there, &offset[k], &at.d1[k], limits.a[c]);
+      keep<n>(there, &at_zero[k], &at.d1[k], limits.a[c]);
     }
     narrow<Space>(at, rate, slope_, limits, there, bend_);
     there.include(0.0);

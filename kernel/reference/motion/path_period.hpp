@@ -140,10 +140,10 @@ class PathPeriod {
     return most;
   }
   void cut(Interval& slopes, const Linear& what, const Levels& limits, double scale) const {
-    const Rates offset = what.value - what.gain * slope_;
+    const Rates at_zero = what.value - what.gain * slope_;
     for (std::size_t c = 0; c < limits.size(); ++c) {
       const Eigen::Index k = n * static_cast<Eigen::Index>(c);
-      keep<n>(slopes, &offset[k], &what.gain[k], limits[c] * scale);
+      keep<n>(slopes, &at_zero[k], &what.gain[k], limits[c] * scale);
     }
   }
 

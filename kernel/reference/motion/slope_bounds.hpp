@@ -14,16 +14,16 @@ inline constexpr double kSteepestSlope = 100.0;
 inline constexpr Interval kAnySlope = {-kSteepestSlope, kSteepestSlope};
 inline constexpr double kPlanned = 0.8;  ///< share of the jerk limit that plans use
 
-/// Reduces x to the values for which a channel's |offset + gain x| is at most `limit`; if there is
+/// Reduces x to the values for which a channel's |at_zero + gain x| is at most `limit`; if there is
 /// none, to the one for which it is least.
 template <int n>
-void keep(Interval& x, const double* offset, const double* gain, double limit) {
+void keep(Interval& x, const double* at_zero, const double* gain, double limit) {
   if constexpr (n == 1) {
     if (std::abs(*gain) < 1e-12) return;
-    const double middle = -*offset / *gain, half = limit / std::abs(*gain);
+    const double middle = -*at_zero / *gain, half = limit / std::abs(*gain);
     x.cut(middle - half, middle + half);
   } else {
-    const Eigen::Map<const Vector3> o(offset), g(gain);
+    const Eigen::Map<const Vector3> o(at_zero), g(gain);
     const double gg = g.squaredNorm();
     if (gg < 1e-24) return;
     const double middle = -o.dot(g) / gg, across = (o + middle * g).squaredNorm();

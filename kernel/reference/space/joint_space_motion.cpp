@@ -1,10 +1,11 @@
-// JointSpace: the way of the joints to what they follow, and to rest, by the laws of offset_law.hpp
-// joint by joint.
+// JointSpace: references that differ, and the way of the joints from one to another and to rest, by
+// the laws of offset_law.hpp joint by joint.
+#include "kernel/reference/space/joint_space.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/space/joint_space.hpp"
 
 namespace tactus {
 namespace {
@@ -74,6 +75,14 @@ void set_axis(JointSpace::Point& point, int j, const AxisState& state) {
 
 }  // namespace
 
+JointSpace::Difference JointSpace::difference(const Point& a, const Point& b) {
+  return {a.q - b.q, a.dq - b.dq, a.ddq - b.ddq};
+}
+
+JointSpace::Point JointSpace::sum(const Point& b, const Difference& d) {
+  return {b.q + d.x, b.dq + d.dx, b.ddq + d.ddx, b.tau};
+}
+
 JointSpace::Point JointSpace::approach(const Point& reference, Difference& offset,
                                        const Point& base, const Point& next, bool steps,
                                        const Limits& limits, double dt_s) {
@@ -91,10 +100,7 @@ JointSpace::Point JointSpace::approach(const Point& reference, Difference& offse
     line.add(offset.x[j], left[i]);
   }
   const Difference before = offset;
-  AxisState s;
-  if (on_line<kDof>(offset, left, line.limits(), s))
-    follow_line<kDof>(offset, s, line.limits(), dt_s);
-  else
+  if (!move_on_line<kDof>(offset, left, line.limits(), dt_s))
     follow_axes<kDof>(offset, left, room, !moves, dt_s);
   Point point = sum(next, offset);
   LoopBound<kDof> axes;

@@ -56,17 +56,17 @@ class LineLimits {
   static constexpr double kUnlimited = 1e300;
 };
 
-/// True if the offset moves along itself and would stop on that line between its place and zero, so
-/// that a motion on the line stays in every convex range that contains both ends. `s` is its state
-/// on the line, at 1. Deviations from the line by rounding are ignored: 1e-9 of the velocity limits
-/// and 1e-8 of the acceleration limits. [cyclic]
+/// Moves the offset one period ahead on its line if it moves along itself and would stop on that
+/// line between its place and zero, so that the motion stays in every convex range that contains
+/// both ends; else returns false, with no effect. Deviations from the line by rounding are ignored:
+/// 1e-9 of the velocity limits and 1e-8 of the acceleration limits. [cyclic]
 template <int N>
-bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits,
-             const AxisLimits& line, AxisState& s) {
+bool move_on_line(Offset<N>& offset, const std::array<AxisLimits, N>& limits,
+                  const AxisLimits& line, double dt_s) {
   constexpr double kAlong = 1e-9, kBeyond = 1e-9;
   const double length = offset.x.squaredNorm();
   if (!(length > 0.0)) return false;
-  s = {1.0, offset.dx.dot(offset.x) / length, offset.ddx.dot(offset.x) / length};
+  const AxisState s = {1.0, offset.dx.dot(offset.x) / length, offset.ddx.dot(offset.x) / length};
   for (int i = 0; i < N; ++i) {
     const AxisLimits& axis = limits[static_cast<std::size_t>(i)];
     const double v = std::abs(offset.dx[i] - s.v * offset.x[i]);
@@ -75,16 +75,12 @@ bool on_line(const Offset<N>& offset, const std::array<AxisLimits, N>& limits,
       return false;
   }
   const AxisRange stop = stop_range(s, line);
-  return stop.lowest >= -kBeyond && stop.highest <= 1.0 + kBeyond;
-}
-
-/// Moves the offset one period ahead on its line. [cyclic]
-template <int N>
-void follow_line(Offset<N>& offset, const AxisState& s, const AxisLimits& limits, double dt_s) {
-  const AxisState next = plan_to(s, 0.0, 0.0, limits).at(dt_s);
+  if (!(stop.lowest >= -kBeyond && stop.highest <= 1.0 + kBeyond)) return false;
+  const AxisState next = plan_to(s, 0.0, 0.0, line).at(dt_s);
   offset.dx = next.v * offset.x;
   offset.ddx = next.a * offset.x;
   offset.x *= next.p;
+  return true;
 }
 
 /// Moves the offset one period ahead, with all axes arriving `together` or each as soon as it can,

@@ -16,6 +16,9 @@
 
 namespace tactus {
 
+/// Returns r if its length is one to rounding, else r normalized. [any]
+Eigen::Quaterniond unit(const Eigen::Quaterniond& r);
+
 /// Returns r as a unit quaternion, of its two signs the one nearer to `last`; a quaternion that is
 /// unit keeps its bits. [any]
 Eigen::Quaterniond unit_beside(const Eigen::Quaterniond& r, const Eigen::Quaterniond& last);

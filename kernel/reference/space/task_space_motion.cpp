@@ -5,11 +5,12 @@
 // that moves across its line comes to rest first, relative to a moving base, and then goes straight
 // to zero. A rotation is no vector, so the sum of base and offset is judged: if it would exceed a
 // limit, the period is taken from the stop instead.
+#include "kernel/reference/space/task_space.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "kernel/math/so3.hpp"
-#include "kernel/reference/space/task_space.hpp"
 #include "kernel/reference/space/vector_stop.hpp"
 
 namespace tactus {
@@ -142,10 +143,7 @@ bool move_on_line(TaskSpace::Difference& offset, const Allowed& allowed, double 
   LineLimits line;
   line.add(offset.x.head<3>().norm(), p);
   line.add(offset.x.tail<3>().norm(), r);
-  AxisState s;
-  if (!on_line<6>(offset, {p, p, p, r, r, r}, line.limits(), s)) return false;
-  follow_line<6>(offset, s, line.limits(), dt_s);
-  return true;
+  return tactus::move_on_line<6>(offset, {p, p, p, r, r, r}, line.limits(), dt_s);
 }
 
 /// Brings three axes of an offset, from `first` on, one period closer to rest.
@@ -174,6 +172,47 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& r, const VectorState& from,
 }
 
 }  // namespace
+
+// With R_a = R_b exp(phi), the angular velocity w = J_r(phi) dphi of exp(phi) in a's frame and
+// u = R_a w, the same in the base frame,
+//   omega_a = omega_b + u,
+//   alpha_a = alpha_b + omega_a x u + R_a dw/dt = alpha_b + omega_b x u + R_a dw/dt,
+//   dw/dt = J_r ddphi + dJ_r/dt dphi.
+
+TaskSpace::Point TaskSpace::sum(const Point& b, const Difference& d) {
+  const Vector3 phi = d.x.tail<3>(), dphi = d.dx.tail<3>(), ddphi = d.ddx.tail<3>();
+  const RightJacobian j(phi);
+  const Vector3 omega = b.v.tail<3>();
+  Point a = b;
+  a.x = {b.x.p + d.x.head<3>(), unit(b.x.r) * exp_so3(phi)};
+  const Vector3 u = a.x.r * j.times(dphi);
+  const Vector3 dw = j.times(ddphi) + j.rate_times(dphi, dphi);
+  a.v.head<3>() += d.dx.head<3>();
+  a.v.tail<3>() += u;
+  a.a.head<3>() += d.ddx.head<3>();
+  a.a.tail<3>() += omega.cross(u) + a.x.r * dw;
+  return a;
+}
+
+TaskSpace::Difference TaskSpace::difference(const Point& a, const Point& b) {
+  const Eigen::Quaterniond base_in_a = unit(a.x.r).conjugate();
+  const Vector3 omega = b.v.tail<3>();
+  const Vector3 phi = log_so3(b.x.r.conjugate() * a.x.r);
+  const RightJacobian j(phi);
+  const Vector3 u = a.v.tail<3>() - omega;
+  const Vector3 dw = base_in_a * (a.a.tail<3>() - b.a.tail<3>() - omega.cross(u));
+  const Vector3 dphi = j.inverse_times(base_in_a * u);
+  return {stacked(a.x.p - b.x.p, phi), stacked(a.v.head<3>() - b.v.head<3>(), dphi),
+          stacked(a.a.head<3>() - b.a.head<3>(), j.inverse_times(dw - j.rate_times(dphi, dphi)))};
+}
+
+void TaskSpace::keep_sign(Point& point, const Point& before) {
+  if (point.x.r.dot(before.x.r) < 0.0) point.x.r.coeffs() = -point.x.r.coeffs();
+}
+
+TaskSpace::Rates TaskSpace::in_base(const Rates& rates, const Point& tip) {
+  return stacked(tip.x.r * rates.head<3>(), tip.x.r * rates.tail<3>());
+}
 
 TaskSpace::Point TaskSpace::approach(const Point& reference, Difference& offset, const Point& base,
                                      const Point& next, bool steps, const Limits& limits,

@@ -3,8 +3,6 @@
 // received, the generator returns to online references.   [Risi et al. 2026, section II]
 // The phases that make up the two states: all can be reached, and there is always a way to rest and
 // to a new trajectory.
-#include "kernel/reference/motion/reference_state.hpp"
-
 #include "kernel/reference/motion/motion_phase.hpp"
 
 #include "tests/support/testing.hpp"

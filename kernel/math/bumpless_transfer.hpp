@@ -1,4 +1,4 @@
-// Fade: the difference between what a law commands and what it would command with other
+// BumplessTransfer: the difference between what a law commands and what it would command with other
 // parameters, taken to zero in a given time. When its parameters change, a law adds the difference
 // to its output, so that the output does not step:
 //
@@ -24,10 +24,10 @@ namespace tactus {
 /// True if parameters may change while the pipeline runs.
 inline constexpr bool kTuning = TACTUS_TUNING != 0;
 /// Time in which a difference fades, if no limit asks for more, s.
-inline constexpr double kFade_s = 0.5;
+inline constexpr double kTransfer_s = 0.5;
 
 template <class Vector, bool kPresent = kTuning>
-class Fade {
+class BumplessTransfer {
  public:
   /// [any]
   void clear() { left_s_ = 0.0; }
@@ -52,7 +52,7 @@ class Fade {
 };
 
 template <class Vector>
-class Fade<Vector, false> {
+class BumplessTransfer<Vector, false> {
  public:
   void clear() {}
   void start(const Vector& /*difference*/, double /*seconds*/) {}
@@ -63,10 +63,10 @@ class Fade<Vector, false> {
 
 /// Returns the time in which a difference of torques fades with at most half the torque rate, s.
 /// [any]
-inline double fading_time(const JointVector& difference, const JointLimits& limits) {
+inline double transfer_time(const JointVector& difference, const JointLimits& limits) {
   constexpr double kShare = 0.5, kSteepest = 1.5;
   return (kSteepest / kShare * difference.cwiseAbs().cwiseQuotient(limits.dtau_max))
-      .cwiseMax(kFade_s)
+      .cwiseMax(kTransfer_s)
       .maxCoeff();
 }
 
