@@ -16,7 +16,7 @@ class InterleavingClient {
   explicit InterleavingClient(OnlineMode mode) : mode_(mode) {
     bench_.params.online = mode;
     bench_.params.tolerances.dwell_s = 2.0 * kPeriod_s;
-    bench_.channel.settings.period_s = kPeriod_s;
+    bench_.period_s = bench_.channel.settings.period_s = kPeriod_s;
     bench_.channel.settings.limits.ddq_max.setConstant(5.0);
     bench_.channel.settings.limits.dddq_max.setConstant(250.0);
   }
@@ -40,7 +40,7 @@ class InterleavingClient {
     JointVector direction = JointVector::Constant(0.4);
     direction[0] = 1.0;
     JointSpace::Point point;
-    point.q = bench_.home + way * direction;
+    point.q = bench_.home.q + way * direction;
     point.dq = speed * direction;
     return point;
   }

@@ -34,7 +34,7 @@ class Rehearsal : private InterleavingClient {
   void begin() {
     forget();
     check(bench_.start(bench_.home) == Status::kOk, "the generator starts");
-    check(bench_.step(kPeriod_s) == Status::kOk, "the first cycle");
+    check(bench_.step() == Status::kOk, "the first cycle");
     Report report;
     while (bench_.client.poll(report)) {
       check(report.outcome == Outcome::kRefused, "what came before the start is refused");
@@ -100,7 +100,7 @@ class Rehearsal : private InterleavingClient {
     const JointSpace::Point before = bench_.out();
     const int held = model_.held_point();
     if (refusing_) bench_.generator.brake(Status::kSlip, BrakeWay::kOnPath);
-    check(bench_.step(kPeriod_s) == Status::kOk, "a cycle");
+    check(bench_.step() == Status::kOk, "a cycle");
     ++cycles_;
     seen_[static_cast<std::size_t>(phase())] = true;
     std::array<Report, 16> reports;
@@ -134,7 +134,7 @@ class Rehearsal : private InterleavingClient {
       return check(fate.finals == 0, "a start is reported before the end");
     }
     if (report.outcome == Outcome::kSucceeded)
-      check(std::abs(bench_.out().q[0] - bench_.home[0] - ends_[at(request)]) < 1e-12,
+      check(std::abs(bench_.out().q[0] - bench_.home.q[0] - ends_[at(request)]) < 1e-12,
             "it succeeds at its end");
     if (report.outcome == Outcome::kExecuted && extends(ask))
       ends_[at(feeds_[at(request)])] = ends_[at(request)];
@@ -196,7 +196,7 @@ class Rehearsal : private InterleavingClient {
   }
   void check_aim() {
     const int aim = model_.aim(), canceled = model_.canceled();
-    const double at_end = bench_.out().q[0] - bench_.home[0];
+    const double at_end = bench_.out().q[0] - bench_.home.q[0];
     if (aim < 0)
       return check(canceled < 0 || sent_[at(canceled)] == Ask::kOpen ||
                        std::abs(at_end - goal(canceled)) > 1e-3,

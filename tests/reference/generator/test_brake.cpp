@@ -66,11 +66,11 @@ void a_trajectory_is_braked_on_its_path_within_limits_and_everything_is_accounte
       ASSERT_OK(b.step());
       finals.take(b);
       const JointSpace::Point& now = b.out();
-      const double offset = now.q[0] - b.home[0];
+      const double offset = now.q[0] - b.home.q[0];
       for (int i = 0; i < kDof; ++i) {
         assert_true(std::abs(now.dq[i]) <= limits.dq_max[i] * 1.000001);
         assert_true(std::abs(now.dq[i] - before.dq[i]) <= limits.ddq_max[i] * kPeriod_s * 1.001);
-        ASSERT_NEAR(now.q[i] - b.home[i], offset, 1e-9);  // the path is a line through all joints
+        ASSERT_NEAR(now.q[i] - b.home.q[i], offset, 1e-9);  // the path is a line through all joints
       }
     }
     assert_true(b.out().dq.isZero(0.0) && b.out().ddq.isZero(0.0));
@@ -96,7 +96,7 @@ void a_trajectory_that_waits_is_aborted_and_a_stream_of_points_is_brought_to_res
   std::uint32_t waiting = 0, id = 0;
   assert_true(b.client.send(*later, waiting).ok());
   JointSpace::Point point;
-  point.q = b.home;
+  point.q = b.home.q;
   point.dq = JointVector::Constant(0.3);
   assert_true(b.client.send(point, id).ok());
   ASSERT_OK(b.step());
@@ -122,7 +122,7 @@ void nothing_is_lost_when_reports_are_not_read_while_it_brakes(void**) {
   std::array<int, 200> finals{};
   std::uint32_t sent = 0, controls = 0;
   JointSpace::Point point;
-  point.q = b.home;
+  point.q = b.home.q;
   for (int round = 0; round < 12; ++round) {
     std::uint32_t id = 0;
     for (; b.client.cancel(id).ok(); ++controls) sent = id;  // until no more may be unanswered

@@ -63,9 +63,9 @@ void joints_that_are_not_given_hold_where_they_are(void**) {
   assert_true(bench.client.send(*motion, id).ok());
   for (int k = 0; k < 2100; ++k) {
     ASSERT_OK(bench.step());
-    for (int j = 0; j < kDof; ++j) assert_true(j == 2 || bench.out().q[j] == bench.home[j]);
+    for (int j = 0; j < kDof; ++j) assert_true(j == 2 || bench.out().q[j] == bench.home.q[j]);
   }
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.2, 1e-12);
+  ASSERT_NEAR(bench.out().q[2] - bench.home.q[2], 0.2, 1e-12);
 }
 
 void joints_that_are_not_given_and_move_come_to_rest(void**) {
@@ -82,18 +82,18 @@ void joints_that_are_not_given_and_move_come_to_rest(void**) {
   // The joint is held where it can stop, one cycle later: v / 2 times the time of the stop.
   const double v = at_acceptance.dq[0], a = JointLimits().ddq_max[0], j = JointLimits().dddq_max[0];
   ASSERT_NEAR(bench.out().q[0], at_acceptance.q[0] + 0.5 * v * (v / a + a / j), 1e-3);
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.1, 1e-12);
+  ASSERT_NEAR(bench.out().q[2] - bench.home.q[2], 0.1, 1e-12);
 }
 
 void a_point_of_some_joints_leaves_the_others(void**) {
   static ReferenceBench bench;
   JointSpace::Point point;
-  point.q = bench.home + JointVector::Constant(0.3);
+  point.q = bench.home.q + JointVector::Constant(0.3);
   std::uint32_t id = 0;
   assert_true(bench.client.send(point, id, {kAllButThird}).ok());
   ASSERT_OK(bench.step());
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], 0.3, 1e-12);
-  assert_true(bench.out().q[3] == bench.home[3]);
+  ASSERT_NEAR(bench.out().q[2] - bench.home.q[2], 0.3, 1e-12);
+  assert_true(bench.out().q[3] == bench.home.q[3]);
 }
 
 }  // namespace

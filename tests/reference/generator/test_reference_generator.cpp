@@ -18,7 +18,7 @@ void the_first_reference_is_the_measured_position_at_rest(void**) {
   static ReferenceBench bench;
   ASSERT_OK(bench.step());
   for (int j = 0; j < kDof; ++j) {
-    assert_true(bench.out().q[j] == bench.home[j]);
+    assert_true(bench.out().q[j] == bench.home.q[j]);
     assert_true(bench.out().dq[j] == 0.0 && bench.out().ddq[j] == 0.0 && bench.out().tau[j] == 0.0);
   }
 }
@@ -27,7 +27,7 @@ void the_first_reference_is_the_measured_position_at_rest(void**) {
 
 void a_measured_position_that_is_not_finite_refuses_to_start(void**) {
   static ReferenceBench bench;
-  JointVector q = bench.home;
+  JointVector q = bench.home.q;
   q[3] = NAN;
   ASSERT_STATUS(bench.start(q), Status::kStateNotFinite);
 }
@@ -37,7 +37,7 @@ void a_measured_position_that_is_not_finite_refuses_to_start(void**) {
 void a_point_is_forwarded_as_it_came_and_held(void**) {
   static ReferenceBench bench;
   JointSpace::Point point;
-  point.q = bench.home + JointVector::Constant(0.1);
+  point.q = bench.home.q + JointVector::Constant(0.1);
   point.tau = JointVector::Constant(2.0);
   std::uint32_t id = 0;
   assert_true(bench.client.send(point, id).ok());
@@ -53,8 +53,8 @@ void a_point_is_forwarded_as_it_came_and_held(void**) {
 void of_two_points_in_one_cycle_the_later_counts_and_both_are_reported(void**) {
   static ReferenceBench bench;
   JointSpace::Point first, second;
-  first.q = bench.home + JointVector::Constant(0.1);
-  second.q = bench.home - JointVector::Constant(0.1);
+  first.q = bench.home.q + JointVector::Constant(0.1);
+  second.q = bench.home.q - JointVector::Constant(0.1);
   std::uint32_t id[2] = {0, 0};
   assert_true(bench.client.send(first, id[0]).ok() && bench.client.send(second, id[1]).ok());
   ASSERT_OK(bench.step());
@@ -77,7 +77,7 @@ void a_completed_trajectory_holds_its_last_waypoint_and_succeeds(void**) {
   ASSERT_OK(bench.step());
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
   ASSERT_OK(bench.run(100));
-  assert_true(bench.out().q == bench.home + JointVector::Constant(0.25));
+  assert_true(bench.out().q == bench.home.q + JointVector::Constant(0.25));
   assert_true(bench.out().dq == JointVector::Zero());
   assert_int_equal(static_cast<int>(bench.generator.state()),
                    static_cast<int>(ReferenceState::kOnlineReference));
@@ -100,7 +100,7 @@ void a_first_waypoint_at_zero_must_be_near_the_reference(void**) {
   assert_int_equal(report.verdict.axis, 4);
   ASSERT_NEAR(report.verdict.value, 0.02, 1e-12);
   ASSERT_NEAR(report.verdict.limit, 0.01, 0.0);
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
 }
 
 void a_small_start_offset_is_bridged_without_a_step(void**) {
@@ -110,13 +110,13 @@ void a_small_start_offset_is_bridged_without_a_step(void**) {
   bench.add(*near, 1.0, 0.009);
   std::uint32_t id = 0;
   assert_true(bench.client.send(*near, id).ok());
-  double last = bench.home[0];
+  double last = bench.home.q[0];
   for (int k = 0; k < 1001; ++k) {
     ASSERT_OK(bench.step());
     ASSERT_NEAR(bench.out().q[0], last, 1e-3 * bench.channel.settings.limits.dq_max[0]);
     last = bench.out().q[0];
   }
-  ASSERT_NEAR(last - bench.home[0], 0.009, 1e-12);
+  ASSERT_NEAR(last - bench.home.q[0], 0.009, 1e-12);
 }
 
 // Proves RG-6.
@@ -150,7 +150,7 @@ void a_new_trajectory_preempts_the_old_one_and_is_told(void**) {
   ASSERT_OUTCOME(report, Outcome::kStarted);
   ASSERT_OK(bench.run(1500));
   ASSERT_OUTCOME(bench.final_of(later), Outcome::kSucceeded);
-  ASSERT_NEAR(bench.out().q[2] - bench.home[2], -0.3, 1e-12);
+  ASSERT_NEAR(bench.out().q[2] - bench.home.q[2], -0.3, 1e-12);
 }
 
 void a_restart_aborts_what_ran_and_refuses_what_waited(void**) {
@@ -158,7 +158,7 @@ void a_restart_aborts_what_ran_and_refuses_what_waited(void**) {
   const std::uint32_t running = bench.go(0.5, 1.0, kCubic);
   ASSERT_OK(bench.run(100));
   const std::uint32_t waiting = bench.go(-0.5, 1.0, kCubic);
-  ASSERT_OK(bench.start(bench.home));
+  ASSERT_OK(bench.start(bench.home.q));
   ASSERT_OK(bench.step());
   Report report;
   assert_true(bench.client.poll(report) && report.id == running);
@@ -168,7 +168,7 @@ void a_restart_aborts_what_ran_and_refuses_what_waited(void**) {
   assert_true(bench.client.poll(report) && report.id == waiting);
   ASSERT_OUTCOME(report, Outcome::kRefused);
   ASSERT_STATUS(report.verdict.status, Status::kNotStarted);
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
   assert_true(bench.go(0.1, 1.0, kCubic) != 0);  // every store is free again
 }
 
@@ -177,12 +177,12 @@ void a_point_aborts_a_running_trajectory(void**) {
   const std::uint32_t id = bench.go(0.5, 1.0, kCubic);
   ASSERT_OK(bench.run(100));
   JointSpace::Point point;
-  point.q = bench.home;
+  point.q = bench.home.q;
   std::uint32_t point_id = 0;
   assert_true(bench.client.send(point, point_id).ok());
   ASSERT_OK(bench.step());
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kAborted);
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
 }
 
 // Proves RG-4.

@@ -84,7 +84,7 @@ void every_request_ends_in_exactly_one_final_report(void**) {
     for (int i = random.below(4); i > 0; --i) {
       std::uint32_t id = 0;
       JointSpace::Point point;
-      point.q = bench.home + JointVector::Constant(random.uniform(-0.2, 0.2));
+      point.q = bench.home.q + JointVector::Constant(random.uniform(-0.2, 0.2));
       const int kind = random.below(8);
       if (kind == 0)
         id = send_motion(bench, random, kCubic);
@@ -109,7 +109,7 @@ void a_client_that_reads_no_reports_loses_none(void**) {
   int sent = 0, reported = 0;
   for (int k = 0; k < 1000; ++k) {
     JointSpace::Point point;
-    point.q = bench.home;
+    point.q = bench.home.q;
     std::uint32_t id = 0;
     sent += bench.client.send(point, id).ok();
     ASSERT_OK(bench.step());

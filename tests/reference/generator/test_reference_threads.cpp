@@ -40,7 +40,7 @@ std::uint32_t ask(ReferenceBench& bench, Random& random) {
     case 2: {
       JointSpace::Point point;
       // Every joint has the same offset, so that a torn point is noticed.
-      point.q = bench.home + JointVector::Constant(random.uniform(-0.3, 0.3));
+      point.q = bench.home.q + JointVector::Constant(random.uniform(-0.3, 0.3));
       return bench.client.send(point, id).ok() ? id : 0;
     }
     default: break;
@@ -57,8 +57,8 @@ std::uint32_t ask(ReferenceBench& bench, Random& random) {
 void make_joints_equal(ReferenceBench& bench) {
   JointLimits& limits = bench.channel.settings.limits;
   const double reach = (0.5 * (limits.q_max - limits.q_min)).minCoeff();
-  limits.q_min = bench.home - JointVector::Constant(reach);
-  limits.q_max = bench.home + JointVector::Constant(reach);
+  limits.q_min = bench.home.q - JointVector::Constant(reach);
+  limits.q_max = bench.home.q + JointVector::Constant(reach);
   for (JointVector* limit :
        {&limits.dq_max, &limits.ddq_max, &limits.dddq_max, &limits.velocity_step})
     limit->setConstant(limit->minCoeff());
@@ -85,8 +85,8 @@ void a_client_that_never_sleeps_neither_tears_nor_loses_anything(void**) {
     if (shared.bench.channel.requests.size() == 0) std::this_thread::yield();
     const JointSpace::Point& out = shared.bench.out();
     for (int j = 1; j < kDof; ++j) {
-      const double offset = out.q[j] - shared.bench.home[j];
-      whole = whole && std::abs(offset - (out.q[0] - shared.bench.home[0])) < kTorn;
+      const double offset = out.q[j] - shared.bench.home.q[j];
+      whole = whole && std::abs(offset - (out.q[0] - shared.bench.home.q[0])) < kTorn;
     }
   }
   shared.running = false;
@@ -117,7 +117,7 @@ Waypoint<JointSpace> swing(const ReferenceBench& bench, int index) {
   Waypoint<JointSpace> waypoint;
   waypoint.time_s = kSpacing_s * index;
   const double s = std::sin(w * waypoint.time_s), c = std::cos(w * waypoint.time_s);
-  waypoint.point.q = bench.home + JointVector::Constant(kAmplitude * s * s * s);
+  waypoint.point.q = bench.home.q + JointVector::Constant(kAmplitude * s * s * s);
   waypoint.point.dq.setConstant(kAmplitude * 3.0 * w * s * s * c);
   waypoint.point.ddq.setConstant(kAmplitude * 3.0 * w * w * s * (2.0 * c * c - s * s));
   return waypoint;

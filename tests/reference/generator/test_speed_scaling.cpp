@@ -40,7 +40,7 @@ void at_a_tenth_of_the_speed_a_trajectory_takes_ten_times_as_long(void**) {
 void a_trajectory_that_stands_for_longer_than_its_goal_time_goes_on_afterwards(void**) {
   static ReferenceBench bench;
   bench.params.tolerances.goal_time_s = 0.5;
-  ASSERT_OK(bench.start(bench.home));
+  ASSERT_OK(bench.start(bench.home.q));
   const std::uint32_t id = bench.go(0.2, 1.0, kQuintic);
   ASSERT_OK(bench.run(500));
   bench.generator.scale_speed(0.0);
@@ -50,7 +50,7 @@ void a_trajectory_that_stands_for_longer_than_its_goal_time_goes_on_afterwards(v
   ASSERT_OK(bench.run(5000));
   assert_true(bench.out().q == where);
   cycles_until_success(bench, id, 1.0);
-  ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.2, 1e-12);
+  ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.2, 1e-12);
 }
 
 void scaling_and_override_multiply_and_a_pause_stands(void**) {
@@ -93,7 +93,7 @@ void after_a_start_a_trajectory_runs_at_full_speed_until_told_otherwise(void**) 
   static ReferenceBench bench;
   bench.generator.scale_speed(0.0);
   ASSERT_OK(bench.run(100));
-  ASSERT_OK(bench.start(bench.home));
+  ASSERT_OK(bench.start(bench.home.q));
   const std::uint32_t id = bench.go(0.2, 1.0, kQuintic);
   ASSERT_OK(bench.run(1100));
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
@@ -204,7 +204,7 @@ void whatever_the_robot_does_with_its_speed_the_path_is_kept_without_a_step(void
   static ReferenceBench bench;
   Random random{20261121};
   for (int trial = 0; trial < 100; ++trial) {
-    ASSERT_OK(bench.start(bench.home));
+    ASSERT_OK(bench.start(bench.home.q));
     const std::uint32_t id = bench.go(random.uniform(0.1, 0.5), 1.5, kQuintic);
     double scaling = 1.0;
     int cycles = 0;
@@ -217,7 +217,7 @@ void whatever_the_robot_does_with_its_speed_the_path_is_kept_without_a_step(void
       ASSERT_OK(bench.step());
       assert_smooth(before, bench.out(), bench.channel.settings.limits);
       for (int j = 1; j < kDof; ++j)
-        ASSERT_NEAR(bench.out().q[j] - bench.home[j], bench.out().q[0] - bench.home[0], 1e-12);
+        ASSERT_NEAR(bench.out().q[j] - bench.home.q[j], bench.out().q[0] - bench.home.q[0], 1e-12);
     }
     assert_true(cycles < 20000);
   }

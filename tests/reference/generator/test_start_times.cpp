@@ -51,7 +51,7 @@ void a_trajectory_waits_for_its_start_time_to_half_a_period(void**) {
     for (int cycle = 2; cycle <= 2000; ++cycle) {
       ASSERT_OK(bench.step());
       const double u = std::max(0.0, cycle * kPeriod_s - 0.5) / 2.0;
-      ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.4 * blend(u), 1e-9);
+      ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.4 * blend(u), 1e-9);
     }
     Report report;
     assert_true(bench.client.poll(report) && report.id == id);
@@ -78,7 +78,7 @@ void one_that_ended_in_the_past_or_begins_after_a_day_is_refused(void**) {
     assert_true(!(report.verdict.value < 3.0) || report.verdict.value == start_s);
     ASSERT_NEAR(report.verdict.limit, report.time_s + (start_s < 3.0 ? 0.0 : 86'400.0), 1e-9);
   }
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
 }
 
 void a_first_waypoint_that_is_still_ahead_is_reached_in_time(void**) {
@@ -92,7 +92,7 @@ void a_first_waypoint_that_is_still_ahead_is_reached_in_time(void**) {
   for (int cycle = 1001; cycle <= 2500; ++cycle) {
     ASSERT_OK(bench.step());
     const double u = (cycle - 1001) * kPeriod_s / (2.5 - 1.001);
-    ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.3 * blend(u), 1e-9);
+    ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.3 * blend(u), 1e-9);
   }
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
 }
@@ -136,14 +136,14 @@ void one_that_may_not_be_joined_is_refused_from_half_a_period_on(void**) {
     const Report report = bench.final_of(id);
     if (late_s < 0.0005) {
       ASSERT_OUTCOME(report, Outcome::kStarted);
-      ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.4 * blend(0.499 / 2.0), 1e-9);
+      ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.4 * blend(0.499 / 2.0), 1e-9);
       continue;
     }
     ASSERT_OUTCOME(report, Outcome::kRefused);
     ASSERT_STATUS(report.verdict.status, Status::kReferenceTime);
     assert_true(report.store == 0 && report.verdict.value == 1.0 - late_s);
     ASSERT_NEAR(report.verdict.limit, 1.0, 1e-12);
-    assert_true(bench.out().q == bench.home);
+    assert_true(bench.out().q == bench.home.q);
   }
 }
 
@@ -153,7 +153,7 @@ void one_that_is_nearly_over_is_joined_at_its_end(void**) {
   const std::uint32_t id = go_at(bench, 0.0, 0.4);
   ASSERT_OK(bench.run(2000));
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
-  ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.4, 1e-9);
+  ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.4, 1e-9);
 }
 
 // Proves RG-5, RG-17.
@@ -167,7 +167,7 @@ void a_newer_trajectory_takes_the_place_of_one_that_waits(void**) {
   assert_int_equal(report.store, 0);
   ASSERT_OK(bench.run(3000));
   ASSERT_OUTCOME(bench.final_of(second), Outcome::kSucceeded);
-  ASSERT_NEAR(bench.out().q[0] - bench.home[0], -0.4, 1e-9);
+  ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], -0.4, 1e-9);
 }
 
 void a_cancel_ends_what_runs_and_what_waits(void**) {
@@ -183,14 +183,14 @@ void a_cancel_ends_what_runs_and_what_waits(void**) {
   while (bench.client.poll(report)) last[report.id] = report.outcome;
   assert_true(last[running] == Outcome::kCanceled && last[waiting] == Outcome::kCanceled);
   assert_true(last[cancel] == Outcome::kExecuted);
-  assert_true(bench.out().q[0] - bench.home[0] < 0.3);
+  assert_true(bench.out().q[0] - bench.home.q[0] < 0.3);
 }
 
 void points_leave_one_that_waits_alone(void**) {
   static ReferenceBench bench;
   const std::uint32_t waiting = go_at(bench, 0.5, 0.2);
   JointSpace::Point point;
-  point.q = bench.home;
+  point.q = bench.home.q;
   std::uint32_t id = 0;
   for (int k = 0; k < 400; ++k) {
     assert_true(bench.client.send(point, id).ok());
@@ -207,12 +207,12 @@ void a_restart_voids_one_that_waits(void**) {
   static ReferenceBench bench;
   const std::uint32_t waiting = go_at(bench, 0.5, 0.2);
   ASSERT_OK(bench.step());
-  ASSERT_OK(bench.start(bench.home));
+  ASSERT_OK(bench.start(bench.home.q));
   const Report report = bench.final_of(waiting);
   ASSERT_OUTCOME(report, Outcome::kAborted);
   assert_int_equal(report.store, 0);
   ASSERT_OK(bench.run(1000));
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
 }
 
 void whatever_start_times_every_request_has_one_final_report(void**) {

@@ -20,7 +20,7 @@ Waypoint<JointSpace> swing(const ReferenceBench& bench, int index, double spacin
   waypoint.time_s = spacing_s * index;
   const double w = kRate, t = waypoint.time_s;
   const double s = std::sin(w * t);
-  waypoint.point.q = bench.home + JointVector::Constant(kAmplitude * s * s * s);
+  waypoint.point.q = bench.home.q + JointVector::Constant(kAmplitude * s * s * s);
   waypoint.point.dq.setConstant(kAmplitude * 3.0 * w * s * s * std::cos(w * t));
   waypoint.point.ddq.setConstant(kAmplitude * 3.0 * w * w *
                                  (2.0 * s * std::cos(w * t) * std::cos(w * t) - s * s * s));
@@ -81,7 +81,7 @@ void a_stream_that_starves_stops_on_its_path_and_goes_on_when_fed(void**) {
     for (int j = 0; j < kDof; ++j) {
       ASSERT_NEAR(bench.out().dq[j], before.dq[j], 1.001 * limits.ddq_max[j] * kPeriod_s);
       ASSERT_NEAR(bench.out().ddq[j], before.ddq[j], 1.05 * limits.dddq_max[j] * kPeriod_s);
-      ASSERT_NEAR(bench.out().q[j] - bench.home[j], bench.out().q[0] - bench.home[0], 1e-12);
+      ASSERT_NEAR(bench.out().q[j] - bench.home.q[j], bench.out().q[0] - bench.home.q[0], 1e-12);
     }
   }
   assert_true(bench.out().standing());
@@ -154,7 +154,7 @@ void a_stream_of_lines_must_not_end_with_a_step_beyond_the_limit(void**) {
   const auto line = [&](double time_s, double offset) {
     Waypoint<JointSpace> waypoint;
     waypoint.time_s = time_s;
-    waypoint.point.q = bench.home + JointVector::Constant(offset);
+    waypoint.point.q = bench.home.q + JointVector::Constant(offset);
     ASSERT_OK(bench.client.append(*stream, waypoint).status);
   };
   line(1.0, 1.2 * step);

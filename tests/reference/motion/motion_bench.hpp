@@ -46,10 +46,10 @@ inline TaskSpace::Point home_point<TaskSpace>() {
   return home;
 }
 
-template <class Space>
+template <class Space, int most = 24>
 struct MotionBench {
   using Point = typename Space::Point;
-  static constexpr int kWaypoints = 24;
+  static constexpr int kWaypoints = most;
 
   double period_s;
   ChannelMemory<Space> channel;
@@ -59,8 +59,10 @@ struct MotionBench {
   typename ReferenceGenerator<Space>::Params params;
   Point home = home_point<Space>();
 
-  explicit MotionBench(double period, OnlineMode online = OnlineMode::kLimit) : period_s(period) {
+  explicit MotionBench(double period, OnlineMode online = OnlineMode::kLimit, Fields measured = 0)
+      : period_s(period) {
     params.online = online;
+    params.measured = measured;
     channel.settings.period_s = period_s;
     for (std::size_t i = 0; i < waypoints.size(); ++i) {
       channel.stores[i].waypoints = waypoints[i].data();

@@ -148,8 +148,8 @@ void a_file_may_ask_for_it_and_a_stream_may_not(void**) {
   double last = 0.0;
   for (int k = 0; k < 2100; ++k) {
     ASSERT_OK(bench.step());
-    assert_true(bench.out().q[0] - bench.home[0] >= last - 1e-15);
-    last = bench.out().q[0] - bench.home[0];
+    assert_true(bench.out().q[0] - bench.home.q[0] >= last - 1e-15);
+    last = bench.out().q[0] - bench.home.q[0];
   }
   ASSERT_NEAR(last, 0.3, 1e-12);
   motion = bench.trajectory(0);

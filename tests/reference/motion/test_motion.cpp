@@ -18,7 +18,7 @@ constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
 /// Asserts that the reference is on its path: all joints move by the same offset from home.
 void assert_on_path(const ReferenceBench& bench) {
   for (int j = 1; j < kDof; ++j)
-    ASSERT_NEAR(bench.out().q[j] - bench.home[j], bench.out().q[0] - bench.home[0], 1e-12);
+    ASSERT_NEAR(bench.out().q[j] - bench.home.q[j], bench.out().q[0] - bench.home.q[0], 1e-12);
 }
 
 /// Steps until the reference is at rest; returns the number of cycles.
@@ -54,7 +54,7 @@ void a_cancel_stops_on_the_path_and_gives_the_store_back_at_rest(void**) {
   assert_true(bench.client.poll(report));
   ASSERT_OUTCOME(report, Outcome::kReleased);
   assert_int_equal(report.store, 0);
-  assert_true(bench.out().q[0] - bench.home[0] < 0.5);
+  assert_true(bench.out().q[0] - bench.home.q[0] < 0.5);
 }
 
 void a_pause_keeps_the_trajectory_and_a_resume_finishes_it(void**) {
@@ -71,7 +71,7 @@ void a_pause_keeps_the_trajectory_and_a_resume_finishes_it(void**) {
   assert_true(bench.client.resume(request).ok());
   ASSERT_OK(bench.run(3000));
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);
-  ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.5, 1e-12);
+  ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.5, 1e-12);
 }
 
 void a_paused_arm_takes_a_trajectory_and_does_not_move(void**) {
@@ -80,7 +80,7 @@ void a_paused_arm_takes_a_trajectory_and_does_not_move(void**) {
   assert_true(bench.client.pause(request).ok());
   const std::uint32_t id = bench.go(0.5, 2.0, kQuintic);
   ASSERT_OK(bench.run(3000));
-  assert_true(bench.out().q == bench.home);
+  assert_true(bench.out().q == bench.home.q);
   assert_true(bench.client.resume(request).ok());
   ASSERT_OK(bench.run(2500));
   ASSERT_OUTCOME(bench.final_of(id), Outcome::kSucceeded);

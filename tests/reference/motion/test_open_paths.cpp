@@ -31,7 +31,7 @@ Waypoint<JointSpace> speeding_up(const ReferenceBench& bench, double time_s, dou
   const double a = share * bench.channel.settings.limits.ddq_max.minCoeff();
   Waypoint<JointSpace> waypoint;
   waypoint.time_s = time_s;
-  waypoint.point.q = bench.home + JointVector::Constant(0.5 * a * time_s * time_s);
+  waypoint.point.q = bench.home.q + JointVector::Constant(0.5 * a * time_s * time_s);
   waypoint.point.dq.setConstant(a * time_s);
   return waypoint;
 }
@@ -53,19 +53,19 @@ void an_append_while_the_rate_goes_to_zero_leaves_the_rate_where_it_belongs(void
     for (int k = 0; k < cycles; ++k) step(bench);
     Waypoint<JointSpace> next;
     next.time_s = 1.4;
-    next.point.q = bench.home + JointVector::Constant(0.2);
+    next.point.q = bench.home.q + JointVector::Constant(0.2);
     ASSERT_OK(bench.client.append(*stream, next).status);
     ASSERT_OK(bench.client.flush(*stream, true, id).status);
     assert_true(bench.client.set_override(0.0, id).ok());
     for (int k = 0; k < 500; ++k) step(bench);
     assert_true(bench.out().standing());
-    assert_true(bench.out().q[0] - bench.home[0] <= 0.01);
+    assert_true(bench.out().q[0] - bench.home.q[0] <= 0.01);
     assert_true(bench.client.set_override(1.0, id).ok());
     for (int k = 0; k < 3000; ++k) {
       step(bench);
       static_cast<void>(bench.client.poll(report));
     }
-    ASSERT_NEAR(bench.out().q[0] - bench.home[0], 0.2, 1e-9);
+    ASSERT_NEAR(bench.out().q[0] - bench.home.q[0], 0.2, 1e-9);
   }
 }
 
@@ -81,7 +81,7 @@ void a_first_part_shorter_than_a_stop_is_begun_as_slowly_as_it_takes(void**) {
   for (int k = 0; k < 1000; ++k) step(bench);
   const double end = stream->waypoints[1].point.q[0];
   assert_true(bench.out().standing() && bench.out().q[0] < end);
-  assert_true(bench.out().q[0] - bench.home[0] > 0.9 * (end - bench.home[0]));
+  assert_true(bench.out().q[0] - bench.home.q[0] > 0.9 * (end - bench.home.q[0]));
   ASSERT_OK(bench.client.append(*stream, speeding_up(bench, 0.25, 0.9)).status);
   Waypoint<JointSpace> last = speeding_up(bench, 0.25, 0.9);
   last.time_s = 0.75;
