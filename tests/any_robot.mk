@@ -13,7 +13,7 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   pipeline/test_contact_pipelines \
   pipeline/test_free_pipelines pipeline/test_pipelines pipeline/test_recordings pipeline/test_room pipeline/test_stops \
   pipeline/test_tuning program/test_reach program/test_sections \
-  reference/generator/test_start_times reference/motion/test_chunk_properties reference/motion/test_every_motion \
+  reference/generator/test_start_times streams/test_chunk_properties reference/motion/test_every_motion \
   reference/motion/test_motion)
 # Of these, those that reach lines with six joints which they do not reach with seven, and what is about the board. A
 # sanitizer sees the others with the FER.

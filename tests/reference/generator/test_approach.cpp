@@ -1,7 +1,7 @@
 // approach_speed: points and chunks that begin anew, of a leader that may be far from the arm. And
 // whose points they are. Every cycle is judged by the oracle of motions as well.
 #include "tests/reference/motion/checked_motion.hpp"
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 

@@ -2,7 +2,7 @@
 // Every cycle is judged by the oracle of motions as well.
 #include "kernel/reference/space/judge_channels.hpp"
 #include "tests/reference/motion/checked_motion.hpp"
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "tests/reference/motion/checked_motion.hpp"
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kernel/reference/motion/parabola_fit.hpp"
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // What becomes of a chunk by its order, its epoch and its stamps.
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace {

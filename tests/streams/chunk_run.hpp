@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "tests/reference/motion/chunk_sender.hpp"
 #include "tests/reference/motion/motion_oracle.hpp"
+#include "tests/streams/chunk_sender.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

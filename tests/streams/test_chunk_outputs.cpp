@@ -1,7 +1,7 @@
 // Digital outputs beside the targets of chunks: in time with the motion, newest chunk first.
 // Digital outputs of chunks and points stay as they are at every stop; points set them at once.
-#include "tests/reference/motion/chunk_bench.hpp"
-#include "tests/reference/motion/output_edges.hpp"
+#include "tests/streams/chunk_bench.hpp"
+#include "tests/streams/output_edges.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

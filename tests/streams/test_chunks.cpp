@@ -1,5 +1,5 @@
 // The way through the targets of chunks: without delay, over seams, to the end.
-#include "tests/reference/motion/chunk_bench.hpp"
+#include "tests/streams/chunk_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 // TACTUS_SEED=<seed> TACTUS_TRIALS=1 repeats it.
 #include <cstdlib>
 
-#include "tests/reference/motion/chunk_run.hpp"
+#include "tests/streams/chunk_run.hpp"
 #include "tests/support/testing.hpp"
 #include "tests/support/trials.hpp"
 
