@@ -78,10 +78,6 @@ void Runner::start(std::string_view text, Machine& machine) {
     program_.emplace<ExternalControl>().start(text);
   } else if (RegisterProgram::recognises(text)) {
     program_.emplace<RegisterProgram>().start(text);
-  } else if (DriverProgram::recognises(text)) {
-    program_.emplace<DriverProgram>().start(text);
-  } else if (WaypointProgram::recognises(text)) {
-    program_.emplace<WaypointProgram>().start(text);
   } else {
     text = {text_.data(), join_lines(text_.data(), text.size())};
     if (!compiles(text, machine)) return;

@@ -3,11 +3,9 @@
 
 #include <variant>
 
-#include "sim_plant/ur/programs/driver_program.hpp"
 #include "sim_plant/ur/programs/external_control.hpp"
 #include "sim_plant/ur/programs/fetch_program.hpp"
 #include "sim_plant/ur/programs/register_program.hpp"
-#include "sim_plant/ur/programs/waypoint_program.hpp"
 
 namespace tactus::ur {
 
@@ -49,8 +47,7 @@ class Runner {
   void set_name(std::string_view name);
   void watch_inputs(Machine& machine);
 
-  std::variant<std::monostate, LineProgram, ExternalControl, DriverProgram, RegisterProgram,
-               WaypointProgram, FetchProgram>
+  std::variant<std::monostate, LineProgram, ExternalControl, RegisterProgram, FetchProgram>
       program_;
   bool paused_ = false;
   bool braking_ = false;  // from the motion of the last program

@@ -48,12 +48,6 @@ bool next_socket(std::string_view& text, std::string_view function, SocketPlace&
 
 }  // namespace
 
-bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place) {
-  for (int i = 0; i <= n; ++i)
-    if (!next_socket(text, function, place)) return false;
-  return true;
-}
-
 bool find_socket_named(std::string_view text, std::string_view function, std::string_view name,
                        SocketPlace& place) {
   while (next_socket(text, function, place))

@@ -14,9 +14,8 @@ struct SocketPlace {
   std::string_view name;
 };
 
-/// Finds the n-th call of `function` with literal address and port. False: there is none.
-bool find_socket(std::string_view text, std::string_view function, int n, SocketPlace& place);
-/// The same for the call with this socket name.
+/// Finds the call of `function` with literal address and port and this socket name. False: there is
+/// none.
 bool find_socket_named(std::string_view text, std::string_view function, std::string_view name,
                        SocketPlace& place);
 

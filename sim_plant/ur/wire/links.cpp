@@ -35,16 +35,6 @@ bool Link::read_ints(std::int32_t* values, std::size_t count) {
   return true;
 }
 
-bool Link::read_line(char* line, std::size_t capacity, std::size_t& size) {
-  const std::size_t end = received().find('\n');
-  if (end == std::string_view::npos) return false;
-  size = std::min(end, capacity);
-  if (size > 0) std::memcpy(line, in_.data(), size);
-  in_size_ -= end + 1;
-  std::memmove(in_.data(), in_.data() + end + 1, in_size_);
-  return true;
-}
-
 void Link::send_int(std::int32_t value) {
   std::array<std::uint8_t, 4> bytes;
   ByteWriter writer(bytes.data(), bytes.size());

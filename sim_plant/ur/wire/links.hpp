@@ -23,8 +23,6 @@ class Link {
   std::string_view name() const { return {name_.data(), name_size_}; }
   /// Reads `count` big-endian integers. False: fewer have come.
   bool read_ints(std::int32_t* values, std::size_t count);
-  /// Reads a line without its end, cut to `capacity`. False: no whole line has come.
-  bool read_line(char* line, std::size_t capacity, std::size_t& size);
   /// All bytes that have come.
   std::string_view received() const {
     return {reinterpret_cast<const char*>(in_.data()), in_size_};

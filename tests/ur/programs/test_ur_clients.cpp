@@ -1,6 +1,5 @@
 // Tests behaviour that existing clients rely on: single lines streamed at the cycle's rate, several
-// secondary programs at once, the old numbers of outputs, and the programs of the ROS driver of
-// 2015 and of its successor. The texts are our own, with the relevant lines.
+// secondary programs at once, the old numbers of outputs.
 #include <unistd.h>
 
 #include "sim_plant/ur/server/options.hpp"
@@ -76,55 +75,6 @@ void outputs_have_the_numbers_they_had_before_version_3_too(void**) {
   assert_int_equal(bits("digital_out[7]=False\n"), 0x30004);
   assert_int_equal(bits("set_configurable_digital_out(0, get_digital_out(9))\n"), 0x30104);
   assert_int_equal(bits("set_standard_digital_out(0, get_digital_out(8))\n"), 0x30105);
-}
-
-// Proves URE-32.
-
-constexpr const char* kDriverProgram =
-    "def driverProg():\n\tMULT_jointstate = 1000000\n"
-    "\tthread servoThread():\n\t\tservoj(q, t=0.0080, lookahead_time=0.1000, gain=300)\n"
-    "\tend\n  socket_open(\"10.0.0.7\", 50001)\n"
-    "\tparams_mult = socket_read_binary_integer(6+1)\nend\n";
-
-void send_q(const Joints& q, double keep_alive) {
-  send_ints("socket_0", {q[0] * kMillion, q[1] * kMillion, q[2] * kMillion, q[3] * kMillion,
-                         q[4] * kMillion, q[5] * kMillion, keep_alive});
-}
-
-void the_driver_program_outlives_its_connection(void**) {
-  connect();
-  g_bench.send(g_primary, kDriverProgram);
-  tick(3);
-  Link& link = *g_bench->links().find("socket_0");
-  Joints q = g_bench.image().actual_q;
-  for (int k = 0; k < 50; ++k) {
-    q[5] += 0.002;
-    send_q(q, 1);
-    tick();
-  }
-  link.lost();
-  tick(200);
-  assert_true(playing() && g_bench.image().target_qd.isZero(0.0));
-  g_bench.send(g_primary, kDriverProgram);  // it gives way to the next program
-  tick(3);
-  assert_true(playing());
-  send_q(q, 1);
-  tick(60);
-  ASSERT_NEAR(g_bench.image().target_q[5], q[5], 0.1);
-}
-
-void the_driver_program_follows_its_last_set_point_and_ends_a_tenth_later(void**) {
-  connect();
-  g_bench.send(g_primary, kDriverProgram);
-  tick(3);
-  Joints q = g_bench.image().actual_q;
-  q[5] += 0.01;
-  send_q(q, 0);
-  tick(12);
-  assert_true(playing());
-  assert_true(g_bench.image().target_q[5] > q[5] - 0.01);
-  tick(2);
-  assert_false(playing());
 }
 
 // Proves URE-5.
@@ -216,8 +166,6 @@ int main() {
       cmocka_unit_test(a_line_that_is_no_motion_and_a_whole_program_find_the_arm_at_rest),
       cmocka_unit_test(secondary_programs_that_come_at_once_all_have_their_turn),
       cmocka_unit_test(outputs_have_the_numbers_they_had_before_version_3_too),
-      cmocka_unit_test(the_driver_program_outlives_its_connection),
-      cmocka_unit_test(the_driver_program_follows_its_last_set_point_and_ends_a_tenth_later),
       cmocka_unit_test(the_build_is_told_from_version_3_3),
       cmocka_unit_test(the_version_of_the_command_line_has_room_for_old_revisions),
       cmocka_unit_test(a_start_without_outputs_is_refused),

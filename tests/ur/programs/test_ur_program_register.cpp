@@ -1,4 +1,4 @@
-// Tests two simpler protocols: the register program, and the driver program of 2015.
+// Tests the register program: its handshake, moves, servoing, force mode and watchdog.
 #include "tests/ur/programs/ur_register_bench.hpp"
 
 namespace {
@@ -136,69 +136,6 @@ void command_255_ends_it(void**) {
   assert_false(bench.running());
 }
 
-constexpr std::string_view kDriver =
-    "def driverProg():\n"
-    "\tthread servoThread():\n"
-    "\t\tservoj(q, 0, 0, 0.008, 0.06, 1000)\n"
-    "\tend\n"
-    "\tsocket_open(\"10.0.0.7\", 50001)\n"
-    "\twhile keepalive > 0:\n"
-    "\t\tparams_mult = socket_read_binary_integer(6+1)\n"
-    "\tend\n"
-    "end\n";
-
-struct DriverBench : ProgramBench {
-  void start() {
-    upload(kDriver);
-    run(3);
-    assert_true(connected("socket_0"));
-  }
-  void set(double q0, std::int32_t keep_alive = 1) {
-    std::int32_t ints[7];
-    for (int i = 0; i < 6; ++i) ints[i] = fixed(kStart[i]);
-    ints[0] = fixed(q0);
-    ints[6] = keep_alive;
-    send("socket_0", ints, 7);
-  }
-};
-
-// Proves URP-9.
-
-void the_driver_program_follows_and_brakes_with_1_rad_s2(void**) {
-  static DriverBench bench;
-  bench.start();
-  assert_int_equal(bench.link("socket_0").port(), 50001);
-  double at = 0.0;
-  for (int k = 0; k < 125; ++k) {
-    bench.set(at += 0.3 * kCycle_s);
-    bench.tick();
-  }
-  ASSERT_NEAR(bench.image().target_qd[0], 0.3, 0.01);
-  ASSERT_NEAR(bench.target()[0], at - 0.3 * 0.06, 0.003);
-  double before = bench.image().target_qd[0];
-  for (int k = 0; k < 60; ++k) {
-    bench.tick();
-    assert_true(before - bench.image().target_qd[0] <= 1.0 * kCycle_s + 1e-9);
-    before = bench.image().target_qd[0];
-  }
-  ASSERT_NEAR(before, 0.0, 0.0);
-  assert_true(bench.running());
-  const double here = bench.target()[0];
-  for (int k = 0; k < 125; ++k) {
-    bench.set(here + 0.05);
-    bench.tick();
-  }
-  ASSERT_NEAR(bench.target()[0], here + 0.05, 1e-3);
-}
-
-void a_keep_alive_of_nought_ends_it(void**) {
-  static DriverBench bench;
-  bench.start();
-  bench.set(0.0, 0);
-  bench.run(15);
-  assert_false(bench.running());
-}
-
 }  // namespace
 
 int main() {
@@ -213,8 +150,6 @@ int main() {
       cmocka_unit_test(a_watchdog_that_is_not_fed_ends_the_program),
       cmocka_unit_test(the_watchdog_is_fed_by_the_register_of_the_offset),
       cmocka_unit_test(command_255_ends_it),
-      cmocka_unit_test(the_driver_program_follows_and_brakes_with_1_rad_s2),
-      cmocka_unit_test(a_keep_alive_of_nought_ends_it),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -91,35 +91,6 @@ void a_move_that_cannot_be_reached_fails_without_motion(void**) {
   assert_true(g_bench.image().target_q == before);
 }
 
-// Proves URE-32.
-
-void the_driver_program_brakes_without_set_points_and_stays_alive(void**) {
-  connect();
-  g_bench.send(g_primary,
-               "def driverProg():\n\tMULT_jointstate = 1000000\n"
-               "\tthread servoThread():\n\t\tservoj(q, t=0.0080, lookahead_time=0.0300, gain=300)\n"
-               "\tend\n  socket_open(\"10.0.0.7\", 50001)\n"
-               "\tparams_mult = socket_read_binary_integer(6+1)\nend\n");
-  tick(3);
-  assert_true(playing());
-  Joints q = g_bench.image().actual_q;
-  const auto send_q = [&](double keep_alive) {
-    send_ints("socket_0", {q[0] * kMillion, q[1] * kMillion, q[2] * kMillion, q[3] * kMillion,
-                           q[4] * kMillion, q[5] * kMillion, keep_alive});
-  };
-  for (int k = 0; k < 50; ++k) {
-    q[5] += 0.002;
-    send_q(1);
-    tick();
-  }
-  assert_true(g_bench.image().target_qd[5] > 0.1);
-  tick(60);
-  assert_true(playing() && g_bench.image().target_qd.isZero(0.0));
-  send_q(0);
-  tick(14);
-  assert_false(playing());
-}
-
 // Proves URE-33.
 
 /// Writes RTDE's input registers as the client does: the command, and doubles from 0 on.
@@ -227,7 +198,6 @@ int main() {
       cmocka_unit_test(a_trajectory_of_splines_is_followed_and_its_result_sent),
       cmocka_unit_test(missing_points_fail_and_a_cancel_is_told_if_the_text_does),
       cmocka_unit_test(a_move_that_cannot_be_reached_fails_without_motion),
-      cmocka_unit_test(the_driver_program_brakes_without_set_points_and_stays_alive),
       cmocka_unit_test(the_register_program_shakes_hands),
       cmocka_unit_test(plain_lines_run_one_after_the_other),
       cmocka_unit_test(a_program_that_is_stopped_takes_its_motion_with_it),
