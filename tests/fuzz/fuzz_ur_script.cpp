@@ -1,6 +1,6 @@
 // Fuzzes scripts as a state port takes them, run for some cycles: recognisers, interpreter,
 // sockets.
-#include "sim_plant/ur/programs/script_intake.hpp"
+#include "sim_plant/ur/programs/runner.hpp"
 #include "tests/fuzz/ur_controller.hpp"
 
 using namespace tactus;

@@ -1,6 +1,6 @@
 // Fuzzes the division of a script port's text into programs and lines. The result must not depend
 // on how the stream is cut, and must hold no byte that was not sent.
-#include "sim_plant/ur/programs/script_intake.hpp"
+#include "sim_plant/ur/programs/runner.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 namespace {

@@ -110,7 +110,6 @@ void Controller::show_modes() {
   image_.actual_joint_voltage.setConstant(volts);
   const SafetyMode safety = machine_.safety.mode();
   image_.safety_mode = image_.safety_status = static_cast<std::int32_t>(safety);
-  image_.emergency_stopped = machine_.safety.emergency_stopped();
   image_.protective_stopped = machine_.safety.protective_stopped();
   image_.program_running = runner_.playing();
   image_.program_paused = runner_.paused();
@@ -124,7 +123,6 @@ void Controller::show_modes() {
   std::uint32_t bits = 1u << (static_cast<unsigned>(safety) - 1);
   if (safety == SafetyMode::kViolation) bits = kViolationBit;
   if (safety == SafetyMode::kFault) bits = kFaultBit;
-  if (image_.emergency_stopped) bits |= kEmergencyStoppedBit;
   if (!machine_.safety.normal()) bits |= kStoppedDueToSafetyBit;
   image_.safety_status_bits = bits;
 }

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "sim_plant/ur/controller/controller.hpp"
-#include "sim_plant/ur/programs/script_intake.hpp"
+#include "sim_plant/ur/programs/runner.hpp"
 #include "sim_plant/ur/wire/rtde_session.hpp"
 
 namespace tactus::ur {

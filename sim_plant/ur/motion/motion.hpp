@@ -1,29 +1,44 @@
-// Motion: the set-point generator of the controller. A script gives it one command at a time; it
-// moves the joint targets from cycle to cycle, by a time base that the speed slider stretches.
-//
-//   movej, movel,  a trapezoid of speed from rest to rest, on the leading axis or on the line; with
-//   movep, movec   a blend radius the arm goes on to the next move without stopping (move_path.hpp)
-//   servoj         servo_law.hpp, for t seconds
-//   speedj, speedl a linear change of speed, for t seconds or until it is reached; then it is held
-//   stopj          a linear change to rest
-//
-// Force mode displaces the tool in addition (force_mode.hpp); in freedrive the targets follow the
-// arm.
-//
-// A target that cannot be followed is a fault and causes a protective stop.
+// The set-point generator of the controller, and the law of servoj.
 #pragma once
 
 #include <limits>
 
 #include "sim_plant/ur/motion/force_mode.hpp"
 #include "sim_plant/ur/motion/move_path.hpp"
-#include "sim_plant/ur/motion/safety_codes.hpp"
-#include "sim_plant/ur/motion/servo_law.hpp"
+#include "sim_plant/ur/motion/safety_limits.hpp"
 
 namespace tactus::ur {
 
+/// The law of servoj: the gain g pulls the target position, projected over the lookahead time L
+/// with the present target speed, towards the set-point c,
+///
+///   ddq = g (c - q - L dq)
+///
+/// as the script manual describes it. This is a system of second order with the natural frequency
+/// sqrt(g) and the damping ratio L sqrt(g) / 2; it follows a ramp late by L. The solution is exact
+/// in every period, so a slower time base does not change the path.
+struct ServoLaw {
+  double gain = 300.0;       ///< 1/s^2
+  double lookahead_s = 0.1;  ///< s
+
+  /// Moves one joint for `h_s` towards a constant set-point; updates position and speed.
+  void step(double set_point, double h_s, double& q, double& dq) const;
+};
+
 inline constexpr double kNothing_s = 1e-9;  ///< a shorter time counts as zero
 
+/// Motion: the set-point generator of the controller. A script gives it one command at a time; it
+/// moves the joint targets from cycle to cycle, by a time base that the speed slider stretches.
+///
+///   movej, movel,  a trapezoid of speed from rest to rest, on the leading axis or on the line;
+///   with movep, movec   a blend radius the arm goes on to the next move without stopping
+///   (MovePath) servoj         ServoLaw, for t seconds speedj, speedl a linear change of speed, for
+///   t seconds or until it is reached; then it is held stopj          a linear change to rest
+///
+/// Force mode displaces the tool in addition; in freedrive the targets follow the
+/// arm.
+///
+/// A target that cannot be followed is a fault and causes a protective stop.
 class Motion {
  public:
   explicit Motion(const MotionLimits& limits = {}, const ForceSettings& force = {})

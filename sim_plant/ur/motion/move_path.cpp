@@ -7,10 +7,131 @@
 namespace tactus::ur {
 namespace {
 
+/// Below the first angle there is no circle; above the second it shrinks to a point.
+constexpr double kStraight = 1e-4, kSharp = 2.6;  // rad
+
 constexpr double kSettle_s = 0.064;  // a move returns after the arm has settled too
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
+
+Trapezoid Trapezoid::over(double d, double v0, double v1, double v, double a) {
+  Trapezoid law;
+  const double change = v1 * v1 - v0 * v0;
+  if (d > 0.0) a = std::max(a, std::abs(change) / (2.0 * d));
+  const double highest = std::sqrt(std::max(0.0, a * d + 0.5 * (v0 * v0 + v1 * v1)));
+  // The top speed is at least v1; it is between v0 and v1 if the distance is just enough.
+  const double top = std::clamp(v, std::min(v1, highest), highest);
+  law.v0_ = v0;
+  law.v1_ = v1;
+  law.top_ = top;
+  law.way_ = d;
+  law.a0_ = top < v0 ? -a : a;
+  law.a1_ = a;
+  law.first_s_ = std::abs(top - v0) / a;
+  law.last_s_ = std::max(0.0, top - v1) / a;
+  const double ramps = 0.5 * (v0 + top) * law.first_s_ + 0.5 * (top + v1) * law.last_s_;
+  law.flat_s_ = top > 0.0 ? std::max(0.0, d - ramps) / top : 0.0;
+  return law;
+}
+
+double Trapezoid::position(double t_s) const {
+  const double t = std::clamp(t_s, 0.0, duration_s()), left = duration_s() - t;
+  if (left < last_s_ || left == 0.0) return way_ - (v1_ + 0.5 * a1_ * left) * left;
+  if (t < first_s_) return (v0_ + 0.5 * a0_ * t) * t;
+  return 0.5 * (v0_ + top_) * first_s_ + top_ * (t - first_s_);
+}
+
+double Trapezoid::speed(double t_s) const {
+  const double t = std::clamp(t_s, 0.0, duration_s()), left = duration_s() - t;
+  if (left < last_s_ || left == 0.0) return v1_ + a1_ * left;
+  return t < first_s_ ? v0_ + a0_ * t : top_;
+}
+
+double Trapezoid::time_at(double x) const {
+  const double first = 0.5 * (v0_ + top_) * first_s_;
+  if (x <= 0.0) return 0.0;
+  if (x < first) {
+    const double v = std::sqrt(std::max(0.0, v0_ * v0_ + 2.0 * a0_ * x));
+    return 2.0 * x / (v0_ + v);
+  }
+  return first_s_ + std::min(flat_s_, top_ > 0.0 ? (x - first) / top_ : 0.0);
+}
+
+void Blend::start(const Segment& a, double left, const Segment& b, double gone) {
+  a_ = &a;
+  b_ = &b;
+  left_ = left;
+  gone_ = gone;
+  k_ = 0.0;
+  circle_ = false;
+  if (a.move().kind == Move::Kind::kP && b.move().kind == Move::Kind::kP) fit_circle();
+}
+
+void Blend::fit_circle() {
+  const Vector3 corner = b_->tip(0.0).p;
+  touch_ = a_->tip(a_->length() - left_).p;
+  const double e = (corner - touch_).norm();
+  along_ = (corner - touch_) / e;
+  const Vector3 out = (b_->tip(gone_).p - corner).normalized();
+  theta_ = std::atan2(along_.cross(out).norm(), along_.dot(out));
+  if (!(theta_ > kStraight && theta_ < kSharp)) return;
+  across_ = (out - along_.dot(out) * along_).normalized();
+  rho_ = e / std::tan(0.5 * theta_);
+  k_ = 2.0 - rho_ * theta_ / e;
+  circle_ = true;
+}
+
+Blend::Share Blend::share(double u) const {
+  const double w = 1.0 - u;
+  return {a_->length() - left_ * w * w * (1.0 + k_ * u),
+          left_ * w * (2.0 * (1.0 + k_ * u) - k_ * w), gone_ * u * u * (1.0 + k_ * w),
+          gone_ * u * (2.0 * (1.0 + k_ * w) - k_ * u)};
+}
+
+bool Blend::at(double u, const Joints& near, Joints& q, Joints& slope) const {
+  if (a_->in_joints() || b_->in_joints()) return at_joints(u, q, slope);
+  Vector6 twist;
+  const Frame frame = tip(u, twist);
+  Joints found;
+  if (!inverse(frame, a_->tool(), near, found)) return false;
+  q = found;
+  return joint_speeds(q, a_->tool(), twist, slope);
+}
+
+bool Blend::at_joints(double u, Joints& q, Joints& slope) const {
+  const Share s = share(u);
+  const Joints& corner = b_->begin();
+  Joints q_a, q_b, slope_a, slope_b;
+  if (!a_->at(s.x_a, corner, q_a, slope_a) || !b_->at(s.x_b, corner, q_b, slope_b)) return false;
+  q = q_a + q_b - corner;
+  slope = slope_a * s.dx_a + slope_b * s.dx_b;
+  return true;
+}
+
+Frame Blend::tip(double u, Vector6& twist) const {
+  const Share s = share(u);
+  const Frame a = a_->tip(s.x_a), b = b_->tip(s.x_b), corner = b_->tip(0.0);
+  const Vector6 twist_a = a_->twist(s.x_a) * s.dx_a, twist_b = b_->twist(s.x_b) * s.dx_b;
+  const Matrix3 to_b = a.r * corner.r.transpose();
+  Frame frame{a.p + b.p - corner.p, to_b * b.r};
+  twist << twist_a.head<3>() + twist_b.head<3>(), twist_a.tail<3>() + to_b * twist_b.tail<3>();
+  if (!circle_) return frame;
+  const double c = std::cos(theta_ * u), sine = std::sin(theta_ * u);
+  frame.p = touch_ + rho_ * (sine * along_ + (1.0 - c) * across_);
+  twist.head<3>() = rho_ * theta_ * (c * along_ + sine * across_);
+  return frame;
+}
+
+double Blend::rate(double a_first, double a_next) const {
+  const double a = 2.0 * left_, b = 2.0 * gone_;
+  if (a_->in_joints() != b_->in_joints()) return std::sqrt(std::min(a_first / a, a_next / b));
+  Joints q = b_->begin(), slope_a, slope_b;
+  if (a_->in_joints() && a_->at(a_->length(), q, q, slope_a) && b_->at(0.0, q, q, slope_b))
+    return std::sqrt(a_first / (b * slope_b - a * slope_a).cwiseAbs().maxCoeff());
+  const Vector6 change = b * b_->twist(0.0) - a * a_->twist(a_->length());
+  return std::sqrt(a_first / std::max(change.head<3>().norm(), change.tail<3>().norm()));
+}
 
 bool MovePath::begin(const Move& move, const Joints& from, const Frame& tool) {
   if (!now().start(move, from, tool, limits_)) return false;

@@ -1,21 +1,90 @@
-// Segment: the path of one move from the end of the last one. With s = x / length from 0 to 1
-//
-//   movej         q = q0 + s (q1 - q0)                 length: of the leading axis, rad
-//   movel, movep  p = p0 + s (p1 - p0)                 length: of the line, m
-//   movec         p = c + Rot(n, s phi) (p0 - c)       length: of the arc, m
-//
-// and the tool turns by the fraction s of the angle between its orientations, R = R0 Exp(s log(R0'
-// R1)), or with the circle, R = Rot(n, s phi) R0. If the angle in rad is larger than the distance
-// in m, it is the length.
+// The path of one move, and how fast the joints can follow it.
 #pragma once
 
-#include "sim_plant/ur/motion/curve.hpp"
-#include "sim_plant/ur/motion/move.hpp"
+#include <algorithm>
+
+#include "sim_plant/ur/motion/kinematics.hpp"
 
 namespace tactus::ur {
 
+/// The limits of the set-point generator, and those of the path check, which are not published;
+/// rad, rad/s and rad/s^2.
+struct MotionLimits {
+  Joints speed;                    ///< highest speed of the joints
+  double acceleration = 40.0;      ///< of a joint in moves: not published
+  double position = 6.3355;        ///< 363 degrees: the default safety limit
+  double sudden_change = 0.5;      ///< distance of a servo set-point from the present target
+  double sudden_stop = 0.1;        ///< target speed from which a standstill is too sudden
+  double stop_acceleration = 4.0;  ///< of a program that ends
+  double protective_acceleration = 12.0;
+
+  MotionLimits() {
+    speed << 120.0, 120.0, 180.0, 180.0, 180.0, 180.0;
+    speed *= kDegree;
+  }
+};
+
+/// Limits a speed, acceleration or time of a script to a range that arithmetic can handle; returns
+/// the default for a value that is not positive or NaN.
+inline double given_or(double value, double otherwise) {
+  return value > 0.0 ? std::clamp(value, 1e-9, 1e9) : otherwise;
+}
+
+/// Curve: a path of the arm over a coordinate x from 0 to length(), and how fast it can be
+/// followed: at samples of the curve with dq/dx = q' and d(q')/dx = q'', no joint exceeds its
+/// limits if
+///
+///   dx/dt <= speed / |q'|,   dx/dt <= sqrt(ddq / |q''|),   d2x/dt2 <= ddq / |q'|
+///
+/// where the last two share the acceleration.
+class Curve {
+ public:
+  virtual double length() const = 0;
+  /// Returns the posture at `x` nearest to `near`, rad, and dq/dx. False: there is none.
+  virtual bool at(double x, const Joints& near, Joints& q, Joints& slope) const = 0;
+
+ protected:
+  ~Curve() = default;
+};
+
+/// Speed and acceleration, in units of x per s and s^2.
+struct Rates {
+  double v = 0.0, a = 0.0;
+};
+
+/// Returns the highest rates that the joints allow, with `share` of their acceleration for bends.
+/// `q` is the posture at the beginning and becomes that at the end. False: the arm cannot follow.
+/// [any]
+bool fastest(const Curve& curve, double share, const MotionLimits& limits, Joints& q, Rates& rates);
+
+/// Move: the parameters of a move command of a script.
+struct Move {
+  enum class Kind : std::uint8_t {
+    kJ,  ///< movej: the joints keep their proportions
+    kL,  ///< movel: a line of the tool
+    kP,  ///< movep: a line, with blends in which the tool keeps its speed
+    kC,  ///< movec: a circle
+  };
+  Kind kind = Kind::kJ;
+  Joints q = Joints::Zero();  ///< of movej
+  Frame via, target;          ///< of the others; only the position of `via` counts
+  bool fixed = false;         ///< movec: the tool keeps its orientation relative to the circle
+  /// Not positive: the default of the script manual. `t`, from rest to rest, has precedence.
+  double a = 0.0, v = 0.0, t = 0.0;
+  double r = 0.0;  ///< blend radius, m
+};
+
 inline constexpr double kNoLength = 1e-9;  ///< m or rad; a shorter way counts as none
 
+/// Segment: the path of one move from the end of the last one. With s = x / length from 0 to 1
+///
+///   movej         q = q0 + s (q1 - q0)                 length: of the leading axis, rad
+///   movel, movep  p = p0 + s (p1 - p0)                 length: of the line, m
+///   movec         p = c + Rot(n, s phi) (p0 - c)       length: of the arc, m
+///
+/// and the tool turns by the fraction s of the angle between its orientations, R = R0 Exp(s log(R0'
+/// R1)), or with the circle, R = Rot(n, s phi) R0. If the angle in rad is larger than the distance
+/// in m, it is the length.
 class Segment final : public Curve {
  public:
   /// `tool` is the tip in the flange. False: the arm cannot follow, or the target is too far. [any]

@@ -1,19 +1,51 @@
-// Machine: the parts of the controller on which a program acts.
+// The parts of the controller on which a program acts, and how a program answers it.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "sim_plant/ur/motion/body.hpp"
 #include "sim_plant/ur/motion/force_mode.hpp"
-#include "sim_plant/ur/parts/power.hpp"
-#include "sim_plant/ur/parts/safety.hpp"
-#include "sim_plant/ur/parts/watchdog.hpp"
+#include "sim_plant/ur/parts/modes.hpp"
 #include "sim_plant/ur/wire/io.hpp"
 #include "sim_plant/ur/wire/links.hpp"
 #include "sim_plant/ur/wire/robot_messages.hpp"
 
 namespace tactus::ur {
 
+/// Watchdogs: the watchdogs of rtde_set_watchdog. An input that is not written at `min_frequency`
+/// is late. The action is then
+///
+///   ignore   none
+///   pause    the program pauses and the clients receive C207; it may be resumed
+///   stop     a protective stop, C207, which ends the program
+///
+/// Watchdogs end with the program. A frequency that is not positive switches a watchdog off.
+enum class LateAction : std::uint8_t { kIgnore, kPause, kStop };
+
+class Watchdogs {
+ public:
+  /// Sets a watchdog from `cycle` on, and replaces one of the same input. [any]
+  void set(const InputField& field, double min_frequency, LateAction action, std::int64_t cycle);
+  void clear() { count_ = 0; }
+
+  /// Returns the gravest action of all late inputs, or kIgnore. A pause is returned once, until the
+  /// input is written again. [cyclic]
+  LateAction check(const Io& io, std::int64_t cycle, double cycle_s);
+
+ private:
+  struct Watch {
+    std::size_t variable = 0;
+    double longest_s = 0.0;
+    LateAction action = LateAction::kIgnore;
+    std::int64_t from = 0;
+    bool told = false;
+  };
+  std::array<Watch, 8> watches_{};
+  std::size_t count_ = 0;
+};
+
+/// Machine: the parts of the controller on which a program acts.
 struct Machine {
   explicit Machine(const Settings& chosen)
       : settings(chosen),
@@ -95,6 +127,15 @@ struct Machine {
 
   static constexpr double kMost = 1e4;  // m, rad or kg; beyond the range of 32 bits of millionths
   void refuse() { protective_stop({Code::kPathSanity, kInvalidSetPoint}); }
+};
+
+/// The result of the two functions of a running program. In every cycle poll() runs its main
+/// thread, which reads sockets and registers; command() gives the next motion command after the
+/// last has returned.
+enum class ProgramStep : std::uint8_t {
+  kRunning,  ///< command(): a motion command was given; poll(): the program goes on
+  kWaiting,  ///< command(): no motion command in this cycle
+  kEnded,
 };
 
 }  // namespace tactus::ur

@@ -5,10 +5,10 @@
 
 #include "hal/ur/protocol_modes.hpp"
 #include "hal/ur/protocol_state.hpp"
+#include "sim_plant/ur/motion/body.hpp"
 #include "sim_plant/ur/motion/motion.hpp"
 #include "sim_plant/ur/motion/safety_limits.hpp"
 #include "sim_plant/ur/motion/sensors.hpp"
-#include "sim_plant/ur/motion/surroundings.hpp"
 
 namespace tactus::ur {
 

@@ -3,11 +3,48 @@
 namespace tactus::ur {
 namespace {
 
+using ScriptInts = std::array<std::int32_t, kScriptCommandInts>;
+
 constexpr double kSpeedAcceleration = 40.0;  // rad/s^2
 constexpr int kAttempts = 5;
 constexpr double kRetry_s = 0.2;
 constexpr double kLog_s = 5.0;  // between two log messages of the same kind
 constexpr int kMessagesAtOnce = 64;
+
+constexpr std::string_view kCommandSocket = "script_command_socket";
+constexpr double kContact = 0.3;  // fraction of the torque that counts as a collision
+constexpr int kCommandsAtOnce = 8;
+enum Contact : std::int32_t { kTouched = 0, kEndedWithout = 1 };
+
+double value(const ScriptInts& command, std::size_t i) {
+  return command[i] / kFixedPoint;
+}
+
+Vector3 three(const ScriptInts& command, std::size_t first) {
+  return {value(command, first), value(command, first + 1), value(command, first + 2)};
+}
+
+Vector6 six(const ScriptInts& command, std::size_t first) {
+  Vector6 values;
+  values << three(command, first), three(command, first + 3);
+  return values;
+}
+
+void start_force_mode(const ScriptInts& command, Machine& machine) {
+  ForceMode force;
+  force.task_frame = six(command, 1);
+  force.selection = six(command, 7);
+  force.wrench = six(command, 13);
+  force.type = static_cast<int>(value(command, 19));
+  force.limits = six(command, 20);
+  machine.force_damping = value(command, 26);
+  machine.start_force_mode(force);
+}
+
+bool touches(const Machine& machine) {
+  const Joints share = machine.body.residual().cwiseAbs().cwiseQuotient(machine.settings.collision);
+  return share.maxCoeff() > kContact;
+}
 
 }  // namespace
 
@@ -26,10 +63,10 @@ ProgramStep ExternalControl::poll(Machine& machine) {
       return ProgramStep::kRunning;
     case Phase::kEnding:
       if (machine.motion.busy()) return ProgramStep::kRunning;
-      for (const std::string_view name : kSockets)
+      for (const std::string_view name : kExternalSockets)
         if (Link* link = machine.links.find(name)) link->close();
       phase_ = halts_ ? Phase::kEnded : Phase::kBehind;
-      rest_.start(behind_, behind_line_, true);
+      rest_.start(text_.behind, text_.behind_line, true);
       return poll(machine);
     case Phase::kBehind: return rest_.poll(machine);
     case Phase::kEnded: break;
@@ -38,9 +75,9 @@ ProgramStep ExternalControl::poll(Machine& machine) {
 }
 
 ProgramStep ExternalControl::connect(Machine& machine) {
-  while (connected_ < places_.size()) {
-    const SocketPlace& place = places_[connected_];
-    Link* link = machine.links.find(kSockets[connected_]);
+  while (connected_ < text_.places.size()) {
+    const SocketPlace& place = text_.places[connected_];
+    Link* link = machine.links.find(kExternalSockets[connected_]);
     if (link == nullptr) return ProgramStep::kEnded;
     if (place.port == 0 || link->open()) {
       ++connected_;
@@ -54,7 +91,7 @@ ProgramStep ExternalControl::connect(Machine& machine) {
     }
     if (attempts_ >= kAttempts) return ProgramStep::kRunning;
     if (link->state() == Link::State::kClosed && machine.time_s() >= retry_at_s_)
-      link->want(kSockets[connected_], place.host, place.port);
+      link->want(kExternalSockets[connected_], place.host, place.port);
     return ProgramStep::kRunning;
   }
   machine.messages.text("ExternalControl: External control active");
@@ -65,12 +102,12 @@ ProgramStep ExternalControl::connect(Machine& machine) {
 /// Closes all sockets; the popup waits for an operator.
 void ExternalControl::give_up(Machine& machine) {
   for (std::size_t i = 0; i < connected_; ++i)
-    if (Link* link = machine.links.find(kSockets[i])) link->close();
+    if (Link* link = machine.links.find(kExternalSockets[i])) link->close();
   machine.messages.popup("Error connecting to remote", "a socket could not be opened", false, true);
 }
 
 void ExternalControl::read_reverse(Machine& machine) {
-  Link* link = machine.links.find(kSockets[2]);
+  Link* link = machine.links.find(kExternalSockets[2]);
   Message message;
   for (int n = 0; n < kMessagesAtOnce && phase_ == Phase::kRunning; ++n) {
     if (trajectory_.clearing()) return;
@@ -80,7 +117,7 @@ void ExternalControl::read_reverse(Machine& machine) {
       if (!late && link != nullptr && !link->at_end(message.size())) return;
       machine.messages.text(
           "Socket timed out waiting for command on reverse_socket. The script will exit now.");
-      return leave(halts_when_silent_, machine);
+      return leave(text_.halts_when_silent, machine);
     }
     silent_s_ = 0.0;
     take(message, machine);
@@ -201,8 +238,46 @@ ProgramStep ExternalControl::servo(Machine& machine) {
   if (servo_ == Servo::kNone) return ProgramStep::kWaiting;
   if (servo_ == Servo::kOld) servo_q_ += machine.motion.dq() * machine.cycle_s();
   servo_ = Servo::kOld;
-  machine.motion.servo_j(servo_q_, machine.cycle_s(), law_);
+  machine.motion.servo_j(servo_q_, machine.cycle_s(), text_.law);
   return machine.motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
+}
+
+// The commands of external control that are not motions. They come over a socket of their own, and
+// only the tool contact detection answers.
+
+void ExternalControl::read_commands(Machine& machine) {
+  Link* link = machine.links.find(kCommandSocket);
+  if (link == nullptr) return;
+  ScriptInts command;
+  for (int n = 0; n < kCommandsAtOnce && link->read_ints(command.data(), command.size()); ++n)
+    obey_command(command, *link, machine);
+  const bool watches = tool_contact_ && mode_ != ControlMode::kToolInContact;
+  if (!watches || trajectory_.clearing() || !touches(machine)) return;
+  trajectory_.drop(machine);
+  machine.freedrive = false;
+  machine.motion.stop_j(kStopDeceleration);
+  mode_ = ControlMode::kToolInContact;
+  link->send_int(kTouched);
+}
+
+void ExternalControl::obey_command(const ScriptInts& command, Link& link, Machine& machine) {
+  switch (static_cast<ScriptCommand>(command[0])) {
+    case ScriptCommand::kSetTargetPayload:
+    case ScriptCommand::kSetPayload:
+      return machine.set_payload(value(command, 1), three(command, 2));
+    case ScriptCommand::kSetToolVoltage:
+      machine.io.tool_voltage = static_cast<std::int32_t>(value(command, 1));
+      return;
+    case ScriptCommand::kStartForceMode: return start_force_mode(command, machine);
+    case ScriptCommand::kEndForceMode: machine.force_mode = {}; return;
+    case ScriptCommand::kStartToolContact: tool_contact_ = true; return;
+    case ScriptCommand::kEndToolContact:
+      if (mode_ != ControlMode::kToolInContact) link.send_int(kEndedWithout);
+      tool_contact_ = false;
+      return;
+    case ScriptCommand::kSetTcpOffset: return machine.set_tcp(six(command, 1));
+    default: return;  // of the e-Series, or without effect on a stiff arm
+  }
 }
 
 }  // namespace tactus::ur

@@ -3,25 +3,26 @@
 // socket until a stop comes, or no message comes in time.
 #pragma once
 
+#include "sim_plant/ur/programs/external_text.hpp"
 #include "sim_plant/ur/programs/line_program.hpp"
-#include "sim_plant/ur/programs/servo_script.hpp"
 #include "sim_plant/ur/programs/trajectory_run.hpp"
 
 namespace tactus::ur {
 
 class ExternalControl {
  public:
-  /// True if the text is such a program. The text must outlive the program.
-  static bool recognises(std::string_view text);
-  void start(std::string_view text);
+  /// Starts the program; the text must outlive it.
+  void start(std::string_view text) {
+    *this = {};
+    text_ = read_external_control(text);
+    trajectory_.set_features(text_.features);
+  }
 
   ProgramStep poll(Machine& machine);
   ProgramStep command(Machine& machine);
 
  private:
   enum class Phase : std::uint8_t { kConnecting, kRunning, kJoining, kEnding, kBehind, kEnded };
-  static constexpr std::array<std::string_view, 3> kSockets = {
-      "trajectory_socket", "script_command_socket", "reverse_socket"};
   using Message = std::array<std::int32_t, kReverseInts>;
 
   ProgramStep connect(Machine& machine);
@@ -40,16 +41,14 @@ class ExternalControl {
 
   enum class Servo : std::uint8_t { kNone, kNew, kOld };
 
-  std::array<SocketPlace, 3> places_;  // trajectory, script command, reverse
+  ExternalReading text_;
   std::size_t connected_ = 0;
   double retry_at_s_ = 0.0;
-  std::string_view behind_;  // the lines after the control loop
-  int attempts_ = 0, behind_line_ = 1;
-  ServoLaw law_;
+  int attempts_ = 0;
 
   Phase phase_ = Phase::kConnecting;
   Servo servo_ = Servo::kNone;
-  bool halts_when_silent_ = true, halts_ = false, tool_contact_ = false, warned_ = false;
+  bool halts_ = false, tool_contact_ = false, warned_ = false;
   ControlMode mode_ = ControlMode::kUninitialised;
   Message waiting_{};  // waits for the old motion to end
   double timeout_s_ = 0.0, silent_s_ = 0.0, log_at_s_ = 0.0;

@@ -4,9 +4,9 @@
 // does not exist or fit, the program ends with a runtime exception.
 #pragma once
 
-#include "sim_plant/ur/programs/program_step.hpp"
-#include "sim_plant/ur/script/script_blocks.hpp"
+#include "sim_plant/ur/parts/machine.hpp"
 #include "sim_plant/ur/script/script_calls.hpp"
+#include "sim_plant/ur/script/script_check.hpp"
 #include "sim_plant/ur/script/script_expression.hpp"
 
 namespace tactus::ur {

@@ -1,5 +1,9 @@
 #include "sim_plant/ur/programs/register_program.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
 #include "sim_plant/ur/script/script_text.hpp"
 
 namespace tactus::ur {
@@ -64,11 +68,6 @@ void RegisterProgram::tell_progress(std::int32_t value, Machine& machine) {
   if (progress_.told()) write(2, progress_.write(value), machine);
 }
 
-void RegisterProgram::end_async(Machine& machine) {
-  moving_ = false;
-  tell_progress(-1, machine);
-}
-
 ProgramStep RegisterProgram::poll(Machine& machine) {
   if (!started_) {
     tell_progress(-1, machine);
@@ -76,7 +75,10 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
     started_ = true;
   }
   const bool stands = !machine.motion.busy() && !machine.motion.arriving() && path_.empty();
-  if (moving_ && stands) end_async(machine);
+  if (moving_ && stands) {
+    moving_ = false;
+    tell_progress(-1, machine);
+  }
   if (blocked_) {
     blocked_ = !stands;
     if (stands) write(0, kDone, machine);
@@ -95,16 +97,13 @@ ProgramStep RegisterProgram::poll(Machine& machine) {
 }
 
 RegisterProgram::Outcome RegisterProgram::process(RegisterCommand command, Machine& machine) {
-  const Row& row = row_of(command);
-  if (row.act == nullptr && not_emulated(command, machine) == Outcome::kEnded)
-    return Outcome::kEnded;
-  const bool once = row.shake == Handshake::kDone;
+  const Handshake shake = handshake_of(command);
+  const bool once = shake == Handshake::kDone;
   if (once && executing_) return Outcome::kDone;
   executing_ = executing_ || once;
-  const bool acts = row.act != nullptr && (row.needs.empty() || has(row.needs));
-  const Outcome outcome = acts ? (this->*row.act)(machine) : Outcome::kDone;
+  const Outcome outcome = act(command, machine);
   blocked_ = outcome == Outcome::kMoves;
-  const bool shows_done = once || (row.shake == Handshake::kBoth && command != last_);
+  const bool shows_done = once || (shake == Handshake::kBoth && command != last_);
   if (outcome == Outcome::kDone) write(0, shows_done ? kDone : kReady, machine);
   return outcome;
 }
@@ -125,6 +124,36 @@ ProgramStep RegisterProgram::command(Machine& machine) {
     motion.speed_l(goal_, a_, t);
   }
   return motion.busy() ? ProgramStep::kRunning : ProgramStep::kWaiting;
+}
+
+/// Raises the error of the script, which ends; the arm does not move.
+RegisterProgram::Outcome RegisterProgram::no_posture(Machine& machine) const {
+  const std::string_view before = text_.substr(0, text_.find("get_inverse_kin("));
+  const auto line = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  machine.messages.runtime_exception(line, 1, "runtime_error:no inverse kinematics");
+  return Outcome::kEnded;
+}
+
+/// On an e-Series, ends a program that has a branch for a command that is not emulated, with the
+/// first line of that branch. A CB3, whose text has no such branch, goes on.
+RegisterProgram::Outcome RegisterProgram::not_emulated(RegisterCommand command,
+                                                       Machine& machine) const {
+  std::array<char, 128> words;
+  const auto number = static_cast<int>(command);
+  std::snprintf(words.data(), words.size(), "cmd == %d:", number);
+  const std::size_t at = text_.find(words.data());
+  if (!machine.settings.version.at_least(5, 0) || at == std::string_view::npos)
+    return Outcome::kDone;
+  const std::string_view before = text_.substr(0, at);
+  std::string_view rest = text_.substr(at), line;
+  for (int i = 0; i < 2 && next_line(rest, line); ++i) {
+  }
+  line = trimmed(line).substr(0, 64);
+  std::snprintf(words.data(), words.size(), "runtime_error:not emulated:command %d:%.*s", number,
+                static_cast<int>(line.size()), line.data());
+  const auto where = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 2;
+  machine.messages.runtime_exception(where, 1, words.data());
+  return Outcome::kEnded;
 }
 
 }  // namespace tactus::ur

@@ -1,16 +1,52 @@
-// RegisterProgram: the program of ur_rtde. It communicates only through RTDE's registers: the
-// client writes a command into the first integer, the program answers ready or done in its own.
-//
-// Differences between versions are read from its text: where the registers begin, how progress is
-// reported, and whether a function is called that only some controllers have.
+// The program of ur_rtde, and its report of progress.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
 #include "sim_plant/ur/parts/machine.hpp"
-#include "sim_plant/ur/programs/async_progress.hpp"
-#include "sim_plant/ur/programs/program_step.hpp"
 
 namespace tactus::ur {
 
+/// AsyncProgress: the register in which ur_rtde's program reports the progress of an operation that
+/// the client does not wait for. A value >= 0 is progress, 0 at the beginning; a negative value is
+/// the end.
+///
+///   until 2022   the value itself; its end -1 and -2 in turn
+///   since        | operation, 7 bits | - | writes, 7 bits | running, 1 bit | progress, 15 bits |
+class AsyncProgress {
+ public:
+  enum class Coding : std::uint8_t { kNone, kValue, kCounted };
+
+  explicit AsyncProgress(Coding coding = Coding::kNone) : coding_(coding) {}
+
+  bool told() const { return coding_ != Coding::kNone; }
+  /// True if an aborted operation is reported as ended. [any]
+  bool tells_broken_off() const { return coding_ == Coding::kCounted; }
+
+  /// Returns the content of the register for a value. [cyclic]
+  std::int32_t write(std::int32_t value) {
+    const bool running = value >= 0;
+    if (coding_ == Coding::kValue) return running ? value : (ended_ = ended_ == -1 ? -2 : -1);
+    writes_ = (writes_ + 1) & kMostCounted;
+    if (value == 0) operation_ = (operation_ + 1) & kMostCounted;
+    return operation_ << 24 | writes_ << 16 |
+           (running ? kRunning | std::min(value, kRunning - 1) : 0);
+  }
+
+ private:
+  static constexpr std::int32_t kMostCounted = 127, kRunning = 1 << 15;
+  Coding coding_;
+  std::int32_t ended_ = -2;
+  std::int32_t writes_ = 0, operation_ = 0;
+};
+
+/// RegisterProgram: the program of ur_rtde. It communicates only through RTDE's registers: the
+/// client writes a command into the first integer, the program answers ready or done in its own.
+///
+/// Differences between versions are read from its text: where the registers begin, how progress is
+/// reported, and whether a function is called that only some controllers have.
 class RegisterProgram {
  public:
   static bool recognises(std::string_view text);
@@ -20,27 +56,21 @@ class RegisterProgram {
   ProgramStep poll(Machine& machine);
   ProgramStep command(Machine& machine);
 
- private:
-  enum class Cyclic : std::uint8_t { kNone, kServo, kServoC, kSpeedJ, kSpeedL };
   enum class Outcome : std::uint8_t {
     kDone,
     kMoves,  ///< done when the arm is at rest
     kEnded,  ///< done, and the program ends
   };
+
+ private:
+  enum class Cyclic : std::uint8_t { kNone, kServo, kServoC, kSpeedJ, kSpeedL };
   /// The answer that the client sees while the command is in its register.
   enum class Handshake : std::uint8_t {
     kDone,   ///< the command acts once
     kReady,  ///< it acts in every cycle
     kBoth,   ///< it acts in every cycle; done is visible for one cycle, for clients that wait
   };
-  struct Row {
-    RegisterCommand command;
-    Handshake shake;
-    Outcome (RegisterProgram::*act)(Machine&);  ///< null: not emulated, or of no use
-    std::string_view needs;                     ///< a call; without it in the text nothing is done
-  };
-  static const Row kRows[];
-  static const Row& row_of(RegisterCommand command);
+  static Handshake handshake_of(RegisterCommand command);
 
   // register_program.cpp: the handshake.
   Outcome process(RegisterCommand command, Machine& machine);
@@ -50,60 +80,25 @@ class RegisterProgram {
   Vector6 six(int first, const Machine& machine) const;
   void write(int i, std::int32_t value, Machine& machine) const;
   void tell_progress(std::int32_t value, Machine& machine);
-  void end_async(Machine& machine);
+  Outcome no_posture(Machine& machine) const;
+  Outcome not_emulated(RegisterCommand command, Machine& machine) const;
 
-  // register_commands.cpp: the rows, and the commands that set something.
-  Outcome zero_force(Machine& machine);
-  Outcome set_payload(Machine& machine);
-  Outcome set_tcp(Machine& machine);
-  Outcome teach_mode(Machine& machine);
-  Outcome end_teach_mode(Machine& machine);
-  Outcome protective_stop(Machine& machine);
-  Outcome set_watchdog(Machine& machine);
-
-  // register_motion.cpp: commands that move the arm.
-  Outcome move_j(Machine& machine);
-  Outcome move_j_pose(Machine& machine);
-  Outcome move_l(Machine& machine);
-  Outcome move_l_joints(Machine& machine);
+  // register_commands.cpp: the commands. No outcome: it is none of these.
+  Outcome act(RegisterCommand command, Machine& machine);
+  std::optional<Outcome> move(RegisterCommand command, Machine& machine);
+  std::optional<Outcome> lead(RegisterCommand command, Machine& machine);
+  std::optional<Outcome> set(RegisterCommand command, Machine& machine);
+  std::optional<Outcome> answer(RegisterCommand command, Machine& machine);
   Outcome move_path(Machine& machine);
   Outcome begin_move(bool good, Code otherwise, Machine& machine);
   Outcome begin(Machine& machine);
   void break_off(Machine& machine);
   void follow_path(Machine& machine);
-  Outcome servo_j(Machine& machine);
-  Outcome servo_l(Machine& machine);
-  Outcome servo(const Joints& q, Machine& machine);
-  Outcome servo_c(Machine& machine);
-  Outcome speed_j(Machine& machine);
-  Outcome speed_l(Machine& machine);
-  Outcome jog_start(Machine& machine);
-  Outcome jog_stop(Machine& machine);
-  Outcome speed_stop(Machine& machine);
-  Outcome servo_stop(Machine& machine);
-  Outcome force_mode(Machine& machine);
-  Outcome force_mode_stop(Machine& machine);
-  Outcome stop_async(Machine& machine);
+  void follow(Cyclic cyclic, const Vector6& goal, double a, double t);
+  Outcome jog(const Vector6& speed, Machine& machine);
   Outcome stop(double a, Machine& machine);
-
-  // register_answers.cpp: commands with an answer in registers.
-  Outcome inverse_here(Machine& machine);
-  Outcome inverse_near(Machine& machine);
-  Outcome answer_inverse(const Joints& near, Machine& machine);
-  Outcome has_inverse(Machine& machine);
-  Outcome has_inverse_near(Machine& machine);
-  Outcome joints_within(Machine& machine);
-  Outcome forward_here(Machine& machine);
-  Outcome forward_of(Machine& machine);
-  Outcome flange_pose(Machine& machine);
-  Outcome pose_trans(Machine& machine);
-  Outcome tcp_offset(Machine& machine);
-  Outcome joint_torques(Machine& machine);
-  Outcome steady(Machine& machine);
   Outcome answer_flag(bool flag, Machine& machine) const;
   Outcome answer_six(const Vector6& values, Machine& machine) const;
-  Outcome no_posture(Machine& machine) const;
-  Outcome not_emulated(RegisterCommand command, Machine& machine) const;
 
   std::string_view text_;
   int int_offset_ = 0, double_offset_ = 0;

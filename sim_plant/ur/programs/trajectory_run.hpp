@@ -2,10 +2,8 @@
 // their own; the result goes back over it.
 #pragma once
 
-#include "sim_plant/ur/motion/spline_run.hpp"
 #include "sim_plant/ur/parts/machine.hpp"
-#include "sim_plant/ur/programs/program_step.hpp"
-#include "sim_plant/ur/programs/trajectory_move.hpp"
+#include "sim_plant/ur/programs/trajectory_points.hpp"
 
 namespace tactus::ur {
 

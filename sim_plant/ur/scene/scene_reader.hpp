@@ -14,7 +14,7 @@
 #include "kernel/guard/obstacle.hpp"
 #include "kernel/load/section_reader.hpp"
 #include "kernel/reference/blocks/frame.hpp"
-#include "sim_plant/ur/motion/surroundings.hpp"
+#include "sim_plant/ur/motion/body.hpp"
 
 namespace tactus::ur {
 

@@ -1,4 +1,4 @@
-// Runs one call of an emulated URScript function.
+// Runs the calls of URScript: those of a line, and those with a value.
 #pragma once
 
 #include "sim_plant/ur/parts/machine.hpp"
@@ -21,7 +21,17 @@ struct CallOutcome {
   std::string_view why = {};
 };
 
-/// `moves`: the caller may move the arm; a secondary program may not.
+/// Runs a call of a line. `moves`: the caller may move the arm; a secondary program may not.
 CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine);
+
+/// True for a command that moves the arm or brings it to rest; the program waits until it returns.
+bool is_motion(std::string_view name);
+
+/// Calls a function that returns a value. False: it has no value, or is not emulated with these
+/// arguments.
+bool call_function(const ScriptCall& call, const Machine& machine, ScriptValue& value);
+
+/// Returns the bit of Io that "get_..._digital_in(n)" and the like mean; below 0: none.
+int digital_bit(const ScriptCall& call);
 
 }  // namespace tactus::ur

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim_plant/ur/script/script_functions.hpp"
-#include "sim_plant/ur/script/script_names.hpp"
-#include "sim_plant/ur/script/script_operators.hpp"
-#include "sim_plant/ur/script/script_reader.hpp"
+#include "sim_plant/ur/script/script_calls.hpp"
 #include "sim_plant/ur/script/script_signatures.hpp"
 
 namespace tactus::ur {
@@ -17,17 +14,86 @@ using Kind = ScriptValue::Kind;
 constexpr int kDeepest = 16;  // nesting of brackets and nots
 constexpr std::string_view kTooDeep = "limit of 16 nested values";
 
-/// The operators of one level; if two begin alike, the longer one comes first.
-struct Level {
-  std::array<std::string_view, 5> operators;
-};
-constexpr std::array<Level, 5> kLevels = {{{{"or"}},
-                                           {{"and"}},
-                                           {{"==", "!=", "<=", ">=", "<"}},  // see below for >
-                                           {{"+", "-"}},
-                                           {{"*", "/", "%"}}}};
+bool equal(const ScriptValue& a, const ScriptValue& b) {
+  if (a.numeric() && b.numeric()) return a.number == b.number;
+  if (a.kind != b.kind || a.count != b.count) return false;
+  if (a.kind == Kind::kText) return a.text == b.text;
+  return a.elements == b.elements;
+}
 
-}  // namespace
+/// If two begin alike, the longer one comes first. Those of level 2 bind more tightly than those of
+/// level 1.
+struct Operator {
+  int level;
+  std::string_view word;
+  ScriptValue (*apply)(double a, double b);  ///< null: of values of any kind
+};
+constexpr Operator kOperators[] = {
+    {0, "or", [](double a, double b) { return ScriptValue::of(a != 0.0 || b != 0.0); }},
+    {1, "and", [](double a, double b) { return ScriptValue::of(a != 0.0 && b != 0.0); }},
+    {2, "==", nullptr},
+    {2, "!=", nullptr},
+    {2, "<=", [](double a, double b) { return ScriptValue::of(a <= b); }},
+    {2, ">=", [](double a, double b) { return ScriptValue::of(a >= b); }},
+    {2, "<", [](double a, double b) { return ScriptValue::of(a < b); }},
+    {2, ">", [](double a, double b) { return ScriptValue::of(a > b); }},
+    {3, "+", [](double a, double b) { return ScriptValue::of(a + b); }},
+    {3, "-", [](double a, double b) { return ScriptValue::of(a - b); }},
+    {4, "*", [](double a, double b) { return ScriptValue::of(a * b); }},
+    {4, "/", [](double a, double b) { return ScriptValue::of(a / b); }},
+    {4, "%", [](double a, double b) { return ScriptValue::of(std::fmod(a, b)); }}};
+constexpr int kLevels = 5;
+
+/// Computes left = left `op` right. False: these values have no such operator.
+bool apply_operator(const Operator& op, const ScriptValue& right, ScriptValue& left) {
+  if (op.apply == nullptr) {
+    left = ScriptValue::of(equal(left, right) == (op.word == "=="));
+    return true;
+  }
+  if (!left.numeric() || !right.numeric()) return false;
+  left = op.apply(left.number, right.number);
+  return true;
+}
+
+/// Takes one expression or call off a text, by recursive descent of bounded depth.
+class ScriptReader {
+ public:
+  ScriptReader(std::string_view text, const ScriptScope& scope) : text_(text), scope_(scope) {}
+
+  bool read(ScriptValue& value) { return level(0, value); }
+  bool read(ScriptCall& call);
+  std::string_view rest() const { return text_; }
+
+ private:
+  bool level(int at, ScriptValue& value);
+  bool signed_value(ScriptValue& value);
+  bool with_element(ScriptValue& value);
+  bool primary(ScriptValue& value);
+  bool name(ScriptValue& value);
+  bool quoted(ScriptValue& value);
+  bool elements(ScriptValue::Kind kind, ScriptValue& value);
+  bool argument(ScriptCall::Argument& argument);
+  const Operator* operator_of(int level);
+  bool eat(std::string_view word);
+  /// True for a value whose kind is only known when the program runs.
+  bool open(const ScriptValue& value) const {
+    return scope_.reads_only() && value.kind == ScriptValue::Kind::kNothing;
+  }
+  bool fail(std::string_view reason) const {
+    if (scope_.reason != nullptr) *scope_.reason = reason;
+    return false;
+  }
+  void work(int amount) const {
+    if (scope_.work != nullptr) *scope_.work += amount;
+  }
+  bool finite(ScriptValue& value) const;
+  bool call(std::string_view word, ScriptValue& value);
+  bool numeric(const ScriptValue& value) const { return value.numeric() || open(value); }
+
+  std::string_view text_;
+  const ScriptScope& scope_;
+  int depth_ = 0;
+};
 
 /// Takes a word off the text, unless it is the beginning of a longer one.
 bool ScriptReader::eat(std::string_view word) {
@@ -39,22 +105,21 @@ bool ScriptReader::eat(std::string_view word) {
   return true;
 }
 
-std::string_view ScriptReader::operator_of(std::size_t level) {
-  for (const std::string_view word : kLevels[level].operators)
-    if (!word.empty() && eat(word)) return word;
-  if (level == 2 && eat(">")) return ">";
-  return {};
+const Operator* ScriptReader::operator_of(int level) {
+  for (const Operator& op : kOperators)
+    if (op.level == level && eat(op.word)) return &op;
+  return nullptr;
 }
 
-bool ScriptReader::level(std::size_t at, ScriptValue& value) {
-  if (at == kLevels.size()) return signed_value(value);
+bool ScriptReader::level(int at, ScriptValue& value) {
+  if (at == kLevels) return signed_value(value);
   if (!level(at + 1, value)) return false;
-  for (std::string_view word = operator_of(at); !word.empty(); word = operator_of(at)) {
+  for (const Operator* op = operator_of(at); op != nullptr; op = operator_of(at)) {
     ScriptValue right;
     if (!level(at + 1, right)) return false;
     if (open(value) || open(right))
       value = {};
-    else if (!apply_operator(word, right, value) || !finite(value))
+    else if (!apply_operator(*op, right, value) || !finite(value))
       return false;
   }
   return true;
@@ -76,7 +141,7 @@ bool ScriptReader::signed_value(ScriptValue& value) {
     if (++depth_ > kDeepest) return fail(kTooDeep);
     if (!level(2, value) || !numeric(value)) return false;
     --depth_;
-    if (!open(value)) value = truth_value(value.number == 0.0);
+    if (!open(value)) value = ScriptValue::of(value.number == 0.0);
     return true;
   }
   bool negative = false;
@@ -104,7 +169,7 @@ bool ScriptReader::with_element(ScriptValue& value) {
     }
     if (!(index.number >= 0.0 && index.number < static_cast<double>(value.count))) return false;
     const double element = value.elements[static_cast<std::size_t>(index.number)];
-    value = number_value(element);
+    value = ScriptValue::of(element);
   }
   return true;
 }
@@ -159,7 +224,7 @@ bool ScriptReader::elements(Kind kind, ScriptValue& value) {
 bool ScriptReader::name(ScriptValue& value) {
   const std::string_view word = leading_name(text_);
   if (word == "True" || word == "False") {
-    value = truth_value(word == "True");
+    value = ScriptValue::of(word == "True");
     text_.remove_prefix(word.size());
     return true;
   }
@@ -217,6 +282,8 @@ bool ScriptReader::read(ScriptCall& call) {
   *scope_.reason = fault;
   return false;
 }
+
+}  // namespace
 
 bool evaluate(std::string_view& text, const ScriptScope& scope, ScriptValue& value) {
   ScriptReader expression(text, scope);

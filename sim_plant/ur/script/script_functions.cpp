@@ -1,9 +1,9 @@
-#include "sim_plant/ur/script/script_functions.hpp"
+#include "sim_plant/ur/script/script_calls.hpp"
 
 #include <cmath>
 
 #include "sim_plant/ur/motion/kinematics.hpp"
-#include "sim_plant/ur/script/script_operators.hpp"
+#include "sim_plant/ur/script/script_expression.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -27,11 +27,11 @@ bool of_registers(const ScriptCall& call, const Machine& machine, ScriptValue& v
     return false;
   const auto i = static_cast<std::size_t>(index);
   if (kind == "boolean_register")
-    value = truth_value(registers.bit(static_cast<int>(i)));
+    value = ScriptValue::of(registers.bit(static_cast<int>(i)));
   else if (kind == "integer_register")
-    value = number_value(registers.ints[i]);
+    value = ScriptValue::of(static_cast<double>(registers.ints[i]));
   else if (kind == "float_register")
-    value = number_value(registers.doubles[i]);
+    value = ScriptValue::of(registers.doubles[i]);
   else
     return false;
   return true;
@@ -55,15 +55,15 @@ bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) 
   else if (name == "get_tcp_force")
     value = six_value(Kind::kPose, machine.measured_wrench());
   else if (name == "force")
-    value = number_value(machine.measured_wrench().head<3>().norm());
+    value = ScriptValue::of(machine.measured_wrench().head<3>().norm());
   else if (name == "get_tcp_offset")
     value = six_value(Kind::kPose, machine.tcp_offset);
   else if (name == "get_target_payload")
-    value = number_value(machine.payload);
+    value = ScriptValue::of(machine.payload);
   else if (name == "get_steptime")
-    value = number_value(machine.cycle_s());
+    value = ScriptValue::of(machine.cycle_s());
   else if (name == "is_steady")
-    value = truth_value(motion.resting());
+    value = ScriptValue::of(motion.resting());
   else
     return false;
   return true;
@@ -80,7 +80,7 @@ bool of_poses(const ScriptCall& call, const Machine& machine, ScriptValue& value
     const bool found =
         inverse(Frame::of(first->vector()), tool, near ? second->vector() : machine.motion.q(), q);
     const bool asked = call.name != "get_inverse_kin";
-    value = asked ? truth_value(found) : six_value(Kind::kList, q);
+    value = asked ? ScriptValue::of(found) : six_value(Kind::kList, q);
     return found || asked;
   }
   Frame frame;
@@ -109,7 +109,7 @@ bool of_numbers(const ScriptCall& call, ScriptValue& value) {
   const ScriptValue* first = call.find("", 0);
   if (first == nullptr) return false;
   if (call.name == "norm") {
-    value = number_value(norm(*first));
+    value = ScriptValue::of(norm(*first));
     return true;
   }
   struct Row {
@@ -128,40 +128,39 @@ bool of_numbers(const ScriptCall& call, ScriptValue& value) {
                            {"pow", [](double x, double y) { return std::pow(x, y); }}};
   for (const Row& row : kRows) {
     if (row.name != call.name || !first->numeric()) continue;
-    value = number_value(row.function(first->number, call.number("", 1, 0.0)));
+    value = ScriptValue::of(row.function(first->number, call.number("", 1, 0.0)));
     return true;
   }
   return false;
 }
 
 bool of_digital(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
-  struct Row {
-    std::string_view name;
-    bool input;
-    int from, first, count;  // first number in the script, first bit, number of bits
-  };
-  constexpr Row kRows[] = {
-      {"get_standard_digital_in", true, 0, 0, 8},
-      {"get_configurable_digital_in", true, 0, 8, 8},
-      {"get_tool_digital_in", true, 0, 16, 2},
-      {"get_digital_in", true, 0, 0, 8},  // before version 3 the tool's follow the standard ones
-      {"get_digital_in", true, 8, 16, 2},
-      {"get_standard_digital_out", false, 0, 0, 8},
-      {"get_configurable_digital_out", false, 0, 8, 8},
-      {"get_tool_digital_out", false, 0, 16, 2},
-      {"get_digital_out", false, 0, 0, 8},
-      {"get_digital_out", false, 8, 16, 2}};
-  const double n = call.number("n", 0, -1.0);
-  for (const Row& row : kRows) {
-    if (row.name != call.name || !(n >= row.from && n < row.from + row.count)) continue;
-    const std::uint64_t bits = row.input ? machine.io.digital_inputs : machine.io.digital_outputs;
-    value = truth_value(bits >> (row.first + static_cast<int>(n) - row.from) & 1u);
-    return true;
-  }
-  return false;
+  const int bit = digital_bit(call);
+  if (bit < 0) return false;
+  const bool input = call.name.substr(call.name.size() - 3) == "_in";
+  const std::uint64_t bits = input ? machine.io.digital_inputs : machine.io.digital_outputs;
+  value = ScriptValue::of((bits >> bit & 1u) != 0);
+  return true;
 }
 
 }  // namespace
+
+int digital_bit(const ScriptCall& call) {
+  struct Row {
+    std::string_view kind;
+    int from, first, count;  // first number in the script, first bit, number of bits
+  };
+  constexpr Row kRows[] = {{"et_digital_", 0, 0, 8},  // before version 3 the tool's follow
+                           {"et_digital_", 8, 16, 2},
+                           {"et_standard_digital_", 0, 0, 8},
+                           {"et_configurable_digital_", 0, 8, 8},
+                           {"et_tool_digital_", 0, 16, 2}};
+  const double n = call.number("n", 0, -1.0);
+  for (const Row& row : kRows)
+    if (starts_with(call.name.substr(1), row.kind) && n >= row.from && n < row.from + row.count)
+      return row.first + static_cast<int>(n) - row.from;
+  return -1;
+}
 
 bool call_function(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
   return of_registers(call, machine, value) || of_arm(call, machine, value) ||

@@ -12,6 +12,26 @@ bool is_name(char c, bool first) {
          (!first && c >= '0' && c <= '9');
 }
 
+/// Returns how many brackets are open after a line that begins with `open` of them.
+int brackets_after(std::string_view line, int open) {
+  bool quoted = false;
+  for (const char c : without_comment(line)) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+  }
+  return open;
+}
+
+/// Returns how many of the lines that follow close the brackets of `line`; 0: none, or not soon.
+int lines_to_join(std::string_view line, std::string_view rest) {
+  constexpr int kMost = 64;
+  int open = brackets_after(line, 0), count = 0;
+  for (; open > 0 && count < kMost && next_line(rest, line); ++count)
+    open = brackets_after(line, open);
+  return open == 0 ? count : 0;
+}
+
 }  // namespace
 
 void skip_blanks(std::string_view& text) {
@@ -58,30 +78,6 @@ std::string_view without_comment(std::string_view line) {
   }
   return line;
 }
-
-namespace {
-
-/// Returns how many brackets are open after a line that begins with `open` of them.
-int brackets_after(std::string_view line, int open) {
-  bool quoted = false;
-  for (const char c : without_comment(line)) {
-    if (c == '"') quoted = !quoted;
-    if (quoted) continue;
-    open += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
-  }
-  return open;
-}
-
-/// Returns how many of the lines that follow close the brackets of `line`; 0: none, or not soon.
-int lines_to_join(std::string_view line, std::string_view rest) {
-  constexpr int kMost = 64;
-  int open = brackets_after(line, 0), count = 0;
-  for (; open > 0 && count < kMost && next_line(rest, line); ++count)
-    open = brackets_after(line, open);
-  return open == 0 ? count : 0;
-}
-
-}  // namespace
 
 std::size_t join_lines(char* text, std::size_t size) {
   std::string_view rest(text, size), line;

@@ -39,6 +39,8 @@ struct ScriptValue {
   std::array<double, 8> elements{};  ///< of a list or a pose
   std::size_t count = 0;
 
+  static ScriptValue of(double value) { return {Kind::kNumber, value, {}, {}, 0}; }
+  static ScriptValue of(bool value) { return {Kind::kBool, value ? 1.0 : 0.0, {}, {}, 0}; }
   bool numeric() const { return kind == Kind::kNumber || kind == Kind::kBool; }
   bool six() const { return (kind == Kind::kList || kind == Kind::kPose) && count == 6; }
   Vector6 vector() const { return Vector6(elements.data()); }
@@ -88,5 +90,30 @@ class ScriptVariables {
   std::size_t count_ = 0;
   int depth_ = 0;
 };
+
+// The first line of a function of a program: "def name(a, b):".
+
+/// Takes name and parameters off a line without blanks and comment. False: it defines no function.
+inline bool read_definition(std::string_view line, std::string_view& name,
+                            std::string_view& parameters) {
+  if (leading_name(line) != "def") return false;
+  line = trimmed(line.substr(3));
+  name = leading_name(line);
+  line = trimmed(line.substr(name.size()));
+  const std::size_t end = line.find(')');
+  if (name.empty() || !starts_with(line, "(") || end == std::string_view::npos) return false;
+  parameters = trimmed(line.substr(1, end - 1));
+  return trimmed(line.substr(end + 1)) == ":";
+}
+
+/// Takes the first name off a list of parameters; empty: there is none, or it is not a plain name.
+inline std::string_view take_parameter(std::string_view& parameters) {
+  const std::string_view name = leading_name(parameters);
+  std::string_view rest = trimmed(parameters.substr(name.size()));
+  if (!rest.empty() && rest[0] != ',') return {};
+  if (!rest.empty()) rest = trimmed(rest.substr(1));
+  parameters = rest;
+  return name;
+}
 
 }  // namespace tactus::ur

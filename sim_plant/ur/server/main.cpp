@@ -1,14 +1,15 @@
 // ur10_emulator: an emulated Universal Robots UR10 controller (CB3) with a simulated arm behind its
 // TCP ports, for clients of a real controller.
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 
 #include "hal/os/cycle_clock.hpp"
+#include "sim_plant/ur/scene/scene_reader.hpp"
 #include "sim_plant/ur/server/cycle_grid.hpp"
 #include "sim_plant/ur/server/options.hpp"
-#include "sim_plant/ur/server/scene_file.hpp"
 #include "sim_plant/ur/server/server.hpp"
 
 namespace tactus::ur {
@@ -36,6 +37,30 @@ Settings settings_of(const EmulatorOptions& options) {
   settings.external_control_host = options.external_control_host;
   settings.external_control_port = options.external_control_port;
   return settings;
+}
+
+/// Fills `around` from the pipeline file at `path`. False: refused; prints "path:line: [section]
+/// key: reason" to stderr. [init]
+bool read_scene_file(const char* path, Surroundings& around) {
+  static std::array<char, 65536 + 1> text;
+  static SceneReader reader;
+  std::FILE* file = std::fopen(path, "rb");
+  const std::size_t size = file != nullptr ? std::fread(text.data(), 1, text.size(), file) : 0;
+  const bool failed = file == nullptr || std::ferror(file) != 0;
+  const int why = errno;
+  if (file != nullptr) std::fclose(file);
+  if (failed) {
+    std::fprintf(stderr, "%s: %s\n", path, std::strerror(why));
+    return false;
+  }
+  if (size == text.size()) {
+    std::fprintf(stderr, "%s: the file is larger than %zu bytes\n", path, text.size() - 1);
+    return false;
+  }
+  LoadError error;
+  if (reader.read({text.data(), size}, around, error) == Status::kOk) return true;
+  std::fprintf(stderr, "%s:%s%s\n", path, error.line > 0 ? "" : " ", error.message().c_str());
+  return false;
 }
 
 /// Runs the cycles on their grid. In lock-step a cycle begins early if all clients have answered,

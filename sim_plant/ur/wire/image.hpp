@@ -68,7 +68,7 @@ struct Image {
 
   // Not RTDE fields.
   bool program_running = false, program_paused = false;
-  bool emergency_stopped = false, protective_stopped = false;
+  bool protective_stopped = false;
   bool freedrive = false, force_mode = false;
 };
 

@@ -35,9 +35,8 @@ bool InputPackage::read(const InputField& field, ByteReader& reader) {
     case FieldType::kUint32:
     case FieldType::kInt32: number = reader.u32(); break;
     case FieldType::kVector6d:
-      for (int i = 0; i < 6; ++i) wrench_[i] = reader.f64();
-      has_wrench_ = wrench_.allFinite();
-      return has_wrench_;
+      for (int i = 0; i < 6; ++i) finite = std::isfinite(reader.f64()) && finite;
+      return finite;  // of a wrench that nothing uses
     default: value = reader.f64(); finite = std::isfinite(value);
   }
   if (field.input >= Input::kBits) {
@@ -78,7 +77,6 @@ void InputPackage::apply(Io& io, std::int64_t cycle) const {
     io.analog_types = voltage ? io.analog_types | bit : io.analog_types & ~bit;
     io.set_analog(i, analog_[static_cast<std::size_t>(i)]);
   }
-  if (has_wrench_) io.external_wrench = wrench_;
 }
 
 }  // namespace tactus::ur

@@ -14,8 +14,7 @@ struct Io {
   std::uint32_t analog_types = 0;  ///< bits 0 and 1: inputs, 2 and 3: outputs; 1 is voltage
   std::array<double, 2> analog_inputs{}, analog_outputs{};  ///< A or V
   std::int32_t tool_voltage = 0;
-  double speed_fraction = 1.0;  ///< the slider
-  Vector6 external_wrench = Vector6::Zero();
+  double speed_fraction = 1.0;                          ///< the slider
   std::array<std::int64_t, kInputVariables> written{};  ///< cycle of the last write, for watchdogs
 
   void set_digital(int bit, bool on) {
@@ -46,8 +45,6 @@ class InputPackage {
   std::uint32_t slider_mask_ = 0;
   double slider_ = 1.0;
   std::array<double, 2> analog_{};
-  Vector6 wrench_ = Vector6::Zero();
-  bool has_wrench_ = false;
 };
 
 /// The owner of each claimed input. A claim ends with the connection.

@@ -27,7 +27,6 @@ class Link {
   std::string_view received() const {
     return {reinterpret_cast<const char*>(in_.data()), in_size_};
   }
-  void forget_received() { in_size_ = 0; }
   void send_int(std::int32_t value);
   void send_text(std::string_view text) { out_.put(text); }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "hal/ur/protocol.hpp"
-#include "sim_plant/ur/motion/safety_codes.hpp"
+#include "sim_plant/ur/motion/safety_limits.hpp"
 #include "sim_plant/ur/wire/outbox.hpp"
 
 namespace tactus::ur {

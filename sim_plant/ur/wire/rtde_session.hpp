@@ -1,11 +1,39 @@
-// RtdeSession: one client of port 30004. Protocol version 1 until the client asks for 2.
+// A session of RTDE, and whether its client keeps up.
 #pragma once
 
-#include "sim_plant/ur/wire/answers.hpp"
+#include <algorithm>
+
 #include "sim_plant/ur/wire/io.hpp"
 #include "sim_plant/ur/wire/outbox.hpp"
 
 namespace tactus::ur {
+
+/// Answers: counts whether a client has answered every packet with a set-point, so that the next
+/// cycle may begin without waiting for the wall clock.
+///
+/// If a client is ahead, because it did not wait for a late packet, its set-points count for later
+/// packets. A packet that it leaves unanswered is not waited for later.
+class Answers {
+ public:
+  /// Counts a packet sent to the client. [cyclic]
+  void packet() {
+    if (owed_ > 0) in_a_row_ = 0;
+    owed_ = std::min(owed_, 0) + 1;
+  }
+  /// Counts a set-point of the client. [any]
+  void answer() {
+    owed_ = std::max(owed_ - 1, -kMostAhead);
+    in_a_row_ = std::min(in_a_row_ + 1, kSteady);
+  }
+  bool missing() const { return owed_ > 0; }
+  /// True if the client has answered kSteady packets in a row, so that waiting for it makes sense.
+  bool steady() const { return in_a_row_ == kSteady; }
+
+ private:
+  static constexpr int kMostAhead = 8, kSteady = 25;
+  int owed_ = 0;      // packets without an answer; negative: answers ahead
+  int in_a_row_ = 0;  // answers since the last packet without one
+};
 
 /// The parts of the controller that a session needs.
 struct RtdeContext {
@@ -15,6 +43,7 @@ struct RtdeContext {
   std::int64_t cycle;  ///< number of the present cycle
 };
 
+/// RtdeSession: one client of port 30004. Protocol version 1 until the client asks for 2.
 class RtdeSession {
  public:
   /// Begins the session of a client; `owner` is its number among the claims.

@@ -1,7 +1,7 @@
 // Tests the motion commands of the emulated controller against integration in small steps, closed
 // forms and published positions.
 #include "sim_plant/ur/motion/motion.hpp"
-#include "sim_plant/ur/motion/spline_run.hpp"
+#include "sim_plant/ur/programs/trajectory_points.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus::ur {

@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "sim_plant/ur/controller/controller.hpp"
-#include "sim_plant/ur/programs/script_intake.hpp"
+#include "sim_plant/ur/programs/runner.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus::ur {

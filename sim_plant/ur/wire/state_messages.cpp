@@ -1,7 +1,18 @@
 #include "sim_plant/ur/wire/state_messages.hpp"
 
+#include "sim_plant/ur/motion/kinematics.hpp"
+
 namespace tactus::ur {
 namespace {
+
+template <class Values>
+void put(const Values& values, ByteWriter& writer) {
+  for (const double value : values) writer.f64(value);
+}
+
+void put_zeros(int count, ByteWriter& writer) {
+  for (int i = 0; i < count; ++i) writer.f64(0.0);
+}
 
 enum Control : std::uint8_t { kPosition = 0, kTeach = 1, kForce = 2 };
 
@@ -13,7 +24,7 @@ void write_mode(const Image& image, const Version& version, ByteWriter& writer) 
   const std::size_t at = begin_part(StatePart::kRobotMode, writer);
   writer.u64(static_cast<std::uint64_t>(image.timestamp * 1e6 + 0.5));
   const bool powered = (image.robot_status_bits & kPowerOnBit) != 0;
-  for (const bool flag : {true, true, powered, image.emergency_stopped, image.protective_stopped,
+  for (const bool flag : {true, true, powered, false, image.protective_stopped,
                           image.program_running, image.program_paused})
     writer.u8(flag ? 1 : 0);
   writer.u8(static_cast<std::uint8_t>(image.robot_mode));
@@ -79,15 +90,14 @@ void write_masterboard(const Image& image, const Version& version, ByteWriter& w
 
 void write_cartesian(const Image& image, const Version& version, ByteWriter& writer) {
   const std::size_t at = begin_part(StatePart::kCartesian, writer);
-  for (int i = 0; i < 6; ++i) writer.f64(image.actual_tcp_pose[i]);
-  if (version.at_least(3, 2))
-    for (int i = 0; i < 6; ++i) writer.f64(image.tcp_offset[i]);
+  put(image.actual_tcp_pose, writer);
+  if (version.at_least(3, 2)) put(image.tcp_offset, writer);
   end_part(at, writer);
 }
 
 void write_force_mode(const Image& image, ByteWriter& writer) {
   const std::size_t at = begin_part(StatePart::kForceMode, writer);
-  for (int i = 0; i < 6; ++i) writer.f64(image.actual_tcp_force[i]);
+  put(image.actual_tcp_force, writer);
   writer.f64(0.0);  // dexterity
   end_part(at, writer);
 }
@@ -103,6 +113,49 @@ void write_additional(const Image& image, ByteWriter& writer) {
 
 }  // namespace
 
+void write_realtime(const Image& image, const Version& version, ByteWriter& writer) {
+  writer.u32(static_cast<std::uint32_t>(realtime_size(version)));
+  writer.f64(image.timestamp);
+  for (const Joints* joints :
+       {&image.target_q, &image.target_qd, &image.target_qdd, &image.target_current,
+        &image.target_moment, &image.actual_q, &image.actual_qd, &image.actual_current,
+        &image.joint_control_output, &image.actual_tcp_pose, &image.actual_tcp_speed,
+        &image.actual_tcp_force, &image.target_tcp_pose, &image.target_tcp_speed})
+    put(*joints, writer);
+  writer.f64(static_cast<double>(image.actual_digital_input_bits));
+  put(image.joint_temperatures, writer);
+  writer.f64(image.actual_execution_time);
+  writer.f64(0.0);  // test value
+  writer.f64(image.robot_mode);
+  for (const std::int32_t mode : image.joint_mode) writer.f64(mode);
+  writer.f64(image.safety_mode);
+  put_zeros(6, writer);
+  put(image.actual_tool_accelerometer, writer);
+  put_zeros(6, writer);
+  writer.f64(image.speed_scaling);
+  writer.f64(image.actual_momentum);
+  put_zeros(2, writer);
+  writer.f64(image.actual_main_voltage);
+  writer.f64(image.actual_robot_voltage);
+  writer.f64(image.actual_robot_current);
+  put(image.actual_joint_voltage, writer);
+  if (version.at_least(3, 2)) {
+    writer.f64(static_cast<double>(image.actual_digital_output_bits));
+    writer.f64(image.runtime_state);
+  }
+  if (version.at_least(3, 5)) {
+    put(image.elbow_position, writer);
+    put(image.elbow_velocity, writer);
+  }
+  if (version.at_least(3, 10)) writer.f64(image.safety_status);
+  if (version.at_least(5, 9)) put_zeros(3, writer);  // for the manufacturer's own use
+  if (version.at_least(5, 10)) {
+    writer.f64(image.payload);
+    put(image.payload_cog, writer);
+    put_zeros(6, writer);  // inertia
+  }
+}
+
 void write_robot_state(const Image& image, const Version& version, bool whole, ByteWriter& writer) {
   const std::size_t at = writer.size();
   writer.u32(0);
@@ -117,6 +170,40 @@ void write_robot_state(const Image& image, const Version& version, bool whole, B
   write_force_mode(image, writer);
   write_additional(image, writer);
   writer.set_u32(at, writer.size() - at);
+}
+
+void write_kinematics(ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kKinematics, writer);
+  // A checksum of each joint's parameters, made up: the kinematics are not calibrated.
+  for (std::uint32_t i = 0; i < 6; ++i) writer.u32(0x10c30000u + i);
+  put_zeros(6, writer);
+  put(kDh.a, writer);
+  put(kDh.d, writer);
+  put(kDh.alpha, writer);
+  writer.u32(0);  // not calibrated
+  end_part(at, writer);
+}
+
+void write_configuration(ByteWriter& writer) {
+  const std::size_t at = begin_part(StatePart::kConfiguration, writer);
+  for (int i = 0; i < 6; ++i) {
+    writer.f64(-363.0 * kDegree);
+    writer.f64(363.0 * kDegree);
+  }
+  for (int i = 0; i < 6; ++i) {
+    writer.f64((i < 2 ? 131.46 : 191.46) * kDegree);
+    writer.f64(40.0);
+  }
+  for (const double value : {1.05, 1.4, 0.25, 1.2, 0.5}) writer.f64(value);
+  put(kDh.a, writer);
+  put(kDh.d, writer);
+  put(kDh.alpha, writer);
+  put_zeros(6, writer);
+  writer.i32(4);  // masterboard
+  writer.i32(1);  // controller box
+  writer.i32(kRobotTypeUr10);
+  writer.i32(0);
+  end_part(at, writer);
 }
 
 }  // namespace tactus::ur

@@ -1,9 +1,48 @@
-#include <variant>
-
 #include "sim_plant/ur/wire/rtde_fields.hpp"
+
+#include <variant>
 
 namespace tactus::ur {
 namespace {
+
+bool eat(std::string_view& text, std::string_view word) {
+  if (text.substr(0, word.size()) != word) return false;
+  text.remove_prefix(word.size());
+  return true;
+}
+
+/// Returns the number that a text of up to three digits is; -1 for other texts.
+int number(std::string_view text) {
+  if (text.empty() || text.size() > 3 || (text.size() > 1 && text[0] == '0')) return -1;
+  int value = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return -1;
+    value = 10 * value + (c - '0');
+  }
+  return value;
+}
+
+struct InputRow {
+  std::string_view name;
+  FieldType type;
+};
+
+/// In the order of Input.
+constexpr InputRow kInputRows[] = {
+    {"speed_slider_mask", FieldType::kUint32},
+    {"speed_slider_fraction", FieldType::kDouble},
+    {"standard_digital_output_mask", FieldType::kUint8},
+    {"standard_digital_output", FieldType::kUint8},
+    {"configurable_digital_output_mask", FieldType::kUint8},
+    {"configurable_digital_output", FieldType::kUint8},
+    {"tool_digital_output_mask", FieldType::kUint8},
+    {"tool_digital_output", FieldType::kUint8},
+    {"standard_analog_output_mask", FieldType::kUint8},
+    {"standard_analog_output_type", FieldType::kUint8},
+    {"standard_analog_output_0", FieldType::kDouble},
+    {"standard_analog_output_1", FieldType::kDouble},
+    {"external_force_torque", FieldType::kVector6d},
+};
 
 using Member = std::variant<double Image::*, Vector6 Image::*, Vector3 Image::*,
                             std::int32_t Image::*, std::uint32_t Image::*, std::uint64_t Image::*,
@@ -121,6 +160,58 @@ void write_register(const Registers& registers, Input kind, std::size_t i, ByteW
 }
 
 }  // namespace
+
+bool parse_register(std::string_view name, const Version& version, RegisterName& parsed) {
+  const int registers = version.at_least(3, 9) ? kRegisters : kRegisters / 2;
+  parsed.input = name.substr(0, 6) == "input_";
+  if (!eat(name, "input_") && !eat(name, "output_")) return false;
+  if (name == "bit_registers0_to_31" || name == "bit_registers32_to_63") {
+    parsed.kind = Input::kBits;
+    parsed.index = name == "bit_registers0_to_31" ? 0 : 1;
+    return true;
+  }
+  if (eat(name, "bit_register_")) {
+    parsed.kind = Input::kBit;
+    parsed.index = number(name);
+    return version.at_least(3, 9) && parsed.index >= 64 && parsed.index < kBitRegisters;
+  }
+  if (eat(name, "int_register_")) {
+    parsed.kind = Input::kInts;
+  } else if (eat(name, "double_register_")) {
+    parsed.kind = Input::kDoubles;
+  } else {
+    return false;
+  }
+  parsed.index = number(name);
+  return parsed.index >= 0 && parsed.index < registers;
+}
+
+InputField find_input(std::string_view name, const Version& version) {
+  InputField field;
+  for (const InputRow& row : kInputRows) {
+    if (row.name != name) continue;
+    field.type = row.type;
+    field.input = static_cast<Input>(&row - kInputRows);
+    return field;
+  }
+  RegisterName parsed;
+  if (!parse_register(name, version, parsed) || !parsed.input) return field;
+  field.input = parsed.kind;
+  field.index = static_cast<std::uint8_t>(parsed.index);
+  field.type = type_of(parsed.kind);
+  return field;
+}
+
+std::size_t InputField::variable() const {
+  constexpr std::size_t kSingles = std::size(kInputRows);
+  switch (input) {
+    case Input::kBits: return kSingles + index;
+    case Input::kBit: return kSingles + 4 + index;
+    case Input::kInts: return kSingles + 4 + kBitRegisters + index;
+    case Input::kDoubles: return kSingles + 4 + kBitRegisters + kRegisters + index;
+    default: return static_cast<std::size_t>(input);
+  }
+}
 
 OutputField find_output(std::string_view name, const Version& version) {
   OutputField field;
