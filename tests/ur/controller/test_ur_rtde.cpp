@@ -99,6 +99,17 @@ void pause_is_answered_while_data_flow_and_start_goes_on(void**) {
   assert_int_equal(g_bench.take(g_client).size(), 68);
 }
 
+void a_start_without_outputs_is_refused(void**) {
+  connect_rtde();
+  send_packet('V', std::string_view("\0\2", 2), g_client);
+  send_packet('I', "input_int_register_0", g_client);
+  g_bench.take(g_client);
+  g_bench.send(g_client, bytes(kStart));
+  expect_text(g_bench.take(g_client), bytes("00 04 53 00"));
+  g_bench.send(g_client, session_stream());
+  expect_text(g_bench.take(g_client), bytes(kReplies));
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -110,6 +121,7 @@ int main() {
       cmocka_unit_test(a_data_package_holds_the_fields_in_their_order),
       cmocka_unit_test(version_1_has_no_frequency_and_no_recipe_number),
       cmocka_unit_test(samples_stand_on_the_grid_of_their_rate),
+      cmocka_unit_test(a_start_without_outputs_is_refused),
       cmocka_unit_test(pause_is_answered_while_data_flow_and_start_goes_on),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -64,31 +64,6 @@ void broken_packets_are_named_and_harm_nothing(void**) {
   assert_true(g_bench->ended(g_client));
 }
 
-void no_stream_of_bytes_does_harm(void**) {
-  std::uint32_t state = 1;
-  const auto next = [&] {
-    state = state * 1664525u + 1013904223u;
-    return state >> 24;
-  };
-  for (int trial = 0; trial < 300; ++trial) {
-    if (trial % 50 == 0) connect_rtde();
-    const int client = g_bench->open(Service::kRtde);
-    for (int n = 0; n < 8; ++n) {
-      std::array<char, 64> noise;
-      const std::size_t size = 3 + next() % 50;
-      for (char& c : noise) c = static_cast<char>(next());
-      noise[0] = 0;
-      noise[1] = static_cast<char>(size);
-      constexpr std::string_view kTypes = "VvMUOISP";
-      noise[2] = kTypes[next() % kTypes.size()];
-      g_bench.send(client, {noise.data(), size});
-    }
-    g_bench.ticks(1);
-    g_bench.take(client);
-    g_bench->close(client);
-  }
-}
-
 }  // namespace
 }  // namespace tactus::ur
 
@@ -98,7 +73,6 @@ int main() {
       cmocka_unit_test(unknown_names_and_names_in_use_are_said_in_place_of_a_type),
       cmocka_unit_test(what_is_written_shows_in_the_outputs),
       cmocka_unit_test(broken_packets_are_named_and_harm_nothing),
-      cmocka_unit_test(no_stream_of_bytes_does_harm),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -64,13 +64,6 @@ void a_socket_that_cannot_be_opened_closes_those_before_it(void**) {
   assert_false(bench.connected("trajectory_socket"));
 }
 
-void the_first_read_waits_for_ever(void**) {
-  static ExternalBench bench;
-  bench.start();
-  bench.run_s(10.0);
-  assert_true(bench.running());
-}
-
 /// The published example: SERVOJ (0, -1.2, 1.2, -0.1, 1.57, 0), 20 ms.
 void the_example_message_moves_the_arm_to_its_position(void**) {
   constexpr std::uint8_t kExample[] = {0x00, 0x00, 0x00, 0x14, 0x00, 0x00, 0x00, 0x00,
@@ -144,9 +137,11 @@ void silence_beyond_the_time_out_is_a_stop_with_4_rad_s2(void**) {
   assert_int_equal(bench.image().safety_mode, 1);
 }
 
-void a_time_out_of_nought_waits_for_ever(void**) {
+void the_first_read_waits_for_ever_and_so_does_a_time_out_of_nought(void**) {
   static ExternalBench bench;
   bench.start();
+  bench.run_s(10.0);
+  assert_true(bench.running());
   bench.reverse(0, ControlMode::kIdle);
   bench.run_s(5.0);
   assert_true(bench.running());
@@ -192,12 +187,11 @@ int main() {
       cmocka_unit_test(it_is_recognised_whichever_line_is_cut_or_added),
       cmocka_unit_test(nobody_listening_is_a_popup_and_no_motion),
       cmocka_unit_test(a_socket_that_cannot_be_opened_closes_those_before_it),
-      cmocka_unit_test(the_first_read_waits_for_ever),
       cmocka_unit_test(the_example_message_moves_the_arm_to_its_position),
       cmocka_unit_test(a_message_in_pieces_is_one_message),
       cmocka_unit_test(one_missing_set_point_is_extrapolated),
       cmocka_unit_test(silence_beyond_the_time_out_is_a_stop_with_4_rad_s2),
-      cmocka_unit_test(a_time_out_of_nought_waits_for_ever),
+      cmocka_unit_test(the_first_read_waits_for_ever_and_so_does_a_time_out_of_nought),
       cmocka_unit_test(a_closed_socket_ends_it_even_in_the_middle_of_a_message),
       cmocka_unit_test(a_set_point_too_far_away_is_ignored),
   };

@@ -6,13 +6,6 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-std::int32_t int_output(ProgramBench& bench, int i) {
-  return bench.machine().io.output.ints[static_cast<std::size_t>(i)];
-}
-double float_output(ProgramBench& bench, int i) {
-  return bench.machine().io.output.doubles[static_cast<std::size_t>(i)];
-}
-
 // Proves URP-15.
 
 void functions_of_the_programs_own_are_run(void**) {
@@ -39,9 +32,9 @@ void functions_of_the_programs_own_are_run(void**) {
       "  write_output_integer_register(0, n)\n"
       "end\n");
   bench.run(1);
-  assert_int_equal(int_output(bench, 0), 4);
+  assert_int_equal(bench.int_output(0), 4);
   bench.run(3);
-  assert_int_equal(int_output(bench, 0), 6);
+  assert_int_equal(bench.int_output(0), 6);
   assert_false(bench.running());
 }
 
@@ -81,12 +74,12 @@ void arguments_belong_to_the_function_and_results_to_the_caller(void**) {
       "end\n");
   bench.run(5);
   assert_false(bench.said.has("_error"));
-  ASSERT_NEAR(float_output(bench, 0), 100.0, 0.0);
-  ASSERT_NEAR(float_output(bench, 1), 5.0, 0.0);
-  ASSERT_NEAR(float_output(bench, 2), 0.0, 0.0);
-  ASSERT_NEAR(float_output(bench, 3), 1.5, 0.0);  // x of the program, which mean() does not have
-  ASSERT_NEAR(float_output(bench, 4), 7.0, 0.0);
-  assert_int_equal(int_output(bench, 0), 2);
+  ASSERT_NEAR(bench.float_output(0), 100.0, 0.0);
+  ASSERT_NEAR(bench.float_output(1), 5.0, 0.0);
+  ASSERT_NEAR(bench.float_output(2), 0.0, 0.0);
+  ASSERT_NEAR(bench.float_output(3), 1.5, 0.0);  // x of the program, which mean() does not have
+  ASSERT_NEAR(bench.float_output(4), 7.0, 0.0);
+  assert_int_equal(bench.int_output(0), 2);
 }
 
 void a_function_that_moves_the_arm_returns_when_it_is_there(void**) {
@@ -106,7 +99,7 @@ void a_function_that_moves_the_arm_returns_when_it_is_there(void**) {
   bench.run(1);
   bench.run_to_end();
   ASSERT_NEAR(bench.target()[0], 0.3, 1e-9);
-  ASSERT_NEAR(float_output(bench, 0), 0.3, 1e-9);
+  ASSERT_NEAR(bench.float_output(0), 0.3, 1e-9);
 }
 
 void a_function_without_a_result_ends_the_program_that_wants_one(void**) {

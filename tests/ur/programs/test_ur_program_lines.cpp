@@ -15,10 +15,6 @@ constexpr std::string_view kCounting =
     "  end\n"
     "end\n";
 
-std::int32_t int_output(ProgramBench& bench, int i) {
-  return bench.machine().io.output.ints[static_cast<std::size_t>(i)];
-}
-
 // Proves URP-4.
 
 /// What comes after has its number: the value of line 9 does not exist.
@@ -61,7 +57,7 @@ void a_program_is_run_wherever_its_bytes_are_cut(void**) {
     bench.run(1);
     bench.upload(kCounting.substr(cut));
     bench.run(2);
-    assert_int_equal(int_output(bench, 3), cut + 1);
+    assert_int_equal(bench.int_output(3), cut + 1);
   }
 }
 
@@ -70,10 +66,10 @@ void a_program_without_its_end_is_not_run(void**) {
   bench.upload(kCounting.substr(0, kCounting.size() - 1));
   bench.run(5);
   assert_false(bench.running());
-  assert_int_equal(int_output(bench, 3), 0);
+  assert_int_equal(bench.int_output(3), 0);
   bench.upload("\n");
   bench.run(2);
-  assert_int_equal(int_output(bench, 3), 1);
+  assert_int_equal(bench.int_output(3), 1);
 }
 
 void a_text_longer_than_a_program_may_be_is_dropped_with_a_message(void**) {
@@ -87,7 +83,7 @@ void a_text_longer_than_a_program_may_be_is_dropped_with_a_message(void**) {
   assert_false(bench.said.has("a line of a long text"));
   bench.upload(kCounting);
   bench.run(2);
-  assert_int_equal(int_output(bench, 3), 1);
+  assert_int_equal(bench.int_output(3), 1);
 }
 
 void a_line_by_itself_is_a_program(void**) {
@@ -158,14 +154,16 @@ void of_a_longer_name_31_characters_are_told(void**) {
   assert_int_equal(bench.said.count("a2345678901234567890123456789012"), 0);
 }
 
-void a_program_is_seen_running_and_stops_when_it_is_told_to(void**) {
+void a_stopped_program_takes_its_motion_with_it(void**) {
   static ProgramBench bench;
-  bench.upload("def first():\n  while True:\n    sync()\n  end\nend\n");
-  bench.run_s(0.5);
-  assert_true(bench.running());
+  bench.upload("movej([1,-1.2,1.2,-0.1,1.57,0],a=1.0,v=0.5)\n");
+  bench.run(60);
+  assert_true(bench.running() && bench.image().target_qd[0] > 0.3);
   bench.upload("stop program\n");
-  bench.run_s(1.0);
+  bench.run(30);
   assert_false(bench.running());
+  assert_true(bench.image().target_qd.isZero(0.0));
+  assert_true(bench.target()[0] < 0.3);
 }
 
 // Proves URP-3.
@@ -195,7 +193,7 @@ int main() {
       cmocka_unit_test(the_arm_decelerates_when_its_program_is_replaced),
       cmocka_unit_test(a_secondary_program_runs_beside_and_moves_nothing),
       cmocka_unit_test(of_a_longer_name_31_characters_are_told),
-      cmocka_unit_test(a_program_is_seen_running_and_stops_when_it_is_told_to),
+      cmocka_unit_test(a_stopped_program_takes_its_motion_with_it),
       cmocka_unit_test(an_unknown_name_is_told_with_its_place_and_nothing_runs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -36,16 +36,6 @@ void moves_come_to_their_targets(void**) {
   ASSERT_NEAR(bench.image().target_tcp_pose[2], pose[2], 1e-6);
 }
 
-void a_move_takes_at_least_its_time(void**) {
-  static ExternalBench bench;
-  begin(bench);
-  bench.forward(1, 1);
-  bench.move_point(beside(0.3), 0, 3.0, 3.0, 2.0);
-  int cycles = 0;
-  for (; bench.result() < 0 && cycles < 1000; ++cycles) bench.tick();
-  assert_in_range(cycles, 250, 275);
-}
-
 void a_joint_target_out_of_reach_fails_without_motion(void**) {
   static ExternalBench bench;
   begin(bench);
@@ -178,7 +168,6 @@ void points_may_come_before_the_start_and_in_pieces(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(moves_come_to_their_targets),
-      cmocka_unit_test(a_move_takes_at_least_its_time),
       cmocka_unit_test(a_joint_target_out_of_reach_fails_without_motion),
       cmocka_unit_test(a_pose_out_of_reach_is_a_protective_stop),
       cmocka_unit_test(a_cancelled_trajectory_brakes_and_says_so),

@@ -21,14 +21,6 @@ void a_blocking_command_is_done_when_the_arm_stands(void**) {
   }
 }
 
-void a_move_takes_the_time_of_its_trapezoid(void**) {
-  static RegisterBench bench;
-  bench.start();
-  // 0.5 rad with 0.5 rad/s and 1 rad/s^2: 1.5 s, and the arm settles.
-  const int cycles = bench.command(1, {0.5, -1.2, 1.2, -0.1, 1.57, 0.0, 0.5, 1.0});
-  assert_in_range(cycles, 187, 205);
-}
-
 void poses_are_moved_to_by_joints_and_on_a_line(void**) {
   static RegisterBench bench;
   bench.start();
@@ -69,21 +61,6 @@ void speedj_is_held_until_it_is_stopped(void**) {
   ASSERT_NEAR(bench.image().target_qd[1], 0.2, 1e-9);
   bench.command(15, {10.0});
   ASSERT_NEAR(bench.image().target_qd[1], 0.0, 1e-12);
-}
-
-void a_move_out_of_a_speed_is_no_jump(void**) {
-  static RegisterBench bench;
-  bench.start();
-  bench.write(9, {0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.008});
-  bench.run(125);
-  bench.write(1, {0.0, -1.2, 1.2, -0.1, 1.57, 0.0, 1.05, 1.4});
-  double before = bench.image().target_qd[0];
-  for (int k = 0; k < 300; ++k) {
-    bench.tick();
-    assert_true(std::abs(bench.image().target_qd[0] - before) <= 4.0 * kCycle_s + 1e-9);
-    before = bench.image().target_qd[0];
-  }
-  assert_joints(bench.target(), kStart, 1e-9);
 }
 
 void force_mode_is_ready_at_once_and_its_end_done(void**) {
@@ -141,11 +118,9 @@ void command_255_ends_it(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_blocking_command_is_done_when_the_arm_stands),
-      cmocka_unit_test(a_move_takes_the_time_of_its_trapezoid),
       cmocka_unit_test(poses_are_moved_to_by_joints_and_on_a_line),
       cmocka_unit_test(servoj_stays_ready_and_stops_softly_at_the_last_target),
       cmocka_unit_test(speedj_is_held_until_it_is_stopped),
-      cmocka_unit_test(a_move_out_of_a_speed_is_no_jump),
       cmocka_unit_test(force_mode_is_ready_at_once_and_its_end_done),
       cmocka_unit_test(a_watchdog_that_is_not_fed_ends_the_program),
       cmocka_unit_test(the_watchdog_is_fed_by_the_register_of_the_offset),

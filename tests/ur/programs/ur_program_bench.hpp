@@ -83,6 +83,8 @@ struct ProgramBench {
     return k;
   }
   bool running() const { return image().program_running; }
+  std::int32_t int_output(std::size_t i) { return machine().io.output.ints[i]; }
+  double float_output(std::size_t i) { return machine().io.output.doubles[i]; }
 
   /// The open link of this name.
   Link& link(std::string_view name) {
