@@ -1,17 +1,13 @@
-// Tests force mode of the emulated controller, in free air and against a wall that the test
-// simulates by pushes.
+// Tests the modes of a program: force mode, in free air and against a wall that the test simulates
+// by pushes; freedrive, in which the arm follows a hand; and the watchdogs of inputs.
 #include <random>
 
 #include "tests/ur/programs/ur_program_bench.hpp"
 
+namespace tactus::ur {
 namespace {
 
-using namespace tactus;
-using namespace tactus::ur;
-
 constexpr double kWall = 3000.0;  // N/m
-const Joints kStart = ProgramBench::settings().initial_q;
-
 /// Asserts that no joint's target speed changes by more than the acceleration allows.
 struct Smooth {
   double most = 8.0;  // rad/s^2
@@ -231,9 +227,156 @@ void random_force_modes_never_jump(void**) {
   }
 }
 
+// Proves URE-17.
+
+void in_freedrive_the_arm_yields_and_bears_its_weight(void**) {
+  static ProgramBench bench;
+  start_and_wait(bench, "  freedrive_mode()\n  sleep(2.0)\n  end_freedrive_mode()\n");
+  bench.run(50);
+  assert_joints(bench.machine().body.q(), kStart, 1e-6);
+  assert_int_equal(bench.image().robot_mode, 7);
+  assert_int_equal(bench.image().robot_status_bits & 4u, 4u);
+  bench.controller.faults().push = joints({20, 0, 0, 0, 0, 0});
+  bench.run(75);
+  bench.controller.faults().push.setZero();
+  const double pushed = bench.image().actual_q[0] - kStart[0];
+  assert_true(pushed > 0.05 && bench.image().actual_qd[0] > 0.05);
+  assert_joints(bench.target(), bench.machine().body.q(), 1e-9);
+  // The hand lets go while the mode ends: the targets brake from the arm's position.
+  bench.controller.faults().push = joints({20, 0, 0, 0, 0, 0});
+  Joints before = bench.target(), before_qd = bench.image().target_qd;
+  for (int k = 0; k < 200; ++k) {
+    if (k == 130) bench.controller.faults().push.setZero();
+    bench.tick();
+    assert_true((bench.target() - before).cwiseAbs().maxCoeff() < 2.1 * kCycle_s);
+    before = bench.target();
+    const Joints qd = bench.image().target_qd;
+    assert_true((qd - before_qd).cwiseAbs().maxCoeff() < 8.0 * kCycle_s);
+    before_qd = qd;
+    if (bench.machine().freedrive) assert_joints(qd, bench.image().actual_qd, 1e-9);
+  }
+  assert_false(bench.machine().freedrive);
+  assert_int_equal(bench.image().robot_status_bits & 4u, 0u);
+  assert_int_equal(bench.image().safety_mode, 1);
+  ASSERT_NEAR(bench.image().target_qd.norm(), 0.0, 1e-9);
+  assert_joints(bench.image().actual_q, bench.target(), 1e-3);
+}
+
+void freedrive_ends_with_its_program(void**) {
+  static ProgramBench bench;
+  start_and_wait(bench, "  freedrive_mode()\n");
+  bench.run(20);
+  assert_true(bench.machine().freedrive);
+  bench.upload("movej([0.2, -1.2, 1.2, -0.1, 1.57, 0.0])\n");
+  bench.run(2);
+  assert_false(bench.machine().freedrive);
+  bench.run_to_end();
+  ASSERT_NEAR(bench.target()[0], 0.2, 1e-9);
+}
+
+constexpr char kC207[] = {0, 0, 0, '\xcf', 0, 0, 0, 0};  // code 207, argument 0
+
+void start(ProgramBench& bench, const char* arguments) {
+  std::array<char, 128> line;
+  std::snprintf(line.data(), line.size(), "  rtde_set_watchdog(%s)\n", arguments);
+  start_and_wait(bench, line.data());
+  bench.run(2);
+  assert_true(bench.running());
+}
+
+/// A client writes the register in this cycle.
+void kick(ProgramBench& bench) {
+  const InputField field = find_input("input_int_register_24", bench.machine().settings.version);
+  bench.machine().io.written[field.variable()] = bench.machine().cycle;
+}
+
+// Proves URP-13.
+
+void a_kick_in_time_keeps_the_program(void**) {
+  static ProgramBench bench;
+  start(bench, "\"input_int_register_24\", 10, \"stop\"");
+  for (int k = 0; k < 250; ++k) {
+    if (k % 12 == 0) kick(bench);
+    bench.tick();
+    assert_true(bench.running());
+  }
+  // 0.1 s is twelve cycles and a half.
+  kick(bench);
+  bench.run(12);
+  assert_int_equal(bench.image().safety_mode, 1);
+  bench.run(2);
+  assert_int_equal(bench.image().safety_mode, 3);
+  assert_false(bench.running());
+  assert_true(bench.said.has({kC207, sizeof kC207}));
+}
+
+void pause_is_what_is_done_without_a_word(void**) {
+  for (const char* arguments :
+       {"\"input_int_register_24\", 10", "\"input_int_register_24\", 10, action=\"pause\""}) {
+    static ProgramBench bench;
+    bench.said.size = 0;
+    start(bench, arguments);
+    bench.run(30);
+    assert_true(bench.image().program_paused && !bench.image().program_running);
+    assert_int_equal(bench.image().safety_mode, 1);
+    assert_int_equal(bench.said.count({kC207, sizeof kC207}), 1);
+    // Resumed, it runs until the input has arrived and is late again.
+    bench.controller.runner().resume();
+    bench.run(30);
+    assert_true(bench.running());
+    kick(bench);
+    bench.run(5);
+    assert_true(bench.running());
+    bench.run(30);
+    assert_true(bench.image().program_paused);
+    bench.upload("stop program\n");
+    bench.run(2);
+  }
+}
+
+void a_pause_brakes_the_arm_and_no_more(void**) {
+  static ProgramBench bench;
+  bench.upload(
+      "def moves():\n  rtde_set_watchdog(\"input_int_register_24\", 2, \"pause\")\n"
+      "  movej([1.0,-1.2,1.2,-0.1,1.57,0])\nend\n");
+  bench.run_s(1.0);
+  assert_true(bench.image().program_paused);
+  ASSERT_NEAR(bench.image().target_qd.norm(), 0.0, 1e-9);
+  assert_true(bench.target()[0] > 0.05 && bench.target()[0] < 0.9);
+}
+
+void to_ignore_is_to_do_nothing(void**) {
+  for (const char* arguments :
+       {"\"input_int_register_24\", 10, \"ignore\"", "\"input_int_register_24\", 0, \"stop\""}) {
+    static ProgramBench bench;
+    start(bench, arguments);
+    bench.run(100);
+    assert_true(bench.running());
+    assert_false(bench.said.has({kC207, sizeof kC207}));
+  }
+}
+
+void it_ends_with_the_program(void**) {
+  static ProgramBench bench;
+  start(bench, "\"input_int_register_24\", 10, \"stop\"");
+  bench.upload("def other():\n  while True:\n    sync()\n  end\nend\n");
+  bench.run(100);
+  assert_true(bench.running());
+}
+
+void an_input_that_does_not_exist_is_said(void**) {
+  static ProgramBench bench;
+  start(bench, "\"input_int_register_99\", 10, \"stop\"");
+  bench.run(50);
+  assert_true(bench.running());
+  assert_true(bench.said.has("rtde_set_watchdog: there is no such input"));
+}
+
 }  // namespace
+}  // namespace tactus::ur
 
 int main() {
+  using namespace tactus::ur;
   const CMUnitTest tests[] = {
       cmocka_unit_test(without_contact_the_damping_sets_the_speed),
       cmocka_unit_test(beside_a_motion_at_full_speed_the_joints_keep_to_theirs),
@@ -245,6 +388,14 @@ int main() {
       cmocka_unit_test(random_force_modes_never_jump),
       cmocka_unit_test(a_tip_that_is_too_far_off_stops_the_arm),
       cmocka_unit_test(a_type_that_does_not_exist_is_refused),
+      cmocka_unit_test(in_freedrive_the_arm_yields_and_bears_its_weight),
+      cmocka_unit_test(freedrive_ends_with_its_program),
+      cmocka_unit_test(a_kick_in_time_keeps_the_program),
+      cmocka_unit_test(pause_is_what_is_done_without_a_word),
+      cmocka_unit_test(a_pause_brakes_the_arm_and_no_more),
+      cmocka_unit_test(to_ignore_is_to_do_nothing),
+      cmocka_unit_test(it_ends_with_the_program),
+      cmocka_unit_test(an_input_that_does_not_exist_is_said),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

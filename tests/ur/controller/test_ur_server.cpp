@@ -1,9 +1,80 @@
 // Tests the emulated controller behind real sockets: a session over the loopback, programs that
-// connect out, and misbehaving clients.
-#include "tests/ur/controller/ur_server_bench.hpp"
+// connect out, misbehaving clients, the places of clients; and the times at which a host that is
+// sometimes late begins the cycles.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <cerrno>
+
+#include "sim_plant/ur/server/cycle_grid.hpp"
+#include "tests/support/testing.hpp"
+#include "tests/ur/controller/ur_bench.hpp"
+#include "tests/ur/free_ports.hpp"
 
 namespace tactus::ur {
 namespace {
+
+/// The emulated controller behind real sockets, for tests.
+
+constexpr const char* kAddress = "127.0.0.77";
+const int kOffset = free_offset(kAddress, -10000);
+
+alignas(Server) unsigned char g_memory[sizeof(Server)];
+Server* g_server = nullptr;
+
+void start() {
+  g_bench.start();
+  assert_true(g_bench.started());
+  if (g_server != nullptr) g_server->~Server();
+  g_server = new (g_memory) Server(*g_bench);
+  assert_true(g_server->start(kAddress, kOffset));
+}
+
+sockaddr_in place(int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  inet_pton(AF_INET, kAddress, &address.sin_addr);
+  return address;
+}
+
+int connect_to(int port) {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  const int small = 4096;
+  setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+  const sockaddr_in address = place(port + kOffset);
+  assert_int_equal(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  for (int i = 0; i < 5; ++i) g_server->pump(1'000'000);
+  return socket;
+}
+
+void tick() {
+  g_server->pump(0);
+  g_bench->tick();
+  g_server->flush();
+}
+
+/// Receives exactly `size` bytes, running cycles until they have arrived.
+bool receive(int socket, std::uint8_t* data, std::size_t size) {
+  std::size_t got = 0;
+  for (int i = 0; i < 2000 && got < size; ++i) {
+    const ssize_t more = recv(socket, data + got, size - got, MSG_DONTWAIT);
+    if (more == 0) return false;
+    if (more > 0)
+      got += static_cast<std::size_t>(more);
+    else
+      g_server->pump(1'000'000);
+  }
+  return got == size;
+}
+
+template <std::size_t N>
+int run_server_tests(const CMUnitTest (&tests)[N]) {
+  const int failed = _cmocka_run_group_tests("tests", tests, N, nullptr, nullptr);
+  if (g_server != nullptr) g_server->stop();
+  return failed;
+}
 
 // Proves URE-40.
 
@@ -150,6 +221,138 @@ void a_port_that_is_taken_is_said(void**) {
   assert_int_equal(errno, EADDRINUSE);
 }
 
+/// True if the peer has closed the connection.
+bool is_closed(int socket) {
+  std::array<char, 64 * 1024> bytes;
+  ssize_t got = 0;
+  while ((got = recv(socket, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0) {
+  }
+  return got == 0;
+}
+
+// Proves URE-42.
+
+void clients_of_one_port_lock_out_nobody_at_another(void**) {
+  start();
+  std::array<int, 2 * Emulator::kPlaces> clients{};
+  for (int& client : clients) client = connect_to(kDashboardPort);
+  for (std::size_t i = 0; i < clients.size(); ++i)
+    assert_int_equal(is_closed(clients[i]), i >= Emulator::kPlaces);
+  for (const int port : {kPrimaryPort, kSecondaryPort, kRealtimePort, kRtdePort}) {
+    const int other = connect_to(port);
+    assert_false(is_closed(other));
+    close(other);
+  }
+  for (const int client : clients) close(client);
+}
+
+void an_idle_client_gives_its_place_to_a_new_one(void**) {
+  start();
+  std::array<int, Emulator::kPlaces> clients{};
+  for (int& client : clients) client = connect_to(kDashboardPort);
+  const int cycles = static_cast<int>(Emulator::kIdle_s / kCycle_s);
+  for (int k = 0; k < cycles + 10; ++k) {
+    tick();
+    if (k != cycles - 100) continue;
+    for (std::size_t i = 0; i < clients.size(); ++i)  // all but the third are still in use
+      if (i != 3) assert_int_equal(send(clients[i], "robotmode\n", 10, 0), 10);
+  }
+  const int late = connect_to(kDashboardPort);
+  assert_false(is_closed(late));
+  for (std::size_t i = 0; i < clients.size(); ++i) assert_int_equal(is_closed(clients[i]), i == 3);
+  const int later = connect_to(kDashboardPort);
+  assert_true(is_closed(later));
+  for (const int client : clients) close(client);
+  close(late);
+  close(later);
+}
+
+void a_client_that_only_reads_is_not_idle(void**) {
+  start();
+  std::array<int, Emulator::kPlaces> clients{};
+  for (int& client : clients) client = connect_to(kRealtimePort);
+  for (int k = 0; k < static_cast<int>(Emulator::kIdle_s / kCycle_s) + 10; ++k) {
+    tick();
+    for (const int client : clients) assert_false(is_closed(client));
+  }
+  const int late = connect_to(kRealtimePort);
+  assert_true(is_closed(late));
+  for (const int client : clients) close(client);
+  close(late);
+}
+
+/// It misses packets; one that neither reads nor writes is ended.
+void a_client_that_uploads_programs_and_reads_nothing_stays(void**) {
+  start();
+  const int writes = connect_to(kRealtimePort), silent = connect_to(kRealtimePort);
+  assert_int_equal(send(writes, "set speed 1.0\n", 14, 0), 14);
+  for (int k = 0; k < 8000; ++k) tick();
+  assert_true(is_closed(silent));
+  assert_false(is_closed(writes));
+  close(writes);
+  close(silent);
+}
+
+constexpr std::int64_t kPeriod_ns = 8'000'000, kBegin_ns = 5'000'000'000;
+
+/// A host that begins a cycle as soon as it may, and stalls for `stall_ns` before cycle `at`.
+struct Host {
+  CycleGrid grid{kPeriod_ns, kBegin_ns};
+  std::int64_t now_ns = kBegin_ns, shortest_ns = kPeriod_ns;
+  std::int64_t cycles = 0;
+
+  void run(int count, int at, std::int64_t stall_ns) {
+    for (int k = 0; k < count; ++k) {
+      const std::int64_t before_ns = now_ns;
+      if (k == at) now_ns += stall_ns;
+      const std::int64_t left_ns = grid.left_ns(now_ns);
+      if (left_ns > 0) now_ns += left_ns;
+      grid.begin(now_ns);
+      ++cycles;
+      if (k > 0) shortest_ns = std::min(shortest_ns, now_ns - before_ns);
+    }
+  }
+};
+
+// Proves URP-41.
+
+void a_host_in_time_keeps_the_grid(void**) {
+  Host host;
+  host.run(1000, -1, 0);
+  assert_int_equal(host.now_ns, kBegin_ns + 1000 * kPeriod_ns);
+  assert_int_equal(host.shortest_ns, kPeriod_ns);
+}
+
+void what_was_late_is_caught_up(void**) {
+  for (const std::int64_t stall_ms : {1, 9, 40, 100, 900}) {
+    Host host;
+    host.run(1000, 100, stall_ms * 1'000'000);
+    assert_int_equal(host.now_ns, kBegin_ns + 1000 * kPeriod_ns);
+  }
+}
+
+void clients_have_time_to_answer_between_two_cycles(void**) {
+  Host host;
+  host.run(1000, 100, 100'000'000);
+  assert_int_equal(host.shortest_ns, kPeriod_ns / 2);
+}
+
+void after_more_than_a_second_the_time_is_let_go(void**) {
+  Host host;
+  host.run(1000, 100, 3'000'000'000);
+  // By the host's own clock the 101st cycle begins 3 s late, and the grid moves with it.
+  assert_int_equal(host.now_ns, kBegin_ns + 999 * kPeriod_ns + 3'000'000'000);
+  assert_int_equal(host.shortest_ns, kPeriod_ns);
+}
+
+void a_grid_that_begins_anew_owes_nothing(void**) {
+  CycleGrid grid(kPeriod_ns, kBegin_ns);
+  grid.begin_anew(kBegin_ns + 500'000'000);
+  assert_int_equal(grid.left_ns(kBegin_ns + 500'000'000), kPeriod_ns);
+  grid.begin_anew(kBegin_ns + 500'000'001);
+  assert_int_equal(grid.left_ns(kBegin_ns + 500'000'001), kPeriod_ns);
+}
+
 }  // namespace
 }  // namespace tactus::ur
 
@@ -162,6 +365,15 @@ int main() {
       cmocka_unit_test(a_client_that_does_not_read_disturbs_nobody),
       cmocka_unit_test(a_client_that_vanishes_frees_its_place_and_its_claims),
       cmocka_unit_test(a_port_that_is_taken_is_said),
+      cmocka_unit_test(clients_of_one_port_lock_out_nobody_at_another),
+      cmocka_unit_test(an_idle_client_gives_its_place_to_a_new_one),
+      cmocka_unit_test(a_client_that_only_reads_is_not_idle),
+      cmocka_unit_test(a_client_that_uploads_programs_and_reads_nothing_stays),
+      cmocka_unit_test(a_host_in_time_keeps_the_grid),
+      cmocka_unit_test(what_was_late_is_caught_up),
+      cmocka_unit_test(clients_have_time_to_answer_between_two_cycles),
+      cmocka_unit_test(after_more_than_a_second_the_time_is_let_go),
+      cmocka_unit_test(a_grid_that_begins_anew_owes_nothing),
   };
   return run_server_tests(tests);
 }

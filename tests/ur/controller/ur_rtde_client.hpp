@@ -53,7 +53,7 @@ inline void expect_text(std::string_view actual, std::string_view expected) {
 constexpr const char* kVersion2 = "00 05 56 00 02";
 constexpr const char* kOutputs = "00 36 4f 40 5f 40 00 00 00 00 00";
 constexpr std::string_view kNames = "timestamp,actual_q,robot_mode,runtime_state";
-constexpr const char* kStart = "00 03 53";
+constexpr const char* kBegin = "00 03 53";
 
 /// The client's side of a session at 125 Hz, as one stream.
 inline std::string_view session_stream() {
@@ -67,7 +67,7 @@ inline std::string_view session_stream() {
   add(bytes("00 03 76"));
   add(bytes(kOutputs));
   add(kNames);
-  add(bytes(kStart));
+  add(bytes(kBegin));
   return {stream.data(), size};
 }
 constexpr const char* kReplies =

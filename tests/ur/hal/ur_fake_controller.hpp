@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "tests/ur/hal/ur_fake_image.hpp"
-#include "tests/ur/hal/ur_fake_listener.hpp"
 
 namespace tactus::ur {
 

@@ -21,9 +21,6 @@ void begin(ExternalBench& bench, std::string_view line = "", std::string_view ca
   bench.forward(0);
   bench.run(2);
 }
-void spline_to(ExternalBench& bench, double dq0, double time_s) {
-  bench.spline_point(beside(dq0), Joints::Zero(), Joints::Zero(), time_s, 1);
-}
 /// Asserts that no result arrives within these seconds.
 void assert_silent(ExternalBench& bench, double seconds) {
   for (int k = 0; k * kCycle_s < seconds; ++k) {

@@ -8,7 +8,6 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-const Joints kStart = ProgramBench::settings().initial_q;
 constexpr std::string_view kPublishes = "    write_output_float_register(1, splineTimerTraveled)\n";
 
 struct Knot {

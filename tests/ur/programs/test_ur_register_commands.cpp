@@ -7,7 +7,6 @@ namespace {
 using namespace tactus;
 using namespace tactus::ur;
 
-const Joints kStart = ProgramBench::settings().initial_q;
 // The flange at kStart by the published DH table, confirmed by an independent analytic solver.
 const Vector6 kFlange =
     joints({-0.897353027, -0.164014421, 0.591790577, 1.135629, -1.134630, -1.254270});

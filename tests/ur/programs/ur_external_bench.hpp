@@ -129,12 +129,15 @@ struct ExternalBench : ProgramBench {
   }
 };
 
-inline const Joints kStart = ProgramBench::settings().initial_q;
-
 inline Joints beside(double dq0) {
   Joints q = kStart;
   q[0] += dq0;
   return q;
+}
+
+/// A point of a spline beside the start, at rest.
+inline void spline_to(ExternalBench& bench, double dq0, double time_s) {
+  bench.spline_point(beside(dq0), Joints::Zero(), Joints::Zero(), time_s, 1);
 }
 
 /// Streams positions of joint 1 that increase by `speed`; returns the last.

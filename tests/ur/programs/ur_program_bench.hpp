@@ -130,6 +130,8 @@ inline Joints joints(std::initializer_list<double> values) {
   return q;
 }
 
+inline const Joints kStart = ProgramBench::settings().initial_q;
+
 inline std::int32_t fixed(double value) {
   return static_cast<std::int32_t>(std::lround(value * 1e6));
 }
