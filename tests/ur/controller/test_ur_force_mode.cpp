@@ -2,12 +2,14 @@
 // by pushes; freedrive, in which the arm follows a hand; and the watchdogs of inputs.
 #include <random>
 
+#include "kernel/core/text.hpp"
 #include "tests/ur/programs/ur_program_bench.hpp"
 
 namespace tactus::ur {
 namespace {
 
 constexpr double kWall = 3000.0;  // N/m
+
 /// Asserts that no joint's target speed changes by more than the acceleration allows.
 struct Smooth {
   double most = 8.0;  // rad/s^2
@@ -44,12 +46,11 @@ void without_contact_the_damping_sets_the_speed(void**) {
                {"  force_mode_set_damping(0.025)\n", 20.0 / 800.0}};
   for (const auto& row : kRows) {
     static ProgramBench bench;
-    std::array<char, 512> lines;
-    std::snprintf(lines.data(), lines.size(),
-                  "%s  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,-20,0,0,0],2,[0.1,0.1,0.15,"
-                  "0.3,0.3,0.3])\n",
-                  row.damping);
-    start_and_wait(bench, lines.data());
+    Text<511> lines(row.damping);
+    lines << "  "
+             "force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,-20,0,0,0],2,[0.1,0.1,0.15,0.3,0.3,0.3])"
+             "\n";
+    start_and_wait(bench, lines.c_str());
     const Vector6 from = bench.image().target_tcp_pose;
     Smooth smooth;
     for (int k = 0; k < 125; ++k) smooth.tick(bench);
@@ -72,12 +73,9 @@ void without_contact_the_damping_sets_the_speed(void**) {
 void beside_a_motion_at_full_speed_the_joints_keep_to_theirs(void**) {
   for (const char* wrench : {"60", "-60"}) {
     static ProgramBench bench;
-    std::array<char, 256> lines;
-    std::snprintf(lines.data(), lines.size(),
-                  "  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,%s,0,0,0],2,[1,1,0.15,1,1,1])\n"
-                  "  speedj([0,0,0,3.1415,0,0],40,0.3)\n",
-                  wrench);
-    start_and_wait(bench, lines.data());
+    Text<255> lines("  force_mode(p[0,0,0,0,0,0],[0,0,1,0,0,0],[0,0,");
+    lines << wrench << ",0,0,0],2,[1,1,0.15,1,1,1])\n  speedj([0,0,0,3.1415,0,0],40,0.3)\n";
+    start_and_wait(bench, lines.c_str());
     for (int k = 0; k < 30; ++k) {
       bench.tick();
       assert_true((bench.image().target_qd.cwiseAbs() - MotionLimits().speed).maxCoeff() <= 1e-9);
@@ -277,9 +275,8 @@ void freedrive_ends_with_its_program(void**) {
 constexpr char kC207[] = {0, 0, 0, '\xcf', 0, 0, 0, 0};  // code 207, argument 0
 
 void start(ProgramBench& bench, const char* arguments) {
-  std::array<char, 128> line;
-  std::snprintf(line.data(), line.size(), "  rtde_set_watchdog(%s)\n", arguments);
-  start_and_wait(bench, line.data());
+  Text<127> line("  rtde_set_watchdog(");
+  start_and_wait(bench, (line << arguments << ")\n").c_str());
   bench.run(2);
   assert_true(bench.running());
 }
