@@ -1,5 +1,8 @@
-// Fuzzes expressions, calls, names and servo laws in a script's text, without running it: a reader
-// must consume text from the front, and every name it returns must lie within the text.
+// Fuzzes expressions, calls, names and the text of external control in a script's text, without
+// running it: a reader must consume text from the front, and every name it returns must lie within
+// the text.
+#include <cmath>
+
 #include "sim_plant/ur/script/script_check.hpp"
 #include "tests/fuzz/ur_controller.hpp"
 
@@ -39,10 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ScriptFault fault;
   if (ScriptCheck(text).find(fault))
     MUST(fault.line >= 1 && fault.column >= 1 && within(fault.name, text));
-  SocketPlace place;
-  if (find_socket(text, "socket_open", 0, place))
-    MUST(within(place.host, text) && (place.name == "socket_0" || within(place.name, text)));
-  const ServoLaw law = find_servo_law(text);
-  MUST(law.gain == law.gain);
+  const ExternalReading read = read_external_control(text);
+  for (const SocketPlace& place : read.places) MUST(within(place.host, text));
+  MUST(within(read.behind, text) && std::isfinite(read.law.gain));
   return 0;
 }

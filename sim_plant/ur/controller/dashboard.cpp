@@ -157,14 +157,26 @@ bool Dashboard::run_robot_command(std::string_view line, Reply& reply) {
 
 bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
   const Version& version = machine_.settings.version;
+  struct Row {
+    std::string_view command, reply;
+    unsigned minor = 0;  // of the software that has it
+  };
+  constexpr Row kRows[] = {
+      {"popup", "showing popup"},
+      {"close popup", "closing popup"},
+      {"close safety popup", "closing safety popup"},
+      {"saveLog", "Log saved to disk"},
+      {"get robot model", "UR10", 12},
+      {"generate flight report",
+       "Flight Report generated with id: 00000000-0000-0000-0000-000000000001", 13},
+      {"generate support file", "Completed successfully: ur_support_file.zip", 13}};
   std::string_view rest;
-  if (argument(line, "popup", rest)) {
-    reply << "showing popup";
-  } else if (line == "close popup") {
-    reply << "closing popup";
-  } else if (line == "close safety popup") {
-    reply << "closing safety popup";
-  } else if (argument(line, "addToLog", rest)) {
+  for (const Row& row : kRows) {
+    if (!argument(line, row.command, rest) || !version.at_least(3, row.minor)) continue;
+    reply << row.reply;
+    return true;
+  }
+  if (argument(line, "addToLog", rest)) {
     reply << (rest.empty() ? "No log message to add" : "Added log message");
   } else if (line == "PolyscopeVersion") {
     std::array<char, 96> words;
@@ -178,14 +190,6 @@ bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
     reply << (role_size_ == 0 ? "PROGRAMMER" : std::string_view(role_.data(), role_size_));
   } else if (line == "get serial number" && version.at_least(3, 12)) {
     reply << machine_.settings.serial_number;
-  } else if (line == "get robot model" && version.at_least(3, 12)) {
-    reply << "UR10";
-  } else if (argument(line, "generate flight report", rest) && version.at_least(3, 13)) {
-    reply << "Flight Report generated with id: 00000000-0000-0000-0000-000000000001";
-  } else if (argument(line, "generate support file", rest) && version.at_least(3, 13)) {
-    reply << "Completed successfully: ur_support_file.zip";
-  } else if (line == "saveLog") {
-    reply << "Log saved to disk";
   } else {
     return false;
   }

@@ -93,24 +93,11 @@ void Motion::begin_waiting() {
 }
 
 bool Motion::move_j(const Joints& q, double a, double v, double t, double r) {
-  Move command;
-  command.q = q;
-  command.a = a;
-  command.v = v;
-  command.t = t;
-  command.r = r;
-  return move(command);
+  return move({Move::Kind::kJ, q, {}, {}, false, a, v, t, r});
 }
 
 bool Motion::move_l(const Frame& target, double a, double v, double t, double r) {
-  Move command;
-  command.kind = Move::Kind::kL;
-  command.target = target;
-  command.a = a;
-  command.v = v;
-  command.t = t;
-  command.r = r;
-  return move(command);
+  return move({Move::Kind::kL, Joints::Zero(), {}, target, false, a, v, t, r});
 }
 
 void Motion::servo_j(const Joints& q, double t, const ServoLaw& law) {

@@ -58,6 +58,19 @@ bool compiles(std::string_view text, Machine& machine) {
   return false;
 }
 
+/// Takes a step of the program that there is.
+template <class Programs, class Step>
+ProgramStep step_of(Programs& programs, Step step) {
+  return std::visit(
+      [&](auto& program) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)
+          return ProgramStep::kWaiting;
+        else
+          return step(program);
+      },
+      programs);
+}
+
 }  // namespace
 
 void Runner::set_name(std::string_view name) {
@@ -153,14 +166,7 @@ void Runner::poll(Machine& machine) {
   watch_inputs(machine);
   braking_ = braking_ && machine.motion.busy();
   if (!playing() || braking_) return;
-  const ProgramStep step = std::visit(
-      [&](auto& program) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)
-          return ProgramStep::kWaiting;
-        else
-          return program.poll(machine);
-      },
-      program_);
+  const ProgramStep step = step_of(program_, [&](auto& program) { return program.poll(machine); });
   if (step == ProgramStep::kEnded) stop(machine);
   const FetchProgram* fetching = std::get_if<FetchProgram>(&program_);
   const std::string_view fetched = fetching != nullptr ? fetching->text(machine) : "";
@@ -169,14 +175,8 @@ void Runner::poll(Machine& machine) {
 
 void Runner::command(Machine& machine) {
   if (!playing()) return;
-  const ProgramStep step = std::visit(
-      [&](auto& program) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(program)>, std::monostate>)
-          return ProgramStep::kWaiting;
-        else
-          return program.command(machine);
-      },
-      program_);
+  const ProgramStep step =
+      step_of(program_, [&](auto& program) { return program.command(machine); });
   if (step == ProgramStep::kEnded) stop(machine);
 }
 

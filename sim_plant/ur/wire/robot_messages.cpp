@@ -6,8 +6,6 @@ namespace {
 constexpr std::size_t kLongest = 2048;
 constexpr std::size_t kLongestText = 1500;
 
-using Bytes = std::array<std::uint8_t, kLongest>;
-
 }  // namespace
 
 void RobotMessages::begin(MessageSource source, MessageType type, ByteWriter& writer) const {
@@ -18,77 +16,67 @@ void RobotMessages::begin(MessageSource source, MessageType type, ByteWriter& wr
   writer.u8(static_cast<std::uint8_t>(type));
 }
 
-void RobotMessages::end(ByteWriter& writer) {
+template <class Write>
+void RobotMessages::tell(MessageSource source, MessageType type, Write write) {
+  std::array<std::uint8_t, kLongest> bytes;
+  ByteWriter writer(bytes.data(), bytes.size());
+  begin(source, type, writer);
+  write(writer);
   writer.set_u32(0, writer.size());
   if (writer.ok()) pending_.put(writer.data(), writer.size());
 }
 
 void RobotMessages::text(std::string_view text) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRuntimeMachine, MessageType::kText, writer);
-  writer.text(text.substr(0, kLongestText));
-  end(writer);
+  tell(MessageSource::kRuntimeMachine, MessageType::kText,
+       [&](ByteWriter& writer) { writer.text(text.substr(0, kLongestText)); });
 }
 
 void RobotMessages::key(std::string_view title, std::string_view text) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRuntimeMachine, MessageType::kKey, writer);
-  writer.i32(0);
-  writer.i32(0);
-  writer.short_text(title);
-  writer.text(text.substr(0, kLongestText));
-  end(writer);
+  tell(MessageSource::kRuntimeMachine, MessageType::kKey, [&](ByteWriter& writer) {
+    writer.i32(0);
+    writer.i32(0);
+    writer.short_text(title);
+    writer.text(text.substr(0, kLongestText));
+  });
 }
 
 void RobotMessages::safety_mode(SafetyMode mode, const Stop& stop) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRobotInterface, MessageType::kSafetyMode, writer);
-  writer.i32(static_cast<std::int32_t>(stop.code));
-  writer.i32(stop.argument);
-  writer.u8(static_cast<std::uint8_t>(mode));
-  writer.u32(0);  // no data
-  writer.u32(0);
-  end(writer);
+  tell(MessageSource::kRobotInterface, MessageType::kSafetyMode, [&](ByteWriter& writer) {
+    writer.i32(static_cast<std::int32_t>(stop.code));
+    writer.i32(stop.argument);
+    writer.u8(static_cast<std::uint8_t>(mode));
+    writer.zeros(8);  // no data
+  });
 }
 
 void RobotMessages::error(const Stop& stop, ReportLevel level) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRobotInterface, MessageType::kErrorCode, writer);
-  writer.i32(static_cast<std::int32_t>(stop.code));
-  writer.i32(stop.argument);
-  writer.i32(static_cast<std::int32_t>(level));
-  writer.u32(0);  // no data
-  writer.u32(0);
-  end(writer);
+  tell(MessageSource::kRobotInterface, MessageType::kErrorCode, [&](ByteWriter& writer) {
+    writer.i32(static_cast<std::int32_t>(stop.code));
+    writer.i32(stop.argument);
+    writer.i32(static_cast<std::int32_t>(level));
+    writer.zeros(8);  // no data
+  });
 }
 
 void RobotMessages::runtime_exception(std::int32_t line, std::int32_t column,
                                       std::string_view text) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRuntimeMachine, MessageType::kRuntimeException, writer);
-  writer.i32(line);
-  writer.i32(column);
-  writer.text(text.substr(0, kLongestText));
-  end(writer);
+  tell(MessageSource::kRuntimeMachine, MessageType::kRuntimeException, [&](ByteWriter& writer) {
+    writer.i32(line);
+    writer.i32(column);
+    writer.text(text.substr(0, kLongestText));
+  });
 }
 
 void RobotMessages::popup(std::string_view title, std::string_view text, bool warning, bool error) {
-  Bytes bytes;
-  ByteWriter writer(bytes.data(), bytes.size());
-  begin(MessageSource::kRuntimeMachine, MessageType::kPopup, writer);
-  writer.u32(++popups_);
-  writer.u8(0);
-  writer.u8(warning ? 1 : 0);
-  writer.u8(error ? 1 : 0);
-  writer.u8(0);  // not blocking
-  writer.short_text(title);
-  writer.text(text.substr(0, kLongestText));
-  end(writer);
+  tell(MessageSource::kRuntimeMachine, MessageType::kPopup, [&](ByteWriter& writer) {
+    writer.u32(++popups_);
+    writer.u8(0);
+    writer.u8(warning ? 1 : 0);
+    writer.u8(error ? 1 : 0);
+    writer.u8(0);  // not blocking
+    writer.short_text(title);
+    writer.text(text.substr(0, kLongestText));
+  });
 }
 
 void RobotMessages::write_version(ByteWriter& writer) const {

@@ -33,7 +33,8 @@ class RobotMessages {
 
  private:
   void begin(MessageSource source, MessageType type, ByteWriter& writer) const;
-  void end(ByteWriter& writer);
+  template <class Write>
+  void tell(MessageSource source, MessageType type, Write write);
   void key(std::string_view title, std::string_view text);
 
   Version version_;

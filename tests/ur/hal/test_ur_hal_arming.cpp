@@ -381,8 +381,5 @@ int main() {
       cmocka_unit_test(a_program_that_goes_nowhere_is_named),
       cmocka_unit_test(a_connection_that_is_closed_at_the_first_registers_is_named),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
-  g_exchange.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_exchange);
 }

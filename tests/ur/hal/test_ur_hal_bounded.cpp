@@ -129,7 +129,5 @@ int main() {
       cmocka_unit_test(a_controller_that_answers_nothing_is_not_waited_for),
       cmocka_unit_test(an_upload_goes_on_over_cycles),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_exchange.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_exchange);
 }

@@ -16,15 +16,6 @@ void tell(const char* command, const char* reply) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   assert_true(dashboard.poll(why) == Answer::kYes);
 }
-/// Somebody else at the primary port.
-void upload(std::string_view text) {
-  Socket socket;
-  Message why;
-  ASSERT_OK(socket.connect("127.0.0.1", kPrimaryPort + kOffset, Deadline(2000), why));
-  assert_true(socket.send_some(text) && text.empty());
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
-}
-
 /// Runs until the executive stops, which must be in the cycle of the first packet that reports the
 /// stop.
 void assert_stops_in_the_cycle_of_its_packet(UrArmBench& bench, int most) {
@@ -272,8 +263,5 @@ int main() {
       cmocka_unit_test(an_e_series_at_125_hz_is_given_a_set_point_for_four_of_its_cycles),
       cmocka_unit_test(a_cb3_is_not_asked_for_500_hz),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_arm.reset();
-  g_robot.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_arm);
 }

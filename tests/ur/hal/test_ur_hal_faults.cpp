@@ -251,7 +251,5 @@ int main() {
       cmocka_unit_test(a_cycle_allocates_nothing),
       cmocka_unit_test(a_start_allocates_nothing),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_bench);
 }

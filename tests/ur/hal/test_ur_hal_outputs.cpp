@@ -194,8 +194,5 @@ int main() {
       cmocka_unit_test(outputs_of_another_client_are_claimed_only_where_they_are_put_out),
       cmocka_unit_test(every_output_has_a_name),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_arm.reset();
-  g_robot.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_arm);
 }

@@ -191,7 +191,5 @@ int main() {
       cmocka_unit_test(a_fault_stays_until_arming_is_requested_anew),
       cmocka_unit_test(a_wire_that_is_closed_leaves_a_program_that_was_told_to_end),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_exchange.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_exchange);
 }

@@ -37,6 +37,16 @@ std::size_t with_double(Bytes& bytes, std::size_t size, std::size_t index, doubl
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+void assert_ends_the_motion(UrHalBench& bench, const Bytes& bytes, std::size_t size,
+                            const char* reason) {
+  bench.robot.send(bytes.data(), size);
+  bench.settings.packet_wait = 500.0;
+  ASSERT_STATUS(bench.run_cycle(), Status::kWireFormat);
+  assert_disabled_by_wire(bench, Status::kWireFormat);
+  assert_true(bench.says(reason));
+  assert_reconnects_without_motion(bench);
+}
+
 // Proves URH-15, URH-8.
 void a_length_size_or_recipe_that_is_not_ours(void**) {
   for (const Spoilt& row :
@@ -59,12 +69,7 @@ void a_length_size_or_recipe_that_is_not_ours(void**) {
     UrHalBench& bench = moving();
     Bytes bytes{};
     const std::size_t size = row.spoil(bytes, bench.robot.package(bytes.data()));
-    bench.robot.send(bytes.data(), size);
-    bench.settings.packet_wait = 500.0;
-    ASSERT_STATUS(bench.run_cycle(), Status::kWireFormat);
-    assert_disabled_by_wire(bench, Status::kWireFormat);
-    assert_true(bench.says(row.reason));
-    assert_reconnects_without_motion(bench);
+    assert_ends_the_motion(bench, bytes, size, row.reason);
   }
 }
 
@@ -83,12 +88,7 @@ void any_number_of_the_recipe_that_is_none(void**) {
     Bytes bytes{};
     const std::size_t size = bench.robot.package(bytes.data());
     with_double(bytes, size, field.first + field.count - 1, field.count > 1 ? kNan : -kInfinity);
-    bench.robot.send(bytes.data(), size);
-    bench.settings.packet_wait = 500.0;
-    ASSERT_STATUS(bench.run_cycle(), Status::kWireFormat);
-    assert_disabled_by_wire(bench, Status::kWireFormat);
-    assert_true(bench.says(field.name));
-    assert_reconnects_without_motion(bench);
+    assert_ends_the_motion(bench, bytes, size, field.name);
   }
 }
 
@@ -280,7 +280,5 @@ int main() {
       cmocka_unit_test(a_repeated_packet_is_bridged),
       cmocka_unit_test(a_timestamp_that_runs_back_ends_the_motion),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_bench);
 }

@@ -36,14 +36,6 @@ UrArmBench& arm_with(const Tool& given, const Settings& settings) {
   return bench;
 }
 
-void upload(std::string_view text) {
-  Socket socket;
-  Message why;
-  ASSERT_OK(socket.connect("127.0.0.1", kPrimaryPort + kOffset, Deadline(2000), why));
-  assert_true(socket.send_some(text) && text.empty());
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
-}
-
 /// The arm stands where it stood, and no program of ours runs.
 void assert_untouched(UrArmBench& bench, const Vector6& q) {
   for (int i = 0; i < 200; ++i) static_cast<void>(bench.run_cycle());
@@ -306,8 +298,5 @@ int main() {
       cmocka_unit_test(the_tolerance_is_that_of_the_file),
       cmocka_unit_test(an_arm_turned_at_the_wrist_is_refused),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_arm.reset();
-  g_robot.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_arm);
 }

@@ -211,7 +211,5 @@ int main() {
       cmocka_unit_test(a_cycle_after_a_bridged_one_waits_half_a_period_less),
       cmocka_unit_test(the_force_at_the_tip_is_moved_to_the_flange),
   };
-  const int failed = cmocka_run_group_tests(tests, nullptr, nullptr);
-  g_bench.reset();
-  return failed;
+  return cmocka_run_group_tests(tests, nullptr, end_bench);
 }

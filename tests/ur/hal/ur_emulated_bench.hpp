@@ -105,4 +105,19 @@ inline UrArmBench& moving_arm(OnProtectiveStop reaction = OnProtectiveStop::kRef
   return bench;
 }
 
+inline int end_arm(void**) {
+  g_arm.reset();
+  g_robot.reset();
+  return 0;
+}
+
+/// Somebody else at the primary port.
+inline void upload(std::string_view text) {
+  Socket socket;
+  Message why;
+  ASSERT_OK(socket.connect("127.0.0.1", kPrimaryPort + kOffset, Deadline(2000), why));
+  assert_true(socket.send_some(text) && text.empty());
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
 }  // namespace tactus::ur

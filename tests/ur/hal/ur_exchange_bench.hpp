@@ -59,4 +59,9 @@ struct UrExchange : UrHalBench {
 
 inline std::optional<UrExchange> g_exchange;
 
+inline int end_exchange(void** state) {
+  g_exchange.reset();
+  return end_bench(state);
+}
+
 }  // namespace tactus::ur

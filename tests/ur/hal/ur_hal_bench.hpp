@@ -155,4 +155,9 @@ struct UrHalBench : UrArmBench {
 /// That of a process: a failed assertion would not destroy one on the stack.
 inline std::optional<UrHalBench> g_bench;
 
+inline int end_bench(void**) {
+  g_bench.reset();
+  return 0;
+}
+
 }  // namespace tactus::ur

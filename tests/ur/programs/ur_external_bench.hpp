@@ -140,6 +140,14 @@ inline void spline_to(ExternalBench& bench, double dq0, double time_s) {
   bench.spline_point(beside(dq0), Joints::Zero(), Joints::Zero(), time_s, 1);
 }
 
+/// Asserts that a trajectory of one spline now comes to its end, and nowhere else.
+inline void assert_spline_succeeds(ExternalBench& bench, double dq0, double time_s) {
+  bench.forward(1, 1);
+  spline_to(bench, dq0, time_s);
+  assert_int_equal(bench.await_result(), 0);
+  ASSERT_NEAR(bench.target()[0], dq0, 1e-3);
+}
+
 /// Streams positions of joint 1 that increase by `speed`; returns the last.
 inline double stream(ExternalBench& bench, double from, double speed, int cycles) {
   for (int k = 0; k < cycles; ++k) {
