@@ -121,10 +121,10 @@ PROGRAM := $(wildcard gateway/reference_*.cpp)
 ORACLES :=
 endif
 # The drives on CAN at both ends, without sockets and arm: for benches and bounds.
-CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_commands.cpp can_master.cpp can_plan.cpp can_plan_names.cpp \
-               node_setup.cpp pdo_layout.cpp sdo_client.cpp sdo_client_text.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
+CAN_BENCH := $(wildcard hal/cia402/*.cpp) $(addprefix hal/can/,bus_load.cpp can_master.cpp can_plan.cpp \
+               node_setup.cpp pdo_layout.cpp sdo_client.cpp startup.cpp) tests/wcet/can/can_cycle.cpp \
                $(filter-out %/drive_arm.cpp %/driven_arm.cpp,$(wildcard sim_plant/drives/*.cpp))
-CAN_LINK  := $(addprefix hal/can/,can_socket.cpp can_socket_open.cpp link_health.cpp)
+CAN_LINK  := $(addprefix hal/can/,can_socket.cpp link_health.cpp)
 PCH       = $(O)/precompiled.hpp
 obj       = $(patsubst %.cpp,$(O)/%.o,$(1))
 say       = @mkdir -p $(@D) && echo "  $(1)"

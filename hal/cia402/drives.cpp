@@ -1,4 +1,4 @@
-// Drives: what the drives of the arm say, and what it means.
+// Drives: their settings, the feedback and its checks, and the targets sent to them.
 #include "hal/cia402/drives.hpp"
 
 #include <algorithm>
@@ -6,7 +6,9 @@
 
 #include "hal/cia402/hex.hpp"
 #include "hal/cia402/protocol_errors.hpp"
+#include "hal/cia402/settings_check.hpp"
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::cia402 {
 namespace {
@@ -16,6 +18,39 @@ constexpr int kLongestLimited = 1 << 24;  // cycles that are counted
 constexpr auto kSmallestTorque = std::numeric_limits<std::int16_t>::min();
 
 }  // namespace
+
+Status Drives::configure(const Cia402Settings& settings, const Tool& tool, int period_us,
+                         int arming_ms, Message& why) {
+  settings_ = &settings;
+  period_s_ = 1e-6 * period_us;
+  most_rise_ = static_cast<int>((std::int64_t{1000} * arming_ms + period_us - 1) / period_us);
+  hold_.configure(settings, tool, period_s_);
+  const DriveTimes times = {settings.step_ms * kMillisecond_ns, settings.reset_ms * kMillisecond_ns,
+                            settings.stop_ms * kMillisecond_ns};
+  for (int j = 0; j < kDof; ++j) {
+    Joint& joint = joints_[static_cast<std::size_t>(j)];
+    joint.units = {settings.increments[j], settings.gear_ratio[j], settings.rated_torque[j],
+                   settings.direction[j], settings.position_offset[j]};
+    joint.machine.configure(times);
+    why = joint_text(j);
+    why << ": [cia402] ";
+    TRY(judge_drive(settings, limits_, joint.units, j, why));
+  }
+  TRY(judge_arming_time(settings, arming_ms, why));
+  why = Message("[robot] period_us is ");
+  if (period_object(period_us).value == 0) {
+    why << period_us << ", which a drive cannot be told: 60C2h takes a whole number up to 255 of "
+        << "1 ms, 100 us, 10 us or 1 us";
+    return Status::kBadValue;
+  }
+  why = {};
+  return Status::kOk;
+}
+
+void Drives::set_velocity_units(const JointVector& units) {
+  for (int j = 0; j < kDof; ++j)
+    if (units[j] > 0.0) joints_[static_cast<std::size_t>(j)].units.speed = units[j];
+}
 
 Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
   mode_ = mode;
@@ -191,6 +226,56 @@ void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what
   phase_ = Phase::kFailed;
   failure_ = {joint, code, seen, what, detail, rest, figures != nullptr, {}};
   if (figures != nullptr) failure_.figures = *figures;
+}
+
+/// False, and a fault, for a command that the drives cannot take.
+bool Drives::follows(const RobotCommand& command) {
+  const bool same = command.mode == mode_;
+  if (!same) fail(0, Status::kNotOffered, 0, "a command of another mode than that of connecting");
+  for (int j = 0; j < kDof && same; ++j) {
+    const double sum = command.value[j] + command.dq_ff[j] + command.tau_ff[j];
+    if (!(sum - sum == 0.0)) fail(j, Status::kCommandNotFinite, 0, "its command is not finite");
+  }
+  return phase_ == Phase::kArmed;
+}
+
+/// Before the drives are enabled the targets are those that move nothing: where the joints are, and
+/// no torque. The same after a stop.
+void Drives::set_target(const RobotCommand& command, bool follow, DriveCommands& out) {
+  const bool holds = goal() == Goal::kOperationEnabled;
+  JointVector q, dq;
+  for (int j = 0; j < kDof; ++j) {
+    q[j] = joints_[static_cast<std::size_t>(j)].q;
+    dq[j] = joints_[static_cast<std::size_t>(j)].dq;
+  }
+  if (!holds || follow) held_ = q;
+  const JointVector tau = holds ? effort(command, follow, q, dq) : JointVector(JointVector::Zero());
+  LoopBound<kDof> joints;
+  for (int j = 0; j < kDof; ++j) {
+    joints.tick();
+    const Joint& joint = joints_[static_cast<std::size_t>(j)];
+    DriveCommand to;
+    to.controlword = out[static_cast<std::size_t>(j)].controlword;
+    to.homes = joint.homes && !(homes(j) && homing_.returns());
+    to.target_torque = joint.units.torque(tau[j]);
+    to.target_position = joint.count_of(follow ? command.value[j] : held_[j]);
+    if (follow) {
+      to.target_velocity = joint.units.velocity(command.value[j]);
+      to.velocity_offset = joint.units.velocity(command.dq_ff[j]);
+      to.torque_offset = joint.units.torque(command.tau_ff[j]);
+    }
+    out[static_cast<std::size_t>(j)] = to;
+  }
+}
+
+/// Of the targets, only those of the mode are sent (the bus's layout); torque is the one that moves
+/// an arm by itself.
+JointVector Drives::effort(const RobotCommand& command, bool follow, const JointVector& q,
+                           const JointVector& dq) {
+  if (mode_ != CommandMode::kEffort) return JointVector::Zero();
+  if (!follow) return hold_.step(q, dq);
+  hold_.track(q, command.value);
+  return command.value;
 }
 
 Message Drives::why() const {

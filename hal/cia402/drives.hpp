@@ -76,7 +76,7 @@ class Drives {
   /// True if no drive has power any more, as far as is known. [cyclic]
   bool off() const { return phase_ == Phase::kOff; }
   /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
-  /// disabled, as it was told: one statusword may be anybody's. [cyclic]
+  /// disabled, as requested: a single statusword may predate the request. [cyclic]
   bool confirmed(int joint) const {
     return joints_[static_cast<std::size_t>(joint)].confirmed == kConfirming;
   }
@@ -131,12 +131,6 @@ class Drives {
     Figures figures;
   };
 
-  /// Judge what the file says of a joint; `why` begins with the joint and goes on with key, value,
-  /// limit and remedy.
-  Status judge_torque(int j, Message& why) const;
-  Status judge_position(int j, Message& why) const;
-  Status judge_homing(int j, Message& why) const;
-  Status judge_arming_time(int arming_ms, Message& why) const;
   bool place(int j, std::int32_t count);
   Status attach_joint(int j, const DriveFeedback& feedback, Message& why);
   void measure(int j, const DriveFeedback& feedback, std::int64_t sampled_ns);
@@ -150,8 +144,11 @@ class Drives {
   bool operates(int j) const { return enabled() || (homes(j) && homing_.operates()); }
   Drive drive_of(const Joint& joint) const;
   bool follows(const RobotCommand& command);
+  void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
+  JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
+                     const JointVector& dq);
 
-  // Steps of arming and stopping: drives_arming.cpp.
+  // drives_arming.cpp: the steps of arming, with homing, and of stopping.
   void take(DriveRequest request);
   void set_controlwords(DriveCommands& out, std::int64_t now_ns);
   void count_confirmations();
@@ -163,14 +160,10 @@ class Drives {
   void judge_rise();
   void judge_time();
   void judge_steadiness();
-  JointVector effort(const RobotCommand& command, bool follow, const JointVector& q,
-                     const JointVector& dq);
-  void set_target(const RobotCommand& command, bool follow, DriveCommands& out);
   void enter(Phase phase, std::int64_t now_ns);
   void ask(int joint, const Object& object);
   void tell(int joint, const Object& object, std::int8_t value);
   void judge_mode(std::uint32_t value, const ObjectRefusal& refused);
-  // Homing, and where a joint is: drives_homing.cpp.
   bool referenced(int j) const;
   bool needs_homing(int j) const;
   void go_up(std::int64_t now_ns);
