@@ -9,11 +9,9 @@
 #include <algorithm>
 
 #include "hal/cia402/drives.hpp"
-#include "hal/ethercat/clock_steer.hpp"
 #include "hal/ethercat/cyclic_frame.hpp"
-#include "hal/ethercat/reference_clock.hpp"
+#include "hal/ethercat/segment_clock.hpp"
 #include "hal/ethercat/startup.hpp"
-#include "hal/ethercat/sync0_watch.hpp"
 
 namespace tactus::ethercat {
 
@@ -61,8 +59,8 @@ class EthercatMaster {
   const ClockSteer& steer() const { return steer_; }
   /// With SYNC0: how the frames of the cycles came before it; without: nothing has been seen. [any]
   const Sync0Watch& sync0() const { return sync0_; }
-  /// As Startup::apart_ns(). [any]
-  std::int64_t apart_ns() const { return startup_.apart_ns(); }
+  /// As ClockSetup::apart_ns(). [any]
+  std::int64_t apart_ns() const { return startup_.clock().apart_ns(); }
   /// The moment next to `near_ns`, in the time of connecting(), at which a frame is in step with
   /// SYNC0; without SYNC0 any is. [init]
   std::int64_t in_step(std::int64_t near_ns) const;

@@ -3,8 +3,7 @@
 // in.
 #pragma once
 
-#include "hal/ethercat/process_layout.hpp"
-#include "hal/ethercat/sii_reader.hpp"
+#include "hal/ethercat/process_data.hpp"
 #include "hal/ethercat/slave.hpp"
 
 namespace tactus::ethercat {

@@ -24,6 +24,32 @@ constexpr Cleared kCleared[] = {
 };
 constexpr int kClearedCount = static_cast<int>(std::size(kCleared));
 
+constexpr int kProcessSteps = 6;
+
+Request sm_request(std::uint16_t station, int sm, std::uint16_t start, std::size_t length,
+                   std::uint8_t control) {
+  const auto reg = static_cast<std::uint16_t>(kSmReg + int{kSmBytes} * sm);
+  Request request(Command::kFpwr, address_of(station, reg), kSmBytes);
+  put(&request.data[0], start);
+  put(&request.data[2], static_cast<std::uint16_t>(length));
+  request.data[4] = control;
+  request.data[6] = length > 0 ? kSmEnabled : 0;
+  return request;
+}
+
+Request fmmu_request(std::uint16_t station, int fmmu, std::size_t logical, std::size_t length,
+                     std::uint16_t physical, std::uint8_t type) {
+  const auto reg = static_cast<std::uint16_t>(kFmmuReg + int{kFmmuBytes} * fmmu);
+  Request request(Command::kFpwr, address_of(station, reg), kFmmuBytes);
+  put(&request.data[0], static_cast<std::uint32_t>(kImageAddress + logical));
+  put(&request.data[4], static_cast<std::uint16_t>(length));
+  request.data[7] = 7;  // last bit
+  put(&request.data[8], physical);
+  request.data[11] = type;
+  request.data[12] = length > 0 ? 1 : 0;
+  return request;
+}
+
 }  // namespace
 
 void Startup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
@@ -38,12 +64,12 @@ void Startup::begin(const EthercatSettings& ethercat, const cia402::Cia402Settin
     slave = {};
     slave.position = static_cast<int>(ethercat.slave[j]) - 1;
     slave.boxes.station = static_cast<std::uint16_t>(kFirstStation + slave.position);
-    order_[static_cast<std::size_t>(slave.position)] = j;
+    line_.set(slave.position, j);
   }
   coe_.cancel();
   port_.reset();
-  has_clocks_ = image_.lrw = true;
-  phase_ns_ = apart_ns_ = 0;
+  image_.lrw = true;
+  clock_.reset(ethercat, period_us);
   enter(Stage::kCount);
   exchange_.ask(request(), now_ns);
 }
@@ -107,17 +133,15 @@ Request Startup::request() {
       return Request::number(Command::kApwr, address_of(position_field(at_), kStationReg),
                              at().boxes.station);
     case Stage::kFeatures: return Request(Command::kFprd, station, 16);
-    case Stage::kEeprom:
-    case Stage::kCategories: return eeprom_.next();
-    case Stage::kMailboxes: return area_request();
+    case Stage::kEeprom: return eeprom_.next();
+    case Stage::kMailboxes: return mailbox_request();
     case Stage::kPreop: return state_request(AlState::kPreop);
     case Stage::kIdentify:
     case Stage::kSetup:
     case Stage::kMapping: return port_.next(at().boxes, kMaxData);
     case Stage::kProcessData: return process_request();
-    case Stage::kSync0: return sync0_request();
     case Stage::kSafeop: return state_request(AlState::kSafeop);
-    default: return clock_request();
+    default: return clock_.request();
   }
 }
 
@@ -148,18 +172,8 @@ Status Startup::take(const Answer& answer) {
       if (answer.counter != 1) return refuse(Status::kBusTimeout, "takes no address");
       next_slave(Stage::kStation, Stage::kFeatures);
       break;
-    case Stage::kFeatures:
-      if (answer.counter != 1) return refuse(Status::kBusTimeout, "does not answer to its address");
-      at().features = answer.word(8);
-      image_.lrw = image_.lrw && (at().features & kNoLrw) == 0;
-      has_clocks_ = has_clocks_ && at().has_clock();
-      TRY(judge_clock());
-      stage_ = Stage::kEeprom;
-      step_ = 0;
-      eeprom_.begin(at().boxes.station, kSiiVendor);
-      break;
-    case Stage::kEeprom: eeprom_.take(answer); return take_eeprom();
-    case Stage::kCategories: eeprom_.take(answer); return take_category();
+    case Stage::kFeatures: return take_features(answer);
+    case Stage::kEeprom: return take_eeprom(answer);
     case Stage::kMailboxes:
       if (++step_ == 2) {
         stage_ = Stage::kPreop;
@@ -172,9 +186,8 @@ Status Startup::take(const Answer& answer) {
     case Stage::kSetup:
     case Stage::kMapping: return take_mailbox(answer);
     case Stage::kProcessData: return take_process_data();
-    case Stage::kSync0: return take_sync0(answer);
     case Stage::kSafeop: return await_state(answer, AlState::kSafeop);
-    default: return take_times(answer);
+    default: return take_clocks(answer);
   }
   return Status::kOk;
 }
@@ -203,6 +216,26 @@ Status Startup::await_init(const Answer& answer) {
   return Status::kBusTimeout;
 }
 
+Status Startup::take_features(const Answer& answer) {
+  if (answer.counter != 1) return refuse(Status::kBusTimeout, "does not answer to its address");
+  at().features = answer.word(8);
+  image_.lrw = image_.lrw && (at().features & kNoLrw) == 0;
+  TRY(clock_.judge(at_));
+  stage_ = Stage::kEeprom;
+  eeprom_.begin(at());
+  return Status::kOk;
+}
+
+Status Startup::take_eeprom(const Answer& answer) {
+  Message what;
+  const Status status = eeprom_.take(answer, what);
+  if (status == Status::kArming) return Status::kOk;
+  if (status != Status::kOk) return refuse(status, what);
+  stage_ = Stage::kMailboxes;
+  step_ = 0;
+  return Status::kOk;
+}
+
 Status Startup::await_state(const Answer& answer, AlState state) {
   Message what;
   if (step_++ == 0) {
@@ -226,6 +259,84 @@ Status Startup::await_state(const Answer& answer, AlState state) {
   what << "is not in " << name(state) << " within [ethercat] state_ms, " << ethercat_->state_ms
        << " ms, but in " << name(static_cast<AlState>(status & kAlStateBits));
   return refuse(Status::kBusTimeout, what);
+}
+
+Request Startup::mailbox_request() const {
+  const Slave& slave = at();
+  const Mailboxes& boxes = slave.boxes;
+  if (step_ == 0)
+    return sm_request(boxes.station, 0, boxes.out, boxes.out_bytes, slave.mailbox_out_control);
+  return sm_request(boxes.station, 1, boxes.in, boxes.in_bytes, slave.mailbox_in_control);
+}
+
+/// The watchdog runs over the outputs, whatever the EEPROM says.
+Request Startup::process_request() const {
+  const Slave& slave = at();
+  const std::uint16_t station = slave.boxes.station;
+  const ProcessData& data = slave.data;
+  const auto outputs = static_cast<std::uint8_t>(slave.outputs.control | kSmWatchdog);
+  const int units = 10 * ethercat_->timeout_ms(period_us_);  // of 100 us
+  switch (step_) {
+    case 0:
+      return sm_request(station, slave.outputs.sm, slave.outputs.start, data.outputs.bytes(),
+                        outputs);
+    case 1:
+      return sm_request(station, slave.inputs.sm, slave.inputs.start, data.inputs.bytes(),
+                        slave.inputs.control);
+    case 2:
+      return fmmu_request(station, 0, data.out_at, data.outputs.bytes(), slave.outputs.start,
+                          kFmmuWrite);
+    case 3:
+      return fmmu_request(station, 1, data.in_at, data.inputs.bytes(), slave.inputs.start,
+                          kFmmuRead);
+    case 4:
+      return Request::number(Command::kFpwr, address_of(station, kWatchdogDividerReg),
+                             kDivider100us);
+    default:
+      return Request::number(Command::kFpwr, address_of(station, kDataWatchdogReg),
+                             static_cast<std::uint16_t>(units));
+  }
+}
+
+Status Startup::take_process_data() {
+  if (exchange_.answer().counter != 1)
+    return refuse(Status::kRefusedByRobot, "does not take its sync managers, FMMUs and watchdog");
+  if (++step_ < kProcessSteps) return Status::kOk;
+  next_slave(Stage::kProcessData, clock_.all_have_clocks() ? Stage::kClocks : Stage::kSafeop);
+  if (stage_ == Stage::kClocks) clock_.begin(now_ns_);
+  return Status::kOk;
+}
+
+/// Outputs of all joints, then inputs of all.
+Status Startup::place_image() {
+  image_.outputs = image_.inputs = 0;
+  for (Slave& slave : slaves_) {
+    slave.data.out_at = image_.outputs;
+    image_.outputs += slave.data.outputs.bytes();
+  }
+  for (Slave& slave : slaves_) {
+    slave.data.in_at = image_.bytes();
+    image_.inputs += slave.data.inputs.bytes();
+  }
+  if (image_.bytes() <= kMostImage) return Status::kOk;
+  why_ = Message("the process data of all drives have ");
+  why_ << image_.bytes() << " bytes, at most " << kMostImage;
+  return Status::kTooLarge;
+}
+
+Status Startup::take_clocks(const Answer& answer) {
+  const Status status = clock_.take(answer, now_ns_);
+  if (status == Status::kArming) return Status::kOk;
+  if (status == Status::kOk) enter(Stage::kSafeop);
+  return status;
+}
+
+Message Startup::code_text(std::uint16_t code) const {
+  Message text(al_code_text(code));
+  text << " (" << std::string_view(cia402::hex(code)) << ")";
+  if (!ethercat_->has_sync0() && concerns_sync0(code))
+    text << "; add [ethercat] sync0_us, for example " << period_us_ / 2 << ", half of the period";
+  return text;
 }
 
 }  // namespace tactus::ethercat

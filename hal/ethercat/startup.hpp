@@ -8,13 +8,12 @@
 #pragma once
 
 #include "hal/cia402/line_writer.hpp"
-#include "hal/ethercat/sii_reader.hpp"
+#include "hal/ethercat/clock_setup.hpp"
 #include "hal/ethercat/slave.hpp"
 #include "hal/ethercat/slave_setup.hpp"
 
 namespace tactus::ethercat {
 
-inline constexpr std::uint16_t kFirstStation = 0x1001;
 inline constexpr std::uint32_t kImageAddress = 0x00010000;  ///< logical, of the first output
 inline constexpr std::size_t kMostImage = 1024;             ///< bytes
 
@@ -48,15 +47,8 @@ class Startup {
   const ImageShape& image() const { return image_; }
   /// What the drives have said. [init]
   const cia402::Learnt& learnt() const { return learnt_; }
-  /// True if all slaves have a clock. [any]
-  bool has_clocks() const { return has_clocks_; }
-  /// With SYNC0: a reference time from which frames are to be sent whole periods apart, ns. [any]
-  std::int64_t phase_ns() const { return phase_ns_; }
-  /// Reference time of the first SYNC0 of the slave that was started last, ns. [init]
-  std::int64_t sync0_ns() const { return start_ns_; }
-  /// With SYNC0: the largest distance of a clock to that of the first slave after they have been
-  /// steered, ns. [any]
-  std::int64_t apart_ns() const { return apart_ns_; }
+  /// The clocks of the slaves. [any]
+  const ClockSetup& clock() const { return clock_; }
   /// An AL status code in words, and what helps: "no valid outputs (0019h)". [init]
   Message code_text(std::uint16_t code) const;
 
@@ -69,45 +61,35 @@ class Startup {
     kStation,
     kFeatures,
     kEeprom,
-    kCategories,
     kMailboxes,
     kPreop,
     kIdentify,
     kSetup,
     kMapping,
     kProcessData,
-    kLatch,
-    kTimes,
-    kOffsets,
-    kFilter,
-    kSteer,
-    kSync0,
+    kClocks,
     kSafeop,
     kDone
   };
 
-  // startup.cpp
   void enter(Stage stage);
   void next_slave(Stage again, Stage then);
   Request request();
   Request clear_request() const;
   Request state_request(AlState state) const;
+  Request mailbox_request() const;
+  Request process_request() const;
   Status take(const Answer& answer);
   Status count(const Answer& answer);
   Status await_init(const Answer& answer);
+  Status take_features(const Answer& answer);
+  Status take_eeprom(const Answer& answer);
   Status await_state(const Answer& answer, AlState state);
-  Status refuse(Status status, std::string_view what);
-  // startup_slave.cpp
-  Request area_request() const;
-  Status refuse_eeprom();
-  Status take_eeprom();
-  Status take_category();
-  Status judge_eeprom();
-  Status judge_mailbox(const char* of, std::uint16_t word, std::uint16_t bytes);
-  Request process_request() const;
   Status take_process_data();
   Status place_image();
-  // startup_setup.cpp
+  Status take_clocks(const Answer& answer);
+  Status refuse(Status status, std::string_view what);
+  // startup_setup.cpp: what is read from and written to a drive by SDO
   void begin_steps(Stage stage);
   int steps_end() const;
   void leave_out();
@@ -123,25 +105,13 @@ class Startup {
   }
   bool is_left_out(const SetupStep& step) const;
   Status finish_mapping();
-  // startup_clock.cpp
-  Request clock_request() const;
-  Status take_times(const Answer& answer);
-  void set_delays();
-  // startup_sync0.cpp
-  Status judge_clock();
-  Request sync0_request() const;
-  Status take_sync0(const Answer& answer);
-  Status judge_difference(std::uint32_t shown);
-  Status judge_start(std::int64_t reference_ns);
-  void plan_start(std::int64_t reference_ns);
 
-  Slave& at() { return slaves_[static_cast<std::size_t>(order_[static_cast<std::size_t>(at_)])]; }
-  const Slave& at() const {
-    return slaves_[static_cast<std::size_t>(order_[static_cast<std::size_t>(at_)])];
-  }
-  int joint() const { return order_[static_cast<std::size_t>(at_)]; }
+  Slave& at() { return line_.at(at_); }
+  const Slave& at() const { return line_.at(at_); }
+  int joint() const { return line_.joint(at_); }
 
   Slaves& slaves_;
+  SlaveLine line_{slaves_};
   CoeClient& coe_;
   MailboxPort port_;
   Message& why_;
@@ -149,27 +119,21 @@ class Startup {
   const cia402::Cia402Settings* drive_ = nullptr;
   CommandMode mode_ = CommandMode::kEffort;
   int period_us_ = 1;
-  std::array<int, kDof> order_{};  // joints in the order of the line
 
   Stage stage_ = Stage::kCount;
   int at_ = 0;    // place in the line
   int step_ = 0;  // of the stage, with this slave
   int attempts_ = 0;
   std::int64_t now_ns_ = 0, since_ns_ = 0;
-  std::uint16_t category_ = 0, category_type_ = 0, category_end_ = 0;  // words of the EEPROM
-  int categories_ = 0, sm_ = 0;
-  std::uint32_t sm_half_ = 0;
   Exchange exchange_;
-  SiiReader eeprom_;
+  SlaveEeprom eeprom_;
   SlaveSetup steps_;
   cia402::DriveFacts facts_;  // of the present slave
   cia402::LineWriter lines_;
   cia402::Learnt learnt_;
   MappingReader mapping_;
   ImageShape image_;
-  bool has_clocks_ = false;
-  std::int64_t phase_ns_ = 0, apart_ns_ = 0;
-  std::int64_t start_ns_ = 0;  // of SYNC0 of the present slave
+  ClockSetup clock_{line_, why_};
 };
 
 }  // namespace tactus::ethercat

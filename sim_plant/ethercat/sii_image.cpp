@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "hal/ethercat/protocol_esc.hpp"
-#include "hal/ethercat/protocol_sii.hpp"
 #include "sim_plant/ethercat/default_pdos.hpp"
 
 namespace tactus::segment {

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "hal/ethercat/protocol_coe.hpp"
-#include "hal/ethercat/protocol_sii.hpp"
+#include "hal/ethercat/protocol_esc.hpp"
 #include "sim_plant/ethercat/segment.hpp"
 #include "tests/ethercat/hex_frame.hpp"
 #include "tests/support/testing.hpp"

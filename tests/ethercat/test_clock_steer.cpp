@@ -1,5 +1,5 @@
 // The steering of the frames by the reference clock, and the clocks of the slaves after a start-up.
-#include "hal/ethercat/clock_steer.hpp"
+#include "hal/ethercat/segment_clock.hpp"
 #include "tests/ethercat/master_bench.hpp"
 #include "tests/support/random.hpp"
 
