@@ -65,6 +65,13 @@ constexpr Found find(std::uint16_t index, std::uint8_t sub) {
 constexpr Slot slot_of(std::uint16_t index, std::uint8_t sub = 0) {
   return find(index, sub).slot;
 }
+
+// Objects that several parts of a drive use (CiA 402).
+inline constexpr Slot kControlword = slot_of(0x6040), kMode = slot_of(0x6060),
+                      kDisplay = slot_of(0x6061), kMaxTorque = slot_of(0x6072),
+                      kRatedTorque = slot_of(0x6076), kMaxSpeed = slot_of(0x6080),
+                      kVelocityUnit = slot_of(0x60A9), kVelocityOffset = slot_of(0x60B1);
+
 constexpr std::size_t count_slots() {
   std::size_t slots = 0;
   for (const Row& row : kRows) slots += std::size_t{1} + row.last - row.first;
@@ -94,7 +101,17 @@ class Dictionary {
   }
 
  private:
-  void reset(std::uint8_t node, std::uint16_t end);
+  /// Resets the objects below `end`; all of them if it is 0.
+  void reset(std::uint8_t node, std::uint16_t end) {
+    std::size_t slot = 0;
+    for (const Row& row : kRows) {
+      const std::size_t count = std::size_t{1} + row.last - row.first;
+      const std::int64_t value = row.value + ((row.access & kAddNode) != 0 ? node : 0);
+      const bool affected = end == 0 || row.index < end;
+      for (std::size_t i = 0; i < count && affected; ++i) values_[slot + i] = value;
+      slot += count;
+    }
+  }
 
   std::array<std::int64_t, count_slots()> values_{};
   std::array<int, count_slots()> writes_{};

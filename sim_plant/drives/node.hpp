@@ -57,7 +57,6 @@ class Node {
     bool lost = false;
   };
 
-  // node.cpp
   void reset(can::NmtCommand command, std::int64_t now_ns);
   void take_nmt(const can::CanFrame& frame, std::int64_t now_ns);
   void enter(can::NmtState state, std::int64_t now_ns);
@@ -67,8 +66,6 @@ class Node {
   void show_state();
   void send_heartbeat(std::int64_t now_ns);
   void answer_remote(std::uint16_t id, std::int64_t now_ns);
-
-  // node_watch.cpp
   void raise(std::uint16_t code, bool faults);
   void clear(std::uint16_t code);
   void send(const can::Emergency& emergency);
@@ -79,7 +76,7 @@ class Node {
   void watch(std::int64_t now_ns);
   void inject(std::int64_t now_ns);
 
-  // node_pdo.cpp
+  // node_pdo.cpp: reception and sending of PDOs
   void load_pdos();
   void load_pdo(std::uint16_t index);
   void begin_operation(std::int64_t now_ns);

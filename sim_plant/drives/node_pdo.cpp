@@ -1,9 +1,9 @@
 // The PDOs of a drive: reception, SYNC, events.
 #include <algorithm>
 
+#include "sim_plant/drives/dictionary.hpp"
 #include "sim_plant/drives/lies.hpp"
 #include "sim_plant/drives/node.hpp"
-#include "sim_plant/drives/slots.hpp"
 
 namespace tactus::drives {
 

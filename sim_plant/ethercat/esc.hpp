@@ -74,10 +74,12 @@ class Esc {
  private:
   using Datagram = ethercat::Datagram;
 
-  // esc.cpp
   void physical(const Datagram& datagram, bool reads, bool writes, bool joins);
   bool addressed(const Datagram& datagram) const;
-  // esc_memory.cpp
+  void logical(const Datagram& datagram, bool reads, bool writes);
+  bool map(std::size_t fmmu, const Datagram& datagram, bool writes, const std::uint8_t* from);
+  bool map_bits(std::size_t fmmu, const Datagram& datagram, bool writes, const std::uint8_t* from);
+  // esc_memory.cpp: access to registers and memory
   bool read(std::size_t at, std::uint8_t* into, std::size_t size, bool joins);
   bool write(std::size_t at, const std::uint8_t* from, std::size_t size);
   bool allows(std::size_t at, std::size_t size, bool writes) const;
@@ -86,10 +88,6 @@ class Esc {
   void write_sm(std::size_t at, std::uint8_t value);
   void after_write(std::size_t at, std::size_t size, const std::uint8_t* from);
   void serve_eeprom();
-  // esc_logical.cpp
-  void logical(const Datagram& datagram, bool reads, bool writes);
-  bool map(std::size_t fmmu, const Datagram& datagram, bool writes, const std::uint8_t* from);
-  bool map_bits(std::size_t fmmu, const Datagram& datagram, bool writes, const std::uint8_t* from);
 
   std::array<std::uint8_t, kMemory> memory_{};
   std::array<bool, kSms> open_{};  // mailboxes of which the master has accessed the first byte
