@@ -63,9 +63,10 @@ struct Connection {
   std::uint32_t epoch = 0, sequence = 0;  ///< of its last reference that had a place
   std::uint32_t lost = 0;                 ///< States that found no space
   bool canceled = false;                  ///< by another client: what names no epoch does not count
-  bool behind = false;       ///< what waits was sent before a cancel or a stop was in force
-  int late = 0;              ///< chunks of which nothing was left, since the last one in time
-  std::int64_t late_ns = 0;  ///< when the first of them was told
+  bool behind = false;         ///< what waits was sent before a cancel or a stop was in force
+  int late = 0;                ///< chunks of which nothing was left, since the last one in time
+  std::int64_t late_ns = 0;    ///< when the first of them was told
+  const char* slow = nullptr;  ///< what its client has not read, for which it is to be cut
   InputBytes in;
   OutputBytes out;
 
@@ -83,6 +84,7 @@ struct Connection {
     epoch = sequence = lost = 0;
     canceled = behind = false;
     late = 0;
+    slow = nullptr;
     in.clear();
     out.clear();
   }

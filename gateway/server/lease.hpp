@@ -1,5 +1,7 @@
-// Lease: who owns the motion of the arm. One client at a time does; docs/gateway.md has the table.
+// Lease and StopCount: which client may move the arm, and whether its request is still valid.
 #pragma once
+
+#include <cstdint>
 
 #include "gateway/server/limits.hpp"
 
@@ -12,6 +14,7 @@ enum class LeaseTaken : std::uint8_t {
   kRefused,    ///< another one has it
 };
 
+/// Owner of the motion of the arm: one client at a time; docs/gateway.md has the table.
 class Lease {
  public:
   static constexpr int kNobody = -1;
@@ -45,6 +48,34 @@ class Lease {
   int owner_ = kNobody;
   std::uint32_t priority_ = 0;
   std::int64_t timeout_ns_ = 0, until_ns_ = 0;
+};
+
+/// Numbers the events that stop the arm or slow it down. A request to move again names the number
+/// that its client had last received: a request that was under way when another client stopped the
+/// arm must not undo the stop.
+class StopCount {
+ public:
+  /// By no client, as a fault.
+  static constexpr std::uint64_t kNobody = 0;
+
+  /// The arm was stopped or slowed down by the client of a session.
+  void add(std::uint64_t by) {
+    if (by != newest_by_) others_ = newest_;
+    newest_by_ = by;
+    ++newest_;
+  }
+  /// Number of the newest; it begins with 1, which is none.
+  std::uint32_t newest() const { return newest_; }
+  /// True if a client can have been told this number.
+  bool told(std::uint32_t number) const { return number >= 1 && number <= newest_; }
+  /// True if a client that was told this number knows of all but its own.
+  bool known(std::uint32_t number, std::uint64_t session) const {
+    return told(number) && number >= (newest_by_ == session ? others_ : newest_);
+  }
+
+ private:
+  std::uint32_t newest_ = 1, others_ = 1;  // others_: of the newest by another than newest_by_
+  std::uint64_t newest_by_ = kNobody;
 };
 
 }  // namespace tactus

@@ -9,6 +9,8 @@
 #include "gateway/joint_turns.hpp"
 #include "gateway/reference_server.hpp"
 #include "gateway/server/report_book.hpp"
+#include "gateway/verdict_text.hpp"
+#include "kernel/pipeline/pipeline.hpp"
 
 namespace tactus {
 
@@ -157,6 +159,59 @@ class ReferenceIntake {
   bool warned_ = false;
   std::array<Told, 2 * kMessagesPerTurn> told_;  // of what has ended before the generator had it
   int told_count_ = 0;
+};
+
+/// The intake of the references that a pipeline takes, joints or poses, and the epoch that voids
+/// those sent before a stop.
+class References {
+ public:
+  References(const Pipeline& pipeline, ReferenceClient<JointSpace>& joints,
+             ReferenceClient<TaskSpace>& poses)
+      : pipeline_(pipeline), joints_(joints, pipeline.ports), poses_(poses, pipeline.ports) {}
+
+  bool takes_poses() const { return pipeline_.takes_poses; }
+  /// False: the pipeline follows its own reference.
+  bool takes_any() const { return pipeline_.takes_poses || pipeline_.takes_joints; }
+  /// True if a Begin may ask for the nearest turn of joints without stops.
+  bool wraps() const {
+    return Robot::kContinuousJoints != 0 && pipeline_.takes_joints && !takes_poses();
+  }
+  VerdictAxes axes() const { return takes_poses() ? VerdictAxes::kTip : VerdictAxes::kJoints; }
+  /// Calls act(intake) with the intake of the pipeline's space.
+  template <class Act>
+  auto with_intake(Act act) {
+    return takes_poses() ? act(poses_) : act(joints_);
+  }
+
+  std::uint32_t epoch() const { return epoch_; }
+  /// Voids all references sent before, whether they name an epoch or not.
+  void begin_epoch() {
+    ++epoch_;
+    if (takes_any()) with_intake([](auto& intake) { intake.drop_waiting(); });
+  }
+  /// Brings the arm to rest on its path, and voids all references sent before.
+  void end_motion() {
+    begin_epoch();
+    if (takes_any()) with_intake([](auto& intake) { intake.cancel(); });
+  }
+  /// True while a cancel of a client is not yet in force.
+  bool canceling() const { return takes_poses() ? poses_.canceling() : joints_.canceling(); }
+  /// Gives up the trajectory that a session is sending.
+  void give_up(std::uint64_t session) {
+    joints_.give_up(session);
+    poses_.give_up(session);
+  }
+  /// Sends no more reports about the references of a session.
+  void forget(std::uint64_t session) {
+    joints_.forget(session);
+    poses_.forget(session);
+  }
+
+ private:
+  const Pipeline& pipeline_;
+  ReferenceIntake<JointSpace> joints_;
+  ReferenceIntake<TaskSpace> poses_;
+  std::uint32_t epoch_ = 1;
 };
 
 }  // namespace tactus

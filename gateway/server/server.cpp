@@ -3,7 +3,7 @@
 namespace tactus {
 namespace {
 
-constexpr std::int64_t kFarewell_ns = kSecond_ns;  // to send what a client was told last
+constexpr std::int64_t kLastSend_ns = kSecond_ns;  // to send the last message of a cut client
 
 }  // namespace
 
@@ -36,12 +36,11 @@ Bytes Server::turn_away(std::int64_t now_ns) {
     text << "end one of these, or try again: " << std::string_view(names);
   if (idle >= 0)
     cut(idle, Status::kClientSilent, "idle for a minute while all places are taken", now_ns);
-  told_ = tactus_ToClient_init_zero;
-  told_.which_message = tactus_ToClient_answer_tag;
-  told_.message.answer.status = static_cast<std::uint32_t>(Status::kTooLarge);
-  set_text(told_.message.answer.text, text);
-  told_.message.answer.server_ns = now_ns;
-  return {bytes_.data(), encode(told_, bytes_)};
+  tactus_Answer& answer = clients_.begin_message(tactus_ToClient_answer_tag).message.answer;
+  answer.status = static_cast<std::uint32_t>(Status::kTooLarge);
+  set_text(answer.text, text);
+  answer.server_ns = now_ns;
+  return clients_.encoded();
 }
 
 /// Messages wait in the socket while the answers to the last ones are not read.
@@ -70,30 +69,31 @@ void Server::sent(int slot, std::size_t count, std::int64_t now_ns) {
 bool Server::finished(int slot, std::int64_t now_ns) const {
   const Connection& connection = at(slot);
   return connection.state == Connection::State::kLeaving &&
-         (connection.out.waiting().size == 0 || now_ns - connection.heard_ns > kFarewell_ns);
+         (connection.out.waiting().size == 0 || now_ns - connection.heard_ns > kLastSend_ns);
 }
 
 void Server::work(std::int64_t now_ns) {
-  take_snapshots(now_ns);
-  tell_drives(now_ns);
-  take_results(now_ns);
-  take_tuned(now_ns);
+  cycles_.take_snapshots(now_ns);
+  cycles_.send_drive_events(now_ns);
+  const double time_s = cycles_.newest().time_s;
+  orders_.take_results(time_s, now_ns);
+  parameters_.take_verdict(time_s, now_ns);
   take_reports(now_ns);
+  cut_slow(now_ns);
   for (int i = 0; i < kMostClients; ++i) {
     const int slot = (turn_ + i) % kMostClients;
     take_messages(slot, now_ns);
-    watch(slot, now_ns);
+    judge_silence(slot, now_ns);
   }
   turn_ = (turn_ + 1) % kMostClients;
   if (lease_.expired(now_ns)) lose_lease("was not renewed in time", now_ns);
   take_reports(now_ns);
-  take_feedback(now_ns);
-  if (!ending())
-    for (Connection& connection : connections_)
+  cut_slow(now_ns);
+  cycles_.send_feedback(now_ns);
+  if (!orders_.stopping() && !references_.canceling())
+    for (Connection& connection : clients_)
       connection.behind = connection.behind && connection.in.whole();
-  for (Connection& connection : connections_)
-    if (connection.state == Connection::State::kOpen && seen_ && connection.states.due(now_ns))
-      tell_state(connection);
+  cycles_.send_states(lease_, requests_.dropped(), now_ns);
 }
 
 void Server::take_messages(int slot, std::int64_t now_ns) {
@@ -131,10 +131,13 @@ void Server::take_message(int slot, const Bytes& bytes, std::int64_t now_ns) {
   const bool hello = connection.state == Connection::State::kNew &&
                      request_.which_request == tactus_ToServer_hello_tag;
   const Reply reply = execute(slot, from, now_ns);
-  if (!hello || reply.status != Status::kOk) answer(connection, from.number, reply, now_ns);
+  if (!hello || reply.status != Status::kOk)
+    clients_.answer(connection, from.number, reply, now_ns);
   const bool judged = request_.which_request == tactus_ToServer_parameters_tag &&
                       request_.request.parameters.check && reply.status == Status::kOk;
-  if (judged) report({from, Outcome::kExecuted, {}, newest_.time_s, 0.0}, {}, now_ns);
+  if (!judged) return;
+  clients_.report({from, Outcome::kExecuted, {}, cycles_.newest().time_s, 0.0}, {}, now_ns);
+  cut_slow(now_ns);
 }
 
 /// References come again in datagrams, so nobody is told that one is not taken.
@@ -160,7 +163,7 @@ void Server::datagram(const Bytes& bytes, std::int64_t now_ns) {
 }
 
 /// Ends a connection whose client does not do its part.
-void Server::watch(int slot, std::int64_t now_ns) {
+void Server::judge_silence(int slot, std::int64_t now_ns) {
   Connection& connection = at(slot);
   if (!connection.there()) return;
   if (connection.out.waiting().size == 0) connection.read_ns = now_ns;
@@ -175,7 +178,7 @@ void Server::watch(int slot, std::int64_t now_ns) {
 
 void Server::cut(int slot, Status status, std::string_view text, std::int64_t now_ns) {
   Connection& connection = at(slot);
-  answer(connection, 0, {status, text}, now_ns);
+  clients_.answer(connection, 0, {status, text}, now_ns);
   Message how("is cut: ");
   leave(slot, how << text, now_ns);
   connection.state = Connection::State::kLeaving;
@@ -190,44 +193,88 @@ void Server::leave(int slot, std::string_view how, std::int64_t now_ns) {
   const bool owner = lease_.owner() == slot;
   Message text(connection.name.empty() ? "a client" : std::string_view(connection.name));
   text << " " << how;
-  if (setup_.log != nullptr) setup_.log(text.c_str());
   connection.state = Connection::State::kLeaving;
-  joints_.give_up(connection.session);
-  poses_.give_up(connection.session);
-  tell_events("left", Status::kOk, text, slot, now_ns);
+  references_.give_up(connection.session);
+  clients_.announce("left", Status::kOk, text.c_str(), now_ns, slot);
   if (owner) lose_lease("ends, as it has left", now_ns);
-  joints_.forget(connection.session);
-  poses_.forget(connection.session);
+  references_.forget(connection.session);
 }
 
-/// A cancel or a stop is on its way: what comes or waits before it is in force is void.
+/// A cancel or a stop is under way: references sent before it is in force are void.
 void Server::begin_end() {
-  begin_epoch();
-  for (Connection& connection : connections_) connection.behind = true;
-}
-
-/// What was sent before is void, whether it has a place or not.
-void Server::begin_epoch() {
-  ++epoch_;
-  if (takes_references()) with_intake([](auto& intake) { intake.drop_waiting(); });
-}
-
-/// What moves is brought to rest on its path, and what is on its way is void.
-void Server::end_motion() {
-  begin_epoch();
-  if (takes_references()) with_intake([](auto& intake) { intake.cancel(); });
+  references_.begin_epoch();
+  for (Connection& connection : clients_) connection.behind = true;
 }
 
 void Server::lose_lease(std::string_view how, std::int64_t now_ns) {
   Connection& owner = at(lease_.owner());
-  with_intake([&owner](auto& intake) { intake.give_up(owner.session); });
+  references_.give_up(owner.session);
   lease_.end();
-  end_motion();
+  references_.end_motion();
   stops_.add(StopCount::kNobody);
   Message text("the lease of ");
   text << std::string_view(owner.name) << " " << how << ": the arm comes to rest";
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("lease", Status::kNotOwner, text, -1, now_ns);
+  clients_.announce("lease", Status::kNotOwner, text.c_str(), now_ns);
+}
+
+void Server::cut_slow(std::int64_t now_ns) {
+  for (int slot = 0; slot < kMostClients; ++slot)
+    if (at(slot).there() && at(slot).slow != nullptr)
+      cut(slot, Status::kClientSlow, at(slot).slow, now_ns);
+}
+
+void Server::take_reports(std::int64_t now_ns) {
+  if (!references_.takes_any()) return;
+  references_.with_intake([&](auto& intake) {
+    Told told;
+    while (intake.work(told)) {
+      clients_.report(told, text_about(told, intake.about_turns(told)), now_ns);
+      if (told.deed.what != nullptr) report_control(told, now_ns);
+      report_late(told, now_ns);
+    }
+    Granted granted;
+    if (!intake.grant(granted)) return;
+    clients_.begin_message(tactus_ToClient_credit_tag).message.credit.waypoints =
+        static_cast<std::uint32_t>(granted.waypoints);
+    Connection& to = at(granted.to.slot);
+    if (!clients_.put(to)) to.slow = "credit was not read; read what is sent";
+  });
+}
+
+/// The text of a refusal has its cause in the turns of a joint, or else the remedy of its status;
+/// that of an accepted reference has the warning about turns.
+Message Server::text_about(const Told& told, const Message& turns) const {
+  if (turns.empty() || told.verdict.ok())
+    return turns.empty() ? reply_to(told.verdict, references_.axes()).text : turns;
+  Message text = describe(told.verdict, VerdictAxes::kJoints, kInfinity);
+  return text << turns;
+}
+
+/// All clients are sent a control that has taken effect. The log has those of clients that did not
+/// own the motion.
+void Server::report_control(const Told& told, std::int64_t now_ns) {
+  const Connection* const by = clients_.sender(told.to);
+  if (by == nullptr) return;
+  Message text(by->name);
+  text << told.deed.what;
+  if (told.deed.percent >= 0.0) text << " to " << told.deed.percent << " %";
+  if (!told.deed.by_owner) clients_.log(text.c_str());
+  clients_.send_event("control", Status::kOk, text, now_ns);
+}
+
+/// A client whose chunks have all been late for a second is named, with the delay of the newest.
+void Server::report_late(const Told& told, std::int64_t now_ns) {
+  Connection* const by = clients_.sender(told.to);
+  if (by == nullptr) return;
+  if (told.outcome == Outcome::kExecuted) by->late = 0;
+  if (told.verdict.status != Status::kChunkLate) return;
+  if (by->late++ == 0) by->late_ns = now_ns;
+  if (now_ns - by->late_ns < kSecond_ns) return;
+  Message text(by->name);
+  text << ": the last " << by->late << " chunks came too late, the newest by " << told.verdict.value
+       << " s; send sooner, or targets farther ahead";
+  by->late = 0;
+  clients_.announce("late", Status::kChunkLate, text.c_str(), now_ns);
 }
 
 }  // namespace tactus

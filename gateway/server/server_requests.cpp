@@ -1,9 +1,7 @@
-// Server: what clients ask that is no reference.
-#include <algorithm>
+// Server: the execution of requests.
 #include <cctype>
 
 #include "gateway/server/server.hpp"
-#include "gateway/verdict_text.hpp"
 
 namespace tactus {
 namespace {
@@ -44,20 +42,55 @@ Reply not_offered(std::string_view what) {
   return {Status::kNotOffered, text};
 }
 
+void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
+  const JointLimits limits = pipeline.guard.references();
+  to.joints_count = kDof;
+  for (int i = 0; i < kDof; ++i) {
+    tactus_Joint& joint = to.joints[i];
+    set_text(joint.name, Robot::kJointNames[static_cast<std::size_t>(i)]);
+    joint.min_rad = limits.q_min[i];
+    joint.max_rad = limits.q_max[i];
+    joint.velocity = limits.dq_max[i];
+    joint.acceleration = limits.ddq_max[i];
+    joint.jerk = limits.dddq_max[i];
+    joint.effort = limits.tau_max[i];
+    joint.continuous = (Robot::kContinuousJoints >> i & 1U) != 0;
+  }
+}
+
+/// Writes what digital outputs there are, and their names if they all have one.
+void write_outputs(const ServerSetup& setup, tactus_Welcome& to) {
+  to.outputs = setup.loaded->robot.offered;
+  for (std::size_t i = 0; i < setup.output_names.size(); ++i) {
+    if ((to.outputs >> i & 1u) == 0) continue;
+    if (setup.output_names[i] == nullptr) {
+      to.output_names_count = 0;
+      return;
+    }
+    set_text(to.output_names[to.output_names_count++], setup.output_names[i]);
+  }
+}
+
+tactus_TaskLimits task_limits(const TaskLimits& limits) {
+  return {limits.v_max, limits.a_max,     limits.j_max,
+          limits.w_max, limits.alpha_max, limits.dalpha_max};
+}
+
 }  // namespace
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i], setup_.parameters != nullptr, puts_out(), front_end_ >= 0,
-                 wraps()))
+    if (!offered(request_.requires[i], parameters_.offered(), setup_.loaded->robot.puts_out(),
+                 orders_.offers_tare(), references_.wraps()))
       return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
   if (at(slot).state == Connection::State::kNew)
     return {Status::kNotStarted, "the first message of a connection must be Hello"};
-  const bool checks = what == tactus_ToServer_begin_tag
-                          ? request_.request.begin.check
-                          : with_intake([&from](auto& intake) { return intake.checks(from); });
+  const bool checks =
+      what == tactus_ToServer_begin_tag
+          ? request_.request.begin.check
+          : references_.with_intake([&from](auto& intake) { return intake.checks(from); });
   const bool follows = what == tactus_ToServer_part_tag || what == tactus_ToServer_end_tag ||
                        what == tactus_ToServer_begin_tag;
   const bool moves = follows ? !checks : needs_lease(request_) || raises(what);
@@ -68,29 +101,27 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
            << static_cast<int>(lease_.priority());
     return {Status::kNotOwner, text << remedy({Status::kNotOwner})};
   }
-  Reply why = judge_fields();
-  if (why.status == Status::kOk && moves) why = judge_void(slot);
+  Reply why = requests_.judge_fields(request_);
+  if (why.status == Status::kOk && moves) why = requests_.judge_void(request_, at(slot));
   if (why.status == Status::kOk && moves) why = judge_stops(slot);
   if (why.status != Status::kOk) return why;
+  if (ReferenceRequests::takes(what)) return requests_.execute(request_, from, now_ns);
   switch (what) {
     case tactus_ToServer_lease_tag: return lease(slot, now_ns);
-    case tactus_ToServer_point_tag: return point(slot, from);
-    case tactus_ToServer_velocity_tag: return velocity(slot, from);
-    case tactus_ToServer_chunk_tag: return chunk(slot, from, now_ns);
-    case tactus_ToServer_begin_tag: return begin(from, now_ns);
-    case tactus_ToServer_part_tag: return part(from);
-    case tactus_ToServer_end_tag: return end(from);
     case tactus_ToServer_cancel_tag:
     case tactus_ToServer_override_tag:
     case tactus_ToServer_pause_tag:
     case tactus_ToServer_resume_tag: return control(from);
-    case tactus_ToServer_stop_tag: return order(CycleOrder::kStop, from, now_ns);
-    case tactus_ToServer_rearm_tag: return order(CycleOrder::kRearm, from, now_ns);
-    case tactus_ToServer_tare_tag: return tare(from, now_ns);
+    case tactus_ToServer_stop_tag: return stop(from, now_ns);
+    case tactus_ToServer_rearm_tag:
+      return orders_.post(CycleOrder::kRearm, from, cycles_.newest().faults);
+    case tactus_ToServer_tare_tag: return orders_.post_tare(from, cycles_.newest().faults);
     case tactus_ToServer_parameters_tag:
-      return setup_.parameters != nullptr ? parameters(from) : not_offered("parameters");
+      return parameters_.offered() ? parameters_.set(request_.request.parameters, from)
+                                   : not_offered("parameters");
     case tactus_ToServer_list_parameters_tag:
-      return setup_.parameters != nullptr ? list_parameters(from) : not_offered("parameters");
+      return parameters_.offered() ? parameters_.list(request_.request.list_parameters, from)
+                                   : not_offered("parameters");
     case tactus_ToServer_subscribe_tag: return subscribe(slot, now_ns);
     case tactus_ToServer_ping_tag: return {};
     default: return {Status::kUnknownKey, "unknown message; this server speaks version 1"};
@@ -101,7 +132,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
 /// owner makes the arm faster. The cycle judges again.
 bool Server::raises(pb_size_t what) const {
   return what == tactus_ToServer_override_tag &&
-         !(request_.request.override.rate <= newest_.override);
+         !(request_.request.override.rate <= cycles_.newest().override);
 }
 
 /// What makes the arm move again, or faster, counts only if its client knows of what others have
@@ -137,9 +168,50 @@ Reply Server::greet(int slot, const Origin& from, std::int64_t now_ns) {
   welcome(connection, from.number, now_ns);
   Message text(connection.name);
   text << " has joined";
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("joined", Status::kOk, text, slot, now_ns);
+  clients_.announce("joined", Status::kOk, text.c_str(), now_ns, slot);
   return {};
+}
+
+void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) {
+  const Pipeline& pipeline = *setup_.loaded;
+  tactus_Welcome& welcome = clients_.begin_message(tactus_ToClient_welcome_tag).message.welcome;
+  welcome.number = number;
+  welcome.version = tactus_Version_VERSION_PRESENT;
+  set_text(welcome.board, setup_.board);
+  set_text(welcome.robot, Robot::kName);
+  set_text(welcome.pipeline, setup_.pipeline);
+  welcome.configuration = setup_.configuration;
+  welcome.session = to.session;
+  welcome.server_ns = now_ns;
+  welcome.client_ns = to.client_ns;
+  welcome.period_s = pipeline.robot.period_s();
+  write_joints(pipeline, welcome);
+  welcome.has_task = pipeline.takes_poses;
+  welcome.task = task_limits(pipeline.task_limits);
+  welcome.takes_poses = pipeline.takes_poses;
+  welcome.takes_joints = pipeline.takes_joints && !pipeline.takes_poses;
+  welcome.window =
+      static_cast<std::uint32_t>(pipeline.takes_poses ? setup_.task_window : setup_.joint_window);
+  welcome.longest_part = kLongestPart;
+  if (references_.takes_any()) {
+    welcome.longest_chunk = kChunkTargets;
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_CHUNKS;
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
+    if (pipeline.robot.puts_out())
+      welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_OUTPUTS;
+  }
+  if (parameters_.offered())
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_PARAMETERS;
+  if (references_.wraps()) welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_WRAP;
+  if (orders_.offers_tare())
+    welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_TARE;
+  welcome.parameter_sets = parameters_.sets();
+  write_outputs(setup_, welcome);
+  welcome.epoch = references_.epoch();
+  welcome.stops = stops_.newest();
+  set_text(welcome.motion_frame, setup_.motion_frame);
+  set_text(welcome.wrench_frame, setup_.wrench_frame);
+  static_cast<void>(clients_.put(to));
 }
 
 Reply Server::lease(int slot, std::int64_t now_ns) {
@@ -148,13 +220,14 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
   if (wish.wish == tactus_Lease_Wish_RELEASE) {
     if (lease_.owner() != slot) return {Status::kNotOwner, "this client has no lease to give back"};
     lease_.end();
-    with_intake([&](auto& intake) {
-      if (!intake.comes({slot, at(slot).session, 0})) return;
-      intake.refuse({slot, at(slot).session, 0}, {Status::kNotOwner});
-      begin_epoch();
+    const Origin client = {slot, at(slot).session, 0};
+    references_.with_intake([&](auto& intake) {
+      if (!intake.comes(client)) return;
+      intake.refuse(client, {Status::kNotOwner});
+      references_.begin_epoch();
     });
     Message text(at(slot).name);
-    tell_events("lease", Status::kOk, text << " has given the lease back", -1, now_ns);
+    clients_.send_event("lease", Status::kOk, text << " has given the lease back", now_ns);
     return {};
   }
   const std::uint32_t timeout_ms = wish.timeout_ms == 0 ? kDefaultLease_ms : wish.timeout_ms;
@@ -175,38 +248,27 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
   Message text(at(slot).name);
   text << " owns the motion";
   if (taken == LeaseTaken::kTakenOver) {
-    with_intake([&](auto& intake) { intake.give_up(at(before).session); });
-    end_motion();
+    references_.give_up(at(before).session);
+    references_.end_motion();
     text << ", taken over from " << std::string_view(at(before).name);
   }
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("lease", Status::kOk, text, -1, now_ns);
+  clients_.announce("lease", Status::kOk, text.c_str(), now_ns);
   return {};
 }
 
-Reply Server::order(CycleOrder what, const Origin& from, std::int64_t now_ns) {
-  const auto is_free = [](const Order& order) { return order.id == 0; };
-  const auto free = std::find_if(orders_.begin(), orders_.end(), is_free);
-  constexpr std::ptrdiff_t kForStops = 4;  // of the places, which no rearm may fill
-  const bool space = what == CycleOrder::kStop ||
-                     (static_cast<std::ptrdiff_t>(mail_.orders.space()) > kForStops &&
-                      std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
-  if (free == orders_.end() || !space || !mail_.orders.post({next_order_, what, newest_.faults}))
-    return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
-  *free = {next_order_, from, what};
-  next_order_ += next_order_ == ~std::uint32_t{0} ? 2 : 1;
-  if (what != CycleOrder::kStop) return {};
+Reply Server::stop(const Origin& from, std::int64_t now_ns) {
+  const Reply posted = orders_.post(CycleOrder::kStop, from, cycles_.newest().faults);
+  if (posted.status != Status::kOk) return posted;
   begin_end();
   stops_.add(from.session);
   Message text(at(from.slot).name);
   text << " has stopped the arm";
-  if (setup_.log != nullptr) setup_.log(text.c_str());
-  tell_events("stop", Status::kHalted, text, -1, now_ns);
+  clients_.announce("stop", Status::kHalted, text.c_str(), now_ns);
   return {};
 }
 
 Reply Server::control(const Origin& from) {
-  if (!takes_references()) return not_offered("references");
+  if (!references_.takes_any()) return not_offered("references");
   const pb_size_t what = request_.which_request;
   const bool by_owner = lease_.owner() == from.slot;
   ControlKind kind = ControlKind::kResume;
@@ -227,18 +289,18 @@ Reply Server::control(const Origin& from) {
     deed.percent = 100.0 * rate;
   }
   const Verdict verdict =
-      with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
+      references_.with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
   const bool slows = kind != ControlKind::kResume && !raises(what) && rate >= 0.0;
   if (verdict.ok() && slows) stops_.add(from.session);
   if (verdict.ok() && kind == ControlKind::kCancel) {
     begin_end();
     const int owner = lease_.owner();
     if (owner != Lease::kNobody) {
-      with_intake([&](auto& intake) { intake.give_up(at(owner).session); });
+      references_.give_up(at(owner).session);
       at(owner).canceled = !by_owner;
     }
   }
-  return reply(verdict);
+  return reply_to(verdict, references_.axes());
 }
 
 Reply Server::subscribe(int slot, std::int64_t now_ns) {

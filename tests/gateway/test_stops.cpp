@@ -2,7 +2,7 @@
 // since.
 #include <vector>
 
-#include "gateway/server/stop_count.hpp"
+#include "gateway/server/lease.hpp"
 #include "tests/gateway/client_bench.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"

@@ -1,7 +1,6 @@
-// Server: parameters of the pipeline that runs.
+#include "gateway/server/parameter_requests.hpp"
+
 #include "gateway/server/parameter_texts.hpp"
-#include "gateway/server/server.hpp"
-#include "gateway/verdict_text.hpp"
 
 namespace tactus {
 namespace {
@@ -31,10 +30,8 @@ Message refusal(const Pipeline& pipeline, const TuningVerdict& verdict) {
 
 }  // namespace
 
-/// Takes a set; it is the cycle's until take_tuned().
-Reply Server::parameters(const Origin& from) {
-  const tactus_Parameters& request = request_.request.parameters;
-  ParameterBook& book = *setup_.parameters;
+Reply ParameterRequests::set(const tactus_Parameters& request, const Origin& from) {
+  ParameterBook& book = *book_;
   if (tuning_)
     return {Status::kMailboxFull,
             "a set of parameters is under way; send it again after its Report"};
@@ -54,28 +51,26 @@ Reply Server::parameters(const Origin& from) {
     return {Status::kMailboxFull, "the cycle has not yet taken the last set; send it again"};
   }
   tuning_ = true;
-  tuning_from_ = from;
-  tuning_by_ = at(from.slot).name;
+  from_ = from;
+  by_ = clients_.at(from.slot).name;
   return {};
 }
 
-/// Sends a page; a client that asks for more than its space holds is told to read.
-Reply Server::list_parameters(const Origin& from) {
-  ParameterBook& book = *setup_.parameters;
-  const std::uint32_t first = request_.request.list_parameters.first;
+Reply ParameterRequests::list(const tactus_ListParameters& request, const Origin& from) {
+  ParameterBook& book = *book_;
+  const std::uint32_t first = request.first;
   const int total = count_parameters(book);
   if (first > static_cast<std::uint32_t>(total)) {
     Message text("ListParameters.first is ");
     return {Status::kBadValue,
             text << static_cast<double>(first) << "; there are " << total << " parameters"};
   }
-  told_ = tactus_ToClient_init_zero;
-  told_.which_message = tactus_ToClient_parameter_page_tag;
-  tactus_ParameterPage& page = told_.message.parameter_page;
+  tactus_ParameterPage& page =
+      clients_.begin_message(tactus_ToClient_parameter_page_tag).message.parameter_page;
   page.number = from.number;
   page.first = first;
   page.total = static_cast<std::uint32_t>(total);
-  page.sets = parameter_sets_;
+  page.sets = sets_;
   PresentParameter now, file;
   for (int i = static_cast<int>(first); i < total && page.parameters_count < kPerPage; ++i) {
     parameter_at(book, ParameterBook::Copy::kPresent, i, now);
@@ -89,13 +84,13 @@ Reply Server::list_parameters(const Origin& from) {
     if (std::string_view(now.value) != file.value) set_text(to.file_value, file.value);
     to.tunable = now.tunable;
   }
-  if (put(at(from.slot))) return {};
+  if (clients_.put(clients_.at(from.slot))) return {};
   return {Status::kMailboxFull, "there is no space for the page; read what is sent, and ask again"};
 }
 
-/// Tells everybody what a set has changed.
-void Server::tell_changes(std::int64_t now_ns) {
-  ParameterBook& book = *setup_.parameters;
+/// Sends the changes of a set to all clients.
+void ParameterRequests::send_changes(std::int64_t now_ns) {
+  ParameterBook& book = *book_;
   PresentParameter before, after;
   for (int i = 0; parameter_at(book, ParameterBook::Copy::kPresent, i, before); ++i) {
     parameter_at(book, ParameterBook::Copy::kNext, i, after);
@@ -103,32 +98,28 @@ void Server::tell_changes(std::int64_t now_ns) {
     PlacedMessage text("[");
     text << before.section << "] " << before.key << ": " << std::string_view(before.value) << " -> "
          << std::string_view(after.value);
-    text << ", by " << std::string_view(tuning_by_);
-    if (setup_.log != nullptr) setup_.log(text.c_str());
-    tell_events("parameter", Status::kOk, text, -1, now_ns);
+    text << ", by " << std::string_view(by_);
+    clients_.announce("parameter", Status::kOk, text.c_str(), now_ns);
   }
 }
 
-void Server::take_tuned(std::int64_t now_ns) {
+void ParameterRequests::take_verdict(double time_s, std::int64_t now_ns) {
   TuningVerdict verdict;
   if (!tuning_ || !mail_.tuned.take(verdict)) return;
   tuning_ = false;
   const bool good = verdict.status == Status::kOk;
   Message text;
   if (good) {
-    ++parameter_sets_;
-    tell_changes(now_ns);
-    setup_.parameters->commit();
+    ++sets_;
+    send_changes(now_ns);
+    book_->commit();
   } else {
-    setup_.parameters->drop();
-    text = refusal(*setup_.loaded, verdict);
+    book_->drop();
+    text = refusal(pipeline_, verdict);
   }
-  report({tuning_from_,
-          good ? Outcome::kExecuted : Outcome::kRefused,
-          {verdict.status},
-          newest_.time_s,
-          0.0},
-         text, now_ns);
+  clients_.report(
+      {from_, good ? Outcome::kExecuted : Outcome::kRefused, {verdict.status}, time_s, 0.0}, text,
+      now_ns);
 }
 
 }  // namespace tactus

@@ -1,16 +1,14 @@
-// Server: what its clients are told of the cycles.
+#include "gateway/server/state_publisher.hpp"
+
 #include <type_traits>
 
 #include "gateway/server/drive_text.hpp"
-#include "gateway/server/message_points.hpp"
-#include "gateway/server/server.hpp"
-#include "gateway/verdict_text.hpp"
+#include "gateway/server/message_fields.hpp"
 #include "kernel/cycle/ladder.hpp"
 
 namespace tactus {
 
-/// The newest of the cycles counts. A brake of the executive voids what is on its way.
-void Server::take_snapshots(std::int64_t now_ns) {
+void StatePublisher::take_snapshots(std::int64_t now_ns) {
   CycleSnapshot snapshot;
   while (mail_.snapshots.take(snapshot)) {
     const auto from = static_cast<Rung>(newest_.rung), to = static_cast<Rung>(snapshot.rung);
@@ -20,39 +18,45 @@ void Server::take_snapshots(std::int64_t now_ns) {
     seen_ = true;
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
     if (!changed) continue;
-    if (refuses(to) && !refuses(from)) begin_epoch();
+    if (refuses(to) && !refuses(from)) references_.begin_epoch();
     Message text(name(to));
     if (snapshot.status != Status::kOk)
       text << ": " << describe(snapshot.fault.verdict, snapshot.fault.axes);
     if (snapshot.first != nullptr) text << ": " << snapshot.first << " with " << snapshot.second;
-    tell_events("rung", snapshot.status, text, -1, now_ns);
+    clients_.send_event("rung", snapshot.status, text, now_ns);
   }
 }
 
-/// Faults, those from before an arming too, and warnings; of those that are overwritten in the log,
-/// none.
-void Server::tell_drives(std::int64_t now_ns) {
-  if (setup_.events == nullptr) return;
-  const std::uint32_t lost = setup_.events->lost();
-  if (events_ < lost) events_ = lost;
+void StatePublisher::send_drive_events(std::int64_t now_ns) {
+  if (events_ == nullptr) return;
+  const std::uint32_t lost = events_->lost();
+  if (read_events_ < lost) read_events_ = lost;
   Event event;
-  for (std::uint32_t i = 0; i < EventLog::kCapacity && setup_.events->read(events_, event); ++i) {
-    ++events_;
-    const Message text = describe_drive(*setup_.hal, event);
+  for (std::uint32_t i = 0; i < EventLog::kCapacity && events_->read(read_events_, event); ++i) {
+    ++read_events_;
+    const Message text = describe_drive(*hal_, event);
     if (text.empty()) continue;
-    if (setup_.log != nullptr) setup_.log(text.c_str());
-    tell_events("drive", event.status, text, -1, now_ns);
+    clients_.announce("drive", event.status, text.c_str(), now_ns);
   }
 }
 
-void Server::tell_state(Connection& to) {
+JointVector StatePublisher::present_joints() const {
+  if (!seen_) return JointVector::Constant(kInfinity);
+  return (newest_.has & CycleSnapshot::kJointReference) != 0 ? newest_.q_d : newest_.q;
+}
+
+void StatePublisher::send_states(const Lease& lease, std::uint32_t dropped, std::int64_t now_ns) {
+  for (Connection& to : clients_)
+    if (to.state == Connection::State::kOpen && seen_ && to.states.due(now_ns))
+      send_state(to, lease, dropped);
+}
+
+void StatePublisher::send_state(Connection& to, const Lease& lease, std::uint32_t dropped) {
   if (to.out.free() < kReserveBytes) {
     ++to.lost;
     return;
   }
-  told_ = tactus_ToClient_init_zero;
-  told_.which_message = tactus_ToClient_state_tag;
-  tactus_State& state = told_.message.state;
+  tactus_State& state = clients_.begin_message(tactus_ToClient_state_tag).message.state;
   state.server_ns = newest_.stamp_ns;
   state.client_ns = to.client_ns;
   state.client_received_ns = to.received_ns;
@@ -60,9 +64,9 @@ void Server::tell_state(Connection& to) {
   state.rung = newest_.rung;
   state.status = static_cast<std::uint32_t>(newest_.status);
   state.phase = newest_.phase;
-  state.epoch = epoch_;
+  state.epoch = references_.epoch();
   state.stops = stops_.newest();
-  if (lease_.owner() != Lease::kNobody) set_text(state.owner, at(lease_.owner()).name);
+  if (lease.owner() != Lease::kNobody) set_text(state.owner, clients_.at(lease.owner()).name);
   state.override = newest_.override;
   state.speed_scaling = newest_.speed_scaling;
   set_numbers(state.q, state.q_count, newest_.q.data(), kDof);
@@ -83,10 +87,10 @@ void Server::tell_state(Connection& to) {
   if (newest_.has & CycleSnapshot::kWrench)
     set_numbers(state.wrench, state.wrench_count, newest_.wrench.data(), 6);
   state.has_stream = true;
-  with_intake([this, &state](const auto& intake) {
+  references_.with_intake([&](const auto& intake) {
     const StreamState& stream = intake.stream();
     state.margin_s = stream.margin_s;
-    state.stream = {intake.chunks(), stream.late, stream.dropped + dropped_,
+    state.stream = {intake.chunks(), stream.late, stream.dropped + dropped,
                     stream.trimmed,  stream.seam, stream.starved,
                     stream.shaped};
   });
@@ -96,28 +100,27 @@ void Server::tell_state(Connection& to) {
   state.time_s = newest_.time_s;
   state.outputs = newest_.outputs.value;
   state.outputs_mask = newest_.outputs.mask;
-  static_cast<void>(put(to));
+  static_cast<void>(clients_.put(to));
 }
 
-void Server::take_feedback(std::int64_t now_ns) {
-  if (!takes_references()) return;
-  with_intake([&](auto& intake) {
+void StatePublisher::send_feedback(std::int64_t now_ns) {
+  if (!references_.takes_any()) return;
+  references_.with_intake([&](auto& intake) {
     Feedback<typename std::decay_t<decltype(intake)>::Space> feedback;
-    while (intake.poll_feedback(feedback)) tell_feedback(feedback, intake, now_ns);
+    while (intake.poll_feedback(feedback)) send_feedback(feedback, intake, now_ns);
   });
 }
 
 template <class Space>
-void Server::tell_feedback(const Feedback<Space>& feedback, ReferenceIntake<Space>& from,
-                           std::int64_t now_ns) {
+void StatePublisher::send_feedback(const Feedback<Space>& feedback, ReferenceIntake<Space>& from,
+                                   std::int64_t now_ns) {
   lost_feedback_ += feedback.lost;
-  for (Connection& to : connections_) {
+  for (Connection& to : clients_) {
     if (to.state != Connection::State::kOpen || !to.feedback.due(now_ns) ||
         to.out.free() < kReserveBytes)
       continue;
-    told_ = tactus_ToClient_init_zero;
-    told_.which_message = tactus_ToClient_feedback_tag;
-    tactus_Feedback& message = told_.message.feedback;
+    tactus_Feedback& message =
+        clients_.begin_message(tactus_ToClient_feedback_tag).message.feedback;
     message.number = from.number_of(feedback.id, to.session);
     message.time_s = feedback.time_s;
     message.lost = lost_feedback_;
@@ -132,7 +135,7 @@ void Server::tell_feedback(const Feedback<Space>& feedback, ReferenceIntake<Spac
       write_point(feedback.desired, message.joint_desired);
       write_point(feedback.actual, message.joint_actual);
     }
-    static_cast<void>(put(to));
+    static_cast<void>(clients_.put(to));
   }
 }
 
