@@ -3,7 +3,7 @@
 // trajectory of any length passes through the window of its store. Runs outside the cycle.
 #pragma once
 
-#include "gateway/part_judge.hpp"
+#include "gateway/open_trajectory.hpp"
 #include "gateway/reference_frames.hpp"
 #include "kernel/pipeline/port_table.hpp"
 

@@ -10,7 +10,7 @@ SOURCES_control   := $(call in_folders,kernel/control)
 SOURCES_executive := $(call in_folders,kernel/guard kernel/pipeline kernel/load kernel/cycle)
 SOURCES_reference := $(call in_folders,kernel/reference/space kernel/reference/motion kernel/reference/generator \
                        kernel/streams kernel/reference/blocks)
-SOURCES_gateway   := $(call in_folders,gateway gateway/smoothing gateway/sockets)
+SOURCES_gateway   := $(call in_folders,gateway gateway/trajectory gateway/trajectory/smoothing gateway/sockets)
 SOURCES_server    := $(call in_folders,gateway/server gateway/page)
 # A program whose malloc is that of heap_count.cpp takes its object, which is therefore its own.
 SOURCES_program   := $(filter-out program/heap_count.cpp,$(call in_folders,program program/session program/results hal/os))

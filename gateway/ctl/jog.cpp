@@ -7,9 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "gateway/ctl/input_devices.hpp"
 #include "gateway/ctl/interrupt.hpp"
-#include "gateway/ctl/joystick.hpp"
-#include "gateway/ctl/raw_terminal.hpp"
 #include "gateway/ctl/verbs.hpp"
 
 namespace tactus::ctl {

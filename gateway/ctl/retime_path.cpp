@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "gateway/ctl/retime/retime_limits.hpp"
 #include "gateway/ctl/retime/retimer.hpp"
-#include "gateway/ctl/retime_limits.hpp"
 #include "gateway/ctl/row_reader.hpp"
 #include "gateway/ctl/verbs.hpp"
 #include "kernel/robots/robot_table.hpp"

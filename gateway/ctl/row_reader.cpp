@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "gateway/csv_cells.hpp"
+#include "gateway/trajectory/csv_cells.hpp"
 #include "kernel/load/ini.hpp"
 
 namespace tactus::ctl {

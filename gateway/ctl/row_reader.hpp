@@ -1,13 +1,13 @@
 // RowReader: the rows of a CSV file for a robot that is known only when the program runs. Columns,
-// units and refusals are those of gateway/trajectory_reader.hpp. Where times are not needed, the
-// column of the time may be left out.
+// units and refusals are those of gateway/trajectory/trajectory_reader.hpp. Where times are not
+// needed, the column of the time may be left out.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "gateway/line_reader.hpp"
+#include "gateway/trajectory/line_reader.hpp"
 
 namespace tactus::ctl {
 

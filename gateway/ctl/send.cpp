@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "gateway/ctl/goal_view.hpp"
+#include "gateway/ctl/input_devices.hpp"
 #include "gateway/ctl/interrupt.hpp"
-#include "gateway/ctl/raw_terminal.hpp"
 #include "gateway/ctl/row_reader.hpp"
 #include "gateway/ctl/verbs.hpp"
 #include "kernel/core/nanoseconds.hpp"

@@ -5,7 +5,7 @@
 
 #include "gateway/gateway_section.hpp"
 #include "gateway/reference_frames.hpp"
-#include "gateway/smoothed_reader.hpp"
+#include "gateway/trajectory/smoothed_reader.hpp"
 #include "program/pil/board_client.hpp"
 
 namespace tactus::pil {

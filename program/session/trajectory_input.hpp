@@ -4,7 +4,7 @@
 
 #include <variant>
 
-#include "gateway/trajectory_stream.hpp"
+#include "gateway/trajectory/trajectory_stream.hpp"
 #include "program/session/files.hpp"
 #include "program/session/session.hpp"
 

@@ -5,7 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "kernel/reference/motion/admission.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 

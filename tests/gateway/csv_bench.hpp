@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "gateway/trajectory_stream.hpp"
+#include "gateway/trajectory/trajectory_stream.hpp"
 #include "kernel/math/so3.hpp"
 #include "kernel/streams/generator_streams.hpp"
 #include "tests/support/random.hpp"

@@ -2,7 +2,7 @@
 // expected verdict in its first line. The client judges them first, then the generator what only it
 // knows.
 #include "gateway/reference_client.hpp"
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "gateway/verdict_text.hpp"
 #include "tests/load/loader_bench.hpp"
 #include "tests/support/cases.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "gateway/trajectory_reader.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {

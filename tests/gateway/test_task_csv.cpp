@@ -7,8 +7,8 @@
 #include <cstring>
 #include <random>
 
-#include "gateway/trajectory_columns.hpp"
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_columns.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

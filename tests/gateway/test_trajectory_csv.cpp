@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "gateway/trajectory_columns.hpp"
+#include "gateway/trajectory/trajectory_columns.hpp"
 #include "tests/gateway/csv_bench.hpp"
 #include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"

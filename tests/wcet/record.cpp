@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "gateway/reference_client.hpp"
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "kernel/cycle/executive.hpp"
 #include "program/session/files.hpp"
 #include "program/sim/sim_sections.hpp"

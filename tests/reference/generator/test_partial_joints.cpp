@@ -1,7 +1,7 @@
 // References that give only some of the joints: the others are held.
 #include <unistd.h>
 
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "tests/reference/generator/reference_bench.hpp"
 #include "tests/support/testing.hpp"
 

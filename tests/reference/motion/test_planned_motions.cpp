@@ -6,7 +6,7 @@
 // sampled every 8 and 100 ms as positions and velocities (pv), or with accelerations too (pva).
 #include <cstdio>
 
-#include "gateway/trajectory_csv.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 #include "kernel/reference/motion/path_law.hpp"
 #include "tests/reference/motion/checked_motion.hpp"
 #include "tests/reference/motion/path_cases.hpp"

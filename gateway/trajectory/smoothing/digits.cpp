@@ -1,4 +1,4 @@
-#include "gateway/smoothing/digits.hpp"
+#include "gateway/trajectory/smoothing/digits.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,8 @@
-#include "gateway/ctl/joystick.hpp"
+#include "gateway/ctl/input_devices.hpp"
 
 #include <fcntl.h>
 #include <linux/joystick.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -14,6 +15,28 @@ constexpr double kFull = 32767.0;
 constexpr double kDeadBand = 0.05;
 
 }  // namespace
+
+RawTerminal::RawTerminal()
+    : terminal_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
+  if (!terminal_) return;
+  termios raw = before_;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+}
+
+RawTerminal::~RawTerminal() {
+  if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+}
+
+bool take_keys(std::string& keys) {
+  keys.clear();
+  pollfd ready = {STDIN_FILENO, POLLIN, 0};
+  if (poll(&ready, 1, 0) <= 0) return true;
+  char bytes[64];
+  const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+  if (count > 0) keys.assign(bytes, static_cast<std::size_t>(count));
+  return count != 0;
+}
 
 Joystick::~Joystick() {
   if (file_ >= 0) close(file_);

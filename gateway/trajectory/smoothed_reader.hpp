@@ -7,8 +7,8 @@
 // that was written of each.
 #pragma once
 
-#include "gateway/smoothing/smoothing_spline.hpp"
-#include "gateway/trajectory_reader.hpp"
+#include "gateway/trajectory/smoothing/smoothing_spline.hpp"
+#include "gateway/trajectory/trajectory_reader.hpp"
 
 namespace tactus {
 

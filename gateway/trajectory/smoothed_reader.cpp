@@ -1,4 +1,4 @@
-#include "gateway/smoothed_reader.hpp"
+#include "gateway/trajectory/smoothed_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gateway/line_reader.hpp"
+#include "gateway/trajectory/line_reader.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -16,9 +16,9 @@
 #pragma once
 
 #include "gateway/joint_turns.hpp"
-#include "gateway/line_reader.hpp"
-#include "gateway/smoothing/digits.hpp"
-#include "gateway/trajectory_columns.hpp"
+#include "gateway/trajectory/line_reader.hpp"
+#include "gateway/trajectory/smoothing/digits.hpp"
+#include "gateway/trajectory/trajectory_columns.hpp"
 
 namespace tactus {
 
@@ -78,5 +78,13 @@ class TrajectoryReader {
   char separator_ = ',';
   std::int64_t rows_ = 0;
 };
+
+/// Fills `trajectory` from the file at `path`. Returns false if the file is refused; the trajectory
+/// must not be used then. Refuses what TrajectoryReader refuses, and more waypoints than fit into
+/// the store. With `partial` a file may leave out joints, the same in every group; they are held.
+/// [init]
+template <class Space>
+bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajectory,
+                     CsvError& error);
 
 }  // namespace tactus

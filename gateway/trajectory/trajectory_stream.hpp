@@ -4,8 +4,8 @@
 // when its parts are sent.
 #pragma once
 
-#include "gateway/part_judge.hpp"
-#include "gateway/smoothed_reader.hpp"
+#include "gateway/open_trajectory.hpp"
+#include "gateway/trajectory/smoothed_reader.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "gateway/csv_cells.hpp"
+#include "gateway/trajectory/csv_cells.hpp"
 
 #include <array>
 #include <charconv>

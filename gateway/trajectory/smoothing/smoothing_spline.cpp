@@ -1,4 +1,4 @@
-#include "gateway/smoothing/smoothing_spline.hpp"
+#include "gateway/trajectory/smoothing/smoothing_spline.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gateway/ctl/retime_limits.hpp"
+#include "gateway/ctl/retime/retime_limits.hpp"
 
 #include "gateway/ctl/verbs.hpp"
 #include "kernel/robots/fer.hpp"

@@ -1,4 +1,4 @@
-#include "gateway/trajectory_stream.hpp"
+#include "gateway/trajectory/trajectory_stream.hpp"
 
 namespace tactus {
 namespace {
