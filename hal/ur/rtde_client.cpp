@@ -1,6 +1,9 @@
 #include "hal/ur/rtde_client.hpp"
 
+#include <limits>
+
 #include "hal/ur/refuse.hpp"
+#include "hal/ur/servo_program.hpp"
 
 namespace tactus::ur {
 namespace {
@@ -219,6 +222,66 @@ Socket::Sent RtdeClient::send(std::int32_t count, const Vector6& q) {
     packet.u8(static_cast<std::uint8_t>(outputs_.value >> shift));
   }
   return stream_.send(packet);
+}
+
+Status RtdeStream::next(RtdePacket& packet, bool& any, Message& why) {
+  Packet found;
+  NextPacket next = frames_.next(found);
+  if (next == NextPacket::kNone) {
+    std::array<std::uint8_t, kLongest> bytes;
+    const long got = socket.receive(bytes.data(), frames_.room());
+    if (got < 0) {
+      why = Message("the connection was closed");
+      return Status::kConnectionLost;
+    }
+    frames_.take(bytes.data(), static_cast<std::size_t>(got));
+    next = frames_.next(found);
+  }
+  any = next == NextPacket::kPacket;
+  if (any)
+    packet = {static_cast<RtdeType>(found.data[2]), found.data + kRtdeHeader,
+              found.size - kRtdeHeader};
+  if (next != NextPacket::kBroken) return Status::kOk;
+  why = Message("the length of a packet is outside 3 to ");
+  why << kLongest << " bytes";
+  return Status::kWireFormat;
+}
+
+void SetPoints::start(int max_missed) {
+  max_missed_ = max_missed;
+  count_ = unsent_ = 0;
+  last_.setZero();
+}
+
+Status SetPoints::send(const Vector6& q) {
+  bool sent = false;
+  last_ = q;
+  count_ = count_ < std::numeric_limits<std::int32_t>::max() ? count_ + 1 : 1;
+  return write(count_, q, sent);
+}
+
+Status SetPoints::clear(bool& sent) {
+  count_ = 0;
+  return write(0, last_, sent);
+}
+
+Status SetPoints::end(bool& sent) {
+  return write(kServoEnded, last_, sent);
+}
+
+Status SetPoints::write(std::int32_t count, const Vector6& q, bool& sent) {
+  const Socket::Sent result = session_.send(count, q);
+  sent = result == Socket::Sent::kAll;
+  unsent_ = result == Socket::Sent::kNothing ? unsent_ + 1 : 0;
+  if (result == Socket::Sent::kLost) {
+    why_ = Message("RTDE: the connection no longer accepts set-points");
+    return Status::kConnectionLost;
+  }
+  if (unsent_ <= max_missed_) return Status::kOk;
+  why_ = Message("RTDE: no set-point could be sent for ");
+  why_ << unsent_ << (unsent_ == 1 ? " period" : " periods") << ", limit " << max_missed_
+       << "; check the network";
+  return Status::kBusTimeout;
 }
 
 }  // namespace tactus::ur

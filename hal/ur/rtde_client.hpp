@@ -5,11 +5,50 @@
 // set-points.
 #pragma once
 
-#include "hal/ur/rtde_stream.hpp"
+#include "hal/net/socket.hpp"
+#include "hal/ur/protocol.hpp"
 #include "hal/ur/ur_state.hpp"
 #include "kernel/core/digital_outputs.hpp"
 
 namespace tactus::ur {
+
+/// A whole packet without its header, valid until the next call of next().
+struct RtdePacket {
+  RtdeType type = RtdeType::kTextMessage;
+  const std::uint8_t* payload = nullptr;
+  std::size_t size = 0;
+};
+
+/// Assembles whole RTDE packets from the pieces that a connection delivers.
+class RtdeStream {
+ public:
+  Socket socket;
+
+  /// [init]
+  Status connect(const char* address, int port, const Deadline& deadline, Message& why) {
+    frames_.clear();
+    return socket.connect(address, port, deadline, why);
+  }
+
+  /// Returns the next packet; `any` is false if none is complete. kConnectionLost; kWireFormat: the
+  /// length is impossible. Reads at most one buffer. [cyclic]
+  Status next(RtdePacket& packet, bool& any, Message& why);
+
+  /// Sends a packet that `begin` began. [cyclic]
+  Socket::Sent send(ByteWriter& packet) {
+    packet.set_u16(0, packet.size());
+    return packet.ok() ? socket.send(packet.data(), packet.size()) : Socket::Sent::kLost;
+  }
+  static void begin(ByteWriter& packet, RtdeType type) {
+    packet.u16(0);
+    packet.u8(static_cast<std::uint8_t>(type));
+  }
+
+ private:
+  static constexpr std::size_t kLongest = 4096;  ///< bytes of a packet; ours have about 500
+
+  Frames<2, kRtdeHeader, kLongest> frames_;
+};
 
 enum class RtdePhase : std::uint8_t {
   kConnect,
@@ -86,6 +125,38 @@ class RtdeClient {
   bool recipe_void_ = false;  // it had fields that the controller does not know
   DigitalOutputs outputs_;
   std::uint8_t output_recipe_ = 0, input_recipe_ = 0;
+};
+
+/// Writes the registers of the set-points, as in hal/ur/servo_program.hpp; nothing else is ever
+/// written to them.
+class SetPoints {
+ public:
+  /// `why` explains a Status that is not kOk.
+  SetPoints(RtdeClient& session, Message& why) : session_(session), why_(why) {}
+
+  /// Begins with a new connection. `max_missed`: periods in a row in which nothing can be sent.
+  /// [init]
+  void start(int max_missed);
+  /// Sends the next set-point. kConnectionLost; kBusTimeout after more than `max_missed` that could
+  /// not be sent. [cyclic]
+  Status send(const Vector6& q);
+  /// Tells the program that there is no set-point yet, and counts from there. `sent` is false if
+  /// that was not possible in this cycle. As send(). [cyclic]
+  Status clear(bool& sent);
+  /// Tells the program to brake and to end. As clear(). [cyclic]
+  Status end(bool& sent);
+
+  /// The count of the last set-point, as in the register; 0: none yet. [any]
+  std::int32_t count() const { return count_; }
+
+ private:
+  Status write(std::int32_t count, const Vector6& q, bool& sent);
+
+  RtdeClient& session_;
+  Message& why_;
+  Vector6 last_ = Vector6::Zero();  // rad
+  std::int32_t count_ = 0;
+  int max_missed_ = 0, unsent_ = 0;  // unsent_: periods in a row
 };
 
 }  // namespace tactus::ur
