@@ -1,5 +1,5 @@
 // fer_can: a Franka FER as seven CiA 402 drives on CAN; the computer's clock starts every cycle.
-#include "boards/fer_can/can_sections.hpp"
+#include "boards/drive_sections.hpp"
 #include "hal/can/can_hal.hpp"
 #include "program/run_board.hpp"
 #include "program/scan/scan.hpp"
@@ -7,11 +7,13 @@
 namespace tactus {
 namespace {
 
+using Sections = DriveSections<can::CanSettings>;
+
 can::CanHal hal;
 
-Status configure(const CanSections& sections, const Pipeline& pipeline, const Options&) {
+Status configure(const Sections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  return hal.configure(sections.can, sections.cia402, robot.tool.value, robot.mode(),
+  return hal.configure(sections.bus, sections.cia402, robot.tool.value, robot.mode(),
                        robot.period_us, pipeline.executive.arming_ms);
 }
 
@@ -28,7 +30,7 @@ Message written(int n) {
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<CanSections>(
+  return run_board<Sections>(
       argc, argv,
       {"fer_can", hal, sizeof hal, true, configure, scan, nullptr, nullptr, written, to_home});
 }

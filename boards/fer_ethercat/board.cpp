@@ -1,6 +1,6 @@
 // fer_ethercat: a Franka FER as seven CiA 402 drives on an EtherCAT segment; the computer's clock,
 // in step with that of the segment, starts every cycle.
-#include "boards/fer_ethercat/ethercat_sections.hpp"
+#include "boards/drive_sections.hpp"
 #include "hal/ethercat/ethercat_hal.hpp"
 #include "program/run_board.hpp"
 #include "program/scan_segment/scan_segment.hpp"
@@ -8,11 +8,13 @@
 namespace tactus {
 namespace {
 
+using Sections = DriveSections<ethercat::EthercatSettings>;
+
 ethercat::EthercatHal hal;
 
-Status configure(const EthercatSections& sections, const Pipeline& pipeline, const Options&) {
+Status configure(const Sections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  return hal.configure(sections.ethercat, sections.cia402, robot.tool.value, robot.mode(),
+  return hal.configure(sections.bus, sections.cia402, robot.tool.value, robot.mode(),
                        robot.period_us, pipeline.executive.arming_ms);
 }
 
@@ -44,7 +46,7 @@ Message to_home() {
 
 int main(int argc, char** argv) {
   using namespace tactus;
-  return run_board<EthercatSections>(argc, argv,
-                                     {"fer_ethercat", hal, sizeof hal, true, configure,
-                                      scan_segment, nullptr, counts, written, to_home});
+  return run_board<Sections>(argc, argv,
+                             {"fer_ethercat", hal, sizeof hal, true, configure, scan_segment,
+                              nullptr, counts, written, to_home});
 }

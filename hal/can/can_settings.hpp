@@ -34,6 +34,8 @@ constexpr const char* name(Commands commands) {
 }
 
 struct CanSettings {
+  static constexpr const char* kSection = "can";  ///< of the pipeline file
+
   Value interfaces;                       ///< names of the buses, "can0 can1"; must be given
   JointVector bus = JointVector::Ones();  ///< of each joint, from 1
   JointVector node = JointVector::LinSpaced(1, kDof);  ///< of each joint's drive

@@ -7,33 +7,11 @@
 
 #include "hal/can/pdo_layout.hpp"
 #include "hal/cia402/drive_facts.hpp"
+#include "hal/cia402/setup_step.hpp"
 
 namespace tactus::can {
 
-struct SetupStep {
-  enum class Kind : std::uint8_t {
-    kExpect,  ///< read; it must be `value`, in the bits of `mask`
-    kWrite,
-    kMayWrite,  ///< write; a drive that does not have the object is left as it is
-    kAwait,     ///< read until it is `value`
-    kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
-    kLines,     ///< the transfers of LineWriter
-    kStore,     ///< write, and wait longer; left out if LineWriter has changed nothing
-  };
-
-  Kind kind = Kind::kExpect;
-  std::uint8_t sub = 0, bytes = 0;
-  std::uint16_t index = 0;
-  std::uint32_t value = 0, mask = 0xFFFFFFFF;
-  const char* what = "";    ///< the object in words
-  const char* remedy = "";  ///< for a value that is not the expected one
-
-  bool watches = false;  ///< it stops the drive if this program ends
-
-  bool reads() const {
-    return kind != Kind::kWrite && kind != Kind::kMayWrite && kind != Kind::kStore;
-  }
-};
+using cia402::SetupStep;
 
 class NodeSetup {
  public:

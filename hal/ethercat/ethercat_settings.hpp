@@ -9,6 +9,8 @@
 namespace tactus::ethercat {
 
 struct EthercatSettings {
+  static constexpr const char* kSection = "ethercat";  ///< of the pipeline file
+
   Value interface;                                      ///< must be given
   JointVector slave = JointVector::LinSpaced(1, kDof);  ///< place in the line of each joint's drive
   int connect_ms = 30000;                               ///< longest time of the whole start-up

@@ -6,29 +6,13 @@
 #pragma once
 
 #include "hal/cia402/drive_facts.hpp"
+#include "hal/cia402/setup_step.hpp"
 #include "hal/ethercat/ethercat_settings.hpp"
 #include "hal/ethercat/process_data.hpp"
 
 namespace tactus::ethercat {
 
-struct SetupStep {
-  enum class Kind : std::uint8_t {
-    kExpect,    ///< read; it must be `value`, in the bits of `mask`
-    kFact,      ///< read for DriveFacts, kFacts[`value`]; a drive may not have it
-    kLines,     ///< the transfers of LineWriter
-    kStore,     ///< write, and wait longer; left out if LineWriter has changed nothing
-    kMayWrite,  ///< write; a drive that does not take it is left as it is
-  };
-
-  Kind kind = Kind::kExpect;
-  std::uint8_t sub = 0, bytes = 0;
-  std::uint16_t index = 0;
-  std::uint32_t value = 0, mask = 0xFFFFFFFF;
-  const char* what = "";    ///< the object in words
-  const char* remedy = "";  ///< for a value that is not the expected one
-
-  bool reads() const { return kind == Kind::kExpect || kind == Kind::kFact; }
-};
+using cia402::SetupStep;
 
 class SlaveSetup {
  public:
