@@ -32,7 +32,7 @@ struct Fit {
   double h(std::size_t i) const { return t[i + 1] - t[i]; }
 };
 
-/// Of a rotation vector, takes the one of the two on its axis that is nearest to the one before it.
+/// Takes the one of the two rotation vectors on an axis that is nearest to the one before it.
 template <class Space>
 void unwrap(typename Space::Difference& now, const typename Space::Difference& before) {
   if constexpr (std::is_same_v<Space, TaskSpace>) {

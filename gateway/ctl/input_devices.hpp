@@ -1,4 +1,4 @@
-// What an operator moves the arm with: the keys of the terminal, and a joystick.
+// Input devices with which an operator moves the arm: the keys of the terminal, and a joystick.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@
 
 namespace tactus::ctl {
 
-/// What the columns of a file give.
+/// Quantities that the columns of a file give.
 struct RowForm {
   bool times = false, poses = false;
   bool velocities = false, accelerations = false, efforts = false;

@@ -46,7 +46,7 @@ struct Connection {
     kFree,
     kNew,  ///< it has not said Hello
     kOpen,
-    kLeaving,  ///< it is cut: what it was told last is being sent
+    kLeaving,  ///< it is cut: the last messages to it are being sent
   };
 
   State state = State::kFree;
@@ -65,7 +65,7 @@ struct Connection {
   bool canceled = false;                  ///< by another client: what names no epoch does not count
   bool behind = false;         ///< what waits was sent before a cancel or a stop was in force
   int late = 0;                ///< chunks of which nothing was left, since the last one in time
-  std::int64_t late_ns = 0;    ///< when the first of them was told
+  std::int64_t late_ns = 0;    ///< when the first of them was reported
   const char* slow = nullptr;  ///< what its client has not read, for which it is to be cut
   InputBytes in;
   OutputBytes out;

@@ -8,7 +8,7 @@
 namespace tactus {
 
 enum class LeaseTaken : std::uint8_t {
-  kFree,       ///< nobody had it
+  kFree,       ///< no client had it
   kRenewed,    ///< the client had it
   kTakenOver,  ///< another one of lower priority had it
   kRefused,    ///< another one has it
@@ -66,9 +66,9 @@ class StopCount {
   }
   /// Number of the newest; it begins with 1, which is none.
   std::uint32_t newest() const { return newest_; }
-  /// True if a client can have been told this number.
+  /// True if a client can have received this number.
   bool told(std::uint32_t number) const { return number >= 1 && number <= newest_; }
-  /// True if a client that was told this number knows of all but its own.
+  /// True if a client that received this number knows of all stops but its own.
   bool known(std::uint32_t number, std::uint64_t session) const {
     return told(number) && number >= (newest_by_ == session ? others_ : newest_);
   }

@@ -1,6 +1,6 @@
 // ReferenceIntake: the references of one space on their way from the clients to the generator, and
 // its reports on their way back. It stages the waypoints of one trajectory at a time, grants its
-// client credit for as many as it can take at any moment, and knows who is told of what.
+// client credit for as many as it can take at any moment, and knows which client gets which report.
 //
 // A point, velocity or chunk that finds no space, as in the burst behind a stall of the network,
 // waits for it; a newer one takes its place, and it is superseded.
@@ -61,7 +61,7 @@ class ReferenceIntake {
     turns_.leave_out({held});
     warned_ = false;
   }
-  /// Returns the text about what is told of the trajectory that was begun last: the cause of a
+  /// Returns the text for a report on the trajectory that was begun last: the cause of a
   /// refusal, or, once, a warning that it takes a long way. Empty: there is none.
   Message about_turns(const Told& told);
   /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
@@ -92,7 +92,7 @@ class ReferenceIntake {
   bool canceling() const { return canceling_ != 0; }
   /// Voids the reference that waits for space.
   void drop_waiting();
-  /// Nobody is told any more of what a session has sent.
+  /// No more reports are sent about the references of a session.
   void forget(std::uint64_t session);
 
   /// Moves staged waypoints on, and takes the next report that concerns a client. False: there is

@@ -16,7 +16,7 @@ int Server::open(std::uint64_t session, std::int64_t now_ns) {
   return -1;
 }
 
-/// Idle is who neither owns the motion nor watches, and has sent nothing but Pings for a minute.
+/// A client is idle that neither owns the motion nor watches, and has sent only Pings for a minute.
 Bytes Server::turn_away(std::int64_t now_ns) {
   int idle = Lease::kNobody;
   Message names;
@@ -140,7 +140,7 @@ void Server::take_message(int slot, const Bytes& bytes, std::int64_t now_ns) {
   cut_slow(now_ns);
 }
 
-/// References come again in datagrams, so nobody is told that one is not taken.
+/// References in datagrams are repeated, so a refused one gets no answer.
 void Server::datagram(const Bytes& bytes, std::int64_t now_ns) {
   const char* why = "";
   if (!decode(bytes, request_, why) || request_.session == 0) return;
@@ -185,8 +185,8 @@ void Server::cut(int slot, Status status, std::string_view text, std::int64_t no
   connection.heard_ns = now_ns;
 }
 
-/// The others and the log are told; what a client has sent and nobody waits for goes on, unless it
-/// owned the motion.
+/// The other clients and the log get an event. References of the client go on without reports,
+/// unless it owned the motion.
 void Server::leave(int slot, std::string_view how, std::int64_t now_ns) {
   Connection& connection = at(slot);
   if (!connection.there()) return;

@@ -1,7 +1,7 @@
-// Server: what clients may ask of a pipeline, and what they are told; without sockets, so that it
-// runs in virtual time and takes any bytes. Whoever has the sockets gives it the bytes of each
-// connection and the time, calls work(), and sends what waits. Runs outside the cycle, in one
-// thread; it meets the cycle in the reference channels and in CycleMail only.
+// Server: the requests of clients to a pipeline, and the messages to them. It has no sockets, so
+// that it runs in virtual time and takes any bytes: its caller passes the bytes of each connection
+// and the time, calls work(), and sends the bytes that wait. Runs outside the cycle, in one thread;
+// it shares the reference channels and CycleMail with the cycle, nothing else.
 //
 //   connections --bytes--> messages --references--> ReferenceIntake --> reference channel
 //        ^                    |  ^---- lease          reports <------------'
@@ -16,7 +16,7 @@
 
 namespace tactus {
 
-/// What a server says of itself, and where its log goes.
+/// Facts about the server for its clients, and the receiver of its log.
 struct ServerSetup {
   const char* board = "";
   std::string_view pipeline;                    ///< name of its file
@@ -28,7 +28,7 @@ struct ServerSetup {
   int joint_window = 0, task_window = 0;  ///< waypoints that a store holds with all fields
   void (*log)(const char* line) = nullptr;
   ParameterBook* parameters = nullptr;  ///< null: they do not change while the pipeline runs
-  const EventLog* events = nullptr;     ///< null: nothing is told of drives
+  const EventLog* events = nullptr;     ///< null: no events about drives
   const Hal* hal = nullptr;             ///< explains their codes
 };
 
@@ -44,7 +44,7 @@ class Server {
         parameters_(setup.parameters, *setup.loaded, mail, clients_),
         orders_(references_, *setup.loaded, mail, clients_) {}
 
-  /// A client has connected; `session` is a number that nobody can guess. Returns the slot of its
+  /// A client has connected; `session` is a number that cannot be guessed. Returns the slot of its
   /// connection, -1: there are too many.
   int open(std::uint64_t session, std::int64_t now_ns);
   /// There is no slot for a client that has connected. The longest idle one gives way, if one is;

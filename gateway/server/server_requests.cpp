@@ -135,8 +135,8 @@ bool Server::raises(pb_size_t what) const {
          !(request_.request.override.rate <= cycles_.newest().override);
 }
 
-/// What makes the arm move again, or faster, counts only if its client knows of what others have
-/// done to stop it.
+/// A request that makes the arm move again, or faster, is valid only if its client knows of the
+/// stops by others.
 Reply Server::judge_stops(int slot) const {
   std::uint32_t told = 0;
   switch (request_.which_request) {

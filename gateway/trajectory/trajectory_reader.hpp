@@ -55,7 +55,7 @@ class TrajectoryReader {
   /// Sets how the angles of joints without end are taken, from the next open() or rewind() on.
   /// [init]
   void take_angles(Wrap wrap, const JointVector& reference) { turns_.begin(wrap, reference); }
-  /// What was found of their turns since open() or rewind().
+  /// Findings about their turns since open() or rewind().
   const JointTurns& turns() const { return turns_; }
 
   /// Fields that are given; known once a waypoint was taken.

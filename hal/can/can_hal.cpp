@@ -99,8 +99,7 @@ Status CanHal::judge_link(int bus) {
   return Status::kConnectionLost;
 }
 
-/// The master is told the time even if a bus has failed: it takes the drives on the others to a
-/// stop.
+/// The master gets the time even if a bus has failed: it stops the drives on the others.
 Status CanHal::read(const CycleTime& now, RobotState& state) {
   now_ns_ = now.stamp_ns;
   for (int bus = 0; bus < master_.buses(); ++bus) {
@@ -112,7 +111,7 @@ Status CanHal::read(const CycleTime& now, RobotState& state) {
   return fault_;
 }
 
-/// Without a wire that works, the drives on the buses that do are still told to stop.
+/// After a bus has failed, the drives on the other buses still get the command to stop.
 Status CanHal::write(const RobotCommand& command) {
   RobotCommand sent = command;
   if (fault_ != Status::kOk) sent.request = DriveRequest::kDisable;
@@ -173,7 +172,7 @@ Status CanHal::stop_drives(Message& left) {
   const auto awaited = [this](int joint) { return awaits(joint); };
   while (cia402::any_joint(awaited) && slept_ns - began_ns < longest_ns) exchange(slept_ns);
   const std::int64_t waited_ns = slept_ns - began_ns;
-  for (master_.bid_farewell(); master_.bids_farewell();) exchange(slept_ns);
+  for (master_.release_drives(); master_.releasing();) exchange(slept_ns);
   (void)sleep_from(slept_ns, std::int64_t{1000} * master_.period_us());
   return cia402::judge_stop(master_, waited_ns, left);
 }

@@ -43,7 +43,7 @@ Status CanMaster::connecting(std::int64_t now_ns) {
   sent_ = {};
   since_refresh_ = PdoLayout::kRefresh;
   now_ns_ = -1;
-  farewells_ = 0;
+  releases_ = 0;
   carried_ = {};
   connected_ = true;
   return Status::kOk;
@@ -181,8 +181,8 @@ void CanMaster::write(const RobotCommand& command) {
   send_commands();
   send_heartbeat();
   CanFrame request;
-  if (farewells_ > 0)
-    send_farewell();
+  if (releases_ > 0)
+    send_release();
   else if (!stop_strays() && sdo_.take(request))
     outbox(asked_bus()).add(request);
   LoopBound<4> buses;
@@ -237,7 +237,7 @@ void CanMaster::send_heartbeat() {
   }
 }
 
-/// An SDO that writes 0 to 1016h:1: no heartbeat of ours is to be missed. Nobody awaits the answer.
+/// An SDO that writes 0 to 1016h:1: the drive no longer expects a heartbeat. The answer is ignored.
 CanFrame CanMaster::unwatched_frame(std::uint8_t node) {
   CanFrame frame;
   frame.id = static_cast<std::uint16_t>(kSdoRequestBase + node);
@@ -250,12 +250,12 @@ CanFrame CanMaster::unwatched_frame(std::uint8_t node) {
 
 /// One frame in a cycle, in the place of a request: the queue that holds the frames of a cycle
 /// holds it too. A drive that is lost, or has not confirmed that it is disabled, keeps its watch.
-void CanMaster::send_farewell() {
+void CanMaster::send_release() {
   LoopBound<2 * kDof> left;
-  while (farewells_ > 0) {
+  while (releases_ > 0) {
     left.tick();
-    const int joint = (farewells_ - 1) / 2;
-    const bool ends_watch = farewells_-- % 2 == 0;
+    const int joint = (releases_ - 1) / 2;
+    const bool ends_watch = releases_-- % 2 == 0;
     const Node& node = nodes_[static_cast<std::size_t>(joint)];
     if (!drives_.confirmed(joint) || lost(joint)) continue;
     return outbox(node.bus).add(ends_watch ? unwatched_frame(node.id())

@@ -1,10 +1,9 @@
 // CanMaster: seven drives behind one to four CAN buses, without the buses: frames in, frames out,
 // time passed in. CanHal carries the frames.
 //
-// A cycle: receive() takes what has come since the last one; read() judges it; write() leaves the
-// frames of this cycle in the outboxes, SYNC last. A drive takes its command into force at that
-// SYNC and samples its feedback there, so a command acts exactly one period after the sample that
-// it answers.
+// A cycle: receive() takes the frames since the last one; read() judges them; write() leaves the
+// frames of this cycle in the outboxes, SYNC last. A drive applies its command and samples its
+// feedback at that SYNC, so a command acts exactly one period after the sample that it answers.
 #pragma once
 
 #include "hal/can/bus_load.hpp"
@@ -37,9 +36,10 @@ class CanMaster {
   /// Bus that answers are awaited from while connecting. [init]
   int awaited_bus() const { return startup_.bus(); }
 
-  /// Takes a frame that has come on a bus. [init, cyclic]
+  /// Takes a frame received on a bus. [init, cyclic]
   void receive(int bus, const CanFrame& frame, std::int64_t now_ns);
-  /// Judges what has come since the last cycle. kBusConflict: somebody else commands the drives.
+  /// Judges the frames received since the last cycle. kBusConflict: another master commands the
+  /// drives.
   /// [cyclic]
   Status read(const CycleTime& now, RobotState& state);
   /// Leaves the frames of this cycle in the outboxes. [cyclic]
@@ -48,15 +48,15 @@ class CanMaster {
   bool connected() const { return connected_; }
   int period_us() const { return period_us_; }
   int stop_ms() const { return drive_->stop_ms; }
-  /// True if a drive has confirmed that it is disabled, and true if it was lost. [any]
+  /// True if a drive has confirmed that it is disabled; true if a drive was lost. [any]
   bool confirmed(int joint) const { return drives_.confirmed(joint); }
   bool lost(int joint) const { return node(joint).feedback.lost != Status::kOk; }
   const Node& node(int joint) const { return nodes_[static_cast<std::size_t>(joint)]; }
   Message label(int joint) const { return can::label(joint, node(joint)); }
-  /// From now on every write() ends the watch of a drive over us, or takes one out of operation,
-  /// until bids_farewell() is false. [any]
-  void bid_farewell() { farewells_ = 2 * kDof; }
-  bool bids_farewell() const { return farewells_ > 0; }
+  /// From now on every write() ends a drive's watch over this program, or takes one out of
+  /// operation, until releasing() is false. [any]
+  void release_drives() { releases_ = 2 * kDof; }
+  bool releasing() const { return releases_ > 0; }
   /// Leaves frames that stop the drives; the exchange is over. [any]
   void leave();
   Outbox& outbox(int bus) { return out_[static_cast<std::size_t>(bus)]; }
@@ -90,7 +90,7 @@ class CanMaster {
   void carry_request();
   void send_commands();
   void send_heartbeat();
-  void send_farewell();
+  void send_release();
   bool stop_strays();
   static CanFrame unwatched_frame(std::uint8_t node);
 
@@ -115,8 +115,8 @@ class CanMaster {
   int since_refresh_ = 0;          // cycles since the controlwords were sent
   cia402::ObjectRequest carried_;  // to a drive
   int stray_ = 0;                  // the joint whose drive was looked at last, from 0
-  int farewells_ = 0;              // frames of farewell that are left, two for every joint
-  int conflict_ = -1;              // identifier that somebody else sent
+  int releases_ = 0;               // release frames still to be sent, two for every joint
+  int conflict_ = -1;              // identifier that another node sent
 };
 
 }  // namespace tactus::can

@@ -130,8 +130,8 @@ void Drives::judge_hold(int j) {
        &figures);
 }
 
-/// What an enabled drive says of itself must be possible. While its brake opens a drive may limit
-/// as it likes.
+/// The reports of an enabled drive must be possible. A drive may limit its command while its brake
+/// opens.
 void Drives::judge_belief(int j) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   const std::uint32_t code = joint.last.error_code;
@@ -183,8 +183,8 @@ void Drives::measure(int j, const DriveFeedback& feedback, std::int64_t sampled_
   joint.stamp_ns = sampled_ns;
 }
 
-/// Feedback that was late, and is so from then on, cannot be told from feedback that was lost: so a
-/// later frame does not make up for a cycle without one, but two frames in one cycle do.
+/// Feedback that is late from some cycle on looks like feedback that was lost. So a later frame
+/// does not make up for a cycle without one, but two frames in one cycle do.
 void Drives::count_missed(Joint& joint, const DriveFeedback& feedback) {
   const int missing = feedback.fresh ? 0 : 1;
   joint.missed = missing * (joint.missed + (joint.missed <= settings_->max_missed));
@@ -268,8 +268,7 @@ void Drives::set_target(const RobotCommand& command, bool follow, DriveCommands&
   }
 }
 
-/// Of the targets, only those of the mode are sent (the bus's layout); torque is the one that moves
-/// an arm by itself.
+/// Only the targets of the mode are sent (the layout of the bus); a torque moves the arm by itself.
 JointVector Drives::effort(const RobotCommand& command, bool follow, const JointVector& q,
                            const JointVector& dq) {
   if (mode_ != CommandMode::kEffort) return JointVector::Zero();

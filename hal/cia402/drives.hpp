@@ -68,7 +68,8 @@ class Drives {
   void watch(const Feedbacks& feedbacks, std::int64_t sampled_ns);
   /// Takes every drive a step towards what is requested. [cyclic]
   void step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns);
-  /// What the bus is to ask a drive. It may change before it is answered: then the new one counts.
+  /// The request that the bus is to send to a drive. It may change before the answer: then the new
+  /// one counts.
   /// [cyclic]
   const ObjectRequest& request() const { return request_; }
   /// Takes the answer to request(): what was read, or why it was not done. [cyclic]
@@ -121,7 +122,7 @@ class Drives {
     }
   };
 
-  /// What why() says. A cycle writes no text: this takes longer than all its other work.
+  /// Parts of the text of why(). A cycle writes no text: that takes longer than all its other work.
   struct Failure {
     int joint = -1;  // -1: nothing has failed
     std::uint32_t code = 0;

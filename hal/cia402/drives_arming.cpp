@@ -95,7 +95,7 @@ Goal Drives::goal() const {
   return Goal::kDisabled;
 }
 
-/// Of one drive: the one that is homed is enabled alone.
+/// Goal of one drive: a drive is enabled alone while it is homed.
 Goal Drives::goal_of(int j) const {
   return homes(j) && homing_.enables() ? Goal::kOperationEnabled : goal();
 }

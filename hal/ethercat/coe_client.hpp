@@ -164,7 +164,7 @@ class MailboxPort {
  private:
   enum class Phase : std::uint8_t { kIdle, kWrites, kAsks, kFull };
 
-  /// What is left of a mailbox.
+  /// The rest of a mailbox.
   Request part(Command command, std::uint16_t station, std::uint16_t start, std::size_t bytes,
                std::size_t room) {
     asked_ = std::min(bytes - done_, room);

@@ -59,7 +59,7 @@ Status EthercatHal::start_up() {
   return Status::kBusTimeout;
 }
 
-/// What is not for the frame that is awaited is counted, and more of it waits for the next cycle.
+/// Frames other than the awaited one are counted; further ones wait for the next cycle.
 void EthercatHal::receive() {
   LoopBound<kMostFrames> frames;
   for (int i = 0; i < kMostFrames && socket_.receive(frame_); ++i) {

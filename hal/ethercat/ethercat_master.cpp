@@ -174,9 +174,10 @@ void EthercatMaster::take_cycle() {
     slaves.tick();
     slave.feedback.fresh = came == CyclicFrame::Came::kInputs;
     if (!slave.feedback.fresh) continue;
-    const std::uint16_t told = slave.feedback.emergency ? slave.feedback.error_code : 0;
+    const std::uint16_t emergency_code = slave.feedback.emergency ? slave.feedback.error_code : 0;
     slave.data.decode(cyclic_.inputs(), slave.feedback);
-    if (slave.feedback.error_code == 0) slave.feedback.error_code = told;  // 603Fh comes later
+    if (slave.feedback.error_code == 0)
+      slave.feedback.error_code = emergency_code;  // 603Fh comes later
   }
 }
 

@@ -106,7 +106,7 @@ class ClockSteer {
     const double whole_ns = kProportional * static_cast<double>(error) + sum_ns_;
     correction_ns_ = static_cast<std::int64_t>(-within(whole_ns, most_ns));
   }
-  /// What to add to the period until the next frame, ns. [cyclic]
+  /// Correction of the period until the next frame, ns. [cyclic]
   std::int64_t correction() const { return correction_ns_; }
   /// The last phase error, ns. [any]
   std::int64_t error() const { return error_ns_; }

@@ -32,12 +32,12 @@ struct Slave {
   std::uint16_t features = 0;
   ProcessData data;
 
-  // Of the clock, at the moment of the latch, ns.
+  // The clock, at the moment of the latch, ns.
   std::uint32_t loop_ns = 0;   ///< from the frame's arrival until it came back from behind
   std::uint64_t local_ns = 0;  ///< wraps
   std::int64_t delay_ns = 0;
 
-  // Of the cycle.
+  // The cycle.
   std::uint16_t al_status = 0, al_code = 0;
   int unanswered = 0;  ///< times in a row that it was asked for its state
   cia402::DriveFeedback feedback;

@@ -26,7 +26,7 @@ struct ImageShape {
 
 class Startup {
  public:
-  /// What to do where frames do not come back.
+  /// Remedy where frames do not come back.
   static constexpr const char* kCheck = "; check power, cabling and [ethercat] interface";
 
   Startup(Slaves& slaves, CoeClient& coe, Message& why)
@@ -38,14 +38,14 @@ class Startup {
   /// it did and what helps. [init]
   Status advance(std::int64_t now_ns);
   Exchange& exchange() { return exchange_; }
-  /// Takes back what has begun: the next frame takes all slaves to INIT. False: no slave's state
-  /// was changed, and there is no such frame. [init]
+  /// Undoes the start-up: the next frame takes all slaves to INIT. False: no slave's state was
+  /// changed, and there is no such frame. [init]
   bool give_up();
   /// kBusTimeout, and the reason: no frame comes back. [init]
   Status silent();
 
   const ImageShape& image() const { return image_; }
-  /// What the drives have said. [init]
+  /// Facts learnt from the drives. [init]
   const cia402::Learnt& learnt() const { return learnt_; }
   /// The clocks of the slaves. [any]
   const ClockSetup& clock() const { return clock_; }

@@ -1,9 +1,9 @@
 // ArmDrives: the drives of a UR, which are armed, commanded and stopped together. Arming takes one
 // step in every cycle and waits for nothing (hal/ur/drive_phase.hpp).
 //
-// Nothing resumes into motion: as soon as the program is not wanted any more it is told to end, and
-// the register keeps the negative count until the next arming. A program that begins late, or that
-// people resume after a stop, finds it and ends.
+// Nothing resumes into motion: as soon as the program is no longer needed it gets the command to
+// end, and the register keeps the negative count until the next arming. A program that begins late,
+// or that people resume after a stop, finds it and ends.
 #pragma once
 
 #include "hal/ur/dashboard_client.hpp"
@@ -30,7 +30,7 @@ class ArmDrives {
   /// Opens the primary port, and the dashboard if the settings may need it. kBadValue,
   /// kConnectionLost, kBusTimeout, kRefusedByRobot. [init]
   Status connect(const Deadline& deadline);
-  /// Tells a program that runs to end, if it was not told. [any]
+  /// Commands a running program to end, unless that was done. [any]
   void end_program();
   void close();
 

@@ -87,7 +87,7 @@ void UrHal::show(RobotState& state) {
   if (drives_.phase() != DrivePhase::kFault) listened_ = false;
 }
 
-/// Without a wire that works, a program that runs is still told to end.
+/// A running program still gets the command to end after the wire has failed.
 Status UrHal::write(const RobotCommand& command) {
   session_.put_out(command.outputs);
   if (fault_ == Status::kOk) fault_ = drives_.step(command, state_);

@@ -197,7 +197,8 @@ double Axis::rad_per_increment() const {
   return motor_rad * real(dictionary_.get(kGearShaft)) / real(dictionary_.get(kGearMotor));
 }
 
-/// Of 60A9h: revolutions of the shaft per second or minute by its exponent of ten, or increments/s.
+/// The unit in 60A9h: revolutions of the shaft per second or minute by its exponent of ten, or
+/// increments/s.
 double Axis::velocity_unit() const {
   const std::int64_t unit = dictionary_.get(kVelocityUnit);
   if ((unit >> 16 & 0xFF) != 0xB4) return rad_per_increment();

@@ -15,7 +15,7 @@ constexpr std::uint16_t kLastOfLine = 0x5611, kInLine = 0x5A31;  // DL status
 constexpr std::uint16_t kDefaultWatchdog = 1000;                 // of 100 us
 constexpr std::uint8_t kReads = 1, kWrites = 2;
 
-/// What a command does in a slave that it addresses.
+/// Effect of a command in a slave that it addresses.
 constexpr std::uint8_t kDoes[kCommands] = {
     0,      kReads,  kWrites,          kReads | kWrites,  // by position
     kReads, kWrites, kReads | kWrites,                    // by station

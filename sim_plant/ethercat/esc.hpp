@@ -2,7 +2,7 @@
 // FMMUs, EEPROM, clock and watchdog. Datagrams come from the wire, process() carries them out in
 // place; the other functions are for the application behind it. Time is passed in.
 //
-// What is not modelled: ports (the segment knows the line), EEPROM writes, the pulses of SYNC0 and
+// Not modelled: ports (the segment knows the line), EEPROM writes, the pulses of SYNC0 and
 // SYNC1, latch pins,
 // interrupts of the frames, and the three buffers of a buffered sync manager, which are one.
 #pragma once

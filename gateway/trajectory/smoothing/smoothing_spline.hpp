@@ -25,7 +25,7 @@ class SmoothingSpline {
   /// Position, velocity and acceleration, by row.
   using State = Eigen::Matrix<double, 3, kMostAxes>;
 
-  /// What is known of the first sample.
+  /// Knowledge of the first sample.
   enum class Start {
     kUnknown,  ///< its position, as precisely as any other
     kAtRest,   ///< that the motion begins there
