@@ -74,10 +74,6 @@ enum class ScriptCommand : std::int32_t {
   kSetTargetPayload = 12,
 };
 
-// ---- driver program ---------------------------------------------------------------------------
-
-inline constexpr std::size_t kDriverInts = 7;  ///< six joint positions, keep-alive
-
 // ---- register program -------------------------------------------------------------------------
 
 enum class RegisterCommand : std::int32_t {

@@ -119,7 +119,7 @@ void generated_documents_need_a_program_that_ends_well(void**) {
 void a_fuzz_target_that_runs_nothing_is_a_finding(void**) {
   const char* const target =
       "cd $S/c && d=$(sed -n 's/^BUILD = .*\"\\(.*\\)\".*/\\1/p' $R/scripts/fuzz) && mkdir -p $d "
-      "&& "
+      "tests/fuzz/corpus && printf '=== one\\nx\\n' > tests/fuzz/corpus/fuzz_x.cases && "
       "printf '#!/bin/sh\\necho \"%s\" >&2\\n' \"$SAYS\" > $d/fuzz_x && chmod +x $d/fuzz_x && "
       "$R/scripts/fuzz fuzz_x";
   setenv("SAYS", "stat::number_of_executed_units: 7", 1);
