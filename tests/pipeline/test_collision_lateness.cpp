@@ -285,8 +285,9 @@ void torques_to_poses(void**) {
 void an_unknown_load_that_pulls_at_once(void**) {
   const Chain chain = {"JRG -> PD, 2.5 kg", "tau_c = pd.tau\n" + room("_jrg_pdgc"), kJoints + pd(),
                        2.5};
+  const int wanted = trials(tries(60, 10));
   int armed = 0, refused = 0;
-  for (int seed = 0; seed < trials(tries(60, 10)); ++seed) {
+  for (int seed = 0; seed < wanted; ++seed) {
     static std::optional<Trial> trial;
     trial.emplace(chain, static_cast<std::uint64_t>(seed), true);
     if (!trial->begin(true)) {
@@ -298,7 +299,7 @@ void an_unknown_load_that_pulls_at_once(void**) {
     assert_true(trial->nearest() > kMargin);
   }
   print_message("%d armed, %d not\n", armed, refused);
-  assert_true(armed > 5 && refused > 5);
+  assert_true(armed > wanted / 10 && refused > wanted / 10);
 }
 
 }  // namespace
