@@ -19,7 +19,7 @@ struct ExternalBench : ProgramBench {
 
   void add(std::string_view part) {
     assert_true(size + part.size() <= text.size());
-    std::memcpy(text.data() + size, part.data(), part.size());
+    part.copy(text.data() + size, part.size());
     size += part.size();
   }
   void start(const ExternalText& parts = {}) {
