@@ -133,6 +133,8 @@ void check_says_the_lateness_and_where_it_is_from(void**) {
   assert_int_equal(check({kPipeline, kSection, "lateness = 0.2\n"}), 0);
   assert_true(has(output(), "lateness = 0.2 0.2 0.2 0.2 0.2 0.2 0.2 s, as the file gives it"));
   assert_false(has(errors(), "[collision] lateness"));
+  assert_int_equal(check({kPipeline, kSection, "lateness = 0.2\novershoot = 0.5\n"}), 0);
+  assert_true(has(output(), "overshoot = 0.5 0.5 0.5 0.5 0.5 0.5 0.5, as the file gives it"));
   assert_int_equal(check({kPipeline, kSection, "lateness = 0\n"}), 0);
   assert_true(has(errors(), "note: [collision] lateness: by gains and inertia it is 0.0"));
 }
