@@ -50,8 +50,7 @@ class Server {
   /// There is no slot for a client that has connected. The longest idle one gives way, if one is;
   /// returns the message, without its length, that tells the new one who has the places.
   Bytes turn_away(std::int64_t now_ns);
-  /// Where bytes of the connection go that have come; of size 0: none are to be received at
-  /// present.
+  /// Returns the space for received bytes; of size 0: the connection is not to be read at present.
   ByteSpace space(int slot);
   void received(int slot, std::size_t count, std::int64_t now_ns);
   /// Takes a datagram, which holds one message.
@@ -66,7 +65,7 @@ class Server {
   /// True if a client is connected in this slot.
   bool used(int slot) const { return at(slot).state != Connection::State::kFree; }
 
-  /// Does what there is to do; bounded. To be called every few milliseconds.
+  /// Processes pending messages and reports; bounded. To be called every few milliseconds.
   void work(std::int64_t now_ns);
 
   int owner() const { return lease_.owner(); }

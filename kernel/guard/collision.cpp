@@ -42,16 +42,12 @@ double jerk_ramp_s(const JointLimits& limits, const JointVector& braking) {
 
 void Collision::start(const CollisionSection& section, const JointLimits& limits,
                       const Vector3& tip, double period_s, const JointVector* reference) {
-  scene_ = &section.scene;
-  margin_ = section.margin;
+  section_ = &section;
   positions_ = kCheckedPositions / section.cycles;
   const JointVector& braking = section.braking;
   braking_ = {2 * section.cycles * period_s + section.delay_s + jerk_ramp_s(limits, braking),
               limits.ddq_max, braking};
   if (reference == nullptr) braking_.reaction_s += section.lateness.maxCoeff();
-  lateness_ = section.lateness;
-  overshoot_ = section.overshoot;
-  section_ = &section;
   period_s_ = period_s;
   followed_ = reference;
   telemetry_ = {};
@@ -76,7 +72,7 @@ void Collision::add_capsules(const CollisionSection& section, const Vector3& tip
 }
 
 bool Collision::is_allowed(int first, int second) const {
-  return scene_->allowed[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
+  return section_->scene.allowed[static_cast<std::size_t>(first)][static_cast<std::size_t>(second)];
 }
 
 void Collision::add_pairs() {
@@ -86,7 +82,7 @@ void Collision::add_pairs() {
       if (can_meet(first, second) && !is_allowed(body_of(first), body_of(second)))
         add_pair(second, first, bodies_[static_cast<std::size_t>(first)].link, false);
   for (int second = 0; second < kArmCapsules; ++second)
-    for (int box = 0; box < scene_->box_count() && body_of(second) > 0; ++box)
+    for (int box = 0; box < section_->scene.box_count() && body_of(second) > 0; ++box)
       if (!is_allowed(kFirstBoxBody + box, body_of(second))) add_pair(second, box, 0, true);
 }
 
@@ -98,9 +94,9 @@ void Collision::add_pair(int second, int first, int axis, bool of_box) {
 
 /// Takes the boxes as they are now, and lets a check begin without credit.
 void Collision::begin_anew() {
-  for (int i = 0; i < scene_->box_count(); ++i) {
+  for (int i = 0; i < section_->scene.box_count(); ++i) {
     const auto box = static_cast<std::size_t>(i);
-    const Cuboid& cuboid = *scene_->boxes[box];
+    const Cuboid& cuboid = *section_->scene.boxes[box];
     boxes_[box] = {cuboid.pose.r.toRotationMatrix(), cuboid.pose.p, 0.5 * cuboid.size};
   }
   if (followed_ != nullptr) last_followed_ = *followed_;
@@ -115,7 +111,7 @@ void Collision::forget() {
 }
 
 Status Collision::check(const RobotState& measured, const Vector3& gravity) {
-  if (scene_ == nullptr) return Status::kNotStarted;
+  if (section_ == nullptr) return Status::kNotStarted;
   begin_anew();
   gravity_ = &gravity;
   constexpr int kEnough = 1 << 20;
@@ -131,7 +127,7 @@ Status Collision::check(const RobotState& measured, const Vector3& gravity) {
 }
 
 Status Collision::step(const RobotState& measured) {
-  if (scene_ == nullptr) return Status::kNotStarted;
+  if (section_ == nullptr) return Status::kNotStarted;
   directions_ = kMostDirections;
   return advance(measured);
 }
@@ -176,7 +172,8 @@ void Collision::follow(const RobotState& measured) {
     reference_.q[i] = 0.5 * (q_[i] + position);
     reference_.dq[i] = velocity;
     const double lag = std::abs(q_[i] - position);
-    reference_.error[i] = 0.5 * lag + lateness_[i] * std::abs(measured.dq[i]) + overshoot_[i] * lag;
+    reference_.error[i] =
+        0.5 * lag + section_->lateness[i] * std::abs(measured.dq[i]) + section_->overshoot[i] * lag;
   }
   if (next_ == 0 && gravity_ != nullptr) give_way();
 }
@@ -201,7 +198,7 @@ void Collision::give_way() {
 Status Collision::look_now() {
   from_ = travelled_;
   const JointVector range = stopping_range(braking_, reference_.dq);
-  reference_.error += overshoot_.cwiseProduct(range);
+  reference_.error += section_->overshoot.cwiseProduct(range);
   const Ways until_rest = ways(from_ + range + 2.0 * reference_.error);
   bool placed = false;
   due_count_ = 0;
@@ -209,13 +206,14 @@ Status Collision::look_now() {
   for (int i = 0; i < pair_count_; ++i) {
     pairs.tick();
     Pair& pair = pairs_[static_cast<std::size_t>(i)];
-    const double lasting = margin_ + until_rest[pair.second][pair.axis];
+    const double lasting = section_->margin + until_rest[pair.second][pair.axis];
     if (pair.credit > lasting) continue;
     if (!placed) place(q_, from_);
     placed = true;
     double distance = proved_distance(pair, lasting);
-    if (kConvexBodies && !(distance > margin_)) distance = proved_distance(pair, margin_);
-    if (!(distance > margin_)) return contact(pair, 0.0);
+    if (kConvexBodies && !(distance > section_->margin))
+      distance = proved_distance(pair, section_->margin);
+    if (!(distance > section_->margin)) return contact(pair, 0.0);
     pair.credit = distance + placed_[pair.second].ways[pair.axis];
     if (!(pair.credit > lasting))
       due_[static_cast<std::size_t>(due_count_++)] = static_cast<std::uint8_t>(i);
@@ -234,11 +232,11 @@ Status Collision::look_ahead() {
   for (int i = 0; i < due_count_; ++i) {
     pairs.tick();
     const Pair& pair = pairs_[due_[static_cast<std::size_t>(i)]];
-    if (pair.credit > margin_ + until_there[pair.second][pair.axis]) continue;
+    if (pair.credit > section_->margin + until_there[pair.second][pair.axis]) continue;
     if (!placed) place(box.middle, box.half);
     placed = true;
     const double sweep_m = placed_[pair.second].ways[pair.axis];
-    const double needed = margin_ + sweep_m;
+    const double needed = section_->margin + sweep_m;
     if (!(proved_distance(pair, needed) > needed)) return contact(pair, sweep_m);
   }
   return Status::kOk;
@@ -290,8 +288,8 @@ double Collision::proved_distance(const Pair& pair, double wanted) {
 
 Status Collision::contact(const Pair& pair, double sweep_m) {
   const int first = pair.of_box ? kFirstBoxBody + pair.first : body_of(pair.first);
-  telemetry_.first = scene_->names[static_cast<std::size_t>(first)];
-  telemetry_.second = scene_->names[static_cast<std::size_t>(body_of(pair.second))];
+  telemetry_.first = section_->scene.names[static_cast<std::size_t>(first)];
+  telemetry_.second = section_->scene.names[static_cast<std::size_t>(body_of(pair.second))];
   telemetry_.predicted = next_ > 0;
   telemetry_.sweep_m = sweep_m;
   telemetry_.unproved = directions_ <= 0;

@@ -62,8 +62,8 @@ class Collision {
 
   /// Sets up the pairs, and lets a check begin anew. `limits` are those of [guard]; `tip` is the
   /// tool tip, m, in the flange frame; `reference` are the positions that the joints follow, rad,
-  /// null if they are not known. The boxes stay where they are then. Scene and reference must
-  /// outlive this object. [init]
+  /// null if they are not known. The boxes stay where they are then. Section and reference
+  /// must outlive this object. [init]
   [[gnu::cold]] void start(const CollisionSection& section, const JointLimits& limits,
                            const Vector3& tip, double period_s,
                            const JointVector* reference = nullptr);
@@ -143,12 +143,9 @@ class Collision {
   double convex_distance(const Pair& pair, double wanted);
   Solid arm_solid(int capsule) const;
 
-  const CollisionScene* scene_ = nullptr;
-  double margin_ = 0.0;
+  const CollisionSection* section_ = nullptr;
   int positions_ = 0;  // looked at in a cycle
   Braking braking_;
-  JointVector lateness_, overshoot_;
-  const CollisionSection* section_ = nullptr;
   const Vector3* gravity_ = nullptr;  // m/s^2, while the arm is armed
   double period_s_ = 0.0;
   const JointVector* followed_ = nullptr;

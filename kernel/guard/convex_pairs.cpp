@@ -46,7 +46,8 @@ bool Collision::is_hull(int capsule) const {
 }
 
 bool Collision::is_convex(const Pair& pair) const {
-  return is_hull(pair.second) || (pair.of_box && scene_->boxes[pair.first]->inside != nullptr);
+  return is_hull(pair.second) ||
+         (pair.of_box && section_->scene.boxes[pair.first]->inside != nullptr);
 }
 
 /// A ball and a rounded rod have a closed form, too: that of a box without width.
@@ -56,7 +57,7 @@ double Collision::convex_distance(const Pair& pair, double wanted) {
   const BoxShape& box = boxes_[pair.first];
   Solid other = {{}, box.r, box.centre};
   other.convex.half = box.half;
-  if (const Convex* inside = scene_->boxes[pair.first]->inside) other.convex = *inside;
+  if (const Convex* inside = section_->scene.boxes[pair.first]->inside) other.convex = *inside;
   if (is_hull(pair.second) || other.convex.core != Convex::Core::kBox)
     return separation(moving, other, wanted, directions_);
   const BoxShape core = {box.r, box.centre, other.convex.half};

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "kernel/control/admittance.hpp"
 #include "kernel/control/cartesian_pose.hpp"
@@ -57,6 +59,14 @@ using Kinds = KindList<RobotModel,               //
 #endif
 
 static_assert(Kinds::words_differ(), "two kinds have the same kType: the second would never run");
+
+/// True for a law: it turns an input q_d into an output tau.
+template <class Kind, class = void>
+inline constexpr bool kIsTorqueLaw = false;
+template <class Kind>
+inline constexpr bool kIsTorqueLaw<Kind, std::void_t<decltype(std::declval<Kind>().q_d.source),
+                                                     decltype(std::declval<Kind>().tau.value)>> =
+    true;
 
 /// Stands for a type in an argument.
 template <class T>

@@ -43,13 +43,6 @@ constexpr bool kLimitsBraking = false;
 template <class Kind>
 constexpr bool kLimitsBraking<Kind, std::void_t<decltype(&Kind::deceleration)>> = true;
 
-/// A law: it turns joint positions into a torque.
-template <class Kind, class = void>
-constexpr bool kFollows = false;
-template <class Kind>
-constexpr bool kFollows<Kind, std::void_t<decltype(std::declval<Kind>().q_d.source),
-                                          decltype(std::declval<Kind>().tau.value)>> = true;
-
 template <class Kind, class = void>
 constexpr bool kKeepsJoints = false;
 template <class Kind>
@@ -115,7 +108,7 @@ const JointVector* Pipeline::reference() const {
   const JointVector* found = robot.q_c.wired() ? robot.q_c.source : nullptr;
   for (int i = 0; i < count_; ++i) {
     with_block(blocks_[static_cast<std::size_t>(i)], [&](const auto& block) {
-      if constexpr (kFollows<std::decay_t<decltype(block)>>)
+      if constexpr (kIsTorqueLaw<std::decay_t<decltype(block)>>)
         if (&block.tau.value == robot.tau_c.source) found = block.q_d.source;
     });
   }

@@ -3,8 +3,8 @@
 #include <cassert>
 
 #include "kernel/core/loop_bound.hpp"
-#include "kernel/reference/generator/reference_generator.ipp"
-#include "kernel/reference/generator/reference_requests.ipp"
+#include "kernel/reference/generator/reference_generator_members.hpp"
+#include "kernel/reference/generator/reference_requests_members.hpp"
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/judge_channels.hpp"
 #include "kernel/reference/space/task_space.hpp"

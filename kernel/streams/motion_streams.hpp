@@ -8,7 +8,7 @@
 
 namespace tactus {
 
-/// What a motion has besides on a board with streams.
+/// The additional state of a motion on a board with streams.
 template <class Space>
 struct MotionStreams {
   ChunkPlan<Space> plan;  // the base while chunks are followed

@@ -40,7 +40,7 @@ struct Session {
   /// Returns change `n`, from 0, that start-ups made in the robot; null: they make none.
   Message (*written)(int n) = nullptr;
   Message (*to_home)() = nullptr;        ///< null: arming homes no joint
-  const Following* following = nullptr;  ///< how the joints follow; null: at once
+  const Following* following = nullptr;  ///< how the joints follow; null: not rehearsed
 };
 
 /// `tactus run`: runs the pipeline in lock-step with the plant's virtual time, or in real time, and

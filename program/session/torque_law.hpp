@@ -19,13 +19,6 @@ struct TorqueLaw {
   const char* nonlinear = nullptr;  ///< what makes it another law than kp and kd; null: nothing
 };
 
-/// True for a block that turns an input q_d into an output tau.
-template <class Kind, class = void>
-struct IsTorqueLaw : std::false_type {};
-template <class Kind>
-struct IsTorqueLaw<Kind, std::void_t<decltype(std::declval<Kind>().q_d.source),
-                                     decltype(std::declval<Kind>().tau.value)>> : std::true_type {};
-
 template <class Kind, class = void>
 struct TakesVelocity : std::false_type {};
 template <class Kind>
@@ -65,7 +58,7 @@ inline TorqueLaw torque_law(const Pipeline& pipeline) {
     const Block& block = pipeline[i];
     with_kind(block.kind, [&](auto type) {
       using Kind = typename decltype(type)::Type;
-      if constexpr (IsTorqueLaw<Kind>::value) {
+      if constexpr (kIsTorqueLaw<Kind>) {
         const Kind& law = *static_cast<const Kind*>(block.place);
         if (&law.tau.value != pipeline.robot.tau_c.source) return;
         found.block = &block.name;

@@ -23,7 +23,7 @@ struct EveryPair {
   std::array<ArmCapsule, kArmCapsules> capsules;
   Braking braking;
 
-  explicit EveryPair(const CollisionBench& of) : bench(of) {
+  EveryPair(const CollisionBench& of, bool has_reference) : bench(of) {
     for (std::size_t i = 0; i < RobotCapsules::kCapsules.size(); ++i)
       capsules[i] = ArmCapsule(RobotCapsules::kCapsules[i]);
     capsules.back() = {kDof,
@@ -35,6 +35,7 @@ struct EveryPair {
                          (braking.acceleration + braking.deceleration)
                              .cwiseQuotient(bench.limits.dddq_max)
                              .maxCoeff();
+    if (!has_reference) braking.reaction_s += bench.section.lateness.maxCoeff();
   }
   Status check(const Begin& begin) const {
     const JointVector lag = begin.q_d - begin.q;
@@ -85,9 +86,10 @@ struct Verdicts {
   Begin now;  // in this cycle
   bool behind;
 
-  Verdicts(int check_cycles, bool behind_reference) : behind(behind_reference) {
+  /// An arm `behind` has a reference; one that is `late` has not.
+  Verdicts(int check_cycles, bool behind_reference, bool late) : behind(behind_reference) {
     credited.section.cycles = check_cycles;
-    for (int i = 0; i < kDof && behind; ++i) {
+    for (int i = 0; i < kDof && (behind || late); ++i) {
       credited.section.lateness[i] = 0.01 * i;
       credited.section.overshoot[i] = 0.05 * (kDof - 1 - i);
     }
@@ -109,7 +111,7 @@ struct Verdicts {
   }
   /// Compares check by check, with the state in which each begins, until a contact.
   void run(Ride& ride) {
-    const EveryPair whole(credited);
+    const EveryPair whole(credited, behind);
     begin(ride);
     for (int i = 0; i < 1500;) {
       const Status expected = whole.check(now);
@@ -134,13 +136,21 @@ struct Verdicts {
 
 void with_credit_a_check_says_what_it_says_without(void**) {
   const int rides = trials(tries(100, 15));
-  for (const auto& [cycles, behind] : {std::pair{1, false}, {5, false}, {1, true}, {5, true}}) {
+  constexpr struct {
+    int cycles;
+    bool behind, late;
+  } kKinds[] = {
+      {1, false, false}, {5, false, false}, {1, true, false}, {5, true, false}, {2, false, true}};
+  for (const auto& [cycles, behind, late] : kKinds) {
     static std::optional<Verdicts> verdicts_;
-    Verdicts& verdicts = verdicts_.emplace(cycles, behind);
+    Verdicts& verdicts = verdicts_.emplace(cycles, behind, late);
     Ride ride;
     for (int i = 0; i < rides; ++i) verdicts.run(ride);
     print_message("%d cycles%s: %lld cycles, %lld contacts, %lld predicted\n", cycles,
-                  behind ? ", behind" : "", static_cast<long long>(verdicts.cycles),
+                  behind ? ", behind"
+                  : late ? ", late"
+                         : "",
+                  static_cast<long long>(verdicts.cycles),
                   static_cast<long long>(verdicts.contacts),
                   static_cast<long long>(verdicts.predicted));
     assert_true(verdicts.contacts > rides / 4 && verdicts.predicted > rides / 10);
@@ -152,7 +162,7 @@ void with_credit_a_check_says_what_it_says_without(void**) {
 void credit_that_was_used_up_is_renewed_in_time(void**) {
   static CollisionBench credited;
   credited.section.cycles = 1;
-  const EveryPair whole(credited);
+  const EveryPair whole(credited, false);
   RandomStates states;
   const auto next_that = [&](Status wanted) {
     do states.next();

@@ -1,4 +1,4 @@
-#include "kernel/reference/generator/reference_generator.ipp"
+#include "kernel/reference/generator/reference_generator_members.hpp"
 
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"

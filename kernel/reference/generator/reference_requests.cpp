@@ -1,4 +1,4 @@
-#include "kernel/reference/generator/reference_requests.ipp"
+#include "kernel/reference/generator/reference_requests_members.hpp"
 
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"

@@ -1,4 +1,4 @@
-#include "kernel/reference/motion/motion.ipp"
+#include "kernel/reference/motion/motion_members.hpp"
 
 #include "kernel/reference/space/joint_space.hpp"
 #include "kernel/reference/space/task_space.hpp"
