@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernel/core/loop_bound.hpp"
 
@@ -112,17 +113,17 @@ void Collision::forget() {
 
 Status Collision::check(const RobotState& measured, const Vector3& gravity) {
   if (section_ == nullptr) return Status::kNotStarted;
+  if (!measured.q.allFinite()) return Status::kStateNotFinite;
   begin_anew();
-  gravity_ = &gravity;
   constexpr int kEnough = 1 << 20;
   directions_ = kEnough;
-  Status status = advance(measured);
+  const JointVector sag = sag_at(measured.q, gravity);
+  Status status = advance(measured, &sag);
   LoopBound<kCheckedPositions> positions;
   while (status == Status::kOk && next_ > 0) {
     positions.tick();
-    status = advance(measured);
+    status = advance(measured, &sag);
   }
-  gravity_ = nullptr;
   return status;
 }
 
@@ -132,10 +133,10 @@ Status Collision::step(const RobotState& measured) {
   return advance(measured);
 }
 
-Status Collision::advance(const RobotState& measured) {
+Status Collision::advance(const RobotState& measured, const JointVector* sag) {
   if (!measured.q.allFinite() || !measured.dq.allFinite()) return Status::kStateNotFinite;
   travel(measured.q);
-  follow(measured);
+  follow(measured, sag);
   LoopBound<kCheckedPositions> positions;
   for (int i = 0; i < positions_; ++i) {
     positions.tick();
@@ -160,7 +161,7 @@ void Collision::travel(const JointVector& q) {
 }
 
 /// Takes the reference of a check that begins: its velocity is that of the last period.
-void Collision::follow(const RobotState& measured) {
+void Collision::follow(const RobotState& measured, const JointVector* sag) {
   const JointVector& followed = followed_ != nullptr ? *followed_ : measured.q;
   for (int i = 0; i < kDof; ++i) {
     const double position = followed[i];
@@ -175,22 +176,34 @@ void Collision::follow(const RobotState& measured) {
     reference_.error[i] =
         0.5 * lag + section_->lateness[i] * std::abs(measured.dq[i]) + section_->overshoot[i] * lag;
   }
-  if (next_ == 0 && gravity_ != nullptr) give_way();
+  if (next_ > 0 || sag == nullptr) return;
+  reference_.q += 0.5 * *sag;
+  reference_.error += 0.5 * sag->cwiseAbs();
 }
 
-/// Between here and there is the arm after its drives are enabled: the payload that its law does
-/// not know pulls at the tip.
-void Collision::give_way() {
-  const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(q_));
-  const Vector3 tip = frames.back().at(bodies_.back().shape.b);
-  const Vector3 weight = section_->unknown_payload * *gravity_;
-  for (int i = 0; i < kDof; ++i) {
-    const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
-    const double pull = weight.dot(joint.r.col(2).cross(tip - joint.p));
-    const double way = section_->compliance[i] * pull;
-    reference_.q[i] += 0.5 * way;
-    reference_.error[i] += 0.5 * std::abs(way);
+/// Returns where the joints yield to after the drives are enabled, as the payload that the law does
+/// not know pulls at the tip. Its torque changes as they yield: it may tip the arm over, and NaN is
+/// then a contact.
+JointVector Collision::sag_at(const JointVector& q, const Vector3& gravity) const {
+  constexpr int kSteps = 32;
+  constexpr double kSettled = 1e-4;  // rad
+  const Vector3 weight = section_->unknown_payload * gravity;
+  JointVector sag = JointVector::Zero();
+  LoopBound<kSteps> steps;
+  for (int n = 0; n < kSteps; ++n) {
+    steps.tick();
+    const LinkFrames<Robot> frames = link_frames<Robot>(joint_trig<Robot>(q + sag));
+    const Vector3 tip = frames.back().at(bodies_.back().shape.b);
+    bool settled = true;
+    for (int i = 0; i < kDof; ++i) {
+      const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
+      const double next = section_->compliance[i] * weight.dot(joint.r.col(2).cross(tip - joint.p));
+      settled = settled && std::abs(next - sag[i]) < kSettled;
+      sag[i] = next;
+    }
+    if (settled) return sag;
   }
+  return JointVector::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Looks at the pairs whose credit does not last until rest. They are due ahead if it still does

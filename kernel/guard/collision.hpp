@@ -123,10 +123,10 @@ class Collision {
   [[gnu::cold]] void add_pair(int second, int first, int axis, bool of_box);
   bool is_allowed(int first, int second) const;
   void forget();
-  void follow(const RobotState& measured);
-  [[gnu::cold]] void give_way();
+  void follow(const RobotState& measured, const JointVector* sag);
+  [[gnu::cold]] JointVector sag_at(const JointVector& q, const Vector3& gravity) const;
   void travel(const JointVector& q);
-  Status advance(const RobotState& measured);
+  Status advance(const RobotState& measured, const JointVector* sag = nullptr);
   Status look_now();
   Status look_ahead();
   Status end(Status status);
@@ -146,7 +146,6 @@ class Collision {
   const CollisionSection* section_ = nullptr;
   int positions_ = 0;  // looked at in a cycle
   Braking braking_;
-  const Vector3* gravity_ = nullptr;  // m/s^2, while the arm is armed
   double period_s_ = 0.0;
   const JointVector* followed_ = nullptr;
   JointVector last_followed_ = JointVector::Zero();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "gateway/verdict_text.hpp"
 #include "kernel/guard/collision_section.hpp"
@@ -20,6 +21,11 @@ Message refusal(std::string_view pair, std::string_view first, std::string_view 
   for (const std::string_view name : {first, second})
     if (std::find(begin, end, name) == end)
       return Message("unknown body '") << name << "'; its names are those of [collision] allow";
+  const auto a = std::find(begin, end, first) - begin, b = std::find(begin, end, second) - begin;
+  const bool boxes = std::min(a, b) >= kFirstBoxBody;
+  const bool neighbours = std::max(a, b) <= kToolBody && std::abs(a - b) == 1;
+  if (boxes || neighbours)
+    return Message("[collision] does not check ") << first << " against " << second;
   return {};
 }
 

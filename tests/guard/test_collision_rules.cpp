@@ -148,12 +148,68 @@ void what_is_not_finite_is_no_pass(void**) {
   assert_string_equal(bench.collision.telemetry().first, "beam");
 }
 
+/// Height of the tip by KDL, m, and its position.
+double tip_height(const CollisionBench& bench, const JointVector& q, Vector3* tip = nullptr) {
+  FclPlace flange;
+  kdl_flange(q.data(), flange.p, flange.r);
+  Vector3 at;
+  for (int i = 0; i < 3; ++i)
+    at[i] = flange.p[i] + Eigen::Map<const Vector3>(flange.r[i]).dot(bench.tip);
+  if (tip != nullptr) *tip = at;
+  return at.z();
+}
+
+/// Where springs and the weight of the payload are in balance: the way down the potential energy in
+/// small steps, with the slope by differences.
+JointVector balance(const CollisionBench& bench, const JointVector& q) {
+  constexpr double kStep = 0.02, kDifference = 1e-5;
+  const double weight = bench.section.unknown_payload * kGravity_m_s2;
+  JointVector sag = JointVector::Zero();
+  for (int n = 0; n < 1000 && sag.cwiseAbs().maxCoeff() < 1.0; ++n) {
+    JointVector pull;
+    for (int i = 0; i < kDof; ++i) {
+      const JointVector there = kDifference * JointVector::Unit(i);
+      const double rise = tip_height(bench, q + sag + there) - tip_height(bench, q + sag - there);
+      pull[i] = -weight * rise / (2.0 * kDifference);
+    }
+    sag += kStep * (bench.section.compliance.cwiseProduct(pull) - sag);
+  }
+  return sag;
+}
+
+// Proves COL-16.
+
+void a_box_where_the_payload_pulls_the_tip_to_is_a_contact(void**) {
+  static CollisionBench bench;
+  bench.section.unknown_payload = 3.0;
+  RandomStates states;
+  int far = 0;
+  for (int n = 0; n < tries(100, 20);) {
+    states.next();
+    bench.section.compliance = 0.015 * states.dq.cwiseAbs().cwiseMin(1.0);
+    for (Cuboid& box : bench.boxes)
+      box = {{{9.0, 9.0, 9.0}, {1.0, 0.0, 0.0, 0.0}}, {0.02, 0.02, 0.02}};
+    if (bench.nearest(states.q).distance < 0.02) continue;
+    ++n;
+    Vector3 begin, end;
+    tip_height(bench, states.q, &begin);
+    tip_height(bench, states.q + balance(bench, states.q), &end);
+    bench.boxes[0].pose.p = end;
+    if (!((end - begin).norm() > 0.1)) continue;
+    ++far;
+    bench.start();
+    ASSERT_STATUS(bench.check(states.q, JointVector::Zero()), Status::kCollision);
+  }
+  assert_true(far > tries(20, 3));
+}
+
 }  // namespace
 }  // namespace tactus
 
 int main() {
   using namespace tactus;
   const CMUnitTest tests[] = {
+      cmocka_unit_test(a_box_where_the_payload_pulls_the_tip_to_is_a_contact),
       cmocka_unit_test(link_frames_are_those_of_kdl),
       cmocka_unit_test(pairs_that_always_touch_are_those_of_the_table),
       cmocka_unit_test(capsules_stand_in_the_order_of_their_links),

@@ -86,6 +86,7 @@ void a_stop_that_cannot_be_judged_is_refused(void**) {
       {"tool vas", "unknown body 'vas'; its names are those of [collision] allow"},
       {"tool", "'tool' is not a pair of names, as in: tool table"},
       {"vase vase", "'vase vase' is not a pair of names, as in: tool table"},
+      {"link6 link7", "[collision] does not check link6 against link7"},
       {"tool vase x", "'tool vase x' is not a pair of names, as in: tool table"}};
   for (const auto& [pair, why] : refused) {
     const Line line = Line("cd $S/t && sed 's/^collision_stop.*/collision_stop = ")
