@@ -69,7 +69,7 @@ class Collision {
                            const JointVector* reference = nullptr);
 
   /// Lets a check begin anew, with a reference that rests and boxes as they are now. [init]
-  void begin_anew();
+  [[gnu::cold]] void begin_anew();
 
   /// Does a cycle's part of a check. `measured` counts in the cycle in which a check begins.
   /// Returns kCollision, with the pair in telemetry, and lets the next check begin;
@@ -79,7 +79,7 @@ class Collision {
   /// Does a whole check of a state and of the boxes as they are now, without credit, instead of the
   /// one that is under way. As its drives are enabled, the arm gives way to `unknown_payload` under
   /// `gravity`, m/s^2 in the base frame. Returns as step(). [init]
-  Status check(const RobotState& measured, const Vector3& gravity);
+  [[gnu::cold]] Status check(const RobotState& measured, const Vector3& gravity);
 
   const Telemetry& telemetry() const { return telemetry_; }
 

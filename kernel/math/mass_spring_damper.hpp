@@ -29,7 +29,7 @@ class MassSpringDamper {
   MassSpringDamper() = default;
   /// mass > 0, damping >= 0, stiffness >= 0, SI units. step() returns NaN if an undamped axis turns
   /// through more than kSinCosMax_rad per period, sqrt(k/m) T. [any]
-  MassSpringDamper(double mass, double damping, double stiffness, double period_s);
+  [[gnu::cold]] MassSpringDamper(double mass, double damping, double stiffness, double period_s);
 
   /// Returns the state one period later under a constant `force`. [cyclic]
   State step(const State& now, double force) const {
