@@ -64,9 +64,10 @@ void Collision::add_capsules(const CollisionSection& section, const Vector3& tip
     bodies_[i] = {entry.link, shape, reach_of(shape, entry.link)};
   }
   double radius = section.tool_radius;
-  tool_hull_ = {};
-  if constexpr (kConvexBodies)
-    if (section.tool_points.count() > 0) radius = add_tool_hull(section.tool_points, radius, tip);
+  if constexpr (kConvexBodies) {
+    if (section.tool_points.count() > 0) radius += radius_around(section.tool_points, tip);
+    add_hulls(section);
+  }
   const Capsule tool = {dense(from_flange<Robot>(Vector3::Zero())), dense(from_flange<Robot>(tip)),
                         radius};
   bodies_.back() = {kDof, tool, reach_of(tool, kDof)};
@@ -284,7 +285,7 @@ void Collision::place(const JointVector& q, const JointVector& angles) {
     const LinkFrame& frame = frames[static_cast<std::size_t>(body.link)];
     placed_[i] = {{frame.at(body.shape.a), frame.at(body.shape.b), body.shape.radius}, moved[i]};
   }
-  if constexpr (kConvexBodies) place_tool(frames.back());
+  if constexpr (kConvexBodies) place_hulls(frames);
 }
 
 /// Returns a distance of the pair that is proved; where that of capsules and boxes is not more than

@@ -107,11 +107,13 @@ class Collision {
     Capsule capsule;
     JointVector ways = JointVector::Zero();  // m: from joint k up
   };
-  /// The tool as the hull of points.
-  struct ToolHull {
-    LinkFrame flange;  // its axes, and the middle of the hull, in the frame of the last link
-    Solid placed;      // kHull, if the file gives points
+  /// A link or the tool as the hull of points.
+  struct ArmHull {
+    int body = 0;
+    LinkFrame in_link;  // its axes and the middle of the hull, in the frame of the link
+    Solid placed;
   };
+  static constexpr int kMostHulls = kConvexBodies ? kToolBody + 1 : 0;
   /// The motion that the joints follow: none is farther from it than `error` until it rests.
   struct Reference {
     JointVector q, dq, error;  // rad, rad/s
@@ -136,9 +138,10 @@ class Collision {
   double proved_distance(const Pair& pair, double wanted);
 
   // In convex_pairs.cpp; a board without convex bodies has none of these.
-  double add_tool_hull(const Hull& points, double rounding, const Vector3& tip);
-  void place_tool(const LinkFrame& last_link);
-  bool is_hull(int capsule) const;
+  void add_hulls(const CollisionSection& section);
+  void add_hull(int body, const Hull& points, double rounding, const LinkFrame& axes);
+  void place_hulls(const LinkFrames<Robot>& frames);
+  const Solid* hull_of(int capsule) const;
   bool is_convex(const Pair& pair) const;
   double convex_distance(const Pair& pair, double wanted);
   Solid arm_solid(int capsule) const;
@@ -163,7 +166,8 @@ class Collision {
   std::array<std::uint8_t, kMaxPairs> due_{};  // pairs that it looks at ahead
   int due_count_ = 0;
   std::array<Placed, kArmCapsules> placed_;  // in this position
-  std::array<ToolHull, kConvexBodies ? 1 : 0> tool_hull_;
+  std::array<ArmHull, kMostHulls> hulls_;
+  int hull_count_ = 0;
   int directions_ = 0;  // left in this cycle
   Telemetry telemetry_;
 };

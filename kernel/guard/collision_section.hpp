@@ -6,6 +6,7 @@
 
 #include "kernel/core/describe.hpp"
 #include "kernel/core/joint_limits.hpp"
+#include "kernel/core/link_hulls.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/guard/collision_pairs.hpp"
 #include "kernel/guard/convex.hpp"
@@ -42,7 +43,9 @@ struct CollisionSection {
   double margin = 0.01;       ///< m: a smaller distance is a contact
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip,
   Hull tool_points;           ///< or this hull, in the flange frame, and what is within tool_radius
-  double delay_s = 0.0;       ///< total delay of the measured state and the brake, s
+  LinkHulls link_points;      ///< a link is in its capsules, and in this hull and what is within
+  double link_rounding = 0.0;  ///< of it, m
+  double delay_s = 0.0;        ///< total delay of the measured state and the brake, s
   /// By which time of its velocity a joint that begins at a resting reference leaves it, s, and by
   /// which share of a step of the reference it overshoots. NaN: not known, a contact.
   JointVector lateness = JointVector::Constant(kRequired);
@@ -61,9 +64,13 @@ struct CollisionSection {
     visit.param("budget_us", budget_us, Range{1.0, 100000.0}, "us");
     visit.param("margin", margin, Range{1e-3, 0.5}, "m");
     visit.param("tool_radius", tool_radius, Range{1e-4, 0.5}, "m");
-    if constexpr (kConvexBodies)
+    if constexpr (kConvexBodies) {
       visit.lines("tool_point", tool_points,
                   "x y z, x y z: of the tool's hull, in the flange frame, m");
+      visit.lines("link_point", link_points,
+                  "link5 x y z, x y z: of a link's hull, in the frame of the link, m");
+      visit.param("link_rounding", link_rounding, Range{0.0, 0.5}, "m");
+    }
     visit.param("delay_s", delay_s, Range{0.0, 1.0}, "s");
     visit.optional("lateness", lateness, Range{0.0, 1.0}, "s");
     visit.optional("overshoot", overshoot, Range{0.0, 1.0}, "1");

@@ -1,10 +1,31 @@
 #include "kernel/guard/convex.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/core/loop_bound.hpp"
 
 namespace tactus {
+namespace {
+
+/// Returns the distance of a point from the segment from the origin to `tip`.
+double from_segment(const Vector3& point, const Vector3& tip) {
+  const double square = tip.squaredNorm();
+  const double part = square > 0.0 ? std::clamp(point.dot(tip) / square, 0.0, 1.0) : 0.0;
+  return (point - part * tip).norm();
+}
+
+}  // namespace
+
+double radius_around(const Hull& points, const Vector3& tip) {
+  double radius = 0.0;
+  LoopBound<Hull::kMost> all;
+  for (int i = 0; i < points.count(); ++i) {
+    all.tick();
+    radius = std::max(radius, from_segment(points[i], tip));
+  }
+  return radius;
+}
 
 Vector3 Convex::take(const Hull& points) {
   Vector3 low = points[0], high = points[0];

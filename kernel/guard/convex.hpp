@@ -36,6 +36,9 @@ struct Solid {
   }
 };
 
+/// Returns the radius of the capsule from the origin to `tip` that contains the points, m. [init]
+double radius_around(const Hull& points, const Vector3& tip);
+
 /// Returns a distance, m, of which a direction is a proof: along it all of one body is before all
 /// of the other, by so much. It tries directions that libccd proposes until what is proved exceeds
 /// `wanted`, or `directions` are used up, and takes what it has tried off them. NaN and negative

@@ -6,48 +6,55 @@
 #include "kernel/guard/collision.hpp"
 
 namespace tactus {
-namespace {
 
-/// Returns the distance of a point from the segment from the origin to `tip`.
-double from_segment(const Vector3& point, const Vector3& tip) {
-  const double square = tip.squaredNorm();
-  const double part = square > 0.0 ? std::clamp(point.dot(tip) / square, 0.0, 1.0) : 0.0;
-  return (point - part * tip).norm();
-}
-
-}  // namespace
-
-/// Takes the hull, in the flange frame, and returns the radius of the capsule around it.
-double Collision::add_tool_hull(const Hull& points, double rounding, const Vector3& tip) {
-  ToolHull& tool = tool_hull_.front();
-  tool.placed.convex.take(points);
-  tool.placed.convex.rounding = rounding;
-  const Vector3 origin = dense(from_flange<Robot>(Vector3::Zero()));
+/// Takes the bodies of the arm that the file gives points of.
+void Collision::add_hulls(const CollisionSection& section) {
+  hull_count_ = 0;
+  for (int link = 0; link <= kDof; ++link)
+    add_hull(link, section.link_points[link], section.link_rounding, LinkFrame());
+  LinkFrame flange;
+  flange.p = dense(from_flange<Robot>(Vector3::Zero()));
   for (int i = 0; i < 3; ++i)
-    tool.flange.r.col(i) = dense(from_flange<Robot>(Vector3::Unit(i))) - origin;
-  tool.flange.p = dense(from_flange<Robot>(tool.placed.convex.middle));
-  double radius = 0.0;
-  LoopBound<Hull::kMost> all;
-  for (int i = 0; i < points.count(); ++i) {
-    all.tick();
-    radius = std::max(radius, from_segment(points[i], tip));
+    flange.r.col(i) = dense(from_flange<Robot>(Vector3::Unit(i))) - flange.p;
+  add_hull(kToolBody, section.tool_points, section.tool_radius, flange);
+}
+
+/// The points are in the frame with these axes, of the link that the body moves with.
+void Collision::add_hull(int body, const Hull& points, double rounding, const LinkFrame& axes) {
+  if (points.count() == 0) return;
+  ArmHull& hull = hulls_[static_cast<std::size_t>(hull_count_++)];
+  hull.body = body;
+  hull.placed.convex.take(points);
+  hull.placed.convex.rounding = rounding;
+  hull.in_link = {axes.r, axes.at(hull.placed.convex.middle)};
+}
+
+void Collision::place_hulls(const LinkFrames<Robot>& frames) {
+  LoopBound<kMostHulls> hulls;
+  for (int i = 0; i < hull_count_; ++i) {
+    hulls.tick();
+    ArmHull& hull = hulls_[static_cast<std::size_t>(i)];
+    const LinkFrame& link = frames[static_cast<std::size_t>(std::min(hull.body, kDof))];
+    hull.placed.r = link.r * hull.in_link.r;
+    hull.placed.middle = link.at(hull.in_link.p);
   }
-  return radius + rounding;
 }
 
-void Collision::place_tool(const LinkFrame& last_link) {
-  ToolHull& tool = tool_hull_.front();
-  tool.placed.r = last_link.r * tool.flange.r;
-  tool.placed.middle = last_link.at(tool.flange.p);
-}
-
-bool Collision::is_hull(int capsule) const {
-  return body_of(capsule) == kToolBody && tool_hull_.front().placed.convex.hull != nullptr;
+/// Returns the hull of the body that a capsule encloses, or null.
+const Solid* Collision::hull_of(int capsule) const {
+  LoopBound<kMostHulls> hulls;
+  for (int i = 0; i < hull_count_; ++i) {
+    hulls.tick();
+    const ArmHull& hull = hulls_[static_cast<std::size_t>(i)];
+    if (hull.body == body_of(capsule)) return &hull.placed;
+  }
+  return nullptr;
 }
 
 bool Collision::is_convex(const Pair& pair) const {
-  return is_hull(pair.second) ||
-         (pair.of_box && section_->scene.boxes[pair.first]->inside != nullptr);
+  if (hull_of(pair.second) != nullptr) return true;
+  return pair.of_box ? section_->scene.boxes[pair.first]->inside != nullptr
+                     : hull_of(pair.first) != nullptr;
 }
 
 /// A ball and a rounded rod have a closed form, too: that of a box without width.
@@ -58,14 +65,14 @@ double Collision::convex_distance(const Pair& pair, double wanted) {
   Solid other = {{}, box.r, box.centre};
   other.convex.half = box.half;
   if (const Convex* inside = section_->scene.boxes[pair.first]->inside) other.convex = *inside;
-  if (is_hull(pair.second) || other.convex.core != Convex::Core::kBox)
+  if (hull_of(pair.second) != nullptr || other.convex.core != Convex::Core::kBox)
     return separation(moving, other, wanted, directions_);
   const BoxShape core = {box.r, box.centre, other.convex.half};
   return separation(placed_[pair.second].capsule, core) - other.convex.rounding;
 }
 
 Solid Collision::arm_solid(int capsule) const {
-  if (is_hull(capsule)) return tool_hull_.front().placed;
+  if (const Solid* hull = hull_of(capsule)) return *hull;
   const Capsule& shape = placed_[static_cast<std::size_t>(capsule)].capsule;
   Solid solid;
   solid.convex.core = Convex::Core::kSegment;

@@ -1,4 +1,4 @@
-#include "kernel/core/hull.hpp"
+#include "kernel/core/link_hulls.hpp"
 #include "kernel/load/ini.hpp"
 #include "kernel/load/number.hpp"
 
@@ -44,6 +44,16 @@ Status Hull::add(std::string_view text, int /*line*/, Message& why) {
     points_[static_cast<std::size_t>(count_++)] = point;
   }
   return Status::kOk;
+}
+
+Status LinkHulls::add(std::string_view text, int line, Message& why) {
+  const std::string_view name = take_word(text);
+  for (std::size_t link = 0; link < hulls_.size(); ++link)
+    if (name == RobotCapsules::kLinkNames[link]) return hulls_[link].add(text, line, why);
+  why << "unknown link '" << name << "'; expected one of ";
+  for (std::size_t link = 0; link < hulls_.size(); ++link)
+    why << (link > 0 ? ", " : "") << RobotCapsules::kLinkNames[link];
+  return Status::kBadValue;
 }
 
 }  // namespace tactus

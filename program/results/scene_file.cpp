@@ -85,6 +85,20 @@ void write_boxes(std::FILE* file, const PortTable& ports) {
   std::fprintf(file, "\n  ],\n");
 }
 
+void write_hulls(std::FILE* file, const CollisionSection& collision) {
+  std::fprintf(file, "  \"hulls\": [");
+  const char* separator = "\n    ";
+  for (int link = 0; link < LinkHulls::kMost; ++link) {
+    if (collision.link_points[link].count() == 0) continue;
+    std::fprintf(file, "%s{\"link\": %d, \"rounding\": %.9g, ", separator, link,
+                 collision.link_rounding);
+    write_points(file, collision.link_points[link], Vector3::Zero());
+    std::fprintf(file, "}");
+    separator = ",\n    ";
+  }
+  std::fprintf(file, "\n  ],\n");
+}
+
 void write_limits(std::FILE* file, const JointLimits& limits) {
   const struct {
     const char* key;
@@ -117,6 +131,7 @@ bool write_scene(const char* path, const Pipeline& pipeline) {
   std::fprintf(file, ", \"radius\": %.9g, ", pipeline.collision.tool_radius);
   write_points(file, pipeline.collision.tool_points, Vector3::Zero());
   std::fprintf(file, "},\n");
+  write_hulls(file, pipeline.collision);
   write_boxes(file, pipeline.ports);
   write_limits(file, pipeline.guard.limits);
   std::fprintf(file, "}\n");

@@ -47,6 +47,7 @@ def data(run):
     shown = {key: run.scene[key] for key in ("joints", "flange", "capsules", "tool")}
     if tool_points := shown["tool"].get("points"):
         shown["tool"] = {**shown["tool"], **mesh({"core": "hull", "points": tool_points, "rounding": shown["tool"]["radius"]})}
+    shown["hulls"] = [{"link": hull["link"], **mesh({"core": "hull", **hull})} for hull in run.scene.get("hulls", [])]
     result = {
         "name": run.name,
         "caption": f"<b>{page.escape(run.name)}</b>, {CAPTIONS[kind]}",

@@ -36,7 +36,9 @@ def shapes(run, frames, name):
     if name == "tool":
         local = [(-1, tool.get("points") or [[0, 0, 0], tool["tip"]], tool["radius"])]
     elif name in links:
-        local = [(c["link"], [c["a"], c["b"]], c["radius"]) for c in run.scene["capsules"] if c["link"] == links.index(name)]
+        link = links.index(name)
+        hulls = [(link, hull["points"], hull["rounding"]) for hull in run.scene.get("hulls", []) if hull["link"] == link]
+        local = hulls or [(link, [c["a"], c["b"]], c["radius"]) for c in run.scene["capsules"] if c["link"] == link]
     else:
         raise InputError(f"{run.folder}/scene.json: no body '{name}'")
     placed = ((frames[link], np.array(points, dtype=float), radius) for link, points, radius in local)

@@ -42,6 +42,9 @@ class SettingChecker {
   void lines(const char*, const Hull& hull, const char*) {
     for (int i = 0; i < hull.count(); ++i) MUST(hull[i].allFinite());
   }
+  void lines(const char* key, const LinkHulls& hulls, const char* meaning) {
+    for (int i = 0; i < LinkHulls::kMost; ++i) lines(key, hulls[i], meaning);
+  }
   template <class List>
   void lines(const char*, const List& list, const char*) {
     for (int i = 0; i < list.count(); ++i) MUST(list[i].line > 0 && list[i].joint < kDof);

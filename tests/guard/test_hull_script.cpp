@@ -70,7 +70,11 @@ Printed run(const std::string& arguments, const std::string& point_key,
   char line[256];
   while (std::fgets(line, sizeof line, script) != nullptr) {
     const std::string text(line), key = text.substr(0, text.find_first_of(" ="));
-    const std::string value = text.substr(text.find('=') + 1, text.size() - text.find('=') - 2);
+    std::string value = text.substr(text.find('=') + 1, text.size() - text.find('=') - 2);
+    if (key == "link_point") {
+      assert_int_equal(value.find(" link3 "), 0);
+      value.erase(0, 7);
+    }
     Message why;
     if (key == point_key) ASSERT_OK(printed.hull.add(value, 1, why));
     if (key == rounding_key) printed.rounding = std::stod(value);
@@ -107,6 +111,9 @@ void a_mesh_is_inside_the_body_that_is_printed(void**) {
         run(path(".stl") + " --scale 0.001 --tool --points 20", "tool_point", "tool_radius");
     assert_int_equal(tool.hull.count(), std::min(count, 20));
     assert_inside(points, 1e-3, tool, random);
+    const Printed link = run(path(".stl") + " --scale 0.001 --link link3 --points 20", "link_point",
+                             "link_rounding");
+    assert_inside(points, 1e-3, link, random);
     assert_true(count > 64 ? body.rounding < tool.rounding : body.rounding <= 2e-5);
   }
   std::remove(path(".obj").c_str());

@@ -13,6 +13,9 @@ int plant_vase(void**) {
       "sed 's/^centre .*/centre = -1 0.1 0/' $v >away.ini && "
       "sed 's/^margin .*/&\\nallow = tool vase/' $v >tool.ini && sed 's/^margin .*/&\\n"
       "allow = tool vase, link7 vase, link6 vase, link5 vase, link4 vase/' $v >let.ini && "
+      "sed 's/^margin .*/&\\nallow = tool vase\\nlink_point = link7 0 0 0, 0 0 "
+      "0.08\\nlink_rounding = 0.005/; "
+      "s/^collision_stop .*/collision_stop = link7 vase/' $v >hull.ini && "
       "sed 's/^.model./[guard]\\nmax_acceleration = 0.02\\nlimiting_window = "
       "0.05\\nlimiting_share = 0.1\\n&/' $v >slow.ini && sed 's/^.model./[executive]\\nstop_ms = "
       "101\\n&/' $v >moving.ini");
@@ -33,6 +36,12 @@ void an_arm_that_is_stopped_as_stated_succeeds(void**) {
   const std::string_view summary = file_of("t/out/fer_trg_cpc_vase/summary.json");
   assert_true(has(summary, "\"stated\": \"tool vase\", \"met\": true}, \"met\": true}"));
   assert_true(has(summary, "\"cause\": \"at_rest\", \"status\": \"kCollision\""));
+}
+
+/// In its hull the link is 35 mm shorter than in its capsule, which would be in the vase.
+void a_link_is_as_far_from_the_body_as_its_hull(void**) {
+  assert_int_equal(run_all("hull"), 0);
+  assert_true(has(output(), "  link7 to vase  stopped at "));
 }
 
 /// Nothing in the way, or nothing that counts: the square is done, through the vase if it is there.
@@ -137,6 +146,7 @@ int main(int, char** argv) {
   using namespace tactus;
   const CMUnitTest tests[] = {
       cmocka_unit_test_setup(an_arm_that_is_stopped_as_stated_succeeds, plant_vase),
+      cmocka_unit_test(a_link_is_as_far_from_the_body_as_its_hull),
       cmocka_unit_test(an_arm_that_is_not_stopped_is_not_as_expected),
       cmocka_unit_test(another_pair_or_cause_or_no_rest_is_not_as_expected),
       cmocka_unit_test(check_accepts_the_stop_that_is_stated),

@@ -53,7 +53,9 @@ class Arm {
     this.tip.position.set(...scene.tool.tip);
     this.flange.add(this.tip);
     for (const material of look) {
-      for (const c of scene.capsules) links[c.link].add(capsule(c.a, c.b, c.radius, material.link));
+      for (const c of scene.capsules)
+        if (!scene.hulls.some((h) => h.link === c.link)) links[c.link].add(capsule(c.a, c.b, c.radius, material.link));
+      for (const h of scene.hulls) links[h.link].add(new THREE.Mesh(surface(h), material.link));
       if (scene.tool.triangles) this.flange.add(new THREE.Mesh(surface(scene.tool), material.tool));
       else if (this.tip.position.length() > 0)
         this.flange.add(capsule([0, 0, 0], scene.tool.tip, scene.tool.radius, material.tool));
