@@ -1,4 +1,4 @@
-// Hull: the points of a convex body, as a file lists them.
+// Hull, LinkHulls: the points of convex bodies, as a file lists them.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/core/status.hpp"
 #include "kernel/core/text.hpp"
-#include "kernel/core/vectors.hpp"
+#include "kernel/core/types.hpp"
 
 #ifndef TACTUS_CONVEX
 #define TACTUS_CONVEX 1
@@ -49,6 +49,28 @@ class Hull {
  private:
   std::array<Vector3, kMost> points_;
   int count_ = 0;
+};
+
+/// The points of each link's hull, m, in the frame of the link; the base is link 0.
+class LinkHulls {
+ public:
+  static constexpr int kMost = kConvexBodies ? kDof + 1 : 0, kLeast = 0;
+
+  /// Reads "link5 x y z, x y z": the name of a link, then any number of points of its hull. `why`
+  /// has the word, its value and the limit. [init]
+  Status add(std::string_view text, int line, Message& why);
+
+  /// Returns the number of links that are hulls. [any]
+  int count() const {
+    int links = 0;
+    for (const Hull& hull : hulls_) links += hull.count() > 0 ? 1 : 0;
+    return links;
+  }
+  /// The hull of a link, without points if the file gives none. [any]
+  const Hull& operator[](int link) const { return hulls_[static_cast<std::size_t>(link)]; }
+
+ private:
+  std::array<Hull, kMost> hulls_;
 };
 
 }  // namespace tactus

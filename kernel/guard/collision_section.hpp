@@ -6,7 +6,6 @@
 
 #include "kernel/core/describe.hpp"
 #include "kernel/core/joint_limits.hpp"
-#include "kernel/core/link_hulls.hpp"
 #include "kernel/core/load_error.hpp"
 #include "kernel/guard/collision_pairs.hpp"
 #include "kernel/guard/convex.hpp"

@@ -1,4 +1,4 @@
-#include "kernel/core/link_hulls.hpp"
+#include "kernel/core/hull.hpp"
 #include "kernel/load/ini.hpp"
 #include "kernel/load/number.hpp"
 
