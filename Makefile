@@ -6,7 +6,7 @@ Q     := $(if $(V),,@)
 comma := ,
 ARCH  ?= host
 JOBS  ?= $(shell nproc)
-HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)$(if $(filter command,$(origin UNITS)),$(if $(UNITS),,-single))
+HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)$(LIBCCD:%=-convex)$(if $(filter command,$(origin UNITS)),$(if $(UNITS),,-single))
 B     := build/$(BOARD)$(HOW)
 
 # Of the files named after a robot, only those of the board's robot are compiled.
@@ -40,7 +40,7 @@ include boards/$(BOARD)/board.mk
 robot := $(robot)
 O     := build/$(robot)$(HOW)
 # The kinds of block that the board has, if not all.
-KINDS := $(KINDS_$(ARCH))
+KINDS := $(KINDS_$(ARCH))$(if $(and $(KINDS_$(ARCH)),$(LIBCCD)),$(comma) SphereObstacle$(comma) CapsuleObstacle$(comma) CylinderObstacle$(comma) ConvexObstacle)
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
 # CLI11 takes three times as long to optimise as to compile, for what runs once.
@@ -77,8 +77,10 @@ CROSS_m55   := arm-none-eabi-
 # Where flash is short, less is inlined and unrolled than -O3 would: a seventh smaller, a twelfth more instructions.
 INLINING := --param max-inline-insns-single=70 --param max-inline-insns-auto=15 --param early-inlining-insns=6 \
             --param inline-min-speedup=30 --param max-completely-peeled-insns=16
-# Streams of chunks, parameters that change at run time, and convex bodies take memory that they do not have.
-BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 -DTACTUS_CONVEX=0 -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
+# Streams of chunks, parameters that change at run time, and convex bodies take memory that they do not have. Convex bodies
+# ask libccd, of which there is no package for them: with LIBCCD=FOLDER, that of its source, they have them.
+CCD_FLAGS  := $(if $(LIBCCD),-DCCD_DOUBLE -DCCD_STATIC_DEFINE -isystem $(LIBCCD)/src -isystem $(O))
+BARE_FLAGS := -DTACTUS_CHUNK_TARGETS=0 -DTACTUS_TUNING=0 $(or $(CCD_FLAGS),-DTACTUS_CONVEX=0) -mthumb -mfloat-abi=hard -fno-threadsafe-statics -fno-unwind-tables \
               -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -fno-ipa-icf -Wno-psabi $(INLINING)
 FLAGS_m7   := -mcpu=cortex-m7 -mfpu=fpv5-d16 $(BARE_FLAGS)
 # Its vectors have no double precision, so they gain nothing.
@@ -108,8 +110,7 @@ RUN_OPTIONS += $(if $(filter $(BARE_BOARDS),$(RUN_BOARDS)),--always --out out/$(
 NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cpp) kernel/core/text.cpp \
               kernel/core/status.cpp kernel/model/mounting.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp \
               gateway/reference_client.cpp tests/bare_metal/board.cpp
-# Bare cores have no libccd, and no convex bodies.
-KERNEL   := $(filter-out $(if $(BARE),kernel/guard/convex%),$(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp))
+KERNEL   := $(filter-out $(if $(BARE),$(if $(LIBCCD),,kernel/guard/convex%)),$(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp))
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
 GATEWAY  := $(wildcard gateway/*.cpp $(addsuffix /*.cpp,$(addprefix gateway/,trajectory trajectory/smoothing page server sockets)))

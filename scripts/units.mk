@@ -81,3 +81,19 @@ $(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS))
 $(addprefix $(O)/,precompiled.hpp.gch small.hpp.gch quick.hpp.gch): kernel/core/precompiled.hpp $(O)/flags
 	$(call say,PCH   $@)
 	$(Q)cp $< $(@:.gch=) && $(call timed,compile) $(CXX) $(CXXFLAGS) -x c++-header $< -o $@
+
+# libccd from its source in LIBCCD, with our flags, for machines without a package of it and for the same bits on all; only
+# what the kernel calls, which takes no heap.
+ifneq ($(LIBCCD),)
+CCD := $(O)/libccd.o
+CCD_SOURCES := $(addprefix $(LIBCCD)/src/,ccd.c vec3.c support.c)
+$(if $(wildcard $(CCD_SOURCES)),,$(error LIBCCD=$(LIBCCD) has no src/ccd.c; give the folder of the source of libccd 2.1))
+$(CCD): $(CCD_SOURCES) $(O)/ccd/config.h
+	$(call say,CC    $@)
+	$(Q)cat $(CCD_SOURCES) | $(CROSS_$(ARCH))gcc -std=gnu99 -w $(NUMERICS) $(FLAGS_$(ARCH)) $(CCD_FLAGS) -ffunction-sections -x c -c - -o $@
+	$(Q)$(CROSS_$(ARCH))ld -r --gc-sections -e ccdGJKIntersect -u ccdGJKIntersect $@ -o $@.part && mv $@.part $@
+	$(Q)$(CROSS_$(ARCH))objcopy --keep-global-symbol=ccdGJKIntersect --strip-unneeded $@
+$(KERNEL_OBJECTS): | $(O)/ccd/config.h
+$(O)/ccd/config.h:
+	@mkdir -p $(@D) && touch $@
+endif

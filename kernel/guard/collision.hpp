@@ -143,8 +143,10 @@ class Collision {
   void place_hulls(const LinkFrames<Robot>& frames);
   const Solid* hull_of(int capsule) const;
   bool is_convex(const Pair& pair) const;
+  bool counts_as(int capsule, bool hull) const;
   double convex_distance(const Pair& pair, double wanted);
-  Solid arm_solid(int capsule) const;
+  double box_distance(const Pair& pair, bool hull, double wanted);
+  Solid arm_solid(int capsule, bool hull) const;
 
   const CollisionSection* section_ = nullptr;
   int positions_ = 0;  // looked at in a cycle

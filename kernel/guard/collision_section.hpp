@@ -57,6 +57,10 @@ struct CollisionSection {
 
   CollisionScene scene;
 
+  /// Returns a link whose hull is not at both ends of each of its capsules, by its radius, or -1.
+  /// It may be in another frame or unit. [init]
+  int misplaced_hull() const;
+
   template <class Visitor>
   void describe(Visitor& visit) {
     visit.param("cycles", cycles, Range{1.0, 1.0 * kCheckedPositions}, "cycles");

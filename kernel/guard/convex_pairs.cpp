@@ -6,6 +6,42 @@
 #include "kernel/guard/collision.hpp"
 
 namespace tactus {
+namespace {
+
+Solid solid_of(const Capsule& shape) {
+  Solid solid;
+  solid.convex.core = Convex::Core::kSegment;
+  solid.convex.half = 0.5 * (shape.b - shape.a);
+  solid.convex.rounding = shape.radius;
+  solid.middle = 0.5 * (shape.a + shape.b);
+  return solid;
+}
+
+Solid solid_of(const Hull& points, double rounding) {
+  Solid solid;
+  solid.convex.take(points);
+  solid.convex.rounding = rounding;
+  solid.middle = solid.convex.middle;
+  return solid;
+}
+
+}  // namespace
+
+int CollisionSection::misplaced_hull() const {
+  constexpr int kEnough = 1 << 10;
+  for (const LinkCapsule& capsule : RobotCapsules::kCapsules) {
+    const Hull& points = link_points[capsule.link];
+    if (points.count() == 0) continue;
+    const Solid hull = solid_of(points, link_rounding);
+    for (const auto& end : {capsule.a, capsule.b}) {
+      const Vector3 point = {end[0], end[1], end[2]};
+      int directions = kEnough;
+      if (separation(solid_of(Capsule{point, point, capsule.radius}), hull, 0.0, directions) > 0.0)
+        return capsule.link;
+    }
+  }
+  return -1;
+}
 
 /// Takes the bodies of the arm that the file gives points of.
 void Collision::add_hulls(const CollisionSection& section) {
@@ -24,8 +60,7 @@ void Collision::add_hull(int body, const Hull& points, double rounding, const Li
   if (points.count() == 0) return;
   ArmHull& hull = hulls_[static_cast<std::size_t>(hull_count_++)];
   hull.body = body;
-  hull.placed.convex.take(points);
-  hull.placed.convex.rounding = rounding;
+  hull.placed = solid_of(points, rounding);
   hull.in_link = {axes.r, axes.at(hull.placed.convex.middle)};
 }
 
@@ -57,29 +92,45 @@ bool Collision::is_convex(const Pair& pair) const {
                      : hull_of(pair.first) != nullptr;
 }
 
-/// A ball and a rounded rod have a closed form, too: that of a box without width.
+/// A link with a hull counts as its capsules, too: it is in both. The tool is in its hull alone.
+bool Collision::counts_as(int capsule, bool hull) const {
+  const bool has_hull = hull_of(capsule) != nullptr;
+  return hull ? has_hull : !has_hull || body_of(capsule) != kToolBody;
+}
+
+/// Returns the largest distance that is proved, of the bodies as capsules and as hulls.
 double Collision::convex_distance(const Pair& pair, double wanted) {
-  const Solid moving = arm_solid(pair.second);
-  if (!pair.of_box) return separation(moving, arm_solid(pair.first), wanted, directions_);
+  double best = -kInfinity;
+  LoopBound<4> ways;
+  for (int way = 0; way < 4 && !(best > wanted); ++way) {
+    ways.tick();
+    const bool one = way % 2 == 1, other = way / 2 == 1;
+    if (!counts_as(pair.second, one)) continue;
+    if (pair.of_box) {
+      if (!other) best = std::max(best, box_distance(pair, one, wanted));
+    } else if ((one || other) && counts_as(pair.first, other)) {
+      best = std::max(best, separation(arm_solid(pair.second, one), arm_solid(pair.first, other),
+                                       wanted, directions_));
+    }
+  }
+  return best;
+}
+
+/// A ball and a rounded rod have a closed form, too: that of a box without width.
+double Collision::box_distance(const Pair& pair, bool hull, double wanted) {
   const BoxShape& box = boxes_[pair.first];
   Solid other = {{}, box.r, box.centre};
   other.convex.half = box.half;
   if (const Convex* inside = section_->scene.boxes[pair.first]->inside) other.convex = *inside;
-  if (hull_of(pair.second) != nullptr || other.convex.core != Convex::Core::kBox)
-    return separation(moving, other, wanted, directions_);
+  if (hull || other.convex.core != Convex::Core::kBox)
+    return separation(arm_solid(pair.second, hull), other, wanted, directions_);
   const BoxShape core = {box.r, box.centre, other.convex.half};
   return separation(placed_[pair.second].capsule, core) - other.convex.rounding;
 }
 
-Solid Collision::arm_solid(int capsule) const {
-  if (const Solid* hull = hull_of(capsule)) return *hull;
-  const Capsule& shape = placed_[static_cast<std::size_t>(capsule)].capsule;
-  Solid solid;
-  solid.convex.core = Convex::Core::kSegment;
-  solid.convex.half = 0.5 * (shape.b - shape.a);
-  solid.convex.rounding = shape.radius;
-  solid.middle = 0.5 * (shape.a + shape.b);
-  return solid;
+Solid Collision::arm_solid(int capsule, bool hull) const {
+  if (hull) return *hull_of(capsule);
+  return solid_of(placed_[static_cast<std::size_t>(capsule)].capsule);
 }
 
 }  // namespace tactus

@@ -95,6 +95,15 @@ Status read_collision(const Ini& ini, Pipeline& pipeline, LoadError& error) {
                             << " positions of a check evenly; give 1, 2, 5 or 10");
   if (collision.tool_points.count() > 0 && ini.find(*section, "tool_radius") == nullptr)
     collision.tool_radius = 0.0;
+  if constexpr (kConvexBodies) {
+    const int link = collision.misplaced_hull();
+    if (link >= 0)
+      return place.refuse(Status::kBadValue, "link_point",
+                          Message("the hull of ")
+                              << collision.scene.names[static_cast<std::size_t>(link)]
+                              << " is not where the capsules of this link are; give all of the "
+                                 "link, in its frame, in m");
+  }
   const bool given = !collision.lateness.hasNaN(), of_torques = pipeline.robot.tau_c.wired();
   if (collision.compliance.hasNaN()) collision.compliance.setZero();
   if (!given && !of_torques) collision.lateness.setZero();

@@ -27,22 +27,26 @@ def core(inside):
 
 
 def shapes(run, frames, name):
-    """Returns the shapes of a body: points [rows or 1, n, 3] in the base frame, and a radius."""
+    """Returns the shapes of a body, each a list of what it is within at once: points [rows or 1, n, 3] in the base frame, and a radius."""
     for box in run.scene["boxes"]:
         if box["name"] == name:
             inside = box.get("inside", {"core": "box", "half": np.array(box["size"]) / 2, "rounding": 0.0})
-            return [((box["centre"] + core(inside) @ arm.rotation_matrix(box["rotation"]).T)[None], inside["rounding"])]
+            return [[((box["centre"] + core(inside) @ arm.rotation_matrix(box["rotation"]).T)[None], inside["rounding"])]]
     tool, links = run.scene["tool"], run.scene.get("links", [])
     if name == "tool":
-        local = [(-1, tool.get("points") or [[0, 0, 0], tool["tip"]], tool["radius"])]
+        local = [(-1, [(tool.get("points") or [[0, 0, 0], tool["tip"]], tool["radius"])])]
     elif name in links:
         link = links.index(name)
-        hulls = [(link, hull["points"], hull["rounding"]) for hull in run.scene.get("hulls", []) if hull["link"] == link]
-        local = hulls or [(link, [c["a"], c["b"]], c["radius"]) for c in run.scene["capsules"] if c["link"] == link]
+        hulls = [(hull["points"], hull["rounding"]) for hull in run.scene.get("hulls", []) if hull["link"] == link]
+        local = [(link, [([c["a"], c["b"]], c["radius"]), *hulls]) for c in run.scene["capsules"] if c["link"] == link]
     else:
         raise InputError(f"{run.folder}/scene.json: no body '{name}'")
-    placed = ((frames[link], np.array(points, dtype=float), radius) for link, points, radius in local)
-    return [(points @ np.swapaxes(frame[:, :3, :3], 1, 2) + frame[:, None, :3, 3], radius) for frame, points, radius in placed]
+
+    def placed(link, points):
+        frame = frames[link]
+        return np.array(points, dtype=float) @ np.swapaxes(frame[:, :3, :3], 1, 2) + frame[:, None, :3, 3]
+
+    return [[(placed(link, points), radius) for points, radius in within] for link, within in local]
 
 
 def apart(first, second):
@@ -56,16 +60,21 @@ def apart(first, second):
 
 def nearest_of(one, other):
     """Returns the smallest distance of two shapes; leaves out rows before which they cannot have moved near enough."""
-    (first, first_radius), (second, second_radius) = one, other
-    rows, moving = max(len(first), len(second)), [points for points in (first, second) if len(points) > 1]
+    moving = [points for points, _ in one + other if len(points) > 1]
+    rows = max(map(len, moving), default=1)
     steps = sum(np.linalg.norm(np.diff(points, axis=0), axis=2).max(axis=1) for points in moving)
     way = np.append(0.0, np.cumsum(steps))  # that points of both have made at most
-    best, row = apart(first[-1], second[-1]), 0  # of the last row first: an arm that was stopped is nearest there
+
+    def distance(row):
+        parts = [[(points[min(row, len(points) - 1)], radius) for points, radius in shape] for shape in (one, other)]
+        return max(apart(first, second) - first_radius - second_radius for first, first_radius in parts[0] for second, second_radius in parts[1])
+
+    best, row = distance(rows - 1), 0  # of the last row first: an arm that was stopped is nearest there
     while row < rows:
-        distance = apart(first[min(row, len(first) - 1)], second[min(row, len(second) - 1)])
-        best = min(best, distance)
-        row = max(row + 1, int(np.searchsorted(way, way[row] + distance - best, "right")))
-    return best - first_radius - second_radius
+        here = distance(row)
+        best = min(best, here)
+        row = max(row + 1, int(np.searchsorted(way, way[row] + here - best, "right")))
+    return best
 
 
 def nearest(run, names):

@@ -53,7 +53,8 @@ class Machine:
 
     def command(self, robot, job):
         """Returns the command that plays a job."""
-        how = "".join(f"-{part}" for part in (self.arch if self.arch != "host" else "", self.variant()) if part)
+        convex = "convex" if os.environ.get("LIBCCD") else ""
+        how = "".join(f"-{part}" for part in (self.arch if self.arch != "host" else "", self.variant(), convex) if part)
         program = f"build/{robot}_sim{how}/trace"
         if self.arch in BARE:
             semihosting = f"enable=on,target=native,chardev=sh,arg=trace,arg={job}"

@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import importlib.machinery
 import importlib.util
+import os
 import pathlib
 import re
 import struct
@@ -21,7 +22,7 @@ PIPELINES = pathlib.Path("pipelines")
 WIRE = ("can", "cia402", "ethercat", "ur")
 HOSTILE = "hostile"
 TO_THE_END = 0xFFFFFFFF
-ASKS_LIBCCD = re.compile(r"^(type\s*=\s*(convex|cylinder)\b|tool_point\s*=)", re.MULTILINE)
+ASKS_LIBCCD = re.compile(r"^(type\s*=\s*(convex|cylinder)\b|(tool|link)_point\s*=)", re.MULTILINE)
 
 
 class RunError(Exception):
@@ -61,7 +62,7 @@ def hostile_tapes(pipeline):
 
 
 def all_runs():
-    """Returns the runs of every board, sorted, but those that ask libccd; raises RunError if a pipeline is in none."""
+    """Returns the runs of every board, sorted; without LIBCCD but those that ask it. Raises RunError if a pipeline is in none."""
     runs = set()
     for board in pathlib.Path("boards").glob("*/board.mk"):
         for line in re.findall(r"^RUNS\s*[+:]?=\s*(.*)$", board.read_text(encoding="utf-8"), re.MULTILINE):
@@ -69,7 +70,7 @@ def all_runs():
     left_out = {path.stem for path in PIPELINES.glob("*.ini")} - {pipeline for pipeline, _ in runs}
     if left_out:
         raise RunError(f"{', '.join(sorted(left_out))}: in no RUNS of boards/*/board.mk")
-    runs = {run for run in runs if not ASKS_LIBCCD.search((PIPELINES / f"{run[0]}.ini").read_text(encoding="utf-8"))}
+    runs = {run for run in runs if os.environ.get("LIBCCD") or not ASKS_LIBCCD.search((PIPELINES / f"{run[0]}.ini").read_text(encoding="utf-8"))}
     runs |= {(pipeline, HOSTILE) for pipeline, _ in runs if (inputs.CORPUS / pipeline).is_dir()}
     return [Run(pipeline, trajectory, pipeline.split("_")[0]) for pipeline, trajectory in sorted(runs)]
 

@@ -18,12 +18,13 @@ struct OracleBody {
   Vector3 normal = Vector3::UnitZ();
 
   Vector3 farthest(const Vector3& n) const {
-    const Vector3 across = n - n.dot(normal) * normal;
-    const Vector3 out = across.norm() > 0.0 ? Vector3(radius * across.normalized()) : across;
+    Vector3 out = n - n.dot(normal) * normal;
+    out -= out.dot(normal) * normal;  // again: of n along the normal only rounding is left
+    if (out.norm() > 0.0) out *= radius / out.norm();
     Vector3 best = points.front();
     for (const Vector3& point : points)
       if (n.dot(point) > n.dot(best)) best = point;
-    return best + (radius > 0.0 ? out : Vector3::Zero().eval());
+    return best + out;
   }
 };
 

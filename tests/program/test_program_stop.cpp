@@ -13,8 +13,8 @@ int plant_vase(void**) {
       "sed 's/^centre .*/centre = -1 0.1 0/' $v >away.ini && "
       "sed 's/^margin .*/&\\nallow = tool vase/' $v >tool.ini && sed 's/^margin .*/&\\n"
       "allow = tool vase, link7 vase, link6 vase, link5 vase, link4 vase/' $v >let.ini && "
-      "sed 's/^margin .*/&\\nallow = tool vase\\nlink_point = link7 0 0 0, 0 0 "
-      "0.08\\nlink_rounding = 0.005/; "
+      "sed 's/^margin .*/&\\nallow = tool vase\\nlink_point = link7 0 0 -0.06, 0 0 "
+      "0.08, 0.04 0.04 0.08\\nlink_rounding = 0.005/; "
       "s/^collision_stop .*/collision_stop = link7 vase/' $v >hull.ini && "
       "sed 's/^.model./[guard]\\nmax_acceleration = 0.02\\nlimiting_window = "
       "0.05\\nlimiting_share = 0.1\\n&/' $v >slow.ini && sed 's/^.model./[executive]\\nstop_ms = "
@@ -129,7 +129,7 @@ void the_report_measures_distances_by_itself(void**) {
       "for _ in range(20):\n"
       "    way = np.cumsum(random.normal(0, .1, (60, 1, 3)), axis=0) + [[0, 0, 6], [1, 0, 6]]\n"
       "    every = [clearance.apart(ends, box) - .3 for ends in way]\n"
-      "    near = clearance.nearest_of((way, .2), (box[None], .1))\n"
+      "    near = clearance.nearest_of([(way, .2)], [(box[None], .1)])\n"
       "    assert abs(near - min(every)) < 1e-12\"");
 }
 
