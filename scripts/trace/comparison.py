@@ -99,7 +99,7 @@ def judge(reference, machine, run, first, plays, whole_row):
             return "two runs differ", [" ".join(each.end) for each in plays]
     if plays[0].end != first.end or plays[0].lines != first.lines:
         return explain(reference, machine, run, (first, plays[0]), whole_row)
-    if run.recorded and (first.end[3:4] != ["kOk"] or first.end[4] == "0"):
+    if run.recorded and (first.end[3:4] != [run.ends] or first.end[4] == "0"):
         return "not the whole run", [" ".join(first.end)]
     return "=", []
 

@@ -49,6 +49,12 @@ class Run:
     def recorded(self):
         return self.trajectory != HOSTILE
 
+    @property
+    def ends(self):
+        """The status of the last cycle."""
+        stops = re.search(r"(?m)^collision_stop\b", (PIPELINES / f"{self.pipeline}.ini").read_text(encoding="utf-8"))
+        return "kCollision" if stops else "kOk"
+
     def tapes(self):
         if self.recorded:
             return [(self.folder / "run.tape").read_bytes()]
@@ -107,7 +113,7 @@ def record(run, launcher):
         copy.write_text(text, encoding="utf-8")
         return
     recorder = pathlib.Path(f"build/{run.robot}_sim/wcet-record")
-    make(f"BOARD={run.robot}_sim", f"CXX={launcher} g++".replace("= ", "="), "ARCH=host", "VARIANT=", str(recorder), "trajectories")
+    make(f"BOARD={run.robot}_sim", f"CXX={launcher} g++".replace("= ", "="), "ARCH=host", "VARIANT=", "LIBCCD=", str(recorder), "trajectories")
     trajectory, tape = trajectory_of(run, text), run.folder / "run.tape"
     inputs = max(path.stat().st_mtime for path in (recorder, trajectory))
     if tape.exists() and tape.stat().st_mtime > inputs and copy.exists() and copy.read_text(encoding="utf-8") == text:

@@ -165,7 +165,9 @@ int record(const char* path, const char* trajectory) {
   }
   const double duration_s = board.gateway.start_s + end_s + board.gateway.settle_s;
   for (std::int64_t k = 1; static_cast<double>(k) * period_s <= duration_s; ++k) {
-    if (executive.cycle({now_ns + period_ns * k}) != Status::kOk) {
+    const Status status = executive.cycle({now_ns + period_ns * k});
+    // A stop before a collision may be what the file states.
+    if (status != Status::kOk && executive.latched() != Status::kCollision) {
       std::fprintf(stderr, "%s: %s\n", path, name(executive.latched()));
       return 1;
     }
