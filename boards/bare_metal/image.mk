@@ -11,7 +11,7 @@ $(O)/boards/bare_metal/startup.o: private CXXFLAGS += -fno-tree-loop-distribute-
 image: $(B)/image.elf $(B)/image-faults.elf   ## build the image of a board without an operating system: BOARD=fer_m7
 $(B)/image.elf: $(O)/boards/bare_metal/provoke_nothing.o
 $(B)/image-faults.elf: $(O)/tests/bare_metal/provoke_faults.o
-$(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(KERNEL_LIB) $(IMAGE_LD)
+$(B)/image.elf $(B)/image-faults.elf: $(call obj,$(BARE_SRCS)) $(CCD) $(KERNEL_LIB) $(IMAGE_LD)
 	$(call say,LD    $@)
 	$(Q)$(CXX) $(FLAGS_$(ARCH)) -nostartfiles -nostdlib -Wl,--gc-sections $(IMAGE_LD:%=-T %) -o $@ \
 	  -Wl,--whole-archive $(KERNEL_LIB) -Wl,--no-whole-archive $(filter %.o,$^) -lm -lgcc

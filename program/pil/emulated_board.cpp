@@ -35,10 +35,10 @@ Path in_folder(const char* folder, const char* name) {
 
 }  // namespace
 
-BoardImage image_of(std::string_view builds, std::string_view board, std::string_view file) {
+BoardImage image_of(std::string_view builds, std::string_view board, std::string_view rest) {
   const std::string_view core = board.substr(board.rfind('_') + 1);
   BoardImage image = {Text<1023>(builds), nullptr};
-  image.path << "/" << board << "-" << core << "/" << file;
+  image.path << "/" << board << "-" << core << rest;
   for (const CoreMachine& each : kMachines)
     if (each.core == core) image.machine = each.machine;
   return image;

@@ -17,9 +17,9 @@ struct BoardImage {
   const char* machine;  ///< null: the emulator has none for this core
 };
 
-/// The image of a board below the folder `builds`; the board's name ends with its core, as fer_m7.
-/// [init]
-BoardImage image_of(std::string_view builds, std::string_view board, std::string_view file);
+/// The image of a board below the folder `builds`; the board's name ends with its core, as fer_m7,
+/// and the name of the image's folder with that and the beginning of `rest`. [init]
+BoardImage image_of(std::string_view builds, std::string_view board, std::string_view rest);
 
 class EmulatedBoard {
  public:

@@ -20,13 +20,15 @@ Status configure(const SimSections& sections, const Pipeline& pipeline, const Op
 }
 
 /// The image is in a folder beside that of the program: build/fer_m7/tactus,
-/// build/fer_m7-m7/image.elf.
+/// build/fer_m7-m7/image.elf, or both with -convex: built with libccd.
 pil::BoardImage own_image(std::string_view board) {
   char program[512];
   const ssize_t size = readlink("/proc/self/exe", program, sizeof program);
   std::string_view folder(program, size > 0 ? static_cast<std::size_t>(size) : 0);
   folder = folder.substr(0, folder.rfind('/'));
-  return pil::image_of(folder.substr(0, folder.rfind('/')), board, "image.elf");
+  const std::size_t name = folder.rfind('/');
+  const bool convex = folder.find("-convex", name) != std::string_view::npos;
+  return pil::image_of(folder.substr(0, name), board, convex ? "-convex/image.elf" : "/image.elf");
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ struct BoardBench {
   /// Starts the board whose image can provoke faults.
   void boot() {
     Message why;
-    if (emulator.start(image_of("build", board_name(), "image-faults.elf"), why))
+    if (emulator.start(image_of("build", board_name(), "/image-faults.elf"), why))
       return board.begin();
     std::fprintf(stderr, "%s\n", why.c_str());
     assert_true(false);
