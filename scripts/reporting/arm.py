@@ -1,9 +1,11 @@
 """The arm of scene.json: where its links and its tip are at given joint positions."""
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 QUARTER_TURNS = {-1: (0, -1), 0: (1, 0), 1: (0, 1), 2: (-1, 0)}  # cosine and sine
+
+THIN_M = 1e-4  # what is shown of a body without thickness
 
 
 def rotation_matrix(quaternion):
@@ -65,7 +67,10 @@ def surface(inside):
         rises = np.linspace(-np.pi / 2, np.pi / 2, 13)
         ball = np.array([[np.cos(a) * np.cos(b), np.sin(a) * np.cos(b), np.sin(b)] for a in turns for b in rises])
         points = (points[:, None] + inside["rounding"] * ball).reshape(-1, 3)
-    hull = ConvexHull(points, qhull_options="QJ")
+    try:
+        hull = ConvexHull(points, qhull_options="QJ")
+    except QhullError:  # flat
+        return surface({**inside, "rounding": THIN_M})
     used, triangles = np.unique(hull.simplices, return_inverse=True)
     corners, triangles = points[used], triangles.reshape(-1, 3)
     one, other, third = np.moveaxis(corners[triangles], 1, 0)

@@ -115,11 +115,13 @@ void a_stop_that_cannot_be_judged_is_refused(void**) {
 void the_report_measures_distances_by_itself(void**) {
   assert_succeeds(
       "cd scripts && /usr/bin/python3 -B -c \"import numpy as np\n"
-      "from reporting import clearance\n"
+      "from reporting import arm, clearance\n"
       "box = clearance.core({'core': 'box', 'half': [1, 2, 3]})\n"
       "at = lambda *p: clearance.apart(np.array([p], float), box)\n"
       "assert np.allclose([at(4, 0, 3), at(4, 6, 0), at(-4, -6, 15)], [3, 5, 13], atol=1e-5)\n"
       "assert at(0, 1, 2) == 0\n"
+      "flat = {'core': 'hull', 'rounding': 0, 'points': [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n"
+      "assert len(arm.surface(flat)[0]) > 3\n"
       "drum = clearance.core({'core': 'cylinder', 'half': [.5, .5, 2]})\n"
       "rods = [np.array([[2 * c - s, 2 * s + c, 1], [2 * c + s, 2 * s - c, 1]]) for c, s in"
       " [(np.cos(a), np.sin(a)) for a in np.arange(.1, 6, .3)]]\n"
