@@ -42,8 +42,8 @@ struct CollisionSection {
   double margin = 0.01;       ///< m: a smaller distance is a contact
   double tool_radius = 0.02;  ///< m: the tool is a capsule from the flange to the tip,
   Hull tool_points;           ///< or this hull, in the flange frame, and what is within tool_radius
-  LinkHulls link_points;      ///< a link is in its capsules, and in this hull and what is within
-  double link_rounding = 0.0;  ///< of it, m
+  LinkHulls link_points;      ///< a link is both in its capsules and in this hull, in its frame,
+  double link_rounding = 0.0;  ///< or within so much of it, m
   double delay_s = 0.0;        ///< total delay of the measured state and the brake, s
   /// By which time of its velocity a joint that begins at a resting reference leaves it, s, and by
   /// which share of a step of the reference it overshoots. NaN: not known, a contact.
@@ -57,8 +57,8 @@ struct CollisionSection {
 
   CollisionScene scene;
 
-  /// Returns a link whose hull is not at both ends of each of its capsules, by its radius, or -1.
-  /// It may be in another frame or unit. [init]
+  /// Returns a link with an end of a capsule that is farther from the link's hull than the radius
+  /// of the capsule, or -1: the hull may be in another frame or unit. [init]
   int misplaced_hull() const;
 
   template <class Visitor>

@@ -1,6 +1,6 @@
 # The image of a board with a Cortex-M7 and nothing else: docs/memory.md. The Makefile includes this file after wcet.mk.
 # Its pipeline is the longest of the robot; of a robot without, any, for which only linking matters.
-BARE_PIPELINE ?= $(firstword $(WCET_PIPELINES:%=pipelines/%.ini) $(wildcard pipelines/$(robot)_*.ini))
+BARE_PIPELINE := $(firstword $(WCET_PIPELINES:%=pipelines/%.ini) $(wildcard pipelines/$(robot)_*.ini))
 BARE_BOARD    := $(call obj,tests/bare_metal/board.cpp gateway/reference_client.cpp sim_plant/arm/$(robot)_mjcf.cpp $(BARE_START))
 
 ifeq ($(ARCH),m7)
