@@ -98,19 +98,21 @@ bool Collision::counts_as(int capsule, bool hull) const {
   return hull ? has_hull : !has_hull || body_of(capsule) != kToolBody;
 }
 
-/// Returns the largest distance that is proved, of the bodies as capsules and as hulls.
+/// Returns the largest distance that is proved, of the bodies as capsules and as hulls. That of two
+/// capsules has its closed form.
 double Collision::convex_distance(const Pair& pair, double wanted) {
   double best = -kInfinity;
   LoopBound<4> ways;
   for (int way = 0; way < 4 && !(best > wanted); ++way) {
     ways.tick();
-    const bool one = way % 2 == 1, other = way / 2 == 1;
-    if (!counts_as(pair.second, one)) continue;
+    const bool hull_moves = way % 2 == 1, hull_stays = way / 2 == 1;
+    if (!counts_as(pair.second, hull_moves)) continue;
     if (pair.of_box) {
-      if (!other) best = std::max(best, box_distance(pair, one, wanted));
-    } else if ((one || other) && counts_as(pair.first, other)) {
-      best = std::max(best, separation(arm_solid(pair.second, one), arm_solid(pair.first, other),
-                                       wanted, directions_));
+      if (!hull_stays) best = std::max(best, box_distance(pair, hull_moves, wanted));
+    } else if ((hull_moves || hull_stays) && counts_as(pair.first, hull_stays)) {
+      const Solid moving = arm_solid(pair.second, hull_moves);
+      best = std::max(best,
+                      separation(moving, arm_solid(pair.first, hull_stays), wanted, directions_));
     }
   }
   return best;
