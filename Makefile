@@ -57,7 +57,7 @@ UNJUDGED  := $(if $(findstring undefined,$(SANITIZE)),-fsanitize-ignorelist=test
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED  := SANITIZE=$(SANITIZERS) CXX=clang++ WARNINGS=
 # A robot's objects include its tables and no other's, so that a new robot compiles nothing anew.
-OF_ROBOT  := -DTACTUS_ROBOT=$(ROBOT) -DTACTUS_ROBOT_TABLES='"kernel/robots/$(robot)_capsules.hpp"'
+OF_ROBOT  := -DTACTUS_ROBOT=$(ROBOT) -DTACTUS_ROBOT_TABLES='"kernel/robots/$(robot)_capsules.hpp"' -include kernel/core/build.hpp
 # clang has no libquadmath of its own.
 QUADMATH  := $(if $(findstring clang,$(CXX)),-idirafter $(shell gcc -print-file-name=include))
 # Back traces, profiles and bounds need line tables. To track variables too (DEBUG=-g) takes twice as long to compile,

@@ -31,6 +31,8 @@ $(CTL)/units/client.cpp: always
 	$(call kept,printf '#include "%s"\n' $(CTL_CLIENT))
 $(CTL)/units/shared.cpp: always
 	$(call kept,printf '#include "%s"\n' $(CTL_SHARED))
+$(CTL)/units/retime.cpp: always
+	$(call kept,printf '#include "%s"\n' $(filter-out %/retime_limits.cpp,$(wildcard gateway/ctl/retime/*.cpp)))
 ctl_compile = $(Q)$(call timed,compile) $(CXX) $(CTLFLAGS) -c $< -o $@
 # The messages are a system header, which dependency files leave out.
 $(CTL)/units/%.o: $(CTL)/units/%.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
@@ -50,9 +52,9 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)install -d $(SHARE)/man/man1 $(SHARE)/bash-completion/completions
 	$(Q)ABOUT="client of the server of references" scripts/manual $(TACTUSCTL) tactusctl > $(SHARE)/man/man1/tactusctl.1
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
-# Its tests are compiled as it is, and judge what it writes by the kernel of their board, from which they have what is shared.
-CTL_LIBS := $(CTL)/libctl.a $(B)/libprogram.a $(KERNEL_LIB)
-$(CTL)/tests/%.o $(B)/tests/ctl/unit.o: private CTLFLAGS += $(OF_ROBOT)
+# Its tests judge what it writes by the kernel of their board, for whose robot they and what they call of it are compiled.
+CTL_LIBS := $(CTL)/units/retime.o $(B)/libprogram.a $(KERNEL_LIB)
+$(CTL)/tests/%.o $(CTL)/units/retime.o $(B)/tests/ctl/unit.o: private CTLFLAGS += $(OF_ROBOT)
 $(B)/tests/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(ctl_compile)

@@ -9,10 +9,6 @@
 #include "kernel/core/text.hpp"
 #include "kernel/core/types.hpp"
 
-#ifndef TACTUS_CONVEX
-#define TACTUS_CONVEX 1
-#endif
-
 namespace tactus {
 
 /// A board on which memory is short has boxes and capsules only: TACTUS_CONVEX=0.

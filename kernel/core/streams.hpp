@@ -4,12 +4,6 @@
 
 #include <type_traits>
 
-// Most targets of a chunk, a constant of the board. 0: it has no streams of chunks and velocities
-// and no digital outputs, neither their code nor their memory.
-#ifndef TACTUS_CHUNK_TARGETS
-#define TACTUS_CHUNK_TARGETS 128
-#endif
-
 namespace tactus {
 
 inline constexpr int kChunkTargets = TACTUS_CHUNK_TARGETS;

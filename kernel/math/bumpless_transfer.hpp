@@ -15,10 +15,6 @@
 #include "kernel/core/joint_limits.hpp"
 #include "kernel/core/verdict.hpp"
 
-#ifndef TACTUS_TUNING
-#define TACTUS_TUNING 1
-#endif
-
 namespace tactus {
 
 /// True if parameters may change while the pipeline runs.

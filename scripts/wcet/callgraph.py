@@ -7,6 +7,8 @@ without known targets, functions without a known frame. Heap calls are listed.
 import re
 import subprocess
 
+from wcet.kinds import as_written
+
 NODE = re.compile(r'node: \{ title: "([^"]*)" label: "([^"]*)"')
 EDGE = re.compile(r'edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"(?: label: "([^"]*)")?')
 FRAME = re.compile(r"(\d+) bytes \(([\w,]+)\)")
@@ -47,7 +49,7 @@ class CallGraph:
         names, edges = {}, []
         for line in open(file, encoding="utf-8"):
             if node := NODE.search(line):
-                written, *rest = node[2].split("\\n")
+                written, *rest = as_written(node[2]).split("\\n")
                 frame = FRAME.search(node[2])
                 if frame:
                     kind = "static" if "static" in frame[2] or "bounded" in frame[2] else frame[2]
@@ -130,4 +132,4 @@ def source_line(place):
 
 
 def readable(symbol):
-    return subprocess.run(["c++filt", symbol], capture_output=True, text=True, check=True).stdout.strip()
+    return as_written(subprocess.run(["c++filt", symbol], capture_output=True, text=True, check=True).stdout.strip())

@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 
 import tape
-from kinds import kinds
+from kinds import as_written, kinds
 
 CYCLE, ROWS, COLLISION = "cycle", "with rows", "collision"
 
@@ -45,7 +45,7 @@ def shares(stages, row):
 def symbols(image, nm="arm-none-eabi-nm"):
     """Returns {demangled name: address} of the functions of an image."""
     listing = subprocess.run([nm, "-C", image], check=True, capture_output=True, text=True).stdout
-    rows = (line.split(maxsplit=2) for line in listing.splitlines())
+    rows = (line.split(maxsplit=2) for line in as_written(listing).splitlines())
     return {row[2]: int(row[0], 16) for row in rows if len(row) == 3 and row[1] in "tTwW"}
 
 

@@ -9,6 +9,8 @@ import subprocess
 import capstone
 from elftools.elf.elffile import ELFFile
 
+from wcet.kinds import as_written
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOWHERE = 0xFFFFFFFF
 
@@ -129,9 +131,8 @@ def refuse_merged(elf, path):
 
 
 def demangled(symbols):
-    return subprocess.run(
-        ["c++filt"], input="\n".join(symbols), capture_output=True, text=True, check=True
-    ).stdout.splitlines()
+    run = subprocess.run(["c++filt"], input="\n".join(symbols), capture_output=True, text=True, check=True)
+    return as_written(run.stdout).splitlines()
 
 
 @functools.lru_cache(maxsize=None)

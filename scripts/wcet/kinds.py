@@ -1,4 +1,4 @@
-"""The classes of all kinds of blocks, by their type in a pipeline file."""
+"""Names of the kernel's classes: of blocks by their type in a pipeline file, and as the source writes them."""
 
 import pathlib
 import re
@@ -13,3 +13,8 @@ def kinds():
         for name, word in TYPE.findall(file.read_text(encoding="utf-8")):
             table[word] = name
     return table
+
+
+def as_written(names):
+    """Returns demangled names with the namespace as the source writes it: without robot and switches."""
+    return re.sub(r"\btactus_\w+::", "tactus::", names)

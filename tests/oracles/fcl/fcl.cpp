@@ -4,7 +4,7 @@
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/narrowphase/distance.h>
 
-namespace tactus {
+namespace fcl_oracle {
 namespace {
 
 fcl::Transform3d transform(const FclPlace& at) {
@@ -48,4 +48,4 @@ double fcl_distance(const FclCapsule& one, const FclPlace& at, const FclBox& box
   return distance(a, transform(one, at), b, transform(box_at));
 }
 
-}  // namespace tactus
+}  // namespace fcl_oracle

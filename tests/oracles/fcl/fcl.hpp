@@ -4,7 +4,7 @@
 // only these functions.
 #pragma once
 
-namespace tactus {
+namespace fcl_oracle {
 
 /// A frame in the base frame: origin, m, and rotation matrix row by row.
 struct FclPlace {
@@ -30,4 +30,8 @@ struct FclBox {
 [[gnu::visibility("default")]] double fcl_distance(const FclCapsule& one, const FclPlace& at,
                                                    const FclBox& box, const FclPlace& box_at);
 
-}  // namespace tactus
+}  // namespace fcl_oracle
+
+namespace tactus {
+using namespace fcl_oracle;  // the library is no robot's
+}
