@@ -150,7 +150,7 @@ bool RunLoop::cycle(const CycleTime& now) {
   unarmed_ = unarmed_ || (halted_ && session_.executive.rung() == Rung::kArming);
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
   commanded_ += commanded ? 1 : 0;
-  if (desk_ != nullptr) return served(status);
+  if (endpoint_ != nullptr) return served(status);
   if (status == Status::kArming && !halted_) return arm();
   for (int i = 0; i < result_.tracking_count && commanded; ++i)
     result_.tracking[static_cast<std::size_t>(i)].add();
@@ -163,8 +163,8 @@ bool RunLoop::cycle(const CycleTime& now) {
 
 /// True until a signal has come, and the arm is at rest and its drives are disabled.
 bool RunLoop::served(Status status) {
-  if (!halted_) desk_->work(status);
-  desk_->tell({began_ns_});
+  if (!halted_) endpoint_->work(status);
+  endpoint_->publish({began_ns_});
   armed_ = armed_ || commands(session_.executive.rung());
   return session_.executive.busy() || !halted_;
 }

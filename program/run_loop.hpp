@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "program/cycle_desk.hpp"
+#include "program/cycle_endpoint.hpp"
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
@@ -45,7 +45,7 @@ class RunLoop {
 
   /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
   /// only a signal does. [init]
-  void serve(CycleDesk& desk) { desk_ = &desk; }
+  void serve(CycleEndpoint& endpoint) { endpoint_ = &endpoint; }
   /// Lets the time that the executive is told go on by one period in every cycle, so that late ones
   /// are no fault. [init]
   void in_virtual_time() { virtual_ = true; }
@@ -110,7 +110,7 @@ class RunLoop {
   RunResult& result_;
   RunLength length_;
   GoalWatch goal_;
-  CycleDesk* desk_ = nullptr;  // of a server; null: none
+  CycleEndpoint* endpoint_ = nullptr;  // of a server; null: none
   bool virtual_ = false;
   std::int64_t virtual_ns_ = 0;
   std::int64_t began_ns_ = 0;  // the present cycle, by the monotonic clock, whatever triggers it

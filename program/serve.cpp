@@ -142,10 +142,10 @@ int finish(const Session& session, const Options& options, const RunLoop& loop,
 }  // namespace
 
 int serve(Session& session, const Options& options) {
-  static CycleMail mail;
+  static CycleMailboxes mailboxes;
   static ParameterBook parameters(session.pipeline);
   static Server server(setup_of(session, options, parameters), session.client, session.task_client,
-                       mail);
+                       mailboxes);
   static RunResult result;
   static TrajectoryInput input;  // a server follows none
   static Listener listener;
@@ -154,7 +154,7 @@ int serve(Session& session, const Options& options) {
   Address page_address;
   if (!read_page(options, page_address) || !listen(options, listener, key, where)) return kRefused;
   static ServerThread thread(server, listener, options.key[0] != '\0' ? &key : nullptr);
-  static PortMail ports;
+  static PortMailbox ports;
   static PageThread page(
       {session.board, stem(options.pipeline), session.pipeline, session.simulated}, thread, ports);
   TrajectoryFeed feed(session, input);
@@ -172,9 +172,9 @@ int serve(Session& session, const Options& options) {
     return kRefused;
   catch_interrupts();
   RunLoop loop(session, input, feed, watchdog, result, {});
-  CycleDesk desk(mail, session.executive, session.pipeline);
-  if (page.started()) desk.show(ports);
-  loop.serve(desk);
+  CycleEndpoint endpoint(mailboxes, session.executive, session.pipeline);
+  if (page.started()) endpoint.attach(ports);
+  loop.serve(endpoint);
   if (options.virtual_time) {
     session.executive.in_virtual_time();
     loop.in_virtual_time();

@@ -21,7 +21,7 @@ bool parse_page_address(std::string_view text, Address& address, Message& why);
 
 class PageThread {
  public:
-  PageThread(const PageSubject& subject, ServerThread& server, PortMail& ports)
+  PageThread(const PageSubject& subject, ServerThread& server, PortMailbox& ports)
       : subject_(subject), server_(server), ports_(ports) {}
   ~PageThread() { end(); }
   PageThread(const PageThread&) = delete;
@@ -45,7 +45,7 @@ class PageThread {
 
   PageSubject subject_;
   ServerThread& server_;
-  PortMail& ports_;
+  PortMailbox& ports_;
   News news_;
   PageLink link_;
   PageServer page_{link_, news_};

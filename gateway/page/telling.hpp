@@ -4,7 +4,7 @@
 #include "gateway/page/json.hpp"
 #include "gateway/page/news.hpp"
 #include "gateway/server/codec.hpp"
-#include "gateway/server/cycle_mail.hpp"
+#include "gateway/server/cycle_mailboxes.hpp"
 
 namespace tactus {
 

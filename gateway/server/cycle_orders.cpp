@@ -45,9 +45,9 @@ Reply CycleOrders::post(CycleOrder what, const Origin& from, std::uint32_t fault
   const auto free = std::find_if(orders_.begin(), orders_.end(), is_free);
   constexpr std::ptrdiff_t kForStops = 4;  // of the places, which no rearm may fill
   const bool space = what == CycleOrder::kStop ||
-                     (static_cast<std::ptrdiff_t>(mail_.orders.space()) > kForStops &&
+                     (static_cast<std::ptrdiff_t>(mailboxes_.orders.space()) > kForStops &&
                       std::count_if(orders_.begin(), orders_.end(), is_free) > kForStops);
-  if (free == orders_.end() || !space || !mail_.orders.post({next_, what, faults}))
+  if (free == orders_.end() || !space || !mailboxes_.orders.post({next_, what, faults}))
     return {Status::kMailboxFull, "the cycle has not yet taken the last orders; send it again"};
   *free = {next_, from, what};
   next_ += next_ == ~std::uint32_t{0} ? 2 : 1;
@@ -72,7 +72,7 @@ Reply CycleOrders::post_tare(const Origin& from, std::uint32_t faults) {
 
 void CycleOrders::take_results(double time_s, std::int64_t now_ns) {
   OrderResult result;
-  while (mail_.results.take(result)) {
+  while (mailboxes_.results.take(result)) {
     for (Order& order : orders_) {
       if (order.id == 0 || order.id != result.id) continue;
       const Verdict& verdict = result.verdict;

@@ -3,18 +3,18 @@
 #pragma once
 
 #include "gateway/server/clients.hpp"
-#include "gateway/server/cycle_mail.hpp"
+#include "gateway/server/cycle_mailboxes.hpp"
 #include "kernel/pipeline/only_block.hpp"
 
 namespace tactus {
 
 class CycleOrders {
  public:
-  CycleOrders(const References& references, const Pipeline& pipeline, CycleMail& mail,
+  CycleOrders(const References& references, const Pipeline& pipeline, CycleMailboxes& mailboxes,
               Clients& clients)
       : references_(references),
         pipeline_(pipeline),
-        mail_(mail),
+        mailboxes_(mailboxes),
         clients_(clients),
         front_end_(only_block<WrenchFrontEnd>(pipeline)) {}
 
@@ -41,7 +41,7 @@ class CycleOrders {
 
   const References& references_;
   const Pipeline& pipeline_;
-  CycleMail& mail_;
+  CycleMailboxes& mailboxes_;
   Clients& clients_;
   int front_end_;  // the block whose sensor can be tared; -1: there is none, or more than one
   std::array<Order, 16> orders_{};

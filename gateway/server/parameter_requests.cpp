@@ -46,7 +46,7 @@ Reply ParameterRequests::set(const tactus_Parameters& request, const Origin& fro
     book.drop();
     return {};
   }
-  if (!mail_.tunings.post({&book.tuning()})) {
+  if (!mailboxes_.tunings.post({&book.tuning()})) {
     book.drop();
     return {Status::kMailboxFull, "the cycle has not yet taken the last set; send it again"};
   }
@@ -105,7 +105,7 @@ void ParameterRequests::send_changes(std::int64_t now_ns) {
 
 void ParameterRequests::take_verdict(double time_s, std::int64_t now_ns) {
   TuningVerdict verdict;
-  if (!tuning_ || !mail_.tuned.take(verdict)) return;
+  if (!tuning_ || !mailboxes_.tuned.take(verdict)) return;
   tuning_ = false;
   const bool good = verdict.status == Status::kOk;
   Message text;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gateway/server/clients.hpp"
-#include "gateway/server/cycle_mail.hpp"
+#include "gateway/server/cycle_mailboxes.hpp"
 #include "kernel/load/parameter_book.hpp"
 
 namespace tactus {
@@ -11,9 +11,9 @@ namespace tactus {
 class ParameterRequests {
  public:
   /// `book` null: the parameters do not change while the pipeline runs.
-  ParameterRequests(ParameterBook* book, const Pipeline& pipeline, CycleMail& mail,
+  ParameterRequests(ParameterBook* book, const Pipeline& pipeline, CycleMailboxes& mailboxes,
                     Clients& clients)
-      : book_(book), pipeline_(pipeline), mail_(mail), clients_(clients) {}
+      : book_(book), pipeline_(pipeline), mailboxes_(mailboxes), clients_(clients) {}
 
   bool offered() const { return book_ != nullptr; }
   /// Number of sets that have taken effect.
@@ -31,7 +31,7 @@ class ParameterRequests {
 
   ParameterBook* book_;
   const Pipeline& pipeline_;
-  CycleMail& mail_;
+  CycleMailboxes& mailboxes_;
   Clients& clients_;
   bool tuning_ = false;  // a set is the cycle's
   Origin from_;

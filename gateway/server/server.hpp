@@ -1,11 +1,11 @@
 // Server: the requests of clients to a pipeline, and the messages to them. It has no sockets, so
 // that it runs in virtual time and takes any bytes: its caller passes the bytes of each connection
 // and the time, calls work(), and sends the bytes that wait. Runs outside the cycle, in one thread;
-// it shares the reference channels and CycleMail with the cycle, nothing else.
+// it shares the reference channels and CycleMailboxes with the cycle, nothing else.
 //
 //   connections --bytes--> messages --references--> ReferenceIntake --> reference channel
 //        ^                    |  ^---- lease          reports <------------'
-//        |                    '------ orders --> CycleMail --> executive
+//        |                    '------ orders --> CycleMailboxes --> executive
 //        '--- answers, reports, states <-------- snapshots, results
 #pragma once
 
@@ -35,14 +35,14 @@ struct ServerSetup {
 class Server {
  public:
   Server(const ServerSetup& setup, ReferenceClient<JointSpace>& joints,
-         ReferenceClient<TaskSpace>& poses, CycleMail& mail)
+         ReferenceClient<TaskSpace>& poses, CycleMailboxes& mailboxes)
       : setup_(setup),
         references_(*setup.loaded, joints, poses),
         clients_(references_, stops_, setup.log),
-        cycles_(setup.events, setup.hal, mail, references_, stops_, clients_),
+        cycles_(setup.events, setup.hal, mailboxes, references_, stops_, clients_),
         requests_(references_, *setup.loaded, cycles_, clients_),
-        parameters_(setup.parameters, *setup.loaded, mail, clients_),
-        orders_(references_, *setup.loaded, mail, clients_) {}
+        parameters_(setup.parameters, *setup.loaded, mailboxes, clients_),
+        orders_(references_, *setup.loaded, mailboxes, clients_) {}
 
   /// A client has connected; `session` is a number that cannot be guessed. Returns the slot of its
   /// connection, -1: there are too many.

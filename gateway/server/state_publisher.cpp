@@ -10,7 +10,7 @@ namespace tactus {
 
 void StatePublisher::take_snapshots(std::int64_t now_ns) {
   CycleSnapshot snapshot;
-  while (mail_.snapshots.take(snapshot)) {
+  while (mailboxes_.snapshots.take(snapshot)) {
     const auto from = static_cast<Rung>(newest_.rung), to = static_cast<Rung>(snapshot.rung);
     const bool changed = seen_ && from != to;
     if (seen_ && snapshot.faults != newest_.faults) stops_.add(StopCount::kNobody);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gateway/server/clients.hpp"
-#include "gateway/server/cycle_mail.hpp"
+#include "gateway/server/cycle_mailboxes.hpp"
 #include "gateway/server/generator_clock.hpp"
 #include "kernel/cycle/event_log.hpp"
 
@@ -12,11 +12,11 @@ namespace tactus {
 class StatePublisher {
  public:
   /// `events` null: nothing is sent about drives; `hal` explains their codes.
-  StatePublisher(const EventLog* events, const Hal* hal, CycleMail& mail, References& references,
-                 StopCount& stops, Clients& clients)
+  StatePublisher(const EventLog* events, const Hal* hal, CycleMailboxes& mailboxes,
+                 References& references, StopCount& stops, Clients& clients)
       : events_(events),
         hal_(hal),
-        mail_(mail),
+        mailboxes_(mailboxes),
         references_(references),
         stops_(stops),
         clients_(clients) {}
@@ -47,7 +47,7 @@ class StatePublisher {
 
   const EventLog* events_;
   const Hal* hal_;
-  CycleMail& mail_;
+  CycleMailboxes& mailboxes_;
   References& references_;
   StopCount& stops_;
   Clients& clients_;

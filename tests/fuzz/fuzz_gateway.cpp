@@ -14,13 +14,13 @@ struct World {
   ChannelMemory<TaskSpace> task_channel;
   std::array<std::array<Waypoint<JointSpace>, 16>, kStores> waypoints;
   RoomyPipeline pipeline;
-  CycleMail mail;
+  CycleMailboxes mailboxes;
   ReferenceClient<JointSpace> joints{channel};
   ReferenceClient<TaskSpace> poses{task_channel};
   ReferenceGenerator<JointSpace> generator;
   std::int64_t now_ns = kSecond_ns;
   bool stopped = false;
-  Server server{setup(), joints, poses, mail};
+  Server server{setup(), joints, poses, mailboxes};
 
   ServerSetup setup() {
     pipeline.takes_joints = true;
@@ -48,15 +48,15 @@ struct World {
     if (stopped) generator.brake(Status::kHalted, BrakeWay::kOnPath);
     MUST(generator.step(1e-3, generator.reference()) == Status::kOk);
     OrderMessage order;
-    if (mail.orders.take(order)) {
+    if (mailboxes.orders.take(order)) {
       if (order.order == CycleOrder::kStop) stopped = true;
-      MUST(mail.results.post({order.id}));
+      MUST(mailboxes.results.post({order.id}));
     }
     CycleSnapshot told;
     told.stamp_ns = now_ns;
     told.time_s = generator.time_s();
     told.rung = static_cast<std::uint8_t>(stopped ? Rung::kDisabled : Rung::kNominal);
-    static_cast<void>(mail.snapshots.post(told));
+    static_cast<void>(mailboxes.snapshots.post(told));
     server.work(now_ns);
     for (int slot = 0; slot < 2; ++slot) {
       const Bytes waiting = server.waiting(slot);

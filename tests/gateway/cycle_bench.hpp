@@ -4,7 +4,7 @@
 #pragma once
 
 #include "kernel/load/loader.hpp"
-#include "program/cycle_desk.hpp"
+#include "program/cycle_endpoint.hpp"
 #include "program/session/host_sections.hpp"
 #include "tests/gateway/client_bench.hpp"
 #include "tests/support/armed.hpp"
@@ -46,12 +46,12 @@ struct CycleBench : BenchClock {
   RoomyPipeline pipeline;
   HostSections sections;
   Executive executive{hal, pipeline};
-  CycleMail mail;
+  CycleMailboxes mailboxes;
   ReferenceClient<JointSpace> joints{channel};
   ReferenceClient<TaskSpace> poses{task_channel};
-  alignas(CycleDesk) std::array<std::byte, sizeof(CycleDesk)> desk_place;
+  alignas(CycleEndpoint) std::array<std::byte, sizeof(CycleEndpoint)> endpoint_place;
   alignas(Server) std::array<std::byte, sizeof(Server)> server_place;
-  CycleDesk* desk = nullptr;
+  CycleEndpoint* endpoint = nullptr;
   Server* server = nullptr;
 
   /// `blocks` are further ones.
@@ -72,8 +72,8 @@ struct CycleBench : BenchClock {
     setup.joint_window = kBenchWaypoints;
     setup.events = &executive.events();
     setup.hal = &hal;
-    desk = new (desk_place.data()) CycleDesk(mail, executive, pipeline);
-    server = new (server_place.data()) Server(setup, joints, poses, mail);
+    endpoint = new (endpoint_place.data()) CycleEndpoint(mailboxes, executive, pipeline);
+    server = new (server_place.data()) Server(setup, joints, poses, mailboxes);
     ASSERT_OK(start_armed(executive, 1'000'000, now_ns));
     cycle();
     server->work(now_ns);
@@ -81,8 +81,8 @@ struct CycleBench : BenchClock {
   /// One cycle, as RunLoop runs it for a server.
   void cycle() {
     now_ns += 1'000'000;
-    desk->work(executive.cycle({now_ns}));
-    desk->tell({now_ns});
+    endpoint->work(executive.cycle({now_ns}));
+    endpoint->publish({now_ns});
   }
   /// Connects a client that has said Hello.
   void welcome(TestClient& client, const char* name) {

@@ -32,7 +32,7 @@ struct ServerBench : BenchClock {
   std::optional<ParameterBook> book;  // made by setup()
   TuningVerdict refused_by_cycle;     // what the cycle says of sets; kOk: it takes them
   bool answers_sets = true;           // the cycle runs
-  CycleMail mail;
+  CycleMailboxes mailboxes;
   ReferenceClient<JointSpace> joints{channel};
   ReferenceClient<TaskSpace> poses{task_channel};
   ReferenceGenerator<JointSpace> generator;
@@ -41,7 +41,7 @@ struct ServerBench : BenchClock {
   std::uint32_t faults = 0;
   Status why = Status::kHalted;  // it is not nominal
   std::uint32_t cycles = 0;
-  Server server{setup(), joints, poses, mail};
+  Server server{setup(), joints, poses, mailboxes};
 
   /// Loads a pipeline of one law, whose parameters may change.
   ServerSetup setup() {
@@ -86,25 +86,25 @@ struct ServerBench : BenchClock {
     step();
     server.work(now_ns);
   }
-  /// One cycle as the executive runs it, with the mail of its thread.
+  /// One cycle as the executive runs it, with the mailboxes of its thread.
   void step() {
     now_ns += 1'000'000;
     ++cycles;
     if (refuses(rung)) generator.brake(Status::kHalted, BrakeWay::kOnPath);
     ASSERT_OK(generator.step(kPeriod_s, generator.reference()));
     OrderMessage order;
-    if (mail.orders.take(order)) {
+    if (mailboxes.orders.take(order)) {
       rung = order.order == CycleOrder::kStop ? Rung::kDisabled : Rung::kNominal;
       if (rung == Rung::kNominal)
         ASSERT_OK(generator.start(channel, params, generator.reference().stopped()));
-      mail.results.post({order.id});
+      mailboxes.results.post({order.id});
     }
     TuningMessage set;
-    if (answers_sets && mail.tunings.take(set)) {
+    if (answers_sets && mailboxes.tunings.take(set)) {
       const TuningVerdict verdict = refused_by_cycle.status == Status::kOk
                                         ? pipeline.retune(*set.tuning, false)
                                         : refused_by_cycle;
-      mail.tuned.post(verdict);
+      mailboxes.tuned.post(verdict);
     }
     CycleSnapshot told;
     told.stamp_ns = now_ns;
@@ -117,7 +117,7 @@ struct ServerBench : BenchClock {
     told.q = generator.reference().q;
     told.override = generator.motion_state().override;
     told.outputs = generator.outputs();
-    mail.snapshots.post(told);
+    mailboxes.snapshots.post(told);
   }
 };
 

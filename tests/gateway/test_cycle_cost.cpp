@@ -147,7 +147,7 @@ void the_mail_of_an_owner_costs_a_cycle_what_it_costs_without_seven_hostile_clie
   assert_true(owner.most > calm.most);
   for (std::size_t i = 0; i < kCycles; ++i)
     assert_int_equal(mixed.instructions[i], owner.instructions[i]);
-  print_message("instructions of a cycle: %ld without mail, %ld with as much as it takes\n",
+  print_message("instructions of a cycle: %ld without mailboxes, %ld with as much as it takes\n",
                 calm.most, owner.most);
 }
 

@@ -220,7 +220,7 @@ void a_collision_is_an_event_that_says_with_what(void**) {
   told.fault = told.status;
   told.first = "hand";
   told.second = "wall";
-  assert_true(two.bench.mail.snapshots.post(told));
+  assert_true(two.bench.mailboxes.snapshots.post(told));
   two.run(1);
   assert_string_equal(two.a.event, "stop: collision (77): hand with wall");
 }
@@ -234,7 +234,7 @@ void a_fault_of_a_joint_is_an_event_with_joint_value_and_limit(void**) {
   told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
   told.status = Status::kPathTolerance;
   told.fault = FaultVerdict({told.status, -1, 3, 0.25, 0.125});
-  assert_true(two.bench.mail.snapshots.post(told));
+  assert_true(two.bench.mailboxes.snapshots.post(told));
   two.run(1);
   const Line said = Line("stop: joint 4 (")
                     << Robot::kJointNames[3] << "): path error 0.25 rad exceeds 0.125 rad (49)";

@@ -1,5 +1,5 @@
 // Tests the cycle's end of the mailboxes between cycle and server.
-#include "program/cycle_desk.hpp"
+#include "program/cycle_endpoint.hpp"
 
 #include <cmath>
 #include <optional>
@@ -12,14 +12,14 @@
 namespace tactus {
 namespace {
 
-/// An executive of a pipeline without blocks, with a simulated arm, at its desk.
+/// An executive of a pipeline without blocks, with a simulated arm, at its endpoint.
 struct Bench {
   SimHal hal;
   RoomyPipeline pipeline;
   ChannelMemory<JointSpace> channel;
-  CycleMail mail;
+  CycleMailboxes mailboxes;
   Executive executive{hal, pipeline};
-  std::optional<CycleDesk> desk;
+  std::optional<CycleEndpoint> endpoint;
   std::int64_t now_ns = 0;
   std::uint32_t next = 1;
 
@@ -33,7 +33,7 @@ struct Bench {
     hal.set_period(1e-3);
     ASSERT_OK(hal.load(PlantParams(), 1));
     executive.in_virtual_time();
-    desk.emplace(mail, executive, pipeline);
+    endpoint.emplace(mailboxes, executive, pipeline);
     ASSERT_OK(executive.start());
     static_cast<void>(executive.arm());
   }
@@ -44,10 +44,10 @@ struct Bench {
   }
   void cycle() {
     now_ns += 1'000'000;
-    desk->work(executive.cycle({now_ns}));
-    desk->tell({now_ns});
+    endpoint->work(executive.cycle({now_ns}));
+    endpoint->publish({now_ns});
   }
-  bool post(CycleOrder order) { return mail.orders.post({next++, order}); }
+  bool post(CycleOrder order) { return mailboxes.orders.post({next++, order}); }
 };
 
 Bench& fresh() {
@@ -66,30 +66,30 @@ void a_cycle_takes_one_order_however_many_wait(void**) {
   while (bench.post(CycleOrder::kStop)) ++posted;
   assert_int_equal(posted, 8);
   for (int left = posted; left > 0; --left) {
-    assert_int_equal(bench.mail.orders.size(), left);
+    assert_int_equal(bench.mailboxes.orders.size(), left);
     bench.cycle();
   }
   bench.cycle();
-  assert_int_equal(bench.mail.orders.size(), 0);
-  assert_int_equal(bench.mail.results.size(), posted);
+  assert_int_equal(bench.mailboxes.orders.size(), 0);
+  assert_int_equal(bench.mailboxes.results.size(), posted);
 }
 
 void a_cycle_posts_one_snapshot_and_counts_those_without_space(void**) {
   Bench& bench = fresh();
   CycleSnapshot told;
-  while (bench.mail.snapshots.take(told)) {
+  while (bench.mailboxes.snapshots.take(told)) {
   }
   for (std::size_t i = 1; i <= 32; ++i) {
     bench.cycle();
-    assert_int_equal(bench.mail.snapshots.size(), i);
+    assert_int_equal(bench.mailboxes.snapshots.size(), i);
   }
   const std::uint32_t before = told.lost;
   for (int i = 0; i < 10; ++i) bench.cycle();
-  assert_int_equal(bench.mail.snapshots.size(), 32);
-  while (bench.mail.snapshots.take(told)) {
+  assert_int_equal(bench.mailboxes.snapshots.size(), 32);
+  while (bench.mailboxes.snapshots.take(told)) {
   }
   bench.cycle();
-  assert_true(bench.mail.snapshots.take(told));
+  assert_true(bench.mailboxes.snapshots.take(told));
   assert_true(told.lost >= before + 10);
   assert_int_equal(told.stamp_ns, bench.now_ns);
 }
@@ -102,7 +102,7 @@ void a_collision_is_told_with_what_it_is(void**) {
   CycleSnapshot told;
   for (int i = 0; i < 1000 && told.status != Status::kCollision; ++i) {
     bench.cycle();
-    while (bench.mail.snapshots.take(told)) {
+    while (bench.mailboxes.snapshots.take(told)) {
     }
   }
   ASSERT_STATUS(told.status, Status::kCollision);
@@ -122,7 +122,7 @@ void a_joint_that_does_not_stay_at_its_reference_is_told_with_value_and_limit(vo
   CycleSnapshot told;
   for (int i = 0; i < 1000 && told.status != Status::kPathTolerance; ++i) {
     bench.cycle();
-    while (bench.mail.snapshots.take(told)) {
+    while (bench.mailboxes.snapshots.take(told)) {
     }
   }
   const Verdict& fault = told.fault.verdict;
@@ -138,18 +138,18 @@ void orders_wait_while_nobody_takes_their_results(void**) {
     bench.post(CycleOrder::kStop);
     bench.cycle();
   }
-  assert_true(bench.mail.results.size() <= 16);
-  assert_int_equal(bench.mail.orders.size(), 8);
+  assert_true(bench.mailboxes.results.size() <= 16);
+  assert_int_equal(bench.mailboxes.orders.size(), 8);
   OrderResult result;
   std::uint32_t last = 0;
   for (int i = 0; i < 60; ++i) {
-    while (bench.mail.results.take(result)) {
+    while (bench.mailboxes.results.take(result)) {
       assert_int_equal(result.id, last + 1);  // every order once, in order
       last = result.id;
     }
     bench.cycle();
   }
-  assert_int_equal(bench.mail.orders.size(), 0);
+  assert_int_equal(bench.mailboxes.orders.size(), 0);
 }
 
 void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
@@ -158,12 +158,12 @@ void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
   bench.post(CycleOrder::kStop);
   for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
   assert_true(bench.executive.rung() == Rung::kDisabled);
-  assert_true(bench.mail.results.take(result));
+  assert_true(bench.mailboxes.results.take(result));
   ASSERT_OK(result.verdict.status);
   for (int i = 0; i < 3000 && bench.executive.busy(); ++i) bench.cycle();
   bench.post(CycleOrder::kRearm);
-  for (int i = 0; i < 3000 && bench.mail.results.size() == 0; ++i) bench.cycle();
-  assert_true(bench.mail.results.take(result));
+  for (int i = 0; i < 3000 && bench.mailboxes.results.size() == 0; ++i) bench.cycle();
+  assert_true(bench.mailboxes.results.take(result));
   ASSERT_OK(result.verdict.status);
   assert_int_equal(result.id, bench.next - 1);
   assert_true(bench.executive.rung() == Rung::kNominal);
@@ -182,19 +182,19 @@ void a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once(void**
   for (int i = 0; i < 100; ++i) bench.cycle();
   bench.post(CycleOrder::kTare);
   for (int i = 0; i < 50; ++i) bench.cycle();
-  assert_int_equal(bench.mail.results.size(), 0);
+  assert_int_equal(bench.mailboxes.results.size(), 0);
   for (int i = 0; i < 100; ++i) bench.cycle();
-  assert_int_equal(bench.mail.results.size(), 1);
+  assert_int_equal(bench.mailboxes.results.size(), 1);
   OrderResult result;
-  assert_true(bench.mail.results.take(result));
+  assert_true(bench.mailboxes.results.take(result));
   assert_int_equal(result.id, 1);
   ASSERT_OK(result.verdict.status);
   bench.post(CycleOrder::kStop);
   for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
-  assert_true(bench.mail.results.take(result));
+  assert_true(bench.mailboxes.results.take(result));
   bench.post(CycleOrder::kTare);
   bench.cycle();
-  assert_true(bench.mail.results.take(result));
+  assert_true(bench.mailboxes.results.take(result));
   assert_int_equal(result.id, 3);
   ASSERT_STATUS(result.verdict.status, Status::kHalted);
 }
@@ -203,9 +203,9 @@ void a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once(void**
 
 void the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for(void**) {
   Bench& bench = fresh();
-  static PortMail ports;
+  static PortMailbox ports;
   ports.divisor = 20;
-  bench.desk->show(ports);
+  bench.endpoint->attach(ports);
   PortValues told;
   std::uint32_t last = 0;
   for (int i = 0; i < 200; ++i) {
@@ -236,10 +236,10 @@ void a_set_is_taken_unless_the_arm_is_braked_or_armed(void**) {
   Tuning nothing;
   bool seen[kNames<Rung>.size()] = {};
   const auto verdict_now = [&] {
-    assert_true(bench.mail.tunings.post({&nothing}));
+    assert_true(bench.mailboxes.tunings.post({&nothing}));
     bench.cycle();
     TuningVerdict verdict;
-    assert_true(bench.mail.tuned.take(verdict));
+    assert_true(bench.mailboxes.tuned.take(verdict));
     seen[static_cast<std::size_t>(bench.executive.rung())] = true;
     return verdict.status;
   };
@@ -269,16 +269,16 @@ void a_cycle_takes_one_set_and_none_without_space_for_its_verdict(void**) {
   Bench& bench = fresh();
   Tuning nothing;
   for (int i = 0; i < 6; ++i) {
-    bench.mail.tunings.post({&nothing});
+    bench.mailboxes.tunings.post({&nothing});
     bench.cycle();
   }
-  assert_int_equal(bench.mail.tuned.size(), 2);
-  assert_int_equal(bench.mail.tunings.size(), 2);
+  assert_int_equal(bench.mailboxes.tuned.size(), 2);
+  assert_int_equal(bench.mailboxes.tunings.size(), 2);
   TuningVerdict verdict;
-  assert_true(bench.mail.tuned.take(verdict));
+  assert_true(bench.mailboxes.tuned.take(verdict));
   bench.cycle();
-  assert_int_equal(bench.mail.tuned.size(), 2);
-  assert_int_equal(bench.mail.tunings.size(), 1);
+  assert_int_equal(bench.mailboxes.tuned.size(), 2);
+  assert_int_equal(bench.mailboxes.tunings.size(), 1);
 }
 
 }  // namespace
