@@ -45,7 +45,7 @@ void write(const StateTold& told, Json& to) {
   to.string(write_seen({told.time.now_ns / kMillisecond_ns, state.stops}, seen), "seen");
   write_time(state.server_ns, told.time, to);
   const auto status = static_cast<Status>(state.status);
-  to.string(word<Rung>(state.rung), "rung").string(word<Phase>(state.phase), "phase");
+  to.string(word<Rung>(state.rung), "rung").string(word<MotionPhase>(state.phase), "phase");
   to.string(status == Status::kOk ? Message() : describe(status), "why");
   to.integer(state.epoch, "epoch").string(state.owner, "owner");
   to.number(state.override, "override").number(state.speed_scaling, "speed_scaling");

@@ -10,8 +10,8 @@
 namespace tactus::can {
 namespace {
 
+using cia402::ArmingPhase;
 using cia402::hex;
-using cia402::Phase;
 
 constexpr int kLostHeartbeats = 3;    // after which a node is lost
 constexpr int kMostUnanswered = 100;  // SYNCs whose feedback may come late, all at once
@@ -198,8 +198,9 @@ void CanMaster::write(const RobotCommand& command) {
 /// On the way up or down the controlwords go out in every cycle: a frame that was lost must not let
 /// a drive wait.
 void CanMaster::send_commands() {
-  const cia402::Phase phase = drives_.phase();
-  const bool on_its_way = phase != cia402::Phase::kOff && phase != cia402::Phase::kArmed;
+  const cia402::ArmingPhase phase = drives_.phase();
+  const bool on_its_way =
+      phase != cia402::ArmingPhase::kOff && phase != cia402::ArmingPhase::kArmed;
   bool changed = ++since_refresh_ >= PdoLayout::kRefresh || on_its_way;
   for (std::size_t j = 0; j < kDof; ++j)
     changed = changed || commands_[j].controlword != sent_[j].controlword;

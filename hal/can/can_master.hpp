@@ -70,7 +70,7 @@ class CanMaster {
   Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
   /// As Drives::to_home(). [init]
   Message to_home() const { return drives_.to_home(); }
-  cia402::Phase phase() const { return drives_.phase(); }
+  cia402::ArmingPhase phase() const { return drives_.phase(); }
   /// Frames that a cycle sends on a bus at most. [init]
   int cycle_frames(int bus) const;
 

@@ -68,7 +68,7 @@ void SdoClient::download_bytes(std::uint8_t node, std::uint16_t index, std::uint
   std::copy_n(bytes, size, data_.begin());
   size_ = size;
   if (size >= 1 && size <= kExpeditedBytes) return send_expedited();
-  phase_ = Phase::kWrite;
+  step_ = TransferStep::kWrite;
   CanFrame request = frame(kDownload | kSizeGiven);
   store(request.data, kDataAt, static_cast<std::uint32_t>(size));
   ask(request);
@@ -76,7 +76,7 @@ void SdoClient::download_bytes(std::uint8_t node, std::uint16_t index, std::uint
 
 /// Sends the whole object, of 1 to 4 bytes; those behind it are 0.
 void SdoClient::send_expedited() {
-  phase_ = Phase::kWrite;
+  step_ = TransferStep::kWrite;
   CanFrame request =
       frame(kDownload | kSizeGiven | kExpedited | unused(kExpeditedBytes, size_, kUnusedShift));
   store(request.data, kDataAt, load<std::uint32_t>(data_, 0));
@@ -87,7 +87,7 @@ void SdoClient::send_expedited() {
 void SdoClient::upload(std::uint8_t node, std::uint16_t index, std::uint8_t sub,
                        std::int64_t now_ns) {
   begin(node, index, sub, now_ns);
-  phase_ = Phase::kRead;
+  step_ = TransferStep::kRead;
   ask(frame(kUpload));
 }
 
@@ -116,19 +116,19 @@ void SdoClient::receive(const CanFrame& answer, std::int64_t now_ns) {
 void SdoClient::take_answer(const CanFrame& answer) {
   if (specifier(answer) == kAbort)
     return end(static_cast<SdoAbort>(load<std::uint32_t>(answer.data, kDataAt)), Cause::kNode);
-  switch (phase_) {
-    case Phase::kNone: break;
-    case Phase::kWrite: return take_downloaded(answer);
-    case Phase::kWriteSegment: return take_segment_downloaded(answer);
-    case Phase::kRead: return take_uploaded(answer);
-    case Phase::kReadSegment: return take_segment_uploaded(answer);
+  switch (step_) {
+    case TransferStep::kNone: break;
+    case TransferStep::kWrite: return take_downloaded(answer);
+    case TransferStep::kWriteSegment: return take_segment_downloaded(answer);
+    case TransferStep::kRead: return take_uploaded(answer);
+    case TransferStep::kReadSegment: return take_segment_uploaded(answer);
   }
 }
 
 /// Every answer but a segment names its object. One on another object is late, or repeated by the
 /// bus, or the answer to somebody else.
 bool SdoClient::names_object(const CanFrame& answer) const {
-  const bool segments = phase_ == Phase::kReadSegment || phase_ == Phase::kWriteSegment;
+  const bool segments = step_ == TransferStep::kReadSegment || step_ == TransferStep::kWriteSegment;
   const bool segment =
       specifier(answer) == kSegmentUploaded || specifier(answer) == kSegmentDownloaded;
   return !(segments && segment);
@@ -158,7 +158,7 @@ void SdoClient::send_segment() {
     request.data[1 + i] = data_[sent_ + i];
   }
   sent_ += bytes;
-  phase_ = Phase::kWriteSegment;
+  step_ = TransferStep::kWriteSegment;
   ask(request);
 }
 
@@ -185,7 +185,7 @@ void SdoClient::take_uploaded(const CanFrame& answer) {
   }
   announced_ = size_known_ ? load<std::uint32_t>(answer.data, kDataAt) : 0;
   if (announced_ > kCapacity) return give_up(SdoAbort::kOutOfMemory);
-  phase_ = Phase::kReadSegment;
+  step_ = TransferStep::kReadSegment;
   ask_for_segment();
 }
 
@@ -225,12 +225,12 @@ void SdoClient::advance(std::int64_t now_ns) {
 
 void SdoClient::finish() {
   progress_ = Progress::kDone;
-  phase_ = Phase::kNone;
+  step_ = TransferStep::kNone;
 }
 
 void SdoClient::end(SdoAbort why, Cause cause) {
   progress_ = Progress::kAborted;
-  phase_ = Phase::kNone;
+  step_ = TransferStep::kNone;
   abort_ = why;
   cause_ = cause;
   has_request_ = false;

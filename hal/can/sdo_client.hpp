@@ -72,7 +72,7 @@ class SdoClient {
   Message describe() const;
 
  private:
-  enum class Phase : std::uint8_t { kNone, kWrite, kWriteSegment, kRead, kReadSegment };
+  enum class TransferStep : std::uint8_t { kNone, kWrite, kWriteSegment, kRead, kReadSegment };
   /// Why a transfer is aborted: by the node, for its answer, for its silence, for the time of the
   /// whole, for the value to write.
   enum class Cause : std::uint8_t { kNode, kAnswer, kSilence, kTime, kValue };
@@ -96,7 +96,7 @@ class SdoClient {
 
   SdoTimes times_;
   Progress progress_ = Progress::kIdle;
-  Phase phase_ = Phase::kNone;
+  TransferStep step_ = TransferStep::kNone;
   SdoAbort abort_ = SdoAbort::kNone;
   Cause cause_ = Cause::kNode;
   std::uint8_t node_ = 0, sub_ = 0;

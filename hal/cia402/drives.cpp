@@ -54,7 +54,7 @@ void Drives::set_velocity_units(const JointVector& units) {
 
 Status Drives::attach(CommandMode mode, const Feedbacks& feedbacks, Message& why) {
   mode_ = mode;
-  phase_ = Phase::kOff;
+  phase_ = ArmingPhase::kOff;
   failure_ = {};
   moved_ = -1;
   for (int j = 0; j < kDof; ++j) TRY(attach_joint(j, feedbacks[static_cast<std::size_t>(j)], why));
@@ -221,9 +221,9 @@ void Drives::fail(int joint, Status reason, std::uint32_t code, const char* what
   if (failed.reason != Status::kOk) return;
   failed.reason = reason;
   failed.code = code;
-  if (phase_ == Phase::kFailed) return;
+  if (phase_ == ArmingPhase::kFailed) return;
   const std::uint16_t seen = rising() ? failed.last.statusword : 0;
-  phase_ = Phase::kFailed;
+  phase_ = ArmingPhase::kFailed;
   failure_ = {joint, code, seen, what, detail, rest, figures != nullptr, {}};
   if (figures != nullptr) failure_.figures = *figures;
 }
@@ -236,7 +236,7 @@ bool Drives::follows(const RobotCommand& command) {
     const double sum = command.value[j] + command.dq_ff[j] + command.tau_ff[j];
     if (!(sum - sum == 0.0)) fail(j, Status::kCommandNotFinite, 0, "its command is not finite");
   }
-  return phase_ == Phase::kArmed;
+  return phase_ == ArmingPhase::kArmed;
 }
 
 /// Before the drives are enabled the targets are those that move nothing: where the joints are, and
@@ -314,12 +314,12 @@ Drive Drives::drive_of(const Joint& joint) const {
       joint.last.torque == kLargestTorque || joint.last.torque == kSmallestTorque;
   const State shown = state_of(joint.last.statusword);
   const bool heard = joint.missed <= settings_->max_missed;
-  const bool unharmed = phase_ == Phase::kFailed && joint.reason == Status::kOk && heard &&
+  const bool unharmed = phase_ == ArmingPhase::kFailed && joint.reason == Status::kOk && heard &&
                         shown == State::kOperationEnabled;
   drive.valid = heard && !saturated;
   drive.warns = heard && shown != State::kFault && (joint.last.statusword & kWarning) != 0;
   drive.code = joint.last.error_code;
-  if (phase_ == Phase::kArmed || unharmed) {
+  if (phase_ == ArmingPhase::kArmed || unharmed) {
     drive.state = DriveState::kEnabled;
   } else if (enabled() || rising()) {
     drive.state = DriveState::kArming;
@@ -331,7 +331,7 @@ Drive Drives::drive_of(const Joint& joint) const {
     drive.state = DriveState::kFault;
     drive.reason = Status::kDriveFault;
   } else {
-    const bool off = phase_ == Phase::kOff || joint.machine.reached();
+    const bool off = phase_ == ArmingPhase::kOff || joint.machine.reached();
     drive.state = off ? DriveState::kDisabled : DriveState::kStopping;
   }
   return drive;

@@ -28,7 +28,7 @@ inline Message joint_text(int joint) {
   return text;
 }
 
-enum class Phase : std::uint8_t {
+enum class ArmingPhase : std::uint8_t {
   kOff,
   kSwitchingOn,  ///< faults are cleared; no torque
   kHoming,       ///< of one drive, alone; the brakes of the others are closed
@@ -75,7 +75,7 @@ class Drives {
   /// Takes the answer to request(): what was read, or why it was not done. [cyclic]
   void answer(std::uint32_t value, const ObjectRefusal& refused = {});
   /// True if no drive has power any more, as far as is known. [cyclic]
-  bool off() const { return phase_ == Phase::kOff; }
+  bool off() const { return phase_ == ArmingPhase::kOff; }
   /// True if the drive of a joint, from 0, has shown in kConfirming samples in a row that it is
   /// disabled, as requested: a single statusword may predate the request. [cyclic]
   bool confirmed(int joint) const {
@@ -93,7 +93,7 @@ class Drives {
 
   /// Fills in positions, velocities, torques, their stamp and the drives. [cyclic]
   void show(RobotState& state) const;
-  Phase phase() const { return phase_; }
+  ArmingPhase phase() const { return phase_; }
   /// The last fault in words, with its joint. [between two cycles]
   Message why() const;
 
@@ -139,9 +139,13 @@ class Drives {
   void judge(int j);
   void judge_hold(int j);
   void judge_belief(int j);
-  bool enabled() const { return phase_ == Phase::kReleasing || phase_ == Phase::kArmed; }
-  bool rising() const { return phase_ >= Phase::kSwitchingOn && phase_ <= Phase::kEnabling; }
-  bool homes(int j) const { return phase_ == Phase::kHoming && j == homing_.joint; }
+  bool enabled() const {
+    return phase_ == ArmingPhase::kReleasing || phase_ == ArmingPhase::kArmed;
+  }
+  bool rising() const {
+    return phase_ >= ArmingPhase::kSwitchingOn && phase_ <= ArmingPhase::kEnabling;
+  }
+  bool homes(int j) const { return phase_ == ArmingPhase::kHoming && j == homing_.joint; }
   bool operates(int j) const { return enabled() || (homes(j) && homing_.operates()); }
   Drive drive_of(const Joint& joint) const;
   bool follows(const RobotCommand& command);
@@ -161,7 +165,7 @@ class Drives {
   void judge_rise();
   void judge_time();
   void judge_steadiness();
-  void enter(Phase phase, std::int64_t now_ns);
+  void enter(ArmingPhase phase, std::int64_t now_ns);
   void ask(int joint, const Object& object);
   void tell(int joint, const Object& object, std::int8_t value);
   void judge_mode(std::uint32_t value, const ObjectRefusal& refused);
@@ -179,7 +183,7 @@ class Drives {
   const Cia402Settings* settings_ = nullptr;
   double period_s_ = 1.0;
   CommandMode mode_ = CommandMode::kEffort;
-  Phase phase_ = Phase::kOff;
+  ArmingPhase phase_ = ArmingPhase::kOff;
   std::int64_t since_ns_ = 0;  // in this phase; in kSwitchingOn, with all drives switched on
   std::array<Joint, kDof> joints_;
   HoldEffort hold_;

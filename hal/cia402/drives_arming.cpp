@@ -11,18 +11,18 @@ namespace tactus::cia402 {
 
 void Drives::step(const RobotCommand& command, DriveCommands& out, std::int64_t now_ns) {
   take(command.request);
-  const bool follow = phase_ == Phase::kArmed && command.request == DriveRequest::kFollow;
+  const bool follow = phase_ == ArmingPhase::kArmed && command.request == DriveRequest::kFollow;
   if (follow && !follows(command)) take(DriveRequest::kArm);  // failed: stops now
   set_controlwords(out, now_ns);
   judge_rise();
   judge_time();
-  if (phase_ == Phase::kHoming) home(now_ns);
-  if (phase_ == Phase::kFailed) set_controlwords(out, now_ns);
-  following_ = follow && phase_ == Phase::kArmed;
+  if (phase_ == ArmingPhase::kHoming) home(now_ns);
+  if (phase_ == ArmingPhase::kFailed) set_controlwords(out, now_ns);
+  following_ = follow && phase_ == ArmingPhase::kArmed;
   set_target(command, following_, out);
   count_confirmations();
   advance(now_ns);
-  if (phase_ != Phase::kReleasing && phase_ != Phase::kHoming) request_ = {};
+  if (phase_ != ArmingPhase::kReleasing && phase_ != ArmingPhase::kHoming) request_ = {};
 }
 
 void Drives::count_confirmations() {
@@ -48,9 +48,9 @@ void Drives::set_controlwords(DriveCommands& out, std::int64_t now_ns) {
 /// A fault stays until the drives are requested to be disabled; only then they can be armed again.
 void Drives::take(DriveRequest request) {
   if (request == DriveRequest::kDisable) {
-    if (phase_ != Phase::kOff) phase_ = Phase::kStopping;
-  } else if (phase_ == Phase::kOff) {
-    phase_ = Phase::kSwitchingOn;
+    if (phase_ != ArmingPhase::kOff) phase_ = ArmingPhase::kStopping;
+  } else if (phase_ == ArmingPhase::kOff) {
+    phase_ = ArmingPhase::kSwitchingOn;
     since_ns_ = -1;
     rise_left_ = most_rise_;
     homing_.homed = 0;
@@ -78,19 +78,19 @@ bool Drives::ready(int j) {
          " rad from there ([cia402] hold_tolerance is ",
          " rad), and would move on; mend the cause, then start the program anew", &figures);
   }
-  return phase_ != Phase::kFailed;
+  return phase_ != ArmingPhase::kFailed;
 }
 
 Goal Drives::goal() const {
   switch (phase_) {
-    case Phase::kSwitchingOn:
-    case Phase::kHoming: return Goal::kSwitchedOn;
-    case Phase::kEnabling:
-    case Phase::kReleasing:
-    case Phase::kArmed: return Goal::kOperationEnabled;
-    case Phase::kOff:
-    case Phase::kStopping:
-    case Phase::kFailed: break;
+    case ArmingPhase::kSwitchingOn:
+    case ArmingPhase::kHoming: return Goal::kSwitchedOn;
+    case ArmingPhase::kEnabling:
+    case ArmingPhase::kReleasing:
+    case ArmingPhase::kArmed: return Goal::kOperationEnabled;
+    case ArmingPhase::kOff:
+    case ArmingPhase::kStopping:
+    case ArmingPhase::kFailed: break;
   }
   return Goal::kDisabled;
 }
@@ -128,7 +128,7 @@ void Drives::judge_time() {
     joints.tick();
     if (!joints_[static_cast<std::size_t>(j)].machine.reached()) late = j;
   }
-  if (phase_ == Phase::kHoming) late = homing_.joint;
+  if (phase_ == ArmingPhase::kHoming) late = homing_.joint;
   if (late < 0) return;
   const Joint& joint = joints_[static_cast<std::size_t>(late)];
   fail(late, Status::kArmingTime, joint.last.error_code,
@@ -139,7 +139,7 @@ void Drives::judge_time() {
 bool Drives::all_reached() const {
   bool all = true;
   for (const Joint& joint : joints_) {
-    const bool gone = phase_ == Phase::kStopping && joint.last.lost != Status::kOk;
+    const bool gone = phase_ == ArmingPhase::kStopping && joint.last.lost != Status::kOk;
     all &= joint.machine.reached() || gone;
   }
   return all;
@@ -158,40 +158,40 @@ void Drives::judge_steadiness() {
 /// Goes to the next phase when all drives have done the present one.
 void Drives::advance(std::int64_t now_ns) {
   switch (phase_) {
-    case Phase::kSwitchingOn:
+    case ArmingPhase::kSwitchingOn:
       if (!all_reached() || since_ns_ < 0) since_ns_ = now_ns;
       if (all_reached() && steady_ >= kSteady) go_up(now_ns);
       if (now_ns - since_ns_ > settings_->step_ms * kMillisecond_ns && rising()) judge_steadiness();
       break;
-    case Phase::kEnabling:
-      if (all_reached()) enter(Phase::kReleasing, now_ns);
+    case ArmingPhase::kEnabling:
+      if (all_reached()) enter(ArmingPhase::kReleasing, now_ns);
       break;
-    case Phase::kReleasing:
+    case ArmingPhase::kReleasing:
       // To the nearest cycle: a wake-up some microseconds early must not cost a whole one.
       if (now_ns - since_ns_ + half_period_ns() >= settings_->held_ms() * kMillisecond_ns &&
           checked_ == kDof)
-        enter(Phase::kArmed, now_ns);
+        enter(ArmingPhase::kArmed, now_ns);
       break;
-    case Phase::kStopping:
-      if (all_reached()) enter(Phase::kOff, now_ns);
+    case ArmingPhase::kStopping:
+      if (all_reached()) enter(ArmingPhase::kOff, now_ns);
       break;
-    case Phase::kOff:
-    case Phase::kHoming:
-    case Phase::kArmed:
-    case Phase::kFailed: break;
+    case ArmingPhase::kOff:
+    case ArmingPhase::kHoming:
+    case ArmingPhase::kArmed:
+    case ArmingPhase::kFailed: break;
   }
 }
 
-void Drives::enter(Phase phase, std::int64_t now_ns) {
+void Drives::enter(ArmingPhase phase, std::int64_t now_ns) {
   phase_ = phase;
   since_ns_ = now_ns;
-  if (phase == Phase::kOff)
+  if (phase == ArmingPhase::kOff)
     for (Joint& joint : joints_) joint.reason = Status::kOk;
-  if (phase == Phase::kReleasing) {
+  if (phase == ArmingPhase::kReleasing) {
     checked_ = 0;
     ask(0, kModeDisplay);
   }
-  if (phase != Phase::kEnabling) return;
+  if (phase != ArmingPhase::kEnabling) return;
   for (int j = 0; j < kDof; ++j) held_[j] = joints_[static_cast<std::size_t>(j)].q;
   hold_.start(held_);
 }
@@ -206,8 +206,8 @@ void Drives::tell(int joint, const Object& object, std::int8_t value) {
 
 void Drives::answer(std::uint32_t value, const ObjectRefusal& refused) {
   request_ = {};
-  if (phase_ == Phase::kReleasing) return judge_mode(value, refused);
-  if (phase_ != Phase::kHoming) return;
+  if (phase_ == ArmingPhase::kReleasing) return judge_mode(value, refused);
+  if (phase_ != ArmingPhase::kHoming) return;
   if (refused.status != Status::kOk)
     return fail(homing_.joint, refused.status, 0, homing_.refused_text(), refused.why);
   homing_.answered = true;
@@ -255,7 +255,7 @@ void Drives::go_up(std::int64_t now_ns) {
     joints.tick();
     if (!ready(j) || !judge_place(j)) return;
   }
-  enter(Phase::kEnabling, now_ns);
+  enter(ArmingPhase::kEnabling, now_ns);
 }
 
 /// A drive is homed once in an arming: then it must show its reference, within `step_ms`.
@@ -271,7 +271,7 @@ void Drives::begin_homing(int j, std::int64_t now_ns) {
   }
   homing_.homed |= bit;
   homing_.joint = j;
-  enter(Phase::kHoming, now_ns);
+  enter(ArmingPhase::kHoming, now_ns);
   enter(referenced(j) ? Homing::Step::kReturn : Homing::Step::kSelect, now_ns);
 }
 
@@ -341,7 +341,7 @@ void Drives::judge_display(Mode wanted, Homing::Step next, std::int64_t now_ns) 
   if (homing_.shown == wanted && next != Homing::Step::kReturned) return enter(next, now_ns);
   if (homing_.shown == wanted) {
     joints_[static_cast<std::size_t>(homing_.joint)].homes = false;
-    return enter(Phase::kSwitchingOn, now_ns);
+    return enter(ArmingPhase::kSwitchingOn, now_ns);
   }
   homing_.answered = false;
   ask(homing_.joint, kModeDisplay);

@@ -17,9 +17,9 @@ constexpr int kMostWrong = 9999;  // more are not counted
 
 }  // namespace
 
-void CoeClient::begin(Phase phase, std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
-                      std::int64_t now_ns) {
-  phase_ = phase;
+void CoeClient::begin(TransferStep step, std::size_t out_bytes, std::uint16_t index,
+                      std::uint8_t sub, std::int64_t now_ns) {
+  step_ = step;
   progress_ = Progress::kBusy;
   abort_ = SdoAbort::kNone;
   room_ = out_bytes > kCoeBody ? out_bytes - kCoeBody : 0;
@@ -38,7 +38,7 @@ void CoeClient::upload(std::size_t out_bytes, std::uint16_t index, std::uint8_t 
                        std::int64_t now_ns) {
   data_.fill(0);
   size_ = 0;
-  begin(Phase::kRead, out_bytes, index, sub, now_ns);
+  begin(TransferStep::kRead, out_bytes, index, sub, now_ns);
 }
 
 void CoeClient::download(std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
@@ -53,14 +53,14 @@ void CoeClient::download_bytes(std::size_t out_bytes, std::uint16_t index, std::
   data_.fill(0);
   size_ = std::min(size, kCapacity);
   std::memcpy(data_.data(), bytes, size_);
-  begin(Phase::kWrite, out_bytes, index, sub, now_ns);
+  begin(TransferStep::kWrite, out_bytes, index, sub, now_ns);
   if (size > kCapacity) fail(SdoAbort::kTooLong);
 }
 
 void CoeClient::end(Progress progress, SdoAbort abort) {
   progress_ = progress;
   abort_ = abort;
-  phase_ = Phase::kNone;
+  step_ = TransferStep::kNone;
   to_send_ = false;
 }
 
@@ -82,11 +82,11 @@ std::size_t CoeClient::write_body(std::uint8_t* body) {
   const auto toggled = static_cast<unsigned>(toggle_ ? can::kToggleBit : 0);
   put(body + 1, index_);
   body[3] = sub_;
-  switch (phase_) {
-    case Phase::kNone: break;
-    case Phase::kRead: body[0] = can::kUpload; break;
-    case Phase::kReadSegment: put<std::uint32_t>(body, can::kUploadSegment | toggled); break;
-    case Phase::kWrite: {
+  switch (step_) {
+    case TransferStep::kNone: break;
+    case TransferStep::kRead: body[0] = can::kUpload; break;
+    case TransferStep::kReadSegment: put<std::uint32_t>(body, can::kUploadSegment | toggled); break;
+    case TransferStep::kWrite: {
       if (size_ <= can::kExpeditedBytes) {
         const auto unused = static_cast<unsigned>(can::kExpeditedBytes - size_);
         body[0] = static_cast<std::uint8_t>(can::kDownload | can::kExpedited | can::kSizeGiven |
@@ -101,7 +101,7 @@ std::size_t CoeClient::write_body(std::uint8_t* body) {
       std::memcpy(body + kSdoBody, data_.data(), done_);
       return kSdoBody + done_;
     }
-    case Phase::kWriteSegment: {
+    case TransferStep::kWriteSegment: {
       const std::size_t size = std::min(left, room_ - 1);
       const auto unused = static_cast<unsigned>(size < kLeastSegment ? kLeastSegment - size : 0);
       const unsigned last = size == left ? can::kLastSegment : 0U;
@@ -161,25 +161,25 @@ void CoeClient::take_answer(const std::uint8_t* body, std::size_t size) {
     if (!names) return ignore(kOther);
     return fail(static_cast<SdoAbort>(get<std::uint32_t>(body + kSdoHead)));
   }
-  switch (phase_) {
-    case Phase::kNone: return;
-    case Phase::kRead:
+  switch (step_) {
+    case TransferStep::kNone: return;
+    case TransferStep::kRead:
       if (!names) return ignore(kOther);
       return specifier == can::kUploaded ? take_upload(body, size) : fail(SdoAbort::kCommand);
-    case Phase::kReadSegment:
+    case TransferStep::kReadSegment:
       return specifier == can::kSegmentUploaded ? take_segment(body, size)
                                                 : fail(SdoAbort::kCommand);
-    case Phase::kWrite:
+    case TransferStep::kWrite:
       if (!names) return ignore(kOther);
       if (specifier != can::kDownloaded) return fail(SdoAbort::kCommand);
       break;
-    case Phase::kWriteSegment:
+    case TransferStep::kWriteSegment:
       if (specifier != can::kSegmentDownloaded) return fail(SdoAbort::kCommand);
       if (((command & can::kToggleBit) != 0) != toggle_) return fail(SdoAbort::kToggle);
       toggle_ = !toggle_;
   }
   if (done_ == size_) return end(Progress::kDone, SdoAbort::kNone);
-  phase_ = Phase::kWriteSegment;
+  step_ = TransferStep::kWriteSegment;
   to_send_ = true;
 }
 
@@ -197,7 +197,7 @@ void CoeClient::take_upload(const std::uint8_t* body, std::size_t size) {
   done_ = std::min(size - kSdoBody, size_);
   std::memcpy(data_.data(), body + kSdoBody, done_);
   if (done_ == size_) return end(Progress::kDone, SdoAbort::kNone);
-  phase_ = Phase::kReadSegment;
+  step_ = TransferStep::kReadSegment;
   to_send_ = true;
 }
 

@@ -59,9 +59,9 @@ class CoeClient {
   Message describe() const;
 
  private:
-  enum class Phase : std::uint8_t { kNone, kRead, kReadSegment, kWrite, kWriteSegment };
+  enum class TransferStep : std::uint8_t { kNone, kRead, kReadSegment, kWrite, kWriteSegment };
 
-  void begin(Phase phase, std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
+  void begin(TransferStep step, std::size_t out_bytes, std::uint16_t index, std::uint8_t sub,
              std::int64_t now_ns);
   void end(Progress progress, can::SdoAbort abort);
   void ignore(const char* why);
@@ -72,7 +72,7 @@ class CoeClient {
   void take_segment(const std::uint8_t* body, std::size_t size);
 
   Progress progress_ = Progress::kIdle;
-  Phase phase_ = Phase::kNone;
+  TransferStep step_ = TransferStep::kNone;
   can::SdoAbort abort_ = can::SdoAbort::kNone;
   std::int64_t answer_ns_ = 500'000'000, heard_ns_ = 0;
   bool to_send_ = false, toggle_ = false, silent_ = false, too_large_ = false;
@@ -111,7 +111,7 @@ class MailboxPort {
   explicit MailboxPort(CoeClient& client) : client_(client) {}
 
   void reset() {
-    phase_ = Phase::kIdle;
+    access_ = Access::kIdle;
     done_ = 0;
   }
   /// Returns the next datagram to the slave, with at most `room` bytes of data, which are
@@ -121,17 +121,17 @@ class MailboxPort {
       Request write(Command::kFpwr, address_of(boxes.station, boxes.out),
                     std::min<std::size_t>(boxes.out_bytes, room));
       if (client_.take(write.data.data(), write.kept(), boxes.counter)) {
-        phase_ = Phase::kWrites;
+        access_ = Access::kWrite;
         asked_ = write.size;
         return write;
       }
     }
     const std::uint16_t station = boxes.station;
-    if (phase_ == Phase::kWrites)
+    if (access_ == Access::kWrite)
       return part(Command::kFpwr, station, boxes.out, boxes.out_bytes, room);
-    if (phase_ == Phase::kFull)
+    if (access_ == Access::kRead)
       return part(Command::kFprd, station, boxes.in, boxes.in_bytes, room);
-    phase_ = Phase::kAsks;
+    access_ = Access::kPoll;
     constexpr auto kStatus = static_cast<std::uint16_t>(kSmReg + kSmBytes + 5);
     return Request(Command::kFprd, address_of(station, kStatus), 1);
   }
@@ -140,29 +140,29 @@ class MailboxPort {
   bool take(const Mailboxes& boxes, const Answer& answer, can::Emergency& emergency,
             std::int64_t now_ns) {
     const bool good = answer.data != nullptr && answer.counter == 1;
-    const Phase phase = phase_;
+    const Access access = access_;
     const std::size_t before = done_;
     reset();
     if (!good) return false;
-    if (phase == Phase::kAsks && (answer.data[0] & kSmFull) != 0) phase_ = Phase::kFull;
-    if (phase != Phase::kWrites && phase != Phase::kFull) return false;
-    if (phase == Phase::kFull && before == 0)
+    if (access == Access::kPoll && (answer.data[0] & kSmFull) != 0) access_ = Access::kRead;
+    if (access != Access::kWrite && access != Access::kRead) return false;
+    if (access == Access::kRead && before == 0)
       std::memcpy(message_.data(), answer.data, std::min(asked_, message_.size()));
-    const std::size_t bytes = phase == Phase::kFull ? boxes.in_bytes : boxes.out_bytes;
+    const std::size_t bytes = access == Access::kRead ? boxes.in_bytes : boxes.out_bytes;
     if (before + asked_ < bytes) {
-      phase_ = phase;
+      access_ = access;
       done_ = before + asked_;
       return false;
     }
-    return phase == Phase::kFull &&
+    return access == Access::kRead &&
            client_.receive(message_.data(), boxes.in_bytes, emergency, now_ns);
   }
   /// True if the slave has a message that next() is going to read, or a mailbox is accessed in
   /// part. [any]
-  bool busy() const { return phase_ == Phase::kFull || done_ > 0; }
+  bool busy() const { return access_ == Access::kRead || done_ > 0; }
 
  private:
-  enum class Phase : std::uint8_t { kIdle, kWrites, kAsks, kFull };
+  enum class Access : std::uint8_t { kIdle, kWrite, kPoll, kRead };
 
   /// The rest of a mailbox.
   Request part(Command command, std::uint16_t station, std::uint16_t start, std::size_t bytes,
@@ -172,7 +172,7 @@ class MailboxPort {
   }
 
   CoeClient& client_;
-  Phase phase_ = Phase::kIdle;
+  Access access_ = Access::kIdle;
   std::size_t asked_ = 0, done_ = 0;  // bytes of the mailbox: of the last datagram, and before it
   std::array<std::uint8_t, CoeClient::kMostMessage> message_{};  // that is being read
 };

@@ -19,7 +19,7 @@ Status EthercatMaster::configure(const EthercatSettings& ethercat,
   drive_ = &drive;
   mode_ = mode;
   period_us_ = period_us;
-  phase_ = Phase::kOff;
+  state_ = MasterState::kOff;
   TRY(judge_places());
   TRY(judge_times());
   return drives_.configure(drive, tool, period_us, arming_ms, why_);
@@ -65,7 +65,7 @@ Status EthercatMaster::judge_times() {
 
 void EthercatMaster::connect(const std::uint8_t* source, std::int64_t now_ns) {
   why_ = {};
-  phase_ = Phase::kStartsUp;
+  state_ = MasterState::kStartingUp;
   now_ns_ = -1;
   has_out_ = arrived_ = own_extra_ = stops_ = false;
   steady_ = cycles_ = asked_ = boxed_ = carried_ = 0;
@@ -75,10 +75,10 @@ void EthercatMaster::connect(const std::uint8_t* source, std::int64_t now_ns) {
 }
 
 Status EthercatMaster::connecting(std::int64_t now_ns) {
-  if (phase_ == Phase::kOperates) return operating(now_ns);
+  if (state_ == MasterState::kEnteringOp) return operating(now_ns);
   const Status status = startup_.advance(now_ns);
   if (status != Status::kOk) return status;
-  phase_ = Phase::kOperates;
+  state_ = MasterState::kEnteringOp;
   since_ns_ = now_ns;
   sent_ns_ = now_ns - period_ns();
   due_ns_ = now_ns;
@@ -110,7 +110,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
     }
     drives_.set_velocity_units(startup_.learnt().velocity_units);
     TRY(drives_.attach(mode_, feedbacks, why_));
-    phase_ = Phase::kRuns;
+    state_ = MasterState::kConnected;
     // Stamps of cycles that wait for their frames say nothing of the time that passes.
     start_clock(ethercat_->frame_wait_ms > 0 ? kAnyTime_ns : slack_ns());
     return Status::kOk;
@@ -122,12 +122,12 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
 }
 
 void EthercatMaster::receive(Frame& frame) {
-  if (phase_ == Phase::kStartsUp) return startup_.exchange().receive(frame);
-  if (phase_ != Phase::kOff) cyclic_.receive(frame);
+  if (state_ == MasterState::kStartingUp) return startup_.exchange().receive(frame);
+  if (state_ != MasterState::kOff) cyclic_.receive(frame);
 }
 
 bool EthercatMaster::take(Frame& frame) {
-  if (phase_ == Phase::kStartsUp && startup_.exchange().take(frame)) return true;
+  if (state_ == MasterState::kStartingUp && startup_.exchange().take(frame)) return true;
   if (!has_out_) return false;
   has_out_ = false;
   frame = out_;
@@ -145,7 +145,7 @@ void EthercatMaster::take_state() {
     slave.al_code = cyclic_.asked_code();
   }
   const bool left = answered && slave.al_status != kOperational;
-  if (phase_ == Phase::kRuns && (left || slave.unanswered == kMostUnanswered))
+  if (state_ == MasterState::kConnected && (left || slave.unanswered == kMostUnanswered))
     slave.feedback.lost = Status::kConnectionLost;
   asked_ = asked_ + 1 == kDof ? 0 : asked_ + 1;
 }
@@ -182,7 +182,7 @@ void EthercatMaster::take_cycle() {
 }
 
 Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
-  if (phase_ != Phase::kRuns) return Status::kNotStarted;
+  if (state_ != MasterState::kConnected) return Status::kNotStarted;
   const bool first = now_ns_ < 0;
   now_ns_ = now.stamp_ns;
   if (first) sampled_ns_ = now_ns_;  // what it holds is of the start-up
@@ -202,7 +202,7 @@ Status EthercatMaster::read(const CycleTime& now, RobotState& state) {
 }
 
 void EthercatMaster::write(const RobotCommand& command) {
-  if (phase_ != Phase::kRuns) return;
+  if (state_ != MasterState::kConnected) return;
   stops_ = command.request == DriveRequest::kDisable;
   drives_.step(command, commands_, now_ns_);
   compose(commands_, nullptr);
@@ -225,10 +225,10 @@ void EthercatMaster::compose(const cia402::DriveCommands& commands, const Reques
 }
 
 void EthercatMaster::leave() {
-  if (phase_ != Phase::kRuns) {
-    const bool began = phase_ != Phase::kOff && startup_.give_up();
+  if (state_ != MasterState::kConnected) {
+    const bool began = state_ != MasterState::kOff && startup_.give_up();
     has_out_ = began && startup_.exchange().take(out_);
-    phase_ = Phase::kOff;
+    state_ = MasterState::kOff;
     return;
   }
   RobotCommand stop;
@@ -237,7 +237,7 @@ void EthercatMaster::leave() {
   const Request init = Request::number(Command::kBwr, address_of(0, kAlControlReg),
                                        static_cast<std::uint16_t>(AlState::kInit));
   compose(commands_, &init);
-  phase_ = Phase::kOff;
+  state_ = MasterState::kOff;
 }
 
 /// Carries what is asked of a drive, one request at a time. A mode that is mapped is written by the
@@ -292,7 +292,7 @@ std::int64_t EthercatMaster::in_step(std::int64_t near_ns) const {
 CyclicFrame::Came EthercatMaster::close_cycle(std::int64_t sent_ns, std::int64_t now_ns) {
   const CyclicFrame::Came came = cyclic_.close();
   arrived_ = came != CyclicFrame::Came::kNothing;
-  const bool runs = phase_ == Phase::kRuns;
+  const bool runs = state_ == MasterState::kConnected;
   if (runs) sync0_.count_frame();
   if (arrived_) take_state();
   if (!arrived_ || !cyclic_.has_reference()) return came;

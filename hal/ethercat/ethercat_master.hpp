@@ -33,7 +33,7 @@ class EthercatMaster {
   /// Takes a frame that has come. [init, cyclic]
   void receive(Frame& frame);
   /// True while a frame is to come back. [any]
-  bool awaits() const { return phase_ == Phase::kStartsUp || cyclic_.awaits(); }
+  bool awaits() const { return state_ == MasterState::kStartingUp || cyclic_.awaits(); }
   /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed, or
   /// than two where drives are to be disabled. [cyclic]
   bool answers() const {
@@ -48,7 +48,7 @@ class EthercatMaster {
   bool take(Frame& frame);
 
   /// True from connecting to leave(). [any]
-  bool connected() const { return phase_ == Phase::kRuns; }
+  bool connected() const { return state_ == MasterState::kConnected; }
   int period_us() const { return period_us_; }
   int stop_ms() const { return drive_->stop_ms; }
   bool confirmed(int joint) const { return drives_.confirmed(joint); }
@@ -66,9 +66,9 @@ class EthercatMaster {
   std::int64_t in_step(std::int64_t near_ns) const;
   /// Time until connecting() sends its next frame by itself, ns; 0: it waits for an answer. [init]
   std::int64_t until_due_ns(std::int64_t now_ns) const {
-    return phase_ == Phase::kOperates ? std::max(due_ns_ - now_ns, std::int64_t{0}) : 0;
+    return state_ == MasterState::kEnteringOp ? std::max(due_ns_ - now_ns, std::int64_t{0}) : 0;
   }
-  cia402::Phase phase() const { return drives_.phase(); }
+  cia402::ArmingPhase phase() const { return drives_.phase(); }
   /// Leaves a frame that takes all slaves to INIT; the exchange is over. [any]
   void leave();
 
@@ -83,7 +83,7 @@ class EthercatMaster {
   Message to_home() const { return drives_.to_home(); }
 
  private:
-  enum class Phase : std::uint8_t { kOff, kStartsUp, kOperates, kRuns };
+  enum class MasterState : std::uint8_t { kOff, kStartingUp, kEnteringOp, kConnected };
 
   static constexpr auto kOperational = static_cast<std::uint16_t>(AlState::kOp);
   static constexpr int kSteady = 5;     // cycles in a row with inputs before it is connected
@@ -124,7 +124,7 @@ class EthercatMaster {
   Sync0Watch sync0_;
   cia402::Drives drives_;
   cia402::DriveCommands commands_;
-  Phase phase_ = Phase::kOff;
+  MasterState state_ = MasterState::kOff;
   Frame out_;
   bool has_out_ = false, arrived_ = false, own_extra_ = false;
   bool stops_ = false;  // the drives are to be disabled

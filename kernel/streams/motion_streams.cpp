@@ -48,7 +48,7 @@ void Motion<Space>::begin_stream(MotionEvent event) {
 /// The base has no limits of its own, so it is approached even where the reference is on it.
 template <class Space>
 void Motion<Space>::move_stream(double dt_s) {
-  if (phase_ == Phase::kDriving) return move_at_velocity(dt_s);
+  if (phase_ == MotionPhase::kDriving) return move_at_velocity(dt_s);
   const typename Space::Limits& limits = settings_->limits;
   const bool seam = streams_.plan.due(time_s_), stops = !seam && streams_.plan.runs_out(time_s_);
   const bool fades = !streams_.approach.on();
@@ -93,14 +93,14 @@ const ChunkPlan<Space>& Motion<Space>::plan() const {
 
 template <class Space>
 bool Motion<Space>::expires() const {
-  return phase_ == Phase::kExpiring ||
-         (phase_ == Phase::kDriving && time_s_ > streams_.velocity_until_s);
+  return phase_ == MotionPhase::kExpiring ||
+         (phase_ == MotionPhase::kDriving && time_s_ > streams_.velocity_until_s);
 }
 
 template <class Space>
 double Motion<Space>::margin_s() const {
-  if (phase_ == Phase::kTracking) return streams_.plan.margin_s(time_s_);
-  return phase_ == Phase::kDriving ? std::max(streams_.velocity_until_s - time_s_, 0.0) : 0.0;
+  if (phase_ == MotionPhase::kTracking) return streams_.plan.margin_s(time_s_);
+  return phase_ == MotionPhase::kDriving ? std::max(streams_.velocity_until_s - time_s_, 0.0) : 0.0;
 }
 
 template <class Space>

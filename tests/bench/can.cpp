@@ -31,7 +31,7 @@ struct Following {
       bench.quiet_cycle(DriveRequest::kFollow);
       each = bench.arrived;
     }
-    ready = ready && bench.master.phase() == cia402::Phase::kArmed;
+    ready = ready && bench.master.phase() == cia402::ArmingPhase::kArmed;
   }
 };
 
@@ -45,7 +45,7 @@ void can_master(benchmark::State& loop, bool fd) {
     benchmark::DoNotOptimize(can_cycle(bench.master, following->arrived[n++ % kRecorded],
                                        {bench.now_ns}, bench.command, bench.state));
   }
-  if (!following->ready || bench.master.phase() != cia402::Phase::kArmed)
+  if (!following->ready || bench.master.phase() != cia402::ArmingPhase::kArmed)
     loop.SkipWithError("the drives do not follow");
 }
 void can_master_fd_one_bus(benchmark::State& loop) {

@@ -49,9 +49,9 @@ void lead_to(Bench& bench, When when) {
   ASSERT_STATUS(bench.executive.arm(), Status::kArming);
   (void)bench.cycle();
   if (when == When::kSwitchingOn) return;
-  for (int i = 0; i < 100 && bench.hal.master.phase() != Phase::kReleasing; ++i)
+  for (int i = 0; i < 100 && bench.hal.master.phase() != ArmingPhase::kReleasing; ++i)
     (void)bench.cycle();
-  assert_true(bench.hal.master.phase() == Phase::kReleasing);
+  assert_true(bench.hal.master.phase() == ArmingPhase::kReleasing);
 }
 
 /// Runs until the master stops the drives, or long enough to say that it does not.
@@ -60,7 +60,7 @@ void await_stop(Bench& bench, SafetyWatch<Bench>& watch, Outcome& outcome) {
   for (int i = 1; i <= 700 && outcome.reaction == 0; ++i) {
     if (bench.executive.rung() == Rung::kArming) (void)bench.executive.arm();
     outcome.status = watch.cycle();
-    const bool stops = bench.hal.master.phase() == Phase::kFailed;
+    const bool stops = bench.hal.master.phase() == ArmingPhase::kFailed;
     if (stops || bench.executive.rung() == Rung::kDisabled) outcome.reaction = i;
   }
   if (outcome.reaction == 0) return;

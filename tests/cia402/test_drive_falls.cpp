@@ -49,7 +49,7 @@ void arm_with_falls(Random& random, std::uint32_t weak, int seldom, Tally& tally
   arm.settings.brake_ms = random.below(12);
   std::uint32_t fallen = 0;
   int cycles = 0;
-  for (; cycles < kMost && arm.drives.phase() != Phase::kFailed; ++cycles) {
+  for (; cycles < kMost && arm.drives.phase() != ArmingPhase::kFailed; ++cycles) {
     arm.cycle(DriveRequest::kArm);
     if (arm.all(DriveState::kEnabled)) break;
     for (int j = 0; j < kDof; ++j)
@@ -58,7 +58,7 @@ void arm_with_falls(Random& random, std::uint32_t weak, int seldom, Tally& tally
   }
   tally.longest = std::max(tally.longest, cycles);
   assert_true(cycles < kMost);
-  if (arm.drives.phase() == Phase::kFailed) {
+  if (arm.drives.phase() == ArmingPhase::kFailed) {
     ++tally.refused;
     assert_true(names(arm, fallen));
     for (const DriveCommand& command : arm.commands)
@@ -84,8 +84,8 @@ void arming_ends_with_all_joints_enabled_or_names_one_that_fell(void**) {
 }
 
 /// Takes the drives to a phase, and lets one fall once in `every` cycles, `times`.
-Phase phase_after(ArmOfDrives& arm, int joint, int times, int every) {
-  for (int i = 0; times > 0 && i < 2000 && arm.drives.phase() != Phase::kFailed; ++i) {
+ArmingPhase phase_after(ArmOfDrives& arm, int joint, int times, int every) {
+  for (int i = 0; times > 0 && i < 2000 && arm.drives.phase() != ArmingPhase::kFailed; ++i) {
     arm.cycle(DriveRequest::kArm);
     if (i % every == every - 1 && fall(arm, joint, 0)) --times;
   }
@@ -97,10 +97,11 @@ void a_few_falls_are_bridged_and_more_are_refused_by_name(void**) {
   constexpr int kEvery = 3;  // before all are steady
   for (const int joint : {0, 3, 6}) {
     ArmOfDrives arm;
-    assert_int_equal(phase_after(arm, joint, DriveMachine::kMostFalls, kEvery), Phase::kArmed);
+    assert_int_equal(phase_after(arm, joint, DriveMachine::kMostFalls, kEvery),
+                     ArmingPhase::kArmed);
     ArmOfDrives weak;
     assert_int_equal(phase_after(weak, joint, DriveMachine::kMostFalls + 1, kEvery),
-                     Phase::kFailed);
+                     ArmingPhase::kFailed);
     assert_true(names(weak, 1U << joint));
     assert_non_null(std::strstr(weak.drives.why().c_str(), "switch on disabled"));
     assert_non_null(std::strstr(weak.drives.why().c_str(), "(statusword 0250h)"));
@@ -120,7 +121,7 @@ void the_time_of_an_arming_names_the_joint_that_all_wait_for(void**) {
       arm.fake(joint).word = word;
       arm.fake(joint).stays = true;
       arm.cycles(198, DriveRequest::kArm);
-      assert_int_equal(arm.drives.phase(), Phase::kSwitchingOn);
+      assert_int_equal(arm.drives.phase(), ArmingPhase::kSwitchingOn);
       arm.cycles(2, DriveRequest::kArm);  // the executive ends arming behind the 200th
       assert_int_equal(arm.joint(joint).state, DriveState::kFault);
       ASSERT_STATUS(arm.joint(joint).reason, Status::kArmingTime);

@@ -44,8 +44,8 @@ struct HomingArm : ArmOfDrives {
   }
   /// Arms, and judges every cycle: until the drive has ended, it alone is enabled.
   void home_and_arm(int most = 1000) {
-    for (int i = 0; i < most && !all(DriveState::kEnabled) && drives.phase() != Phase::kFailed;
-         ++i) {
+    for (int i = 0;
+         i < most && !all(DriveState::kEnabled) && drives.phase() != ArmingPhase::kFailed; ++i) {
       cycle(DriveRequest::kArm);
       follow();
       const bool homed = (fake(kHomed).shows & kOwn) != 0;
@@ -97,10 +97,10 @@ void what_is_left_of_an_earlier_homing_says_nothing(void**) {
       arm.cycle(DriveRequest::kArm);
       arm.follow();
     }
-    assert_int_equal(arm.drives.phase(), Phase::kHoming);
+    assert_int_equal(arm.drives.phase(), ArmingPhase::kHoming);
     arm.fake(kHomed).shows = 0;
     arm.cycles(50, DriveRequest::kArm);
-    assert_int_equal(arm.drives.phase(), Phase::kHoming);
+    assert_int_equal(arm.drives.phase(), ArmingPhase::kHoming);
     arm.fake(kHomed).shows = kReached | kAttained | kOwn;
     arm.home_and_arm();
     assert_true(arm.all(DriveState::kEnabled));
@@ -184,7 +184,7 @@ void a_reference_that_is_shown_late_is_awaited(void**) {
   HomingArm arm;
   arm.ends = kReached | kAttained;
   arm.home_and_arm(300);
-  assert_int_equal(arm.drives.phase(), Phase::kSwitchingOn);
+  assert_int_equal(arm.drives.phase(), ArmingPhase::kSwitchingOn);
   arm.fake(kHomed).shows = kOwn;
   arm.home_and_arm();
   assert_true(arm.all(DriveState::kEnabled));

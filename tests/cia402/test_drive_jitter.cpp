@@ -10,9 +10,9 @@ constexpr std::int64_t kJitter_ns = 30'000;
 int cycles_to_arm(std::int64_t shift_ns) {
   ArmOfDrives arm;
   int cycles = 0;
-  for (; arm.drives.phase() != Phase::kArmed && cycles < 200; ++cycles) {
+  for (; arm.drives.phase() != ArmingPhase::kArmed && cycles < 200; ++cycles) {
     const std::int64_t now_ns = arm.now_ns;
-    if (arm.drives.phase() == Phase::kReleasing) arm.now_ns += shift_ns;
+    if (arm.drives.phase() == ArmingPhase::kReleasing) arm.now_ns += shift_ns;
     arm.cycle(DriveRequest::kArm);
     arm.now_ns = now_ns + 1'000'000;
   }

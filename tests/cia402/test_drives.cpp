@@ -27,7 +27,7 @@ void no_drive_is_enabled_before_all_are_switched_on(void**) {
 void arming_holds_the_arm_with_its_weight_before_it_is_told(void**) {
   ArmOfDrives arm;
   arm.arm();
-  assert_int_equal(arm.drives.phase(), Phase::kArmed);
+  assert_int_equal(arm.drives.phase(), ArmingPhase::kArmed);
   const JointVector g = gravity<Robot>(joint_trig<Robot>(arm.state.q), Tool{});
   for (int j = 0; j < kDof; ++j) {
     const double step = j < 4 ? 3e-3 : 0.5e-3;
@@ -91,7 +91,7 @@ void after_a_fault_only_a_new_arming_leads_up(void**) {
   arm.fake(0).word = 0x0218;
   arm.cycles(50, DriveRequest::kFollow);
   arm.cycles(50, DriveRequest::kArm);
-  assert_int_equal(arm.drives.phase(), Phase::kFailed);
+  assert_int_equal(arm.drives.phase(), ArmingPhase::kFailed);
   arm.cycles(5, DriveRequest::kDisable);
   assert_true(arm.joint(0).state == DriveState::kFault);
   assert_true(arm.joint(1).state == DriveState::kDisabled);

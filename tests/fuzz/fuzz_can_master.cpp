@@ -12,8 +12,9 @@ using namespace tactus::can;
 
 void check(CanBench& bench) {
   const Outbox& out = bench.master.outbox(0);
-  const cia402::Phase phase = bench.master.phase();
-  const bool up = phase >= cia402::Phase::kSwitchingOn && phase <= cia402::Phase::kArmed;
+  const cia402::ArmingPhase phase = bench.master.phase();
+  const bool up =
+      phase >= cia402::ArmingPhase::kSwitchingOn && phase <= cia402::ArmingPhase::kArmed;
   MUST(bench.state.q.allFinite() && bench.state.dq.allFinite() && bench.state.tau.allFinite());
   for (int i = 0; i < out.count(); ++i) {
     const CanFrame& frame = out.frames()[i];
@@ -34,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int i = 0; i < 60 + bench->drive.held_ms(); ++i) bench->quiet_cycle(DriveRequest::kArm);
   bench->command.value.setConstant(1.0);
   bench->quiet_cycle(DriveRequest::kFollow);
-  MUST(bench->master.phase() == cia402::Phase::kArmed);
+  MUST(bench->master.phase() == cia402::ArmingPhase::kArmed);
   // Each record: kind and node, then the bytes of a frame; a kind of its own ends the cycle.
   for (std::size_t at = 0; at < size;) {
     const std::uint8_t kind = data[at++];

@@ -60,8 +60,9 @@ struct Bench {
     master.write(command);
   }
   void check() const {
-    const cia402::Phase phase = master.phase();
-    const bool up = phase >= cia402::Phase::kSwitchingOn && phase <= cia402::Phase::kArmed;
+    const cia402::ArmingPhase phase = master.phase();
+    const bool up =
+        phase >= cia402::ArmingPhase::kSwitchingOn && phase <= cia402::ArmingPhase::kArmed;
     MUST(state.q.allFinite() && state.dq.allFinite() && state.tau.allFinite());
     for (std::size_t j = 0; j < kDof; ++j) {
       const std::uint8_t* const at = sent.bytes.data() + kFirstDatagram + kDatagramBytes + 4 * j;
@@ -80,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     bench->cycle(DriveRequest::kArm);
     bench->carry();
   }
-  MUST(bench->master.phase() == cia402::Phase::kArmed);
+  MUST(bench->master.phase() == cia402::ArmingPhase::kArmed);
   // Each record: a kind; one changes a byte of the frame that comes back, one sends bytes of its
   // own.
   for (std::size_t at = 0; at + 1 < size;) {

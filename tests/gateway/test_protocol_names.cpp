@@ -70,7 +70,7 @@ void the_rungs_of_the_protocol_are_those_of_the_ladder(void**) {
 }
 
 void the_phases_of_the_protocol_are_those_of_the_motion(void**) {
-  assert_names_all_of<Phase>(Enumeration("Phase", "PHASE_"));
+  assert_names_all_of<MotionPhase>(Enumeration("Phase", "PHASE_"));
 }
 
 void the_codes_of_the_protocol_are_the_statuses_of_the_kernel(void**) {

@@ -17,7 +17,7 @@ void a_point_moves_the_reference_in_the_next_cycle(void**) {
   two.bench.server.work(two.bench.now_ns);
   two.bench.cycle();
   assert_false(two.bench.generator.reference().standing() &&
-               two.bench.generator.phase() == Phase::kHolding);
+               two.bench.generator.phase() == MotionPhase::kHolding);
   two.bench.cycle();
   assert_true(two.bench.generator.reference().q[0] > ServerBench::home().q[0]);
 }

@@ -105,19 +105,19 @@ struct Sending {
   bool takes_requests() const {
     return served.bench.channel.reports.space() >= kReportsPerRequest + kControls;
   }
-  Phase phase() const { return served.bench.generator.phase(); }
+  MotionPhase phase() const { return served.bench.generator.phase(); }
 
   /// One cycle; the reference is somewhere on the path, not before where it was.
   void cycle() {
     served.bench.step();
-    if (phase() != Phase::kFollowing && phase() != Phase::kStarving) return;
+    if (phase() != MotionPhase::kFollowing && phase() != MotionPhase::kStarving) return;
     const JointSpace::Point& reference = served.bench.generator.reference();
     const double place = time_of(reference.q, place_s, whole_s);
     const JointVector error = reference.q - winding(place, whole_s).q;
     worst_rad = std::max(worst_rad, error.cwiseAbs().maxCoeff());
     longest_step_s = std::max({longest_step_s, place - place_s, place_s - place});
     place_s = place;
-    ++(phase() == Phase::kStarving ? standing : moving);
+    ++(phase() == MotionPhase::kStarving ? standing : moving);
   }
   void run() {
     while (client.finals[goal] == 0) {

@@ -30,7 +30,7 @@ void ten_minutes_at_one_kilohertz_pass_through_a_window_of_512_without_a_gap(voi
     }
     if (cycle % 500 == 0) two.b.send(ask::kPing);
     two.run(1);
-    const bool follows = two.bench.generator.phase() == Phase::kFollowing;
+    const bool follows = two.bench.generator.phase() == MotionPhase::kFollowing;
     if (began < 0 && follows) began = cycle;
     if (!follows) continue;
     const double t = 1e-3 * (cycle - began);

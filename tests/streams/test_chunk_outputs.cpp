@@ -275,7 +275,7 @@ void a_cancel_of_delayed_edges_alone_is_executed(void**) {
   for (int i = 0; i <= 6; ++i) bench.chunk.add(i / 30.0, bench.home, i == 6 ? 1 : 0);
   assert_true(bench.send_again() != 0);
   bench.run(0.5);
-  assert_true(bench.generator.phase() == Phase::kHolding);
+  assert_true(bench.generator.phase() == MotionPhase::kHolding);
   std::uint32_t id = 0;
   assert_true(bench.client.cancel(id).ok());
   bench.run(1.0);

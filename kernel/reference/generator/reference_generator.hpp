@@ -44,7 +44,7 @@ struct PointBounds {
 /// What a generator tells of its motion, whatever its space.
 struct MotionState {
   double time_s = 0.0;  ///< generator time: periods since start
-  Phase phase = Phase::kHolding;
+  MotionPhase phase = MotionPhase::kHolding;
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
@@ -97,7 +97,7 @@ class ReferenceGenerator {
   void attach(ReferenceChannel<Space>& channel) { channel_ = &channel; }
 
   const Point& reference() const { return motion_.reference(); }
-  Phase phase() const { return motion_.phase(); }
+  MotionPhase phase() const { return motion_.phase(); }
   ReferenceState state() const { return state_of(phase()); }
   /// Generator time: periods since start, s.
   double time_s() const { return time_s_; }

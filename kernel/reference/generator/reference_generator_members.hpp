@@ -57,7 +57,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   begun_ = false;
   if constexpr (kStreams) stream_.step_s -= dt_s;
   assert(params_.online != OnlineMode::kForward ||
-         (phase() != Phase::kLeaving && !motion_.gives_velocity()));
+         (phase() != MotionPhase::kLeaving && !motion_.gives_velocity()));
   motion_.move_on(dt_s);
   if constexpr (kStreams) pass_outputs();
   watch_supply();
@@ -100,7 +100,7 @@ void ReferenceGenerator<Space>::watch_supply() {
   if (!running_.any() || !motion_.on_path()) return;
   channel_->needed[static_cast<std::size_t>(running_.store)].store(motion_.needed(),
                                                                    std::memory_order_release);
-  const bool starving = phase() == Phase::kStarving;
+  const bool starving = phase() == MotionPhase::kStarving;
   if (starving && !starving_ && has_room()) report(running_.id, Outcome::kStarved);
   starving_ = starving;
 }
@@ -130,7 +130,7 @@ void ReferenceGenerator<Space>::watch_stream(double dt_s) {
   const bool watched = params_.timeout_s > 0.0;
   if (motion_.silent() && (watched || motion_.gives_velocity())) return motion_.stop();
   if (!watched || point_age_s_ < params_.timeout_s) return;
-  if (params_.online != OnlineMode::kForward && phase() != Phase::kHolding) return;
+  if (params_.online != OnlineMode::kForward && phase() != MotionPhase::kHolding) return;
   point_age_s_ = -kInfinity;
   if (!reference().idle()) motion_.stop();
 }
@@ -161,7 +161,7 @@ bool ReferenceGenerator<Space>::begin(const Goal& goal, double elapsed_s) {
   running_ = goal;
   starving_ = false;
   monitor_.begin(Tolerances<Space>::merged(trajectory(goal).tolerances, params_.tolerances));
-  const bool pauses = kStreams && phase() == Phase::kPaused;
+  const bool pauses = kStreams && phase() == MotionPhase::kPaused;
   report(goal.id, Outcome::kStarted, -1, {pauses ? Status::kPaused : Status::kOk});
   return true;
 }

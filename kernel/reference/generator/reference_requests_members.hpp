@@ -67,8 +67,8 @@ Verdict ReferenceGenerator<Space>::cancel(std::uint32_t id, LoopBound<2>& cancel
   assert(refusing_ == Status::kOk);
   const bool switches = outputs_wait();
   end_epoch();
-  const bool goes = running_.any() || waiting_.any() || phase() == Phase::kReaching ||
-                    streams(phase()) || phase() == Phase::kLeaving || motion_.holds_effort();
+  const bool goes = running_.any() || waiting_.any() || phase() == MotionPhase::kReaching ||
+                    streams(phase()) || phase() == MotionPhase::kLeaving || motion_.holds_effort();
   if (!goes && !switches && channel_->requests.size() == 0) return {Status::kNothingToCancel};
   canceled_before_ = id;
   end_waiting(Outcome::kCanceled);
@@ -178,7 +178,7 @@ Verdict ReferenceGenerator<Space>::judge_step(const Point& point, bool& forwards
       judge_reach<Space>(reference(), point, channel_->settings.limits, period_s_);
   if constexpr (kStreams) {
     const bool follows = stream_.step_s > 0.0;
-    const bool approaches = follows && stream_.approaches && phase() != Phase::kHolding;
+    const bool approaches = follows && stream_.approaches && phase() != MotionPhase::kHolding;
     forwards = verdict.ok() && !approaches;
     stream_.approaches = follows && !forwards;
     stream_.step_s = forwards ? 0.0 : kSlowest_s;

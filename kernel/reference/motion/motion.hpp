@@ -88,14 +88,14 @@ class Motion {
   Verdict extend(const typename Space::Extent& more) { return path_.extend(more, *settings_); }
 
   const Point& reference() const { return reference_; }
-  Phase phase() const { return phase_; }
+  MotionPhase phase() const { return phase_; }
   bool started() const { return settings_ != nullptr; }
   /// True if a point is held whose feed-forward is put out.
-  bool holds_effort() const { return phase_ == Phase::kHolding && !held_.idle(); }
+  bool holds_effort() const { return phase_ == MotionPhase::kHolding && !held_.idle(); }
   /// True if the motion still reads the waypoints of a trajectory.
   bool on_path() const { return tactus::on_path(phase_); }
   /// True if the path has ended and the reference is at rest at its end.
-  bool at_goal() const { return phase_ == Phase::kSettling && offset_.zero(); }
+  bool at_goal() const { return phase_ == MotionPhase::kSettling && offset_.zero(); }
   /// True if braking on the path took longer than kLongestBrake_s, so that it was left.
   bool lost_path() const { return lost_path_; }
   /// Index of the first waypoint that is still needed.
@@ -103,7 +103,7 @@ class Motion {
   /// Place on the path that it follows, or has followed to its end, and that end.
   PathProgress progress() const { return {law_.s(), path_.running() ? path_.end_s() : law_.s()}; }
   /// True if a stream moved the reference and has gone silent.
-  bool silent() const { return phase_ == Phase::kReaching && stream_.silent(time_s_); }
+  bool silent() const { return phase_ == MotionPhase::kReaching && stream_.silent(time_s_); }
   bool gives_velocity() const { return stream_.gives_velocity(); }
   /// The chunks it goes along with; none outside the phases tracking and expiring.
   const ChunkPlan<Space>& plan() const;
@@ -126,9 +126,11 @@ class Motion {
       if (!streams(phase_)) streams_.plan.clear();
     }
   }
-  bool streaming() const { return phase_ == Phase::kReaching && stream_.moves(time_s_); }
+  bool streaming() const { return phase_ == MotionPhase::kReaching && stream_.moves(time_s_); }
   bool steps() const { return on_path() && !path_.smooth(); }
-  bool given_up() const { return phase_ == Phase::kBraking || phase_ == Phase::kLeaving; }
+  bool given_up() const {
+    return phase_ == MotionPhase::kBraking || phase_ == MotionPhase::kLeaving;
+  }
   bool can_leave() const;
   void begin_stream(MotionEvent event);
   const typename Space::Limits& limits_to(const Point& base);
@@ -140,7 +142,7 @@ class Motion {
   Point base_of_points(double time_s) const;
   Point base_of_path(double dt_s);
   Point end_path(const Point& last);
-  void arrive(Phase was);
+  void arrive(MotionPhase was);
   void hold(const Point& point);
   void feed_beyond(const Point& fed, const Point& base, double fade_s);
   void fade(double dt_s);
@@ -149,7 +151,7 @@ class Motion {
 
   const Settings* settings_ = nullptr;
   double time_s_ = 0.0;  // since the start
-  Phase phase_ = Phase::kHolding;
+  MotionPhase phase_ = MotionPhase::kHolding;
   Point reference_;  // in this cycle
 
   Point base_;        // in this cycle

@@ -27,16 +27,16 @@ void Motion<Space>::move_on(double dt_s) {
   leave_given_up();
   if (kStreams && streams(phase_)) {
     if constexpr (kStreams) move_stream(dt_s);
-  } else if (phase_ == Phase::kStopping) {
+  } else if (phase_ == MotionPhase::kStopping) {
     reference_ = Space::come_to_rest(reference_, settings_->limits, dt_s);
     if (reference_.standing()) {
       hold(reference_);
       tell(MotionEvent::kAtRest);
     }
   } else {
-    const Phase was = phase_;
+    const MotionPhase was = phase_;
     const Point before = on_path() ? base_ : base_of_points(time_s_ - dt_s);
-    if (phase_ == Phase::kReaching) offset_ = Space::difference(reference_, before);
+    if (phase_ == MotionPhase::kReaching) offset_ = Space::difference(reference_, before);
     base_ = on_path() ? base_of_path(dt_s) : base_of_points(time_s_);
     // A path keeps the limits by itself, and a held point does not move; a stream may break limits.
     const bool there = offset_.zero() && !streaming();
@@ -68,14 +68,14 @@ typename Space::Point Motion<Space>::base_of_points(double time_s) const {
 /// or where it has come to rest after it was given up.
 template <class Space>
 typename Space::Point Motion<Space>::base_of_path(double dt_s) {
-  const double rate = phase_ == Phase::kPaused || given_up() ? 0.0 : rate_;
+  const double rate = phase_ == MotionPhase::kPaused || given_up() ? 0.0 : rate_;
   law_.step(path_, rate, left_to_path<Space>(settings_->limits, offset_), dt_s);
   const Point point = path_.at(law_.s()).at_rate(law_.rate(), law_.slope());
   if (path_.ended(law_.s())) return end_path(point);
   braking_s_ += dt_s;
-  if (phase_ == Phase::kBraking && law_.standing()) return end_path(point);
+  if (phase_ == MotionPhase::kBraking && law_.standing()) return end_path(point);
   if (law_.standing() && rate_ > 0.0 && path_.open()) tell(MotionEvent::kDry);
-  if (!law_.standing() && phase_ == Phase::kStarving) tell(MotionEvent::kFed);
+  if (!law_.standing() && phase_ == MotionPhase::kStarving) tell(MotionEvent::kFed);
   return point;
 }
 
@@ -85,7 +85,7 @@ typename Space::Point Motion<Space>::base_of_path(double dt_s) {
 template <class Space>
 typename Space::Point Motion<Space>::end_path(const Point& last) {
   const Point rest = last.at_rest();
-  if (phase_ != Phase::kLeaving) held_ = rest;
+  if (phase_ != MotionPhase::kLeaving) held_ = rest;
   if (path_.smooth()) offset_.ddx += Space::difference(last, rest).ddx;
   path_.leave();
   feed_beyond(last, held_, kFade_s);
@@ -96,9 +96,9 @@ typename Space::Point Motion<Space>::end_path(const Point& last) {
 /// Tells what it means that the reference is at its base; `was` is the phase before. The end of a
 /// path that was to be left for a point is no arrival at that point.
 template <class Space>
-void Motion<Space>::arrive(Phase was) {
-  if (phase_ == Phase::kJoining) tell(MotionEvent::kJoined);
-  if (phase_ == Phase::kReaching && was != Phase::kLeaving && base_.standing())
+void Motion<Space>::arrive(MotionPhase was) {
+  if (phase_ == MotionPhase::kJoining) tell(MotionEvent::kJoined);
+  if (phase_ == MotionPhase::kReaching && was != MotionPhase::kLeaving && base_.standing())
     tell(MotionEvent::kAtRest);
 }
 
@@ -163,10 +163,10 @@ bool Motion<Space>::can_leave() const {
 template <class Space>
 void Motion<Space>::leave_given_up() {
   const bool lost = braking_s_ > kLongestBrake_s;
-  if (phase_ == Phase::kLeaving && (lost || can_leave())) {
+  if (phase_ == MotionPhase::kLeaving && (lost || can_leave())) {
     lost_path_ = lost;
     go();
-  } else if (phase_ == Phase::kBraking && lost) {
+  } else if (phase_ == MotionPhase::kBraking && lost) {
     lost_path_ = true;
     stop();
   }
@@ -191,7 +191,7 @@ void Motion<Space>::stop() {
 
 template <class Space>
 void Motion<Space>::cancel() {
-  if (phase_ == Phase::kReaching || streams(phase_) || holds_effort() || !offset_.zero())
+  if (phase_ == MotionPhase::kReaching || streams(phase_) || holds_effort() || !offset_.zero())
     return stop();
   if (!given_up()) braking_s_ = 0.0;
   tell(MotionEvent::kCancel);

@@ -41,7 +41,7 @@ constexpr ReferenceState next(ReferenceState /*state*/, ReferenceEvent event) {
                                                       : ReferenceState::kOnlineReference;
 }
 
-enum class Phase : std::uint8_t {
+enum class MotionPhase : std::uint8_t {
   kHolding,
   kReaching,
   kTracking,
@@ -76,32 +76,32 @@ enum class MotionEvent : std::uint8_t {
   kAtRest,    ///< the reference has come to rest
 };
 
-constexpr const char* name(Phase phase) {
+constexpr const char* name(MotionPhase phase) {
   switch (phase) {
-    case Phase::kHolding: return "holding";
-    case Phase::kReaching: return "reaching";
-    case Phase::kTracking: return "tracking";
-    case Phase::kExpiring: return "expiring";
-    case Phase::kDriving: return "driving";
-    case Phase::kStopping: return "stopping";
-    case Phase::kBraking: return "braking";
-    case Phase::kLeaving: return "leaving";
-    case Phase::kJoining: return "joining";
-    case Phase::kFollowing: return "following";
-    case Phase::kPaused: return "paused";
-    case Phase::kStarving: return "starving";
-    case Phase::kSettling: return "settling";
+    case MotionPhase::kHolding: return "holding";
+    case MotionPhase::kReaching: return "reaching";
+    case MotionPhase::kTracking: return "tracking";
+    case MotionPhase::kExpiring: return "expiring";
+    case MotionPhase::kDriving: return "driving";
+    case MotionPhase::kStopping: return "stopping";
+    case MotionPhase::kBraking: return "braking";
+    case MotionPhase::kLeaving: return "leaving";
+    case MotionPhase::kJoining: return "joining";
+    case MotionPhase::kFollowing: return "following";
+    case MotionPhase::kPaused: return "paused";
+    case MotionPhase::kStarving: return "starving";
+    case MotionPhase::kSettling: return "settling";
   }
   return nullptr;
 }
 
-inline constexpr std::size_t kPhases = kNames<Phase>.size();
+inline constexpr std::size_t kPhases = kNames<MotionPhase>.size();
 inline constexpr std::size_t kMotionEvents = static_cast<std::size_t>(MotionEvent::kAtRest) + 1;
 
 namespace detail {
-using P = Phase;
+using P = MotionPhase;
 // clang-format off
-inline constexpr std::array<std::array<Phase, kMotionEvents>, kPhases> kPhaseTable = {{
+inline constexpr std::array<std::array<MotionPhase, kMotionEvents>, kPhases> kPhaseTable = {{
     //            kPoint        kLeave        kStop         kTrajectory  kCancel       kComplete     kJoined        kPause        kResume        kDry          kFed           kEnd          kChunk        kVelocity    kExpire        kAtRest
     /*holding*/  {P::kReaching, P::kHolding,  P::kHolding,  P::kJoining, P::kHolding,  P::kHolding,  P::kHolding,   P::kHolding,  P::kHolding,   P::kHolding,  P::kHolding,   P::kHolding,  P::kTracking, P::kDriving, P::kHolding,   P::kHolding},
     /*reaching*/ {P::kReaching, P::kReaching, P::kStopping, P::kJoining, P::kStopping, P::kReaching, P::kReaching,  P::kReaching, P::kReaching,  P::kReaching, P::kReaching,  P::kReaching, P::kTracking, P::kDriving, P::kReaching,  P::kHolding},
@@ -121,24 +121,24 @@ inline constexpr std::array<std::array<Phase, kMotionEvents>, kPhases> kPhaseTab
 }  // namespace detail
 
 /// Returns the phase after `event`. [any]
-constexpr Phase next(Phase phase, MotionEvent event) {
+constexpr MotionPhase next(MotionPhase phase, MotionEvent event) {
   return detail::kPhaseTable[static_cast<std::size_t>(phase)][static_cast<std::size_t>(event)];
 }
 
 /// Returns the paper's state that a phase belongs to. [any]
-constexpr ReferenceState state_of(Phase phase) {
-  return phase >= Phase::kJoining ? ReferenceState::kTrajectoryExecution
-                                  : ReferenceState::kOnlineReference;
+constexpr ReferenceState state_of(MotionPhase phase) {
+  return phase >= MotionPhase::kJoining ? ReferenceState::kTrajectoryExecution
+                                        : ReferenceState::kOnlineReference;
 }
 
 /// True if the base is on a path, moving or at rest. [any]
-constexpr bool on_path(Phase phase) {
-  return phase >= Phase::kBraking && phase <= Phase::kStarving;
+constexpr bool on_path(MotionPhase phase) {
+  return phase >= MotionPhase::kBraking && phase <= MotionPhase::kStarving;
 }
 
 /// True if chunks or a velocity move the reference. [any]
-constexpr bool streams(Phase phase) {
-  return phase >= Phase::kTracking && phase <= Phase::kDriving;
+constexpr bool streams(MotionPhase phase) {
+  return phase >= MotionPhase::kTracking && phase <= MotionPhase::kDriving;
 }
 
 namespace detail {
@@ -159,7 +159,7 @@ constexpr ReferenceState paper_says(ReferenceState state, MotionEvent event) {
 constexpr bool phases_are_the_papers() {
   for (std::size_t from = 0; from < kPhases; ++from) {
     for (std::size_t event = 0; event < kMotionEvents; ++event) {
-      const auto phase = static_cast<Phase>(from);
+      const auto phase = static_cast<MotionPhase>(from);
       const auto what = static_cast<MotionEvent>(event);
       if (state_of(next(phase, what)) != paper_says(state_of(phase), what)) return false;
     }

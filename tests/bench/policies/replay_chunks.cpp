@@ -59,7 +59,7 @@ bool replay_chunks(const std::vector<ChunkMessage>& messages, const Replay& repl
   Account account;
   std::size_t next = 0;
   for (int cycle = 0; cycle < replay.cycles(); ++cycle) {
-    const bool starving = bench.generator.phase() == Phase::kExpiring;
+    const bool starving = bench.generator.phase() == MotionPhase::kExpiring;
     recording.add(replay.time_s(cycle), bench.out(), bench.home, starving);
     for (; next < messages.size(); ++next) {
       if (messages[next].t_arrival_ns > replay.time_ns(cycle)) break;

@@ -26,7 +26,7 @@ class Rehearsal : private InterleavingClient {
     return complaint_;
   }
   /// True if the generator was in this phase after some cycle of some case.
-  bool seen(Phase phase) const { return seen_[static_cast<std::size_t>(phase)]; }
+  bool seen(MotionPhase phase) const { return seen_[static_cast<std::size_t>(phase)]; }
 
  private:
   /// Starts again at home. Requests that a former case left in the mailbox are refused and their
@@ -53,7 +53,7 @@ class Rehearsal : private InterleavingClient {
     const bool open = begin == Begin::kStreaming || begin == Begin::kStarving;
     send(open ? Ask::kOpen : Ask::kTrajectory);
     cycles(15);
-    for (int k = 0; k < 100 && begin == Begin::kStarving && phase() != Phase::kStarving; ++k)
+    for (int k = 0; k < 100 && begin == Begin::kStarving && phase() != MotionPhase::kStarving; ++k)
       cycle();
     refusing_ = begin == Begin::kRefusing;
     if (refusing_) {
@@ -165,7 +165,7 @@ class Rehearsal : private InterleavingClient {
     return a.q == b.q && a.dq == b.dq && a.ddq == b.ddq && a.tau == b.tau;
   }
 
-  Phase phase() const { return bench_.generator.phase(); }
+  MotionPhase phase() const { return bench_.generator.phase(); }
   /// True if the reference is at rest, or a forwarded point is held, which may have a velocity.
   bool rests() const {
     return bench_.out().standing() || (mode_ == OnlineMode::kForward && model_.held_point() >= 0);

@@ -140,8 +140,8 @@ void with_points_kept_within_limits_no_interleaving_makes_a_step(void**) {
 /// Except kLeaving, which needs a path close to a position limit, and those of chunks.
 void every_phase_was_seen(void**) {
   for (std::size_t i = 0; i < kPhases; ++i) {
-    const Phase phase = static_cast<Phase>(i);
-    if (phase == Phase::kLeaving || streams(phase)) continue;
+    const MotionPhase phase = static_cast<MotionPhase>(i);
+    if (phase == MotionPhase::kLeaving || streams(phase)) continue;
     assert_true(rehearsal(OnlineMode::kForward).seen(phase));
     assert_true(rehearsal(OnlineMode::kLimit).seen(phase));
   }

@@ -43,8 +43,8 @@ void online_nothing_but_a_trajectory_changes_the_state(void**) {
     assert_true(next(ReferenceState::kOnlineReference, event) == ReferenceState::kOnlineReference);
 }
 
-constexpr Phase phase(std::size_t i) {
-  return static_cast<Phase>(i);
+constexpr MotionPhase phase(std::size_t i) {
+  return static_cast<MotionPhase>(i);
 }
 constexpr MotionEvent event(std::size_t i) {
   return static_cast<MotionEvent>(i);
@@ -54,7 +54,7 @@ constexpr MotionEvent event(std::size_t i) {
 
 void every_phase_can_be_reached_from_holding(void**) {
   std::array<bool, kPhases> reached{};
-  reached[static_cast<std::size_t>(Phase::kHolding)] = true;
+  reached[static_cast<std::size_t>(MotionPhase::kHolding)] = true;
   for (std::size_t round = 0; round < kPhases; ++round) {
     for (std::size_t from = 0; from < kPhases; ++from) {
       for (std::size_t e = 0; reached[from] && e < kMotionEvents; ++e)
@@ -72,15 +72,15 @@ bool is_reference(MotionEvent event) {
 /// Without a new reference, a stop stays a stop or is at rest, and rest ends it.
 void a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_keeps_it(void**) {
   for (std::size_t from = 0; from < kPhases; ++from) {
-    const Phase stopped = next(phase(from), MotionEvent::kStop);
-    assert_true(stopped == Phase::kStopping || stopped == Phase::kHolding);
-    assert_true(next(stopped, MotionEvent::kAtRest) == Phase::kHolding);
+    const MotionPhase stopped = next(phase(from), MotionEvent::kStop);
+    assert_true(stopped == MotionPhase::kStopping || stopped == MotionPhase::kHolding);
+    assert_true(next(stopped, MotionEvent::kAtRest) == MotionPhase::kHolding);
   }
-  for (const Phase resting : {Phase::kStopping, Phase::kHolding}) {
+  for (const MotionPhase resting : {MotionPhase::kStopping, MotionPhase::kHolding}) {
     for (std::size_t e = 0; e < kMotionEvents; ++e) {
       if (is_reference(event(e))) continue;
-      const Phase then = next(resting, event(e));
-      assert_true(then == resting || then == Phase::kHolding);
+      const MotionPhase then = next(resting, event(e));
+      assert_true(then == resting || then == MotionPhase::kHolding);
     }
   }
 }
@@ -88,20 +88,20 @@ void a_stop_leads_to_holding_from_everywhere_and_nothing_but_a_new_reference_kee
 /// A cancelled trajectory ends where its path has come to rest, or off the path.
 void a_cancel_leads_to_rest_and_ends_every_trajectory(void**) {
   for (std::size_t from = 0; from < kPhases; ++from) {
-    Phase then = next(phase(from), MotionEvent::kCancel);
+    MotionPhase then = next(phase(from), MotionEvent::kCancel);
     assert_true(state_of(then) == ReferenceState::kOnlineReference);
     assert_int_equal(on_path(then), on_path(phase(from)));
     if (on_path(then)) then = next(then, MotionEvent::kEnd);
-    assert_true(!on_path(then) && next(then, MotionEvent::kAtRest) == Phase::kHolding);
+    assert_true(!on_path(then) && next(then, MotionEvent::kAtRest) == MotionPhase::kHolding);
   }
 }
 
 void an_accepted_trajectory_is_joined_and_a_point_is_reached_from_everywhere(void**) {
   for (std::size_t from = 0; from < kPhases; ++from) {
-    assert_true(next(phase(from), MotionEvent::kTrajectory) == Phase::kJoining);
-    assert_true(next(phase(from), MotionEvent::kPoint) == Phase::kReaching);
-    assert_true(next(phase(from), MotionEvent::kChunk) == Phase::kTracking);
-    assert_true(next(phase(from), MotionEvent::kVelocity) == Phase::kDriving);
+    assert_true(next(phase(from), MotionEvent::kTrajectory) == MotionPhase::kJoining);
+    assert_true(next(phase(from), MotionEvent::kPoint) == MotionPhase::kReaching);
+    assert_true(next(phase(from), MotionEvent::kChunk) == MotionPhase::kTracking);
+    assert_true(next(phase(from), MotionEvent::kVelocity) == MotionPhase::kDriving);
   }
 }
 
@@ -109,10 +109,11 @@ void an_accepted_trajectory_is_joined_and_a_point_is_reached_from_everywhere(voi
 void a_trajectory_that_is_fed_and_resumed_can_always_complete(void**) {
   for (std::size_t from = 0; from < kPhases; ++from) {
     if (state_of(phase(from)) != ReferenceState::kTrajectoryExecution) continue;
-    Phase then = next(next(phase(from), MotionEvent::kResume), MotionEvent::kFed);
-    assert_true(then == Phase::kJoining || then == Phase::kFollowing || then == Phase::kSettling);
+    MotionPhase then = next(next(phase(from), MotionEvent::kResume), MotionEvent::kFed);
+    assert_true(then == MotionPhase::kJoining || then == MotionPhase::kFollowing ||
+                then == MotionPhase::kSettling);
     then = next(next(then, MotionEvent::kJoined), MotionEvent::kEnd);
-    assert_true(then == Phase::kSettling);
+    assert_true(then == MotionPhase::kSettling);
     assert_true(state_of(next(then, MotionEvent::kComplete)) == ReferenceState::kOnlineReference);
   }
 }

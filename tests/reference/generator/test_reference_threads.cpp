@@ -176,7 +176,7 @@ void a_client_that_streams_beside_the_cycle_is_followed_to_the_end_within_limits
        ++k) {
     status = shared.bench.step();
     within = within && oracle.check(shared.bench.out()).what == nullptr;
-    if (shared.bench.generator.phase() == Phase::kStarving) std::this_thread::yield();
+    if (shared.bench.generator.phase() == MotionPhase::kStarving) std::this_thread::yield();
   }
   shared.running = false;
   client.join();

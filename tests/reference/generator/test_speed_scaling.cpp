@@ -123,7 +123,7 @@ void an_override_told_during_a_brake_holds_for_what_comes_next(void**) {
       assert_true(bench->client.set_override(0.8, id).ok());
       assert_true(bench->client.cancel(id).ok());
       ASSERT_OK(bench->run(2));
-      assert_true(bench->generator.phase() == Phase::kBraking);
+      assert_true(bench->generator.phase() == MotionPhase::kBraking);
       if (bench == &told) assert_true(bench->client.set_override(rate, id).ok());
     }
     for (int k = 0; k < 100; ++k) {
@@ -155,7 +155,7 @@ void an_override_told_while_it_starves_holds_when_it_is_fed(void**) {
   static ReferenceBench bench;
   Trajectory<JointSpace>* line = send_open_line(bench);
   ASSERT_OK(bench.run(3000));
-  assert_true(bench.generator.phase() == Phase::kStarving);
+  assert_true(bench.generator.phase() == MotionPhase::kStarving);
   std::uint32_t id = 0;
   assert_true(bench.client.set_override(0.5, id).ok());
   ASSERT_OK(bench.run(100));
@@ -179,7 +179,7 @@ void an_open_path_that_an_override_stops_does_not_starve(void**) {
   std::uint32_t id = 0;
   assert_true(bench.client.set_override(0.0, id).ok());
   ASSERT_OK(bench.run(2000));
-  assert_true(bench.out().standing() && bench.generator.phase() == Phase::kFollowing);
+  assert_true(bench.out().standing() && bench.generator.phase() == MotionPhase::kFollowing);
   Report report;
   while (bench.client.poll(report)) assert_false(report.outcome == Outcome::kStarved);
 }

@@ -166,7 +166,7 @@ void of_cancels_where_a_path_has_ended_two_are_executed_and_no_more(void**) {
   static ReferenceBench bench;
   const std::uint32_t id = begin(bench, goal_of(0.01, 10.0));
   ASSERT_OUTCOME(follow(bench, id, 0.05, 1500), Outcome::kStarted);
-  assert_true(bench.generator.phase() == Phase::kSettling);
+  assert_true(bench.generator.phase() == MotionPhase::kSettling);
   std::uint32_t cancels[3];
   for (std::uint32_t& cancel : cancels) assert_true(bench.client.cancel(cancel).ok());
   JointSpace::Point measured = bench.out();

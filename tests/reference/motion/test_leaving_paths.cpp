@@ -38,7 +38,7 @@ void a_brake_at_once_leaves_the_path_and_every_joint_takes_its_least_time(void**
   at_once.cycle();
   at_once.brake(Status::kCollision, BrakeWay::kAtOnce);
   at_once.cycle();
-  ASSERT_STATUS(at_once.generator.phase(), Phase::kStopping);
+  ASSERT_STATUS(at_once.generator.phase(), MotionPhase::kStopping);
   const auto alone = standing_times(at_once);
   print_message("on the path %.3f and %.3f s, at once %.3f and %.3f s, least %.3f and %.3f s\n",
                 together[0], together[1], alone[0], alone[1], least_0, least_1);
@@ -81,10 +81,10 @@ void a_path_that_cannot_be_stopped_on_is_left_after_half_a_second_and_that_is_to
   bench.cycle();
   ASSERT_STATUS(bench.report_of(id).outcome, Outcome::kCanceled);
   bench.run(0.48);
-  ASSERT_STATUS(bench.generator.phase(), Phase::kBraking);
+  ASSERT_STATUS(bench.generator.phase(), MotionPhase::kBraking);
   ASSERT_STATUS(bench.report_of(0).id, 0);
   bench.run(0.03);
-  ASSERT_STATUS(bench.generator.phase(), Phase::kStopping);
+  ASSERT_STATUS(bench.generator.phase(), MotionPhase::kStopping);
   Report left;
   while (bench.client.poll(left)) continue;
   ASSERT_STATUS(left.outcome, Outcome::kReleased);
@@ -147,9 +147,9 @@ void a_tip_that_is_called_off_a_bend_along_a_side_of_its_workspace_stays_inside(
       assert_int_not_equal(bench.send(point), 0);
       for (int k = bench.cycles(2.0); k > 0; --k) {
         bench.cycle();
-        if (bench.generator.phase() == Phase::kLeaving) ++left;
+        if (bench.generator.phase() == MotionPhase::kLeaving) ++left;
       }
-      ASSERT_STATUS(bench.generator.phase(), Phase::kHolding);
+      ASSERT_STATUS(bench.generator.phase(), MotionPhase::kHolding);
       ASSERT_NEAR((bench.out().x.p - bench.home.x.p).norm(), 0.0, 1e-9);
       ASSERT_NEAR(bench.out().h[2], 5.0, 0.0);
       ASSERT_STATUS(bench.report_of(bench.id).outcome, Outcome::kAborted);
@@ -193,7 +193,7 @@ void a_robot_that_does_not_follow_is_stopped_inside_too(void**) {
     const Report report = bench.report_of(bench.id);
     ASSERT_STATUS(report.outcome, Outcome::kAborted);
     ASSERT_STATUS(report.verdict.status, Status::kPathTolerance);
-    if (bench.generator.phase() == Phase::kBraking) ++left;
+    if (bench.generator.phase() == MotionPhase::kBraking) ++left;
     bench.stop(1.0);
     assert_true(bench.out().standing());
     bench.run(0.01);
@@ -269,7 +269,7 @@ void a_joint_that_is_called_off_lines_at_an_end_of_its_range_stays_inside(void**
       bench.cycle();
       assert_true(side * (bench.out().q[0] - bench.end.q[0]) <= 1e-9);
     }
-    ASSERT_STATUS(bench.generator.phase(), Phase::kHolding);
+    ASSERT_STATUS(bench.generator.phase(), MotionPhase::kHolding);
     ASSERT_NEAR((bench.out().q - bench.home.q).norm(), 0.0, 1e-9);
   });
 }
@@ -282,14 +282,14 @@ void a_stream_that_is_canceled_before_the_path_could_be_left_for_it_is_not_follo
     point.dq[0] = -0.1 * side;
     assert_int_not_equal(bench.send(point), 0);
     bench.cycle();
-    if (bench.generator.phase() != Phase::kLeaving) return;
+    if (bench.generator.phase() != MotionPhase::kLeaving) return;
     ++left;
     assert_int_not_equal(bench.cancel(), 0);
     bench.stop(1.0);
     const JointVector rest = bench.out().q;
     bench.run(0.5);
     assert_true(bench.out().q == rest);
-    ASSERT_STATUS(bench.generator.phase(), Phase::kHolding);
+    ASSERT_STATUS(bench.generator.phase(), MotionPhase::kHolding);
   });
   assert_true(left > 0);
 }
@@ -309,7 +309,7 @@ void a_path_that_ends_while_it_is_braked_on_does_not_step(void**) {
     assert_int_not_equal(bench.cancel(), 0);
     bench.run(0.5);
     assert_true(bench.out().standing());
-    ASSERT_STATUS(bench.generator.phase(), Phase::kHolding);
+    ASSERT_STATUS(bench.generator.phase(), MotionPhase::kHolding);
   }
 }
 

@@ -26,7 +26,7 @@ struct TipInABox : CheckedTip {
     return generator.time_s() - begun_s;
   }
   bool arrived(const Point& point) const {
-    return generator.phase() == Phase::kHolding && (out().x.p - point.x.p).norm() < 1e-9 &&
+    return generator.phase() == MotionPhase::kHolding && (out().x.p - point.x.p).norm() < 1e-9 &&
            log_so3(out().x.r * point.x.r.conjugate()).norm() < 1e-9;
   }
 };

@@ -65,7 +65,7 @@ std::uint32_t play(std::uint32_t scene, bool fd) {
   const int quiet = scene % 2 == 0 ? kArmingCycles : static_cast<int>(random.below(kArmingCycles));
   for (int i = 0; i < quiet; ++i) bench.quiet_cycle(DriveRequest::kArm);
   if (scene == 0) {
-    if (bench.master.phase() != cia402::Phase::kArmed) return 0;
+    if (bench.master.phase() != cia402::ArmingPhase::kArmed) return 0;
     for (int i = 0; i < kArmingCycles; ++i) bench.quiet_cycle(DriveRequest::kFollow);
   }
   for (int i = 0; i < kHostileCycles && scene > 0; ++i) bench.hostile_cycle(random, scene % 3 == 0);
