@@ -71,7 +71,7 @@ void RunLoop::count_starving() {
 
 /// Feeds a file longer than its store between two cycles. Virtual time waits for a pipe.
 void RunLoop::feed() {
-  while (feed_.advance() == Fed::kNotYet && interrupted == 0) {
+  while (feed_.advance() == FeedResult::kNotYet && interrupted == 0) {
   }
 }
 

@@ -34,10 +34,10 @@ bool TrajectoryFeed::poll(Report& report) {
   return threaded_ ? reports_.take(report) : poll_report(session_, input_, report);
 }
 
-Fed TrajectoryFeed::advance() {
+FeedResult TrajectoryFeed::advance() {
   const bool begun = state_.load(std::memory_order_relaxed) == State::kFeeding;
-  if (threaded_ || !begun || refused()) return Fed::kIdle;
-  const Fed fed = feed_input(session_, input_, kLoopWait_ms);
+  if (threaded_ || !begun || refused()) return FeedResult::kIdle;
+  const FeedResult fed = feed_input(session_, input_, kLoopWait_ms);
   fed_.store(fed, std::memory_order_release);
   return fed;
 }
@@ -61,15 +61,15 @@ void TrajectoryFeed::work() {
     state = state_.load(std::memory_order_acquire);
   }
   if (state == State::kFeeding && !send_input(session_, input_))
-    fed_.store(Fed::kRefused, std::memory_order_release);
+    fed_.store(FeedResult::kRefused, std::memory_order_release);
   while (state_.load(std::memory_order_acquire) == State::kFeeding) {
     forward_reports();
-    Fed fed = Fed::kIdle;
+    FeedResult fed = FeedResult::kIdle;
     if (!refused()) {
       fed = feed_input(session_, input_, kThreadWait_ms);
       fed_.store(fed, std::memory_order_release);
     }
-    if (fed != Fed::kMore) nanosleep(&kBetweenFeeds, nullptr);
+    if (fed != FeedResult::kMore) nanosleep(&kBetweenFeeds, nullptr);
   }
 }
 

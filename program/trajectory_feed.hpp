@@ -28,9 +28,9 @@ class TrajectoryFeed {
   /// Takes the next report on the trajectory. False: there is none.
   bool poll(Report& report);
   /// Sends the next part unless the thread does; waits up to a tenth of a second for a pipe.
-  Fed advance();
+  FeedResult advance();
   /// True once a part was refused; the reason was printed to stderr.
-  bool refused() const { return fed_.load(std::memory_order_acquire) == Fed::kRefused; }
+  bool refused() const { return fed_.load(std::memory_order_acquire) == FeedResult::kRefused; }
   /// Ends the thread. [any]
   void end();
 
@@ -44,7 +44,7 @@ class TrajectoryFeed {
   TrajectoryInput& input_;
   Mailbox<Report, 64> reports_;  // on the trajectory, from the thread
   std::atomic<State> state_{State::kIdle};
-  std::atomic<Fed> fed_{Fed::kIdle};
+  std::atomic<FeedResult> fed_{FeedResult::kIdle};
   pthread_t thread_{};
   bool threaded_ = false, joined_ = true;
 };

@@ -159,10 +159,10 @@ bool Client::take_all() {
   ToClient message;
   for (;;) {
     switch (connection_.receive(message)) {
-      case Connection::Got::kNothing: return true;
-      case Connection::Got::kGone:
+      case Connection::ReceiveResult::kNothing: return true;
+      case Connection::ReceiveResult::kGone:
         return lose(connection_.error() + "; if the arm moved, it comes to rest on its path");
-      case Connection::Got::kMessage: ++taken_; handle(message);
+      case Connection::ReceiveResult::kMessage: ++taken_; handle(message);
     }
   }
 }

@@ -131,9 +131,9 @@ bool Connection::receive_exactly(std::string& bytes, std::size_t count, int time
   bytes.assign(count, '\0');
   for (std::size_t have = 0; have < count;) {
     if (!wait_for(socket_, POLLIN, timeout_ms)) return false;
-    const ssize_t got = recv(socket_, bytes.data() + have, count - have, 0);
-    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return false;
-    have += got > 0 ? static_cast<std::size_t>(got) : 0;
+    const ssize_t result = recv(socket_, bytes.data() + have, count - have, 0);
+    if (result == 0 || (result < 0 && errno != EAGAIN && errno != EINTR)) return false;
+    have += result > 0 ? static_cast<std::size_t>(result) : 0;
   }
   return true;
 }
@@ -152,29 +152,29 @@ bool Connection::encrypt(const std::string& key_file, int timeout_ms) {
   return agreed || fail("the server does not answer to a key; is it started with --key?");
 }
 
-bool Connection::take_message(ToClient& message, Got& got) {
+bool Connection::take_message(ToClient& message, ReceiveResult& result) {
   if (received_.size() < kHead) return false;
   const std::uint32_t length = length_of(received_);
   if (length <= kLongest && received_.size() < kHead + length) return false;
-  got = Got::kMessage;
+  result = ReceiveResult::kMessage;
   if (length > kLongest ||
       !message.ParseFromArray(received_.data() + kHead, static_cast<int>(length))) {
     fail("the server sends no messages of this protocol; is the address that of 'tactus serve'?");
-    got = Got::kGone;
+    result = ReceiveResult::kGone;
   }
   received_.erase(0, kHead + length);
   return true;
 }
 
-Connection::Got Connection::stranger() {
+Connection::ReceiveResult Connection::stranger() {
   fail("the server does not have this key, or somebody changes what is sent; give its key file");
-  return Got::kGone;
+  return ReceiveResult::kGone;
 }
 
-Connection::Got Connection::receive(ToClient& message) {
-  Got got = Got::kNothing;
-  while (!take_message(message, got)) {
-    if (socket_ < 0) return Got::kGone;
+Connection::ReceiveResult Connection::receive(ToClient& message) {
+  ReceiveResult result = ReceiveResult::kNothing;
+  while (!take_message(message, result)) {
+    if (socket_ < 0) return ReceiveResult::kGone;
     char bytes[4096];
     const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
     if (count > 0) {
@@ -184,15 +184,15 @@ Connection::Got Connection::receive(ToClient& message) {
       }
       opened_ = !received_.empty() || opened_;
     } else if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
-      return Got::kNothing;
+      return ReceiveResult::kNothing;
     } else {
       if (tunnel_ && !opened_) return stranger();
       fail(count == 0 ? std::string("the server has closed the connection")
                       : std::string("the server is gone: ") + std::strerror(errno));
-      return Got::kGone;
+      return ReceiveResult::kGone;
     }
   }
-  return got;
+  return result;
 }
 
 }  // namespace tactus::ctl

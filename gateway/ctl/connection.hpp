@@ -29,9 +29,9 @@ class Connection {
   /// Sends a message; waits at most `timeout_ms` for a server that does not read. False: gone.
   bool send(const ToServer& message, int timeout_ms);
 
-  enum class Got : std::uint8_t { kMessage, kNothing, kGone };
+  enum class ReceiveResult : std::uint8_t { kMessage, kNothing, kGone };
   /// Takes the next message that has arrived, without waiting. kGone: error() says why.
-  Got receive(ToClient& message);
+  ReceiveResult receive(ToClient& message);
 
   /// To wait for: readable when something has arrived.
   int descriptor() const { return socket_; }
@@ -42,10 +42,10 @@ class Connection {
   bool open_tcp(const std::string& host, const std::string& port, int timeout_ms);
   bool connect_within(const void* address, std::size_t size, int timeout_ms);
   bool fail(const std::string& reason);
-  Got stranger();
+  ReceiveResult stranger();
   bool send_all(const std::string& bytes, int timeout_ms);
   bool receive_exactly(std::string& bytes, std::size_t count, int timeout_ms);
-  bool take_message(ToClient& message, Got& got);
+  bool take_message(ToClient& message, ReceiveResult& result);
 
   int socket_ = -1;
   bool opened_ = false;  // something of the server could be decrypted

@@ -118,11 +118,11 @@ bool Streamer::run() {
   if (!s_.client.take_lease()) return false;
   Row row;
   while (interrupts() == 0 && !refused_) {
-    const RowTaken taken = reader_.next(row, 0);
-    if (taken == RowTaken::kEnd) break;
-    if (taken == RowTaken::kRefused) return s_.client.refuse(reader_.error());
-    if (taken == RowTaken::kRow && (!send(row) || !pace())) return false;
-    if (!s_.client.wait(taken == RowTaken::kNotYet ? kRowWait_ms : 0)) return false;
+    const RowResult taken = reader_.next(row, 0);
+    if (taken == RowResult::kEnd) break;
+    if (taken == RowResult::kRefused) return s_.client.refuse(reader_.error());
+    if (taken == RowResult::kRow && (!send(row) || !pace())) return false;
+    if (!s_.client.wait(taken == RowResult::kNotYet ? kRowWait_ms : 0)) return false;
   }
   while (executed_ + superseded_ < sent_ && !refused_ && interrupts() < 2)
     if (!s_.client.wait(100)) return false;

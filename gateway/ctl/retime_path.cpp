@@ -78,13 +78,13 @@ bool read_path(PathFile& file) {
   file.tip = reader.form().poses;
   if (!judge_options(file)) return false;
   Row row;
-  RowTaken taken = RowTaken::kRow;
-  while ((taken = reader.next(row)) == RowTaken::kRow) {
+  RowResult taken = RowResult::kRow;
+  while ((taken = reader.next(row)) == RowResult::kRow) {
     Numbers q = Eigen::Map<const Numbers>(row.numbers.data(), reader.form().position());
     if (!(file.tip ? judge_pose(file, q) : judge_joints(file, q))) return false;
     file.path.push_back(std::move(q));
   }
-  return taken == RowTaken::kEnd || unreadable();
+  return taken == RowResult::kEnd || unreadable();
 }
 
 RetimeSettings settings_for(const PathFile& file) {

@@ -57,38 +57,39 @@ bool RowReader::open(const std::string& path, const std::vector<std::string>& jo
     return refuse(0, 0, {}, std::string(std::strerror(errno)) + "; give the path of a CSV file");
   std::string_view line;
   switch (next_line(line, -1)) {
-    case RowTaken::kRow: return read_header(line);
-    case RowTaken::kEnd: return refuse(0, 0, {}, "the file has no header; write q1_rad,q2_rad,...");
+    case RowResult::kRow: return read_header(line);
+    case RowResult::kEnd:
+      return refuse(0, 0, {}, "the file has no header; write q1_rad,q2_rad,...");
     default: return false;
   }
 }
 
 bool RowReader::rewind() {
   std::string_view header;
-  return (lines_->rewind() && next_line(header, -1) == RowTaken::kRow) ||
+  return (lines_->rewind() && next_line(header, -1) == RowResult::kRow) ||
          refuse(0, 0, {}, "the file cannot be read a second time");
 }
 
-RowTaken RowReader::next_line(std::string_view& line, int wait_ms) {
+RowResult RowReader::next_line(std::string_view& line, int wait_ms) {
   for (;;) {
     switch (lines_->next(line, wait_ms)) {
-      case LineReader::Take::kLine: break;
-      case LineReader::Take::kNotYet: return RowTaken::kNotYet;
-      case LineReader::Take::kEnd: return RowTaken::kEnd;
-      case LineReader::Take::kTooLong:
+      case LineReader::Result::kLine: break;
+      case LineReader::Result::kNotYet: return RowResult::kNotYet;
+      case LineReader::Result::kEnd: return RowResult::kEnd;
+      case LineReader::Result::kTooLong:
         refuse(lines_->line(), 0, {}, "the line is too long; is this a CSV file?");
-        return RowTaken::kRefused;
-      case LineReader::Take::kFailed:
+        return RowResult::kRefused;
+      case LineReader::Result::kFailed:
         refuse(0, 0, {}, std::string(std::strerror(errno)) + "; give the path of a CSV file");
-        return RowTaken::kRefused;
+        return RowResult::kRefused;
     }
     if (!is_text(line)) {
       refuse(lines_->line(), 0, {}, kNotText);
-      return RowTaken::kRefused;
+      return RowResult::kRefused;
     }
     if (lines_->line() == 1) line = without_byte_order_mark(line);
     const std::string_view content = trim(line);
-    if (!content.empty() && content.front() != '#') return RowTaken::kRow;
+    if (!content.empty() && content.front() != '#') return RowResult::kRow;
   }
 }
 
@@ -185,11 +186,11 @@ bool RowReader::complete() {
   return true;
 }
 
-RowTaken RowReader::next(Row& row, int wait_ms) {
+RowResult RowReader::next(Row& row, int wait_ms) {
   std::string_view line;
-  const RowTaken taken = next_line(line, wait_ms);
-  if (taken != RowTaken::kRow) return taken;
-  return read_row(line, row) ? RowTaken::kRow : RowTaken::kRefused;
+  const RowResult taken = next_line(line, wait_ms);
+  if (taken != RowResult::kRow) return taken;
+  return read_row(line, row) ? RowResult::kRow : RowResult::kRefused;
 }
 
 bool RowReader::read_row(std::string_view line, Row& row) {

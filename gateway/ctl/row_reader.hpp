@@ -32,7 +32,7 @@ struct Row {
   std::vector<double> numbers;
 };
 
-enum class RowTaken : std::uint8_t {
+enum class RowResult : std::uint8_t {
   kRow,
   kEnd,      ///< there are no more rows
   kRefused,  ///< error() says why
@@ -50,7 +50,7 @@ class RowReader {
   /// False: refused.
   bool open(const std::string& path, const std::vector<std::string>& joints, const Allow& allow);
   /// Takes the next row. Waits for a pipe at most `wait_ms`; negative: until it has a row.
-  RowTaken next(Row& row, int wait_ms = -1);
+  RowResult next(Row& row, int wait_ms = -1);
   /// Returns to the first row; only of a regular file. False: refused.
   bool rewind();
 
@@ -68,7 +68,7 @@ class RowReader {
     double scale = 1.0;
   };
 
-  RowTaken next_line(std::string_view& line, int wait_ms);
+  RowResult next_line(std::string_view& line, int wait_ms);
   bool read_header(std::string_view line);
   bool add(std::string_view header);
   bool find(const std::string& si, Column& column) const;

@@ -68,9 +68,9 @@ bool Sender::read_once() {
   if (!reader_.regular()) return true;
   Row row;
   std::int64_t count = 0;
-  RowTaken taken = RowTaken::kRow;
-  while ((taken = reader_.next(row)) == RowTaken::kRow) ++count;
-  if (taken == RowTaken::kRefused) return s_.client.refuse(reader_.error());
+  RowResult taken = RowResult::kRow;
+  while ((taken = reader_.next(row)) == RowResult::kRow) ++count;
+  if (taken == RowResult::kRefused) return s_.client.refuse(reader_.error());
   if (count == 0) return s_.client.refuse(s_.options.file + ": the file has no waypoints");
   view_.set_length(row.time_s);
   s_.output.say(s_.options.file + ": " + std::to_string(count) + " waypoints, " +
@@ -124,16 +124,16 @@ bool Sender::feed() {
     ToServer request;
     Part& part = *request.mutable_part();
     Row row;
-    RowTaken taken = RowTaken::kRow;
-    while (part.time_s_size() < most && (taken = reader_.next(row, 0)) == RowTaken::kRow) {
+    RowResult taken = RowResult::kRow;
+    while (part.time_s_size() < most && (taken = reader_.next(row, 0)) == RowResult::kRow) {
       part.add_time_s(row.time_s);
       for (const double number : row.numbers) part.add_numbers(number);
     }
     if (!send_part(request)) return false;
-    if (taken == RowTaken::kNotYet) return true;
-    if (taken == RowTaken::kRow) continue;
+    if (taken == RowResult::kNotYet) return true;
+    if (taken == RowResult::kRow) continue;
     all_sent_ = true;
-    unreadable_ = taken == RowTaken::kRefused;
+    unreadable_ = taken == RowResult::kRefused;
     if (unreadable_) return !s_.client.refuse(reader_.error()) && cancel();
     ToServer end;
     end.mutable_end();

@@ -144,7 +144,7 @@ MHD_Result PageServer::execute(MHD_Connection* connection, const Command& comman
     return send_text(connection, 400, "a body has only /override: a number from 0 to 1", kPlain);
   const std::int64_t now_ns = monotonic_ns();
   const CommandVerdict verdict =
-      gate_.judge(command.what, command.seen.told_ms, now_ns / kMillisecond_ns);
+      gate_.judge(command.what, command.seen.sent_ms, now_ns / kMillisecond_ns);
   if (verdict.status != 200) return send_text(connection, verdict.status, verdict.text, kPlain);
   const std::uint32_t number = link_.send(command.what, rate, command.seen.stops, now_ns);
   if (number == 0)

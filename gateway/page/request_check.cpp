@@ -61,7 +61,7 @@ void take_header(std::string_view name, std::string_view value, RequestHead& hea
 
 std::string_view write_seen(const SeenState& seen, std::array<char, 32>& to) {
   char* const end = to.data() + to.size();
-  char* at = std::to_chars(to.data(), end, seen.told_ms).ptr;
+  char* at = std::to_chars(to.data(), end, seen.sent_ms).ptr;
   *at++ = ' ';
   at = std::to_chars(at, end, seen.stops).ptr;
   return {to.data(), static_cast<std::size_t>(at - to.data())};
@@ -70,7 +70,7 @@ std::string_view write_seen(const SeenState& seen, std::array<char, 32>& to) {
 SeenState read_seen(std::string_view text) {
   SeenState seen;
   const char* const end = text.data() + text.size();
-  const auto [blank, error] = std::from_chars(text.data(), end, seen.told_ms);
+  const auto [blank, error] = std::from_chars(text.data(), end, seen.sent_ms);
   if (error != std::errc() || blank == end || *blank != ' ') return {};
   const auto [stop, other] = std::from_chars(blank + 1, end, seen.stops);
   return other == std::errc() && stop == end ? seen : SeenState{};

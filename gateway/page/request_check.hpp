@@ -28,7 +28,7 @@ void take_header(std::string_view name, std::string_view value, RequestHead& hea
 
 /// Of the newest state that a browser has seen.
 struct SeenState {
-  std::int64_t told_ms = -1;  ///< when it was told; -1: the browser does not say
+  std::int64_t sent_ms = -1;  ///< when it was told; -1: the browser does not say
   std::uint32_t stops = 0;    ///< its number of the latest stop
 };
 

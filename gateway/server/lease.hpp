@@ -7,7 +7,7 @@
 
 namespace tactus {
 
-enum class LeaseTaken : std::uint8_t {
+enum class LeaseResult : std::uint8_t {
   kFree,       ///< no client had it
   kRenewed,    ///< the client had it
   kTakenOver,  ///< another one of lower priority had it
@@ -23,13 +23,13 @@ class Lease {
   std::uint32_t priority() const { return priority_; }
 
   /// A client asks for the motion, or renews its lease with another priority and time.
-  LeaseTaken take(int client, std::uint32_t priority, std::int64_t timeout_ns,
-                  std::int64_t now_ns) {
-    const LeaseTaken taken = owner_ == kNobody      ? LeaseTaken::kFree
-                             : owner_ == client     ? LeaseTaken::kRenewed
-                             : priority > priority_ ? LeaseTaken::kTakenOver
-                                                    : LeaseTaken::kRefused;
-    if (taken == LeaseTaken::kRefused) return taken;
+  LeaseResult take(int client, std::uint32_t priority, std::int64_t timeout_ns,
+                   std::int64_t now_ns) {
+    const LeaseResult taken = owner_ == kNobody      ? LeaseResult::kFree
+                              : owner_ == client     ? LeaseResult::kRenewed
+                              : priority > priority_ ? LeaseResult::kTakenOver
+                                                     : LeaseResult::kRefused;
+    if (taken == LeaseResult::kRefused) return taken;
     owner_ = client;
     priority_ = priority;
     timeout_ns_ = timeout_ns;

@@ -23,18 +23,18 @@ ChunkBase base_of(std::uint32_t base) {
                                               : ChunkBase::kAbsolute;
 }
 
-/// The numbers of one space in a message: of a position and of a velocity, all of them and how many
-/// there are.
-struct Given {
+/// The position and velocity fields of a message for one space: size of one position and velocity,
+/// the values, and their counts.
+struct SpaceFields {
   int position, velocity;
   const double *positions, *velocities;
   int position_count, velocity_count;
 };
 
-Given given_in(const tactus_Chunk& chunk, const JointSpace&) {
+SpaceFields fields_in(const tactus_Chunk& chunk, const JointSpace&) {
   return {kDof, kDof, chunk.q, chunk.dq, chunk.q_count, chunk.dq_count};
 }
-Given given_in(const tactus_Chunk& chunk, const TaskSpace&) {
+SpaceFields fields_in(const tactus_Chunk& chunk, const TaskSpace&) {
   return {7, 6, chunk.pose, chunk.twist, chunk.pose_count, chunk.twist_count};
 }
 const double* rates_in(const tactus_Velocity& velocity, int& count, const JointSpace&) {
@@ -49,7 +49,7 @@ const double* rates_in(const tactus_Velocity& velocity, int& count, const TaskSp
 /// Reads the targets of a chunk; false if their numbers are not complete.
 template <class Space>
 bool read_targets(const tactus_Chunk& from, double origin_s, Chunk<Space>& chunk) {
-  const Given given = given_in(from, Space());
+  const SpaceFields given = fields_in(from, Space());
   chunk.count = 0;
   chunk.velocities = given.velocity_count > 0;
   if (from.time_s_count == 0 || given.position_count != given.position * from.time_s_count ||

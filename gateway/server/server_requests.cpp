@@ -236,18 +236,18 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
   if (wish.priority > kHighestPriority)
     return {Status::kBadValue, "Lease.priority is not from 0 to 255"};
   const int before = lease_.owner();
-  const LeaseTaken taken = lease_.take(slot, wish.priority, kMillisecond_ns * timeout_ms, now_ns);
-  if (taken == LeaseTaken::kRefused) {
+  const LeaseResult taken = lease_.take(slot, wish.priority, kMillisecond_ns * timeout_ms, now_ns);
+  if (taken == LeaseResult::kRefused) {
     Message text(std::string_view(at(before).name));
     text << " owns the motion with priority " << static_cast<int>(lease_.priority())
          << "; ask with a higher one, or wait until it is given back";
     return {Status::kNotOwner, text};
   }
   at(slot).canceled = false;
-  if (taken == LeaseTaken::kRenewed) return {};
+  if (taken == LeaseResult::kRenewed) return {};
   Message text(at(slot).name);
   text << " owns the motion";
-  if (taken == LeaseTaken::kTakenOver) {
+  if (taken == LeaseResult::kTakenOver) {
     references_.give_up(at(before).session);
     references_.end_motion();
     text << ", taken over from " << std::string_view(at(before).name);

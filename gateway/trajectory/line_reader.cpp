@@ -44,7 +44,7 @@ bool LineReader::unchanged() const {
          now.st_mtim.tv_nsec == opened_.st_mtim.tv_nsec;
 }
 
-LineReader::Take LineReader::next(std::string_view& line, int wait_ms) {
+LineReader::Result LineReader::next(std::string_view& line, int wait_ms) {
   for (std::size_t searched = 0;;) {
     const std::string_view unread(buffer_.data() + begin_, end_ - begin_);
     const std::size_t found = unread.find('\n', searched);
@@ -52,39 +52,39 @@ LineReader::Take LineReader::next(std::string_view& line, int wait_ms) {
     const std::size_t size = whole ? found : unread.size();
     if (size > kLongest) {
       ++line_;
-      return Take::kTooLong;
+      return Result::kTooLong;
     }
     if (whole || all_read_) {
-      if (!whole && unread.empty()) return Take::kEnd;
+      if (!whole && unread.empty()) return Result::kEnd;
       line = unread.substr(0, size);
       if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
       begin_ += size + (whole ? 1 : 0);
       ++line_;
-      return Take::kLine;
+      return Result::kLine;
     }
     searched = size;
-    const Take filled = fill(wait_ms);
-    if (filled != Take::kLine) return filled;
+    const Result filled = fill(wait_ms);
+    if (filled != Result::kLine) return filled;
   }
 }
 
 /// Reads more bytes behind those that were not yet taken; kLine to look again, whether there are
 /// more, no more, or a signal came.
-LineReader::Take LineReader::fill(int wait_ms) {
+LineReader::Result LineReader::fill(int wait_ms) {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
   pollfd readable = {file_, POLLIN, 0};
   const int ready = poll(&readable, 1, wait_ms);
-  if (ready < 0 && errno == EINTR) return wait_ms < 0 ? Take::kLine : Take::kNotYet;
-  if (ready == 0) return Take::kNotYet;
+  if (ready < 0 && errno == EINTR) return wait_ms < 0 ? Result::kLine : Result::kNotYet;
+  if (ready == 0) return Result::kNotYet;
   const ssize_t size = read(file_, buffer_.data() + end_, buffer_.size() - end_);
-  if (size < 0) return errno == EINTR ? Take::kLine : Take::kFailed;
+  if (size < 0) return errno == EINTR ? Result::kLine : Result::kFailed;
   const auto count = static_cast<std::size_t>(size);
   hash_ = fnv1a({buffer_.data() + end_, count}, hash_);
   all_read_ = count == 0;
   end_ += count;
-  return Take::kLine;
+  return Result::kLine;
 }
 
 }  // namespace tactus

@@ -14,7 +14,7 @@ class LineReader {
  public:
   static constexpr std::size_t kLongest = 4096;  ///< of a line, in bytes
 
-  enum class Take : std::uint8_t {
+  enum class Result : std::uint8_t {
     kLine,
     kEnd,      // there are no more lines
     kNotYet,   // a pipe had no whole line within the time to wait
@@ -36,7 +36,7 @@ class LineReader {
 
   /// Takes the next line, without its end; it stays until the next call. Waits for a pipe at most
   /// `wait_ms`, or until it has a line or is closed if that is negative. [any, not cyclic]
-  Take next(std::string_view& line, int wait_ms);
+  Result next(std::string_view& line, int wait_ms);
 
   /// True for a file that can be read twice.
   bool regular() const { return S_ISREG(opened_.st_mode); }
@@ -52,7 +52,7 @@ class LineReader {
   static constexpr std::size_t kBuffer = 1 << 16;
   static_assert(kBuffer > kLongest, "a line fits");
 
-  Take fill(int wait_ms);
+  Result fill(int wait_ms);
 
   int file_ = -1;
   struct stat opened_ = {};

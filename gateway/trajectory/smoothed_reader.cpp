@@ -87,9 +87,9 @@ bool SmoothedReader<Space>::restart(const Smoothing& smoothing, CsvError& error)
   run_ups_ = 0;
   count_ = next_ = ready_ = 0;
   // The digits of a column are known when all of its numbers were read.
-  RowTaken taken = smooths() ? RowTaken::kWaypoint : RowTaken::kEnd;
-  while (taken == RowTaken::kWaypoint) taken = reader_.next(rows_[0], error);
-  return taken == RowTaken::kEnd && reader_.rewind(error);
+  RowResult taken = smooths() ? RowResult::kWaypoint : RowResult::kEnd;
+  while (taken == RowResult::kWaypoint) taken = reader_.next(rows_[0], error);
+  return taken == RowResult::kEnd && reader_.rewind(error);
 }
 
 template <class Space>
@@ -107,23 +107,23 @@ Fields SmoothedReader<Space>::fields() const {
 }
 
 template <class Space>
-RowTaken SmoothedReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
+RowResult SmoothedReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
   if (!smooths()) {
-    const RowTaken taken = reader_.next(waypoint, error, wait_ms);
+    const RowResult taken = reader_.next(waypoint, error, wait_ms);
     line_ = lines().line();
     return taken;
   }
   if (next_ == ready_) {
-    if (at_end_ && ready_ == count_) return RowTaken::kEnd;
-    if (!fit_more(error)) return RowTaken::kRefused;
+    if (at_end_ && ready_ == count_) return RowResult::kEnd;
+    if (!fit_more(error)) return RowResult::kRefused;
   }
   const bool begins = !begun_;
   begun_ = true;
-  if (begins && run_up(waypoint)) return RowTaken::kWaypoint;
+  if (begins && run_up(waypoint)) return RowResult::kWaypoint;
   waypoint = row(next_);
   waypoint.point = point(next_);
   line_ = lines_[static_cast<std::size_t>(next_++)];
-  return RowTaken::kWaypoint;
+  return RowResult::kWaypoint;
 }
 
 /// Writes the waypoint before the first one where a motion that begins at a velocity begins to run
@@ -200,9 +200,9 @@ template <class Space>
 bool SmoothedReader<Space>::read_window(CsvError& error) {
   while (count_ < kMost && !at_end_) {
     const auto place = static_cast<std::size_t>(count_);
-    const RowTaken taken = reader_.next(rows_[place], error);
-    if (taken == RowTaken::kRefused) return false;
-    at_end_ = taken != RowTaken::kWaypoint;
+    const RowResult taken = reader_.next(rows_[place], error);
+    if (taken == RowResult::kRefused) return false;
+    at_end_ = taken != RowResult::kWaypoint;
     lines_[place] = lines().line();
     count_ += at_end_ ? 0 : 1;
   }

@@ -52,7 +52,7 @@ class SmoothedReader {
   /// The same, to read it as before. [init]
   bool rewind(CsvError& error);
   /// As TrajectoryReader::next(). Refuses also what no smooth curve is near to. [any, not cyclic]
-  RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
+  RowResult next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
 
   /// Fields of the waypoints; known once one was taken.
   Fields fields() const;

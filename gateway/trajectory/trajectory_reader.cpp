@@ -94,25 +94,25 @@ bool TrajectoryReader<Space>::rewind(CsvError& error) {
 }
 
 template <class Space>
-RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
+RowResult TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms) {
   std::string_view row;
   for (;;) {
     switch (lines_.next(row, wait_ms)) {
-      case LineReader::Take::kLine: break;
-      case LineReader::Take::kNotYet: return RowTaken::kNotYet;
-      case LineReader::Take::kEnd: return end(error);
-      case LineReader::Take::kTooLong:
+      case LineReader::Result::kLine: break;
+      case LineReader::Result::kNotYet: return RowResult::kNotYet;
+      case LineReader::Result::kEnd: return end(error);
+      case LineReader::Result::kTooLong:
         refuse(error, lines_.line(), 0, {},
                Message("the line is longer than ") << LineReader::kLongest << " characters");
-        return RowTaken::kRefused;
-      case LineReader::Take::kFailed:
+        return RowResult::kRefused;
+      case LineReader::Result::kFailed:
         refuse(error, 0, 0, {}, not_readable(errno));
-        return RowTaken::kRefused;
+        return RowResult::kRefused;
     }
     const int line = lines_.line();
     if (!is_text(row)) {
       refuse(error, line, 0, {}, kNotText);
-      return RowTaken::kRefused;
+      return RowResult::kRefused;
     }
     if (line == 1) row = without_byte_order_mark(row);
     const std::string_view content = trim(row);
@@ -122,10 +122,10 @@ RowTaken TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& erro
       const bool read =
           read_row(Cells(row, separator_), line, columns_, digits_.data(), waypoint, error);
       if (read) turns_.take(waypoint.point);
-      return read ? RowTaken::kWaypoint : RowTaken::kRefused;
+      return read ? RowResult::kWaypoint : RowResult::kRefused;
     }
     separator_ = separator_of(row);
-    if (!read_header(Cells(row, separator_), line, columns_, error)) return RowTaken::kRefused;
+    if (!read_header(Cells(row, separator_), line, columns_, error)) return RowResult::kRefused;
     JointSpace::Header header;
     if constexpr (std::is_same_v<Space, JointSpace>) columns_.note_left_out(header);
     turns_.leave_out(header);
@@ -145,11 +145,11 @@ Waypoint<Space> TrajectoryReader<Space>::half_units(const Waypoint<Space>& waypo
 }
 
 template <class Space>
-RowTaken TrajectoryReader<Space>::end(CsvError& error) const {
-  if (columns_.count() > 0 && rows_ > 0) return RowTaken::kEnd;
+RowResult TrajectoryReader<Space>::end(CsvError& error) const {
+  if (columns_.count() > 0 && rows_ > 0) return RowResult::kEnd;
   refuse(error, 0, 0, {},
          columns_.count() == 0 ? "the file has no header" : "the file has no waypoints");
-  return RowTaken::kRefused;
+  return RowResult::kRefused;
 }
 
 template class TrajectoryReader<JointSpace>;
@@ -162,8 +162,8 @@ bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajecto
   trajectory.count = 0;
   if (!reader.open(path, partial, 0, error)) return false;
   Waypoint<Space> waypoint;
-  RowTaken taken = reader.next(waypoint, error);
-  for (; taken == RowTaken::kWaypoint; taken = reader.next(waypoint, error)) {
+  RowResult taken = reader.next(waypoint, error);
+  for (; taken == RowResult::kWaypoint; taken = reader.next(waypoint, error)) {
     if (trajectory.count == trajectory.capacity) {
       error.line = reader.lines().line();
       error.reason << "too many waypoints; at most " << trajectory.capacity << " fit";
@@ -173,7 +173,7 @@ bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajecto
   }
   trajectory.fields = reader.fields();
   reader.note_left_out(trajectory.header);
-  return taken == RowTaken::kEnd;
+  return taken == RowResult::kEnd;
 }
 
 template bool read_trajectory(const char*, bool, Trajectory<JointSpace>&, CsvError&);

@@ -32,7 +32,7 @@ struct CsvError {
   PlacedMessage message() const;
 };
 
-enum class RowTaken : std::uint8_t {
+enum class RowResult : std::uint8_t {
   kWaypoint,
   kEnd,      // there are no more waypoints
   kRefused,  // the error says why
@@ -50,7 +50,7 @@ class TrajectoryReader {
   /// Takes the next waypoint, in SI units. Refuses cells that are empty, no number, NaN or
   /// infinite, and a file without header or waypoints. Waits for a pipe at most `wait_ms`;
   /// negative: until it has a row or is closed. [any, not cyclic]
-  RowTaken next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
+  RowResult next(Waypoint<Space>& waypoint, CsvError& error, int wait_ms = -1);
 
   /// Sets how the angles of joints without end are taken, from the next open() or rewind() on.
   /// [init]
@@ -68,7 +68,7 @@ class TrajectoryReader {
   const LineReader& lines() const { return lines_; }
 
  private:
-  RowTaken end(CsvError& error) const;
+  RowResult end(CsvError& error) const;
 
   LineReader lines_;
   Columns<Space> columns_{false};

@@ -25,26 +25,26 @@ template <class Space>
 bool TrajectoryStream<Space>::fill_window() {
   window_->count = 0;
   has_next_ = whole_known_ = false;
-  RowTaken taken = take(-1);
-  for (; taken == RowTaken::kWaypoint && window_->count < window_->capacity; taken = take(-1)) {
+  RowResult taken = take(-1);
+  for (; taken == RowResult::kWaypoint && window_->count < window_->capacity; taken = take(-1)) {
     note(window_->count);
     window_->set(window_->count++, next_);
     has_next_ = false;
   }
-  if (taken == RowTaken::kRefused) return false;
+  if (taken == RowResult::kRefused) return false;
   window_->fields = reader_.fields();
   reader_.note_left_out(window_->header);
-  window_->open = longer_ = taken == RowTaken::kWaypoint;
+  window_->open = longer_ = taken == RowResult::kWaypoint;
   sender_.begin(window_->count);
-  state_ = longer_ ? Fed::kMore : Fed::kIdle;
+  state_ = longer_ ? FeedResult::kMore : FeedResult::kIdle;
   return true;
 }
 
 template <class Space>
-RowTaken TrajectoryStream<Space>::take(int wait_ms) {
-  const RowTaken taken = reader_.next(next_, refusal_.row, wait_ms);
-  has_next_ = taken == RowTaken::kWaypoint;
-  whole_known_ = whole_known_ || taken == RowTaken::kEnd;
+RowResult TrajectoryStream<Space>::take(int wait_ms) {
+  const RowResult taken = reader_.next(next_, refusal_.row, wait_ms);
+  has_next_ = taken == RowResult::kWaypoint;
+  whole_known_ = whole_known_ || taken == RowResult::kEnd;
   return taken;
 }
 
@@ -110,9 +110,9 @@ bool TrajectoryStream<Space>::judge_rest(const AdmissionSettings<Space>& setting
 template <class Space>
 bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settings) {
   for (;;) {
-    const RowTaken taken = has_next_ ? RowTaken::kWaypoint : take(-1);
-    if (taken == RowTaken::kRefused) return false;
-    if (taken != RowTaken::kWaypoint) return judged(judge_.end(*window_, settings));
+    const RowResult taken = has_next_ ? RowResult::kWaypoint : take(-1);
+    if (taken == RowResult::kRefused) return false;
+    if (taken != RowResult::kWaypoint) return judged(judge_.end(*window_, settings));
     note(judge_.next());
     if (!judged(judge_.append(*window_, next_, settings))) return false;
     has_next_ = false;
@@ -129,23 +129,23 @@ bool TrajectoryStream<Space>::judged(const Verdict& verdict) {
 }
 
 template <class Space>
-Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
-  if (state_ != Fed::kMore) return state_;
-  if (sender_.awaiting()) return Fed::kAhead;
+FeedResult TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
+  if (state_ != FeedResult::kMore) return state_;
+  if (sender_.awaiting()) return FeedResult::kAhead;
   for (;;) {
     if (!has_next_ && !whole_known_) {
-      const RowTaken taken = take(wait_ms);
-      if (taken == RowTaken::kRefused && reader_.lines().regular()) return give_up(kChanged);
-      if (taken == RowTaken::kRefused) return state_ = Fed::kRefused;
+      const RowResult taken = take(wait_ms);
+      if (taken == RowResult::kRefused && reader_.lines().regular()) return give_up(kChanged);
+      if (taken == RowResult::kRefused) return state_ = FeedResult::kRefused;
       const bool starves =
           sender_.sent() - client.needed(*window_) < PartSender<Space>::part_size(*window_);
-      if (taken == RowTaken::kNotYet)
-        return starves && sender_.unsent() > 0 ? send_part(client, false) : Fed::kNotYet;
+      if (taken == RowResult::kNotYet)
+        return starves && sender_.unsent() > 0 ? send_part(client, false) : FeedResult::kNotYet;
     }
     if (!has_next_) return send_part(client, true);
     const int index = sender_.appended();
     const Verdict verdict = sender_.append(client, *window_, next_);
-    if (verdict.status == Status::kWindowFull) return Fed::kAhead;
+    if (verdict.status == Status::kWindowFull) return FeedResult::kAhead;
     note(index);
     if (!verdict.ok()) return give_up(verdict);
     has_next_ = false;
@@ -154,7 +154,7 @@ Fed TrajectoryStream<Space>::feed(ReferenceClient<Space>& client, int wait_ms) {
 }
 
 template <class Space>
-Fed TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last) {
+FeedResult TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last) {
   if (changed(last)) return give_up(kChanged);
   const Verdict verdict = sender_.flush(client, *window_, last);
   if (!verdict.ok()) return give_up(verdict);
@@ -162,12 +162,12 @@ Fed TrajectoryStream<Space>::send_part(ReferenceClient<Space>& client, bool last
     count_ = sender_.sent();
     end_s_ = window_->time_s(sender_.sent() - 1);
   }
-  return state_ = last ? Fed::kWhole : Fed::kMore;
+  return state_ = last ? FeedResult::kWhole : FeedResult::kMore;
 }
 
 template <class Space>
 void TrajectoryStream<Space>::answered(const Report& report) {
-  if (sender_.answered(report) && !sender_.failed().ok() && state_ != Fed::kIdle)
+  if (sender_.answered(report) && !sender_.failed().ok() && state_ != FeedResult::kIdle)
     refuse(sender_.failed());
 }
 
@@ -186,7 +186,7 @@ void TrajectoryStream<Space>::note(int index) {
 
 template <class Space>
 bool TrajectoryStream<Space>::refuse(const Verdict& verdict) {
-  state_ = Fed::kRefused;
+  state_ = FeedResult::kRefused;
   refusal_.verdict = verdict;
   if (verdict.waypoint >= 0 && in_window(verdict.waypoint))
     refusal_.line = lines_[static_cast<std::size_t>(verdict.waypoint % window_->capacity)];
@@ -196,7 +196,7 @@ bool TrajectoryStream<Space>::refuse(const Verdict& verdict) {
 
 template <class Space>
 bool TrajectoryStream<Space>::refuse(std::string_view reason) {
-  state_ = Fed::kRefused;
+  state_ = FeedResult::kRefused;
   refusal_.row = {};
   refusal_.row.reason = Message(reason);
   return false;

@@ -19,7 +19,7 @@ struct StreamRefusal {
 /// True of what a smoother curve through the same positions may repair.
 bool of_derivatives(Status status);
 
-enum class Fed : std::uint8_t {
+enum class FeedResult : std::uint8_t {
   kIdle,     ///< nothing to feed: the file fits its store, or its trajectory has ended
   kAhead,    ///< the window is full, or the generator has not yet answered the last part
   kNotYet,   ///< a pipe has no more rows at present
@@ -51,11 +51,11 @@ class TrajectoryStream {
 
   /// Appends and sends the next part of a trajectory that was sent, if there is space. Waits for a
   /// pipe at most `wait_ms`. [any, not cyclic]
-  Fed feed(ReferenceClient<Space>& client, int wait_ms);
+  FeedResult feed(ReferenceClient<Space>& client, int wait_ms);
   /// Takes the answer to a part. [any, not cyclic]
   void answered(const Report& report);
   /// Gives up: the trajectory has ended.
-  void end() { state_ = Fed::kIdle; }
+  void end() { state_ = FeedResult::kIdle; }
 
   /// True if the file does not fit into the store.
   bool longer() const { return longer_; }
@@ -78,7 +78,7 @@ class TrajectoryStream {
   bool refuse(const Verdict& verdict);
   bool refuse(std::string_view reason);
   template <class Reason>
-  Fed give_up(const Reason& reason) {
+  FeedResult give_up(const Reason& reason) {
     refuse(reason);
     return state_;
   }
@@ -88,10 +88,10 @@ class TrajectoryStream {
                       const SmoothingTolerance& tolerance);
   bool restart(const Smoothing& smoothing);
   bool may_be_smoothed(bool accepted) const;
-  RowTaken take(int wait_ms);
+  RowResult take(int wait_ms);
   bool judge_parts(const AdmissionSettings<Space>& settings);
   bool judged(const Verdict& verdict);
-  Fed send_part(ReferenceClient<Space>& client, bool last);
+  FeedResult send_part(ReferenceClient<Space>& client, bool last);
   bool changed(bool at_end) const;
   /// Notes the line of the waypoint that becomes number `index`.
   void note(int index);
@@ -105,7 +105,7 @@ class TrajectoryStream {
   bool has_next_ = false, longer_ = false, whole_known_ = false;
   PartJudge<Space> judge_;
   PartSender<Space> sender_;
-  Fed state_ = Fed::kIdle;
+  FeedResult state_ = FeedResult::kIdle;
   std::int64_t count_ = 0;
   double end_s_ = 0.0;
   std::uint64_t judged_hash_ = 0;

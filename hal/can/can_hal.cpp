@@ -70,7 +70,7 @@ Status CanHal::start_up() {
     TRY(send());
     if (status != Status::kArming) return status;
     const CanSocket& awaited = sockets_[static_cast<std::size_t>(master_.awaited_bus())];
-    if (awaited.wait(kAnswer_ns) == Waited::kInterrupted) {
+    if (awaited.wait(kAnswer_ns) == WaitResult::kInterrupted) {
       master_.why() = Message("a signal ended the start-up; no drive was enabled");
       return Status::kHalted;
     }

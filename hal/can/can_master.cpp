@@ -38,7 +38,7 @@ Status CanMaster::connecting(std::int64_t now_ns) {
     nodes_[j].feedback.forget_what_has_gone();
     feedbacks[j] = nodes_[j].feedback;
   }
-  drives_.set_velocity_units(startup_.learnt().velocity_units);
+  drives_.set_velocity_units(startup_.findings().velocity_units);
   TRY(drives_.attach(mode_, feedbacks, why_));
   sent_ = {};
   since_refresh_ = PdoLayout::kRefresh;

@@ -65,9 +65,9 @@ class CanMaster {
   /// The last Status in words. [between two cycles]
   Message trouble() const;
   /// As Hal::unstated(). [init]
-  Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
+  Message unstated() const { return cia402::unstated(*drive_, startup_.findings()); }
   /// As cia402::written_text(), of all start-ups. [init]
-  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
+  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.findings(), n); }
   /// As Drives::to_home(). [init]
   Message to_home() const { return drives_.to_home(); }
   cia402::ArmingPhase phase() const { return drives_.phase(); }

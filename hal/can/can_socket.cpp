@@ -295,12 +295,12 @@ void CanSocket::want(const CanFilter* filters, int count) {
       if (((id ^ filters[i].id) & filters[i].mask) == 0) wanted_[id / 32] |= 1U << id % 32;
 }
 
-Waited CanSocket::wait(std::int64_t timeout_ns) const {
+WaitResult CanSocket::wait(std::int64_t timeout_ns) const {
   pollfd polled = {socket_, POLLIN, 0};
   const timespec timeout = {timeout_ns / kSecond_ns, timeout_ns % kSecond_ns};
   const int ready = ppoll(&polled, 1, &timeout, nullptr);
-  if (ready < 0 && errno == EINTR) return Waited::kInterrupted;
-  return ready > 0 ? Waited::kSomething : Waited::kNothing;
+  if (ready < 0 && errno == EINTR) return WaitResult::kInterrupted;
+  return ready > 0 ? WaitResult::kSomething : WaitResult::kNothing;
 }
 
 void CanSocket::close() {

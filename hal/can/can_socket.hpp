@@ -20,7 +20,7 @@ namespace tactus::can {
 /// kQueueFull: at least one frame was not sent.
 enum class Sent : std::uint8_t { kAll, kQueueFull, kLost };
 
-enum class Waited : std::uint8_t { kSomething, kNothing, kInterrupted };
+enum class WaitResult : std::uint8_t { kSomething, kNothing, kInterrupted };
 
 class CanSocket {
  public:
@@ -42,7 +42,7 @@ class CanSocket {
   void adopt(int descriptor, bool fd, const CanFilter* filters = nullptr, int count = 0);
   /// Waits until a frame, or the end of the link, can be received. kInterrupted: a signal came.
   /// [init]
-  Waited wait(std::int64_t timeout_ns) const;
+  WaitResult wait(std::int64_t timeout_ns) const;
   /// [any]
   void close();
   bool is_open() const { return socket_ >= 0; }

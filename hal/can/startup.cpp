@@ -140,7 +140,7 @@ void Startup::list_steps() {
   bus_ = node.bus;
   watched_ = false;
   facts_.clear();
-  lines_.begin(drive_->sdo, joint_, learnt_);
+  lines_.begin(drive_->sdo, joint_, findings_);
   steps_.begin(*can_, *layout_, node.slot, mode_, period_us_);
   step_ = stage_ == Stage::kIdentify ? 0 : steps_.identifying();
   leave_out();
@@ -217,7 +217,7 @@ Status Startup::finish_step(std::int64_t now_ns) {
     return judge_value(step, now_ns);
   } else {
     watched_ = watched_ || step.watches;
-    bool& stored = learnt_.stored[static_cast<std::size_t>(joint_)];
+    bool& stored = findings_.stored[static_cast<std::size_t>(joint_)];
     stored = stored || step.kind == SetupStep::Kind::kStore;
   }
   if (step.kind == SetupStep::Kind::kFact) TRY(judge_fact(step.value));
@@ -248,8 +248,8 @@ Status Startup::judge_fact(std::uint32_t row) {
       static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
   const bool velocities = layout_->fd() || mode_ == CommandMode::kVelocity;
   Message said;
-  const Status status = identity ? facts_.judge_identity(*drive_, joint_, learnt_, said)
-                                 : facts_.judge(*drive_, joint_, velocities, learnt_, said);
+  const Status status = identity ? facts_.judge_identity(*drive_, joint_, findings_, said)
+                                 : facts_.judge(*drive_, joint_, velocities, findings_, said);
   if (status == Status::kOk) return status;
   why_ = label(joint_, nodes_[static_cast<std::size_t>(joint_)]);
   why_ << ": " << std::string_view(said);

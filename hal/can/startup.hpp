@@ -33,8 +33,8 @@ class Startup {
   /// Takes the next step that is possible now. kArming: it goes on; kBusTimeout, kRefusedByRobot,
   /// with the reason. [init]
   Status advance(std::int64_t now_ns);
-  /// What the drives have said. [init]
-  const cia402::Learnt& learnt() const { return learnt_; }
+  /// Values read from the drives. [init]
+  const cia402::StartupFindings& findings() const { return findings_; }
   /// Bus that answers are awaited from. [init]
   int bus() const { return bus_; }
 
@@ -81,7 +81,7 @@ class Startup {
   NodeSetup steps_;
   cia402::DriveFacts facts_;  // of joint_
   cia402::LineWriter lines_;
-  cia402::Learnt learnt_;
+  cia402::StartupFindings findings_;
   std::int64_t sync_ns_ = 0;  // of the last SYNC
   int steady_ = 0;            // cycles in a row with feedback of all
 };

@@ -86,22 +86,22 @@ double DriveFacts::told_velocity_units(double increments) const {
   }
 }
 
-Message unstated(const Cia402Settings& drive, const Learnt& learnt) {
+Message unstated(const Cia402Settings& drive, const StartupFindings& findings) {
   Message line;
-  const bool told = (learnt.serials.array() > 0.0).all();
+  const bool told = (findings.serials.array() > 0.0).all();
   if (!told || (drive.serial.array() > 0.0).all()) return line;
   line << "[cia402] serial =";
-  for (const double serial : learnt.serials) line << " " << static_cast<std::size_t>(serial);
+  for (const double serial : findings.serials) line << " " << static_cast<std::size_t>(serial);
   return line;
 }
 
-Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities, Learnt& learnt,
-                         Message& why) const {
+Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities,
+                         StartupFindings& findings, Message& why) const {
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
   const double stated = drive.velocity_units[joint];
   const double told = told_velocity_units(drive.increments[joint]);
-  learnt.velocity_units[joint] = stated > 0.0 ? stated : told;
+  findings.velocity_units[joint] = stated > 0.0 ? stated : told;
   return velocities ? judge_velocities(stated, told, why) : Status::kOk;
 }
 
@@ -128,9 +128,9 @@ Status DriveFacts::judge_velocities(double stated, double told, Message& why) co
 }
 
 /// Drives of one kind differ in nothing else, and a joint must not move for another.
-Status DriveFacts::judge_identity(const Cia402Settings& drive, int joint, Learnt& learnt,
+Status DriveFacts::judge_identity(const Cia402Settings& drive, int joint, StartupFindings& findings,
                                   Message& why) const {
-  learnt.serials[joint] = get(kSerialNumber);
+  findings.serials[joint] = get(kSerialNumber);
   const double stated = drive.serial[joint];
   if (stated == 0.0 || (has(kSerialNumber) && get(kSerialNumber) == stated)) return Status::kOk;
   why << "its serial number (1018h:4) is ";

@@ -51,18 +51,18 @@ inline constexpr std::uint32_t kFactCount = std::size(kFacts);
 inline constexpr std::uint32_t kIdentityFact = 0;
 static_assert(kFacts[kIdentityFact].object.mapping() == kSerialNumber.mapping());
 
-/// What a start-up has learnt from the drives of all joints.
-struct Learnt {
+/// Values that a start-up has read from the drives of all joints.
+struct StartupFindings {
   JointVector velocity_units = JointVector::Zero();  ///< per motor revolution per second; NaN: not
                                                      ///< known
-  JointVector serials = JointVector::Zero();         ///< 0: not told
+  JointVector serials = JointVector::Zero();         ///< 0: the drive does not report one
   std::array<std::uint32_t, kDof> written{};         ///< bit i: by line i of the file
   std::array<bool, kDof> stored{};                   ///< by the drive, in its own memory
 };
 
 /// The line for the file that has the serial numbers compared from now on; empty if they are, or if
 /// a drive has none. [init]
-Message unstated(const Cia402Settings& drive, const Learnt& learnt);
+Message unstated(const Cia402Settings& drive, const StartupFindings& findings);
 
 class DriveFacts {
  public:
@@ -80,12 +80,13 @@ class DriveFacts {
 
   /// Compares the serial number with that of the file; nothing is written to any drive before all
   /// are judged. Fails as judge(). [init]
-  Status judge_identity(const Cia402Settings& drive, int joint, Learnt& learnt, Message& why) const;
+  Status judge_identity(const Cia402Settings& drive, int joint, StartupFindings& findings,
+                        Message& why) const;
   /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
-  /// wire carries velocities of this drive, whose unit must be known. Fills in what is `learnt` of
-  /// the joint. kRefusedByRobot; `why` has object, value, what was expected and the line that
+  /// wire carries velocities of this drive, whose unit must be known. Adds to `findings` the values
+  /// of the joint. kRefusedByRobot; `why` has object, value, what was expected and the line that
   /// helps. [init]
-  Status judge(const Cia402Settings& drive, int joint, bool velocities, Learnt& learnt,
+  Status judge(const Cia402Settings& drive, int joint, bool velocities, StartupFindings& findings,
                Message& why) const;
 
  private:

@@ -13,10 +13,10 @@ void append(Message& text, const ObjectLine& line) {
 
 }  // namespace
 
-void LineWriter::begin(const ObjectLines& lines, int joint, Learnt& learnt) {
+void LineWriter::begin(const ObjectLines& lines, int joint, StartupFindings& findings) {
   lines_ = &lines;
   joint_ = joint;
-  learnt_ = &learnt;
+  findings_ = &findings;
   changed_ = false;
   next(0);
 }
@@ -28,14 +28,15 @@ void LineWriter::next(int from) {
   while (!done() && !line().is_for(joint_)) ++at_;
 }
 
-Status LineWriter::take(const Transferred& transfer, Message& why) {
+Status LineWriter::take(const TransferResult& transfer, Message& why) {
   const bool fits = !reads() || !transfer.size_known || transfer.bytes == line().object.bytes;
   if (!transfer.done || !fits) return refuse(transfer, why);
   if (stage_ == Stage::kWrite) {
     changed_ = true;
     stage_ = Stage::kReadBack;
   } else if (line().is(transfer.value)) {
-    if (stage_ == Stage::kReadBack) learnt_->written[static_cast<std::size_t>(joint_)] |= 1U << at_;
+    if (stage_ == Stage::kReadBack)
+      findings_->written[static_cast<std::size_t>(joint_)] |= 1U << at_;
     next(at_ + 1);
   } else if (stage_ == Stage::kCompare) {
     stage_ = Stage::kWrite;
@@ -45,7 +46,7 @@ Status LineWriter::take(const Transferred& transfer, Message& why) {
   return Status::kOk;
 }
 
-Status LineWriter::refuse(const Transferred& transfer, Message& why) const {
+Status LineWriter::refuse(const TransferResult& transfer, Message& why) const {
   const ObjectLine& wanted = line();
   why << "sdo at line " << wanted.line << ", ";
   append(why, wanted);
@@ -62,10 +63,10 @@ Status LineWriter::refuse(const Transferred& transfer, Message& why) const {
   return Status::kRefusedByRobot;
 }
 
-Message written_text(const ObjectLines& lines, const Learnt& learnt, int n) {
+Message written_text(const ObjectLines& lines, const StartupFindings& findings, int n) {
   Message text, stored;
   std::uint32_t by_any = 0;
-  for (const std::uint32_t written : learnt.written) by_any |= written;
+  for (const std::uint32_t written : findings.written) by_any |= written;
   int row = 0;
   for (; row < lines.count(); ++row)
     if ((by_any >> row & 1U) != 0 && n-- == 0) break;
@@ -74,10 +75,10 @@ Message written_text(const ObjectLines& lines, const Learnt& learnt, int n) {
   const char* before = " written to the drives of joints ";
   for (int j = 0; j < kDof; ++j) {
     const auto at = static_cast<std::size_t>(j);
-    if ((learnt.written[at] >> row & 1U) == 0) continue;
+    if ((findings.written[at] >> row & 1U) == 0) continue;
     text << before << j + 1;
     before = ", ";
-    if (learnt.stored[at]) stored << (stored.empty() ? "; stored in " : ", ") << j + 1;
+    if (findings.stored[at]) stored << (stored.empty() ? "; stored in " : ", ") << j + 1;
   }
   return text << stored;
 }

@@ -9,8 +9,8 @@
 
 namespace tactus::cia402 {
 
-/// How a transfer by SDO has ended.
-struct Transferred {
+/// Result of an SDO transfer.
+struct TransferResult {
   bool done = false;        ///< false: the drive, or the wire, has aborted it
   bool size_known = false;  ///< the drive has said how many bytes the object has
   std::size_t bytes = 0;    ///< of the object that was read
@@ -19,9 +19,9 @@ struct Transferred {
 
 class LineWriter {
  public:
-  /// Begins with the first line of a joint, from 0, and notes what is written in `learnt`; both
+  /// Begins with the first line of a joint, from 0, and notes what is written in `findings`; both
   /// must outlive the writer. [init]
-  void begin(const ObjectLines& lines, int joint, Learnt& learnt);
+  void begin(const ObjectLines& lines, int joint, StartupFindings& findings);
   /// True if no line of the joint is left. [init]
   bool done() const { return at_ == lines_->count(); }
   /// The line whose object is to be transferred next; reads(): from the drive. [init]
@@ -29,7 +29,7 @@ class LineWriter {
   bool reads() const { return stage_ != Stage::kWrite; }
   /// Takes the end of that transfer. kRefusedByRobot: `why` has line, object and value; for an
   /// abort, its reason is to be added. [init]
-  Status take(const Transferred& transfer, Message& why);
+  Status take(const TransferResult& transfer, Message& why);
   /// True if a line has changed the drive. [init]
   bool changed() const { return changed_; }
 
@@ -37,10 +37,10 @@ class LineWriter {
   enum class Stage : std::uint8_t { kCompare, kWrite, kReadBack };
 
   void next(int from);
-  Status refuse(const Transferred& transfer, Message& why) const;
+  Status refuse(const TransferResult& transfer, Message& why) const;
 
   const ObjectLines* lines_ = nullptr;
-  Learnt* learnt_ = nullptr;
+  StartupFindings* findings_ = nullptr;
   int joint_ = 0, at_ = 0;
   Stage stage_ = Stage::kCompare;
   bool changed_ = false;
@@ -49,6 +49,6 @@ class LineWriter {
 /// What has been changed by the line number `n`, from 0, of those that have changed a drive:
 /// "2003h:1 = 5 written to the drives of joints 1, 3; stored in 3"; empty behind the last of them.
 /// [init]
-Message written_text(const ObjectLines& lines, const Learnt& learnt, int n);
+Message written_text(const ObjectLines& lines, const StartupFindings& findings, int n);
 
 }  // namespace tactus::cia402

@@ -25,8 +25,8 @@ constexpr TypeRow kTypes[] = {{"u8", 1, 0, 255},         {"u16", 2, 0, 65535},
                               {"i16", 2, -32768, 32767}, {"i32", 4, -2147483648LL, 2147483647},
                               {"f32", 4, 0, 0}};
 
-/// Objects of the start-up and of the cycle, and those without which a drive is not safe.
-struct KeptRow {
+/// Objects that start-up and cycle write, and objects on which the safety of a drive depends.
+struct ReservedObjects {
   std::uint16_t first, last;
   const char* why;
 };
@@ -37,7 +37,7 @@ constexpr const char* kStopping = "it decides how the drive stops without this p
 constexpr const char* kCommand = "it is a command, which only the cycle gives";
 constexpr const char* kSafety = "functional safety is for its maker's tool";
 constexpr const char* kUnit = "it changes a unit, a sign or the zero that nobody compares";
-constexpr KeptRow kKept[] = {
+constexpr ReservedObjects kReserved[] = {
     {0x1005, 0x1007, kSync},
     {0x100C, 0x100D, kWatch},  // node guarding
     {0x1010, 0x1010, "it stores the drive's parameters; use [cia402] store = 1"},
@@ -247,7 +247,7 @@ const char* kept_by_program(std::uint16_t index) {
   constexpr std::uint16_t kAxes = 0x6000, kAxesEnd = 0xA000, kAxis = 0x800;
   if (index >= kAxes && index < kAxesEnd)
     index = static_cast<std::uint16_t>(kAxes + (index - kAxes) % kAxis);
-  for (const KeptRow& row : kKept)
+  for (const ReservedObjects& row : kReserved)
     if (index >= row.first && index <= row.last) return row.why;
   return nullptr;
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr int kMostMissing = 1000;  // more are not counted
 constexpr std::size_t kClockBytes = 8, kAskedBytes = 6;
 
-/// Of the working counter: for each slave reading adds 1, and writing 1, or 2 in LRW.
+/// Increments of the working counter: a slave adds 1 for reading and 1 for writing, 2 in LRW.
 constexpr int expected(Command command) {
   return command == Command::kLrw ? 3 * kDof : kDof;
 }
@@ -31,14 +31,14 @@ void CyclicFrame::start(const ImageShape& image, bool has_clock, const std::uint
   count_ = in_frame_ = 0;
   room_ = kMaxData;
   if (image.lrw) {
-    add(What::kImage, Command::kLrw, kImageAddress, image.bytes());
+    add(PartKind::kImage, Command::kLrw, kImageAddress, image.bytes());
   } else {
-    add(What::kImage, Command::kLrd, inputs, image.inputs);
-    add(What::kImage, Command::kLwr, kImageAddress, image.outputs);
+    add(PartKind::kImage, Command::kLrd, inputs, image.inputs);
+    add(PartKind::kImage, Command::kLwr, kImageAddress, image.outputs);
   }
   if (has_clock)
-    add(What::kClock, Command::kFrmw, address_of(kFirstStation, kSystemTimeReg), kClockBytes);
-  add(What::kAsked, Command::kFprd, 0, kAskedBytes);
+    add(PartKind::kClock, Command::kFrmw, address_of(kFirstStation, kSystemTimeReg), kClockBytes);
+  add(PartKind::kAsked, Command::kFprd, 0, kAskedBytes);
   ++count_;  // the extra one
   has_clock_ = has_clock;
   std::memcpy(source_, source, sizeof source_);
@@ -49,8 +49,8 @@ void CyclicFrame::start(const ImageShape& image, bool has_clock, const std::uint
   counts_ = {};
 }
 
-void CyclicFrame::add(What what, Command command, std::uint32_t address, std::size_t size) {
-  parts_[count_++] = {what, command, address, size, 0};
+void CyclicFrame::add(PartKind kind, Command command, std::uint32_t address, std::size_t size) {
+  parts_[count_++] = {kind, command, address, size, 0};
   room_ -= kDatagramBytes + size + kCounterBytes;
 }
 
@@ -61,13 +61,13 @@ void CyclicFrame::compose(std::uint16_t asked, const Request& extra, Frame& fram
   for (in_frame_ = 0; in_frame_ + 1 < count_; ++in_frame_) {
     parts.tick();
     Part& part = parts_[in_frame_];
-    if (part.what == What::kAsked) part.address = address_of(asked, kAlStatusReg);
+    if (part.kind == PartKind::kAsked) part.address = address_of(asked, kAlStatusReg);
     std::uint8_t* const data = writer.add(part.command, index_, part.address, part.size);
-    if (part.what == What::kImage)
+    if (part.kind == PartKind::kImage)
       std::memcpy(data, &image_[part.address - kImageAddress], part.size);
   }
   if (extra.add_to(writer, index_))
-    parts_[in_frame_++] = {What::kExtra, extra.command, extra.address, extra.size, 0};
+    parts_[in_frame_++] = {PartKind::kExtra, extra.command, extra.address, extra.size, 0};
   writer.pad();
   sent_ = true;
   came_ = false;
@@ -78,24 +78,24 @@ void CyclicFrame::compose(std::uint16_t asked, const Request& extra, Frame& fram
 /// The datagram must be the one that was sent. The position of a datagram to a station stays as it
 /// is, but that of others counts slaves.
 bool CyclicFrame::take(const Datagram& datagram, Part& part) {
-  const bool whole = part.what == What::kImage ? datagram.logical() == part.address
-                                               : datagram.reg() == part.address >> 16;
+  const bool whole = part.kind == PartKind::kImage ? datagram.logical() == part.address
+                                                   : datagram.reg() == part.address >> 16;
   if (datagram.command != part.command || datagram.size != part.size || !whole) return false;
   part.counter = datagram.counter();
-  switch (part.what) {
-    case What::kImage:
+  switch (part.kind) {
+    case PartKind::kImage:
       std::memcpy(&received_[part.address - kImageAddress], datagram.data, part.size);
       break;
-    case What::kClock:
+    case PartKind::kClock:
       has_reference_ = datagram.counter() > 0;
       reference_ns_ = get<std::int64_t>(datagram.data);
       break;
-    case What::kAsked:
+    case PartKind::kAsked:
       asked_status_ = get<std::uint16_t>(datagram.data);
       asked_code_ = get<std::uint16_t>(datagram.data + 4);
       asked_counter_ = datagram.counter();
       break;
-    case What::kExtra:
+    case PartKind::kExtra:
       extra_counter_ = datagram.counter();
       std::memcpy(extra_.data(), datagram.data, std::min(part.size, extra_.size()));
   }
@@ -133,32 +133,32 @@ void CyclicFrame::receive(Frame& frame) {
 bool CyclicFrame::exchanged() const {
   bool all = true;
   for (const Part& part : parts_)
-    all = all && (part.what != What::kImage || part.counter == expected(part.command));
+    all = all && (part.kind != PartKind::kImage || part.counter == expected(part.command));
   return all;
 }
 
 Message CyclicFrame::counter_text() const {
   Message text;
   for (const Part& part : parts_) {
-    if (part.what != What::kImage) continue;
+    if (part.kind != PartKind::kImage) continue;
     text << (text.empty() ? "the working counter of " : ", that of ") << name(part.command)
          << " is " << part.counter << ", expected " << expected(part.command);
   }
   return text;
 }
 
-CyclicFrame::Came CyclicFrame::close() {
-  if (!sent_) return Came::kNothing;
+CyclicFrame::Arrival CyclicFrame::close() {
+  if (!sent_) return Arrival::kNothing;
   sent_ = false;
   if (!came_) {
     ++counts_.lost;
     missing_ += missing_ < kMostMissing;
-    return Came::kNothing;
+    return Arrival::kNothing;
   }
   missing_ = 0;
-  if (exchanged() && has_reference_ == has_clock_) return Came::kInputs;
+  if (exchanged() && has_reference_ == has_clock_) return Arrival::kInputs;
   ++counts_.counter;
-  return Came::kWrongCounter;
+  return Arrival::kWrongCounter;
 }
 
 }  // namespace tactus::ethercat

@@ -1,4 +1,4 @@
-// CyclicFrame: the one frame of a cycle and what comes back of it.
+// CyclicFrame: the frame of a cycle and its return.
 //
 //   LRW   the process data of all drives; where one of them cannot, for all instead:
 //     LRD   the inputs, and then
@@ -16,18 +16,18 @@
 
 namespace tactus::ethercat {
 
-/// What is wrong with the exchange, counted since the start.
+/// Counters of frames and of their errors since the start.
 struct LineCounts {
   std::int64_t frames = 0;   ///< sent
   std::int64_t lost = 0;     ///< did not come back before the next
   std::int64_t late = 0;     ///< came back after the next was sent
   std::int64_t counter = 0;  ///< came back with a wrong working counter
-  std::int64_t strange = 0;  ///< were none of these, or not whole
+  std::int64_t strange = 0;  ///< foreign or incomplete
 };
 
 class CyclicFrame {
  public:
-  enum class Came : std::uint8_t { kNothing, kWrongCounter, kInputs };
+  enum class Arrival : std::uint8_t { kNothing, kWrongCounter, kInputs };
 
   void start(const ImageShape& image, bool has_clock, const std::uint8_t* source);
   /// Bytes of data that `extra` may have. [cyclic]
@@ -42,10 +42,10 @@ class CyclicFrame {
   bool awaits() const { return sent_ && !came_; }
   /// Frames in a row that did not come back before the next. [any]
   int missing() const { return missing_; }
-  /// Closes the cycle: what has come of its frame. [cyclic]
-  Came close();
+  /// Closes the cycle and says whether its frame has returned. [cyclic]
+  Arrival close();
 
-  // Of the frame that came, after close() was not kNothing. [cyclic]
+  // Contents of the returned frame; valid unless close() gave kNothing. [cyclic]
   std::int64_t reference_ns() const { return reference_ns_; }
   bool has_reference() const { return has_reference_; }
   int asked_counter() const { return asked_counter_; }
@@ -60,18 +60,18 @@ class CyclicFrame {
   const LineCounts& counts() const { return counts_; }
 
  private:
-  enum class What : std::uint8_t { kImage, kClock, kAsked, kExtra };
+  enum class PartKind : std::uint8_t { kImage, kClock, kAsked, kExtra };
   /// A datagram of the frame.
   struct Part {
-    What what = What::kExtra;
+    PartKind kind = PartKind::kExtra;
     Command command = Command::kNop;
     std::uint32_t address = 0;
     std::size_t size = 0;
-    int counter = 0;  // of the one that came
+    int counter = 0;  // working counter of the returned datagram
   };
   static constexpr std::size_t kMostParts = 5;
 
-  void add(What what, Command command, std::uint32_t address, std::size_t size);
+  void add(PartKind kind, Command command, std::uint32_t address, std::size_t size);
   bool take(const Datagram& datagram, Part& part);
 
   std::uint8_t source_[6] = {};

@@ -93,14 +93,14 @@ Status EthercatMaster::connecting(std::int64_t now_ns) {
 /// Cycles with outputs that move nothing; then OP is requested, and awaited.
 Status EthercatMaster::operating(std::int64_t now_ns) {
   if (now_ns < due_ns_) return Status::kArming;
-  const CyclicFrame::Came came = close_cycle(sent_ns_, now_ns);
+  const CyclicFrame::Arrival arrival = close_cycle(sent_ns_, now_ns);
   sent_ns_ = now_ns;
   due_ns_ = in_step(now_ns + period_ns());
   if (cyclic_.missing() * period_ns() > kSilence_ns) return startup_.silent();
   bool all = true;
   for (const Slave& slave : slaves_) all = all && slave.al_status == kOperational;
-  steady_ = came == CyclicFrame::Came::kInputs && all ? steady_ + 1 : 0;
-  if (came == CyclicFrame::Came::kInputs)
+  steady_ = arrival == CyclicFrame::Arrival::kInputs && all ? steady_ + 1 : 0;
+  if (arrival == CyclicFrame::Arrival::kInputs)
     for (Slave& slave : slaves_) slave.data.decode(cyclic_.inputs(), slave.feedback);
   if (steady_ >= kSteady) {
     cia402::Feedbacks feedbacks;
@@ -108,7 +108,7 @@ Status EthercatMaster::operating(std::int64_t now_ns) {
       slaves_[j].feedback.forget_what_has_gone();
       feedbacks[j] = slaves_[j].feedback;
     }
-    drives_.set_velocity_units(startup_.learnt().velocity_units);
+    drives_.set_velocity_units(startup_.findings().velocity_units);
     TRY(drives_.attach(mode_, feedbacks, why_));
     state_ = MasterState::kConnected;
     // Stamps of cycles that wait for their frames say nothing of the time that passes.
@@ -167,12 +167,12 @@ void EthercatMaster::take_mailbox() {
 }
 
 void EthercatMaster::take_cycle() {
-  const CyclicFrame::Came came = close_cycle(sampled_ns_, now_ns_);
+  const CyclicFrame::Arrival arrival = close_cycle(sampled_ns_, now_ns_);
   take_mailbox();
   LoopBound<kDof> slaves;
   for (Slave& slave : slaves_) {
     slaves.tick();
-    slave.feedback.fresh = came == CyclicFrame::Came::kInputs;
+    slave.feedback.fresh = arrival == CyclicFrame::Arrival::kInputs;
     if (!slave.feedback.fresh) continue;
     const std::uint16_t emergency_code = slave.feedback.emergency ? slave.feedback.error_code : 0;
     slave.data.decode(cyclic_.inputs(), slave.feedback);
@@ -289,20 +289,20 @@ std::int64_t EthercatMaster::in_step(std::int64_t near_ns) const {
 
 /// Closes the cycle of a frame that was sent after `sent_ns`. One whose clock does not run is
 /// an old one: its inputs are none.
-CyclicFrame::Came EthercatMaster::close_cycle(std::int64_t sent_ns, std::int64_t now_ns) {
-  const CyclicFrame::Came came = cyclic_.close();
-  arrived_ = came != CyclicFrame::Came::kNothing;
+CyclicFrame::Arrival EthercatMaster::close_cycle(std::int64_t sent_ns, std::int64_t now_ns) {
+  const CyclicFrame::Arrival arrival = cyclic_.close();
+  arrived_ = arrival != CyclicFrame::Arrival::kNothing;
   const bool runs = state_ == MasterState::kConnected;
   if (runs) sync0_.count_frame();
   if (arrived_) take_state();
-  if (!arrived_ || !cyclic_.has_reference()) return came;
+  if (!arrived_ || !cyclic_.has_reference()) return arrival;
   if (clock_.take(cyclic_.reference_ns(), sent_ns, now_ns) != ReferenceClock::Verdict::kRuns)
-    return CyclicFrame::Came::kNothing;
+    return CyclicFrame::Arrival::kNothing;
   const std::int64_t reference_ns = clock_.time_ns();
   if (!runs) in_step_ns_ = sent_ns - steer_.error_of(reference_ns);
   if (runs) steer_.take(reference_ns);
   if (runs && ethercat_->has_sync0()) sync0_.take(reference_ns);
-  return came;
+  return arrival;
 }
 
 /// The frames and the time of the reference clock go through its slave, the first of the line.

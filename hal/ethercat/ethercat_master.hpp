@@ -76,9 +76,9 @@ class EthercatMaster {
   /// The last Status in words. [between two cycles]
   Message trouble() const;
   /// As Hal::unstated(). [init]
-  Message unstated() const { return cia402::unstated(*drive_, startup_.learnt()); }
+  Message unstated() const { return cia402::unstated(*drive_, startup_.findings()); }
   /// As cia402::written_text(), of all start-ups. [init]
-  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.learnt(), n); }
+  Message written(int n) const { return cia402::written_text(drive_->sdo, startup_.findings(), n); }
   /// As Drives::to_home(). [init]
   Message to_home() const { return drives_.to_home(); }
 
@@ -105,7 +105,7 @@ class EthercatMaster {
   void carry_request();
   void start_clock(std::int64_t slack_ns);
   void start_steering();
-  CyclicFrame::Came close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
+  CyclicFrame::Arrival close_cycle(std::int64_t sent_ns, std::int64_t now_ns);
   Message clock_text() const;
   Status not_operating();
 

@@ -15,32 +15,32 @@ constexpr Object kOutputObjects[] = {cia402::kControlword,    cia402::kTargetTor
 
 }  // namespace
 
-Wanted wanted_outputs(CommandMode mode) {
-  Wanted wanted;
-  wanted.add(cia402::kControlword);
+MappedObjects objects_of_outputs(CommandMode mode) {
+  MappedObjects objects;
+  objects.add(cia402::kControlword);
   switch (mode) {
-    case CommandMode::kEffort: wanted.add(cia402::kTargetTorque); break;
+    case CommandMode::kEffort: objects.add(cia402::kTargetTorque); break;
     case CommandMode::kVelocity:
-      wanted.add(cia402::kTorqueOffset);
-      wanted.add(cia402::kTargetVelocity);
+      objects.add(cia402::kTorqueOffset);
+      objects.add(cia402::kTargetVelocity);
       break;
     case CommandMode::kPosition:
-      wanted.add(cia402::kTorqueOffset);
-      wanted.add(cia402::kTargetPosition);
-      wanted.add(cia402::kVelocityOffset);
+      objects.add(cia402::kTorqueOffset);
+      objects.add(cia402::kTargetPosition);
+      objects.add(cia402::kVelocityOffset);
       break;
   }
-  return wanted;
+  return objects;
 }
 
-Wanted wanted_inputs() {
-  Wanted wanted;
-  wanted.add(cia402::kStatusword);
-  wanted.add(cia402::kTorqueActual);
-  wanted.add(cia402::kPositionActual);
-  wanted.add(cia402::kVelocityActual);
-  wanted.add(cia402::kErrorCode);
-  return wanted;
+MappedObjects objects_of_inputs() {
+  MappedObjects objects;
+  objects.add(cia402::kStatusword);
+  objects.add(cia402::kTorqueActual);
+  objects.add(cia402::kPositionActual);
+  objects.add(cia402::kVelocityActual);
+  objects.add(cia402::kErrorCode);
+  return objects;
 }
 
 const char* ProcessData::resolve(CommandMode mode) {

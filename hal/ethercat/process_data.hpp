@@ -44,16 +44,16 @@ class ProcessLayout {
   std::size_t bits_ = 0;
 };
 
-/// The objects that are mapped for commands of a pipeline, in their order. [init]
-struct Wanted {
+/// The objects to map for the commands of a pipeline, in order. [init]
+struct MappedObjects {
   static constexpr int kMost = 6;
   std::array<cia402::Object, kMost> list{};
   int count = 0;
 
   void add(const cia402::Object& object) { list[static_cast<std::size_t>(count++)] = object; }
 };
-Wanted wanted_outputs(CommandMode mode);
-Wanted wanted_inputs();
+MappedObjects objects_of_outputs(CommandMode mode);
+MappedObjects objects_of_inputs();
 
 class ProcessData {
  public:

@@ -23,8 +23,8 @@ void SlaveSetup::begin(const EthercatSettings& ethercat, CommandMode mode, int p
   facts();
   options(mode, period_us);
   if (ethercat.has_sync0()) sync0();
-  pdo(kRxAssign, kRxMapping, wanted_outputs(mode));
-  pdo(kTxAssign, kTxMapping, wanted_inputs());
+  pdo(kRxAssign, kRxMapping, objects_of_outputs(mode));
+  pdo(kTxAssign, kTxMapping, objects_of_inputs());
 }
 
 void SlaveSetup::identity(const EthercatSettings& ethercat, CommandMode mode) {
@@ -74,13 +74,14 @@ void SlaveSetup::sync0() {
   write(kInputSync, 1, 2, kBySync0, "synchronization of the inputs");
 }
 
-void SlaveSetup::pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted) {
+void SlaveSetup::pdo(std::uint16_t assignment, std::uint16_t mapping,
+                     const MappedObjects& objects) {
   write(assignment, 0, 1, 0, "number of assigned PDOs");
   write(mapping, 0, 1, 0, "number of mapped objects");
-  for (int i = 0; i < wanted.count; ++i)
+  for (int i = 0; i < objects.count; ++i)
     write(mapping, static_cast<std::uint8_t>(i + 1), 4,
-          wanted.list[static_cast<std::size_t>(i)].mapping(), "mapped object");
-  write(mapping, 0, 1, static_cast<std::uint32_t>(wanted.count), "number of mapped objects");
+          objects.list[static_cast<std::size_t>(i)].mapping(), "mapped object");
+  write(mapping, 0, 1, static_cast<std::uint32_t>(objects.count), "number of mapped objects");
   write(assignment, 1, 2, mapping, "assigned PDO");
   write(assignment, 0, 1, 1, "number of assigned PDOs");
 }

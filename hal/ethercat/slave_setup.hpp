@@ -31,7 +31,7 @@ class SlaveSetup {
   void facts();
   void options(CommandMode mode, int period_us);
   void sync0();
-  void pdo(std::uint16_t assignment, std::uint16_t mapping, const Wanted& wanted);
+  void pdo(std::uint16_t assignment, std::uint16_t mapping, const MappedObjects& objects);
   void expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* what,
               const char* remedy, std::uint32_t mask = 0xFFFFFFFF);
   void write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value,

@@ -6,14 +6,14 @@
 namespace tactus::ethercat {
 namespace {
 
-/// Registers that are cleared in all slaves: what an earlier master has left. A slave need not have
-/// all of them.
-struct Cleared {
+/// Registers that are reset in all slaves, as an earlier master may have written them. A slave need
+/// not have all of them.
+struct RegisterReset {
   std::uint16_t reg;
   std::uint8_t bytes;
   std::uint16_t value;
 };
-constexpr Cleared kCleared[] = {
+constexpr RegisterReset kRegisterResets[] = {
     {kDlControlReg + 3, 1, 0},                               // no alias addresses
     {kFmmuReg, kFmmuBytes * 8, 0},                           //
     {kSmReg, kSmBytes * 8, 0},                               //
@@ -22,7 +22,7 @@ constexpr Cleared kCleared[] = {
     {kTimeOffsetReg, 12, 0},                                 // offset and delay
     {kEepromOwnerReg, 1, 2},       {kEepromOwnerReg, 1, 0},  // the EEPROM is the master's
 };
-constexpr int kClearedCount = static_cast<int>(std::size(kCleared));
+constexpr int kRegisterResetCount = static_cast<int>(std::size(kRegisterResets));
 
 constexpr int kProcessSteps = 6;
 
@@ -146,7 +146,7 @@ Request Startup::request() {
 }
 
 Request Startup::clear_request() const {
-  const Cleared& row = kCleared[step_];
+  const RegisterReset& row = kRegisterResets[step_];
   Request request(Command::kBwr, address_of(0, row.reg), row.bytes);
   put(request.data.data(), row.value);
   return request;
@@ -166,7 +166,7 @@ Status Startup::take(const Answer& answer) {
     case Stage::kInit: enter(Stage::kAwaitInit); break;
     case Stage::kAwaitInit: return await_init(answer);
     case Stage::kClear:
-      if (++step_ == kClearedCount) enter(Stage::kStation);
+      if (++step_ == kRegisterResetCount) enter(Stage::kStation);
       break;
     case Stage::kStation:
       if (answer.counter != 1) return refuse(Status::kBusTimeout, "takes no address");

@@ -45,8 +45,8 @@ class Startup {
   Status silent();
 
   const ImageShape& image() const { return image_; }
-  /// Facts learnt from the drives. [init]
-  const cia402::Learnt& learnt() const { return learnt_; }
+  /// Values read from the drives. [init]
+  const cia402::StartupFindings& findings() const { return findings_; }
   /// The clocks of the slaves. [any]
   const ClockSetup& clock() const { return clock_; }
   /// An AL status code in words, and what helps: "no valid outputs (0019h)". [init]
@@ -130,7 +130,7 @@ class Startup {
   SlaveSetup steps_;
   cia402::DriveFacts facts_;  // of the present slave
   cia402::LineWriter lines_;
-  cia402::Learnt learnt_;
+  cia402::StartupFindings findings_;
   MappingReader mapping_;
   ImageShape image_;
   ClockSetup clock_{line_, why_};

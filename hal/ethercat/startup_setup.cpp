@@ -16,7 +16,7 @@ void Startup::begin_steps(Stage stage) {
   attempts_ = 0;
   port_.reset();
   facts_.clear();
-  lines_.begin(drive_->sdo, joint(), learnt_);
+  lines_.begin(drive_->sdo, joint(), findings_);
   steps_.begin(*ethercat_, mode_, period_us_);
   step_ = stage == Stage::kIdentify ? 0 : steps_.identifying();
   leave_out();
@@ -126,7 +126,7 @@ Status Startup::take_line() {
 }
 
 Status Startup::take_stored(const SetupStep& step) {
-  bool& stored = learnt_.stored[static_cast<std::size_t>(joint())];
+  bool& stored = findings_.stored[static_cast<std::size_t>(joint())];
   if (coe_.progress() == CoeClient::Progress::kDone) {
     stored = true;
     return Status::kOk;
@@ -150,8 +150,8 @@ Status Startup::take_fact(const SetupStep& step) {
   const bool identity = step.value == cia402::kIdentityFact;
   if (!identity && step.value + 1 < cia402::kFactCount) return Status::kOk;
   at().feedback.error_code = static_cast<std::uint16_t>(facts_.get(cia402::kErrorCode));
-  const Status status = identity ? facts_.judge_identity(*drive_, joint(), learnt_, what)
-                                 : facts_.judge(*drive_, joint(), true, learnt_, what);
+  const Status status = identity ? facts_.judge_identity(*drive_, joint(), findings_, what)
+                                 : facts_.judge(*drive_, joint(), true, findings_, what);
   return status == Status::kOk ? status : refuse(status, what);
 }
 

@@ -175,9 +175,9 @@ void ArmDrives::judge_time() {
   if (!arms(phase_) || phase_ == DrivePhase::kModes) return;
   const int ms = phase_ < DrivePhase::kOtherProgram ? settings_->power_ms : settings_->program_ms;
   if (cycles_ < cycles_of(ms)) return;
-  const Unfinished unfinished = unfinished_of(phase_);
-  why_ = Message(unfinished.problem);
-  why_ << " within " << ms << " ms" << unfinished.remedy;
+  const PhaseTimeout timeout = timeout_of(phase_);
+  why_ = Message(timeout.problem);
+  why_ << " within " << ms << " ms" << timeout.remedy;
   const std::string_view refusal = dashboard_.refusal();
   if (phase_ < DrivePhase::kOtherProgram && !refusal.empty())
     why_ << "; the robot answered '" << refusal << "'";

@@ -66,13 +66,13 @@ constexpr DriveState state_of(DrivePhase phase) {
   }
 }
 
-/// What to report if a phase of arming does not end in time.
-struct Unfinished {
+/// Report for a phase of arming that exceeds its time.
+struct PhaseTimeout {
   const char* problem = "";
   const char* remedy = "";
 };
 
-constexpr Unfinished unfinished_of(DrivePhase phase) {
+constexpr PhaseTimeout timeout_of(DrivePhase phase) {
   switch (phase) {
     case DrivePhase::kReleaseStop: return {"the protective stop was not released", ""};
     case DrivePhase::kPowerOn: return {"the robot was not powered on", ""};

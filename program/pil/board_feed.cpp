@@ -38,7 +38,7 @@ int FileFeed<Space>::fitting() const {
 template <class Space>
 void FileFeed<Space>::fill() {
   while (!at_end_ && count_ < fitting()) {
-    at_end_ = reader_.next(next_[static_cast<std::size_t>(count_)], error_) != RowTaken::kWaypoint;
+    at_end_ = reader_.next(next_[static_cast<std::size_t>(count_)], error_) != RowResult::kWaypoint;
     if (at_end_) return;
     fields_ = reader_.fields();
     ++count_;

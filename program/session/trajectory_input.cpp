@@ -247,15 +247,15 @@ bool poll_report(Session& session, TrajectoryInput& input, Report& report) {
   return true;
 }
 
-Fed feed_input(Session& session, TrajectoryInput& input, int wait_ms) {
+FeedResult feed_input(Session& session, TrajectoryInput& input, int wait_ms) {
   const auto feed = [&](auto& stream, auto& client) {
-    const Fed fed = stream.feed(client, wait_ms);
-    if (fed == Fed::kRefused) print_refusal(input, stream);
+    const FeedResult fed = stream.feed(client, wait_ms);
+    if (fed == FeedResult::kRefused) print_refusal(input, stream);
     return fed;
   };
   if (auto* joints = std::get_if<1>(&input.file)) return feed(*joints, session.client);
   if (auto* poses = std::get_if<2>(&input.file)) return feed(*poses, session.task_client);
-  return Fed::kIdle;
+  return FeedResult::kIdle;
 }
 
 }  // namespace tactus

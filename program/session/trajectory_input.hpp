@@ -65,7 +65,7 @@ int refusal_code(const TrajectoryInput& input);
 
 /// Sends the next part of a file that is longer than the store, as TrajectoryStream::feed(). Call
 /// it in the thread that polls. A refusal prints its reason to stderr.
-Fed feed_input(Session& session, TrajectoryInput& input, int wait_ms);
+FeedResult feed_input(Session& session, TrajectoryInput& input, int wait_ms);
 
 /// Prints a warning to stderr if a joint without end turns by more than half a turn where the file,
 /// as far as it was read, could mean less.

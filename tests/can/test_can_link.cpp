@@ -132,7 +132,7 @@ void an_inherited_packet_socket_is_opened_by_its_number(void**) {
   assert_int_equal(::send(ends[1], &raw, sizeof raw, 0), 16);
   raw.can_id = 0x181;
   assert_int_equal(::send(ends[1], &raw, sizeof raw, 0), 16);
-  assert_true(can.wait(0) == Waited::kSomething);
+  assert_true(can.wait(0) == WaitResult::kSomething);
   assert_int_equal(can.receive(&g_frame, 1) + can.receive(&g_frame, 1), 1);
   assert_int_equal(g_frame.id, 0x181);
   can.close();

@@ -147,7 +147,7 @@ void a_cycle_is_one_system_call_in_each_direction(void**) {
 void an_empty_bus_is_no_fault(void**) {
   CanPair& pair = fresh();
   assert_int_equal(receive(pair), 0);
-  assert_true(pair.can.wait(0) == Waited::kNothing);
+  assert_true(pair.can.wait(0) == WaitResult::kNothing);
   assert_false(pair.can.health().lost);
 }
 

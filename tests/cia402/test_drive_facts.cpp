@@ -27,7 +27,7 @@ constexpr Said kTurn = {kEncoderIncrements, 16777216}, kPerTurn = {kEncoderRevol
 /// The drive of joint 1, which the file describes as `drive`.
 struct Drive1 {
   Cia402Settings drive;
-  Learnt learnt;
+  StartupFindings findings;
   Message why;
 
   Drive1() { drive.rated_torque.setConstant(3.0); }
@@ -37,8 +37,8 @@ struct Drive1 {
       for (std::uint32_t row = 0; row < kFactCount; ++row)
         if (kFacts[row].object.mapping() == said.object.mapping()) facts.set(row, said.value);
     why = {};
-    TRY(facts.judge_identity(drive, 0, learnt, why));
-    return facts.judge(drive, 0, velocities, learnt, why);
+    TRY(facts.judge_identity(drive, 0, findings, why));
+    return facts.judge(drive, 0, velocities, findings, why);
   }
   bool says(const char* text) const { return std::strstr(why.c_str(), text) != nullptr; }
 };
@@ -80,7 +80,7 @@ void units_of_velocity_are_those_that_the_drive_names(void**) {
     const Status status = one.judge(row.says);
     if (status != Status::kOk) print_error("%s\n", one.why.c_str());
     ASSERT_OK(status);
-    ASSERT_NEAR(one.learnt.velocity_units[0] / row.expected, 1.0, 1e-9);
+    ASSERT_NEAR(one.findings.velocity_units[0] / row.expected, 1.0, 1e-9);
   }
 }
 
@@ -100,7 +100,7 @@ void a_unit_of_velocity_that_is_not_known_is_asked_for_by_name(void**) {
   ASSERT_OK(one.judge(silent, false));
   one.drive.velocity_units.setConstant(60.0);
   ASSERT_OK(one.judge(silent));
-  assert_true(one.learnt.velocity_units[0] == 60.0);
+  assert_true(one.findings.velocity_units[0] == 60.0);
   ASSERT_STATUS(one.judge({kTurn, kPerTurn, {kVelocityUnit, 0x00B50300}}), Status::kRefusedByRobot);
   assert_true(one.says("its velocities have 16777216 units per motor revolution per second"));
   assert_true(one.says("60A9h is 00B50300h), [cia402] velocity_units is 60;"));
@@ -133,7 +133,7 @@ void positions_with_other_units_than_in_the_file_are_refused(void**) {
   ASSERT_OK(one.judge({}, false));
   ASSERT_OK(one.judge({{kPositionUnit, 0x00B50000}}, false));
   ASSERT_OK(one.judge({{kPositionUnit, 0x00000000}, {kVelocityUnit, 0x00B50300}}));
-  ASSERT_NEAR(one.learnt.velocity_units[0], 16777216.0, 1e-6);
+  ASSERT_NEAR(one.findings.velocity_units[0], 16777216.0, 1e-6);
 }
 
 /// To the drive's step, by default and as the file states it.
@@ -169,21 +169,21 @@ void a_drive_with_another_serial_number_is_refused(void**) {
 
 void serial_numbers_are_told_while_a_joint_has_none_in_the_file(void**) {
   Cia402Settings file;
-  Learnt learnt;
-  for (int j = 0; j < kDof; ++j) learnt.serials[j] = 4294967295.0 - j;
-  const Message line = unstated(file, learnt);
+  StartupFindings findings;
+  for (int j = 0; j < kDof; ++j) findings.serials[j] = 4294967295.0 - j;
+  const Message line = unstated(file, findings);
   std::istringstream words(line.c_str());
   std::string section, key, equals;
   words >> section >> key >> equals;
   assert_string_equal((section + " " + key + " " + equals).c_str(), "[cia402] serial =");
   for (int j = 0; j < kDof; ++j) {
-    assert_false(unstated(file, learnt).empty());
+    assert_false(unstated(file, findings).empty());
     words >> file.serial[j];
-    assert_true(file.serial[j] == learnt.serials[j]);
+    assert_true(file.serial[j] == findings.serials[j]);
   }
-  assert_true(unstated(file, learnt).empty());
-  learnt.serials[2] = 0.0;  // one that has none cannot be told from another
-  assert_true(unstated(Cia402Settings(), learnt).empty());
+  assert_true(unstated(file, findings).empty());
+  findings.serials[2] = 0.0;  // one that has none cannot be told from another
+  assert_true(unstated(Cia402Settings(), findings).empty());
 }
 
 /// Both ways, over random units: a velocity of the joint is so many units.

@@ -68,8 +68,8 @@ struct StreamBench {
     return client.send(*store, id).ok();
   }
   /// Feeds what there is space for, runs one cycle and takes the reports.
-  Fed step() {
-    const Fed fed = stream.feed(client, 0);
+  FeedResult step() {
+    const FeedResult fed = stream.feed(client, 0);
     ASSERT_OK(generator.step(kStreamPeriod_s, generator.reference()));
     ++cycles;
     Report report;

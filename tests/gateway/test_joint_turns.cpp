@@ -33,9 +33,9 @@ void open(TrajectoryReader<JointSpace>& reader, const char* name) {
 
 bool next(TrajectoryReader<JointSpace>& reader, Waypoint<JointSpace>& waypoint) {
   CsvError error;
-  const RowTaken taken = reader.next(waypoint, error);
-  assert_true(taken != RowTaken::kRefused);
-  return taken == RowTaken::kWaypoint;
+  const RowResult taken = reader.next(waypoint, error);
+  assert_true(taken != RowResult::kRefused);
+  return taken == RowResult::kWaypoint;
 }
 
 void write_files(int seed) {

@@ -15,11 +15,11 @@ struct Table {
   int priority = 0;
   std::int64_t heard_ns = 0;
 
-  LeaseTaken take(int client, int wish, std::int64_t now_ns) {
-    if (owner >= 0 && owner != client && wish <= priority) return LeaseTaken::kRefused;
-    const LeaseTaken taken = owner < 0         ? LeaseTaken::kFree
-                             : owner == client ? LeaseTaken::kRenewed
-                                               : LeaseTaken::kTakenOver;
+  LeaseResult take(int client, int wish, std::int64_t now_ns) {
+    if (owner >= 0 && owner != client && wish <= priority) return LeaseResult::kRefused;
+    const LeaseResult taken = owner < 0         ? LeaseResult::kFree
+                              : owner == client ? LeaseResult::kRenewed
+                                                : LeaseResult::kTakenOver;
     owner = client;
     priority = wish;
     heard_ns = now_ns;
@@ -42,7 +42,7 @@ void every_sequence_of_six_events_of_two_clients_ends_as_the_table_says(void**) 
       now_ns += 40 * kMillisecond_ns;
       if (event < 4) {  // take, with priority 1 or 2
         const int priority = 1 + event / 2;
-        const LeaseTaken taken =
+        const LeaseResult taken =
             lease.take(client, static_cast<std::uint32_t>(priority), kTimeout_ns, now_ns);
         ASSERT_STATUS(taken, table.take(client, priority, now_ns));
       } else if (event < 6) {  // a message

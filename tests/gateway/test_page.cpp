@@ -70,7 +70,7 @@ void a_header_that_is_checked_comes_once(void**) {
     take_header("x-tactus-token", kToken, head);
     take_header("X-TACTUS-SEEN", "12 7", head);
     assert_int_equal(status_of(head), 200);
-    assert_int_equal(read_seen(head.seen).told_ms, 12);
+    assert_int_equal(read_seen(head.seen).sent_ms, 12);
     assert_int_equal(read_seen(head.seen).stops, 7);
     take_header(name, "", head);
     assert_int_equal(status_of(head), 400);
@@ -112,14 +112,14 @@ void what_may_raise_motion_is_refused_if_it_is_late(void**) {
     assert_int_equal(CommandGate().judge(command, -1, 100'000).status, 200);
   for (const char* text : {"", "x", "1", "1 ", "1.5 2", "1 x", "1 2 ", "1 -2", "1 4294967296",
                            "99999999999999999999 1"}) {
-    assert_int_equal(read_seen(text).told_ms, -1);
+    assert_int_equal(read_seen(text).sent_ms, -1);
     assert_int_equal(read_seen(text).stops, 0);
   }
   for (const SeenState& seen :
        {SeenState{0, 1}, SeenState{std::numeric_limits<std::int64_t>::max(), ~std::uint32_t{0}}}) {
     std::array<char, 32> text;
     const SeenState read = read_seen(write_seen(seen, text));
-    assert_true(read.told_ms == seen.told_ms && read.stops == seen.stops);
+    assert_true(read.sent_ms == seen.sent_ms && read.stops == seen.stops);
   }
 }
 

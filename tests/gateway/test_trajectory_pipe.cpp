@@ -122,9 +122,9 @@ void a_later_waypoint_of_a_pipe_is_refused_on_the_way_with_its_line(void**) {
   pipe.close_writer();
   StreamBench<JointSpace>& piped = fresh(1);
   assert_true(piped.open(kWindow, false, Interpolation::kByFields, pipe.path));
-  Fed fed = Fed::kAhead;
-  for (int k = 0; k < 60'000 && fed != Fed::kRefused; ++k) fed = piped.step();
-  ASSERT_STATUS(fed, Fed::kRefused);
+  FeedResult fed = FeedResult::kAhead;
+  for (int k = 0; k < 60'000 && fed != FeedResult::kRefused; ++k) fed = piped.step();
+  ASSERT_STATUS(fed, FeedResult::kRefused);
   ASSERT_STATUS(piped.stream.refusal().verdict.status, Status::kPositionLimit);
   assert_int_equal(piped.stream.refusal().verdict.waypoint, kBroken);
   assert_int_equal(piped.stream.refusal().line, kBroken + 2);

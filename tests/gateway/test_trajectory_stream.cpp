@@ -194,10 +194,11 @@ void a_file_that_changes_after_it_was_judged_is_refused_on_the_way(void**) {
     const timespec times[2] = {before.st_atim, before.st_mtim};
     const timespec later[2] = {before.st_atim, {before.st_mtim.tv_sec + 1, 0}};
     assert_int_equal(utimensat(AT_FDCWD, stream_file(), hidden ? times : later, 0), 0);
-    Fed fed = Fed::kAhead;
-    while (fed != Fed::kRefused && streamed.outcome == Outcome::kStarted && streamed.cycles < 20000)
+    FeedResult fed = FeedResult::kAhead;
+    while (fed != FeedResult::kRefused && streamed.outcome == Outcome::kStarted &&
+           streamed.cycles < 20000)
       fed = streamed.step();
-    ASSERT_STATUS(fed, Fed::kRefused);
+    ASSERT_STATUS(fed, FeedResult::kRefused);
     const std::string_view reason = streamed.stream.refusal().row.reason;
     assert_true(reason.substr(0, 16) == "the file changed");
   }

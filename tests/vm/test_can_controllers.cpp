@@ -47,7 +47,7 @@ void frames_of_the_other_controller_are_received_with_a_stamp(void**) {
   CanBus& bus = fresh();
   for (std::uint8_t i = 0; i < 8; ++i) assert_true(bus.put_frame(0x181U + i, i));
   int got = 0;
-  while (got < 8 && bus.can.wait(1'000'000'000) == Waited::kSomething)
+  while (got < 8 && bus.can.wait(1'000'000'000) == WaitResult::kSomething)
     got += bus.can.receive(&g_batch[0] + got, 8 - got);
   assert_int_equal(got, 8);
   for (std::size_t i = 0; i < 8; ++i) {

@@ -238,9 +238,9 @@ Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance&
   if (path.first_s() > elapsed_s) {
     const bool stands = reference_.standing();
     Verdict verdict;
-    if (stands || !path.lead_in(reference_, elapsed_s, *settings_, Care::kQuick).ok()) {
+    if (stands || !path.lead_in(reference_, elapsed_s, *settings_, Accuracy::kQuick).ok()) {
       const Point rest = stands ? reference_ : Space::rest_of(reference_, settings_->limits);
-      verdict = path.lead_in(rest, elapsed_s, *settings_, Care::kClose);
+      verdict = path.lead_in(rest, elapsed_s, *settings_, Accuracy::kClose);
     }
     base = path.begin();
     return verdict;

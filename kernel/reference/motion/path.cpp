@@ -60,8 +60,9 @@ void Path<Space>::enter(double s) {
 }
 
 template <class Space>
-Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& settings, Care care) {
-  assert(care != Care::kFine);
+Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& settings,
+                             Accuracy accuracy) {
+  assert(accuracy != Accuracy::kFine);
   const Point reference = Space::without_held(put_out, placement_);
   // From rest by the interpolation of the trajectory; out of a motion so that nothing steps.
   const Interpolation how =
@@ -71,7 +72,7 @@ Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& set
   const typename Space::Peaks most =
       Space::peaks(settings.limits).reserved(1.0 - 0.5 * settings.stop_reserve);
   const typename Space::Measure measure =
-      Space::measure(present_.segment, settings.limits, most, care);
+      Space::measure(present_.segment, settings.limits, most, accuracy);
   Verdict verdict = Space::judge_room(measure, settings.limits, reference);
   if (verdict.ok()) verdict = judge(measure.peaks, most, Space::kChannelSize);
   if (verdict.ok() && !smooth()) verdict = judge_corners(reference, settings);

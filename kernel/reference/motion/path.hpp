@@ -50,8 +50,8 @@ class Path {
   /// Enters the path at path time s, which is not before its first waypoint. [cyclic]
   void enter(double s);
   /// Enters by one segment from the reference `put_out` at path time s to the first waypoint, which
-  /// is ahead; refuses if the segment, measured with `care`, breaks a limit. [cyclic]
-  Verdict lead_in(const Point& put_out, double s, const Settings& settings, Care care);
+  /// is ahead; refuses if the segment, measured with `accuracy`, breaks a limit. [cyclic]
+  Verdict lead_in(const Point& put_out, double s, const Settings& settings, Accuracy accuracy);
   /// Ends following the path. [cyclic]
   void leave() { trajectory_ = nullptr; }
   bool running() const { return trajectory_ != nullptr; }

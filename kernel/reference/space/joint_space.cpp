@@ -179,8 +179,8 @@ JointSpace::Peaks JointSpace::peaks(const Limits& limits) {
 }
 
 JointSpace::Measure JointSpace::measure(const Segment& segment, const Limits& limits,
-                                        const Peaks& most, Care care) {
-  const bool quick = care == Care::kQuick;
+                                        const Peaks& most, Accuracy accuracy) {
+  const bool quick = accuracy == Accuracy::kQuick;
   const double T = segment.duration();
   Measure measure;
   for (int j = 0; j < kDof; ++j) {

@@ -103,9 +103,9 @@ struct JointSpace {
   static Verdict saturate(Point& point, const Limits& limits);
   static Peaks peaks(const Limits& limits);
   /// Bounds by the Bernstein hull, replaced by the exact extrema where they exceed `most` or a
-  /// position limit, unless `care` is kQuick.
+  /// position limit, unless `accuracy` is kQuick.
   static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most,
-                         Care care = Care::kFine);
+                         Accuracy accuracy = Accuracy::kFine);
   static Verdict judge_room(const Measure& measure, const Limits& limits, const Point& from);
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);
   static Verdict judge_step(const Point& before, const Point& after, const Limits& limits,

@@ -8,9 +8,9 @@
 
 namespace tactus {
 
-/// Effort spent on measuring a segment: kQuick fits into a cycle in addition to a kClose one,
-/// kClose fits into a cycle, kFine is for outside the cycle, with the tightest bounds.
-enum class Care : std::uint8_t { kQuick, kClose, kFine };
+/// Accuracy of the bounds when a segment is measured. kQuick fits into a cycle in addition to a
+/// kClose one, kClose fits into a cycle, kFine gives the tightest bounds outside the cycle.
+enum class Accuracy : std::uint8_t { kQuick, kClose, kFine };
 
 /// Velocity, acceleration and jerk of each channel, as limits or as largest values of a motion.
 template <int n>

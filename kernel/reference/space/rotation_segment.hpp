@@ -42,8 +42,8 @@ class RotationSegment {
   TurningRates rates(double t) const;
   /// Returns upper bounds of |w| [rad/s], |alpha| [rad/s^2] and |dalpha/dt| [rad/s^3] on [0, T].
   /// [any]
-  VectorBounds bounds(Care care = Care::kFine) const {
-    return rotation_bounds(phi_, duration_, care);
+  VectorBounds bounds(Accuracy accuracy = Accuracy::kFine) const {
+    return rotation_bounds(phi_, duration_, accuracy);
   }
 
  private:

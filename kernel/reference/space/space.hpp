@@ -154,7 +154,7 @@ struct SpaceContract : std::true_type {
   /// Returns upper bounds of what a segment takes, close or exact where a coarse bound exceeds the
   /// given peaks or a position limit. [cyclic, some microseconds]
   static_assert(
-      kSame<decltype(S::measure), Measure(const Segment&, const Limits&, const Peaks&, Care)>);
+      kSame<decltype(S::measure), Measure(const Segment&, const Limits&, const Peaks&, Accuracy)>);
   /// Judges the position range of a measured segment. Where `from` is outside of a limit, that is
   /// the limit: an arm that stands there is led back. [cyclic]
   static_assert(

@@ -292,10 +292,10 @@ TaskSpace::Peaks TaskSpace::peaks(const Limits& limits) {
 }
 
 TaskSpace::Measure TaskSpace::measure(const Segment& segment, const Limits& limits,
-                                      const Peaks& /*most*/, Care care) {
+                                      const Peaks& /*most*/, Accuracy accuracy) {
   const double T = segment.duration();
-  const VectorBounds p = translation_bounds(segment.translation(), T, care);
-  const VectorBounds r = segment.rotation().bounds(care);
+  const VectorBounds p = translation_bounds(segment.translation(), T, accuracy);
+  const VectorBounds r = segment.rotation().bounds(accuracy);
   Measure measure;
   measure.peaks = {{p.v, r.v}, {p.a, r.a}, {p.j, r.j}};
   measure.slowing = measure.peaks.a;
@@ -306,7 +306,7 @@ TaskSpace::Measure TaskSpace::measure(const Segment& segment, const Limits& limi
     // Exact if the hull leaves the box, or if the box is unknown: in a client's frame.
     const bool inside = outer.min >= limits.p_min[i] && outer.max <= limits.p_max[i];
     const bool known = limits.p_max[i] < kInfinity;
-    const bool enough = care == Care::kQuick || (inside && known);
+    const bool enough = accuracy == Accuracy::kQuick || (inside && known);
     const Extremes room = enough ? outer : extremes(axis, T);
     extent.p_min[i] = room.min;
     extent.p_max[i] = room.max;

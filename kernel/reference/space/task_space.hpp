@@ -138,10 +138,10 @@ struct TaskSpace {
   static Verdict saturate(Point& point, const Limits& limits);
   static Peaks peaks(const Limits& limits);
   /// The box by the Bernstein hull, or exactly if the hull leaves the workspace or the workspace is
-  /// not known yet, unless `care` is kQuick. Lengths by the upper bounds of vector_bounds.hpp, so
-  /// no violation is missed; `most` is not used. The wrench is linear and so largest at an end.
+  /// not known yet, unless `accuracy` is kQuick. Lengths by the upper bounds of vector_bounds.hpp,
+  /// so no violation is missed; `most` is not used. The wrench is linear and so largest at an end.
   static Measure measure(const Segment& segment, const Limits& limits, const Peaks& most,
-                         Care care = Care::kFine);
+                         Accuracy accuracy = Accuracy::kFine);
   static Verdict judge_room(const Measure& measure, const Limits& limits, const Point& from);
   /// Judges distance and angle.
   static Verdict judge_near(const Point& a, const Point& b, const Tolerance& tolerance);

@@ -106,18 +106,19 @@ TurningRates turning_rates(const VectorPolynomial& phi) {
   return {r.w, r.dw, r.ddw + r.w.cross(r.dw)};
 }
 
-VectorBounds translation_bounds(const VectorPolynomial& p, double T, Care care) {
+VectorBounds translation_bounds(const VectorPolynomial& p, double T, Accuracy accuracy) {
   const auto between = [](const Lengths& x, const Lengths& y, double k) {
     const Lengths most = lengths_between(x, y, k);
     return VectorBounds{most.v, most.a, most.j};
   };
-  return care == Care::kFine ? largest<kFinePieces>(p, T, lengths_at, between)
-                             : largest<kClosePieces>(p, T, lengths_at, between);
+  return accuracy == Accuracy::kFine ? largest<kFinePieces>(p, T, lengths_at, between)
+                                     : largest<kClosePieces>(p, T, lengths_at, between);
 }
 
-VectorBounds rotation_bounds(const VectorPolynomial& phi, double T, Care care) {
-  if (care == Care::kFine) return largest<kFinePieces>(phi, T, turning_at, turning_between);
-  if (care == Care::kClose) return largest<kClosePieces>(phi, T, turning_at, turning_between);
+VectorBounds rotation_bounds(const VectorPolynomial& phi, double T, Accuracy accuracy) {
+  if (accuracy == Accuracy::kFine) return largest<kFinePieces>(phi, T, turning_at, turning_between);
+  if (accuracy == Accuracy::kClose)
+    return largest<kClosePieces>(phi, T, turning_at, turning_between);
   return largest<kClosePieces>(phi, T, lengths_at,
                                [](const Lengths& x, const Lengths& y, double k) {
                                  return turning_of(lengths_between(x, y, k));

@@ -24,13 +24,15 @@ struct VectorBounds {
 /// Returns the bounds of p on [0, T]. They are exact for a straight line at constant speed. For
 /// cubics and quintics they are at most 2 % above the true maximum from rest to rest, and 3 %
 /// (kClose 6 %) with ends that move. NaN coefficients give NaN. [any]
-VectorBounds translation_bounds(const VectorPolynomial& p, double T, Care care = Care::kFine);
+VectorBounds translation_bounds(const VectorPolynomial& p, double T,
+                                Accuracy accuracy = Accuracy::kFine);
 
 /// Returns the bounds of exp(phi) on [0, T]. They are exact for slerp. Velocity, acceleration and
 /// jerk exceed the true maximum by at most 2 %, 2 % and 5 % from rest to rest up to half a turn, by
 /// 2 %, 5 % and 15 % with ends that move at up to 5 rad per duration, and by more in segments of
 /// many turns; with kClose by 2 %, 5 % and 12 %, and by 5 %, 20 % and 40 %. kQuick takes only into
 /// account that turning axes add up to half |w|^2 to alpha. [any]
-VectorBounds rotation_bounds(const VectorPolynomial& phi, double T, Care care = Care::kFine);
+VectorBounds rotation_bounds(const VectorPolynomial& phi, double T,
+                             Accuracy accuracy = Accuracy::kFine);
 
 }  // namespace tactus

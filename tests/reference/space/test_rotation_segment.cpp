@@ -218,8 +218,8 @@ void no_velocity_acceleration_or_jerk_is_beyond_the_bounds(void**) {
       const VectorBounds seen = sampled(segment);
       const double rounding = 1e-13 * (1.0 + rate) / segment.duration();
       const double faster = 10.0 * (1.0 + rate) / segment.duration();
-      for (const Care care : {Care::kQuick, Care::kClose, Care::kFine}) {
-        const VectorBounds most = segment.bounds(care);
+      for (const Accuracy accuracy : {Accuracy::kQuick, Accuracy::kClose, Accuracy::kFine}) {
+        const VectorBounds most = segment.bounds(accuracy);
         assert_true(seen.v <= most.v + rounding);
         assert_true(seen.a <= most.a + faster * rounding);
         assert_true(seen.j <= most.j + 100.0 * faster * faster * rounding);
@@ -229,10 +229,10 @@ void no_velocity_acceleration_or_jerk_is_beyond_the_bounds(void**) {
 }
 
 /// Returns the largest ratios of bounds to samples.
-VectorBounds looseness(double rate, Care care) {
+VectorBounds looseness(double rate, Accuracy accuracy) {
   VectorBounds worst = {1.0, 1.0, 1.0};
-  over_segments(rate, [&worst, care](const RotationSegment& segment) {
-    const VectorBounds most = segment.bounds(care), seen = sampled(segment);
+  over_segments(rate, [&worst, accuracy](const RotationSegment& segment) {
+    const VectorBounds most = segment.bounds(accuracy), seen = sampled(segment);
     const double T = segment.duration();
     if (seen.v * T > 1e-6) worst.v = std::max(worst.v, most.v / seen.v);
     if (seen.a * T * T > 1e-6) worst.a = std::max(worst.a, most.a / seen.a);
@@ -244,11 +244,12 @@ VectorBounds looseness(double rate, Care care) {
 }
 
 void the_bounds_are_close(void**) {
-  const VectorBounds rest = looseness(0.0, Care::kFine), moving = looseness(kRate, Care::kFine);
+  const VectorBounds rest = looseness(0.0, Accuracy::kFine),
+                     moving = looseness(kRate, Accuracy::kFine);
   assert_true(rest.v < 1.02 && rest.a < 1.02 && rest.j < 1.05);
   assert_true(moving.v < 1.02 && moving.a < 1.05 && moving.j < 1.15);
-  const VectorBounds at_rest = looseness(0.0, Care::kClose),
-                     in_motion = looseness(kRate, Care::kClose);
+  const VectorBounds at_rest = looseness(0.0, Accuracy::kClose),
+                     in_motion = looseness(kRate, Accuracy::kClose);
   assert_true(at_rest.v < 1.02 && at_rest.a < 1.05 && at_rest.j < 1.12);
   assert_true(in_motion.v < 1.05 && in_motion.a < 1.2 && in_motion.j < 1.4);
 }
