@@ -16,7 +16,7 @@ struct CommandVerdict {
 
 class CommandGate {
  public:
-  /// Judges a command of a browser that had seen the state told at `seen_ms`, now. Stop always goes
+  /// Judges a command of a browser whose latest state was sent at `seen_ms`. Stop always goes
   /// on. [any, one thread]
   CommandVerdict judge(PageCommand command, std::int64_t seen_ms, std::int64_t now_ms);
 

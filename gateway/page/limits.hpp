@@ -6,7 +6,7 @@
 
 namespace tactus {
 
-inline constexpr int kMostBrowsers = 8;          ///< that are told what happens, at once
+inline constexpr int kMostBrowsers = 8;          ///< receiving events at the same time
 inline constexpr int kMostPageConnections = 24;  ///< a browser opens up to six while it loads
 inline constexpr std::size_t kConnectionBytes = 16 << 10;  ///< of libmicrohttpd for each of them
 inline constexpr unsigned kConnectionWait_s = 5;           ///< without a byte that comes or goes
@@ -16,8 +16,9 @@ inline constexpr std::size_t kCommandsPerSecond = 50;  ///< of all browsers, Sto
 inline constexpr std::int64_t kOldestSeen_ms = 1500;   ///< state that the giver of a command saw
 inline constexpr std::int64_t kStopPeriod_ns = 1'000'000;  ///< Stops within it are one
 inline constexpr std::size_t kLongestBody = 64;            ///< bytes of a POST
-inline constexpr std::size_t kNewsBytes = 256 << 10;  ///< that the slowest browser may lag behind
-inline constexpr int kSocketBytes = 64 << 10;         ///< that the system keeps for a browser
+inline constexpr std::size_t kEventRingBytes = 256
+                                               << 10;  ///< that the slowest browser may lag behind
+inline constexpr int kSocketBytes = 64 << 10;          ///< that the system keeps for a browser
 inline constexpr std::size_t kDescriptionBytes = 64 << 10;  ///< of robot and pipeline
 inline constexpr int kStatePeriod_ms = 50, kPortPeriod_ms = 50;
 inline constexpr std::int64_t kPing_ns = 2'000'000'000;

@@ -105,15 +105,16 @@ bool PageLink::receive() {
   return false;
 }
 
-/// Reads the next message into told_; one that is malformed ends the connection.
+/// Reads the next message into message_; one that is malformed ends the connection.
 bool PageLink::next() {
   Bytes bytes;
   if (!in_.next(bytes)) return false;
-  if (!decode(bytes, told_)) {
+  if (!decode(bytes, message_)) {
     close();
     return false;
   }
-  if (told_.which_message == tactus_ToClient_answer_tag && told_.message.answer.number == stop_)
+  if (message_.which_message == tactus_ToClient_answer_tag &&
+      message_.message.answer.number == stop_)
     stop_answered_ = true;
   return true;
 }

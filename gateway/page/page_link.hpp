@@ -24,13 +24,13 @@ class PageLink {
   void work(std::int64_t now_ns, const Take& take) {
     ping(now_ns);
     while (receive())
-      while (next()) take(told_);
+      while (next()) take(message_);
   }
 
   /// Sends a command; one that may need the lease takes it before, with the lowest priority, and
   /// gives it back behind. A Stop right behind a Stop that was sent a moment ago or has no answer
-  /// yet is the same. `stops`: what who sends it had been told of. The answer has the number that
-  /// is returned; 0: it could not be sent. [any]
+  /// yet is the same. `stops`: the latest stop that the sender had received. The answer has the
+  /// number that is returned; 0: it could not be sent. [any]
   std::uint32_t send(PageCommand command, double rate, std::uint32_t stops, std::int64_t now_ns);
 
  private:
@@ -51,7 +51,7 @@ class PageLink {
   std::array<std::uint8_t, 512> out_{};  // messages that are sent at once
   std::size_t out_size_ = 0;
   tactus_ToServer asked_;
-  tactus_ToClient told_;
+  tactus_ToClient message_;
 };
 
 }  // namespace tactus

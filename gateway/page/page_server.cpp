@@ -58,7 +58,7 @@ bool PageServer::start(int socket, std::string_view description, std::string_vie
 
 void PageServer::run(int wait_ms) {
   for (Browser& browser : browsers_) {
-    if (!browser.suspended || (browser.at == news_.end() && !ending_)) continue;
+    if (!browser.suspended || (browser.at == events_.end() && !ending_)) continue;
     browser.suspended = false;
     http_.resume(browser.connection);
   }
@@ -189,7 +189,7 @@ MHD_Result PageServer::send_text(MHD_Connection* connection, int status, std::st
 MHD_Result PageServer::send_events(MHD_Connection* connection) {
   for (Browser& browser : browsers_) {
     if (browser.connection != nullptr) continue;
-    browser = {this, connection, news_.end()};
+    browser = {this, connection, events_.end()};
     open_.keep(socket_of(connection));
     return queue(
         connection, 200,
@@ -216,9 +216,9 @@ MHD_Result PageServer::queue(MHD_Connection* connection, int status, MHD_Respons
 /// A browser that is too slow has lost events: its stream ends, and it begins anew.
 ssize_t PageServer::read_news(void* browser, std::uint64_t, char* to, std::size_t size) {
   Browser& its = *static_cast<Browser*>(browser);
-  const News& news = its.server->news_;
-  if (its.server->ending_ || !news.holds(its.at)) return MHD_CONTENT_READER_END_OF_STREAM;
-  const std::size_t count = news.read(its.at, to, size);
+  const EventRing& events = its.server->events_;
+  if (its.server->ending_ || !events.holds(its.at)) return MHD_CONTENT_READER_END_OF_STREAM;
+  const std::size_t count = events.read(its.at, to, size);
   its.at += count;
   if (count > 0) return static_cast<ssize_t>(count);
   its.suspended = true;

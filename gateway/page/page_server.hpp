@@ -2,15 +2,15 @@
 // in the thread that calls run().
 //
 //   GET /, /page.css, /*.js    the page         GET /robot.json  robot, pipeline and token
-//   GET /events?token=...      server-sent events: the News
+//   GET /events?token=...      server-sent events: the EventRing
 //   POST /stop, /override ...  commands, with the headers X-Tactus-Token and X-Tactus-Seen
 #pragma once
 
 #include <array>
 
 #include "gateway/page/command_gate.hpp"
+#include "gateway/page/event_ring.hpp"
 #include "gateway/page/http_library.hpp"
-#include "gateway/page/news.hpp"
 #include "gateway/page/open_connections.hpp"
 #include "gateway/page/page_link.hpp"
 #include "gateway/page/request_check.hpp"
@@ -19,7 +19,7 @@ namespace tactus {
 
 class PageServer {
  public:
-  PageServer(PageLink& link, const News& news) : link_(link), news_(news) {}
+  PageServer(PageLink& link, const EventRing& events) : link_(link), events_(events) {}
   ~PageServer() { stop(); }
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
@@ -31,14 +31,14 @@ class PageServer {
   void run(int wait_ms);
   /// Closes all connections. [any]
   void stop();
-  /// Browsers that are told what happens at present.
+  /// Number of browsers that are receiving events.
   int browsers() const;
 
  private:
   struct Browser {
     PageServer* server = nullptr;
     MHD_Connection* connection = nullptr;  // null: free
-    std::uint64_t at = 0;                  // place in the news
+    std::uint64_t at = 0;                  // position in the event ring
     bool suspended = false;                // until there are more
   };
   struct Command {  // a POST whose body is coming
@@ -72,7 +72,7 @@ class PageServer {
                    const char* type);
 
   PageLink& link_;
-  const News& news_;
+  const EventRing& events_;
   HttpLibrary http_;
   MHD_Daemon* daemon_ = nullptr;
   std::string_view description_, token_;

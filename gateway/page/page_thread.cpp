@@ -135,11 +135,11 @@ void PageThread::connect() {
 void PageThread::tell_news() {
   const std::int64_t now_ns = monotonic_ns();
   link_.work(now_ns, [&](const tactus_ToClient& message) {
-    tell(message, {begin_ns_, now_ns}, news_);
+    append_message(message, {begin_ns_, now_ns}, events_);
   });
   bool newer = false;
   while (ports_.values.take(values_)) newer = true;
-  if (newer) tell(values_, subject_.pipeline.ports, news_);
+  if (newer) append_ports(values_, subject_.pipeline.ports, events_);
 }
 
 }  // namespace tactus

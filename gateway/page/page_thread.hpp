@@ -7,8 +7,8 @@
 #include <atomic>
 
 #include "gateway/page/description.hpp"
+#include "gateway/page/page_events.hpp"
 #include "gateway/page/page_server.hpp"
-#include "gateway/page/telling.hpp"
 #include "gateway/sockets/address.hpp"
 #include "gateway/sockets/listener.hpp"
 #include "gateway/sockets/server_thread.hpp"
@@ -46,9 +46,9 @@ class PageThread {
   PageSubject subject_;
   ServerThread& server_;
   PortMailbox& ports_;
-  News news_;
+  EventRing events_;
   PageLink link_;
-  PageServer page_{link_, news_};
+  PageServer page_{link_, events_};
   PortValues values_;
   std::array<char, kDescriptionBytes> description_bytes_;
   std::string_view description_;

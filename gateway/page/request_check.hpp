@@ -26,10 +26,10 @@ struct RequestHead {
 /// Takes a header of the request; names are compared without case. [any]
 void take_header(std::string_view name, std::string_view value, RequestHead& head);
 
-/// Of the newest state that a browser has seen.
+/// Time and stop count of the newest state that a browser has received.
 struct SeenState {
-  std::int64_t sent_ms = -1;  ///< when it was told; -1: the browser does not say
-  std::uint32_t stops = 0;    ///< its number of the latest stop
+  std::int64_t sent_ms = -1;  ///< when it was sent; -1: not given
+  std::uint32_t stops = 0;    ///< number of the latest stop in it
 };
 
 /// Writes and reads it, "12345 6". [any]

@@ -82,19 +82,19 @@ void Clients::send_event(std::string_view name, Status status, std::string_view 
   }
 }
 
-void Clients::report(const Told& told, std::string_view text, std::int64_t now_ns,
+void Clients::report(const ClientReport& from, std::string_view text, std::int64_t now_ns,
                      const Vector6* zero) {
-  Connection* const to = sender(told.to);
+  Connection* const to = sender(from.to);
   if (to == nullptr || to->slow != nullptr) return;
   tactus_Report& report = begin_message(tactus_ToClient_report_tag).message.report;
-  report.number = told.to.number;
-  report.outcome = outcome_of(told.outcome);
-  report.status = static_cast<std::uint32_t>(told.verdict.status);
+  report.number = from.to.number;
+  report.outcome = outcome_of(from.outcome);
+  report.status = static_cast<std::uint32_t>(from.verdict.status);
   set_text(report.text, text);
-  report.time_s = told.time_s;
-  report.stretch = told.stretch;
+  report.time_s = from.time_s;
+  report.stretch = from.stretch;
   report.server_ns = now_ns;
-  write_finding(told.verdict, report.has_finding, report.finding);
+  write_finding(from.verdict, report.has_finding, report.finding);
   if (zero != nullptr) set_numbers(report.zero, report.zero_count, zero->data(), 6);
   if (!put(*to)) to->slow = "reports were not read; read what is sent";
 }

@@ -61,7 +61,7 @@ class Clients {
   }
   /// Sends a report to its client, if it is still connected; `zero`: the new zero of a tare. No
   /// report may be lost: a client without space for it is marked as slow.
-  void report(const Told& told, std::string_view text, std::int64_t now_ns,
+  void report(const ClientReport& report, std::string_view text, std::int64_t now_ns,
               const Vector6* zero = nullptr);
 
  private:
@@ -70,7 +70,7 @@ class Clients {
   void (*log_)(const char* line);
   std::array<Connection, kMostClients> connections_{};
   tactus_ToClient message_;
-  std::array<std::uint8_t, kLongestTold> bytes_;
+  std::array<std::uint8_t, kLongestToClient> bytes_;
 };
 
 }  // namespace tactus

@@ -12,7 +12,8 @@ bool decode(const Bytes& bytes, tactus_ToServer& message, const char*& why) {
   return good;
 }
 
-std::size_t encode(const tactus_ToClient& message, std::array<std::uint8_t, kLongestTold>& bytes) {
+std::size_t encode(const tactus_ToClient& message,
+                   std::array<std::uint8_t, kLongestToClient>& bytes) {
   pb_ostream_t stream = pb_ostream_from_buffer(bytes.data(), bytes.size());
   return pb_encode(&stream, tactus_ToClient_fields, &message) ? stream.bytes_written : 0;
 }

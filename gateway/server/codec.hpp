@@ -12,7 +12,8 @@ namespace tactus {
 bool decode(const Bytes& bytes, tactus_ToServer& message, const char*& why);
 
 /// Writes a message into `bytes`; returns its size, 0 if it does not fit. [any]
-std::size_t encode(const tactus_ToClient& message, std::array<std::uint8_t, kLongestTold>& bytes);
+std::size_t encode(const tactus_ToClient& message,
+                   std::array<std::uint8_t, kLongestToClient>& bytes);
 
 /// The same at the other end, for a client. [any]
 bool decode(const Bytes& bytes, tactus_ToClient& message);

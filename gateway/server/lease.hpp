@@ -8,7 +8,7 @@
 namespace tactus {
 
 enum class LeaseResult : std::uint8_t {
-  kFree,       ///< no client had it
+  kFree,       ///< it was free
   kRenewed,    ///< the client had it
   kTakenOver,  ///< another one of lower priority had it
   kRefused,    ///< another one has it
@@ -17,15 +17,15 @@ enum class LeaseResult : std::uint8_t {
 /// Owner of the motion of the arm: one client at a time; docs/gateway.md has the table.
 class Lease {
  public:
-  static constexpr int kNobody = -1;
+  static constexpr int kNoOwner = -1;
 
   int owner() const { return owner_; }
   std::uint32_t priority() const { return priority_; }
 
-  /// A client asks for the motion, or renews its lease with another priority and time.
+  /// Requests the motion for a client, or renews its lease with another priority and timeout.
   LeaseResult take(int client, std::uint32_t priority, std::int64_t timeout_ns,
                    std::int64_t now_ns) {
-    const LeaseResult taken = owner_ == kNobody      ? LeaseResult::kFree
+    const LeaseResult taken = owner_ == kNoOwner     ? LeaseResult::kFree
                               : owner_ == client     ? LeaseResult::kRenewed
                               : priority > priority_ ? LeaseResult::kTakenOver
                                                      : LeaseResult::kRefused;
@@ -36,16 +36,16 @@ class Lease {
     heard(client, now_ns);
     return taken;
   }
-  /// A message of a client has come.
+  /// Extends the lease after a message of the client.
   void heard(int client, std::int64_t now_ns) {
     if (client == owner_) until_ns_ = now_ns + timeout_ns_;
   }
   /// True if the owner's time has passed.
-  bool expired(std::int64_t now_ns) const { return owner_ != kNobody && now_ns > until_ns_; }
-  void end() { owner_ = kNobody; }
+  bool expired(std::int64_t now_ns) const { return owner_ != kNoOwner && now_ns > until_ns_; }
+  void end() { owner_ = kNoOwner; }
 
  private:
-  int owner_ = kNobody;
+  int owner_ = kNoOwner;
   std::uint32_t priority_ = 0;
   std::int64_t timeout_ns_ = 0, until_ns_ = 0;
 };
@@ -55,8 +55,8 @@ class Lease {
 /// arm must not undo the stop.
 class StopCount {
  public:
-  /// By no client, as a fault.
-  static constexpr std::uint64_t kNobody = 0;
+  /// Stand-in for a stop by no client, such as a fault.
+  static constexpr std::uint64_t kNoSession = 0;
 
   /// The arm was stopped or slowed down by the client of a session.
   void add(std::uint64_t by) {
@@ -64,18 +64,18 @@ class StopCount {
     newest_by_ = by;
     ++newest_;
   }
-  /// Number of the newest; it begins with 1, which is none.
+  /// Number of the newest stop; 1: no stop so far.
   std::uint32_t newest() const { return newest_; }
-  /// True if a client can have received this number.
-  bool told(std::uint32_t number) const { return number >= 1 && number <= newest_; }
-  /// True if a client that received this number knows of all stops but its own.
+  /// True if this number has been issued.
+  bool issued(std::uint32_t number) const { return number >= 1 && number <= newest_; }
+  /// True if a client that received this number has received all stops by others.
   bool known(std::uint32_t number, std::uint64_t session) const {
-    return told(number) && number >= (newest_by_ == session ? others_ : newest_);
+    return issued(number) && number >= (newest_by_ == session ? others_ : newest_);
   }
 
  private:
   std::uint32_t newest_ = 1, others_ = 1;  // others_: of the newest by another than newest_by_
-  std::uint64_t newest_by_ = kNobody;
+  std::uint64_t newest_by_ = kNoSession;
 };
 
 }  // namespace tactus

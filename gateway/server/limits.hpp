@@ -11,7 +11,7 @@ namespace tactus {
 inline constexpr int kMostClients = 8;                    ///< connections at once
 inline constexpr std::size_t kLengthBytes = 4;            ///< before each message
 inline constexpr std::size_t kLongestMessage = 16 << 10;  ///< bytes without its length
-inline constexpr std::size_t kLongestTold = 2 << 10;      ///< of a message to a client
+inline constexpr std::size_t kLongestToClient = 2 << 10;  ///< of a message to a client
 inline constexpr std::size_t kOutputBytes = 64 << 10;     ///< that wait to be sent to a client
 inline constexpr std::size_t kReserveBytes = kOutputBytes / 2;  ///< of these, kept for reports
 inline constexpr int kLongestPart = 60;                         ///< waypoints; tactus.options

@@ -20,7 +20,7 @@ class ParameterRequests {
   std::uint32_t sets() const { return sets_; }
   /// Posts a set to the cycle, or only checks it; offered() is true.
   Reply set(const tactus_Parameters& request, const Origin& from);
-  /// Sends a page of the list; offered() is true. A client without space for it is told to read.
+  /// Sends a page of the list; offered() is true. A client without space for it is asked to read.
   Reply list(const tactus_ListParameters& request, const Origin& from);
   /// Takes the cycle's verdict on the set and reports it, with the generator time of the newest
   /// cycle.

@@ -88,39 +88,40 @@ bool ReferenceIntake<Space>::send_waiting() {
   if (verdict.ok())
     book_.add({id, waiting_.from, {}, 0.0, waiting_.kind != RequestKind::kPoint});
   else
-    tell(waiting_.from, Outcome::kRefused, verdict);
+    queue_report(waiting_.from, Outcome::kRefused, verdict);
   return true;
 }
 
 template <class Space>
 void ReferenceIntake<Space>::drop_waiting() {
-  if (waits_) tell(waiting_.from, Outcome::kSuperseded, {});
+  if (waits_) queue_report(waiting_.from, Outcome::kSuperseded, {});
   waits_ = false;
 }
 
 template <class Space>
-void ReferenceIntake<Space>::tell(const Origin& to, Outcome outcome, const Verdict& verdict,
-                                  double stretch) {
-  told_[static_cast<std::size_t>(told_count_++)] = {to, outcome, verdict, 0.0, stretch};
+void ReferenceIntake<Space>::queue_report(const Origin& to, Outcome outcome, const Verdict& verdict,
+                                          double stretch) {
+  reports_[static_cast<std::size_t>(report_count_++)] = {to, outcome, verdict, 0.0, stretch};
 }
 
 template <class Space>
 Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, double rate,
-                                        const Deed& deed) {
-  if (busy() || (!deed.by_owner && client_.unanswered() >= kControls / 2))
+                                        const ControlEffect& effect) {
+  if (busy() || (!effect.by_owner && client_.unanswered() >= kControls / 2))
     return {Status::kMailboxFull};
   std::uint32_t id = 0;
   const Verdict verdict = server_.control(kind, rate, id);
   if (!verdict.ok()) return verdict;
-  book_.add({id, from, {}, 0.0, false, deed});
+  book_.add({id, from, {}, 0.0, false, effect});
   if (kind == ControlKind::kCancel) canceling_ = id;
   return {};
 }
 
 template <class Space>
 Verdict ReferenceIntake<Space>::begin(const Origin& from, const TrajectoryTerms& terms) {
-  // There is space to tell what is given up, and what this one may end as before it is sent.
-  if (told_count_ + 2 > static_cast<int>(told_.size())) return {Status::kMailboxFull};
+  // There is space to queue_report what is given up, and what this one may end as before it is
+  // sent.
+  if (report_count_ + 2 > static_cast<int>(reports_.size())) return {Status::kMailboxFull};
   if (terms.check && coming_ && !comes(from)) return {Status::kNoFreeStore};
   if (coming_) give_up(origin_.session);
   const Verdict verdict = server_.begin(terms);
@@ -148,11 +149,11 @@ void ReferenceIntake<Space>::take(const Waypoint<Space>& waypoint) {
 }
 
 template <class Space>
-Message ReferenceIntake<Space>::about_turns(const Told& told) {
-  if (told.to.session != origin_.session || told.to.number != origin_.number) return {};
-  if (const TurnStep* const step = turns_.explain(told.verdict)) return remedy(*step);
+Message ReferenceIntake<Space>::about_turns(const ClientReport& result) {
+  if (result.to.session != origin_.session || result.to.number != origin_.number) return {};
+  if (const TurnStep* const step = turns_.explain(result.verdict)) return remedy(*step);
   const TurnStep* const longest = turns_.longest();
-  if (warned_ || longest == nullptr || !told.verdict.ok()) return {};
+  if (warned_ || longest == nullptr || !result.verdict.ok()) return {};
   warned_ = true;
   return describe(*longest);
 }
@@ -171,7 +172,7 @@ void ReferenceIntake<Space>::give_up(std::uint64_t session) {
 
 template <class Space>
 void ReferenceIntake<Space>::cancel() {
-  std::uint32_t id = 0;  // nobody is told
+  std::uint32_t id = 0;  // not reported
   cancel_due_ = !server_.control(ControlKind::kCancel, 1.0, id).ok();
   if (!cancel_due_) ending_ = id;
 }
@@ -190,7 +191,7 @@ void ReferenceIntake<Space>::fail(const Verdict& verdict, Outcome outcome) {
   count_ = outstanding_ = 0;
   ReportBook::Entry* const entry = id_ != 0 ? book_.find(id_) : nullptr;
   if (entry == nullptr && id_ == 0) {
-    tell(origin_, outcome, verdict);
+    queue_report(origin_, outcome, verdict);
   } else if (entry != nullptr && !verdict.ok()) {
     entry->failed = verdict;
     cancel();  // or the arm would wait on the path for what never comes
@@ -226,55 +227,56 @@ void ReferenceIntake<Space>::move_on() {
   if (!verdict.ok()) return fail(verdict, Outcome::kRefused);
   coming_ = false;
   if (checks_)
-    tell(origin_, Outcome::kExecuted, {}, server_.stretch());
+    queue_report(origin_, Outcome::kExecuted, {}, server_.stretch());
   else if (id_ == 0)
     book_.add({id, origin_, {}, server_.stretch()});
 }
 
 template <class Space>
-bool ReferenceIntake<Space>::work(Told& told) {
+bool ReferenceIntake<Space>::work(ClientReport& result) {
   move_on();
-  while (told_count_ > 0) {
-    told = told_[0];
-    std::move(told_.begin() + 1, told_.begin() + told_count_--, told_.begin());
-    if (told.to.slot >= 0) return true;
+  while (report_count_ > 0) {
+    result = reports_[0];
+    std::move(reports_.begin() + 1, reports_.begin() + report_count_--, reports_.begin());
+    if (result.to.slot >= 0) return true;
   }
   Report report;
   while (server_.fetch(report))
-    if (translate(report, told)) return true;
+    if (translate(report, result)) return true;
   return false;
 }
 
-/// A report on a store, or on what nobody waits for, is for no client.
+/// Fills in `result`. Returns false for reports without a client: on stores, and for closed
+/// sessions.
 template <class Space>
-bool ReferenceIntake<Space>::translate(const Report& report, Told& told) {
+bool ReferenceIntake<Space>::translate(const Report& report, ClientReport& result) {
   if (report.id == canceling_) canceling_ = 0;
   if (report.id == ending_) ending_ = 0;
   ReportBook::Entry* const entry = report.id != 0 ? book_.find(report.id) : nullptr;
   if (entry == nullptr) {
-    told = {stream_.from, report.outcome, report.verdict, report.time_s, 0.0};
-    return report.outcome == Outcome::kStarved && report.id == stream_.id && told.to.slot >= 0;
+    result = {stream_.from, report.outcome, report.verdict, report.time_s, 0.0};
+    return report.outcome == Outcome::kStarved && report.id == stream_.id && result.to.slot >= 0;
   }
-  told = {entry->from, report.outcome, report.verdict, report.time_s, entry->stretch};
+  result = {entry->from, report.outcome, report.verdict, report.time_s, entry->stretch};
   if (report.outcome == Outcome::kCanceled && !entry->failed.ok()) {
-    told.outcome = Outcome::kAborted;
-    told.verdict = entry->failed;
+    result.outcome = Outcome::kAborted;
+    result.verdict = entry->failed;
   }
-  if (!is_final(report.outcome)) return told.to.slot >= 0;
-  if (report.outcome == Outcome::kExecuted) told.deed = entry->deed;
+  if (!is_final(report.outcome)) return result.to.slot >= 0;
+  if (report.outcome == Outcome::kExecuted) result.effect = entry->effect;
   if (report.id == id_ && coming_) coming_ = false;
   if (entry->streams && report.outcome == Outcome::kExecuted) stream_ = *entry;
   book_.remove(*entry);
-  return told.to.slot >= 0;
+  return result.to.slot >= 0;
 }
 
-/// Whatever is granted can be taken at any moment: staged, or in the window before it is sent.
+/// Grants only as many waypoints as fit at any moment, staged or in the window.
 template <class Space>
-bool ReferenceIntake<Space>::grant(Granted& granted) {
+bool ReferenceIntake<Space>::grant(Credit& credit) {
   if (!coming_ || ended_) return false;
   const int space = kStagedWaypoints - count_ + free_;
-  granted = {origin_, space - outstanding_};
-  if (granted.waypoints <= 0) return false;
+  credit = {origin_, space - outstanding_};
+  if (credit.waypoints <= 0) return false;
   outstanding_ = space;
   return true;
 }

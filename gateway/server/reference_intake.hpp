@@ -1,9 +1,9 @@
 // ReferenceIntake: the references of one space on their way from the clients to the generator, and
 // its reports on their way back. It stages the waypoints of one trajectory at a time, grants its
-// client credit for as many as it can take at any moment, and knows which client gets which report.
+// client credit for as many as it can take at any moment, and assigns every report to its client.
 //
-// A point, velocity or chunk that finds no space, as in the burst behind a stall of the network,
-// waits for it; a newer one takes its place, and it is superseded.
+// A point, velocity or chunk for which there is no space, as in a burst after a network stall, is
+// kept until there is; a newer one supersedes it.
 #pragma once
 
 #include "gateway/joint_turns.hpp"
@@ -15,16 +15,16 @@
 namespace tactus {
 
 /// A report for a client.
-struct Told {
+struct ClientReport {
   Origin to;
   Outcome outcome = Outcome::kRefused;
   Verdict verdict;
   double time_s = 0.0, stretch = 0.0;
-  Deed deed = {};  ///< that has taken effect
+  ControlEffect effect = {};  ///< of an executed control
 };
 
 /// Credit for a client.
-struct Granted {
+struct Credit {
   Origin to;
   int waypoints = 0;
 };
@@ -45,13 +45,12 @@ class ReferenceIntake {
   Verdict chunk(const Origin& from, const TrajectoryTerms& terms, Chunk<Space>& chunk);
   /// Sends a velocity; it is newer than all before.
   Verdict velocity(const Origin& from, const TrajectoryTerms& terms, Velocity<Space>& velocity);
-  /// Chunks that were sent.
+  /// Number of chunks sent.
   std::uint32_t chunks() const { return chunks_; }
   /// Counters and margins of chunks and velocities.
   const StreamState& stream() const { return client_.stream(); }
-  /// Sends a control. Those of clients that do not own the motion leave half of the mailbox to the
-  /// owner.
-  Verdict control(const Origin& from, ControlKind kind, double rate, const Deed& deed);
+  /// Sends a control. Controls of clients other than the owner fill at most half of the mailbox.
+  Verdict control(const Origin& from, ControlKind kind, double rate, const ControlEffect& effect);
   /// Begins a trajectory; what was begun before and has not ended is given up. One that is only
   /// judged waits for that of another client: kNoFreeStore.
   Verdict begin(const Origin& from, const TrajectoryTerms& terms);
@@ -63,7 +62,7 @@ class ReferenceIntake {
   }
   /// Returns the text for a report on the trajectory that was begun last: the cause of a
   /// refusal, or, once, a warning that it takes a long way. Empty: there is none.
-  Message about_turns(const Told& told);
+  Message about_turns(const ClientReport& report);
   /// Stages a waypoint of the trajectory that `from` has begun, for which it has credit.
   void take(const Waypoint<Space>& waypoint);
   /// No waypoints follow.
@@ -97,9 +96,9 @@ class ReferenceIntake {
 
   /// Moves staged waypoints on, and takes the next report that concerns a client. False: there is
   /// none. To be called until there is none.
-  bool work(Told& told);
+  bool work(ClientReport& result);
   /// New credit of the client whose trajectory comes; false: there is none.
-  bool grant(Granted& granted);
+  bool grant(Credit& credit);
 
   bool poll_feedback(Feedback<Space>& feedback) { return client_.poll_feedback(feedback); }
   /// The client's number of the trajectory with this number in the channel; 0: none of it.
@@ -118,18 +117,19 @@ class ReferenceIntake {
   };
 
   bool busy() const {
-    return book_.full() || cancel_due_ || told_count_ + 3 > static_cast<int>(told_.size());
+    return book_.full() || cancel_due_ || report_count_ + 3 > static_cast<int>(reports_.size());
   }
   Verdict post(const Reference& reference, Chunk<Space>& chunk, std::uint32_t& id);
   std::uint32_t present_epoch() const;
   Verdict offer(const Reference& reference, Chunk<Space>& chunk);
   bool finds_no_space(const Verdict& verdict) const;
-  void tell(const Origin& to, Outcome outcome, const Verdict& verdict, double stretch = 0.0);
+  void queue_report(const Origin& to, Outcome outcome, const Verdict& verdict,
+                    double stretch = 0.0);
   bool send_waiting();
   void move_on();
   void note_sent();
   void fail(const Verdict& verdict, Outcome outcome);
-  bool translate(const Report& report, Told& told);
+  bool translate(const Report& report, ClientReport& result);
 
   ReferenceClient<Space>& client_;
   ReferenceServer<Space> server_;
@@ -157,8 +157,9 @@ class ReferenceIntake {
   int first_ = 0, count_ = 0;
   JointTurns turns_;
   bool warned_ = false;
-  std::array<Told, 2 * kMessagesPerTurn> told_;  // of what has ended before the generator had it
-  int told_count_ = 0;
+  std::array<ClientReport, 2 * kMessagesPerTurn>
+      reports_;  // on references that ended before the generator received them
+  int report_count_ = 0;
 };
 
 /// The intake of the references that a pipeline takes, joints or poses, and the epoch that voids

@@ -1,4 +1,4 @@
-// ReportBook: whose reference has which number in the channel, until its final report.
+// ReportBook: the sender of each reference in the channel, by number, until its final report.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@ namespace tactus {
 
 /// A message of a client: the connection, by its session, and the client's number of the message.
 struct Origin {
-  int slot = -1;  ///< of the connection; -1: nobody is told
+  int slot = -1;  ///< slot of the connection; -1: reports are discarded
   std::uint64_t session = 0;
   std::uint32_t number = 0;
 };
 
-/// What a control does, for those who hear of it.
-struct Deed {
-  const char* what = nullptr;  ///< null: it is no control
-  double percent = -1.0;       ///< of an override; negative: of none
-  bool by_owner = false;       ///< of the motion
+/// Effect of a control, as reported to clients.
+struct ControlEffect {
+  const char* what = nullptr;  ///< null: not a control
+  double percent = -1.0;       ///< of an override; negative: no override
+  bool by_owner = false;       ///< sent by the owner of the motion
 };
 
 class ReportBook {
@@ -28,15 +28,15 @@ class ReportBook {
   struct Entry {
     std::uint32_t id = 0;  ///< 0: free
     Origin from;
-    Verdict failed;  ///< why it is canceled, if the server does so
+    Verdict failed;  ///< reason, if the server cancels it
     double stretch = 0.0;
     bool streams = false;  ///< a chunk or a velocity, which may starve after its final report
-    Deed deed = {};
+    ControlEffect effect = {};
   };
 
-  /// True if no more is to be taken; there is still space for the trajectory that comes.
+  /// True if only the space for the trajectory in transfer is left.
   bool full() const { return count_ >= kMostUnreported - 1; }
-  /// There is space: see full().
+  /// Requires space: see full().
   void add(const Entry& entry) {
     Entry* const free = find(0);
     if (free == nullptr) return;
@@ -54,7 +54,7 @@ class ReportBook {
     return std::any_of(entries_.begin(), entries_.end(),
                        [](const Entry& entry) { return entry.id != 0 && entry.streams; });
   }
-  /// Nobody is told any more of what a session has sent.
+  /// Discards the reports for this session from now on.
   void forget(std::uint64_t session) {
     for (Entry& entry : entries_)
       if (entry.from.session == session) entry.from.slot = -1;

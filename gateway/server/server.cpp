@@ -18,7 +18,7 @@ int Server::open(std::uint64_t session, std::int64_t now_ns) {
 
 /// A client is idle that neither owns the motion nor watches, and has sent only Pings for a minute.
 Bytes Server::turn_away(std::int64_t now_ns) {
-  int idle = Lease::kNobody;
+  int idle = Lease::kNoOwner;
   Message names;
   for (int slot = 0; slot < kMostClients; ++slot) {
     const Connection& connection = at(slot);
@@ -211,7 +211,7 @@ void Server::lose_lease(std::string_view how, std::int64_t now_ns) {
   references_.give_up(owner.session);
   lease_.end();
   references_.end_motion();
-  stops_.add(StopCount::kNobody);
+  stops_.add(StopCount::kNoSession);
   Message text("the lease of ");
   text << std::string_view(owner.name) << " " << how << ": the arm comes to rest";
   clients_.announce("lease", Status::kNotOwner, text.c_str(), now_ns);
@@ -226,53 +226,53 @@ void Server::cut_slow(std::int64_t now_ns) {
 void Server::take_reports(std::int64_t now_ns) {
   if (!references_.takes_any()) return;
   references_.with_intake([&](auto& intake) {
-    Told told;
-    while (intake.work(told)) {
-      clients_.report(told, text_about(told, intake.about_turns(told)), now_ns);
-      if (told.deed.what != nullptr) report_control(told, now_ns);
-      report_late(told, now_ns);
+    ClientReport report;
+    while (intake.work(report)) {
+      clients_.report(report, text_about(report, intake.about_turns(report)), now_ns);
+      if (report.effect.what != nullptr) report_control(report, now_ns);
+      report_late(report, now_ns);
     }
-    Granted granted;
-    if (!intake.grant(granted)) return;
+    Credit credit;
+    if (!intake.grant(credit)) return;
     clients_.begin_message(tactus_ToClient_credit_tag).message.credit.waypoints =
-        static_cast<std::uint32_t>(granted.waypoints);
-    Connection& to = at(granted.to.slot);
+        static_cast<std::uint32_t>(credit.waypoints);
+    Connection& to = at(credit.to.slot);
     if (!clients_.put(to)) to.slow = "credit was not read; read what is sent";
   });
 }
 
 /// The text of a refusal has its cause in the turns of a joint, or else the remedy of its status;
 /// that of an accepted reference has the warning about turns.
-Message Server::text_about(const Told& told, const Message& turns) const {
-  if (turns.empty() || told.verdict.ok())
-    return turns.empty() ? reply_to(told.verdict, references_.axes()).text : turns;
-  Message text = describe(told.verdict, VerdictAxes::kJoints, kInfinity);
+Message Server::text_about(const ClientReport& report, const Message& turns) const {
+  if (turns.empty() || report.verdict.ok())
+    return turns.empty() ? reply_to(report.verdict, references_.axes()).text : turns;
+  Message text = describe(report.verdict, VerdictAxes::kJoints, kInfinity);
   return text << turns;
 }
 
-/// All clients are sent a control that has taken effect. The log has those of clients that did not
-/// own the motion.
-void Server::report_control(const Told& told, std::int64_t now_ns) {
-  const Connection* const by = clients_.sender(told.to);
+/// Sends a control that has taken effect to all clients, and logs it if its sender did not own the
+/// motion.
+void Server::report_control(const ClientReport& report, std::int64_t now_ns) {
+  const Connection* const by = clients_.sender(report.to);
   if (by == nullptr) return;
   Message text(by->name);
-  text << told.deed.what;
-  if (told.deed.percent >= 0.0) text << " to " << told.deed.percent << " %";
-  if (!told.deed.by_owner) clients_.log(text.c_str());
+  text << report.effect.what;
+  if (report.effect.percent >= 0.0) text << " to " << report.effect.percent << " %";
+  if (!report.effect.by_owner) clients_.log(text.c_str());
   clients_.send_event("control", Status::kOk, text, now_ns);
 }
 
-/// A client whose chunks have all been late for a second is named, with the delay of the newest.
-void Server::report_late(const Told& told, std::int64_t now_ns) {
-  Connection* const by = clients_.sender(told.to);
+/// Announces a client whose chunks have all been late for a second, with the delay of the newest.
+void Server::report_late(const ClientReport& report, std::int64_t now_ns) {
+  Connection* const by = clients_.sender(report.to);
   if (by == nullptr) return;
-  if (told.outcome == Outcome::kExecuted) by->late = 0;
-  if (told.verdict.status != Status::kChunkLate) return;
+  if (report.outcome == Outcome::kExecuted) by->late = 0;
+  if (report.verdict.status != Status::kChunkLate) return;
   if (by->late++ == 0) by->late_ns = now_ns;
   if (now_ns - by->late_ns < kSecond_ns) return;
   Message text(by->name);
-  text << ": the last " << by->late << " chunks came too late, the newest by " << told.verdict.value
-       << " s; send sooner, or targets farther ahead";
+  text << ": the last " << by->late << " chunks came too late, the newest by "
+       << report.verdict.value << " s; send sooner, or targets farther ahead";
   by->late = 0;
   clients_.announce("late", Status::kChunkLate, text.c_str(), now_ns);
 }

@@ -84,9 +84,9 @@ class Server {
   void begin_end();
   void lose_lease(std::string_view how, std::int64_t now_ns);
   void take_reports(std::int64_t now_ns);
-  Message text_about(const Told& told, const Message& turns) const;
-  void report_control(const Told& told, std::int64_t now_ns);
-  void report_late(const Told& told, std::int64_t now_ns);
+  Message text_about(const ClientReport& report, const Message& turns) const;
+  void report_control(const ClientReport& report, std::int64_t now_ns);
+  void report_late(const ClientReport& report, std::int64_t now_ns);
 
   // server_requests.cpp: the execution of requests
   Reply execute(int slot, const Origin& from, std::int64_t now_ns);

@@ -96,7 +96,7 @@ Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   const bool moves = follows ? !checks : needs_lease(request_) || raises(what);
   if (moves && lease_.owner() != slot) {
     Message text(describe(Status::kNotOwner));
-    if (lease_.owner() != Lease::kNobody)
+    if (lease_.owner() != Lease::kNoOwner)
       text << ": " << std::string_view(at(lease_.owner()).name) << ", with priority "
            << static_cast<int>(lease_.priority());
     return {Status::kNotOwner, text << remedy({Status::kNotOwner})};
@@ -138,17 +138,17 @@ bool Server::raises(pb_size_t what) const {
 /// A request that makes the arm move again, or faster, is valid only if its client knows of the
 /// stops by others.
 Reply Server::judge_stops(int slot) const {
-  std::uint32_t told = 0;
+  std::uint32_t stops = 0;
   switch (request_.which_request) {
-    case tactus_ToServer_rearm_tag: told = request_.request.rearm.stops; break;
-    case tactus_ToServer_resume_tag: told = request_.request.resume.stops; break;
-    case tactus_ToServer_override_tag: told = request_.request.override.stops; break;
+    case tactus_ToServer_rearm_tag: stops = request_.request.rearm.stops; break;
+    case tactus_ToServer_resume_tag: stops = request_.request.resume.stops; break;
+    case tactus_ToServer_override_tag: stops = request_.request.override.stops; break;
     default: return {};
   }
-  if (!stops_.told(told))
+  if (!stops_.issued(stops))
     return {Status::kBadValue,
             "stops is missing or was never told: give that of the latest State, Answer or Welcome"};
-  if (stops_.known(told, at(slot).session)) return {};
+  if (stops_.known(stops, at(slot).session)) return {};
   return {Status::kEpochVoid,
           "since this was asked the arm was stopped, canceled, paused or slowed down, not by this "
           "client; look at the latest State, and ask again"};
@@ -272,30 +272,30 @@ Reply Server::control(const Origin& from) {
   const pb_size_t what = request_.which_request;
   const bool by_owner = lease_.owner() == from.slot;
   ControlKind kind = ControlKind::kResume;
-  Deed deed = {" has ended the pause", -1.0, by_owner};
+  ControlEffect effect = {" has ended the pause", -1.0, by_owner};
   double rate = 1.0;
   if (what == tactus_ToServer_cancel_tag) {
     kind = ControlKind::kCancel;
-    deed.what = " has canceled what runs";
+    effect.what = " has canceled what runs";
   } else if (what == tactus_ToServer_pause_tag) {
     kind = ControlKind::kPause;
-    deed.what = " has paused the arm";
+    effect.what = " has paused the arm";
   } else if (what == tactus_ToServer_override_tag) {
-    const std::uint32_t told = request_.request.override.stops;
-    kind = by_owner && stops_.known(told, from.session) ? ControlKind::kOverride
-                                                        : ControlKind::kSlowDown;
-    deed.what = " has set the override";
+    const std::uint32_t stops = request_.request.override.stops;
+    kind = by_owner && stops_.known(stops, from.session) ? ControlKind::kOverride
+                                                         : ControlKind::kSlowDown;
+    effect.what = " has set the override";
     rate = request_.request.override.rate;
-    deed.percent = 100.0 * rate;
+    effect.percent = 100.0 * rate;
   }
-  const Verdict verdict =
-      references_.with_intake([&](auto& intake) { return intake.control(from, kind, rate, deed); });
+  const Verdict verdict = references_.with_intake(
+      [&](auto& intake) { return intake.control(from, kind, rate, effect); });
   const bool slows = kind != ControlKind::kResume && !raises(what) && rate >= 0.0;
   if (verdict.ok() && slows) stops_.add(from.session);
   if (verdict.ok() && kind == ControlKind::kCancel) {
     begin_end();
     const int owner = lease_.owner();
-    if (owner != Lease::kNobody) {
+    if (owner != Lease::kNoOwner) {
       references_.give_up(at(owner).session);
       at(owner).canceled = !by_owner;
     }

@@ -13,7 +13,7 @@ void StatePublisher::take_snapshots(std::int64_t now_ns) {
   while (mailboxes_.snapshots.take(snapshot)) {
     const auto from = static_cast<Rung>(newest_.rung), to = static_cast<Rung>(snapshot.rung);
     const bool changed = seen_ && from != to;
-    if (seen_ && snapshot.faults != newest_.faults) stops_.add(StopCount::kNobody);
+    if (seen_ && snapshot.faults != newest_.faults) stops_.add(StopCount::kNoSession);
     newest_ = snapshot;
     seen_ = true;
     clock_.set(snapshot.stamp_ns, snapshot.time_s);
@@ -66,7 +66,7 @@ void StatePublisher::send_state(Connection& to, const Lease& lease, std::uint32_
   state.phase = newest_.phase;
   state.epoch = references_.epoch();
   state.stops = stops_.newest();
-  if (lease.owner() != Lease::kNobody) set_text(state.owner, clients_.at(lease.owner()).name);
+  if (lease.owner() != Lease::kNoOwner) set_text(state.owner, clients_.at(lease.owner()).name);
   state.override = newest_.override;
   state.speed_scaling = newest_.speed_scaling;
   set_numbers(state.q, state.q_count, newest_.q.data(), kDof);

@@ -102,7 +102,7 @@ void ServerThread::welcome(int socket, bool inside) {
 /// Tells a client for which there is no place why, if nothing is encrypted, and closes its socket.
 void ServerThread::turn_away(int socket) {
   const Bytes why = server_.turn_away(monotonic_ns());
-  std::array<std::uint8_t, kLengthBytes + kLongestTold> bytes{};
+  std::array<std::uint8_t, kLengthBytes + kLongestToClient> bytes{};
   for (std::size_t i = 0; i < kLengthBytes; ++i)
     bytes[i] = static_cast<std::uint8_t>(why.size >> (8 * i));
   std::memcpy(bytes.data() + kLengthBytes, why.data, why.size);

@@ -64,7 +64,7 @@ struct World {
       if (server.used(slot) && now_ns / kMillisecond_ns % 3 == 0)
         server.sent(slot, waiting.size, now_ns);
     }
-    MUST(server.owner() == Lease::kNobody || server.used(server.owner()));
+    MUST(server.owner() == Lease::kNoOwner || server.used(server.owner()));
   }
   void connect() {
     for (int slot = 0; slot < 2; ++slot)
@@ -109,7 +109,7 @@ struct World {
   void end() {
     for (int slot = 0; slot < 2; ++slot)
       if (server.used(slot)) server.closed(slot, now_ns);
-    MUST(server.owner() == Lease::kNobody);
+    MUST(server.owner() == Lease::kNoOwner);
     for (int i = 0; i < 3000 && !generator.reference().standing(); ++i) cycle();
     MUST(generator.reference().standing());
   }

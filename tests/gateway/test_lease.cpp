@@ -125,7 +125,7 @@ void a_lease_that_is_not_renewed_ends_and_the_arm_rests_while_messages_renew_it(
   assert_int_equal(two.bench.server.owner(), two.a.slot);
   assert_false(two.bench.generator.reference().standing());
   two.run(102);
-  assert_int_equal(two.bench.server.owner(), Lease::kNobody);
+  assert_int_equal(two.bench.server.owner(), Lease::kNoOwner);
   two.run(1000);
   assert_true(two.bench.generator.reference().standing());
   assert_true(two.bench.generator.reference().q[0] < far[0] - 0.1);
@@ -175,7 +175,7 @@ void leases_outside_their_ranges_are_refused(void**) {
   const std::uint32_t number = two.a.lease(256);
   two.run(1);
   assert_int_equal(two.a.status[number], static_cast<int>(Status::kBadValue));
-  assert_int_equal(two.bench.server.owner(), Lease::kNobody);
+  assert_int_equal(two.bench.server.owner(), Lease::kNoOwner);
 }
 
 // Proves GW-8.

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "gateway/page/command_gate.hpp"
+#include "gateway/page/event_ring.hpp"
 #include "gateway/page/json.hpp"
-#include "gateway/page/news.hpp"
 #include "gateway/page/open_connections.hpp"
 #include "gateway/page/page_command.hpp"
 #include "gateway/page/page_thread.hpp"
@@ -191,25 +191,25 @@ void what_does_not_fit_is_not_told_in_part(void**) {
 // Proves PAGE-4.
 
 void a_browser_reads_the_news_at_its_own_pace_until_it_has_lost_some(void**) {
-  static News news;
-  news.tell("first", "1");
-  const std::uint64_t from = news.end();
+  static EventRing events;
+  events.append("first", "1");
+  const std::uint64_t from = events.end();
   std::string told, read;
-  for (int i = 0; told.size() + 40 < kNewsBytes; ++i) {
+  for (int i = 0; told.size() + 40 < kEventRingBytes; ++i) {
     const std::string data = std::to_string(i);
-    news.tell("state", data);
+    events.append("state", data);
     told += "event: state\ndata: " + data + "\n\n";
   }
-  assert_true(news.holds(from));
+  assert_true(events.holds(from));
   char piece[1000];
-  for (std::uint64_t at = from; at < news.end();) {
-    const std::size_t count = news.read(at, piece, sizeof piece);
+  for (std::uint64_t at = from; at < events.end();) {
+    const std::size_t count = events.read(at, piece, sizeof piece);
     read.append(piece, count);
     at += count;
   }
   assert_true(read == told);
-  news.tell("state", std::string(40, 'x'));
-  assert_false(news.holds(from));
+  events.append("state", std::string(40, 'x'));
+  assert_false(events.holds(from));
 }
 
 // Proves PAGE-3.

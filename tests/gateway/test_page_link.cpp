@@ -80,7 +80,7 @@ void a_command_leaves_the_lease_as_free_as_it_was(void**) {
   const std::uint32_t number = bench.ask(PageCommand::kOverride, 0.25);
   for (int i = 0; i < 100; ++i) bench.turn();
   for (std::uint32_t i = number - 1; i <= number + 1; ++i) assert_int_equal(bench.statuses[i], 0);
-  assert_int_equal(bench.server.server.owner(), Lease::kNobody);
+  assert_int_equal(bench.server.server.owner(), Lease::kNoOwner);
 }
 
 void another_clients_lease_is_not_taken_away(void**) {

@@ -147,7 +147,7 @@ void a_client_that_dies_at_any_moment_leaves_the_arm_at_rest_and_the_lease_free(
     two.a.close();
     two.b.send(ask::kPing);
     two.run(1);
-    assert_int_equal(two.bench.server.owner(), Lease::kNobody);
+    assert_int_equal(two.bench.server.owner(), Lease::kNoOwner);
     two.run(1000);
     assert_true(two.bench.generator.reference().standing());
     const std::uint32_t lease = two.b.lease();

@@ -1,5 +1,6 @@
-#include "gateway/page/telling.hpp"
+#include "gateway/page/page_events.hpp"
 
+#include "gateway/page/request_check.hpp"
 #include "gateway/verdict_text.hpp"
 #include "kernel/cycle/rung.hpp"
 #include "kernel/reference/motion/motion_phase.hpp"
@@ -34,16 +35,16 @@ void write_time(std::int64_t server_ns, const PageTime& time, Json& to) {
   to.number(static_cast<double>(server_ns - time.begin_ns) * 1e-9, "since_s");
 }
 
-struct StateTold {
+struct StateEvent {
   const tactus_State& state;
   const PageTime& time;
 };
 
-void write(const StateTold& told, Json& to) {
-  const tactus_State& state = told.state;
+void write(const StateEvent& event, Json& to) {
+  const tactus_State& state = event.state;
   std::array<char, 32> seen;
-  to.string(write_seen({told.time.now_ns / kMillisecond_ns, state.stops}, seen), "seen");
-  write_time(state.server_ns, told.time, to);
+  to.string(write_seen({event.time.now_ns / kMillisecond_ns, state.stops}, seen), "seen");
+  write_time(state.server_ns, event.time, to);
   const auto status = static_cast<Status>(state.status);
   to.string(word<Rung>(state.rung), "rung").string(word<MotionPhase>(state.phase), "phase");
   to.string(status == Status::kOk ? Message() : describe(status), "why");
@@ -68,41 +69,41 @@ void write(const tactus_Report& report, Json& to) {
   to.string(outcome_word(report.outcome), "outcome").string(report.text, "text");
 }
 
-struct EventTold {
+struct ServerEvent {
   const tactus_Event& event;
   const PageTime& time;
 };
 
-void write(const EventTold& told, Json& to) {
-  to.string(told.event.name, "name").string(told.event.text, "text");
-  write_time(told.event.server_ns, told.time, to);
+void write(const ServerEvent& event, Json& to) {
+  to.string(event.event.name, "name").string(event.event.text, "text");
+  write_time(event.event.server_ns, event.time, to);
 }
 
 template <class Message>
-void put(const char* event, const Message& message, News& news) {
+void put(const char* event, const Message& message, EventRing& events) {
   char bytes[kLongestEvent];
   Json json(bytes, sizeof bytes);
   json.open('{');
   write(message, json);
   json.close('}');
-  if (!json.text().empty()) news.tell(event, json.text());
+  if (!json.text().empty()) events.append(event, json.text());
 }
 
 }  // namespace
 
-void tell(const tactus_ToClient& message, const PageTime& time, News& news) {
+void append_message(const tactus_ToClient& message, const PageTime& time, EventRing& events) {
   switch (message.which_message) {
     case tactus_ToClient_state_tag:
-      return put("state", StateTold{message.message.state, time}, news);
-    case tactus_ToClient_answer_tag: return put("answer", message.message.answer, news);
-    case tactus_ToClient_report_tag: return put("report", message.message.report, news);
+      return put("state", StateEvent{message.message.state, time}, events);
+    case tactus_ToClient_answer_tag: return put("answer", message.message.answer, events);
+    case tactus_ToClient_report_tag: return put("report", message.message.report, events);
     case tactus_ToClient_event_tag:
-      return put("event", EventTold{message.message.event, time}, news);
+      return put("event", ServerEvent{message.message.event, time}, events);
     default: return;
   }
 }
 
-void tell(const PortValues& values, const PortTable& ports, News& news) {
+void append_ports(const PortValues& values, const PortTable& ports, EventRing& events) {
   char bytes[kLongestEvent];
   Json json(bytes, sizeof bytes);
   json.open('{').open('[', "values");
@@ -113,7 +114,7 @@ void tell(const PortValues& values, const PortTable& ports, News& news) {
     json.close(']');
   }
   json.close(']').close('}');
-  if (!json.text().empty()) news.tell("ports", json.text());
+  if (!json.text().empty()) events.append("ports", json.text());
 }
 
 }  // namespace tactus

@@ -1,6 +1,6 @@
-// News: what browsers are told, as one stream of server-sent events (WHATWG HTML, 9.2) in a ring of
-// fixed size. Each browser reads it at its own pace; one that the writer has overtaken has lost
-// events, and is cut.
+// EventRing: the stream of server-sent events (WHATWG HTML, 9.2) for all browsers, in a ring of
+// fixed size. Each browser reads it at its own pace; one that the writer overtakes has lost events
+// and is disconnected.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,16 @@
 
 namespace tactus {
 
-class News {
+class EventRing {
  public:
   /// Appends an event; `data` has no line breaks and is shorter than the ring. [any, one thread]
-  void tell(std::string_view event, std::string_view data) {
+  void append(std::string_view event, std::string_view data) {
     for (const std::string_view part :
          {std::string_view("event: "), event, std::string_view("\ndata: "), data,
           std::string_view("\n\n")})
       put(part);
   }
-  /// Where a browser begins that comes now.
+  /// Position from which a new browser reads.
   std::uint64_t end() const { return end_; }
   /// True if nothing behind `from` has been overwritten.
   bool holds(std::uint64_t from) const { return end_ - from <= ring_.size(); }
@@ -45,7 +45,7 @@ class News {
     }
   }
 
-  std::array<char, kNewsBytes> ring_;
+  std::array<char, kEventRingBytes> ring_;
   std::uint64_t end_ = 0;
 };
 
