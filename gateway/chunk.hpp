@@ -16,7 +16,7 @@
 
 namespace tactus {
 
-/// What targets are relative to.
+/// Origin of relative targets.
 enum class ChunkBase : std::uint8_t {
   kAbsolute,   ///< nothing: they are positions
   kMeasured,   ///< where the robot was measured when the observation was made

@@ -15,8 +15,8 @@
 
 namespace tactus {
 
-/// How the angles of joints without end (Robot::kContinuousJoints) are taken. Those of a joint with
-/// stops are always as given: another turn is another place for it.
+/// Interpretation of the angles of continuous joints (Robot::kContinuousJoints). Angles of a joint
+/// with stops are always taken as given, as each turn is another position for it.
 enum class Wrap : std::uint8_t {
   kAsGiven,
   kNearest,  ///< each is the nearest to the waypoint before that differs by whole turns
@@ -58,7 +58,7 @@ class JointTurns {
   void take(const TaskSpace::Point&) {}
 
   /// Returns the step that explains a refusal: one of its joint to its waypoint, or one beside it.
-  /// Null: none does. Of a trajectory only the first kMost are known. [any]
+  /// Null: none does. Only the first kMost steps of a trajectory are stored. [any]
   const TurnStep* explain(const Verdict& verdict) const;
   /// Returns the longest step of a joint without end; null: none is longer than half a turn.
   const TurnStep* longest() const { return longest_.joint >= 0 ? &longest_ : nullptr; }

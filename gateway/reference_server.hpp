@@ -16,7 +16,7 @@ class ReferenceServer {
   ReferenceServer(ReferenceClient<Space>& client, const PortTable& ports)
       : client_(client), ports_(ports) {}
 
-  /// Begins a trajectory; its waypoints follow. What was begun before and not ended is forgotten.
+  /// Begins a trajectory; its waypoints follow. A trajectory begun before and not ended is dropped.
   Verdict begin(const TrajectoryTerms& terms);
   /// Takes the next waypoint; kWindowFull: there is no space at present, offer it again. The first
   /// that does not fit into the window sends the trajectory, open.

@@ -133,7 +133,7 @@ void add_numbers(Message& text, const Verdict& verdict, const Measured& measured
   }
 }
 
-/// Of waypoints and of the targets of chunks.
+/// Remedy for the times of waypoints or of chunk targets.
 const char* remedy_of_time(const Verdict& verdict) {
   if (verdict.waypoint < 0) return "";
   if (verdict.limit == kLongestTrajectory_s)

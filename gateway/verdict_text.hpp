@@ -9,7 +9,7 @@ namespace tactus {
 /// The axes of a verdict are joints, or directions of the tool tip.
 enum class VerdictAxes { kJoints, kTip };
 
-/// What has ended the cycles, and of which axes it speaks.
+/// The verdict that ended the cycles, and the axes it refers to.
 struct FaultVerdict {
   FaultVerdict() = default;
   FaultVerdict(Status status) : verdict{status} {}  // NOLINT: a status without joint and value
@@ -28,11 +28,11 @@ Message describe(Status status);
 /// [any]
 Message describe(const Verdict& verdict, VerdictAxes axes, double time_s = kInfinity);
 
-/// What a person does about a refused reference: "; give this part more time"; empty if nothing is
-/// known to help. [any]
+/// Returns the remedy for a refused reference, such as "; give this part more time"; empty if none
+/// is known. [any]
 const char* remedy(const Verdict& verdict);
-/// What to do about a goal that was not followed or reached: settings of the reference generator
-/// and, if there is one with gains, of the law. Empty for any other Status. [any]
+/// Returns the remedy for a goal that was not followed or reached: settings of the reference
+/// generator and, if a law has gains, of the law. Empty for any other Status. [any]
 Message goal_remedy(Status status, VerdictAxes axes, bool law);
 
 }  // namespace tactus

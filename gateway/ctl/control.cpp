@@ -23,8 +23,8 @@ void fill(const Session& session, ToServer& request) {
   }
 }
 
-/// Takes the lease that a verb needs. What only slows the arm down needs none; an override may, if
-/// it makes it faster.
+/// Takes the lease that a verb needs. A verb that only slows the arm down needs none; an override
+/// may, if it makes it faster.
 bool prepare(Session& session) {
   switch (session.options.verb) {
     case Verb::kStop:

@@ -6,7 +6,7 @@
 
 namespace tactus::ctl {
 
-/// What a verb works with.
+/// Arguments of a verb.
 struct Session {
   const Options& options;
   Client& client;

@@ -125,8 +125,8 @@ MHD_Result PageServer::begin(MHD_Connection* connection, const RequestHead& head
   return MHD_NO;  // there are as many as connections
 }
 
-/// Nothing may be answered yet: a body that is too long is counted, and refused behind its end; one
-/// that is far too long ends the connection.
+/// No answer may be sent before the end of the body. A body that is too long is counted and refused
+/// at its end; one that is far too long ends the connection.
 MHD_Result PageServer::take_body(Command& command, const char* upload, std::size_t& size) {
   if (command.size + size > kConnectionBytes) return MHD_NO;
   for (std::size_t i = 0; i < size; ++i)

@@ -1,5 +1,5 @@
-// What the page takes of a browser's request before anything is done for it. A browser runs the
-// scripts of any page that is open in it; the checks keep those of other pages out:
+// Checks of a browser's request before it is served. A browser runs the scripts of every page that
+// is open in it; the checks keep out those of other pages:
 //
 //   Host    a name of this computer's own, so that no name of elsewhere can be made to lead here
 //           (DNS rebinding)

@@ -11,8 +11,8 @@ Verdict ReferenceIntake<Space>::point(const Origin& from, const TrajectoryTerms&
   return offer({RequestKind::kPoint, from, terms, point, details, {}}, waiting_chunk_);
 }
 
-/// The generator's own epochs void what a stop overtakes on its way to the cycle. What comes behind
-/// a cancel of the server, of a new owner for example, is of the epoch that it begins.
+/// The epochs of the generator void references that a stop overtakes on the way to the cycle.
+/// References after a cancel by the server, as for a new owner, belong to the epoch it begins.
 template <class Space>
 std::uint32_t ReferenceIntake<Space>::present_epoch() const {
   return std::max<std::uint32_t>(1, stream().epoch) + (ending_ != 0 ? 1 : 0);
@@ -184,7 +184,7 @@ void ReferenceIntake<Space>::forget(std::uint64_t session) {
   if (stream_.from.session == session) stream_ = {};
 }
 
-/// Ends the trajectory that comes. Of one that the generator has, its report follows.
+/// Ends the trajectory in transfer. If the generator already has it, its report follows.
 template <class Space>
 void ReferenceIntake<Space>::fail(const Verdict& verdict, Outcome outcome) {
   coming_ = false;

@@ -108,7 +108,7 @@ bool Tunnel::open_record() {
   return true;
 }
 
-/// Nothing is said to a client before it has shown that it has the key.
+/// Sends nothing to a client before it has proved that it has the key.
 std::size_t Tunnel::seal(const Bytes& plain) {
   if (state_ != State::kOpen || !known_ || out_size_ > 0 || plain.size == 0) return 0;
   const std::size_t count = std::min(plain.size, kRecordBytes);

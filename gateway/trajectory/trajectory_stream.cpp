@@ -74,7 +74,7 @@ bool TrajectoryStream<Space>::judge(const AdmissionSettings<Space>& settings,
   return restart({}) && judge_once(settings);
 }
 
-/// Judges the likeliest curve, then smoother ones. Of those that are refused, the first says why.
+/// Judges the likeliest curve, then smoother ones. The refusal is that of the first.
 template <class Space>
 bool TrajectoryStream<Space>::judge_smoothed(const AdmissionSettings<Space>& settings,
                                              const SmoothingTolerance& tolerance) {

@@ -38,12 +38,12 @@ class TrajectoryStream {
   const JointTurns& turns() const { return reader_.turns(); }
   /// Opens a file and fills the store with its first waypoints. False: refused. [init]
   bool open(const char* path, bool partial, std::uint64_t hash, Trajectory<Space>& store);
-  /// Judges the file except for the way from the robot to its first waypoint: the whole of one that
-  /// fits or can be read twice, of another the first waypoints. The store then holds the first
-  /// waypoints, ready to be sent. Of a file that can be read twice, positions without velocities
-  /// are smoothed within the tolerance, as is what is refused or slowed down for its velocities or
-  /// their derivatives; where there is no smooth curve that near, it is judged as given. False:
-  /// refused. [init]
+  /// Judges the file except for the way from the robot to its first waypoint: the whole file if it
+  /// fits the store or can be read twice, otherwise its first waypoints. The store then holds the
+  /// first waypoints, ready to be sent. A file that can be read twice is smoothed within the
+  /// tolerance if it has positions without velocities, or is refused or slowed down for its
+  /// velocities or their derivatives; if no smooth curve is that near, it is judged as given.
+  /// False: refused. [init]
   bool judge(const AdmissionSettings<Space>& settings, const SmoothingTolerance& tolerance = {});
   /// Judges the rest of a file that cannot be read twice, and is not to be sent. False: refused.
   /// [init]

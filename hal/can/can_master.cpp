@@ -146,8 +146,8 @@ void CanMaster::judge(Node& node) {
   if (node.heart.is_lost(now_ns_)) lost = Status::kBusTimeout;
 }
 
-/// A drive answers every SYNC once. Late answers come together; a bus may double one now and then.
-/// More than that has another sender.
+/// A drive answers every SYNC once. Late answers arrive together, and a bus may occasionally
+/// duplicate one. More frames than that mean a second sender.
 void CanMaster::count_feedback(Node& node) {
   const int surplus = node.frames - node.unanswered;
   node.surplus = surplus > 0 ? node.surplus + 1 : 0;

@@ -53,8 +53,8 @@ class CanMaster {
   bool lost(int joint) const { return node(joint).feedback.lost != Status::kOk; }
   const Node& node(int joint) const { return nodes_[static_cast<std::size_t>(joint)]; }
   Message label(int joint) const { return can::label(joint, node(joint)); }
-  /// From now on every write() ends a drive's watch over this program, or takes one out of
-  /// operation, until releasing() is false. [any]
+  /// Makes every write() end one drive's heartbeat supervision of this program, or take one drive
+  /// out of operation, until releasing() is false. [any]
   void release_drives() { releases_ = 2 * kDof; }
   bool releasing() const { return releases_ > 0; }
   /// Leaves frames that stop the drives; the exchange is over. [any]

@@ -49,7 +49,7 @@ void NodeSetup::fact(std::uint32_t row) {
                                                 row,         0xFFFFFFFF, what,         ""};
 }
 
-/// What the lines of the file set may be a fact, so they come before all but the identity.
+/// Writes the lines of the file before the facts, as they may set one; only the identity is first.
 void NodeSetup::facts() {
   write(Kind::kLines, 0, 0, 0, 0, "");
   for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);
@@ -57,7 +57,7 @@ void NodeSetup::facts() {
         "its parameters cannot be stored, [cia402] store and store_ms");
 }
 
-/// What the drive does without us: it stops if heartbeats or commands are missing.
+/// Makes the drive stop if heartbeats or commands of this program are missing.
 void NodeSetup::watchdogs(const CanSettings& can, int period_us) {
   const std::uint32_t consumer =
       static_cast<std::uint32_t>(can.master_node) << 16 | millis(3 * can.heartbeat_ms);

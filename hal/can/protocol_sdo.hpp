@@ -20,10 +20,10 @@ inline constexpr std::uint8_t kDownloadSegment = 0x00, kDownload = 0x20, kUpload
 inline constexpr std::uint8_t kSegmentUploaded = 0x00, kSegmentDownloaded = 0x20, kUploaded = 0x40,
                               kDownloaded = 0x60;
 inline constexpr std::uint8_t kSpecifier = 0xE0;
-// Of the first frame of a transfer: size given, expedited, unused bytes of an expedited one.
+// First frame of a transfer: size given, expedited, unused bytes if expedited.
 inline constexpr std::uint8_t kSizeGiven = 0x01, kExpedited = 0x02;
 inline constexpr int kUnusedShift = 2;
-// Of a segment: last, unused bytes, toggle.
+// Segment: last, unused bytes, toggle.
 inline constexpr std::uint8_t kLastSegment = 0x01, kToggleBit = 0x10;
 inline constexpr int kSegmentUnusedShift = 1;
 

@@ -172,7 +172,7 @@ void Startup::ask(std::int64_t now_ns) {
     sdo_.download(id, step.index, step.sub, step.value, step.bytes, now_ns);
 }
 
-/// Neither is the last of a drive.
+/// True for a step without work. The last step of a drive is never left out.
 bool Startup::is_left_out(const SetupStep& step) const {
   if (step.kind == SetupStep::Kind::kLines) return lines_.done();
   return step.kind == SetupStep::Kind::kStore && !(drive_->store != 0 && lines_.changed());

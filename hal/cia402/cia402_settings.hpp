@@ -8,7 +8,7 @@
 
 namespace tactus::cia402 {
 
-/// Who carries the weight of the arm when torques are commanded.
+/// Source of the gravity torque when torques are commanded.
 enum class Gravity : std::uint8_t {
   kCommand,  ///< the commanded torque is all the torque of the joint
   kDrive,    ///< the drives add what holds the arm
@@ -22,7 +22,7 @@ constexpr const char* name(Gravity gravity) {
   return nullptr;
 }
 
-/// What the drives' encoders know after they are switched on.
+/// Position range that the drives' encoders report after power-on.
 enum class Encoder : std::uint8_t {
   kMultiTurn,   ///< the position
   kSingleTurn,  ///< the position within a turn of the encoder; the joint's range says which
@@ -68,8 +68,8 @@ struct Cia402Settings {
   int limited_ms = 50;  ///< a drive may limit what is commanded; 0: for as long as it wants
   int max_missed = 3;   ///< cycles in a row without feedback of a joint that are bridged
 
-  /// From enabling until the first command, ms: a brake that opens as late as it may must leave the
-  /// time in which a hold that fails is found.
+  /// Time from enabling until the first command, ms. Even after the latest opening of a brake it
+  /// leaves time to detect that a drive does not hold.
   int held_ms() const { return brake_ms + 100; }
 
   template <class Visitor>

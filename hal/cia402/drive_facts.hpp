@@ -4,8 +4,7 @@
 // have says nothing, and what is then unknown but needed is asked of the file. The error code is
 // compared with nothing: a drive that stands in fault does not send it again.
 //
-// CiA 402-2: position and velocity are in user-defined units. Those of a revolution of the motor
-// are
+// CiA 402-2: position and velocity are in user-defined units. A revolution of the motor has
 //
 //   increments   608Fh:1 / 608Fh:2
 //   feed         6092h:1 / 6092h:2  per revolution of the shaft

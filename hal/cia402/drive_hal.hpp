@@ -1,5 +1,5 @@
-// What the Hals of CiA 402 drives share over any wire: what they offer, and how they leave the
-// drives. Frames, cycles and their clock are the wire's.
+// Common parts of the Hals of CiA 402 drives on any bus: their capabilities, and the release of the
+// drives. Frames, cycles and their clock belong to the bus.
 #pragma once
 
 #include "hal/cia402/hex.hpp"

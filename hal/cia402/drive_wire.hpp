@@ -1,5 +1,5 @@
-// What a bus brings from the drives of an arm and takes to them in every cycle, in the drives' own
-// numbers. CAN and EtherCAT fill in and send the same.
+// Feedback and commands that a bus exchanges with the drives of an arm in every cycle, in the units
+// of the drives. CAN and EtherCAT use the same.
 #pragma once
 
 #include <array>

@@ -44,7 +44,7 @@ class Drives {
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
   static constexpr int kConfirming = 3;
-  /// Cycles after which one without feedback is forgotten. What comes after it may be older by one.
+  /// Cycles after which missing feedback is forgotten. Until then, feedback may be one cycle older.
   static constexpr int kForgotten = 1000;
 
   /// Takes the settings, which must outlive the use of the drives, the period and the longest time

@@ -54,7 +54,7 @@ struct JointUnits {
 
   template <class Int>
   static Int nearest(double value) {
-    // Of the 64-bit numbers the largest double below the end of the range.
+    // For 64-bit numbers, a double safely below the end of the range.
     constexpr double kMost =
         sizeof(Int) == 8 ? 9.2e18 : static_cast<double>(std::numeric_limits<Int>::max());
     if (!(value < kMost)) return value >= kMost ? static_cast<Int>(kMost) : Int{0};
@@ -83,7 +83,7 @@ class PositionCounter {
     return total_;
   }
   std::int64_t total() const { return total_; }
-  /// What is added to the drive's count now. [cyclic]
+  /// Present correction added to the drive's count. [cyclic]
   std::int64_t added() const { return total_ - last_; }
 
  private:

@@ -46,9 +46,8 @@ class LineWriter {
   bool changed_ = false;
 };
 
-/// What has been changed by the line number `n`, from 0, of those that have changed a drive:
-/// "2003h:1 = 5 written to the drives of joints 1, 3; stored in 3"; empty behind the last of them.
-/// [init]
+/// Returns the change by the n-th line, from 0, among those that changed a drive, such as "2003h:1
+/// = 5 written to the drives of joints 1, 3; stored in 3"; empty after the last. [init]
 Message written_text(const ObjectLines& lines, const StartupFindings& findings, int n);
 
 }  // namespace tactus::cia402

@@ -1,5 +1,5 @@
 // ObjectLines: the lines `sdo = ...` of [cia402]: objects of the drives that the file sets, such as
-// a maker's own. What the start-up or the cycle writes is not for them.
+// a manufacturer's own. Objects that start-up or cycle write are refused.
 //
 //   sdo = 0x2003:1 u16 5            in the drives of all joints
 //   sdo = joint3 0x2003:1 i32 -70   in that of one

@@ -6,7 +6,7 @@
 
 namespace tactus::cia402 {
 
-/// Of the statusword, 6041h: set in the two states of a fault, and in no other.
+/// Bit of the statusword, 6041h, set in the two fault states only.
 inline constexpr std::uint16_t kFaultBit = 0x0008;
 
 // Bits of the statusword, 6041h, that do not belong to the state.
@@ -184,7 +184,7 @@ constexpr PeriodObject period_object(int period_us) {
   return {static_cast<std::uint8_t>(value), static_cast<std::int8_t>(index)};
 }
 
-/// What 1010h:1 takes: "save" (CiA 301, 7.5.2.13).
+/// Value to write to 1010h:1: "save" (CiA 301, 7.5.2.13).
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;
 /// Low word of the device type, 1000h: the profile of a drive.
 inline constexpr std::uint32_t kDriveProfile = 402;

@@ -134,8 +134,8 @@ bool EthercatMaster::take(Frame& frame) {
   return true;
 }
 
-/// What the frame says of the slave that was asked for its state, and of all together. A slave that
-/// has left OP can be used again after the next connect().
+/// Takes the state of the polled slave and the working counter of all slaves from the frame. A
+/// slave that has left OP can be used again after the next connect().
 void EthercatMaster::take_state() {
   Slave& slave = slaves_[static_cast<std::size_t>(asked_)];
   const bool answered = cyclic_.asked_counter() == 1;

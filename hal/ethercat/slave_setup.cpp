@@ -48,7 +48,7 @@ void SlaveSetup::fact(std::uint32_t row) {
       SetupStep::Kind::kFact, object.sub, 0, object.index, row, 0xFFFFFFFF, what, ""};
 }
 
-/// What the lines of the file set may be a fact, so they come before all but the identity.
+/// Writes the lines of the file before the facts, as they may set one; only the identity is first.
 void SlaveSetup::facts() {
   steps_[static_cast<std::size_t>(count_++)].kind = SetupStep::Kind::kLines;
   for (std::uint32_t i = cia402::kIdentityFact + 1; i < cia402::kFactCount; ++i) fact(i);

@@ -110,7 +110,7 @@ Status Startup::judge_expected(const SetupStep& step) {
   return refuse(Status::kRefusedByRobot, what);
 }
 
-/// Neither is the last of a drive.
+/// True for a step without work. The last step of a drive is never left out.
 bool Startup::is_left_out(const SetupStep& step) const {
   if (step.kind == SetupStep::Kind::kLines) return lines_.done();
   return step.kind == SetupStep::Kind::kStore && !(drive_->store != 0 && lines_.changed());
@@ -155,7 +155,7 @@ Status Startup::take_fact(const SetupStep& step) {
   return status == Status::kOk ? status : refuse(status, what);
 }
 
-/// What was read back decides: a drive may have kept a mapping of its own, with all that is needed.
+/// Judges the mapping read back: a drive may keep a mapping of its own that has all objects needed.
 Status Startup::finish_mapping() {
   Message what("PDOs: ");
   if (coe_.progress() != CoeClient::Progress::kDone) {

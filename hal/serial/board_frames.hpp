@@ -1,4 +1,5 @@
-// What a board says of itself: its greeting, and the record of the fault that ended it last.
+// Frames with which a board identifies itself: its greeting, and the record of its last fatal
+// fault.
 #pragma once
 
 #include "hal/net/protocol_bytes.hpp"

@@ -10,7 +10,7 @@
 
 namespace tactus::serial {
 
-/// What carries the bytes: a serial port with its buffers, or what stands for one.
+/// Byte transport: a serial port with its buffers, or a substitute.
 class ByteLink {
  public:
   /// Takes up to `capacity` bytes that have come; never waits for more. [cyclic]
@@ -69,7 +69,8 @@ class BoardLink {
   std::uint16_t results_ = 0;
   std::uint32_t refused_ = 0;
 
-  // From the cycle to the background, which clears `waits_`; back from it, and the cycle clears.
+  // Message to the background, which clears `waits_`; its answer, for which the cycle clears
+  // `answered_`.
   std::array<std::uint8_t, kMaxPayload> message_, answer_;
   Frame waiting_;
   std::atomic<bool> waits_{false}, answered_{false};

@@ -13,7 +13,7 @@ namespace crc {
 
 constexpr std::uint32_t kPolynomial = 0xEDB88320;
 
-/// What half a byte adds.
+/// Contribution of each half byte.
 constexpr std::array<std::uint32_t, 16> table() {
   std::array<std::uint32_t, 16> sums{};
   for (std::uint32_t i = 0; i < 16; ++i) {

@@ -19,7 +19,7 @@ struct Frame {
 /// 0 if the payload is too long. [any]
 std::size_t write_frame(const Frame& frame, std::uint8_t* out);
 
-/// What came that was no frame, since the start.
+/// Counters of received frames and of bytes that were none, since the start.
 struct LinkHealth {
   std::uint32_t frames = 0;     ///< whole ones
   std::uint32_t corrupted = 0;  ///< with another check sum

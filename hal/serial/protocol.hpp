@@ -44,12 +44,13 @@ enum class Kind : std::uint8_t {
   kFault = 27,       ///< -> the fault record, if there is one
   kForget = 28,      ///< deletes the fault record
   kProvoke = 29,     ///< Provocation u8; only an image made for tests knows it
-  // From the board.
+  // Sent by the board.
   kCommand = 64,  ///< cycle: the command of a cycle
   kAnswer = 65,   ///< to the message whose number it has: Status u8, and what the message says
 };
 
-/// What the computer wants of the arm; it is in every state, so a lost one does no harm.
+/// State that the computer requests of the arm. Every kState repeats it, so a lost one does no
+/// harm.
 enum class Order : std::uint8_t {
   kDisabled,  ///< brake on the path, then disable the drives; at the start: leave them disabled
   kArmed,     ///< arm, and follow references

@@ -10,8 +10,7 @@ class SerialHal final : public Hal {
  public:
   static constexpr std::int64_t kAhead_ns = 10'000'000;  ///< most by which a state may be
 
-  /// What the plant of a computer takes; whether it is the one of the pipeline is judged there.
-  /// [any]
+  /// Capabilities of the plant; the computer checks that it is the robot of the pipeline. [any]
   Capabilities capabilities() const override;
   /// Forgets what came before; the wire is the board's. [init]
   Status connect(CommandMode mode) override;

@@ -3,7 +3,7 @@
 //
 // Nothing resumes into motion: as soon as the program is no longer needed it gets the command to
 // end, and the register keeps the negative count until the next arming. A program that begins late,
-// or that people resume after a stop, finds it and ends.
+// or that an operator resumes after a stop, reads it and ends.
 #pragma once
 
 #include "hal/ur/dashboard_client.hpp"

@@ -29,7 +29,7 @@ class DashboardClient {
   Answer poll(Message& why);
   /// The Status of kLost: kConnectionLost, or kWireFormat for a reply without an end. [cyclic]
   Status loss() const { return endless_ ? Status::kWireFormat : Status::kConnectionLost; }
-  /// What the robot said last to the command, if that was not what was expected; or empty.
+  /// The robot's last reply to the command if it was unexpected, else empty.
   std::string_view refusal() const { return refusal_; }
   void close() { socket_.close(); }
 

@@ -4,7 +4,7 @@
 //   off -> modes -> other program -> standstill -> register -> upload -> program
 //       -> first set-point -> tip -> enabled -> stopping -> off
 //
-// From "modes" a protective stop is released, or power and brakes are switched, as far as the
+// In "modes" a protective stop is released, or power and brakes are switched, as far as the
 // settings allow; then the modes are judged again. Every phase of arming may end in "fault".
 #pragma once
 

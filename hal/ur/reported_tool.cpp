@@ -105,7 +105,7 @@ void describe(const Tips& tips, double tip_tolerance_m, Message& why) {
       << " rad";
 }
 
-/// What differs may be a TCP that the software does not tell.
+/// The difference may be a TCP that the controller software does not report.
 void suggest_tip(const Tips& tips, Message& why) {
   const Vector3 offset = tips.model.r.conjugate() * (tips.said.p - tips.model.p);
   why << "; this software tells no TCP; if the pendant has this one";

@@ -1,4 +1,4 @@
-// What a controller says of its tool and of its tip, compared with what the models assume.
+// Compares the tool and the tip that a controller reports with those that the models assume.
 //
 // A pipeline file may leave mass and tip of the tool to the controller. The models then assume a
 // bare flange, so payload and TCP of the controller must be zero. And the tip that the controller

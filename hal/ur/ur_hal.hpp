@@ -2,7 +2,7 @@
 // through RTDE, our program on the controller passes the set-points to servoj, the dashboard
 // switches power on, and the primary port reports why the robot stopped.
 //
-// The robot's clock begins the cycles. A fault of the robot is a fault of all six drives
+// The robot's clock starts the cycles. A fault of the robot is a fault of all six drives
 // (hal/ur/arm_drives.hpp), shown by the read() of the packet that shows it; the exchange goes on,
 // and the drives can be armed again. read() fails only if the wire does not work any more, and from
 // then on until the next connect(). Neither a stop nor disconnect() changes power and brakes:

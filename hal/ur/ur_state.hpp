@@ -45,8 +45,8 @@ struct RecipeField {
   FieldType type;
 };
 
-/// In the order of decode_state(). Those from kStateFields on are left out of the recipe where the
-/// controller does not know them.
+/// Fields in the order of decode_state(). Fields from kStateFields on are left out of the recipe if
+/// the controller does not support them.
 inline constexpr std::size_t kStateFields = 14;
 inline constexpr std::array<RecipeField, kStateFields + 3> kOutputFields = {
     {{"timestamp", FieldType::kDouble},

@@ -143,9 +143,9 @@ class CartesianPose {
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
   /// kPathTolerance: the tip leaves a reference that rests; the command goes on. [cyclic]
   Status step(double dt_s);
-  /// What the last step() found of a reference that rests: kPathTolerance with axis 0, translation,
-  /// or 3, rotation, with the change of the error (a metre counts as a radian) and hold_tolerance;
-  /// or kOk. A brake changes nothing of it. [between two cycles]
+  /// Verdict of the last step() on a reference at rest: kOk, or kPathTolerance with axis 0
+  /// (translation) or 3 (rotation), the change of the error (a metre counts as a radian) and
+  /// hold_tolerance. A brake leaves it unchanged. [between two cycles]
   Verdict held() const;
 
   /// Brings the arm to rest and keeps it there until the next start(); after kAtOnce without

@@ -34,7 +34,7 @@
 //     reached with the jerk of [guard]: the executive brakes at once after a fault of a row;
 //   - no joint leaves the range between where it was and where its reference gets by more than
 //     `lateness` times its velocity and `overshoot` times the lag and the way of the reference.
-// Nothing between the checked positions is missed. In a section of the way joint k is within half_k
+// Motion between the checked positions is covered. In a section of the way joint k is within half_k
 // of the middle. A point of the second body moves by at most the sum of half_k times reach_k, and
 // the pair is made thicker by that.
 //

@@ -1,5 +1,5 @@
-// What the plans of axis_motion.hpp are made of, from the change of velocity up: the return inside
-// the limits, the direct change, and the two forms of the ascent to a target that is farther away.
+// Elements of the plans of axis_motion.hpp: the change of velocity, the return inside the limits,
+// the direct change, and the two forms of the ascent to a target that is farther away.
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@ struct RobotSection : OutputsSection<> {
   Name name;                           ///< robot that the file is written for; must be the board's
   int period_us = kRequiredInt;        ///< cycle period
   Vector3 mounting = Vector3::Zero();  ///< of the base in the world: roll, pitch, yaw, rad
-  // What is not given is NaN; the models then assume that it is zero.
+  // Values not given are NaN; the models then assume zero.
   double tool_mass = kRequired;                     ///< kg
   Vector3 tool_com = Vector3::Constant(kRequired);  ///< m, flange frame
   Vector3 tool_tip = Vector3::Constant(kRequired);  ///< m, flange frame; axes as the flange's

@@ -1,5 +1,5 @@
-// Tuning: a set of parameters on its way to a pipeline that runs. Whoever prepares it owns the
-// copies of the blocks that have the new parameters, and leaves them alone until the verdict.
+// Tuning: a set of parameters on its way to a running pipeline. The sender owns the copies of the
+// blocks with the new parameters, and must not change them before the verdict.
 #pragma once
 
 #include <array>

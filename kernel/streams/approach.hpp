@@ -18,7 +18,7 @@ class Approach {
     speed_ = speed;
     slow_ = limits.slowed(speed);
   }
-  /// What is followed from now on begins anew. [cyclic]
+  /// Starts the approach to a new target. [cyclic]
   void begin() { on_ = speed_ > 0.0; }
   bool on() const { return on_; }
   /// Returns the limits on the way from `reference` to `base`: `own`, or slower ones. [cyclic]

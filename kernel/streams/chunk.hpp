@@ -61,8 +61,8 @@ struct ChunkCurve {
   void release() { free.store(true, std::memory_order_release); }
 };
 
-/// What a client may read at any time of the chunks and velocities of one generator, since its
-/// first start.
+/// Counters and margins of the chunks and velocities of one generator since its first start; a
+/// client may read them at any time.
 struct StreamState {
   Published<std::uint32_t> trimmed;  ///< targets whose time had passed when their chunk came
   Published<std::uint32_t> late;     ///< chunks of which nothing was left
@@ -75,7 +75,7 @@ struct StreamState {
   Published<float> margin_s;  ///< time until the stop begins if no successor comes; 0: none runs
 };
 
-/// The stores of chunks of a channel, and what is told of them.
+/// The chunk stores of a channel, and their counters.
 template <class Space>
 struct ChunkStores {
   std::array<ChunkCurve<Space>, kChunkStores> chunks;

@@ -33,7 +33,7 @@ struct PassedOutputs {
   double delay_s = 0.0;
 };
 
-/// Of the last target of a chunk that ends, and of its successor.
+/// Outputs of the last target of a chunk that ends, and of its successor.
 using PassedInPeriod = std::array<PassedOutputs, 2>;
 
 template <class Space>

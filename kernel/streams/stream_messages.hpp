@@ -1,4 +1,4 @@
-// What streams add to the messages between a client and a reference generator.
+// Additions of streams to the messages between a client and a reference generator.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace tactus {
 
-/// What comes with a point on a board with streams.
+/// Details of a point on a board with streams.
 struct PointDetails {
   DigitalOutputs outputs;     ///< set when it takes effect
   double stamp_s = kNoStamp;  ///< when it was made, s, by a clock of its sender
   std::uint64_t sender = 0;   ///< a point of another one continues no stream
 };
 
-/// What a request has besides on a board with streams.
+/// Further parts of a request on a board with streams.
 template <class Space>
 struct StreamRequest {
   Velocity<Space> velocity;  ///< kVelocity

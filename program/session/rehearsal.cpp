@@ -10,7 +10,7 @@
 namespace tactus {
 namespace {
 
-/// True of a path of the tip that gives wrenches. What it comes to depends on the contact.
+/// True for a path of the tip that gives wrenches; its outcome depends on the contact.
 bool presses(const TrajectoryInput& input) {
   const auto* const poses = std::get_if<2>(&input.trajectory);
   return poses != nullptr && ((*poses)->fields & kEffortField) != 0;
@@ -140,14 +140,14 @@ void TrajectoryRehearsal::print_torque() const {
       asked[joint] > most[joint] ? "" : "at least ", asked[joint], most[joint]);
 }
 
-/// Nothing was found in what was rehearsed, which is not the whole: says how much of it.
+/// Prints how much of the trajectory was rehearsed, after a partial rehearsal without findings.
 bool TrajectoryRehearsal::in_part() const {
   std::fprintf(stderr, "%s: note: only its first %.6g s are rehearsed\n", input_.path.c_str(),
                time_s());
   return true;
 }
 
-/// Why nothing would be learnt; null: nothing is in the way.
+/// Returns why a rehearsal would be useless; null: it is useful.
 const char* TrajectoryRehearsal::unrehearsed() const {
   if (session_.pipeline.robot.mode() == CommandMode::kEffort && law_.q_d == nullptr)
     return "no block with an input q_d gives the torque";

@@ -9,12 +9,12 @@ constexpr double kTurnsBack = -0.9;   // cosine between the directions: 2.7 rad
 constexpr double kStraightOn = 1e-9;  // change of direction that nobody notices
 constexpr double kShortest = 1e-9;    // waypoints nearer than this are the same
 constexpr double kPeak = 3.0 / 16.0;  // distance of a blend from its corner, by L |d2 - d1|
-/// Of a tolerance; the rest is for waypoints that are the same, and for the polynomials between
-/// those of the trajectory, which need not have one where the blend is farthest from its corner.
+/// Share of a tolerance that blends use. The rest covers coinciding waypoints, and polynomials that
+/// have no waypoint where the blend is farthest from its corner.
 constexpr double kUsed = 0.99;
 
 struct Line {
-  Chart chart;  // of its first waypoint
+  Chart chart;  // at its first waypoint
   Numbers direction;
   double length = 0.0;
   double begin = 0.0, end = 0.0;    // of what the blends leave

@@ -31,7 +31,7 @@ struct PathPiece {
   PathPlace at(double s) const;
 };
 
-/// From rest to rest.
+/// A section of the path that begins and ends at rest.
 struct PathSection {
   std::size_t first = 0, last = 0;  ///< waypoints at its ends
   std::vector<PathPiece> pieces;

@@ -8,7 +8,8 @@
 namespace tactus::ctl {
 namespace {
 
-/// Of the stretch of the worst corner: what others need to be tried as stops with it.
+/// Corners with at least this share of the worst corner's stretch are tried as stops together with
+/// it.
 constexpr double kNearlyWorst = 0.98;
 
 using Path = std::vector<Numbers>;

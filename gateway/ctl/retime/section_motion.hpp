@@ -21,7 +21,7 @@ struct RetimeSettings {
   int steps = 1000;  ///< least number of grid intervals of a section
 };
 
-/// From time 0; empty: the section cannot be passed so.
+/// Motions through a section, from time 0; empty if there is none.
 struct SectionMotions {
   std::vector<TimedPoint> near;      ///< the fastest that passes every corner within tolerance
   std::vector<TimedPoint> shortest;  ///< the fastest, which may miss corners

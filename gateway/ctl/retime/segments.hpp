@@ -7,10 +7,10 @@
 
 namespace tactus::ctl {
 
-/// Of joint k. [any]
+/// Returns the segment of joint k. [any]
 Polynomial joint_segment(const TimedPoint& from, const TimedPoint& to, Eigen::Index k,
                          Interpolation order);
-/// Of the tip. [any]
+/// Return the segments of the tip. [any]
 VectorPolynomial translation_segment(const TimedPoint& from, const TimedPoint& to,
                                      Interpolation order);
 RotationSegment rotation_segment(const TimedPoint& from, const TimedPoint& to, Interpolation order);

@@ -6,15 +6,15 @@
 
 namespace tactus::ctl {
 
-/// Of a position or a derivative.
+/// Translation of a tip position or of its derivative.
 inline Vector3 translation_of(const Numbers& tip) {
   return tip.head<3>();
 }
-/// Of a derivative.
+/// Rotation of the derivative of a tip position.
 inline Vector3 rotation_of(const Numbers& tip) {
   return tip.tail<3>();
 }
-/// Of a position.
+/// Orientation of a tip position.
 inline Eigen::Quaterniond orientation_of(const Numbers& tip) {
   return {tip[3], tip[4], tip[5], tip[6]};
 }

@@ -98,8 +98,7 @@ double SmoothingSpline::filter(int smoothness) {
   return unlikelihood(squares, log_variances);
 }
 
-/// Of the variances of the axes, which are unknown, the likeliest are taken, but none smaller than
-/// the least.
+/// The unknown variances of the axes take their most likely values, but not less than the smallest.
 double SmoothingSpline::unlikelihood(const Axes& squares, double log_variances) const {
   const double n = count - kUnjudged;
   double sum = 0.0;

@@ -46,7 +46,7 @@ class SmoothingSpline {
   /// than 250 samples on either side.
   static constexpr int kSmoothest = 14;
 
-  /// Returns the smoothness of the maximum likelihood. Of a motion whose start is unknown also
+  /// Returns the smoothness of the maximum likelihood. If the start of the motion is unknown, also
   /// decides whether it begins at rest: if it must, or unless that is unlikely. Needs eight
   /// samples. [any, not cyclic]
   int most_likely(bool from_rest);

@@ -24,7 +24,7 @@ enum class RequestKind : std::uint8_t {
   kVelocity,    ///< move at a velocity
 };
 
-// Of kernel/streams.
+// Defined in kernel/streams.
 template <class Space>
 struct ChunkStores;
 template <class Space>
@@ -118,11 +118,11 @@ inline constexpr std::size_t kControls = 16;
 /// Most requests that a mailbox holds.
 inline constexpr std::uint32_t kMostRequests = 16;
 
-// One request causes at most four reports in its cycle: what it supersedes, a trajectory that ends,
-// a store released, its own. What then runs and waits causes six more later: a point, a trajectory
-// that ends and its store, one that starts and ends and its store. A request waits in its mailbox
-// until there is space for all of them and for one report of every control that can be unanswered,
-// so no report is ever lost.
+// One request causes at most four reports in its cycle: on the request that it supersedes, on a
+// trajectory that ends, on a released store, and its own. The running and the waiting reference
+// cause six more later: a point, a trajectory that ends and its store, one that starts and ends and
+// its store. A request waits in its mailbox until there is space for all of them and for one report
+// of every control that can be unanswered, so no report is ever lost.
 inline constexpr std::size_t kReportsPerRequest = 10;
 
 /// The messages and stores between one client and one reference generator. The board owns it, with

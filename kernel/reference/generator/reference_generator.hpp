@@ -33,7 +33,7 @@ constexpr const char* name(OnlineMode online) {
   return nullptr;
 }
 
-/// What bounds points besides the limits.
+/// Bounds of points in addition to the limits.
 struct PointBounds {
   double max_step = 0.0;  ///< largest distance from the reference: rad, of a tip m and rad; 0: any
   /// Largest velocity on the way to points or chunks that begin anew: rad/s, of a tip m/s and
@@ -41,14 +41,14 @@ struct PointBounds {
   double approach_speed = 0.0;
 };
 
-/// What a generator tells of its motion, whatever its space.
+/// Motion state that a generator of any space reports.
 struct MotionState {
   double time_s = 0.0;  ///< generator time: periods since start
   MotionPhase phase = MotionPhase::kHolding;
   double override = 1.0;  ///< rate of trajectories, 0..1, without the robot's speed scaling
 };
 
-// Of kernel/streams.
+// Defined in kernel/streams.
 template <class Space>
 struct StreamAccount;
 

@@ -169,9 +169,9 @@ Verdict ReferenceGenerator<Space>::judge_point(const Point& point) const {
   return verdict;
 }
 
-/// Judges the step to a point where steps are refused. Of several the first is; the points that
-/// follow it within kSlowest_s are not forwarded but approached within limits, until the reference
-/// rests with them.
+/// Judges the step to a point in the mode that refuses steps. Only the first of several steps is
+/// refused; points that follow it within kSlowest_s are not forwarded but approached within limits,
+/// until the reference is at rest with them.
 template <class Space>
 Verdict ReferenceGenerator<Space>::judge_step(const Point& point, bool& forwards) {
   const Verdict verdict =

@@ -53,7 +53,8 @@ class ToleranceMonitor {
   double waiting_s_ = 0.0, inside_s_ = 0.0;
 
   bool measures_velocity_ = true;
-  /// Of a goal: measured at the beginning of the window. Without one: where the reference rests.
+  /// With a goal, the measured point at the beginning of the window; without, the resting
+  /// reference.
   Point window_from_;
   double window_s_ = 0.0;                 // time since then
   Verdict found_{Status::kGoalVelocity};  // result of the last window

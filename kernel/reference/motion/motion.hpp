@@ -22,7 +22,7 @@
 
 namespace tactus {
 
-// Of kernel/streams.
+// Defined in kernel/streams.
 template <class Space>
 struct ChunkCurve;
 template <class Space>
@@ -90,7 +90,7 @@ class Motion {
   const Point& reference() const { return reference_; }
   MotionPhase phase() const { return phase_; }
   bool started() const { return settings_ != nullptr; }
-  /// True if a point is held whose feed-forward is put out.
+  /// True if the feed-forward of a held point is sent.
   bool holds_effort() const { return phase_ == MotionPhase::kHolding && !held_.idle(); }
   /// True if the motion still reads the waypoints of a trajectory.
   bool on_path() const { return tactus::on_path(phase_); }
@@ -109,9 +109,9 @@ class Motion {
   const ChunkPlan<Space>& plan() const;
   /// Hands over the digital outputs of the targets that were passed last. [cyclic]
   std::array<PassedOutputs, 2> take_outputs();
-  /// What limits keep the reference off its base.
+  /// Difference of the reference from its base, due to limits.
   const typename Space::Difference& offset() const { return offset_; }
-  /// True if no successor of the last chunk or velocity has come in time.
+  /// True if no successor of the last chunk or velocity has arrived in time.
   bool expires() const;
   /// Time for which the last chunk or the velocity still lasts; 0: none runs, or it stops.
   double margin_s() const;

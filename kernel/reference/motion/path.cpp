@@ -64,7 +64,7 @@ Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& set
                              Accuracy accuracy) {
   assert(accuracy != Accuracy::kFine);
   const Point reference = Space::without_held(put_out, placement_);
-  // From rest by the interpolation of the trajectory; out of a motion so that nothing steps.
+  // At rest the interpolation of the trajectory is used; in motion a quintic avoids steps.
   const Interpolation how =
       reference.standing() ? trajectory_->interpolation : Interpolation::kQuintic;
   const Point to = trajectory_->point(0, placement_);

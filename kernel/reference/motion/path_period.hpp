@@ -33,8 +33,8 @@ struct PathSample {
   typename Space::Local path;
 };
 
-/// A period of dt between two samples, and the next one to `after`. What is bounded is nearly
-/// linear in the slope at `to`; gains are its derivatives:
+/// A period of dt between two samples, and the next one to `after`. The bounded quantities are
+/// nearly linear in the slope at `to`; gains are their derivatives:
 ///
 ///   acceleration at `to`, its change in the period, and the mean acceleration of both periods
 ///

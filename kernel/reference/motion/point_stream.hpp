@@ -6,8 +6,8 @@
 // smoothed in the same way. The distance d of two points is D, or that of their stamps, so that
 // neither delay nor loss of points with stamps bends the motion.
 // The target is the parabola that fits the newest point and three before it best
-// (parabola_fit.hpp), in the chart of the newest; one step among them does not make it move. Of a
-// fast stream only points are kept that are far enough apart for the noise in them. For a stream
+// (parabola_fit.hpp), in the chart of the newest; one step among them does not make it move. In a
+// fast stream only points far enough apart for their noise are kept. For a stream
 // that gives velocities it is the parabola through the newest point with the change of velocity
 // since the point before; a point without a velocity ends it, as a place to go to. The jump from
 // the old prediction to the new one fades over 3 D, at least 0.12 s, by a quintic, so that the
@@ -72,7 +72,7 @@ class PointStream {
   int count_ = 0;                      // points, at most kMost
   bool given_ = false;                 // velocities are given
   bool stamped_ = false;               // stamps are given
-  /// From a point to the one before: s with stamps, else points, each of which stands for D.
+  /// Distances of consecutive points: s with stamps, otherwise a count of points, each worth D.
   std::array<float, kFitted - 1> apart_ = {};
   double stamp_s_ = kNoStamp;  // of the newest
   double arrival_s_ = 0.0;     // arrival of the newest

@@ -151,7 +151,7 @@ struct JointSpace {
   static Point approach(const Point& reference, Difference& offset, const Point& base,
                         const Point& next, bool steps, const Limits& limits, double dt_s);
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
-  /// What a range of positions bounds.
+  /// The part of a point that position ranges bound.
   using Place = JointVector;
   static const Place& place(const Point& point) { return point.q; }
   /// Returns the limits with a range of positions that is no wider than from `lowest` to `highest`.

@@ -193,7 +193,7 @@ struct TaskSpace {
   static bool can_stop(const Point& reference, const Limits& limits, double dt_s);
   /// Translation and rotation stop independently of each other (vector_stop.hpp).
   static Point come_to_rest(const Point& reference, const Limits& limits, double dt_s);
-  /// What a range of positions bounds.
+  /// The part of a point that position ranges bound.
   using Place = Vector3;
   static const Place& place(const Point& point) { return point.x.p; }
   /// Returns the limits with a range of positions that is no wider than from `lowest` to `highest`.
