@@ -52,7 +52,7 @@ struct Chunk {
   double observed_s = 0.0;
   typename Space::Header header;  ///< joints left out, or the frame of the targets
   /// Outputs that every target gives in its bits; with a mask of 0 the chunk leaves all alone. They
-  /// are put out when the motion has come within `outputs_lead_s` of the target's time, or that
+  /// take effect when the motion has come within `outputs_lead_s` of the target's time, or that
   /// much later if it is negative: -kLongestLead_s to kLongestLead_s.
   std::uint32_t outputs_mask = 0;
   double outputs_lead_s = 0.0;

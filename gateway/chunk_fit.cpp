@@ -202,7 +202,7 @@ Verdict judge_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& s
       return {Status::kReferenceTime, i, -1, time_s, chunk.time_s[0] + kLongestChunk_s};
     earliest_s = time_s + settings.period_s - kTimeRounding_s;
     typename Space::Point placed = Space::placed(chunk.targets[k], placement);
-    static_cast<void>(Space::saturate(placed, limits));  // as fit_chunk() does, which tells
+    static_cast<void>(Space::saturate(placed, limits));  // as in fit_chunk(), which reports it
     Verdict verdict = Space::judge_waypoint(placed, limits);
     if (verdict.ok() && chunk.velocities)
       verdict = judge_velocity<Space>(Space::rates(chunk.targets[k]), limits);
@@ -224,12 +224,12 @@ void fit_chunk(const Chunk<Space>& chunk, const AdmissionSettings<Space>& settin
   const auto n = static_cast<std::size_t>(chunk.count);
   const typename Space::Limits limits = Space::known_limits(chunk.header, settings.limits);
   const typename Space::Placement placement = Space::anywhere(chunk.header, limits);
-  curve.told = {};
+  curve.saturation = {};
   const auto inside = [&](std::size_t i) {
     typename Space::Point target = Space::placed(chunk.targets[i], placement);
-    Verdict told = Space::saturate(target, limits);
-    told.waypoint = static_cast<int>(i);
-    if (curve.told.ok()) curve.told = told;
+    Verdict saturation = Space::saturate(target, limits);
+    saturation.waypoint = static_cast<int>(i);
+    if (curve.saturation.ok()) curve.saturation = saturation;
     return target;
   };
   const typename Space::Point origin = inside(n / 2).at_rest();

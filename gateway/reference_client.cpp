@@ -124,7 +124,7 @@ Verdict ReferenceClient<Space>::send(const typename Space::Point& point, std::ui
   const typename Space::Limits limits = Space::known_limits(header, channel_.settings.limits);
   typename Space::Point placed = Space::placed(point, Space::anywhere(header, limits));
   if constexpr (kStreams)
-    static_cast<void>(Space::saturate(placed, limits));  // the generator tells
+    static_cast<void>(Space::saturate(placed, limits));  // the generator reports it
   const Verdict verdict = judge_online<Space>(placed, limits);
   if (!verdict.ok()) return verdict;
   Request<Space> request;

@@ -162,11 +162,11 @@ void print_stop(const char* subject, const char* event, const FaultVerdict& faul
   std::fprintf(stderr, "%s: %s: %s\n", subject, event, stop_reason(fault, trouble).c_str());
 }
 
-void print_collision(const Collision::Telemetry& told) {
-  std::fprintf(stderr, "  %s with %s, %s\n", told.first, told.second,
-               told.unproved    ? "not proved apart with the directions of a cycle"
-               : told.predicted ? "before the arm could have come to rest"
-                                : "at the present position");
+void print_collision(const Collision::Telemetry& telemetry) {
+  std::fprintf(stderr, "  %s with %s, %s\n", telemetry.first, telemetry.second,
+               telemetry.unproved    ? "not proved apart with the directions of a cycle"
+               : telemetry.predicted ? "before the arm could have come to rest"
+                                     : "at the present position");
 }
 
 void explain(const Session& session, const Options& options, const RunLoop& loop) {

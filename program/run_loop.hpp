@@ -46,7 +46,7 @@ class RunLoop {
   /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
   /// only a signal does. [init]
   void serve(CycleEndpoint& endpoint) { endpoint_ = &endpoint; }
-  /// Lets the time that the executive is told go on by one period in every cycle, so that late ones
+  /// Advances the executive's time by one period in every cycle, so that late ones
   /// are no fault. [init]
   void in_virtual_time() { virtual_ = true; }
   /// Connects to the robot and asks for its drives. False: refused.
@@ -88,8 +88,8 @@ class RunLoop {
   void at_robots_pace(Clock& clock, LogWriter& writer, Progress& progress);
 
  private:
-  /// Runs one cycle, tells the watchdog, counts its heap calls and adds its tracking errors. False:
-  /// the run is over, the arm is at rest, and drives that were disabled are.
+  /// Runs one cycle, triggers the watchdog, counts its heap calls and adds its tracking errors.
+  /// False: the run is over, the arm is at rest, and drives that were disabled are.
   bool cycle(const CycleTime& now);
   bool arm();
   void halt();

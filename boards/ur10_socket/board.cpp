@@ -10,7 +10,7 @@ ur::UrHal hal;
 
 Status configure(const UrSections& sections, const Pipeline& pipeline, const Options&) {
   const RobotSection& robot = pipeline.robot;
-  hal.configure(sections.ur, robot.given_tool(), robot.period_us, robot.puts_out());
+  hal.configure(sections.ur, robot.given_tool(), robot.period_us, robot.commands_outputs());
   return Status::kOk;
 }
 

@@ -89,7 +89,7 @@ void Client::release_lease() {
   on_message = [](const ToClient&) {};
   ToServer request;
   request.mutable_lease()->set_wish(Lease::RELEASE);
-  exchange(request);  // refused: it had been lost before, which was told
+  exchange(request);  // refused: the lease was lost before, which was reported
 }
 
 std::uint32_t Client::post(ToServer& request) {

@@ -19,7 +19,7 @@ class Client {
   bool connect();
   /// Takes the lease. False: said; refused with the owner's name, or no connection.
   bool take_lease();
-  /// Takes the lease if nobody has it. False: no connection, said.
+  /// Takes the lease if it is free. False: no connection; the reason is printed.
   bool take_free_lease();
   /// Gives the lease back: what runs goes on to its end.
   void release_lease();
@@ -39,7 +39,7 @@ class Client {
   bool wait(int timeout_ms, int other = -1);
 
   const Welcome& welcome() const { return welcome_; }
-  /// The latest stop, cancel, pause or lower override that the server has told of, for requests
+  /// The latest stop, cancel, pause or lower override that the server has reported, for requests
   /// after which the arm moves again.
   std::uint32_t stops() const { return stops_; }
   int exit_code() const { return exit_code_; }

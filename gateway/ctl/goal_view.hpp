@@ -1,5 +1,5 @@
-// GoalView: what the server tells of one trajectory or point, as a progress line with the live
-// tracking error, and its end.
+// GoalView: the server's reports and feedback on one trajectory or point, as a progress line with
+// the live tracking error, and its end.
 #pragma once
 
 #include "gateway/ctl/output.hpp"

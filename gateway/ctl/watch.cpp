@@ -1,4 +1,4 @@
-// watch, record and info: what the server tells of the arm.
+// The verbs watch, record and info: states, events and description of the arm.
 #include <unistd.h>
 
 #include <cerrno>

@@ -32,7 +32,7 @@ void write_point(const TaskSpace::Point& point, tactus_TaskPoint& to);
 /// Writes x, y, z, qw, qx, qy, qz. [any]
 void write_pose(const Pose& pose, double* numbers);
 
-/// kOk if all bits of `mask` are among the outputs that the pipeline puts out; else kNotOffered:
+/// kOk if all bits of `mask` are among the outputs that the pipeline commands; else kNotOffered:
 /// `why` names the field, the output, what there is, and the remedy. [any]
 Status judge_outputs(std::uint32_t mask, std::uint32_t offered, const char* field, Message& why);
 

@@ -1,5 +1,5 @@
-// The parameters of a pipeline as texts, for clients: values with as many digits as tell them from
-// any other, in the words of a pipeline file.
+// The parameters of a pipeline as texts, for clients: values with as many digits as distinguish
+// them from any other, in the words of a pipeline file.
 #pragma once
 
 #include "kernel/core/load_error.hpp"

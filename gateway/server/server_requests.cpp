@@ -80,8 +80,9 @@ tactus_TaskLimits task_limits(const TaskLimits& limits) {
 
 Reply Server::execute(int slot, const Origin& from, std::int64_t now_ns) {
   for (pb_size_t i = 0; i < request_.requires_count; ++i)
-    if (!offered(request_.requires[i], parameters_.offered(), setup_.loaded->robot.puts_out(),
-                 orders_.offers_tare(), references_.wraps()))
+    if (!offered(request_.requires[i], parameters_.offered(),
+                 setup_.loaded->robot.commands_outputs(), orders_.offers_tare(),
+                 references_.wraps()))
       return not_offered("a feature that the message requires");
   const pb_size_t what = request_.which_request;
   if (what == tactus_ToServer_hello_tag) return greet(slot, from, now_ns);
@@ -197,7 +198,7 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
     welcome.longest_chunk = kChunkTargets;
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_CHUNKS;
     welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_VELOCITIES;
-    if (pipeline.robot.puts_out())
+    if (pipeline.robot.commands_outputs())
       welcome.features[welcome.features_count++] = tactus_Feature_FEATURE_OUTPUTS;
   }
   if (parameters_.offered())

@@ -87,7 +87,8 @@ void CanHal::receive(int bus, std::int64_t now_ns) {
     master_.receive(bus, frames_[static_cast<std::size_t>(i)], now_ns);
 }
 
-/// A controller that is error passive still works; its drives' time-outs tell whether it is enough.
+/// A controller that is error passive still works; the time-outs of its drives decide whether that
+/// is enough.
 Status CanHal::judge_link(int bus) {
   const LinkHealth& health = sockets_[static_cast<std::size_t>(bus)].health();
   if (!health.lost && !health.bus_off && health.restarted == 0) return Status::kOk;

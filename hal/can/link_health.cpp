@@ -16,7 +16,7 @@ constexpr std::uint32_t kCounters = 0x00000200;
 
 void LinkHealth::take_error(std::uint32_t classes, const std::uint8_t (&data)[kErrorData]) {
   ++error_frames;
-  // A report may tell of an overflow only; the state is then as before.
+  // A report may contain an overflow only; the state is then unchanged.
   if ((classes & CAN_ERR_CRTL) != 0 && (data[1] & kState) != 0) {
     error_passive = (data[1] & kPassive) != 0;
     warning = error_passive || (data[1] & kWarning) != 0;

@@ -14,7 +14,7 @@ struct LinkHealth {
   bool bus_off = false;
   bool error_passive = false;  ///< an error counter of the controller is at least 128
   bool warning = false;        ///< at least 96
-  std::uint8_t tx_errors = 0, rx_errors = 0;  ///< the controller's counters, if it tells them
+  std::uint8_t tx_errors = 0, rx_errors = 0;  ///< the controller's counters, if reported
   std::uint32_t error_frames = 0;             ///< reports of the controller
   std::uint32_t restarted = 0;   ///< returns from bus-off; a bus-off between two reads shows here
   std::uint32_t bus_errors = 0;  ///< bit, form, stuff or CRC errors

@@ -73,7 +73,7 @@ double DriveFacts::position_units(double increments) const {
 }
 
 /// Units of velocity per motor revolution per second as 60A9h has them; NaN: it does not say.
-double DriveFacts::told_velocity_units(double increments) const {
+double DriveFacts::reported_velocity_units(double increments) const {
   if (!has(kVelocityUnit)) return kNotKnown;
   const std::uint32_t unit = get(kVelocityUnit);
   const bool positions = byte_of(unit, 2) == kNoUnit && has(kPositionUnit);
@@ -88,8 +88,8 @@ double DriveFacts::told_velocity_units(double increments) const {
 
 Message unstated(const Cia402Settings& drive, const StartupFindings& findings) {
   Message line;
-  const bool told = (findings.serials.array() > 0.0).all();
-  if (!told || (drive.serial.array() > 0.0).all()) return line;
+  const bool reported = (findings.serials.array() > 0.0).all();
+  if (!reported || (drive.serial.array() > 0.0).all()) return line;
   line << "[cia402] serial =";
   for (const double serial : findings.serials) line << " " << static_cast<std::size_t>(serial);
   return line;
@@ -100,18 +100,18 @@ Status DriveFacts::judge(const Cia402Settings& drive, int joint, bool velocities
   TRY(judge_torque(drive, joint, why));
   TRY(judge_positions(drive, joint, why));
   const double stated = drive.velocity_units[joint];
-  const double told = told_velocity_units(drive.increments[joint]);
-  findings.velocity_units[joint] = stated > 0.0 ? stated : told;
-  return velocities ? judge_velocities(stated, told, why) : Status::kOk;
+  const double reported = reported_velocity_units(drive.increments[joint]);
+  findings.velocity_units[joint] = stated > 0.0 ? stated : reported;
+  return velocities ? judge_velocities(stated, reported, why) : Status::kOk;
 }
 
-/// `stated`: by the file, or 0; `told`: by the drive, or NaN.
-Status DriveFacts::judge_velocities(double stated, double told, Message& why) const {
+/// `stated`: by the file, or 0; `reported`: by the drive, or NaN.
+Status DriveFacts::judge_velocities(double stated, double reported, Message& why) const {
   const bool scaled = !near(ratio(kVelocityFactor, kVelocityDivisor), 1.0);
-  if (stated == 0.0 && !scaled && !std::isnan(told)) return Status::kOk;
-  if (stated > 0.0 && (std::isnan(told) || near(told, stated))) return Status::kOk;
+  if (stated == 0.0 && !scaled && !std::isnan(reported)) return Status::kOk;
+  if (stated > 0.0 && (std::isnan(reported) || near(reported, stated))) return Status::kOk;
   if (stated > 0.0) {
-    why << "its velocities have " << told << " units per motor revolution per second (60A9h is "
+    why << "its velocities have " << reported << " units per motor revolution per second (60A9h is "
         << hex(get(kVelocityUnit)) << "), [cia402] velocity_units is " << stated
         << "; correct the file, or the drive";
     return Status::kRefusedByRobot;
@@ -170,13 +170,13 @@ Status DriveFacts::judge_torque(const Cia402Settings& drive, int joint, Message&
 }
 
 Status DriveFacts::judge_positions(const Cia402Settings& drive, int joint, Message& why) const {
-  const double expected = drive.increments[joint], told = position_units(expected);
-  if (near(told, expected)) return Status::kOk;
+  const double expected = drive.increments[joint], reported = position_units(expected);
+  if (near(reported, expected)) return Status::kOk;
   why << "its positions have ";
-  if (std::isnan(told))
+  if (std::isnan(reported))
     why << "units that are not known";
   else
-    why << told << " units per motor revolution";
+    why << reported << " units per motor revolution";
   const char* between = " (";
   for (const auto& [above, below] :
        {std::pair(kEncoderIncrements, kEncoderRevolutions),

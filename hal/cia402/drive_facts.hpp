@@ -98,10 +98,10 @@ class DriveFacts {
   double ratio(const Object& above, const Object& below) const;
   double of_turn(std::uint32_t unit, double increments) const;
   double position_units(double increments) const;
-  double told_velocity_units(double increments) const;
+  double reported_velocity_units(double increments) const;
   Status judge_torque(const Cia402Settings& drive, int joint, Message& why) const;
   Status judge_positions(const Cia402Settings& drive, int joint, Message& why) const;
-  Status judge_velocities(double stated, double told, Message& why) const;
+  Status judge_velocities(double stated, double reported, Message& why) const;
 
   std::array<std::uint32_t, kFactCount> values_{};
   std::uint32_t known_ = 0;

@@ -167,7 +167,7 @@ class Drives {
   void judge_steadiness();
   void enter(ArmingPhase phase, std::int64_t now_ns);
   void ask(int joint, const Object& object);
-  void tell(int joint, const Object& object, std::int8_t value);
+  void write_object(int joint, const Object& object, std::int8_t value);
   void judge_mode(std::uint32_t value, const ObjectRefusal& refused);
   bool referenced(int j) const;
   bool needs_homing(int j) const;

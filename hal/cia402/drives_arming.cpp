@@ -200,7 +200,7 @@ void Drives::ask(int joint, const Object& object) {
   request_ = {++asked_, joint, object, false, 0};
 }
 
-void Drives::tell(int joint, const Object& object, std::int8_t value) {
+void Drives::write_object(int joint, const Object& object, std::int8_t value) {
   request_ = {++asked_, joint, object, true, static_cast<std::uint8_t>(value)};
 }
 
@@ -283,11 +283,11 @@ void Drives::enter(Homing::Step step, std::int64_t now_ns) {
   switch (step) {
     case Homing::Step::kSelect:
       joints_[static_cast<std::size_t>(j)].homes = true;
-      return tell(j, kModeOfOperation, static_cast<std::int8_t>(Mode::kHoming));
+      return write_object(j, kModeOfOperation, static_cast<std::int8_t>(Mode::kHoming));
     case Homing::Step::kMethod:
-      return tell(j, kHomingMethod, static_cast<std::int8_t>(settings_->homing_method[j]));
+      return write_object(j, kHomingMethod, static_cast<std::int8_t>(settings_->homing_method[j]));
     case Homing::Step::kReturn:
-      return tell(j, kModeOfOperation, static_cast<std::int8_t>(mode_of(mode_)));
+      return write_object(j, kModeOfOperation, static_cast<std::int8_t>(mode_of(mode_)));
     case Homing::Step::kSelected:
     case Homing::Step::kReturned: return ask(j, kModeDisplay);
     case Homing::Step::kMove: homing_.samples = 0; return;

@@ -2,7 +2,7 @@
 // jump, and a velocity is the rate of the positions. It compares what the velocity adds up to with
 // what the positions do, both forgotten with a time constant of 50 ms, so that neither a sign nor a
 // unit nor an encoder that stands still can be wrong while the joint moves. An encoder that stands
-// still together with its velocity cannot be told from a joint that does.
+// still together with its velocity cannot be distinguished from a joint that does.
 #pragma once
 
 #include <cmath>

@@ -154,7 +154,7 @@ Status read_type(std::string_view word, ObjectLine& line, Message& why) {
   return Status::kBadValue;
 }
 
-/// With as few digits as tell it from all others; nine always do.
+/// Writes as few digits as distinguish it from all other values; nine always suffice.
 void append_single(Message& text, float value) {
   constexpr int kMost = 9;
   for (int digits = 1; digits <= kMost; ++digits) {

@@ -86,7 +86,7 @@ Status PacketSocket::bind_to(const char* interface, Message& why) {
     return refuse(Status::kConnectionLost, "is down, or has no cable",
                   "plug it in, and `ip link set ... up`", why);
   const int on = 1, bytes = kBufferBytes;
-  // Refused by old kernels; then the frames wait in its queue, and copies are told by their type.
+  // Old kernels refuse it; then the copies stay in the queue and are recognized by their type.
   (void)setsockopt(socket_, SOL_PACKET, PACKET_QDISC_BYPASS, &on, sizeof on);
   (void)setsockopt(socket_, SOL_PACKET, PACKET_IGNORE_OUTGOING, &on, sizeof on);
   (void)setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);

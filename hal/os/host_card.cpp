@@ -122,24 +122,25 @@ Content card_coalescing(const HostQuery& query) {
   if (!named(query)) return no_interface();
   if (query.ethtool == nullptr)
     return {HostFinding::kUnknown, Text<127>("not readable: below a root of files")};
-  ethtool_coalesce told{};
-  told.cmd = ETHTOOL_GCOALESCE;
+  ethtool_coalesce coalesce{};
+  coalesce.cmd = ETHTOOL_GCOALESCE;
   ifreq request{};
   const std::string_view name(query.interface);
   name.copy(request.ifr_name, sizeof request.ifr_name - 1);
-  request.ifr_data = reinterpret_cast<char*>(&told);
+  request.ifr_data = reinterpret_cast<char*>(&coalesce);
   const int file = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (file < 0) return unreadable(errno);
   const int error = query.ethtool(file, SIOCETHTOOL, &request) == 0 ? 0 : errno;
   close(file);
   if (error != 0) return unreadable(error);
-  const bool adaptive = told.use_adaptive_rx_coalesce != 0;
-  const bool by_time = told.rx_coalesce_usecs > 0 && told.rx_max_coalesced_frames != 1;
-  const bool by_count = told.rx_coalesce_usecs == 0 && told.rx_max_coalesced_frames > 1;
+  const bool adaptive = coalesce.use_adaptive_rx_coalesce != 0;
+  const bool by_time = coalesce.rx_coalesce_usecs > 0 && coalesce.rx_max_coalesced_frames != 1;
+  const bool by_count = coalesce.rx_coalesce_usecs == 0 && coalesce.rx_max_coalesced_frames > 1;
   return judge(!adaptive && !by_time && !by_count,
-               Text<127>("adaptive-rx ") << (adaptive ? "on" : "off") << ", rx-usecs "
-                                         << std::size_t{told.rx_coalesce_usecs} << ", rx-frames "
-                                         << std::size_t{told.rx_max_coalesced_frames});
+               Text<127>("adaptive-rx ")
+                   << (adaptive ? "on" : "off") << ", rx-usecs "
+                   << std::size_t{coalesce.rx_coalesce_usecs} << ", rx-frames "
+                   << std::size_t{coalesce.rx_max_coalesced_frames});
 }
 
 Content busy_poll(const HostQuery& query) {

@@ -39,7 +39,7 @@ Status ArmDrives::connect(const Deadline& deadline) {
   request_ = DriveRequest::kDisable;
   alive_ = false;
   begins_in_ = 0;
-  told_ = true;
+  end_sent_ = true;
   set_points_.start(set.max_missed);
   TRY(robot_.connect(set.address.c_str(), set.primary_port, deadline, why_));
   const bool asks = set.on_protective_stop == OnProtectiveStop::kRelease ||
@@ -54,11 +54,11 @@ void ArmDrives::close() {
 }
 
 void ArmDrives::end_program() {
-  if (told_ || !session_.running()) return;
+  if (end_sent_ || !session_.running()) return;
   const Message why = why_;
   bool sent = false;
-  told_ = set_points_.end(sent) != Status::kOk || sent;
-  why_ = why;  // that of the end is the older one
+  end_sent_ = set_points_.end(sent) != Status::kOk || sent;
+  why_ = why;  // the earlier reason counts
 }
 
 void ArmDrives::watch(const UrState& state) {
@@ -111,8 +111,8 @@ void ArmDrives::take(DriveRequest request) {
   enter(alive_ ? DrivePhase::kStopping : DrivePhase::kOff);
 }
 
-/// An upload goes on to its end in any phase, or half a program would precede the next one. A
-/// program that is not wanted any more is told to end once.
+/// Completes an upload in any phase, as half a program must not precede the next one, and sends the
+/// command to end once to a program that is no longer needed.
 Status ArmDrives::continue_program(const UrState& state) {
   const bool uploaded = robot_.uploading();
   robot_.send();
@@ -121,7 +121,7 @@ Status ArmDrives::continue_program(const UrState& state) {
   if (state.playing() || !robot_.exception().empty()) begins_in_ = 0;
   alive_ = alive_ && !stopped(state);
   const bool wanted = phase_ >= DrivePhase::kUpload && phase_ <= DrivePhase::kEnabled;
-  return wanted || told_ ? Status::kOk : set_points_.end(told_);
+  return wanted || end_sent_ ? Status::kOk : set_points_.end(end_sent_);
 }
 
 /// True if no program runs, and none of ours will begin.

@@ -101,7 +101,7 @@ class ArmDrives {
   Vector6 held_ = Vector6::Zero();  // rad: the last set-point
   bool alive_ = false;              // our program runs, or may still begin to
   int begins_in_ = 0;               // cycles in which a program that was uploaded may begin
-  bool told_ = true;                // our program was told to end, or there is none
+  bool end_sent_ = true;            // our program got the command to end, or there is none
 };
 
 }  // namespace tactus::ur

@@ -113,7 +113,7 @@ Status ArmDrives::upload() {
   if (first_cycle()) {
     robot_.upload(script_);
     alive_ = true;
-    told_ = false;
+    end_sent_ = false;
   }
   if (!robot_.connected()) return lose_port();
   if (!robot_.uploading()) enter(DrivePhase::kProgram);

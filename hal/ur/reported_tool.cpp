@@ -9,7 +9,7 @@
 namespace tactus::ur {
 namespace {
 
-/// The tip frame in the flange frame, and whether the controller or the file has told it.
+/// The tip frame in the flange frame, and whether the controller or the file gives it.
 struct Tcp {
   Pose frame;
   bool known;

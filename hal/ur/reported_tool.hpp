@@ -25,8 +25,8 @@ inline bool gives_tcp(const Tool& given) {
 }
 
 /// Compares what is in force without a program of ours: payload and TCP that `given` leaves to the
-/// controller, as far as the controller tells them, then the tip. kMissingKey: `why` has the lines
-/// to add to the file; kMismatch. [cyclic]
+/// controller, as far as the controller reports them, then the tip. kMissingKey: `why` has the
+/// lines to add to the file; kMismatch. [cyclic]
 Status check_before_program(const Tool& given, const UrState& state, double tip_tolerance_m,
                             Message& why);
 

@@ -88,7 +88,7 @@ class RtdeClient {
   bool wait(std::int64_t timeout_ns) const { return stream_.socket.wait(timeout_ns); }
 
   /// Digital outputs that go with every set-point from now on. [cyclic]
-  void put_out(const DigitalOutputs& outputs) { outputs_ = outputs; }
+  void set_outputs(const DigitalOutputs& outputs) { outputs_ = outputs; }
   /// Sends a set-point; nothing else is ever written to the registers. [cyclic]
   Socket::Sent send(std::int32_t count, const Vector6& q);
 

@@ -89,7 +89,7 @@ void UrHal::show(RobotState& state) {
 
 /// A running program still gets the command to end after the wire has failed.
 Status UrHal::write(const RobotCommand& command) {
-  session_.put_out(command.outputs);
+  session_.set_outputs(command.outputs);
   if (fault_ == Status::kOk) fault_ = drives_.step(command, state_);
   if (fault_ != Status::kOk) drives_.end_program();
   return fault_;

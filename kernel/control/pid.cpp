@@ -38,7 +38,7 @@ Status Pid::start() {
     const JointVector missing = *tau_measured - other_terms(params, e, de);
     for (int i = 0; i < kDof; ++i) integral[i] = params.gains.ki[i] > 0.0 ? missing[i] : 0.0;
   }
-  return put_out(e, de, clamped(integral, params.integral_limit));
+  return emit(e, de, clamped(integral, params.integral_limit));
 }
 
 Status Pid::step(double dt_s) {
@@ -47,7 +47,7 @@ Status Pid::step(double dt_s) {
   transfer_.step(dt_s);
   JointVector integral;
   for (int i = 0; i < kDof; ++i) integral[i] = integrated(i, e[i], others[i], dt_s);
-  return put_out(e, de, integral);
+  return emit(e, de, integral);
 }
 
 /// Returns all terms of the law but the integral.
@@ -58,7 +58,7 @@ JointVector Pid::other_terms(const Params& with, const JointVector& e,
          with.effort_gain.cwiseProduct(*tau_d) + *g;
 }
 
-Status Pid::put_out(const JointVector& e, const JointVector& de, const JointVector& integral) {
+Status Pid::emit(const JointVector& e, const JointVector& de, const JointVector& integral) {
   const JointVector sum = other_terms(params, e, de) + integral;
   if (!sum.allFinite()) return Status::kCommandNotFinite;
   e_ = e;

@@ -151,7 +151,7 @@ class Pid {
   JointVector torque(const Params& with) const;
   double integrated(int i, double e, double others, double dt_s) const;
   double tracking_time_constant(int i) const;
-  Status put_out(const JointVector& e, const JointVector& de, const JointVector& integral);
+  Status emit(const JointVector& e, const JointVector& de, const JointVector& integral);
 
   // Values of the last cycle.
   JointVector e_ = JointVector::Zero(), de_ = JointVector::Zero();

@@ -18,7 +18,7 @@
 //   Status resume();                          // [init]
 //
 // The executive calls it, instead of start(), when a braked arm that has come to rest is to move
-// again: the block goes on from the command that it puts out.
+// again: the block continues from the command that it sends.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Times in nanoseconds, the unit of stamps and of integer times that the operating system is told.
+// Times in nanoseconds, the unit of stamps and of integer times passed to the operating system.
 #pragma once
 
 #include <cstdint>

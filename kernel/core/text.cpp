@@ -39,7 +39,7 @@ struct Decimal {
   }
 };
 
-/// True for a whole number of 32 bits that six digits would not tell from the next.
+/// True for a 32-bit integer that six digits do not distinguish from the next.
 bool has_more_digits(double value) {
   if (!(value <= std::numeric_limits<std::uint32_t>::max())) return false;
   auto whole = static_cast<std::uint32_t>(value);

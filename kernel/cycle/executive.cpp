@@ -59,7 +59,7 @@ void Executive::read() {
     else
       measured_.drives = state.drives;
     pipeline_.robot.set_measured(measured_);  // recorded even if no block is stepped
-    tell_drives();
+    log_drives();
     watch_drives();
     const Status status = commands(rung()) ? guard_.check(state, now_) : Status::kOk;
     walk_unless_ok(Cause::kState, status, tripped());
@@ -69,7 +69,7 @@ void Executive::read() {
 
 /// Logs every fault that was there before the request to arm, which clears it, and the warning of a
 /// drive once in an arming. Neither changes anything else.
-void Executive::tell_drives() {
+void Executive::log_drives() {
   const bool before = rung() == Rung::kArming && requested_ != DriveRequest::kArm;
   LoopBound<kDof> joints;
   for (int i = 0; i < kDof; ++i) {
@@ -129,7 +129,7 @@ void Executive::write(const RobotCommand& command) {
     sent.request = DriveRequest::kFollow;
   }
   if (rung() == Rung::kArming) sent.request = DriveRequest::kArm;
-  pipeline_.robot.put_out(sent);
+  pipeline_.robot.write_outputs(sent);
   requested_ = sent.request;
   const Status status = hal_.write(sent);
   if (wire_ == Status::kOk) wire_ = status;

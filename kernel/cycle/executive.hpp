@@ -99,7 +99,7 @@ class Executive {
   void check_clock(const CycleTime& now);
   void read();
   void watch_drives();
-  void tell_drives();
+  void log_drives();
   void step();
   RobotCommand guarded();
   void write(const RobotCommand& command);

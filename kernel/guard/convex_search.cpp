@@ -24,7 +24,7 @@ struct Search {
   double wanted;             // m, between the cores
   double best = -kInfinity;  // m, proved between the cores
   int tried = 0;
-  Vector3 at_one = Vector3::Zero(), told = Vector3::Zero();  // m; what libccd got of it, mm
+  Vector3 at_one = Vector3::Zero(), given = Vector3::Zero();  // m; the point given to libccd, mm
 
   bool done() const { return best > wanted; }
 };
@@ -53,9 +53,9 @@ void farthest_of_one(const void* object, const ccd_vec3_t* direction, ccd_vec3_t
   const Vector3 n = vector_of(*direction);
   if (!search.done()) {
     search.at_one = search.one.farthest(n);
-    search.told = kScale * (search.at_one + search.wanted / std::sqrt(n.squaredNorm()) * n);
+    search.given = kScale * (search.at_one + search.wanted / std::sqrt(n.squaredNorm()) * n);
   }
-  put(search.told, point);
+  put(search.given, point);
 }
 
 /// libccd asks against the direction n of the first body: what is proved is the gap along n. Once
@@ -63,7 +63,7 @@ void farthest_of_one(const void* object, const ccd_vec3_t* direction, ccd_vec3_t
 void farthest_of_other(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   Search& search = search_of(object);
   const Vector3 n = -vector_of(*direction);
-  if (search.done()) return put(search.told + n, point);
+  if (search.done()) return put(search.given + n, point);
   const Vector3 at_other = search.other.farthest(-n);
   const double gap = n.dot(at_other - search.at_one) / std::sqrt(n.squaredNorm());
   if (gap > search.best) search.best = gap;

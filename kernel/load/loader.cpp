@@ -194,7 +194,7 @@ Status Loader::check_command(const Ini& ini, const IniSection& section, Pipeline
 Status Loader::check_outputs(const Ini& ini, const IniSection& section, Pipeline& pipeline,
                              LoadError& error) const {
   pipeline.robot.offer_outputs(offered_.outputs);
-  if (!pipeline.robot.puts_out() || offered_.outputs != 0) return Status::kOk;
+  if (!pipeline.robot.commands_outputs() || offered_.outputs != 0) return Status::kOk;
   return error.refuse(Status::kNotOffered, line_of(ini, section, "outputs"), section.name,
                       "outputs",
                       "the robot has no digital outputs; remove the key, or take a board whose "

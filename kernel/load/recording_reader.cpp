@@ -64,7 +64,7 @@ Status read_all_signals(const Pipeline& pipeline, Recording& recording,
   const PortTable& ports = pipeline.ports;
   for (int i = 0; i < ports.count(); ++i) {
     const bool unused =
-        ports[i].quantity == Quantity::kDigitalOutputs && !pipeline.robot.puts_out();
+        ports[i].quantity == Quantity::kDigitalOutputs && !pipeline.robot.commands_outputs();
     if (ports[i].offered && info(ports[i].quantity).recorded > 0 && !unused)
       TRY(add_signal(recording, &ports[i], place));
   }

@@ -15,20 +15,20 @@ struct OutputsSection {
   void describe_outputs(Visitor& visit) {
     visit.optional("outputs", outputs);
   }
-  bool puts_out() const { return outputs.wired(); }
+  bool commands_outputs() const { return outputs.wired(); }
   /// Names the outputs of the robot, once the input is bound. [init]
-  void offer_outputs(std::uint32_t of_robot) { offered = puts_out() ? of_robot : 0; }
+  void offer_outputs(std::uint32_t of_robot) { offered = commands_outputs() ? of_robot : 0; }
   /// Adds the digital outputs to a command, whatever it requests of the drives. [cyclic]
-  void put_out(RobotCommand& command) const { command.outputs = *outputs; }
+  void write_outputs(RobotCommand& command) const { command.outputs = *outputs; }
 };
 
 template <>
 struct OutputsSection<false> {
   template <class Visitor>
   void describe_outputs(Visitor&) {}
-  bool puts_out() const { return false; }
+  bool commands_outputs() const { return false; }
   void offer_outputs(std::uint32_t) {}
-  void put_out(RobotCommand&) const {}
+  void write_outputs(RobotCommand&) const {}
 };
 
 }  // namespace tactus

@@ -76,7 +76,7 @@ class Pipeline {
   /// True if no block has a motion of its own that goes on: see kernel/core/brake.hpp.
   /// [between two cycles]
   bool at_rest() const;
-  /// Returns what the last reference generator of the chain tells of its motion. [between two
+  /// Returns the motion state of the last reference generator of the chain. [between two
   /// cycles]
   MotionState motion_state() const;
   /// Lets every block go on after a brake that has come to rest: see kernel/core/brake.hpp. [init]

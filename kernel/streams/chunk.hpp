@@ -52,7 +52,7 @@ struct ChunkCurve {
   std::array<std::uint32_t, static_cast<std::size_t>(kChunkTargets)> outputs;
   std::uint32_t outputs_mask = 0;
   double outputs_lead_s = 0.0;
-  Verdict told;  ///< kSaturated of the first target that is held at the end of a range, or kOk
+  Verdict saturation;  ///< kSaturated for the first target held at the end of a range, or kOk
   std::atomic<bool> free{true};
 
   double first_s() const { return knots[0].time_s; }

@@ -79,7 +79,7 @@ typename Space::Point ChunkPlan<Space>::enter(double before_s, double now_s, con
   const double s = before_s - now().zero_s, lead_s = now().chunk->first_s() - s;
   target_ = -1;
   if (lead_s > now_s - before_s)
-    lead_in(s, reference, limits, fades);
+    join_from(s, reference, limits, fades);
   else
     follow(s);
   if (runs_out(now_s)) stop_path_time(before_s);
@@ -93,7 +93,8 @@ typename Space::Point ChunkPlan<Space>::enter(double before_s, double now_s, con
 /// Leads to the first knot: from the reference by one quintic, if it `fades` and there is time;
 /// else along the tangent of the curve.
 template <class Space>
-void ChunkPlan<Space>::lead_in(double s, const Point& reference, const Limits& limits, bool fades) {
+void ChunkPlan<Space>::join_from(double s, const Point& reference, const Limits& limits,
+                                 bool fades) {
   const Point first = now().knot(0), origin = first.at_rest();
   const double lead_s = now().chunk->first_s() - s;
   Point from = Space::without_held(reference, now().placement);

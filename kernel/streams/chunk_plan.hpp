@@ -51,14 +51,14 @@ class ChunkPlan {
   void clear();
   /// True if a chunk begins up to `now_s`. [cyclic]
   bool due(double now_s) const;
-  /// Enters the newest chunk that is due at `now_s`, while the reference of `before_s` is put out;
+  /// Enters the newest chunk that is due at `now_s`, while the reference of `before_s` is sent;
   /// returns the base at `before_s`. Unless it `fades`, the base is the curve at once. [cyclic]
   Point enter(double before_s, double now_s, const Point& reference, const Limits& limits,
               bool fades);
   /// True if the chunk in force has no successor and the stop at its end is to begin before
   /// `now_s`. [cyclic]
   bool runs_out(double now_s) const;
-  /// Begins that stop at `before_s`, while the reference is put out and the base is `base`; returns
+  /// Begins that stop at `before_s`, while the reference is sent and the base is `base`; returns
   /// the base, which is another one if it is too late to stop from full rate. [cyclic]
   Point stop(double before_s, const Point& base, const Point& reference, const Limits& limits,
              bool fades);
@@ -119,7 +119,7 @@ class ChunkPlan {
   void drop_first();
   void pass_last_targets(double now_s);
   void pass_targets(std::size_t i, double now_s);
-  void lead_in(double s, const Point& reference, const Limits& limits, bool fades);
+  void join_from(double s, const Point& reference, const Limits& limits, bool fades);
   void follow(double s);
   static int knot_after(const ChunkCurve<Space>& chunk, double s);
   bool stop_path_time(double before_s);

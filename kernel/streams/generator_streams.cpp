@@ -31,7 +31,7 @@ int targets_until(const ChunkCurve<Space>& chunk, double now_s) {
 template <class Space>
 void ReferenceGenerator<Space>::pass_outputs() {
   for (const PassedOutputs& passed : motion_.take_outputs())
-    if (passed.any) stream_.outputs.ask(passed.outputs, time_s() + passed.delay_s);
+    if (passed.any) stream_.outputs.request(passed.outputs, time_s() + passed.delay_s);
 }
 
 /// Voids the epoch of a request that is refused or canceled whatever it says, and releases its
@@ -70,11 +70,12 @@ bool ReferenceGenerator<Space>::in_order(const Request<Space>& request, std::uin
   return false;
 }
 
-/// Judges the targets of a chunk where their frames are now, which the client does not know; `told`
-/// becomes the first that is held at the end of a range, if it is none yet.
+/// Judges the targets of a chunk with the present pose of their frames, which the client cannot
+/// judge; sets `saturation` to that of the first target held at the end of a range, unless it is
+/// set.
 template <class Space>
 Verdict ReferenceGenerator<Space>::judge_targets(const ChunkCurve<Space>& chunk,
-                                                 Verdict& told) const {
+                                                 Verdict& saturation) const {
   const typename Space::Limits& limits = channel_->settings.limits;
   const typename Space::Placement placement = Space::latch(chunk.header, reference(), limits);
   LoopBound<1 << 8> targets;
@@ -82,7 +83,7 @@ Verdict ReferenceGenerator<Space>::judge_targets(const ChunkCurve<Space>& chunk,
     targets.tick();
     Point point = Space::placed(chunk.knots[static_cast<std::size_t>(i)].point, placement);
     const Verdict held = Space::saturate(point, limits);
-    if (told.ok()) told = held;
+    if (saturation.ok()) saturation = held;
     Verdict verdict = Space::judge_waypoint(point, limits);
     verdict.waypoint = i;
     if (!verdict.ok()) return verdict;
@@ -106,7 +107,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
     chunk.release();
     return take_point(point);
   }
-  Verdict told = chunk.told;  // the plan may release the chunk at once
+  Verdict saturation = chunk.saturation;  // the plan may release the chunk at once
   const int passed = targets_until(chunk, time_s());
   const bool late = passed == chunk.count;
   Verdict verdict;
@@ -115,7 +116,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
   else if (!(chunk.first_s() <= time_s() + kLongestChunk_s))
     verdict = {Status::kReferenceTime, 0, -1, chunk.first_s(), time_s() + kLongestChunk_s};
   else
-    verdict = judge_targets(chunk, told);
+    verdict = judge_targets(chunk, saturation);
   if (verdict.ok()) verdict = motion_.track(chunk, time_s());
   if (!verdict.ok()) {
     if (late) ++channel_->stream.late;
@@ -123,7 +124,7 @@ void ReferenceGenerator<Space>::take_chunk(const Request<Space>& request) {
     return report(request.id, Outcome::kRefused, -1, verdict);
   }
   channel_->stream.trimmed += static_cast<std::uint32_t>(passed);
-  begin_stream(request.id, told);
+  begin_stream(request.id, saturation);
 }
 
 template <class Space>
@@ -140,27 +141,27 @@ void ReferenceGenerator<Space>::take_velocity(const Request<Space>& request) {
 }
 
 template <class Space>
-void ReferenceGenerator<Space>::begin_stream(std::uint32_t id, const Verdict& told) {
+void ReferenceGenerator<Space>::begin_stream(std::uint32_t id, const Verdict& saturation) {
   end_running(Outcome::kAborted, true);
   point_age_s_ = -kInfinity;
   stream_.id = id;
   stream_.expired = false;
-  report(id, Outcome::kExecuted, -1, tell_saturated(told) ? told : Verdict());
+  report(id, Outcome::kExecuted, -1, note_saturation(saturation) ? saturation : Verdict());
 }
 
-/// Tells once when a chunk or a velocity was not followed by another in time, and publishes what
-/// clients watch.
+/// Reports once that no successor of a chunk or velocity has arrived in time, and publishes the
+/// counters for clients.
 template <class Space>
 void ReferenceGenerator<Space>::watch_expiry() {
-  StreamState& told = channel_->stream;
-  told.margin_s = static_cast<float>(motion_.margin_s());
+  StreamState& state = channel_->stream;
+  state.margin_s = static_cast<float>(motion_.margin_s());
   if (!streams(phase())) return;
-  told.seam = static_cast<float>(motion_.plan().seam());
-  told.offset = static_cast<float>(motion_.offset().x.cwiseAbs().maxCoeff());
-  if (!motion_.offset().zero()) ++told.shaped;
+  state.seam = static_cast<float>(motion_.plan().seam());
+  state.offset = static_cast<float>(motion_.offset().x.cwiseAbs().maxCoeff());
+  if (!motion_.offset().zero()) ++state.shaped;
   if (!motion_.expires() || stream_.expired) return;
   stream_.expired = true;
-  ++told.starved;
+  ++state.starved;
   if (has_room()) report(stream_.id, Outcome::kStarved);
 }
 

@@ -16,8 +16,8 @@ template <class Space>
 struct StreamAccount {
   EpochGate gate;
   std::uint32_t id = 0;      ///< the last one that took effect
-  bool expired = false;      ///< no successor came in time, and the client was told
-  bool saturates = false;    ///< the client was told that points are beyond a range
+  bool expired = false;      ///< no successor arrived in time; reported
+  bool saturates = false;    ///< points are beyond a range; reported
   std::uint64_t sender = 0;  ///< of the last point
   /// Time in which a point still counts as a successor of one that was refused for its step.
   double step_s = 0.0;

@@ -42,7 +42,7 @@ void Motion<Space>::begin_stream(MotionEvent event) {
     path_.leave();
     stream_.clear();
   }
-  tell(event);
+  handle(event);
 }
 
 /// The base has no limits of its own, so it is approached even where the reference is on it.
@@ -55,7 +55,7 @@ void Motion<Space>::move_stream(double dt_s) {
   if (seam) base_ = streams_.plan.enter(time_s_ - dt_s, time_s_, reference_, limits, fades);
   if (stops) base_ = streams_.plan.stop(time_s_ - dt_s, base_, reference_, limits, fades);
   if (seam || stops) offset_ = Space::difference(reference_, base_);
-  if (seam) tell(MotionEvent::kChunk);
+  if (seam) handle(MotionEvent::kChunk);
   const Point before = base_;
   base_ = streams_.plan.move_on(time_s_);
   streams_.plan.pass_outputs(time_s_);
@@ -64,7 +64,7 @@ void Motion<Space>::move_stream(double dt_s) {
   reference_ = Space::approach(reference_, offset_, before, base_, false,
                                moves ? streams_.plan.beside(own) : own, dt_s);
   if (offset_.zero()) streams_.plan.join();
-  if (streams_.plan.stopping()) tell(MotionEvent::kExpire);
+  if (streams_.plan.stopping()) handle(MotionEvent::kExpire);
   if (offset_.zero() && streams_.plan.ended(time_s_) && reference_.standing()) rest_from_stream();
 }
 
@@ -83,7 +83,7 @@ void Motion<Space>::move_at_velocity(double dt_s) {
 template <class Space>
 void Motion<Space>::rest_from_stream() {
   hold(reference_.at_rest());
-  tell(MotionEvent::kAtRest);
+  handle(MotionEvent::kAtRest);
 }
 
 template <class Space>

@@ -1,5 +1,5 @@
-// OutputDelay: the digital outputs between the targets that ask for them and the robot. What is
-// asked for is put out when it is due, and stays until something else is.
+// OutputDelay: delays digital outputs from the targets that request them to the time at which they
+// are due. They stay until the next change is due.
 #pragma once
 
 #include <array>
@@ -13,51 +13,50 @@ namespace tactus {
 
 class OutputDelay {
  public:
-  /// Changes that can wait. With more, the one before the newest is lost; the last state is not.
+  /// Most pending changes. With more, the one before the newest is lost; the last state is not.
   static constexpr std::size_t kMostWaiting = 32;
 
-  /// Asks for outputs from `due_s` on. What was to be put out later than that comes with them: the
-  /// newest that was asked for wins. [cyclic]
-  void ask(const DigitalOutputs& outputs, double due_s) {
-    wanted_.set(outputs);
+  /// Requests outputs from `due_s` on. They replace every change that is due later. [cyclic]
+  void request(const DigitalOutputs& outputs, double due_s) {
+    requested_.set(outputs);
     LoopBound<kMostWaiting> later;
     while (count_ > 0 && at(count_ - 1).due_s >= due_s) {
       later.tick();
       --count_;
     }
-    if (wanted_ == (count_ > 0 ? at(count_ - 1).outputs : put_out_)) return;
+    if (requested_ == (count_ > 0 ? at(count_ - 1).outputs : active_)) return;
     if (count_ == kMostWaiting) --count_;
-    at(count_++) = {due_s, wanted_};
+    at(count_++) = {due_s, requested_};
   }
-  /// Voids what is not yet put out. [cyclic]
+  /// Drops all pending changes. [cyclic]
   void hold() {
     count_ = 0;
-    wanted_ = put_out_;
+    requested_ = active_;
   }
-  /// Puts out what is due at `now_s`. [cyclic]
+  /// Makes the changes that are due at `now_s`. [cyclic]
   void move_on(double now_s) {
     LoopBound<kMostWaiting> due;
     while (count_ > 0 && at(0).due_s <= now_s + kTimeRounding_s) {
       due.tick();
-      put_out_ = at(0).outputs;
+      active_ = at(0).outputs;
       first_ = (first_ + 1) % kMostWaiting;
       --count_;
     }
   }
-  const DigitalOutputs& put_out() const { return put_out_; }
-  /// True if changes wait.
+  const DigitalOutputs& active() const { return active_; }
+  /// True if changes are pending.
   bool waits() const { return count_ > 0; }
 
  private:
   struct Change {
     double due_s = 0.0;
-    DigitalOutputs outputs;  // all that is commanded from then on
+    DigitalOutputs outputs;  // all outputs commanded from then on
   };
   Change& at(std::size_t i) { return changes_[(first_ + i) % kMostWaiting]; }
 
   std::array<Change, kMostWaiting> changes_;
   std::size_t first_ = 0, count_ = 0;
-  DigitalOutputs wanted_, put_out_;
+  DigitalOutputs requested_, active_;
 };
 
 }  // namespace tactus

@@ -30,8 +30,9 @@ FaultVerdict fault_verdict(Status status, const Guard& guard, const Pipeline& pi
         with_block(pipeline[pipeline.failed], [](const auto& block) { return held(block); });
     if (!found.verdict.ok()) return found;
   }
-  const Guard::Telemetry& told = guard.telemetry();
-  return FaultVerdict({status, -1, told.tripped_joint, told.tripped_value, told.tripped_limit});
+  const Guard::Telemetry& telemetry = guard.telemetry();
+  return FaultVerdict(
+      {status, -1, telemetry.tripped_joint, telemetry.tripped_value, telemetry.tripped_limit});
 }
 
 }  // namespace tactus

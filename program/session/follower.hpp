@@ -1,5 +1,5 @@
 // Follower: a second machine that runs the same pipeline beside this program and is to do the same:
-// it is told what the first is told.
+// it receives the same messages as the first.
 #pragma once
 
 namespace tactus {

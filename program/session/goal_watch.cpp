@@ -8,7 +8,7 @@
 namespace tactus {
 namespace {
 
-constexpr double kReportPeriods = 10.0;  // a report comes a few cycles after what it tells
+constexpr double kReportPeriods = 10.0;  // a report arrives a few cycles after its event
 
 template <class Space>
 double goal_time_s(const ReferenceClient<Space>& client) {
@@ -36,7 +36,7 @@ VerdictAxes GoalWatch::axes() const {
 void GoalWatch::follow() {
   while (input_.takes_poses() ? session_.task_client.poll_feedback(tip_)
                               : session_.client.poll_feedback(joints_))
-    told_ = true;
+    reported_ = true;
 }
 
 double GoalWatch::latest_report_s() const {
@@ -46,7 +46,7 @@ double GoalWatch::latest_report_s() const {
 }
 
 Verdict GoalWatch::last_verdict() const {
-  if (!told_) return {Status::kNotStarted};
+  if (!reported_) return {Status::kNotStarted};
   return input_.takes_poses() ? session_.task_client.judge_goal(tip_)
                               : session_.client.judge_goal(joints_);
 }

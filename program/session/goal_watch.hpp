@@ -10,7 +10,7 @@ class GoalWatch {
  public:
   GoalWatch(Session& session, const TrajectoryInput& input) : session_(session), input_(input) {}
 
-  /// Takes what the generator has told about its goal since the last call. [cyclic]
+  /// Takes the generator's reports on its goal since the last call. [cyclic]
   void follow();
   /// Time until which a run waits for the generator's report on the end of the trajectory, s; of
   /// one that waits without an end, only for its cycles. Call it once the generator has started.
@@ -31,7 +31,7 @@ class GoalWatch {
   const TrajectoryInput& input_;
   Feedback<JointSpace> joints_;
   Feedback<TaskSpace> tip_;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace tactus

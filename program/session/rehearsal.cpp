@@ -82,7 +82,7 @@ Status TrajectoryRehearsal::cycle() {
   return status;
 }
 
-/// Takes what the generator tells; true if nothing of the trajectory is left in the store.
+/// Takes the generator's reports; true if no waypoint of the trajectory is left in the store.
 bool TrajectoryRehearsal::ended() {
   goal_.follow();
   while (poll_report(session_, input_, report_))

@@ -68,6 +68,6 @@ Reason stop_reason(const FaultVerdict& fault, std::string_view trouble = {});
 void print_stop(const char* subject, const char* event, const FaultVerdict& fault,
                 std::string_view trouble = {});
 /// Prints the pair of a contact.
-void print_collision(const Collision::Telemetry& told);
+void print_collision(const Collision::Telemetry& telemetry);
 
 }  // namespace tactus

@@ -19,7 +19,7 @@ struct RobotLimits {
 };
 
 /// Finds the limits that the options ask for. Returns the exit code: of one that is not kSucceeded
-/// the output has told the reason.
+/// the reason is printed.
 int find_limits(const Options& options, Output& output, RobotLimits& limits);
 
 }  // namespace tactus::ctl

@@ -1,5 +1,5 @@
 // JRG: the joint-space reference generator as a block with its ports and parameters; the generator
-// itself is in reference_generator.hpp. The block also puts out its reference as pose and twist of
+// itself is in reference_generator.hpp. The block also gives its reference as pose and twist of
 // the tool tip, for a chain of Cartesian blocks.   [Risi et al. 2026, section II]
 #pragma once
 
@@ -54,7 +54,7 @@ struct JointReferenceGenerator : StreamOutputs<> {
 
   /// Makes the measured position, at rest, the reference. kStateNotFinite. [init]
   Status start();
-  /// Puts out the reference of this cycle. kReferenceFault. [cyclic]
+  /// Outputs the reference of this cycle. kReferenceFault. [cyclic]
   Status step(double dt_s);
   /// Brings the reference to rest and refuses requests with `why` until the next start. Must be
   /// called in every cycle in which they are refused. [cyclic]

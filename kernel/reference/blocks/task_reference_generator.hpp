@@ -53,7 +53,7 @@ struct TaskReferenceGenerator : StreamOutputs<> {
 
   /// Makes the measured pose, at rest and without wrench, the reference. kStateNotFinite. [init]
   Status start();
-  /// Puts out the reference of this cycle. kReferenceFault. [cyclic]
+  /// Outputs the reference of this cycle. kReferenceFault. [cyclic]
   Status step(double dt_s);
   /// Brings the reference to rest and refuses requests with `why` until the next start. Must be
   /// called in every cycle in which they are refused. [cyclic]

@@ -35,7 +35,7 @@ class FeedbackPublisher : OnlyWithStreams<PathProgress> {
   /// Posts a message every `divisor` cycles from now on, none if 0. `measured` are the fields that
   /// are measured besides the position. Messages lost before are still reported. [init]
   void start(int divisor, Fields measured);
-  /// The progress that the messages tell from now on. [cyclic]
+  /// Sets the progress for the next messages. [cyclic]
   void set(const Progress& progress) { static_cast<Progress&>(*this) = progress; }
   /// Takes one cycle, numbered from 1 at start: its time, its reference, and the point measured in
   /// it. [cyclic]

@@ -104,7 +104,7 @@ class ReferenceGenerator {
   MotionState motion_state() const { return {time_s_, phase(), override_}; }
   /// Digital outputs as chunks and points have set them; none on a board without streams.
   DigitalOutputs outputs() const {
-    if constexpr (kStreams) return stream_.outputs.put_out();
+    if constexpr (kStreams) return stream_.outputs.active();
     return {};
   }
 
@@ -130,14 +130,14 @@ class ReferenceGenerator {
   void refuse(const Request<Space>& request, Status why);
   Verdict judge_point(const Point& point) const;
   Verdict judge_step(const Point& point, bool& forwards);
-  bool tell_saturated(const Verdict& verdict);
+  bool note_saturation(const Verdict& verdict);
   void take_point(const Request<Space>& request);
   void take_trajectory(const Request<Space>& request);
   void take_append(const Request<Space>& request);
   void take_other(const Request<Space>& request);
   void take_stream(const Request<Space>& request);
   void take_chunk(const Request<Space>& request);
-  Verdict judge_targets(const ChunkCurve<Space>& chunk, Verdict& told) const;
+  Verdict judge_targets(const ChunkCurve<Space>& chunk, Verdict& saturation) const;
   void take_velocity(const Request<Space>& request);
   bool in_order(const Request<Space>& request, std::uint32_t epoch, std::uint32_t sequence);
   void end_epoch();
@@ -146,7 +146,7 @@ class ReferenceGenerator {
     return false;
   }
   void void_request(const Request<Space>& request);
-  void begin_stream(std::uint32_t id, const Verdict& told = {});
+  void begin_stream(std::uint32_t id, const Verdict& saturation = {});
   void pass_outputs();
   void watch_expiry();
   void watch_supply();

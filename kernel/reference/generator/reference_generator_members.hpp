@@ -69,7 +69,7 @@ Status ReferenceGenerator<Space>::step(double dt_s, const Point& measured) {
   take_requests();
   if constexpr (kStreams) stream_.outputs.move_on(time_s());
   release_store();
-  monitor_.put_out(reference());
+  monitor_.record(reference());
   if constexpr (kStreams) feedback_.set(running_.any() ? motion_.progress() : PathProgress());
   feedback_.step(cycles_, time_s(), running_.any() ? running_.id : 0, reference(), measured,
                  channel_->feedback);

@@ -187,15 +187,15 @@ Verdict ReferenceGenerator<Space>::judge_step(const Point& point, bool& forwards
   return verdict;
 }
 
-/// True once for points that follow each other beyond the end of a range.
+/// Returns true for the first of consecutive points beyond the end of a range.
 template <class Space>
-bool ReferenceGenerator<Space>::tell_saturated(const Verdict& verdict) {
-  bool told = true;
+bool ReferenceGenerator<Space>::note_saturation(const Verdict& verdict) {
+  bool reported = true;
   if constexpr (kStreams) {
-    told = stream_.saturates;
+    reported = stream_.saturates;
     stream_.saturates = !verdict.ok();
   }
-  return !verdict.ok() && !told;
+  return !verdict.ok() && !reported;
 }
 
 /// Takes a point, which ends whatever ran before it: the paper's rule.
@@ -204,8 +204,8 @@ void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   assert(refusing_ == Status::kOk);
   const typename Space::Limits& limits = channel_->settings.limits;
   Point point = Space::placed(request.point, Space::latch(request.header, reference(), limits));
-  Verdict told;
-  if (kStreams && params_.online == OnlineMode::kLimit) told = Space::saturate(point, limits);
+  Verdict saturation;
+  if (kStreams && params_.online == OnlineMode::kLimit) saturation = Space::saturate(point, limits);
   bool forwards = params_.online != OnlineMode::kLimit;
   Verdict verdict = judge_point(point);
   if (verdict.ok() && params_.online == OnlineMode::kRefuse) verdict = judge_step(point, forwards);
@@ -219,8 +219,8 @@ void ReferenceGenerator<Space>::take_point(const Request<Space>& request) {
   forwards ? motion_.forward(point) : motion_.reach(point, stamp_s);
   end_running(Outcome::kAborted, !motion_.on_path());
   point_age_s_ = 0.0;
-  if constexpr (kStreams) stream_.outputs.ask(request.details.outputs, time_s());
-  report(request.id, Outcome::kExecuted, -1, tell_saturated(told) ? told : Verdict());
+  if constexpr (kStreams) stream_.outputs.request(request.details.outputs, time_s());
+  report(request.id, Outcome::kExecuted, -1, note_saturation(saturation) ? saturation : Verdict());
 }
 
 /// Begins a trajectory at once, lets it wait for its start time, or joins it late. A newer one

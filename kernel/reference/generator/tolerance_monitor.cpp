@@ -25,7 +25,7 @@ void ToleranceMonitor<Space>::begin(const Tolerances<Space>& tolerances) {
 }
 
 template <class Space>
-void ToleranceMonitor<Space>::put_out(const Point& reference) {
+void ToleranceMonitor<Space>::record(const Point& reference) {
   newest_ = (newest_ + 1) % line_.size();
   line_[newest_] = reference;
 }

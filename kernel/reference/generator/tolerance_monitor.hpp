@@ -25,8 +25,8 @@ class ToleranceMonitor {
   /// Begins a goal with its tolerances, or the time without one. [cyclic]
   void begin(const Tolerances<Space>& tolerances);
   /// Takes the reference of this cycle. [cyclic]
-  void put_out(const Point& reference);
-  /// Judges a cycle without a goal, after put_out(). Where every law holds the robot
+  void record(const Point& reference);
+  /// Judges a cycle without a goal, after record(). Where every law holds the robot
   /// (Space::kHeldByLaw), one whose reference has stayed within kRests of the path tolerance for
   /// longer than the goal time must be within that tolerance: kPathTolerance, or kOk. [cyclic]
   Verdict holds(const Point& measured, double dt_s);

@@ -82,7 +82,7 @@ class Motion {
   /// Forgets the points of a stream: the next one begins a new stream. [cyclic]
   void forget_points() { stream_.clear(); }
   /// Ends a trajectory: the robot has arrived. [cyclic]
-  void complete() { tell(MotionEvent::kComplete); }
+  void complete() { handle(MotionEvent::kComplete); }
 
   /// Takes up a longer part of the open trajectory it follows; refuses as Path::extend(). [cyclic]
   Verdict extend(const typename Space::Extent& more) { return path_.extend(more, *settings_); }
@@ -120,7 +120,7 @@ class Motion {
   /// Feed-forward fades out in this time, or in the period of a stream.
   static constexpr double kFade_s = 0.1;
 
-  void tell(MotionEvent event) {
+  void handle(MotionEvent event) {
     phase_ = next(phase_, event);
     if constexpr (kStreams) {
       if (!streams(phase_)) streams_.plan.clear();

@@ -31,7 +31,7 @@ void Motion<Space>::move_on(double dt_s) {
     reference_ = Space::come_to_rest(reference_, settings_->limits, dt_s);
     if (reference_.standing()) {
       hold(reference_);
-      tell(MotionEvent::kAtRest);
+      handle(MotionEvent::kAtRest);
     }
   } else {
     const MotionPhase was = phase_;
@@ -74,8 +74,8 @@ typename Space::Point Motion<Space>::base_of_path(double dt_s) {
   if (path_.ended(law_.s())) return end_path(point);
   braking_s_ += dt_s;
   if (phase_ == MotionPhase::kBraking && law_.standing()) return end_path(point);
-  if (law_.standing() && rate_ > 0.0 && path_.open()) tell(MotionEvent::kDry);
-  if (!law_.standing() && phase_ == MotionPhase::kStarving) tell(MotionEvent::kFed);
+  if (law_.standing() && rate_ > 0.0 && path_.open()) handle(MotionEvent::kDry);
+  if (!law_.standing() && phase_ == MotionPhase::kStarving) handle(MotionEvent::kFed);
   return point;
 }
 
@@ -89,7 +89,7 @@ typename Space::Point Motion<Space>::end_path(const Point& last) {
   if (path_.smooth()) offset_.ddx += Space::difference(last, rest).ddx;
   path_.leave();
   feed_beyond(last, held_, kFade_s);
-  tell(MotionEvent::kEnd);
+  handle(MotionEvent::kEnd);
   return rest;
 }
 
@@ -97,9 +97,9 @@ typename Space::Point Motion<Space>::end_path(const Point& last) {
 /// path that was to be left for a point is no arrival at that point.
 template <class Space>
 void Motion<Space>::arrive(MotionPhase was) {
-  if (phase_ == MotionPhase::kJoining) tell(MotionEvent::kJoined);
+  if (phase_ == MotionPhase::kJoining) handle(MotionEvent::kJoined);
   if (phase_ == MotionPhase::kReaching && was != MotionPhase::kLeaving && base_.standing())
-    tell(MotionEvent::kAtRest);
+    handle(MotionEvent::kAtRest);
 }
 
 template <class Space>
@@ -134,7 +134,7 @@ void Motion<Space>::forward(const Point& point) {
   hold(reference_);
   stream_.clear();
   fade_s_ = 0.0;
-  tell(MotionEvent::kPoint);
+  handle(MotionEvent::kPoint);
 }
 
 template <class Space>
@@ -147,7 +147,7 @@ void Motion<Space>::reach(const Point& point, double stamp_s) {
   held_ = point.stopped();
   if (can_leave()) return go();
   if (!given_up()) braking_s_ = 0.0;
-  tell(MotionEvent::kLeave);
+  handle(MotionEvent::kLeave);
 }
 
 /// True if the motion may leave its path for a stop. A path, and braking on it, stay inside limits;
@@ -177,7 +177,7 @@ template <class Space>
 void Motion<Space>::go() {
   path_.leave();
   feed_beyond(reference_, held_, stream_.moves(time_s_) ? stream_.period_s() : kFade_s);
-  tell(MotionEvent::kPoint);
+  handle(MotionEvent::kPoint);
 }
 
 template <class Space>
@@ -186,7 +186,7 @@ void Motion<Space>::stop() {
   feed_beyond(reference_, rest, kFade_s);
   if (reference_.standing()) hold(rest);
   path_.leave();
-  tell(MotionEvent::kStop);
+  handle(MotionEvent::kStop);
 }
 
 template <class Space>
@@ -194,13 +194,13 @@ void Motion<Space>::cancel() {
   if (phase_ == MotionPhase::kReaching || streams(phase_) || holds_effort() || !offset_.zero())
     return stop();
   if (!given_up()) braking_s_ = 0.0;
-  tell(MotionEvent::kCancel);
+  handle(MotionEvent::kCancel);
 }
 
 template <class Space>
 void Motion<Space>::pause(bool on) {
   paused_ = on;
-  tell(on ? MotionEvent::kPause : MotionEvent::kResume);
+  handle(on ? MotionEvent::kPause : MotionEvent::kResume);
 }
 
 template <class Space>
@@ -222,8 +222,8 @@ Verdict Motion<Space>::follow(const Trajectory<Space>& trajectory,
   offset_ = Space::difference(reference_, base_);
   feed_beyond(reference_, base_, kFade_s);
   lost_path_ = false;
-  tell(MotionEvent::kTrajectory);
-  if (paused_) tell(MotionEvent::kPause);
+  handle(MotionEvent::kTrajectory);
+  if (paused_) handle(MotionEvent::kPause);
   return {};
 }
 
@@ -238,9 +238,9 @@ Verdict Motion<Space>::enter(Path<Space>& path, const typename Space::Tolerance&
   if (path.first_s() > elapsed_s) {
     const bool stands = reference_.standing();
     Verdict verdict;
-    if (stands || !path.lead_in(reference_, elapsed_s, *settings_, Accuracy::kQuick).ok()) {
+    if (stands || !path.join_from(reference_, elapsed_s, *settings_, Accuracy::kQuick).ok()) {
       const Point rest = stands ? reference_ : Space::rest_of(reference_, settings_->limits);
-      verdict = path.lead_in(rest, elapsed_s, *settings_, Accuracy::kClose);
+      verdict = path.join_from(rest, elapsed_s, *settings_, Accuracy::kClose);
     }
     base = path.begin();
     return verdict;

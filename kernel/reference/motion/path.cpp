@@ -60,10 +60,10 @@ void Path<Space>::enter(double s) {
 }
 
 template <class Space>
-Verdict Path<Space>::lead_in(const Point& put_out, double s, const Settings& settings,
-                             Accuracy accuracy) {
+Verdict Path<Space>::join_from(const Point& sent, double s, const Settings& settings,
+                               Accuracy accuracy) {
   assert(accuracy != Accuracy::kFine);
-  const Point reference = Space::without_held(put_out, placement_);
+  const Point reference = Space::without_held(sent, placement_);
   // At rest the interpolation of the trajectory is used; in motion a quintic avoids steps.
   const Interpolation how =
       reference.standing() ? trajectory_->interpolation : Interpolation::kQuintic;

@@ -49,9 +49,9 @@ class Path {
   }
   /// Enters the path at path time s, which is not before its first waypoint. [cyclic]
   void enter(double s);
-  /// Enters by one segment from the reference `put_out` at path time s to the first waypoint, which
+  /// Enters by one segment from the reference `sent` at path time s to the first waypoint, which
   /// is ahead; refuses if the segment, measured with `accuracy`, breaks a limit. [cyclic]
-  Verdict lead_in(const Point& put_out, double s, const Settings& settings, Accuracy accuracy);
+  Verdict join_from(const Point& sent, double s, const Settings& settings, Accuracy accuracy);
   /// Ends following the path. [cyclic]
   void leave() { trajectory_ = nullptr; }
   bool running() const { return trajectory_ != nullptr; }

@@ -158,11 +158,11 @@ Verdict JointSpace::judge_waypoint(const Point& point, const Limits& limits) {
 Verdict JointSpace::saturate(Point& point, const Limits& limits) {
   Verdict first;
   for (int j = 0; j < kDof; ++j) {
-    const Verdict told =
+    const Verdict saturation =
         tactus::saturate(point.q[j], point.dq[j], limits.q_min[j], limits.q_max[j], j);
-    if (told.ok()) continue;
+    if (saturation.ok()) continue;
     point.ddq[j] = 0.0;
-    if (first.ok()) first = told;
+    if (first.ok()) first = saturation;
   }
   return first;
 }

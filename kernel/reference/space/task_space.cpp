@@ -276,11 +276,11 @@ Verdict TaskSpace::judge_waypoint(const Point& point, const Limits& limits) {
 Verdict TaskSpace::saturate(Point& point, const Limits& limits) {
   Verdict first;
   for (int i = 0; i < 3; ++i) {
-    const Verdict told =
+    const Verdict saturation =
         tactus::saturate(point.x.p[i], point.v[i], limits.p_min[i], limits.p_max[i], i);
-    if (told.ok()) continue;
+    if (saturation.ok()) continue;
     point.a[i] = 0.0;
-    if (first.ok()) first = told;
+    if (first.ok()) first = saturation;
   }
   return first;
 }
