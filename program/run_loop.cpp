@@ -23,7 +23,7 @@ void catch_interrupts() {
   for (const int brakes : {SIGINT, SIGTERM, SIGQUIT, SIGTSTP}) std::signal(brakes, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
   std::signal(SIGXFSZ, SIG_IGN);  // a log that becomes too large is an error of its file
-  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading the messages stops no arm
+  std::signal(SIGPIPE, SIG_IGN);  // a closed output must not stop the arm
 }
 
 void end_with(RunResult& result, int code, const char* name) {

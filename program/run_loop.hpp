@@ -46,12 +46,12 @@ class RunLoop {
   /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
   /// only a signal does. [init]
   void serve(CycleEndpoint& endpoint) { endpoint_ = &endpoint; }
-  /// Advances the executive's time by one period in every cycle, so that late ones
-  /// are no fault. [init]
+  /// Advances the executive's time by one period in every cycle, so that late cycles are no fault.
+  /// [init]
   void in_virtual_time() { virtual_ = true; }
-  /// Connects to the robot and asks for its drives. False: refused.
+  /// Connects to the robot and requests its drives. False: refused.
   bool start();
-  /// Takes what the robot says of a fault, disables its drives and closes the wire. The loops do so
+  /// Takes the robot's report of a fault, disables its drives and closes the wire. The loops do so
   /// at once after their last cycle: drives watch for the commands of every cycle.
   void stop();
   /// The fault that ended the cycles, and the robot's words on it.

@@ -77,7 +77,7 @@ bool Client::take_lease() {
 }
 
 bool Client::take_free_lease() {
-  ToServer request = wish_for_lease(0);  // which takes it from nobody
+  ToServer request = wish_for_lease(0);  // priority 0 takes it from no other client
   const bool answered = exchange(request);
   leased_ = answered && answer_.status() == 0;
   return answered;

@@ -36,7 +36,7 @@ CLI::Validator number(double lowest, double highest, const char* expected) {
       "");
 }
 
-/// A share of something, with a per cent sign or without; for transform(), which may write it anew.
+/// A share of something, with a per cent sign or without; for transform(), which may rewrite it.
 CLI::Validator share(double lowest, const char* expected) {
   return CLI::Validator(
       [=](std::string& text) {

@@ -213,7 +213,7 @@ MHD_Result PageServer::queue(MHD_Connection* connection, int status, MHD_Respons
   return queued;
 }
 
-/// A browser that is too slow has lost events: its stream ends, and it begins anew.
+/// The stream of a browser that has lost events, being too slow, ends; the browser reconnects.
 ssize_t PageServer::read_news(void* browser, std::uint64_t, char* to, std::size_t size) {
   Browser& its = *static_cast<Browser*>(browser);
   const EventRing& events = its.server->events_;

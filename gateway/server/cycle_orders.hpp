@@ -22,7 +22,7 @@ class CycleOrders {
   Reply post(CycleOrder what, const Origin& from, std::uint32_t faults);
   /// Posts an order for a new zero of the force/torque sensor. kNotOffered: the pipeline has none.
   Reply post_tare(const Origin& from, std::uint32_t faults);
-  /// True if the pipeline has one force/torque sensor, whose zero can be taken anew.
+  /// True if the pipeline has exactly one force/torque sensor, so that a tare is possible.
   bool offers_tare() const { return front_end_ >= 0; }
   /// True while a stop is not yet in force.
   bool stopping() const { return under_way(CycleOrder::kStop); }

@@ -16,7 +16,7 @@ class ReferenceRequests {
   /// Refuses fields that the robot or the pipeline cannot take.
   Reply judge_fields(const tactus_ToServer& message) const;
   /// Refuses a reference sent before a cancel or a stop was in force, whatever place it names.
-  /// After a cancel by another client, the owner must show that it knows of it.
+  /// After a cancel by another client, the owner must show that it has received it.
   Reply judge_void(const tactus_ToServer& message, const Connection& connection) const;
   /// True for the messages that execute() takes.
   static bool takes(pb_size_t kind);

@@ -47,8 +47,9 @@ class Server {
   /// A client has connected; `session` is a number that cannot be guessed. Returns the slot of its
   /// connection, -1: there are too many.
   int open(std::uint64_t session, std::int64_t now_ns);
-  /// There is no slot for a client that has connected. The longest idle one gives way, if one is;
-  /// returns the message, without its length, that tells the new one who has the places.
+  /// Refuses a new connection for lack of a slot, and disconnects the longest idle client, if any
+  /// is idle. Returns the message to the new client, without its length, with the names of the
+  /// others.
   Bytes turn_away(std::int64_t now_ns);
   /// Returns the space for received bytes; of size 0: the connection is not to be read at present.
   ByteSpace space(int slot);

@@ -136,7 +136,7 @@ bool Server::raises(pb_size_t what) const {
          !(request_.request.override.rate <= cycles_.newest().override);
 }
 
-/// A request that makes the arm move again, or faster, is valid only if its client knows of the
+/// A request that makes the arm move again, or faster, is valid only if its client has received all
 /// stops by others.
 Reply Server::judge_stops(int slot) const {
   std::uint32_t stops = 0;

@@ -33,7 +33,7 @@ bool is_other(const sockaddr_un& path) {
   return lstat(path.sun_path, &file) == 0 && !S_ISSOCK(file.st_mode);
 }
 
-/// True if nobody listens at the path any more.
+/// True if no process listens at the path any more.
 bool is_left_over(const sockaddr_un& path, int type) {
   if (access(path.sun_path, F_OK) != 0 || is_other(path)) return false;
   const int probe = ::socket(AF_UNIX, type | kFlags, 0);

@@ -12,9 +12,9 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
   ~Listener() { close(); }
 
-  /// Opens both sockets; a Unix socket has mode 0600, and replaces one that nobody listens at. Port
-  /// 0 is any that is free. Without `datagrams` only that for streams. False: `why` says what is in
-  /// the way. [init]
+  /// Opens both sockets; a Unix socket has mode 0600, and replaces one at which no process listens.
+  /// Port 0 is any that is free. Without `datagrams` only that for streams. False: `why` says what
+  /// is in the way. [init]
   bool open(const Address& address, bool datagrams, Message& why);
   void close();
 

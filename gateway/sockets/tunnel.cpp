@@ -9,7 +9,7 @@ constexpr std::string_view kProtocol = "tactus-1";
 constexpr std::size_t kPublic = crypto_scalarmult_BYTES;
 constexpr std::size_t kHeader = crypto_secretstream_xchacha20poly1305_HEADERBYTES;
 
-/// The keys of both directions, from what only the two ends know.
+/// The keys of both directions, derived from the secret of the two ends.
 struct Keys {
   std::array<std::uint8_t, 64> both;
 

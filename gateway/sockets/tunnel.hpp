@@ -11,7 +11,7 @@
 // a record that is changed, left out, repeated or from another connection does not open. Their keys
 // are the first (client to server) and the second half of the BLAKE2b hash of 64 bytes, keyed with
 // the common key, of "tactus-1", the X25519 secret, the client's and the server's key. Only who has
-// the common key can make a record that opens, which is how both ends know each other.
+// the common key can make a record that opens, which authenticates both ends.
 #pragma once
 
 #include <sodium.h>
@@ -42,7 +42,7 @@ class Tunnel {
   ByteSpace space() { return {in_.data() + in_size_, in_.size() - in_size_}; }
   void received(std::size_t count) { in_size_ += count; }
   /// Opens the next record if the last one's bytes were all taken. False: the connection must end,
-  /// because the other end does not have the key or somebody has changed something.
+  /// because the other end does not have the key, or data was changed on the way.
   bool open();
   /// Plain bytes that have come.
   Bytes plain() const { return {plain_.data() + plain_first_, plain_size_}; }

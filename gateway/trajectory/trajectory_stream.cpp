@@ -119,7 +119,7 @@ bool TrajectoryStream<Space>::judge_parts(const AdmissionSettings<Space>& settin
   }
 }
 
-/// Takes what the judge knows of the file up to now.
+/// Takes the judge's results so far.
 template <class Space>
 bool TrajectoryStream<Space>::judged(const Verdict& verdict) {
   if (!verdict.ok()) return refuse(verdict);

@@ -3,7 +3,7 @@
 //
 // connect() resets, checks and configures the drives and enables none. A drive's fault is a fault
 // of its joint, and the drives can be armed again; read() fails only if a bus does not work any
-// more (bus-off, interface down) or somebody else commands the drives, and from then on until the
+// more (bus-off, interface down) or another node commands the drives, and from then on until the
 // next connect().
 #pragma once
 

@@ -84,7 +84,7 @@ void CanMaster::receive(int bus, const CanFrame& frame, std::int64_t now_ns) {
   }
 }
 
-/// Feedback of another size was sent by somebody else, or by a drive that lost its mapping.
+/// Feedback of another size comes from another sender, or from a drive that lost its mapping.
 void CanMaster::take_feedback(Node& node, const CanFrame& frame) {
   if (frame.size != layout_.feedback_size() || frame.fd != layout_.fd()) return;
   layout_.decode(frame, node.feedback);

@@ -20,7 +20,7 @@ class NodeScan {
  public:
   static constexpr std::int64_t kSpacing_ns = 1'000'000;
 
-  /// Begins a scan and forgets the one before. [init]
+  /// Begins a scan and discards the previous one. [init]
   void begin(const ScanTimes& times, std::int64_t now_ns);
   /// Copies the next frame to send; false: there is none now. [init]
   bool take(CanFrame& request);

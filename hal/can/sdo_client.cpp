@@ -126,7 +126,7 @@ void SdoClient::take_answer(const CanFrame& answer) {
 }
 
 /// Every answer but a segment names its object. One on another object is late, or repeated by the
-/// bus, or the answer to somebody else.
+/// bus, or an answer to another client.
 bool SdoClient::names_object(const CanFrame& answer) const {
   const bool segments = step_ == TransferStep::kReadSegment || step_ == TransferStep::kWriteSegment;
   const bool segment =

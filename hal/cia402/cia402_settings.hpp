@@ -53,7 +53,7 @@ struct Cia402Settings {
   Encoder encoder = Encoder::kMultiTurn;
   int referenced_bit =
       -1;  ///< of the statusword, if the drive has one; -1: it is always referenced
-  /// 6098h of a drive that does not know its position after power-on; 0: arming homes none.
+  /// 6098h for a drive without a position reference after power-on; 0: arming homes none.
   JointVector homing_method = JointVector::Zero();
   int homing_ms = 30000;  ///< longest homing of a joint
   Gravity gravity = Gravity::kCommand;
@@ -65,7 +65,7 @@ struct Cia402Settings {
   int reset_ms = 1000;  ///< longest time until a fault is reset
   int stop_ms = 2000;   ///< longest quick stop, before the voltage is cut
   int brake_ms = 200;   ///< after enabling, until the brakes are open
-  int limited_ms = 50;  ///< a drive may limit what is commanded; 0: for as long as it wants
+  int limited_ms = 50;  ///< longest time that a drive may limit commands; 0: any time
   int max_missed = 3;   ///< cycles in a row without feedback of a joint that are bridged
 
   /// Time from enabling until the first command, ms. Even after the latest opening of a brake it

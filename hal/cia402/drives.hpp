@@ -111,7 +111,7 @@ class Drives {
     int owed = 0, since_owed = 0;  // cycles without feedback that are not forgotten, cycles since
     int confirmed = 0;             // samples in a row that show it disabled
     bool homes = false;            // its mode is homing, or was not seen to be another
-    bool placed = true;            // q is of a drive that knows its position
+    bool placed = true;            // q is of a drive with a position reference
     Status reason = Status::kOk;   // of its failure
     std::uint32_t code = 0;
 

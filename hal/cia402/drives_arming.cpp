@@ -64,7 +64,7 @@ void Drives::take(DriveRequest request) {
   }
 }
 
-/// Refuses to arm a drive that was lost, does not know its position, or has moved in an arming.
+/// Refuses to arm a drive that was lost, has no position reference, or has moved during arming.
 bool Drives::ready(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   const DriveFeedback& last = joint.last;

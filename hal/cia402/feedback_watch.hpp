@@ -18,7 +18,7 @@ class FeedbackWatch {
   static constexpr double kLeast_rad = 0.01;  ///< of a contradiction: a filter's delay, noise
   static constexpr double kShare = 0.25;      ///< of the way, in addition
 
-  /// Begins anew, at rest. [init, cyclic]
+  /// Restarts, at rest. [init, cyclic]
   void start() { change_ = most_ = by_dq_ = by_q_ = way_ = 0.0; }
   /// Takes a sample: the change of position since the last, rad, the time between them, s, and the
   /// largest velocity of the joint, rad/s. [cyclic]

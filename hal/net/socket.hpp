@@ -1,5 +1,5 @@
-// Socket: a TCP connection that blocks only where it connects and waits, for no longer than it is
-// told. The cycle only takes bytes that have come and sends without waiting.
+// Socket: a TCP connection. Only connecting and waiting block, for the given time at most; in the
+// cycle it takes bytes that have arrived and sends without waiting.
 #pragma once
 
 #include <cstddef>

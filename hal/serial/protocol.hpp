@@ -43,7 +43,7 @@ enum class Kind : std::uint8_t {
   kReports = 26,     ///< -> up to 16 of the reports that wait
   kFault = 27,       ///< -> the fault record, if there is one
   kForget = 28,      ///< deletes the fault record
-  kProvoke = 29,     ///< Provocation u8; only an image made for tests knows it
+  kProvoke = 29,     ///< Provocation u8; only test images support it
   // Sent by the board.
   kCommand = 64,  ///< cycle: the command of a cycle
   kAnswer = 65,   ///< to the message whose number it has: Status u8, and what the message says

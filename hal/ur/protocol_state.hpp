@@ -31,7 +31,7 @@ enum Port : std::uint16_t {
 };
 
 /// Bytes of a packet on the real-time port: each version appends to the one before. The packets of
-/// 3.14 and 3.15 are not published; a reader takes the prefix it knows.
+/// 3.14 and 3.15 are not published; a reader takes the prefix that it supports.
 constexpr std::size_t realtime_size(const Version& version) {
   if (version.at_least(5, 10)) return 1220;
   if (version.at_least(5, 9)) return 1140;

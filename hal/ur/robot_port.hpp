@@ -9,7 +9,7 @@ namespace tactus::ur {
 
 class RobotPort {
  public:
-  /// Connects and forgets earlier messages of the robot. [init]
+  /// Connects and discards earlier messages of the robot. [init]
   Status connect(const char* address, int port, const Deadline& deadline, Message& why);
   /// Begins the upload of a program, which must stay where it is until the upload is over, and
   /// forgets the last runtime exception. [cyclic]

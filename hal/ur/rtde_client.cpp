@@ -88,7 +88,7 @@ Status RtdeClient::ask(ByteWriter& request, RtdeType type, const Deadline& deadl
   return Status::kBusTimeout;
 }
 
-/// Requests protocol 2, then 1: a controller refuses a protocol that it does not know.
+/// Requests protocol 2, then 1: a controller refuses a protocol that it does not support.
 Status RtdeClient::ask_protocol(const Deadline& deadline, Message& why) {
   for (; protocol_ > 0; --protocol_) {
     Request bytes;

@@ -1,8 +1,8 @@
 // RtdeClient: the conversation of port 30004. The start agrees on protocol 2, or 1 if the
-// controller knows no other, reads the version, and sets up one recipe of outputs and one of
-// inputs. A recipe with a field that the controller does not know is void; where it can do without,
-// the start is made once more. Then the robot sends a data package in every cycle and receives
-// set-points.
+// controller supports no other, reads the version, and sets up one recipe of outputs and one of
+// inputs. A recipe with a field that the controller does not support is void; where it can do
+// without, the start is made once more. Then the robot sends a data package in every cycle and
+// receives set-points.
 #pragma once
 
 #include "hal/net/socket.hpp"
@@ -122,7 +122,7 @@ class RtdeClient {
   double rate_hz_ = 0.0;
   std::size_t inputs_ = kSetPointFields;  // fields of the recipe
   ToolFields offered_{};
-  bool recipe_void_ = false;  // it had fields that the controller does not know
+  bool recipe_void_ = false;  // it had unsupported fields
   DigitalOutputs outputs_;
   std::uint8_t output_recipe_ = 0, input_recipe_ = 0;
 };

@@ -101,7 +101,7 @@ class WrenchFrontEnd {
   /// True until the tare that was asked for has its result. [between two cycles]
   bool tares() const { return request_.runs(); }
   /// The result of the last one: kOk, kTareLimit, kSensorNotSteady, why it was braked, or
-  /// kNotStarted if the block was started anew. [between two cycles]
+  /// kNotStarted if the block was restarted. [between two cycles]
   Verdict tared() const { return request_.verdict(); }
   /// Changes the tunable parameters: h goes on, and its difference fades in kTransfer_s.
   /// [between two cycles], after a step

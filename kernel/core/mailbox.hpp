@@ -1,6 +1,6 @@
 // Mailbox: a wait-free queue of fixed size between exactly one producer and one consumer. A full
-// mailbox refuses a message and never overwrites one: the producer always knows, so nothing is lost
-// silently.
+// mailbox refuses a message and never overwrites one: the producer always gets the result, so
+// nothing is lost silently.
 #pragma once
 
 #include <atomic>

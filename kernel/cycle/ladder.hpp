@@ -41,10 +41,10 @@ enum class Cause : std::uint8_t {
   kDrive,     ///< a drive is not enabled, or could not be armed
   kAtRest,    ///< a brake has come to rest
   kStopTime,  ///< a brake has not come to rest in time
-  kHalt,      ///< somebody asked for a stop on the path
-  kOff,       ///< somebody asked for the drives to be disabled
+  kHalt,      ///< a stop on the path was requested
+  kOff,       ///< disabling the drives was requested
   kMoved,     ///< an arm that was held at rest has moved
-  kArm,       ///< somebody asked for the drives to be armed
+  kArm,       ///< arming the drives was requested
   kArmTime,   ///< the drives are not enabled, or the arm is not at rest, in time
   kRearm,     ///< the arm is commanded again
   kRefused,   ///< connecting or arming was refused

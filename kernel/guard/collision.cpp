@@ -149,7 +149,7 @@ Status Collision::advance(const RobotState& measured, const JointVector* sag) {
   return Status::kOk;
 }
 
-/// Adds up the angles. A sum that has grown large begins anew: rounding would eat into the credits.
+/// Adds up the angles. A large sum restarts from zero, as its rounding would reduce the credits.
 void Collision::travel(const JointVector& q) {
   constexpr double kLarge = 100.0;  // rad
   bool small = true;

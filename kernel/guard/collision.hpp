@@ -60,7 +60,7 @@ class Collision {
     std::int64_t checks = 0;               ///< ended, by a contact too
   };
 
-  /// Sets up the pairs, and lets a check begin anew. `limits` are those of [guard]; `tip` is the
+  /// Sets up the pairs and restarts the check. `limits` are those of [guard]; `tip` is the
   /// tool tip, m, in the flange frame; `reference` are the positions that the joints follow, rad,
   /// null if they are not known. The boxes stay where they are then. Section and reference
   /// must outlive this object. [init]
@@ -68,7 +68,7 @@ class Collision {
                            const Vector3& tip, double period_s,
                            const JointVector* reference = nullptr);
 
-  /// Lets a check begin anew, with a reference that rests and boxes as they are now. [init]
+  /// Restarts the check, with a reference at rest and the boxes as they are now. [init]
   [[gnu::cold]] void begin_anew();
 
   /// Does a cycle's part of a check. `measured` counts in the cycle in which a check begins.

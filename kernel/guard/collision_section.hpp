@@ -49,7 +49,7 @@ struct CollisionSection {
   /// which share of a step of the reference it overshoots. NaN: not known, a contact.
   JointVector lateness = JointVector::Constant(kRequired);
   JointVector overshoot = JointVector::Constant(kRequired);
-  /// By how much each joint gives way to a torque that the law does not know, rad/(N m).
+  /// Compliance of each joint to torques that the law does not model, rad/(N m).
   JointVector compliance = JointVector::Constant(kRequired);
   double unknown_payload = 0.0;                 ///< kg at the tip, unknown to a law of torques
   JointVector braking = JointLimits().ddq_max;  ///< each joint's, braked at once, rad/s^2

@@ -1,4 +1,4 @@
-// ParameterBook: the parameters of a pipeline that runs, for whoever changes them outside the
+// ParameterBook: the parameters of a running pipeline, for a client that changes them outside the
 // cycle. It has a copy of every block with tunable parameters, three times: as the file has it, as
 // it is now, and as it will be. A set is read into the last, as a section of the file would be, and
 // the cycle takes it from there:

@@ -50,7 +50,7 @@ inline double rest_velocity(double v, double a, double j) {
   return v + 0.5 * a * std::abs(a) / j;
 }
 
-/// Returns the rise of radicand q, for a caller that knows q better than from w - v.
+/// Returns the rise of radicand q, for a caller that has q more exactly than w - v.
 inline VelocityChange rise_of_radicand(double q, double v, double a, double w, double a_max,
                                        double j) {
   const bool holds = q >= a_max * a_max;

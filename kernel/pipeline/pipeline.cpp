@@ -48,7 +48,7 @@ constexpr bool kKeepsJoints = false;
 template <class Kind>
 constexpr bool kKeepsJoints<Kind, std::void_t<decltype(&Kind::keep_within)>> = true;
 
-/// A block whose command must not step has a resume(); the others start anew.
+/// A block whose command must not step has a resume(); the others restart.
 template <class Kind>
 Status resume_block(Kind& block, double period_s) {
   if constexpr (kResumes<Kind>)

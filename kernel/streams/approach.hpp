@@ -1,4 +1,4 @@
-// Approach: the bound of the velocity on the way to points or chunks that begin anew, as those of a
+// Approach: the bound of the velocity on the way to points or chunks of a new motion, as those of a
 // leader that is far from the arm. It lasts until the reference is at the place where it is to
 // rest, or, beside what moves, as near as it goes in kNear_s.
 #pragma once

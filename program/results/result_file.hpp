@@ -17,7 +17,7 @@ class ResultFile {
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// Begins the file at `path` anew. False: prints the reason to stderr.
+  /// Creates or truncates the file at `path`. False: prints the reason to stderr.
   bool open(const char* path);
   /// The stream to write to; close() finds what could not be written.
   std::FILE* stream() const { return stream_; }

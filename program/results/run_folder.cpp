@@ -157,7 +157,7 @@ bool RunFolder::complete(bool of_cycles) {
   const FilePath earlier = file(kEarlier);
   if (!of_cycles || !exists(in_folder(earlier, kSummary))) return true;
   if (!remove_results(earlier)) return false;
-  rmdir(earlier.c_str());  // it stays if somebody keeps other files there
+  rmdir(earlier.c_str());  // kept if it contains other files
   return true;
 }
 

@@ -35,7 +35,7 @@ class RunFolder {
   /// replaces the one set aside. False: prints the reason to stderr.
   bool complete(bool of_cycles);
   /// For a run that was refused before begin(): if an earlier one has ended in the folder, sets it
-  /// aside, so that nobody takes it for this one, and says so. A folder in which another run
+  /// aside, so that it is not mistaken for this one, and says so. A folder in which another run
   /// writes, or that is not there, is left alone.
   void refuse(const RunInputs& inputs);
 

@@ -1,4 +1,4 @@
-// The fault that ended the cycles, as the kernel knows it: joint or axis, value and limit.
+// The fault that ended the cycles, from the kernel: joint or axis, value and limit.
 #pragma once
 
 #include "gateway/verdict_text.hpp"
@@ -7,7 +7,7 @@
 namespace tactus {
 
 /// Returns what the guard has found, or of a reference that is not held (kPathTolerance) the block
-/// that watches it; `status` alone if neither knows more. [between two cycles]
+/// that watches it; `status` alone if neither has more. [between two cycles]
 FaultVerdict fault_verdict(Status status, const Guard& guard, const Pipeline& pipeline);
 
 }  // namespace tactus

@@ -32,8 +32,8 @@ TrajectoryRehearsal::TrajectoryRehearsal(Session& session, TrajectoryInput& inpu
                   std::llround(params.limiting_window / session.pipeline.robot.period_s()));
 }
 
-/// Moves the robot to where `command` wants it at the end of a cycle; of torques, to where the law
-/// wants it.
+/// Moves the robot to the commanded position at the end of a cycle; for torques, to the position at
+/// which the law holds it.
 void TrajectoryRehearsal::obey(const RobotCommand& command) {
   const double period_s = session_.pipeline.robot.period_s();
   const JointVector before = state_.q;

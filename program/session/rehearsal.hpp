@@ -1,8 +1,8 @@
-// TrajectoryRehearsal: the chain runs a trajectory with a robot that is at once where it is told to
-// be, and whose sensors feel what they feel now. So `tactus check` finds what the law and the guard
-// make of a trajectory that admission accepts, before anything moves. A robot that takes torques is
-// at once where its law is to hold it: then the law asks for what that takes. The collision check
-// sees the arm that lags as the loop lets it (lateness.hpp).
+// TrajectoryRehearsal: runs the chain on a trajectory with an ideal robot, which follows commands
+// without delay while its sensors keep their present values. So `tactus check` finds, before
+// anything moves, how law and guard treat a trajectory that admission accepts. A robot with torque
+// commands is always at the position at which its law is to hold it, so the law gives the torque
+// for that. The collision check uses an arm that lags as the closed loop does (lateness.hpp).
 #pragma once
 
 #include "kernel/cycle/limiting_watch.hpp"

@@ -6,7 +6,7 @@ namespace tactus::ctl {
 namespace {
 
 constexpr double kTurnsBack = -0.9;   // cosine between the directions: 2.7 rad
-constexpr double kStraightOn = 1e-9;  // change of direction that nobody notices
+constexpr double kStraightOn = 1e-9;  // negligible change of direction
 constexpr double kShortest = 1e-9;    // waypoints nearer than this are the same
 constexpr double kPeak = 3.0 / 16.0;  // distance of a blend from its corner, by L |d2 - d1|
 /// Share of a tolerance that blends use. The rest covers coinciding waypoints, and polynomials that

@@ -18,8 +18,8 @@ struct RobotLimits {
   Numbers lowest, highest;  ///< of the joints, rad
 };
 
-/// Finds the limits that the options ask for. Returns the exit code: of one that is not kSucceeded
-/// the reason is printed.
+/// Finds the limits that the options select. Returns the exit code; unless it is kSucceeded, the
+/// reason is printed.
 int find_limits(const Options& options, Output& output, RobotLimits& limits);
 
 }  // namespace tactus::ctl

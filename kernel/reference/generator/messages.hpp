@@ -47,10 +47,10 @@ enum class ControlKind : std::uint8_t {
   kOverride,  ///< pass trajectories at a fraction of their speed
   kPause,     ///< stop on the path and keep the trajectory
   kResume,    ///< go on after a pause
-  kSlowDown,  ///< as kOverride, from whoever may only slow the arm down
+  kSlowDown,  ///< as kOverride, from a client that may only slow the arm down
 };
 
-/// A command that must never wait for a point, a trajectory or a report that nobody fetches.
+/// A command that must never wait for a point, a trajectory or an unread report.
 /// Controls and requests share one sequence of numbers.
 struct Control {
   std::uint32_t id = 0;
@@ -142,7 +142,8 @@ struct ReferenceChannel : OnlyWithStreams<ChunkStores<Space>> {
   std::array<Trajectory<Space>, kStores> stores;
   /// First waypoint of each store that the motion still needs; earlier ones may be overwritten.
   std::array<std::atomic<int>, kStores> needed{};
-  /// Number of waypoints of each store that the generator knows of; negative if none will follow.
+  /// Number of waypoints of each store that the generator has received; negative if none will
+  /// follow.
   std::array<std::atomic<int>, kStores> known{};
 };
 

@@ -36,7 +36,7 @@ constexpr const char* name(OnlineMode online) {
 /// Bounds of points in addition to the limits.
 struct PointBounds {
   double max_step = 0.0;  ///< largest distance from the reference: rad, of a tip m and rad; 0: any
-  /// Largest velocity on the way to points or chunks that begin anew: rad/s, of a tip m/s and
+  /// Largest velocity on the way to points or chunks of a new motion: rad/s, of a tip m/s and
   /// rad/s; 0: the limit.
   double approach_speed = 0.0;
 };

@@ -24,7 +24,7 @@ Status ReferenceGenerator<Space>::start(ReferenceChannel<Space>& channel, const 
   FeedbackPublisher<Space> feedback = feedback_;
   feedback.start(params.feedback_divisor, params.measured);
   const OnlyWithStreams<StreamAccount<Space>> stream = stream_;
-  new (this) ReferenceGenerator();  // anew in its place: a copy would be large on the stack
+  new (this) ReferenceGenerator();  // constructed in place: a copy would be large on the stack
   feedback_ = feedback;
   stream_ = stream;
   if constexpr (kStreams) stream_.outputs = {};

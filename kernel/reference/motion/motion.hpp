@@ -1,4 +1,4 @@
-// Motion: moves the reference, through its phases and without steps between them. It knows nothing
+// Motion: moves the reference, through its phases and without steps between them. It is independent
 // of messages.
 //
 // The reference is a base plus an offset. The base is a path, passed at the rate of its law, a
@@ -41,7 +41,7 @@ class Motion {
 
   /// Holds the position of `point` at rest. `settings` must outlive the motion. [init]
   [[gnu::cold]] void start(const Point& point, const Settings& settings);
-  /// After start(): points and chunks that begin anew are approached at no more than `speed`,
+  /// After start(): points and chunks of a new motion are approached at no more than `speed`,
   /// rad/s, for a tip m/s and rad/s; 0: the limit. [init]
   [[gnu::cold]] void approach_at(double speed);
   /// Moves the reference one period ahead. [cyclic]

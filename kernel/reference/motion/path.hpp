@@ -43,7 +43,7 @@ class Path {
   Path(const Trajectory<Space>& trajectory, const Point& reference,
        const typename Space::Limits& limits);
 
-  /// Judges the placement, which admission could not know. [cyclic]
+  /// Judges the placement, which was not available at admission. [cyclic]
   Verdict judge_placement(const Settings& settings) const {
     return Space::judge_placed(extent_, placement_, settings.limits);
   }

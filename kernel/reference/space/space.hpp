@@ -15,15 +15,15 @@
 // A client may leave out joints, or give its references in frames of its own:
 //
 //   Header      The joints that a reference leaves out, or the frames it is given in. The client
-//               sends it with the reference. Admission does not know yet where those joints and
-//               frames will be, so it judges the known_limits() of the header only.
+//               sends it with the reference. At admission the poses of those joints and frames
+//               are not fixed yet, so it judges the known_limits() of the header only.
 //   Placement   The header resolved by latch(): where the joints that are left out are held, or
 //               the poses of the frames in the base frame. The generator resolves it when it takes
 //               a point and when it begins a trajectory. The placement of a trajectory stays the
 //               same to its end; a moving frame is used as it was then.
 //   Extent      The part of the position range and of the wrench limits that a path uses: the box
 //               it covers, its largest force and moment. Admission collects it over all segments,
-//               so that the generator, once it knows the placement, can judge a path of any length
+//               so that the generator, once the placement is fixed, can judge a path of any length
 //               by one judge_placed().
 #pragma once
 

@@ -3,7 +3,7 @@
 // An acceleration that raises the speed, or is across the velocity, is first reduced to zero by a
 // jerk against it, during which the velocity goes straight to v + a |a| / (2 j). Then the vector
 // stops on the line of its velocity like a single axis. So the speed never exceeds the larger of
-// |v| and |v + a |a| / (2 j)|, at whatever times the stop is planned anew.
+// |v| and |v + a |a| / (2 j)|, at whatever times the stop is replanned.
 #pragma once
 
 #include <array>
