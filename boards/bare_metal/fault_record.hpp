@@ -8,16 +8,17 @@ namespace bare {
 using tactus::serial::FaultCause;
 using tactus::serial::FaultRecord;
 
-/// The record that the last run left; kNone: none, or it was forgotten. [any]
+/// The record of the last run; kNone: none, or it was cleared. [any]
 const FaultRecord& fault_record();
 /// [any]
 void forget_fault();
-/// Keeps a record, tells the plant that its drives are to be disabled, and starts the board again.
+/// Keeps a record, sends the request to disable the drives, and restarts the board.
 /// [any, also out of a fault]
 [[noreturn]] void end_with(const FaultRecord& record);
 
-/// What the board's program does last, with nothing but its own stack: disables the drives.
-void last_words();
+/// Sends the request to disable the drives, the last action of the program. Needs only its own
+/// stack.
+void send_disable();
 /// The number of the present cycle. [any]
 std::uint32_t cycle_number();
 

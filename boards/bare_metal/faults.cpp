@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint32_t kMagic = 0x7AC7C0DE;
 
-/// Of the record as it lies there.
+/// Check sum of the record in memory.
 std::uint32_t sum() {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&kept_fault.record);
   return tactus::serial::crc32<sizeof(FaultRecord)>(bytes, sizeof(FaultRecord));
@@ -65,7 +65,7 @@ void end_with(const FaultRecord& record) {
   kept_fault.record.count = count;
   kept_fault.record.cycle = cycle_number();
   kept_fault.sum = sum();
-  last_words();
+  send_disable();
   asm volatile("dsb");
   at(kAircr) = kSystemReset;
   for (;;) {

@@ -80,7 +80,7 @@ std::uint32_t cycle_number() {
   return result.cycle;
 }
 
-void last_words() {
+void send_disable() {
   std::uint8_t nothing[1];
   result.command.request = DriveRequest::kDisable;
   board_link.send(result);

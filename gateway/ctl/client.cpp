@@ -61,7 +61,7 @@ bool Client::connect() {
   return true;
 }
 
-ToServer Client::wish_for_lease(int priority) const {
+ToServer Client::lease_request(int priority) const {
   ToServer request;
   Lease& lease = *request.mutable_lease();
   lease.set_wish(Lease::TAKE);
@@ -71,13 +71,13 @@ ToServer Client::wish_for_lease(int priority) const {
 }
 
 bool Client::take_lease() {
-  ToServer request = wish_for_lease(options_.priority);
+  ToServer request = lease_request(options_.priority);
   leased_ = ask(request);
   return leased_;
 }
 
 bool Client::take_free_lease() {
-  ToServer request = wish_for_lease(0);  // priority 0 takes it from no other client
+  ToServer request = lease_request(0);  // priority 0 takes it from no other client
   const bool answered = exchange(request);
   leased_ = answered && answer_.status() == 0;
   return answered;

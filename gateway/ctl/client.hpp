@@ -48,7 +48,7 @@ class Client {
   bool refuse(const std::string& text);
 
  private:
-  ToServer wish_for_lease(int priority) const;
+  ToServer lease_request(int priority) const;
   bool exchange(ToServer& request);
   bool lose(const std::string& reason);
   bool take_all();

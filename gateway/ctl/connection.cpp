@@ -66,11 +66,11 @@ bool Connection::open_unix(const std::string& path, int timeout_ms) {
 }
 
 bool Connection::open_tcp(const std::string& host, const std::string& port, int timeout_ms) {
-  addrinfo wish{}, *found = nullptr;
-  wish.ai_socktype = SOCK_STREAM;
-  wish.ai_flags = AI_NUMERICSERV;
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_NUMERICSERV;
   const std::string place = "tcp:" + host + ":" + port + ": ";
-  const int code = getaddrinfo(host.c_str(), port.c_str(), &wish, &found);
+  const int code = getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
   if (code != 0) return fail(place + gai_strerror(code) + "; write tcp:HOST:PORT");
   bool connected = false;
   for (const addrinfo* one = found; one != nullptr && !connected; one = one->ai_next) {
@@ -166,7 +166,7 @@ bool Connection::take_message(ToClient& message, ReceiveResult& result) {
   return true;
 }
 
-Connection::ReceiveResult Connection::stranger() {
+Connection::ReceiveResult Connection::fail_key() {
   fail("the server does not have this key, or somebody changes what is sent; give its key file");
   return ReceiveResult::kGone;
 }
@@ -180,13 +180,13 @@ Connection::ReceiveResult Connection::receive(ToClient& message) {
     if (count > 0) {
       (tunnel_ ? sealed_ : received_).append(bytes, static_cast<std::size_t>(count));
       if (tunnel_ && !tunnel_->open(sealed_, received_)) {
-        return stranger();
+        return fail_key();
       }
       opened_ = !received_.empty() || opened_;
     } else if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
       return ReceiveResult::kNothing;
     } else {
-      if (tunnel_ && !opened_) return stranger();
+      if (tunnel_ && !opened_) return fail_key();
       fail(count == 0 ? std::string("the server has closed the connection")
                       : std::string("the server is gone: ") + std::strerror(errno));
       return ReceiveResult::kGone;

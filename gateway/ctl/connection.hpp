@@ -42,7 +42,7 @@ class Connection {
   bool open_tcp(const std::string& host, const std::string& port, int timeout_ms);
   bool connect_within(const void* address, std::size_t size, int timeout_ms);
   bool fail(const std::string& reason);
-  ReceiveResult stranger();
+  ReceiveResult fail_key();
   bool send_all(const std::string& bytes, int timeout_ms);
   bool receive_exactly(std::string& bytes, std::size_t count, int timeout_ms);
   bool take_message(ToClient& message, ReceiveResult& result);

@@ -17,7 +17,7 @@ int Server::open(std::uint64_t session, std::int64_t now_ns) {
 }
 
 /// A client is idle that neither owns the motion nor watches, and has sent only Pings for a minute.
-Bytes Server::turn_away(std::int64_t now_ns) {
+Bytes Server::refuse_connection(std::int64_t now_ns) {
   int idle = Lease::kNoOwner;
   Message names;
   for (int slot = 0; slot < kMostClients; ++slot) {

@@ -50,7 +50,7 @@ class Server {
   /// Refuses a new connection for lack of a slot, and disconnects the longest idle client, if any
   /// is idle. Returns the message to the new client, without its length, with the names of the
   /// others.
-  Bytes turn_away(std::int64_t now_ns);
+  Bytes refuse_connection(std::int64_t now_ns);
   /// Returns the space for received bytes; of size 0: the connection is not to be read at present.
   ByteSpace space(int slot);
   void received(int slot, std::size_t count, std::int64_t now_ns);

@@ -216,9 +216,9 @@ void Server::welcome(Connection& to, std::uint32_t number, std::int64_t now_ns) 
 }
 
 Reply Server::lease(int slot, std::int64_t now_ns) {
-  const tactus_Lease& wish = request_.request.lease;
-  if (wish.wish > tactus_Lease_Wish_RELEASE) return {Status::kBadValue, "Lease.wish is unknown"};
-  if (wish.wish == tactus_Lease_Wish_RELEASE) {
+  const tactus_Lease& lease = request_.request.lease;
+  if (lease.wish > tactus_Lease_Wish_RELEASE) return {Status::kBadValue, "Lease.wish is unknown"};
+  if (lease.wish == tactus_Lease_Wish_RELEASE) {
     if (lease_.owner() != slot) return {Status::kNotOwner, "this client has no lease to give back"};
     lease_.end();
     const Origin client = {slot, at(slot).session, 0};
@@ -231,13 +231,13 @@ Reply Server::lease(int slot, std::int64_t now_ns) {
     clients_.send_event("lease", Status::kOk, text << " has given the lease back", now_ns);
     return {};
   }
-  const std::uint32_t timeout_ms = wish.timeout_ms == 0 ? kDefaultLease_ms : wish.timeout_ms;
+  const std::uint32_t timeout_ms = lease.timeout_ms == 0 ? kDefaultLease_ms : lease.timeout_ms;
   if (timeout_ms < kShortestLease_ms || timeout_ms > kLongestLease_ms)
     return {Status::kBadValue, "Lease.timeout_ms is not from 20 to 60000"};
-  if (wish.priority > kHighestPriority)
+  if (lease.priority > kHighestPriority)
     return {Status::kBadValue, "Lease.priority is not from 0 to 255"};
   const int before = lease_.owner();
-  const LeaseResult taken = lease_.take(slot, wish.priority, kMillisecond_ns * timeout_ms, now_ns);
+  const LeaseResult taken = lease_.take(slot, lease.priority, kMillisecond_ns * timeout_ms, now_ns);
   if (taken == LeaseResult::kRefused) {
     Message text(std::string_view(at(before).name));
     text << " owns the motion with priority " << static_cast<int>(lease_.priority())
@@ -305,11 +305,11 @@ Reply Server::control(const Origin& from) {
 }
 
 Reply Server::subscribe(int slot, std::int64_t now_ns) {
-  const tactus_Subscribe& wish = request_.request.subscribe;
+  const tactus_Subscribe& subscription = request_.request.subscribe;
   Connection& connection = at(slot);
-  connection.states = {kMillisecond_ns * wish.state_ms, now_ns};
-  connection.feedback = {kMillisecond_ns * wish.feedback_ms, now_ns};
-  connection.events = wish.events;
+  connection.states = {kMillisecond_ns * subscription.state_ms, now_ns};
+  connection.feedback = {kMillisecond_ns * subscription.feedback_ms, now_ns};
+  connection.events = subscription.events;
   return {};
 }
 

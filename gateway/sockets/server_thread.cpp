@@ -93,15 +93,15 @@ void ServerThread::welcome(int socket, bool inside) {
   std::uint64_t session = 0;
   const bool drawn = getrandom(&session, sizeof session, 0) == sizeof session && session != 0;
   const int slot = drawn ? server_.open(session, monotonic_ns()) : -1;
-  if (slot < 0) return turn_away(socket);
+  if (slot < 0) return refuse_connection(socket);
   sockets_[static_cast<std::size_t>(slot)] = socket;
   inside_[static_cast<std::size_t>(slot)] = inside;
   if (keyed(slot)) tunnel(slot).begin(*key_);
 }
 
 /// Tells a client for which there is no place why, if nothing is encrypted, and closes its socket.
-void ServerThread::turn_away(int socket) {
-  const Bytes why = server_.turn_away(monotonic_ns());
+void ServerThread::refuse_connection(int socket) {
+  const Bytes why = server_.refuse_connection(monotonic_ns());
   std::array<std::uint8_t, kLengthBytes + kLongestToClient> bytes{};
   for (std::size_t i = 0; i < kLengthBytes; ++i)
     bytes[i] = static_cast<std::uint8_t>(why.size >> (8 * i));

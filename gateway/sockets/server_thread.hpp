@@ -35,7 +35,7 @@ class ServerThread {
   void work();
   void turn(int timeout_ms);
   void welcome(int socket, bool inside);
-  void turn_away(int socket);
+  void refuse_connection(int socket);
   void take_datagrams();
   void receive(int slot);
   bool take_plain(int slot);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sim_plant/drives/dictionary.hpp"
-#include "sim_plant/drives/lies.hpp"
+#include "sim_plant/drives/injected_values.hpp"
 
 namespace tactus::drives {
 
@@ -98,7 +98,7 @@ void Node::take_sdo(const CanFrame& frame, std::int64_t now_ns) {
   device_.powered = axis_.powered();
   SdoAnswer answer;
   if ((frame.data[0] & can::kSpecifier) == can::kUpload) {
-    const Lies lies(dictionary_, faults_, syncs_);
+    const InjectedValues injected(dictionary_, faults_, syncs_);
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);
   } else {
     answer = sdo_.receive(frame, now_ns, settings_.node, dictionary_, device_);

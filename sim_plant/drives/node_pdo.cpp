@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "sim_plant/drives/dictionary.hpp"
-#include "sim_plant/drives/lies.hpp"
+#include "sim_plant/drives/injected_values.hpp"
 #include "sim_plant/drives/node.hpp"
 
 namespace tactus::drives {
@@ -155,7 +155,7 @@ void Node::send_tpdo(Tpdo& tpdo, std::int64_t now_ns) {
   frame.fd = settings_.fd;
   frame.size = static_cast<std::uint8_t>(frame.fd ? can::fd_size(pdo.bytes) : pdo.bytes);
   {
-    const Lies lies(dictionary_, faults_, syncs_);
+    const InjectedValues injected(dictionary_, faults_, syncs_);
     frame.data = pack(dictionary_, pdo);
   }
   push_tpdo(tpdo, frame);

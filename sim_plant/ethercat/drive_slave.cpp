@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "sim_plant/drives/lies.hpp"
+#include "sim_plant/drives/injected_values.hpp"
 
 namespace tactus::segment {
 
@@ -73,7 +73,7 @@ void DriveSlave::serve_mailbox(std::int64_t now_ns) {
     if (!silent) {
       const bool reads = (bytes[kCoeBody] & can::kSpecifier) == can::kUpload;
       if (reads) {
-        const drives::Lies lies(dictionary_, faults_, periods_);
+        const drives::InjectedValues injected(dictionary_, faults_, periods_);
         result = server_.receive(bytes, in.length, preop, axis_.powered());
       } else {
         result = server_.receive(bytes, in.length, preop, axis_.powered());
@@ -180,7 +180,7 @@ void DriveSlave::measure(const drives::JointSample& sample) {
   std::uint8_t* bytes = esc_.bytes(kInputsSm);
   if (state_ < AlState::kSafeop || bytes == nullptr || esc_.sm(kInputsSm).length < inputs_.bytes)
     return;
-  const drives::Lies lies(dictionary_, faults_, periods_);
+  const drives::InjectedValues injected(dictionary_, faults_, periods_);
   for (std::size_t i = 0; i < inputs_.count; bytes += inputs_.entries[i++].bytes)
     if (const MappedObject& entry = inputs_.entries[i]; entry.row != nullptr)
       drives::encode(entry.row->type, dictionary_.get(entry.slot), bytes);

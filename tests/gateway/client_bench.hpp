@@ -56,7 +56,7 @@ struct TestClient {
   bool offers_tare = false;  ///< by Welcome
   std::size_t zeros = 0;     ///< numbers of the zero of the last report
   std::array<double, 6> zero{};
-  std::uint8_t farewell = 0;  ///< status of the answer without number
+  std::uint8_t final_status = 0;  ///< status of the answer without number
   char event[400] = "", text[400] = "";
 
   void connect(BenchClock& its, Server& whose) {
@@ -212,7 +212,7 @@ struct TestClient {
   }
   void take_answer(std::size_t of, std::uint8_t its_status, std::string_view words,
                    std::uint64_t its_epoch) {
-    if (of == 0) farewell = its_status;
+    if (of == 0) final_status = its_status;
     ++answers[of];
     status[of] = its_status;
     epoch = static_cast<std::uint32_t>(its_epoch);

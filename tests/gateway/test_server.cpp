@@ -76,13 +76,13 @@ void a_flood_is_cut_and_the_others_are_told(void**) {
   TwoClients& two = fresh_clients();
   two.b.send(ask::kSubscribe, RawMessage().number(3, 1));
   two.run(1);
-  for (int i = 0; i < kMessageBurst + 2 && two.a.farewell == 0; ++i) {
+  for (int i = 0; i < kMessageBurst + 2 && two.a.final_status == 0; ++i) {
     two.a.send(ask::kPing);
     two.bench.server.work(two.bench.now_ns);
     two.a.read();
   }
   two.run(1);
-  assert_int_equal(two.a.farewell, static_cast<int>(Status::kTooManyMessages));
+  assert_int_equal(two.a.final_status, static_cast<int>(Status::kTooManyMessages));
   assert_true(two.a.finished());
   assert_non_null(std::strstr(two.b.event, "A is cut: more than 5000 messages in a second"));
   assert_string_equal(last_log, two.b.event);
@@ -100,17 +100,17 @@ void a_client_that_reads_nothing_is_cut_and_bounded_until_then(void**) {
   two.run(1100);
   assert_true(two.a.finished());
   two.a.read();
-  assert_int_equal(two.a.farewell, static_cast<int>(Status::kClientSlow));
+  assert_int_equal(two.a.final_status, static_cast<int>(Status::kClientSlow));
 }
 
 void a_silent_client_is_cut_after_fifteen_seconds(void**) {
   TwoClients& two = fresh_clients();
   wait(two, 14'000);
-  assert_int_equal(two.a.farewell, 0);
+  assert_int_equal(two.a.final_status, 0);
   wait(two, 2'000);
-  assert_int_equal(two.a.farewell, static_cast<int>(Status::kClientSilent));
+  assert_int_equal(two.a.final_status, static_cast<int>(Status::kClientSilent));
   assert_true(two.a.finished());
-  assert_int_equal(two.b.farewell, 0);
+  assert_int_equal(two.b.final_status, 0);
 }
 
 void who_does_not_say_hello_is_cut_after_five_seconds(void**) {
@@ -118,9 +118,9 @@ void who_does_not_say_hello_is_cut_after_five_seconds(void**) {
   two.a.close();
   two.a.connect(two.bench);
   wait(two, 4'000);
-  assert_int_equal(two.a.farewell, 0);
+  assert_int_equal(two.a.final_status, 0);
   wait(two, 2'000);
-  assert_int_equal(two.a.farewell, static_cast<int>(Status::kClientSilent));
+  assert_int_equal(two.a.final_status, static_cast<int>(Status::kClientSilent));
 }
 
 void bytes_that_are_no_message_cut_their_client_and_no_other(void**) {
@@ -132,7 +132,7 @@ void bytes_that_are_no_message_cut_their_client_and_no_other(void**) {
     TwoClients& two = fresh_clients();
     two.a.push(bytes.data, bytes.size);
     two.run(1);
-    assert_int_equal(two.a.farewell, static_cast<int>(Status::kBadValue));
+    assert_int_equal(two.a.final_status, static_cast<int>(Status::kBadValue));
     const std::uint32_t ping = two.b.send(ask::kPing);
     two.run(1);
     assert_int_equal(two.b.answers[ping], 1);
@@ -171,8 +171,8 @@ void whoever_is_idle_gives_way_where_all_places_are_taken(void**) {
   TestClient newest;
   newest.connect(two.bench);
   assert_int_equal(newest.slot, -1);
-  newest.take(fields_of(two.bench.server.turn_away(two.bench.now_ns)));
-  assert_int_equal(newest.farewell, static_cast<int>(Status::kTooLarge));
+  newest.take(fields_of(two.bench.server.refuse_connection(two.bench.now_ns)));
+  assert_int_equal(newest.final_status, static_cast<int>(Status::kTooLarge));
   assert_string_equal(newest.text,
                       "all places are taken; end one of these, or try again: A, B, first, other, "
                       "other, other, other, other");
@@ -186,7 +186,7 @@ void whoever_is_idle_gives_way_where_all_places_are_taken(void**) {
     two.run(2);
     for (TestClient& other : others) other.read();
   }
-  newest.take(fields_of(two.bench.server.turn_away(two.bench.now_ns)));
+  newest.take(fields_of(two.bench.server.refuse_connection(two.bench.now_ns)));
   assert_non_null(std::strstr(newest.text, "first is idle and gives way: connect again"));
   others[0].read();
   assert_non_null(std::strstr(others[0].text, "idle for a minute while all places are taken"));

@@ -138,7 +138,7 @@ void nine_channels_cut_the_client(void**) {
   for (TestChannel& channel : channels) channel = {0, 5, 0};
   two.a.send(ask::kChunk, chunk_with(channels.data(), 9));
   two.run(2);
-  assert_int_equal(two.a.farewell, static_cast<int>(Status::kBadValue));
+  assert_int_equal(two.a.final_status, static_cast<int>(Status::kBadValue));
 }
 
 void a_pipeline_that_puts_none_out_refuses_them(void**) {
@@ -202,7 +202,7 @@ void random_channels_reach_only_outputs_that_there_are(void**) {
     if (two.a.status[sent % TestClient::kMost] == 0) ++taken;
     assert_int_equal(two.bench.generator.outputs().mask & ~kOffered, 0);
   }
-  assert_int_equal(two.a.farewell, 0);
+  assert_int_equal(two.a.final_status, 0);
   assert_true(taken > 200);
 }
 

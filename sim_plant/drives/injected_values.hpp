@@ -1,4 +1,5 @@
-// Lies: while one exists, objects of the dictionary read what injected faults make them read.
+// InjectedValues: gives objects of the dictionary the values of injected faults during its
+// lifetime.
 #pragma once
 
 #include "hal/can/protocol_canopen.hpp"
@@ -8,12 +9,12 @@
 
 namespace tactus::drives {
 
-class Lies {
+class InjectedValues {
  public:
-  Lies(Dictionary& dictionary, Faults& faults, std::int64_t syncs)
+  InjectedValues(Dictionary& dictionary, Faults& faults, std::int64_t syncs)
       : dictionary_(dictionary), faults_(faults), syncs_(syncs) {
-    tell(FaultKind::kWrongMode, slot_of(0x6061));
-    tell(FaultKind::kWrongIdentity, slot_of(can::kIdentity, 2));
+    inject(FaultKind::kWrongMode, slot_of(0x6061));
+    inject(FaultKind::kWrongIdentity, slot_of(can::kIdentity, 2));
     if (const Fault* fault = find(FaultKind::kNonsenseStatus))
       set(slot_of(0x6041), dictionary_.get(slot_of(0x6041)) | (fault->value & 0xFFFF));
     if (const Fault* fault = find(FaultKind::kWarning)) {
@@ -27,23 +28,23 @@ class Lies {
         for (const std::uint16_t base : {can::kRpdoMapping, can::kTpdoMapping})
           set(drives::find(static_cast<std::uint16_t>(base + i), 1).slot, fault->value);
   }
-  ~Lies() {
+  ~InjectedValues() {
     while (count_ > 0) {
       --count_;
-      dictionary_.set(slots_[count_], truths_[count_]);
+      dictionary_.set(slots_[count_], originals_[count_]);
     }
   }
-  Lies(const Lies&) = delete;
-  Lies& operator=(const Lies&) = delete;
+  InjectedValues(const InjectedValues&) = delete;
+  InjectedValues& operator=(const InjectedValues&) = delete;
 
  private:
   const Fault* find(FaultKind kind) { return faults_.active(kind, syncs_); }
-  void tell(FaultKind kind, Slot slot) {
+  void inject(FaultKind kind, Slot slot) {
     if (const Fault* fault = find(kind)) set(slot, fault->value);
   }
   void set(Slot slot, std::int64_t value) {
     slots_[count_] = slot;
-    truths_[count_++] = dictionary_.get(slot);
+    originals_[count_++] = dictionary_.get(slot);
     dictionary_.set(slot, value);
   }
 
@@ -53,7 +54,7 @@ class Lies {
   Faults& faults_;
   std::int64_t syncs_;
   std::array<Slot, kMost> slots_{};
-  std::array<std::int64_t, kMost> truths_{};
+  std::array<std::int64_t, kMost> originals_{};
   std::size_t count_ = 0;
 };
 
