@@ -36,12 +36,12 @@ struct Chunk {
   /// with the velocity of its last targets.
   bool ends = false;
   /// Times are the sender's. If they are those of the arrival, a single target is a point that
-  /// comes with jitter.
+  /// arrives with jitter.
   bool stamped = true;
   /// The targets give velocities, which the curve then has.
   bool velocities = false;
   /// Time in which a disagreement with what is in force fades, 0 to kLongestFade_s, s; longer if
-  /// limits ask for it. 0: it is closed as fast as limits allow.
+  /// limits require it. 0: it is closed as fast as limits allow.
   double fade_s = kUsualFade_s;
   /// Noise in targets without velocities is smoothed away: of a sine of w rad/s the curve keeps
   /// 1 / (1 + (w smoothing_s)^4). 0: it passes through the targets.

@@ -129,8 +129,8 @@ void fit_velocities(Fit<Space>& fit) {
   }
 }
 
-/// Sets from when on, and how, path time stops if no successor comes: the stop uses what the curve
-/// itself leaves of every limit on the way that it takes.
+/// Sets from when on, and how, path time stops if no successor arrives: the stop uses what the
+/// curve itself leaves of every limit on the way that it takes.
 template <class Space>
 void plan_stop_at_end(const Fit<Space>& fit, const AdmissionSettings<Space>& settings,
                       ChunkCurve<Space>& curve) {

@@ -42,7 +42,7 @@ class JointTurns {
   /// Farther apart, in turns, positions are no angles of one motion, and are taken as given.
   static constexpr double kMostTurns = 1e4;
   /// A step of a joint with stops that is so near to a whole turn is no motion, rad: a recorder of
-  /// 50 samples a second sees less of a joint at 5 rad/s.
+  /// 50 samples a second moves a joint at 5 rad/s by less.
   static constexpr double kNearTurn = 0.1;
 
   /// Begins with the reference of the joints, rad, to which the first waypoint is compared; not

@@ -22,8 +22,8 @@ class ReferenceClient {
   /// caller's until it is sent, or until the next acquire(), which may return the same store, empty
   /// again: one is filled at a time.
   Trajectory<Space>* acquire();
-  /// The same for waypoints of these fields only, written by set(): more of them fit, and the
-  /// store's capacity says how many. kMonotone needs velocities, though it chooses them itself.
+  /// The same for waypoints of these fields only, written by set(): more of them fit, up to
+  /// the store's capacity. kMonotone needs velocities, though it chooses them itself.
   Trajectory<Space>* acquire(Fields fields);
 
   /// Writes into the waypoints what admission derives (see admit()) without sending them, and
@@ -48,7 +48,7 @@ class ReferenceClient {
   int capacity() const { return channel_.stores[0].capacity; }
   /// Returns what trajectories are judged by.
   const AdmissionSettings<Space>& settings() const { return channel_.settings; }
-  /// Admits and sends one online point; `header` says which joints it leaves out, or its frames.
+  /// Admits and sends one online point; `header` has the joints it leaves out, or its frames.
   /// kReferenceNotFinite also for its stamp.
   Verdict send(const typename Space::Point& point, std::uint32_t& id,
                const typename Space::Header& header = {}, const PointDetails& details = {});
@@ -56,7 +56,7 @@ class ReferenceClient {
   /// whose observation is not in the history; kNoFreeStore while all chunks are in use. Its report
   /// is executed, superseded, or refused: kChunkLate, kEpochVoid.
   Verdict send(const Chunk<Space>& chunk, std::uint32_t& id);
-  /// Sends a velocity; `header` says which joints it leaves out, or its frame.
+  /// Sends a velocity; `header` has the joints it leaves out, or its frame.
   Verdict send(const Velocity<Space>& velocity, std::uint32_t& id,
                const typename Space::Header& header = {});
   /// Counters and margins of chunks and velocities.

@@ -34,7 +34,7 @@ bool read_terms(ByteReader& from, TrajectoryTerms& terms);
 /// Appends a waypoint with the numbers of `fields`. [any]
 template <class Space>
 void write_waypoint(ByteWriter& to, const Waypoint<Space>& waypoint, Fields fields);
-/// Reads one; ok() of `from` says whether it was whole. [any]
+/// Reads one; ok() of `from` is false if it was not whole. [any]
 template <class Space>
 Waypoint<Space> read_waypoint(ByteReader& from, Fields fields);
 

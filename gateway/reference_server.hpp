@@ -1,5 +1,5 @@
-// ReferenceServer: sends a generator the references that come over a link in messages, as a client
-// that is elsewhere would, judges them, and keeps the reports until they are asked for. A
+// ReferenceServer: judges the references that arrive in messages over a link, sends them to a
+// generator as a local client would, and keeps the reports until they are fetched. A
 // trajectory of any length passes through the window of its store. Runs outside the cycle.
 #pragma once
 
@@ -21,14 +21,14 @@ class ReferenceServer {
   /// Takes the next waypoint; kWindowFull: there is no space at present, offer it again. The first
   /// that does not fit into the window sends the trajectory, open.
   Verdict take(const Waypoint<Space>& waypoint);
-  /// Takes waypoints of a frame as long as the window has space; `taken` says how many.
+  /// Takes waypoints of a frame as long as the window has space; `taken` counts them.
   Verdict take(ByteReader& waypoints, int count, int& taken);
-  /// Ends the trajectory; kWindowFull: the generator has not yet answered the last part, ask again.
-  /// `id` is that of the trajectory, 0 of one that is only judged.
+  /// Ends the trajectory; kWindowFull: the generator has not yet answered the last part; call
+  /// again. `id` is that of the trajectory, 0 of one that is only judged.
   Verdict end(std::uint32_t& id);
-  /// The number of the trajectory that comes, once the generator has it; 0: not yet, or none comes.
+  /// The number of the trajectory in transfer, once the generator has it; 0: not yet, or none.
   std::uint32_t sent() const { return trajectory_ != nullptr && sent_ ? id_ : 0; }
-  /// Waypoints that the window of the trajectory that comes holds; there is one.
+  /// Waypoints in the window of the trajectory in transfer; requires one.
   int capacity() const { return trajectory_->capacity; }
   /// How much longer the trajectory that was sent last becomes, as a fraction, as far as it was
   /// known then.
@@ -61,7 +61,7 @@ class ReferenceServer {
 
   ReferenceClient<Space>& client_;
   const PortTable& ports_;
-  Trajectory<Space>* trajectory_ = nullptr;  // that comes; null: none
+  Trajectory<Space>* trajectory_ = nullptr;  // in transfer; null: none
   bool sent_ = false;                        // it is longer than its window, which was sent
   std::uint32_t id_ = 0;                     // of the trajectory
   double stretch_ = 0.0;

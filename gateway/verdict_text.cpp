@@ -14,7 +14,7 @@ namespace {
 enum class Relation : std::uint8_t {
   kExceeds,    // a magnitude is above its limit
   kOutside,    // the limit is the end of a range that was left
-  kNotFinite,  // the limit says nothing
+  kNotFinite,  // the limit is not shown
   kNotZero,    // must be zero
   kTime,       // the limit is the earliest or the latest time
   kNotUpTo,    // the limit is the end of a range from 0 or, for a number of waypoints, 1

@@ -40,7 +40,7 @@ void print_homing(const Session& session, const char* path) {
       path, joints.c_str());
 }
 
-/// A law of torques overshoots by its gains and the arm's inertia: says if the file does not give
+/// A torque law overshoots by its gains and the arm's inertia: reports if the file does not give
 /// by how much.
 void print_room(const char* path, const Guard::Params& guard) {
   const Guard::Params untold;
@@ -55,8 +55,8 @@ void print_room(const char* path, const Guard::Params& guard) {
       path, Guard::kPositionTolerance, 100.0 * Guard::kVelocityTolerance);
 }
 
-/// Judges the host where the file says that an unfit one ends the start, as a run does and by
-/// taking the same steps. Only what runs in real time asks for that, so that a simulated arm is not
+/// Judges the host if the file ends the start on an unfit one, as a run does and by
+/// taking the same steps. Only real-time runs require that, so that a simulated arm is not
 /// refused.
 bool judge_host(const Session& session, const Options& options) {
   const RealtimeSettings& settings = session.realtime;

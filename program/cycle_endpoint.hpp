@@ -16,8 +16,8 @@ class CycleEndpoint {
 
   /// Also publishes the values of all outputs, in every `divisor`-th cycle. [init]
   void attach(PortMailbox& ports) { port_mailbox_ = &ports; }
-  /// Takes an order and a set of parameters, and goes on with arming; `status` is that of the last
-  /// cycle. [between two cycles]
+  /// Takes an order and a set of parameters, and continues with arming; `status` is that of the
+  /// last cycle. [between two cycles]
   void work(Status status);
   /// Posts the snapshot of the cycle that began at `now`. [between two cycles]
   void publish(const CycleTime& now);

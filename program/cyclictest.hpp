@@ -31,7 +31,7 @@ class CyclictestOutput {
   Text<127> complaint_;
 };
 
-/// Runs cyclictest to its end. False: there is no result, and `complaint` says why.
+/// Runs cyclictest to its end. False: there is no result, and `complaint` has the reason.
 bool run_cyclictest(const CyclictestSettings& settings, Histogram& latency, Text<127>& complaint);
 
 }  // namespace tactus

@@ -1,4 +1,4 @@
-// `tactus jitter`: measures wake-up latency, with load too if asked, and compares it with
+// `tactus jitter`: measures wake-up latency, optionally under load, and compares it with
 // cyclictest.
 #include <cinttypes>
 #include <cmath>
@@ -102,7 +102,7 @@ int jitter(const Options& options) {
     return kRefused;
   }
   {
-    Realtime realtime;  // says once what is refused
+    Realtime realtime;  // reports once what is refused
     prepare(realtime, settings_of(options));
   }
   Status status = measure(options, cycles, idle);

@@ -15,12 +15,12 @@ class LoadGenerator {
   LoadGenerator(const LoadGenerator&) = delete;
   LoadGenerator& operator=(const LoadGenerator&) = delete;
 
-  /// False: stress-ng is not installed or does not run, and `complaint` says so.
+  /// False: stress-ng is not installed or does not run, and `complaint` has the reason.
   static bool installed(Text<127>& complaint);
   /// Starts the load and gives it time to begin. It ends with this program, also if that is killed.
-  /// False: `complaint` says why it did not start.
+  /// False: `complaint` has the reason.
   bool start(const Load& load, Text<127>& complaint);
-  /// Ends the load. False: it had ended before, and `complaint` says so.
+  /// Ends the load. False: it had ended before, and `complaint` has the reason.
   bool stop(Text<127>& complaint);
 
  private:

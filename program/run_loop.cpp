@@ -146,7 +146,7 @@ bool RunLoop::cycle(const CycleTime& now) {
     status = session_.executive.cycle(time_of(now));
   }
   watchdog_.cycle_completed();
-  halted_ = interrupted != 0;  // one that comes later counts in the next cycle, which brakes
+  halted_ = interrupted != 0;  // a later signal counts in the next cycle, which brakes
   unarmed_ = unarmed_ || (halted_ && session_.executive.rung() == Rung::kArming);
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();
   commanded_ += commanded ? 1 : 0;

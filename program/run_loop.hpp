@@ -63,10 +63,10 @@ class RunLoop {
   const Message& left_trouble() const { return left_trouble_; }
   /// True once the arm has been commanded.
   bool armed() const { return armed_; }
-  /// True if the arm has never been commanded, or was being armed again, when a signal came, and no
-  /// fault is the reason.
+  /// True if the arm has never been commanded, or was being armed again, when a signal arrived, and
+  /// no fault is the reason.
   bool cut_while_arming() const { return latched() == Status::kHalted && (unarmed_ || !armed_); }
-  /// True if a signal came while the robot was being connected to.
+  /// True if a signal arrived while the robot was being connected to.
   bool cut_short() const { return cut_short_; }
   /// True if the time of the run has passed, and nothing else ended it.
   bool ended_as_planned() const { return planned_end_; }
@@ -116,7 +116,7 @@ class RunLoop {
   std::int64_t began_ns_ = 0;  // the present cycle, by the monotonic clock, whatever triggers it
   Verdict end_;                // of the goal's final report
   double ended_s_ = 0.0;       // when the time of the run had passed
-  bool pending_ = false;       // the goal was sent, and its final report has not come
+  bool pending_ = false;       // the goal was sent, and its final report has not arrived
   std::int64_t commanded_ = 0;
   FaultVerdict fault_;
   Status left_ = Status::kOk;
@@ -124,7 +124,7 @@ class RunLoop {
   bool armed_ = false;
   bool planned_end_ = false, cut_short_ = false;
   bool refused_ = false;     // the trajectory was refused
-  bool halted_ = false;      // a signal has come
+  bool halted_ = false;      // a signal has arrived
   bool unarmed_ = false;     // while the arm was being armed
   bool broken_off_ = false;  // a later part of it was
 };

@@ -48,7 +48,7 @@ bool read_page(const Options& options, Address& address) {
   return none || parse_page_address(options.http, address, why) || refuse("--http", why.c_str());
 }
 
-/// Starts the page, if there is to be one. If the computer cannot, the server goes on without.
+/// Starts the page, if there is to be one. If the computer cannot, the server continues without.
 void start_page(PageThread& page, const Options& options, const Address& address) {
   Message why;
   if (options.http[0] != '\0' && !page.start(address, why))

@@ -12,7 +12,7 @@
 namespace tactus::ctl {
 namespace {
 
-constexpr int kSilence_ms = 2000;  // of the 5 s after which a client should have said something
+constexpr int kSilence_ms = 2000;  // of the 5 s within which a client must send a message
 
 }  // namespace
 
@@ -126,7 +126,7 @@ bool Client::ask_and_wait(ToServer& request) {
   if (!ask(request)) return false;
   while (!reported_)
     if (!wait(-1)) return false;
-  output_.result(report_, !request.has_tare());  // a refusal of a tare says what to do
+  output_.result(report_, !request.has_tare());  // a refusal of a tare contains the remedy
   if (!succeeded(report_.outcome()))
     exit_code_ = report_.outcome() == Report::REFUSED ? kRefused : kEndedOtherwise;
   return exit_code_ == kSucceeded;

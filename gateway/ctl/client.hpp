@@ -15,27 +15,29 @@ class Client {
  public:
   Client(const Options& options, Output& output) : options_(options), output_(output) {}
 
-  /// Connects and says Hello. False: said; exit_code() is kNoConnection or kRefused.
+  /// Connects and sends Hello. False: the reason is printed; exit_code() is kNoConnection or
+  /// kRefused.
   bool connect();
-  /// Takes the lease. False: said; refused with the owner's name, or no connection.
+  /// Takes the lease. False, with the reason printed: refused with the owner's name, or no
+  /// connection.
   bool take_lease();
   /// Takes the lease if it is free. False: no connection; the reason is printed.
   bool take_free_lease();
-  /// Gives the lease back: what runs goes on to its end.
+  /// Gives the lease back: what runs continues to its end.
   void release_lease();
 
   /// Everything that arrives besides the answers that are awaited.
   std::function<void(const ToClient&)> on_message = [](const ToClient&) {};
 
-  /// Sends a request. Returns its number; 0: the server is gone, said.
+  /// Sends a request. Returns its number; 0: the server is gone; printed.
   std::uint32_t post(ToServer& request);
-  /// Sends a request and waits for its Answer. False: refused, or no connection; said.
+  /// Sends a request and waits for its Answer. False: refused, or no connection; printed.
   bool ask(ToServer& request);
   /// Does the same and waits for the final Report, too, and prints it. False: it is none of
   /// success.
   bool ask_and_wait(ToServer& request);
   /// Waits until something arrives, at most `timeout_ms`, and hands it on. Also returns when a
-  /// signal arrives or `other`, a descriptor, is readable. False: the server is gone, said.
+  /// signal arrives or `other`, a descriptor, is readable. False: the server is gone; printed.
   bool wait(int timeout_ms, int other = -1);
 
   const Welcome& welcome() const { return welcome_; }
@@ -68,9 +70,9 @@ class Client {
   int exit_code_ = kSucceeded;
 };
 
-/// True for an outcome after which no other comes.
+/// True for a final outcome.
 bool final(Report::Outcome outcome);
-/// True for an outcome of what was done as it was asked.
+/// True for the outcome of a request executed as sent.
 bool succeeded(Report::Outcome outcome);
 
 /// The client's monotonic clock.

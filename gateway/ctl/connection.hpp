@@ -21,16 +21,16 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Connects to unix:PATH or tcp:HOST:PORT within a time. False: error() says why.
+  /// Connects to unix:PATH or tcp:HOST:PORT within a time. False: error() has the reason.
   bool open(const std::string& address, int timeout_ms);
-  /// Encrypts the connection with the key in a file. False: error() says why.
+  /// Encrypts the connection with the key in a file. False: error() has the reason.
   bool encrypt(const std::string& key_file, int timeout_ms);
   void close();
   /// Sends a message; waits at most `timeout_ms` for a server that does not read. False: gone.
   bool send(const ToServer& message, int timeout_ms);
 
   enum class ReceiveResult : std::uint8_t { kMessage, kNothing, kGone };
-  /// Takes the next message that has arrived, without waiting. kGone: error() says why.
+  /// Takes the next message that has arrived, without waiting. kGone: error() has the reason.
   ReceiveResult receive(ToClient& message);
 
   /// To wait for: readable when something has arrived.

@@ -62,7 +62,7 @@ void GoalView::take_report(const Report& report) {
   starved_ = report.outcome() == Report::STARVED;
   if (report.outcome() < Report::SUCCEEDED) return;
   report_ = report;
-  if (warns) report_.clear_text();  // it was said
+  if (warns) report_.clear_text();  // already printed
   ended_ = true;
 }
 

@@ -28,7 +28,7 @@ class GoalView {
 
   bool ended() const { return ended_; }
   bool moves() const { return started_ && !ended_; }
-  /// True once a State after the end says that the reference is at rest.
+  /// True once a State after the end reports the reference at rest.
   bool at_rest() const { return at_rest_; }
   const Report& report() const { return report_; }
   const State& state() const { return state_; }

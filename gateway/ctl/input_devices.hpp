@@ -24,7 +24,7 @@ class RawTerminal {
   bool terminal_;
 };
 
-/// Takes the keys that have come, without waiting. False: the input has ended.
+/// Takes the keys that have arrived, without waiting. False: the input has ended.
 bool take_keys(std::string& keys);
 
 /// The axes of a device of Linux's joystick interface (Documentation/input/joydev).
@@ -35,9 +35,9 @@ class Joystick {
   Joystick(const Joystick&) = delete;
   Joystick& operator=(const Joystick&) = delete;
 
-  /// Opens a device. False: errno says why.
+  /// Opens a device. False: see errno.
   bool open(const std::string& path);
-  /// Takes all events that have come. False: the device is gone.
+  /// Takes all events that have arrived. False: the device is gone.
   bool read();
 
   int descriptor() const { return file_; }

@@ -149,7 +149,7 @@ bool Jogger::run() {
   s_.client.on_message = [this](const ToClient& message) { take(message); };
   const bool ended = s_.options.joystick.empty() ? by_keys() : by_joystick();
   ToServer rest = velocity_of({});
-  if (ended && !refused_) s_.client.ask(rest);  // and hear what was said of the others
+  if (ended && !refused_) s_.client.ask(rest);  // and receive the answers to the others
   s_.output.end_progress();
   s_.client.release_lease();
   return ended && !refused_;

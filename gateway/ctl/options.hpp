@@ -51,7 +51,7 @@ struct Options {
   bool exact = false, partial = false, detach = false;
   std::vector<double> numbers;  ///< of a point: joints, rad, or a pose
   bool pose = false, degrees = false, wait = false;
-  double period_ms = 0.0;  ///< of a stream; 0: as the rows come
+  double period_ms = 0.0;  ///< of a stream; 0: as the rows arrive
   double speed = 0.1;      ///< of jogging: fraction of the velocity limit
   int hold_ms = 300;       ///< time-out of a velocity
   std::string joystick;    ///< device; empty: the keyboard

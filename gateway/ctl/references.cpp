@@ -1,4 +1,4 @@
-// point and stream: single targets, and targets as they come.
+// The verbs point and stream: single targets, and targets as they arrive.
 #include <cmath>
 
 #include "gateway/ctl/goal_view.hpp"
@@ -13,7 +13,7 @@ constexpr double kDegree_rad = 3.14159265358979323846 / 180.0;
 constexpr int kRowWait_ms = 5;
 constexpr int kStarted_ms = 200;  // in which a point has begun to be reached
 
-/// Returns the target of a row; its form says what the numbers are.
+/// Returns the target of a row; its form defines the numbers.
 void fill_target(const RowForm& form, const std::vector<double>& numbers, Point& point) {
   std::size_t at = 0;
   const auto take = [&](int count, auto* to) {

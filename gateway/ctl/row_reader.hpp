@@ -35,7 +35,7 @@ struct Row {
 enum class RowResult : std::uint8_t {
   kRow,
   kEnd,      ///< there are no more rows
-  kRefused,  ///< error() says why
+  kRefused,  ///< error() has the reason
   kNotYet,   ///< a pipe had no whole row within the time to wait
 };
 

@@ -202,7 +202,7 @@ int Sender::code() const {
   return view_.report().outcome() == Report::REFUSED ? kRefused : kEndedOtherwise;
 }
 
-/// Leaves while it moves: without an owner, what runs goes on to its end.
+/// Leaves while it moves: without an owner, what runs continues to its end.
 int Sender::detach() {
   s_.client.release_lease();
   s_.output.say("started; it goes on to its end. tactusctl watch shows it, cancel ends it");

@@ -25,7 +25,7 @@ int info(Session& session);
 /// Works without a client if the options name a robot.
 int retime_path(const Options& options, Output& output);
 
-/// Fills in what a reference says of joints and frames.
+/// Fills in joints and frames of a reference.
 void fill_terms(Session& session, std::uint32_t held_joints, Terms& terms);
 /// True if the server offers a feature.
 bool offers(const Welcome& welcome, Feature feature);

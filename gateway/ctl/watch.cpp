@@ -20,7 +20,7 @@ std::string per_joint(const char* format, const google::protobuf::RepeatedField<
   return text;
 }
 
-/// States per second, by the times at which they come.
+/// States per second, by their times of arrival.
 class Rate {
  public:
   double count(std::int64_t cycle, std::int64_t server_ns) {

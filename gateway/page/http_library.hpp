@@ -1,5 +1,5 @@
-// HttpLibrary: libmicrohttpd, loaded when a page is asked for. A program that serves none needs the
-// C library alone, and does not lock what this library brings with it (TLS) in memory.
+// HttpLibrary: libmicrohttpd, loaded when a page is to be served. A program that serves none needs
+// the C library alone, and does not lock what this library brings with it (TLS) in memory.
 #pragma once
 
 #include <microhttpd.h>

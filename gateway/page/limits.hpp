@@ -9,7 +9,7 @@ namespace tactus {
 inline constexpr int kMostBrowsers = 8;          ///< receiving events at the same time
 inline constexpr int kMostPageConnections = 24;  ///< a browser opens up to six while it loads
 inline constexpr std::size_t kConnectionBytes = 16 << 10;  ///< of libmicrohttpd for each of them
-inline constexpr unsigned kConnectionWait_s = 5;           ///< without a byte that comes or goes
+inline constexpr unsigned kConnectionWait_s = 5;           ///< without a byte received or sent
 inline constexpr std::int64_t kLongestRequest_ns = 5'000'000'000;  ///< from accept to answer
 inline constexpr std::int64_t kCrowdedRequest_ns = 500'000'000;  ///< the same, without a free place
 inline constexpr std::size_t kCommandsPerSecond = 50;  ///< of all browsers, Stop not counted

@@ -1,4 +1,4 @@
-// PageCommand: what a browser asks for by a POST, and the messages of the gateway that it becomes.
+// PageCommand: a request that a browser sends by POST, and its message to the gateway.
 #pragma once
 
 #include <string_view>

@@ -92,7 +92,7 @@ void PageLink::ping(std::int64_t now_ns) {
   static_cast<void>(flush());
 }
 
-/// Receives once. False: nothing has come, or the server has closed the connection.
+/// Receives once. False: nothing has arrived, or the server has closed the connection.
 bool PageLink::receive() {
   if (!there()) return false;
   const ByteSpace to = in_.space();

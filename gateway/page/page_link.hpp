@@ -18,8 +18,8 @@ class PageLink {
   void close();
   bool there() const { return socket_ >= 0; }
 
-  /// Receives what has come and calls take(message) for every message; pings. Ends the connection
-  /// if the server has. Never waits. [any]
+  /// Receives what has arrived and calls take(message) for every message; pings. Ends the
+  /// connection if the server has. Never waits. [any]
   template <class Take>
   void work(std::int64_t now_ns, const Take& take) {
     ping(now_ns);
@@ -43,7 +43,7 @@ class PageLink {
   bool stop_goes_on(std::int64_t now_ns) const;
 
   int socket_ = -1;
-  std::uint32_t number_ = 0;  // goes on in a later connection
+  std::uint32_t number_ = 0;  // continues in a later connection
   std::uint32_t stop_ = 0;    // number of the last Stop
   bool stop_answered_ = false;
   std::int64_t stop_ns_ = 0, ping_ns_ = 0;

@@ -179,7 +179,7 @@ void PageServer::completed(void*, MHD_Connection*, void** context, MHD_RequestTe
 MHD_Result PageServer::send_text(MHD_Connection* connection, int status, std::string_view text,
                                  const char* type) {
   const bool lasts = status == 200;  // files and the description
-  // The library does not change the bytes, whatever its type says.
+  // The library does not change the bytes, in spite of the non-const type.
   return queue(connection, status,
                http_.response_from_buffer(text.size(), const_cast<char*>(text.data()),
                                           lasts ? MHD_RESPMEM_PERSISTENT : MHD_RESPMEM_MUST_COPY),

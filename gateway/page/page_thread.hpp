@@ -15,8 +15,8 @@
 
 namespace tactus {
 
-/// Reads "127.0.0.1:PORT". False: `why` says what is wrong with it; an address that other computers
-/// reach is refused. [init]
+/// Reads "127.0.0.1:PORT". False: `why` names what is wrong with it; an address that other
+/// computers reach is refused. [init]
 bool parse_page_address(std::string_view text, Address& address, Message& why);
 
 class PageThread {
@@ -28,7 +28,7 @@ class PageThread {
   PageThread& operator=(const PageThread&) = delete;
 
   /// Listens, and starts the thread. Call it before the calling thread is bound to a CPU. False:
-  /// `why` says what the computer lacks. [init]
+  /// `why` names what the computer lacks. [init]
   bool start(const Address& address, Message& why);
   /// Ends the thread and closes the connections. [any]
   void end();

@@ -20,7 +20,7 @@ struct RequestHead {
   std::optional<std::string_view> origin = {};  ///< an empty one is none of ours
   std::string_view token = {};                  ///< of the header X-Tactus-Token, or of the query
   std::string_view seen = {};                   ///< of the header X-Tactus-Seen
-  bool repeated = false;                        ///< one of these headers came twice
+  bool repeated = false;                        ///< one of these headers occurs twice
 };
 
 /// Takes a header of the request; names are compared without case. [any]

@@ -17,7 +17,7 @@ struct ByteSpace {
   std::size_t size = 0;
 };
 
-/// Bytes that have come; cuts them into messages by the lengths before them.
+/// Bytes that have arrived; cuts them into messages by the lengths before them.
 class InputBytes {
  public:
   /// Where further bytes go; of size 0: a whole message waits.

@@ -8,7 +8,7 @@
 
 namespace tactus {
 
-/// Reads a message. False: `why` says in nanopb's words what is malformed. [any]
+/// Reads a message. False: `why` has nanopb's text. [any]
 bool decode(const Bytes& bytes, tactus_ToServer& message, const char*& why);
 
 /// Writes a message into `bytes`; returns its size, 0 if it does not fit. [any]

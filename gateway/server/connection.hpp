@@ -44,7 +44,7 @@ struct Subscription {
 struct Connection {
   enum class State : std::uint8_t {
     kFree,
-    kNew,  ///< it has not said Hello
+    kNew,  ///< no Hello yet
     kOpen,
     kLeaving,  ///< it is cut: the last messages to it are being sent
   };
@@ -52,11 +52,11 @@ struct Connection {
   State state = State::kFree;
   std::uint64_t session = 0;
   Name name;
-  std::int64_t heard_ns = 0;     ///< when its last bytes came, or it was opened or cut
-  std::int64_t asked_ns = 0;     ///< when its last message but Pings came, or it was opened
+  std::int64_t heard_ns = 0;     ///< arrival of its last bytes, or its opening or cut
+  std::int64_t asked_ns = 0;     ///< arrival of its last message other than Ping, or its opening
   std::int64_t read_ns = 0;      ///< when it last read something, or nothing waited for it
   std::int64_t client_ns = 0;    ///< of its last message
-  std::int64_t received_ns = 0;  ///< when that came
+  std::int64_t received_ns = 0;  ///< its arrival
   MessageRate rate;
   Subscription states, feedback;
   bool events = false;

@@ -1,4 +1,4 @@
-// The words in which operators and clients read what the event log says of drives.
+// Texts of the drive events in the event log, for operators and clients.
 #pragma once
 
 #include "kernel/core/hal.hpp"

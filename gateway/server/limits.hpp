@@ -20,7 +20,7 @@ inline constexpr int kMostUnreported = 128;  ///< references and controls withou
 
 inline constexpr int kMessagesPerTurn = 32;      ///< of a client, then it is the others' turn
 inline constexpr int kMessagesPerSecond = 5000;  ///< on average; more cut the client
-inline constexpr int kMessageBurst = 5000;       ///< that may come at once
+inline constexpr int kMessageBurst = 5000;       ///< accepted at once
 
 inline constexpr std::int64_t kHelloWait_ns = 5 * kSecond_ns;
 inline constexpr std::int64_t kIdle_ns = 60 * kSecond_ns;     ///< with nothing but Pings

@@ -18,7 +18,7 @@ std::uint32_t ReferenceIntake<Space>::present_epoch() const {
   return std::max<std::uint32_t>(1, stream().epoch) + (ending_ != 0 ? 1 : 0);
 }
 
-/// The order is that in which messages have come, since the server has judged the clients' places.
+/// The order is that of arrival, since the server has judged the clients' places.
 template <class Space>
 Verdict ReferenceIntake<Space>::chunk(const Origin& from, const TrajectoryTerms& terms,
                                       Chunk<Space>& chunk) {
@@ -194,7 +194,7 @@ void ReferenceIntake<Space>::fail(const Verdict& verdict, Outcome outcome) {
     queue_report(origin_, outcome, verdict);
   } else if (entry != nullptr && !verdict.ok()) {
     entry->failed = verdict;
-    cancel();  // or the arm would wait on the path for what never comes
+    cancel();  // or the arm would wait on the path for waypoints that never arrive
   }
 }
 

@@ -67,21 +67,21 @@ class ReferenceIntake {
   void take(const Waypoint<Space>& waypoint);
   /// No waypoints follow.
   Verdict end(const Origin& from);
-  /// True if the trajectory that comes is from this client.
+  /// True if the trajectory in transfer is from this client.
   bool comes(const Origin& from) const { return coming_ && origin_.session == from.session; }
   /// Waypoints of the trajectory that `from` has begun for which it has credit; 0 if it has begun
   /// none, or ended it.
   int credit(const Origin& from) const { return comes(from) && !ended_ ? outstanding_ : 0; }
   /// True if the trajectory that `from` has begun is only judged.
   bool checks(const Origin& from) const { return comes(from) && checks_; }
-  /// Fields of the trajectory that comes.
+  /// Fields of the trajectory in transfer.
   Fields fields() const { return fields_; }
   /// Ends the trajectory that `from` has begun, because something in it is refused.
   void refuse(const Origin& from, const Verdict& verdict) {
     if (comes(from)) fail(verdict, Outcome::kRefused);
   }
 
-  /// Gives up the trajectory that comes from a session, if one does; what of it moves is to be
+  /// Gives up the trajectory that a session transfers, if there is one; what of it moves is to be
   /// canceled.
   void give_up(std::uint64_t session);
   /// Brings to rest on its path whatever moves. Nothing else is taken before the generator has
@@ -97,7 +97,7 @@ class ReferenceIntake {
   /// Moves staged waypoints on, and takes the next report that concerns a client. False: there is
   /// none. To be called until there is none.
   bool work(ClientReport& result);
-  /// New credit of the client whose trajectory comes; false: there is none.
+  /// New credit of the client that transfers a trajectory; false: there is none.
   bool grant(Credit& credit);
 
   bool poll_feedback(Feedback<Space>& feedback) { return client_.poll_feedback(feedback); }
@@ -106,7 +106,7 @@ class ReferenceIntake {
   const AdmissionSettings<Space>& settings() const { return client_.settings(); }
 
  private:
-  /// A reference as it has come; of a chunk, all but its targets.
+  /// A reference as received; a chunk without its targets.
   struct Reference {
     RequestKind kind = RequestKind::kPoint;
     Origin from;
@@ -134,7 +134,7 @@ class ReferenceIntake {
   ReferenceClient<Space>& client_;
   ReferenceServer<Space> server_;
   ReportBook book_;
-  ReportBook::Entry stream_;  // the chunk or velocity in force, of which only starving is to come
+  ReportBook::Entry stream_;  // the chunk or velocity in force, which can only starve
   std::uint32_t sequence_ = 0, chunks_ = 0;
 
   bool cancel_due_ = false;  // one that found no space
@@ -145,8 +145,8 @@ class ReferenceIntake {
   Reference waiting_;
   Chunk<Space> waiting_chunk_;
 
-  bool coming_ = false;  // a trajectory comes
-  bool ended_ = false;   // all its waypoints have come
+  bool coming_ = false;  // a trajectory is in transfer
+  bool ended_ = false;   // all its waypoints have arrived
   bool checks_ = false;  // it is only judged
   Origin origin_;        // of its Begin
   Fields fields_ = 0;
@@ -173,7 +173,7 @@ class References {
   bool takes_poses() const { return pipeline_.takes_poses; }
   /// False: the pipeline follows its own reference.
   bool takes_any() const { return pipeline_.takes_poses || pipeline_.takes_joints; }
-  /// True if a Begin may ask for the nearest turn of joints without stops.
+  /// True if a Begin may request the nearest turn of joints without stops.
   bool wraps() const {
     return Robot::kContinuousJoints != 0 && pipeline_.takes_joints && !takes_poses();
   }

@@ -14,7 +14,7 @@ struct Address {
   sockaddr_un path{};  ///< of a Unix socket
   sockaddr_in host{};  ///< of TCP, and of UDP at the same port
 
-  /// Reads an address. False: `why` says what is wrong with it. [init]
+  /// Reads an address. False: `why` names what is wrong with it. [init]
   bool parse(std::string_view text, Message& why);
   /// Writes it as it is read. [any]
   Text<127> text() const;

@@ -13,7 +13,7 @@ class Listener {
   ~Listener() { close(); }
 
   /// Opens both sockets; a Unix socket has mode 0600, and replaces one at which no process listens.
-  /// Port 0 is any that is free. Without `datagrams` only that for streams. False: `why` says what
+  /// Port 0 is any that is free. Without `datagrams` only that for streams. False: `why` names what
   /// is in the way. [init]
   bool open(const Address& address, bool datagrams, Message& why);
   void close();

@@ -55,7 +55,7 @@ void ServerThread::work() {
   for (int slot = 0; slot < kMostClients; ++slot) close(slot);
 }
 
-/// Waits for something to do, does it, and sends what came of it.
+/// Waits for input, handles it, and sends the output.
 void ServerThread::turn(int timeout_ms) {
   std::array<pollfd, kMostClients + 2> polled;
   for (int slot = 0; slot < kMostClients; ++slot) {
@@ -130,7 +130,7 @@ void ServerThread::sent(int slot, std::size_t count) {
   keyed(slot) ? tunnel(slot).sent(count) : server_.sent(slot, count, monotonic_ns());
 }
 
-/// Gives the server what has come through the tunnel and it has space for. False: the tunnel is
+/// Gives the server what has arrived through the tunnel and it has space for. False: the tunnel is
 /// broken.
 bool ServerThread::take_plain(int slot) {
   Tunnel& from = tunnel(slot);

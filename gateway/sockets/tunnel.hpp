@@ -44,7 +44,7 @@ class Tunnel {
   /// Opens the next record if the last one's bytes were all taken. False: the connection must end,
   /// because the other end does not have the key, or data was changed on the way.
   bool open();
-  /// Plain bytes that have come.
+  /// Plain bytes that have arrived.
   Bytes plain() const { return {plain_.data() + plain_first_, plain_size_}; }
   void taken(std::size_t count) {
     plain_first_ += count;

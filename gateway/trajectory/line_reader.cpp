@@ -69,7 +69,7 @@ LineReader::Result LineReader::next(std::string_view& line, int wait_ms) {
 }
 
 /// Reads more bytes behind those that were not yet taken; kLine to look again, whether there are
-/// more, no more, or a signal came.
+/// more, no more, or a signal arrived.
 LineReader::Result LineReader::fill(int wait_ms) {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;

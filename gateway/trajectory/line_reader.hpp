@@ -19,7 +19,7 @@ class LineReader {
     kEnd,      // there are no more lines
     kNotYet,   // a pipe had no whole line within the time to wait
     kTooLong,  // the line is longer than kLongest
-    kFailed,   // errno says why
+    kFailed,   // see errno
   };
 
   LineReader() = default;
@@ -28,10 +28,10 @@ class LineReader {
   LineReader& operator=(const LineReader&) = delete;
 
   /// Opens a file; the hash of its bytes continues `hash`. Waits for the writer of a named pipe.
-  /// False: errno says why. [init]
+  /// False: see errno. [init]
   bool open(const char* path, std::uint64_t hash);
   void close();
-  /// Returns to the first line; only of a regular file. False: errno says why. [init]
+  /// Returns to the first line; only of a regular file. False: see errno. [init]
   bool rewind();
 
   /// Takes the next line, without its end; it stays until the next call. Waits for a pipe at most

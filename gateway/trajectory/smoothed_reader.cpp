@@ -228,7 +228,7 @@ void SmoothedReader<Space>::prepare() {
   ready_ = whole ? count_ : std::max(spline_.count - kAhead, (spline_.count + next_ + 1) / 2);
 }
 
-/// Fits the likeliest curve or the smoother one that is asked for, or the next sharper one that is
+/// Fits the likeliest curve or the smoother one that is requested, or the next sharper one that is
 /// near enough.
 template <class Space>
 bool SmoothedReader<Space>::fit() {

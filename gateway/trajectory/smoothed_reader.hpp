@@ -2,7 +2,7 @@
 // through their positions. Positions that were written with few digits, or measured, have errors
 // that are nothing beside the motion, but between samples close together they are any velocity,
 // acceleration and jerk. The curve (smoothing_spline.hpp) is fitted to as many samples as depend on
-// each other; it goes on where the samples before ended, so that a file of any length remains a
+// each other; it continues where the samples before ended, so that a file of any length remains a
 // stream. It stays within the tolerance of the given numbers, and within half of the last digit
 // that was written of each.
 #pragma once

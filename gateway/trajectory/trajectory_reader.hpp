@@ -35,7 +35,7 @@ struct CsvError {
 enum class RowResult : std::uint8_t {
   kWaypoint,
   kEnd,      // there are no more waypoints
-  kRefused,  // the error says why
+  kRefused,  // the error has the reason
   kNotYet,   // a pipe had no whole row within the time to wait
 };
 

@@ -25,7 +25,7 @@ enum class FeedResult : std::uint8_t {
   kNotYet,   ///< a pipe has no more rows at present
   kMore,     ///< a part was sent, more may follow
   kWhole,    ///< the last part was sent
-  kRefused,  ///< refusal() says why; nothing more is sent
+  kRefused,  ///< refusal() has the reason; nothing more is sent
 };
 
 template <class Space>

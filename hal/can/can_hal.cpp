@@ -157,7 +157,7 @@ void CanHal::exchange(std::int64_t& slept_ns) {
   cia402::exchange_stop(*this, {now_ns_}, mode_);
 }
 
-/// A drive on a bus that has failed is not heard any more; one that is silent may be again.
+/// A drive on a failed bus stays unreachable; a silent one may report again.
 bool CanHal::awaits(int joint) const {
   const LinkHealth& wire = health(master_.node(joint).bus);
   return !master_.confirmed(joint) && !wire.lost && !wire.bus_off;

@@ -1,5 +1,5 @@
 // CanHal: seven CiA 402 drives on one to four CAN buses. It carries the frames of CanMaster: in a
-// cycle one system call per bus takes what has come and one sends what the cycle leaves.
+// cycle one system call per bus takes what has arrived and one sends what the cycle leaves.
 //
 // connect() resets, checks and configures the drives and enables none. A drive's fault is a fault
 // of its joint, and the drives can be armed again; read() fails only if a bus does not work any
@@ -16,17 +16,17 @@ namespace tactus::can {
 class CanHal final : public Hal {
  public:
   /// Takes the settings of the pipeline file, which must outlive the use of the Hal. As
-  /// CanMaster::configure(); trouble() says more. [init]
+  /// CanMaster::configure(); trouble() has details. [init]
   Status configure(const CanSettings& can, const cia402::Cia402Settings& drive, const Tool& tool,
                    CommandMode mode, int period_us, int arming_ms);
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the buses and starts the drives up, in all no longer than `connect_ms`. kNotOffered,
-  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() says more. [init]
+  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() has details. [init]
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
-  /// As the interface says, and waits until the drives confirm that they are disabled, at most for
+  /// As in Hal; also waits until the drives confirm that they are disabled, at most for
   /// `stop_ms`: drives that do not keep their watch over this program. A bus that has failed does
   /// not end the exchange on the others. kBusTimeout: trouble() names the joints that did not
   /// confirm.

@@ -63,7 +63,7 @@ bool CanMaster::is_ours(const Node* node, std::uint16_t id) const {
   return node != nullptr && layout_.is_command(id, node->slot);
 }
 
-/// The bus on which a drive is asked by SDO: another may have a drive with the same number.
+/// The bus of the present SDO request: another bus may have a drive with the same number.
 int CanMaster::asked_bus() const {
   if (!connected_) return startup_.bus();
   return nodes_[static_cast<std::size_t>(carried_.joint)].bus;
@@ -156,7 +156,7 @@ void CanMaster::count_feedback(Node& node) {
   node.unanswered = surplus < 0 ? -surplus : 0;
 }
 
-/// Carries what is asked of a drive, one request at a time.
+/// Carries the SDO requests of the drives, one at a time.
 void CanMaster::carry_request() {
   const cia402::ObjectRequest& request = drives_.request();
   if (request.number == 0 || request.number != carried_.number) {

@@ -86,7 +86,7 @@ Status CanMaster::place_joints() {
   return Status::kOk;
 }
 
-/// The frames of one cycle of each bus. Messages that come now and then, heartbeats among them, use
+/// The frames of one cycle of each bus. Occasional messages, heartbeats among them, use
 /// what a cycle leaves free.
 Status CanMaster::judge_load() {
   const BitRates rates = {can_->bitrate_kbit * 1e3,

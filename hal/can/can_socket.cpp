@@ -161,7 +161,7 @@ void CanSocket::take_control(const mmsghdr& header, CanFrame& frame) {
 
 bool CanSocket::hung_up() const {
   pollfd polled = {socket_, POLLRDHUP, 0};
-  return poll(&polled, 1, 0) > 0;  // negative: a signal came, which proves nothing
+  return poll(&polled, 1, 0) > 0;  // negative: a signal arrived, which proves nothing
 }
 
 Sent CanSocket::send(const CanFrame* frames, int count) {

@@ -1,6 +1,6 @@
 // CanSocket: one CAN bus, through a raw socket of the kernel or through a packet socket that a
-// launcher or a test hands over. The cycle takes the frames that have come with one system call and
-// sends with another; neither waits.
+// launcher or a test hands over. The cycle takes the frames that have arrived with one system call
+// and sends with another; neither waits.
 #pragma once
 
 #include <sys/socket.h>
@@ -40,14 +40,14 @@ class CanSocket {
   /// Takes over an open packet socket that carries struct can_frame and, if `fd`, struct
   /// canfd_frame; it is closed with this object. [init]
   void adopt(int descriptor, bool fd, const CanFilter* filters = nullptr, int count = 0);
-  /// Waits until a frame, or the end of the link, can be received. kInterrupted: a signal came.
+  /// Waits until a frame, or the end of the link, can be received. kInterrupted: a signal arrived.
   /// [init]
   WaitResult wait(std::int64_t timeout_ns) const;
   /// [any]
   void close();
   bool is_open() const { return socket_ >= 0; }
 
-  /// Copies the data frames that have come, at most `capacity` and at most kBatch, and returns
+  /// Copies the data frames that have arrived, at most `capacity` and at most kBatch, and returns
   /// their number. Error frames, malformed packets and frames with 29-bit identifiers are only
   /// counted in health(). [cyclic]
   int receive(CanFrame* frames, int capacity);

@@ -38,7 +38,7 @@ class HeartbeatWatch {
   bool is_lost(std::int64_t now_ns) const {
     return node_ != 0 && now_ns - heard_ns_ >= timeout_ns_;
   }
-  /// Whether a heartbeat has come since the start; the state is that of the last one. [any]
+  /// Whether a heartbeat has arrived since the start; the state is that of the last one. [any]
   bool known() const { return known_; }
   NmtState state() const { return state_; }
   /// Boot-up messages since the start: one more than a reset explains is a node that restarted by

@@ -1,4 +1,4 @@
-// NodeReport: what a node of a CANopen bus says about itself.
+// NodeReport: identity, state and objects that a node of a CANopen bus reports.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct PdoReport {
   bool known = false;
   std::uint32_t id = kPdoInvalid;  ///< COB-ID with its flags
   std::uint8_t type = 0;
-  int count = 0;  ///< entries, as the node says; more than kMostEntries are not in `entries`
+  int count = 0;  ///< entries reported by the node; more than kMostEntries are not in `entries`
   std::array<std::uint32_t, kMostEntries> entries{};
 
   bool valid() const { return known && (id & kPdoInvalid) == 0; }
@@ -53,7 +53,8 @@ struct NodeReport {
   using Label = Text<SdoClient::kCapacity>;
 
   bool answers = false;  ///< to SDO requests
-  bool heard = false;    ///< a heartbeat or the boot-up message came; `nmt` is the last one's state
+  bool heard =
+      false;  ///< a heartbeat or the boot-up message arrived; `nmt` is the last one's state
   bool sends_pdos = false;  ///< with its identifiers of the predefined connection set
   NmtState nmt = NmtState::kBootUp;
   std::array<std::uint32_t, kItems> items{};

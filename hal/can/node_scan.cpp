@@ -88,7 +88,7 @@ void NodeScan::ask_next(std::int64_t now_ns) {
   if (node_ == kMaxNode) stage_ = Stage::kWait;
 }
 
-/// Moves to the next node that answers or may answer: a node can have booted after it was asked.
+/// Moves to the next node that answers or may answer: a node can have booted after its request.
 bool NodeScan::find_node() {
   do ++node_;
   while (node_ <= kMaxNode && !current().may_answer());

@@ -2,7 +2,7 @@
 // node changes its state. Frames in, frames out, time passed in.
 //
 //   ask      the device type of every node, 1 to 127, a request every kSpacing_ns
-//   details  the objects of each node that answered or was heard, one after the other
+//   details  the objects of each node that answered or sent heartbeats, one after the other
 //   listen   until heartbeats have had their time
 #pragma once
 
@@ -31,7 +31,7 @@ class NodeScan {
 
   /// Returns the report of a node, 1 to 127. [any]
   const NodeReport& report(int node) const { return reports_[static_cast<std::size_t>(node)]; }
-  /// Nodes that answered or were heard. [any]
+  /// Nodes that answered or sent heartbeats. [any]
   int count() const;
 
  private:

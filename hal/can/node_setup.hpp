@@ -1,6 +1,6 @@
 // NodeSetup: what is read from and written to one drive by SDO before its first PDO, as a list of
-// steps: who it is, which all drives are asked before the first is set up; the file's own lines,
-// what it says of its numbers, then watchdogs, PDOs and mode. Everything that is written to the
+// steps: identity, read from all drives before the first is set up; the lines of the file,
+// the facts it reports, then watchdogs, PDOs and mode. Everything that is written to the
 // PDOs is read back. PDOs are changed in the order that CiA 301 demands (7.5.2.36): invalid, no
 // entries, entries, their number, parameters, valid.
 #pragma once
@@ -22,7 +22,7 @@ class NodeSetup {
              int period_us);
 
   int count() const { return count_; }
-  /// How many steps, the first ones, only ask who the drive is. [init]
+  /// Number of steps at the beginning that only read the identity of the drive. [init]
   int identifying() const { return identifying_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
 

@@ -28,7 +28,7 @@ enum class NmtCommand : std::uint8_t {
   kResetCommunication = 0x82,
 };
 
-/// State of a node as its heartbeat says.
+/// State of a node in its heartbeat.
 enum class NmtState : std::uint8_t {
   kBootUp = 0x00,
   kStopped = 0x04,
@@ -105,7 +105,7 @@ inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;  ///< the same: no RTR
 
 // Transmission types.
 inline constexpr std::uint8_t kEverySync = 1;
-inline constexpr std::uint8_t kOnChange = 255;  ///< as the device profile says
+inline constexpr std::uint8_t kOnChange = 255;  ///< as defined by the device profile
 
 /// Entries of an RPDO's mapping that skip bytes: the type's own number as the index (CiA 301,
 /// 7.4.8.1).

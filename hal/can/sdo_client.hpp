@@ -63,7 +63,7 @@ class SdoClient {
   /// The object that was read, after kDone. [any]
   const std::uint8_t* data() const { return data_.data(); }
   std::size_t size() const { return size_; }
-  /// False for an object of up to four bytes whose node has not said how many. [any]
+  /// False for an object of up to four bytes whose node has not indicated the size. [any]
   bool size_known() const { return size_known_; }
   /// The first four bytes as an integer; bytes that the object does not have are 0. [any]
   std::uint32_t value() const { return load<std::uint32_t>(data_, 0); }
@@ -105,7 +105,7 @@ class SdoClient {
   std::array<std::uint8_t, kCapacity> data_{};
   std::size_t size_ = 0;       ///< bytes to write, or read until now
   std::size_t sent_ = 0;       ///< bytes written until now
-  std::size_t announced_ = 0;  ///< bytes that the node said it would send
+  std::size_t announced_ = 0;  ///< size indicated by the node, bytes
   bool size_known_ = false;
   bool toggle_ = false;
   bool has_request_ = false, has_abort_ = false;

@@ -1,10 +1,11 @@
 // Startup: takes the drives from power-on to cyclic operation, one stage after the other:
 //
 //   reset     NMT reset communication; every node answers with its boot-up message
-//   identify  NMT pre-operational; every node says by SDO who it is. Nothing is written to any
+//   identify  NMT pre-operational; the identity of every node is read by SDO. Nothing is written to
+//   any
 //             drive before all of them are those of the file
 //   setup     the other steps of NodeSetup for one node after the other, by SDO
-//   start     NMT start; every node's heartbeat says "operational"
+//   start     NMT start; every node's heartbeat reports "operational"
 //   sync      a SYNC in every period, until all nodes have sent feedback in kSteady cycles in a row
 //
 // It neither waits nor reads a clock: advance() is called with the time until it does not return
@@ -30,7 +31,7 @@ class Startup {
   /// Begins with the reset. The settings must outlive the start-up. [init]
   void begin(const CanSettings& can, const cia402::Cia402Settings& drive, const PdoLayout& layout,
              CommandMode mode, int period_us, int buses, std::int64_t now_ns);
-  /// Takes the next step that is possible now. kArming: it goes on; kBusTimeout, kRefusedByRobot,
+  /// Takes the next step that is possible now. kArming: it continues; kBusTimeout, kRefusedByRobot,
   /// with the reason. [init]
   Status advance(std::int64_t now_ns);
   /// Values read from the drives. [init]
@@ -72,12 +73,12 @@ class Startup {
 
   Stage stage_ = Stage::kReset;
   std::int64_t since_ns_ = 0;  // in this stage
-  int joint_ = 0;              // that is asked or set up
+  int joint_ = 0;              // being identified or set up
   int step_ = 0;
   std::int64_t step_ns_ = 0;    // when the step began
   bool watched_ = false;        // the drive has a watchdog of its own
   int boot_ups_ = 0;            // of all nodes since the reset
-  std::int64_t booted_ns_ = 0;  // when the last of them came
+  std::int64_t booted_ns_ = 0;  // time of the last boot-up
   NodeSetup steps_;
   cia402::DriveFacts facts_;  // of joint_
   cia402::LineWriter lines_;

@@ -25,7 +25,7 @@ constexpr const char* name(Gravity gravity) {
 /// Position range that the drives' encoders report after power-on.
 enum class Encoder : std::uint8_t {
   kMultiTurn,   ///< the position
-  kSingleTurn,  ///< the position within a turn of the encoder; the joint's range says which
+  kSingleTurn,  ///< the position within a turn of the encoder; the joint's range decides which
 };
 
 constexpr const char* name(Encoder encoder) {
@@ -45,7 +45,7 @@ struct Cia402Settings {
   JointVector torque_limit = JointVector::Zero();  ///< N m, that 6072h allows; 0: the joint's limit
   JointVector increments =
       JointVector::Constant(16777216.0);  ///< of positions per motor revolution
-  /// Units of velocity per motor revolution per second: 60 for rev/min; 0: what the drive says.
+  /// Units of velocity per motor revolution per second: 60 for rev/min; 0: as the drive reports.
   JointVector velocity_units = JointVector::Zero();
   JointVector gear_ratio = JointVector::Ones();
   JointVector direction = JointVector::Ones();        ///< +1 or -1

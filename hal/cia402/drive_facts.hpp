@@ -1,8 +1,8 @@
-// DriveFacts: what a drive says of its own numbers by SDO before its first command, and what must
-// agree with the pipeline file: which drive it is, the torque that it is rated for, the torque at
-// which it ends, and the units of its positions and velocities. An object that a drive does not
-// have says nothing, and what is then unknown but needed is asked of the file. The error code is
-// compared with nothing: a drive that stands in fault does not send it again.
+// DriveFacts: the scaling and identity that a drive reports by SDO before its first command, and
+// what must agree with the pipeline file: which drive it is, the torque that it is rated for, the
+// torque at which it ends, and the units of its positions and velocities. An object that a drive
+// does not have is not compared; a value that is needed must then be in the file. The error
+// code is not compared: a drive in fault does not send it again.
 //
 // CiA 402-2: position and velocity are in user-defined units. A revolution of the motor has
 //
@@ -81,10 +81,10 @@ class DriveFacts {
   /// are judged. Fails as judge(). [init]
   Status judge_identity(const Cia402Settings& drive, int joint, StartupFindings& findings,
                         Message& why) const;
-  /// Compares the facts with what the file says of the drive of `joint`, from 0. `velocities`: the
-  /// wire carries velocities of this drive, whose unit must be known. Adds to `findings` the values
-  /// of the joint. kRefusedByRobot; `why` has object, value, what was expected and the line that
-  /// helps. [init]
+  /// Compares the facts with the settings of the file for the drive of `joint`, from 0.
+  /// `velocities`: the wire carries velocities of this drive, whose unit must be known. Adds to
+  /// `findings` the values of the joint. kRefusedByRobot; `why` has object, value, what was
+  /// expected and the line that helps. [init]
   Status judge(const Cia402Settings& drive, int joint, bool velocities, StartupFindings& findings,
                Message& why) const;
 

@@ -27,7 +27,7 @@ struct DriveTimes {
 
 class DriveMachine {
  public:
-  /// Falls on a way up that are bridged; the text of Drives::judge_rise() says it.
+  /// Falls on a way up that are bridged; Drives::judge_rise() reports it.
   static constexpr int kMostFalls = 3;
 
   /// Takes the time-outs. [init]

@@ -12,21 +12,21 @@ namespace tactus::cia402 {
 
 /// The newest process data of one drive.
 struct DriveFeedback {
-  bool fresh = false;         ///< came since the last cycle
-  int made_up = 0;            ///< samples of earlier cycles that came with it, late
+  bool fresh = false;         ///< arrived since the last cycle
+  int made_up = 0;            ///< late samples of earlier cycles received with it
   bool has_velocity = false;  ///< 606Ch is mapped; otherwise the positions are differentiated
   std::uint16_t statusword = 0;
-  std::int32_t position = 0, velocity = 0;  ///< increments; velocity as 60A9h says
+  std::int32_t position = 0, velocity = 0;  ///< increments; velocity in units of 60A9h
   std::int16_t torque = 0;                  ///< permille of the rated torque
   std::uint16_t error_code = 0;  ///< 603Fh, or of the last EMCY message; 0: none, or it has gone
-  bool emergency = false;        ///< an EMCY message with an error came since the last cycle
+  bool emergency = false;        ///< an EMCY message with an error arrived since the last cycle
   /// kOk, or why the drive cannot be used until the next connect(): restarted, silent ...
   Status lost = Status::kOk;
 
   /// 603Fh is of the last error, which may have gone. [any]
   bool shows_error() const { return (statusword & (kFaultBit | kWarning)) != 0; }
-  /// Takes a statusword. An error that has gone takes its code along: not every drive says so.
-  /// [any]
+  /// Takes a statusword. The error code is cleared with the error, as not every drive reports its
+  /// end. [any]
   void show(std::uint16_t word) {
     const bool showed = shows_error();
     statusword = word;
@@ -50,7 +50,7 @@ struct DriveCommand {
   bool homes = false;  ///< its mode of operation is homing, not that of the commands
   std::int16_t target_torque = 0, torque_offset = 0;      ///< permille of the rated torque
   std::int32_t target_position = 0;                       ///< increments
-  std::int32_t target_velocity = 0, velocity_offset = 0;  ///< as 60A9h says
+  std::int32_t target_velocity = 0, velocity_offset = 0;  ///< in units of 60A9h
 };
 
 /// Returns the drive's mode for commands of a pipeline. [any]
@@ -63,7 +63,8 @@ constexpr Mode mode_of(CommandMode mode) {
   return Mode::kCyclicTorque;
 }
 
-/// An object that a bus reads from a drive, or writes to it, by SDO while the process data goes on.
+/// An object that a bus reads from a drive, or writes to it, by SDO while the process data
+/// continues.
 struct ObjectRequest {
   int number = 0;  ///< of this request; 0: there is none
   int joint = 0;   ///< from 0

@@ -194,8 +194,8 @@ void Drives::count_missed(Joint& joint, const DriveFeedback& feedback) {
   joint.owed = std::min(std::max(owed, 0), settings_->max_missed + 1);
 }
 
-/// A drive that holds or follows must stay enabled, be heard and report no error. One that was lost
-/// fails in every phase in which it is used.
+/// A drive that holds or follows must stay enabled, send feedback and report no error. One that was
+/// lost fails in every phase in which it is used.
 void Drives::judge(int j) {
   const Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (!enabled() && !rising()) return;
@@ -302,7 +302,7 @@ void Drives::show(RobotState& state) const {
     if (joint.stamp_ns < state.stamp_ns) state.stamp_ns = joint.stamp_ns;
     state.drives[static_cast<std::size_t>(j)] = drive_of(joint);
   }
-  // The first command goes on from the measured torque, and the drives add the weight to it.
+  // The first command continues from the measured torque, and the drives add the weight to it.
   if (settings_->gravity == Gravity::kDrive) state.tau -= hold_.weight(state.q);
 }
 

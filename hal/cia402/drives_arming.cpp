@@ -214,7 +214,7 @@ void Drives::answer(std::uint32_t value, const ObjectRefusal& refused) {
   homing_.shown = static_cast<Mode>(value);
 }
 
-/// While the brakes open, every drive is asked for the mode that it is in.
+/// While the brakes open, the mode of every drive is read.
 void Drives::judge_mode(std::uint32_t value, const ObjectRefusal& refused) {
   constexpr const char* kWhat = "its display of the mode of operation (6061h) ";
   const auto mode = static_cast<Mode>(value);
@@ -369,7 +369,7 @@ void Drives::judge_motion(std::int64_t now_ns) {
        " ms", &figures);
 }
 
-/// A joint that was homed is where its drive says, and that must be in its range.
+/// The position that a drive reports after homing must be in the joint's range.
 bool Drives::judge_place(int j) {
   Joint& joint = joints_[static_cast<std::size_t>(j)];
   if (joint.placed) return true;

@@ -1,4 +1,4 @@
-// Homing: where the homing of one drive is, and what the drive says of it (CiA 402-2 /
+// Homing: the state of the homing of one drive, and its statusword (CiA 402-2 /
 // IEC 61800-7-201, homing mode).
 //
 // The mode is requested (6060h) and awaited (6061h), the method written (6098h); the drive is
@@ -33,7 +33,7 @@ struct Homing {
 
   Step step = Step::kSelect;
   int joint = -1;
-  bool answered = false;  ///< what was asked in this step
+  bool answered = false;  ///< the request of this step was answered
   Mode shown = Mode::kNone;
   std::int64_t since_ns = 0;  ///< in this step
   std::uint32_t homed = 0;    ///< bit j: joint j was homed in this arming
@@ -45,7 +45,7 @@ struct Homing {
   bool operates() const { return step == Step::kRelease || step == Step::kMove; }
   bool returns() const { return step >= Step::kReturn; }
 
-  /// Returns what a sample of the statusword says. [cyclic]
+  /// Judges a sample of the statusword. [cyclic]
   static Verdict verdict_of(std::uint16_t word) {
     const bool reached = (word & kTargetReached) != 0;
     if ((word & kHomingError) != 0) return reached ? Verdict::kErrorAtRest : Verdict::kErrorMoving;

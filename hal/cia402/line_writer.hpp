@@ -12,7 +12,7 @@ namespace tactus::cia402 {
 /// Result of an SDO transfer.
 struct TransferResult {
   bool done = false;        ///< false: the drive, or the wire, has aborted it
-  bool size_known = false;  ///< the drive has said how many bytes the object has
+  bool size_known = false;  ///< the drive has indicated the size of the object
   std::size_t bytes = 0;    ///< of the object that was read
   std::uint32_t value = 0;
 };

@@ -140,7 +140,7 @@ inline constexpr Object kFaultReactionOption = {0x605E, 0, 2};     // i16
 inline constexpr Object kModeOfOperation = {0x6060, 0, 1};         // i8
 inline constexpr Object kModeDisplay = {0x6061, 0, 1};             // i8
 inline constexpr Object kPositionActual = {0x6064, 0, 4};          // i32, increments
-inline constexpr Object kVelocityActual = {0x606C, 0, 4};          // i32, as 60A9h says
+inline constexpr Object kVelocityActual = {0x606C, 0, 4};          // i32, in units of 60A9h
 inline constexpr Object kTargetTorque = {0x6071, 0, 2};            // i16, permille of 6076h
 inline constexpr Object kMaxTorque = {0x6072, 0, 2};               // u16, permille of 6076h
 inline constexpr Object kTorqueDemand = {0x6074, 0, 2};            // i16, permille of 6076h
@@ -159,17 +159,17 @@ inline constexpr Object kVelocityDivisor = {0x6096, 2, 4};         // u32
 inline constexpr Object kHomingMethod = {0x6098, 0, 1};            // i8
 inline constexpr Object kPositionUnit = {0x60A8, 0, 4};            // u32
 inline constexpr Object kVelocityUnit = {0x60A9, 0, 4};            // u32
-inline constexpr Object kVelocityOffset = {0x60B1, 0, 4};          // i32, as 60A9h says
+inline constexpr Object kVelocityOffset = {0x60B1, 0, 4};          // i32, in units of 60A9h
 inline constexpr Object kTorqueOffset = {0x60B2, 0, 2};            // i16, permille of 6076h
 inline constexpr Object kPeriodValue = {0x60C2, 1, 1};             // u8: period = value 10^index s
 inline constexpr Object kPeriodIndex = {0x60C2, 2, 1};             // i8
 inline constexpr Object kDigitalOutputs = {0x60FE, 1, 4};          // u32
-inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, as 60A9h says
+inline constexpr Object kTargetVelocity = {0x60FF, 0, 4};          // i32, in units of 60A9h
 inline constexpr Object kSupportedModes = {0x6502, 0, 4};          // u32
 
 /// A period as 60C2h has it: value * 10^index s.
 struct PeriodObject {
-  std::uint8_t value = 0;  ///< 0: no number of 8 bits says it
+  std::uint8_t value = 0;  ///< 0: not expressible in 8 bits
   std::int8_t index = 0;
 };
 /// Returns the object for a period, in the largest unit from 1 ms to 1 us that has it exactly.

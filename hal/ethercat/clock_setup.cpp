@@ -16,8 +16,8 @@ enum Step : int { kFollow, kDifference, kOff, kTime, kCycle, kStart, kOn, kJudge
 constexpr std::int64_t kAhead_ns =
     100'000'000;            // from reading the time to the first pulse, at least
 constexpr int kStarts = 5;  // start times of a slave that pass unused
-/// Beyond it a clock is not said to be synchronous. The IgH EtherCAT Master waits for the same,
-/// EC_DC_MAX_SYNC_DIFF_NS in master/fsm_slave_config.c, and then goes on with a warning.
+/// Beyond it a clock does not count as synchronous. The IgH EtherCAT Master waits for the same,
+/// EC_DC_MAX_SYNC_DIFF_NS in master/fsm_slave_config.c, and then continues with a warning.
 constexpr std::int64_t kMostApart_ns = 10'000;
 
 }  // namespace

@@ -1,6 +1,6 @@
 // ClockSetup: sets the distributed clocks of a segment (IEC 61158-4-12). The clock of the first
 // slave is the reference; the others get their offset to it and the delay of the line, and then
-// follow it. Then SYNC0 is started in every slave if the file asks for it. Single datagrams; frames
+// follow it. Then SYNC0 is started in every slave if the file requests it. Single datagrams; frames
 // in, frames out, time passed in.
 #pragma once
 

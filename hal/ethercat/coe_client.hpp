@@ -51,7 +51,7 @@ class CoeClient {
   can::SdoAbort abort() const { return abort_; }
   const std::uint8_t* data() const { return data_.data(); }
   std::size_t size() const { return size_; }
-  /// False for an object of up to four bytes whose slave has not said how many. [any]
+  /// False for an object of up to four bytes whose slave has not indicated the size. [any]
   bool size_known() const { return size_known_; }
   /// The first four bytes as an integer; bytes that the object does not have are 0. [any]
   std::uint32_t value() const { return get<std::uint32_t>(data_.data()); }
@@ -98,7 +98,7 @@ struct Mailboxes {
 };
 
 /// Carries the messages of a CoeClient to and from the mailboxes of slaves, one datagram at a time:
-/// writes a request, asks whether there is an answer, reads it.
+/// writes a request, polls for an answer, reads it.
 ///
 /// A mailbox is accessed as a whole, as its sync manager becomes full or empty with its last byte.
 /// Where the frame has no room for that, it is accessed in several datagrams, from its first byte

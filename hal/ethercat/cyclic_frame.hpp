@@ -7,7 +7,7 @@
 //   FPRD  0130h: state and status code of one slave after the other
 //   ...   one datagram to a mailbox, or to request a state
 //
-// The inputs are taken only if the working counter says that every drive has read and written: a
+// The inputs are taken only if the working counter shows that every drive has read and written: a
 // drive that has not leaves the bytes that were sent, which would pass for inputs.
 #pragma once
 
@@ -19,9 +19,9 @@ namespace tactus::ethercat {
 /// Counters of frames and of their errors since the start.
 struct LineCounts {
   std::int64_t frames = 0;   ///< sent
-  std::int64_t lost = 0;     ///< did not come back before the next
-  std::int64_t late = 0;     ///< came back after the next was sent
-  std::int64_t counter = 0;  ///< came back with a wrong working counter
+  std::int64_t lost = 0;     ///< did not return before the next
+  std::int64_t late = 0;     ///< returned after the next was sent
+  std::int64_t counter = 0;  ///< returned with a wrong working counter
   std::int64_t strange = 0;  ///< foreign or incomplete
 };
 
@@ -40,9 +40,9 @@ class CyclicFrame {
   /// Takes any frame. [cyclic]
   void receive(Frame& frame);
   bool awaits() const { return sent_ && !came_; }
-  /// Frames in a row that did not come back before the next. [any]
+  /// Frames in a row that did not return before the next. [any]
   int missing() const { return missing_; }
-  /// Closes the cycle and says whether its frame has returned. [cyclic]
+  /// Closes the cycle and returns the arrival of its frame. [cyclic]
   Arrival close();
 
   // Contents of the returned frame; valid unless close() gave kNothing. [cyclic]

@@ -69,7 +69,7 @@ void EthercatHal::receive() {
   }
 }
 
-/// A frame that could not be sent does not come back, and is counted as lost.
+/// A frame that could not be sent does not return, and is counted as lost.
 void EthercatHal::send() {
   if (master_.take(frame_)) (void)socket_.send(frame_);
 }
@@ -99,8 +99,8 @@ Status EthercatHal::write(const RobotCommand& command) {
   return fault_;
 }
 
-/// A period after the last cycle, and what the reference clock asks for. Periods that were missed
-/// are left out.
+/// One period after the last cycle, plus the correction by the reference clock. Periods that were
+/// missed are left out.
 Status EthercatHal::wait(CycleTime& now) {
   const std::int64_t period_ns = std::int64_t{1000} * master_.period_us();
   const std::int64_t before_ns = Deadline::now_ns();

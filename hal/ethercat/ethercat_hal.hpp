@@ -1,5 +1,5 @@
 // EthercatHal: seven CiA 402 drives on one EtherCAT segment. It carries the frames of
-// EthercatMaster: in a cycle one system call takes the frame that has come back, and one sends the
+// EthercatMaster: in a cycle one system call takes the frame that has returned, and one sends the
 // next.
 //
 // connect() brings the slaves to OP, checks and configures the drives and enables none. A drive's
@@ -19,17 +19,17 @@ namespace tactus::ethercat {
 class EthercatHal final : public Hal, private Clock {
  public:
   /// Takes the settings of the pipeline file, which must outlive the use of the Hal. As
-  /// EthercatMaster::configure(); trouble() says more. [init]
+  /// EthercatMaster::configure(); trouble() has details. [init]
   Status configure(const EthercatSettings& ethercat, const cia402::Cia402Settings& drive,
                    const Tool& tool, CommandMode mode, int period_us, int arming_ms);
 
   Capabilities capabilities() const override { return cia402::capabilities_of_drives(); }
   /// Opens the interface and starts the slaves up, in all no longer than `connect_ms`. kNotOffered,
-  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() says more. [init]
+  /// kConnectionLost, kBusTimeout, kRefusedByRobot, kNotReferenced; trouble() has details. [init]
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
-  /// As the interface says, and waits until the drives confirm that they are disabled, at most for
+  /// As in Hal; also waits until the drives confirm that they are disabled, at most for
   /// `stop_ms`; then takes the slaves to INIT. kBusTimeout: trouble() names the joints that did not
   /// confirm.
   Status disconnect() override;

@@ -159,7 +159,7 @@ void EthercatMaster::take_mailbox() {
     slave.feedback.error_code = emergency.code;
     slave.feedback.emergency = slave.feedback.emergency || emergency.code != 0;
   }
-  // Without its frame, or with a mailbox that was full, the drive is asked again.
+  // Without its frame, or with a mailbox that was full, the request to the drive is repeated.
   if (answer.counter != 1) carried_ = 0;
   coe_.advance(now_ns_);
   const bool waits = coe_.progress() == CoeClient::Progress::kBusy || port_.busy();
@@ -177,7 +177,7 @@ void EthercatMaster::take_cycle() {
     const std::uint16_t emergency_code = slave.feedback.emergency ? slave.feedback.error_code : 0;
     slave.data.decode(cyclic_.inputs(), slave.feedback);
     if (slave.feedback.error_code == 0)
-      slave.feedback.error_code = emergency_code;  // 603Fh comes later
+      slave.feedback.error_code = emergency_code;  // 603Fh follows later
   }
 }
 
@@ -240,7 +240,7 @@ void EthercatMaster::leave() {
   state_ = MasterState::kOff;
 }
 
-/// Carries what is asked of a drive, one request at a time. A mode that is mapped is written by the
+/// Carries the SDO requests of the drives, one at a time. A mode that is mapped is written by the
 /// cycle alone: a drive may refuse it by SDO.
 void EthercatMaster::carry_request() {
   const cia402::ObjectRequest& request = drives_.request();

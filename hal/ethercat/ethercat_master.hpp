@@ -1,9 +1,9 @@
 // EthercatMaster: seven drives on one segment, without the interface: frames in, frames out, time
 // passed in. EthercatHal carries the frames.
 //
-// A cycle: receive() takes what has come since the last one; read() judges it; write() composes the
-// frame of this cycle. A drive gives its newest samples into that frame and takes its command out
-// of it, so a command acts exactly one period after the sample that it answers.
+// A cycle: receive() takes what has arrived since the last one; read() judges it; write() composes
+// the frame of this cycle. A drive gives its newest samples into that frame and takes its command
+// out of it, so a command acts exactly one period after the sample that it answers.
 #pragma once
 
 #include <algorithm>
@@ -30,9 +30,9 @@ class EthercatMaster {
   void connect(const std::uint8_t* source, std::int64_t now_ns);
   Status connecting(std::int64_t now_ns);
 
-  /// Takes a frame that has come. [init, cyclic]
+  /// Takes a frame that has arrived. [init, cyclic]
   void receive(Frame& frame);
-  /// True while a frame is to come back. [any]
+  /// True while a frame is to return. [any]
   bool awaits() const { return state_ == MasterState::kStartingUp || cyclic_.awaits(); }
   /// True while the wire answers: no more frames in a row are missing than [cia402] max_missed, or
   /// than two where drives are to be disabled. [cyclic]
@@ -40,7 +40,7 @@ class EthercatMaster {
     const int most = drive_->max_missed;
     return cyclic_.missing() <= (stops_ ? std::min(most, kMostUnanswered) : most);
   }
-  /// Judges what has come since the last cycle. [cyclic]
+  /// Judges what has arrived since the last cycle. [cyclic]
   Status read(const CycleTime& now, RobotState& state);
   /// Composes the frame of this cycle. [cyclic]
   void write(const RobotCommand& command);

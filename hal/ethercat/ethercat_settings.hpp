@@ -23,7 +23,7 @@ struct EthercatSettings {
   /// the cycles are a period apart by their stamps, however long they take: for an emulated
   /// segment.
   int frame_wait_ms = 0;
-  /// SYNC0 comes this long after the moment at which frames are sent; -1: there is none, and the
+  /// Delay of SYNC0 after the moment at which frames are sent; -1: there is none, and the
   /// drives are synchronized by the frame.
   int sync0_us = -1;
   double vendor = 0, product = 0;  ///< 1018h:1 and :2 of every drive; 0: any

@@ -20,7 +20,7 @@ bool Exchange::take(Frame& frame) {
   return fits;
 }
 
-/// The register or logical half of the address comes back unchanged.
+/// The register or logical half of the address returns unchanged.
 void Exchange::receive(Frame& frame) {
   if (progress_ != Progress::kBusy) return;
   FrameReader reader(frame);

@@ -23,11 +23,11 @@ class PacketSocket {
   bool adopt(int descriptor);
   void close();  ///< [any]
 
-  /// Takes the next frame that has come; false: there is none. Never blocks. [cyclic]
+  /// Takes the next frame that has arrived; false: there is none. Never blocks. [cyclic]
   bool receive(Frame& frame);
   /// Sends a frame; false: it could not be sent. Never blocks. [cyclic]
   bool send(const Frame& frame);
-  /// Waits for a frame, at most `longest_ns`. False: a signal came. [init]
+  /// Waits for a frame, at most `longest_ns`. False: a signal arrived. [init]
   bool wait(std::int64_t longest_ns);
 
   bool is_open() const { return socket_ >= 0; }
@@ -45,7 +45,7 @@ class PacketSocket {
   Status bind_to(const char* interface, Message& why);
 
   int socket_ = -1;
-  int claim_ = -1;  // a socket whose name says that the interface is in use
+  int claim_ = -1;  // a socket whose name marks the interface as in use
   bool lost_ = false;
   int system_calls_ = 0;
   std::array<std::uint8_t, 6> address_{{0x02, 0, 0, 0, 0, 0x01}};

@@ -137,7 +137,7 @@ constexpr const char* al_code_text(std::uint16_t code) {
   return "unknown";
 }
 
-/// True if a drive says with this code that SYNC0 is missing, or does not have its period. [any]
+/// True if this code of a drive means that SYNC0 is missing, or does not have its period. [any]
 constexpr bool concerns_sync0(std::uint16_t code) {
   return code == kAlNoSync || code == kAlSyncSetup || code == kAlSyncCycle || code == kAlSync0Cycle;
 }

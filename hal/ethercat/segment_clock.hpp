@@ -1,4 +1,4 @@
-// The clock of the segment as the cycle sees it: the reference time that every frame returns is
+// The clock of the segment in the cycle: the reference time that every frame returns is
 // checked, steers the moments at which frames are sent, and is compared with SYNC0.
 #pragma once
 
@@ -25,7 +25,7 @@ class ReferenceClock {
   };
 
   /// Begins; the next time is taken as it is. Clocks of 32 bits wrap after 4.3 s. A time may be
-  /// ahead by `slack_ns` of what the computer's clock says. [init]
+  /// ahead of the computer's clock by `slack_ns`. [init]
   void start(bool has_64_bits, std::int64_t slack_ns) {
     has_64_bits_ = has_64_bits;
     slack_ns_ = slack_ns;
@@ -54,7 +54,7 @@ class ReferenceClock {
   }
   /// The last one. [any]
   Verdict verdict() const { return verdict_; }
-  /// The last time that was good, ns; a clock of 32 bits goes on beyond them. [any]
+  /// The last time that was good, ns; a clock of 32 bits continues beyond them. [any]
   std::int64_t time_ns() const { return time_ns_; }
 
  private:
@@ -135,7 +135,7 @@ class Sync0Watch {
     shift_ns_ = shift_ns;
     first_ns_ = first_ns;
   }
-  /// A frame was sent, whether it comes back or not. [cyclic]
+  /// A frame was sent, whether it returns or not. [cyclic]
   void count_frame() { ++frames_; }
   /// Takes the reference time at which the last frame passed. [cyclic]
   void take(std::int64_t reference_ns) {

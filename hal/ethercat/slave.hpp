@@ -16,7 +16,7 @@ struct Identity {
   std::uint32_t vendor = 0, product = 0, revision = 0, serial = 0;
 };
 
-/// A sync manager of the process data, as the EEPROM says.
+/// A sync manager of the process data, from the EEPROM.
 struct Area {
   int sm = -1;  ///< -1: there is none
   std::uint16_t start = 0;
@@ -33,13 +33,13 @@ struct Slave {
   ProcessData data;
 
   // The clock, at the moment of the latch, ns.
-  std::uint32_t loop_ns = 0;   ///< from the frame's arrival until it came back from behind
+  std::uint32_t loop_ns = 0;   ///< from the frame's arrival until it returned from behind
   std::uint64_t local_ns = 0;  ///< wraps
   std::int64_t delay_ns = 0;
 
   // The cycle.
   std::uint16_t al_status = 0, al_code = 0;
-  int unanswered = 0;  ///< times in a row that it was asked for its state
+  int unanswered = 0;  ///< consecutive state requests without an answer
   cia402::DriveFeedback feedback;
 
   bool has_clock() const { return (features & kHasClock) != 0; }

@@ -64,7 +64,7 @@ void SlaveSetup::options(CommandMode mode, int period_us) {
   const auto [value, index] = cia402::period_object(period_us);
   write(cia402::kPeriodValue, value, "interpolation time");
   write(cia402::kPeriodIndex, static_cast<std::uint8_t>(index), "interpolation time index");
-  // Where it is mapped, the cycle writes it too; arming asks for its display.
+  // Where it is mapped, the cycle writes it too; arming reads its display.
   write(cia402::kModeOfOperation, static_cast<std::uint8_t>(cia402::mode_of(mode)),
         "mode of operation");
 }

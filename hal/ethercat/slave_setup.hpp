@@ -1,6 +1,6 @@
 // SlaveSetup: what is read from and written to one drive by SDO before its first cycle, as a list
-// of steps: who it is, which all drives are asked before the first is set up; the file's own lines,
-// what it says of its numbers, then options, mode and PDOs, in the order that CoE demands: no PDO
+// of steps: identity, read from all drives before the first is set up; the lines of the file,
+// the facts it reports, then options, mode and PDOs, in the order that CoE demands: no PDO
 // assigned, no entries, entries, their number, assignment. A drive whose PDOs cannot be changed is
 // left as it is; what is then read back decides.
 #pragma once
@@ -21,7 +21,7 @@ class SlaveSetup {
   /// Lists the steps of a drive for commands of `mode`. [init]
   void begin(const EthercatSettings& ethercat, CommandMode mode, int period_us);
   int count() const { return count_; }
-  /// How many steps, the first ones, only ask who the drive is. [init]
+  /// Number of steps at the beginning that only read the identity of the drive. [init]
   int identifying() const { return identifying_; }
   const SetupStep& step(int i) const { return steps_[static_cast<std::size_t>(i)]; }
 

@@ -269,7 +269,7 @@ Request Startup::mailbox_request() const {
   return sm_request(boxes.station, 1, boxes.in, boxes.in_bytes, slave.mailbox_in_control);
 }
 
-/// The watchdog runs over the outputs, whatever the EEPROM says.
+/// The watchdog covers the outputs, regardless of the EEPROM.
 Request Startup::process_request() const {
   const Slave& slave = at();
   const std::uint16_t station = slave.boxes.station;

@@ -2,8 +2,8 @@
 // cycle configured: a sequence of single datagrams. Frames in, frames out, time passed in.
 //
 // The line is counted and brought to INIT; then one slave after the other shows its
-// EEPROM, goes to PREOP and says by SDO who it is; nothing is written to any drive before all of
-// them are those of the file. Then one after the other is set up by SDO, all get their process
+// EEPROM, goes to PREOP and gives its identity by SDO; nothing is written to any drive before all
+// of them are those of the file. Then one after the other is set up by SDO, all get their process
 // data, the clocks are set, and the slaves go to SAFEOP.
 #pragma once
 
@@ -26,7 +26,7 @@ struct ImageShape {
 
 class Startup {
  public:
-  /// Remedy where frames do not come back.
+  /// Remedy where frames do not return.
   static constexpr const char* kCheck = "; check power, cabling and [ethercat] interface";
 
   Startup(Slaves& slaves, CoeClient& coe, Message& why)
@@ -41,7 +41,7 @@ class Startup {
   /// Undoes the start-up: the next frame takes all slaves to INIT. False: no slave's state was
   /// changed, and there is no such frame. [init]
   bool give_up();
-  /// kBusTimeout, and the reason: no frame comes back. [init]
+  /// kBusTimeout, and the reason: no frame returns. [init]
   Status silent();
 
   const ImageShape& image() const { return image_; }

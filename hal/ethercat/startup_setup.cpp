@@ -10,7 +10,7 @@ constexpr int kAttempts = 2;  // of a transfer that gets no answer: a frame with
 
 }  // namespace
 
-/// Begins to ask the present slave who it is, or to set it up.
+/// Begins to identify the present slave, or to set it up.
 void Startup::begin_steps(Stage stage) {
   stage_ = stage;
   attempts_ = 0;

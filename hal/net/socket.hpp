@@ -32,7 +32,7 @@ class Socket {
 
   /// Waits until bytes or the end of the connection can be received. [any]
   bool wait(std::int64_t timeout_ns) const;
-  /// Receives at most `size` bytes; returns their number, 0 if none has come, -1 if the connection
+  /// Receives at most `size` bytes; returns their number, 0 if there was none, -1 if the connection
   /// has ended. [cyclic]
   long receive(std::uint8_t* data, std::size_t size);
 

@@ -26,7 +26,7 @@ Status CycleClock::wait(Wake& wake) {
   wake.missed = (wake.planned_ns - planned_ns_) / period_ns_ - 1;
   planned_ns_ = wake.planned_ns;
   const timespec until = {wake.planned_ns / kSecond_ns, wake.planned_ns % kSecond_ns};
-  int error = EINTR;  // the time is absolute, so the same sleep goes on after a signal
+  int error = EINTR;  // the time is absolute, so the same sleep continues after a signal
   while (error == EINTR) {
     error = clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
   }

@@ -42,7 +42,7 @@ struct HostQuery {
   int cpu = -1;                  ///< CPU of the cycle; -1: any
   int priority = 80;             ///< priority of the cycle
   const char* interface = "";    ///< network interface of the robot; empty: none
-  Ioctl ethtool = system_ioctl;  ///< asks the network card; null: the card cannot be asked
+  Ioctl ethtool = system_ioctl;  ///< queries the network card; null: no query is possible
 };
 
 struct HostItem {

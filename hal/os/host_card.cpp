@@ -117,7 +117,7 @@ Content card_priority(const HostQuery& query) {
                                                 << lowest << " for interrupt " << interrupt);
 }
 
-/// An interrupt is delayed by a time, or until as many packets have come, unless they are one.
+/// An interrupt is delayed by a time, or until as many packets have arrived, unless they are one.
 Content card_coalescing(const HostQuery& query) {
   if (!named(query)) return no_interface();
   if (query.ethtool == nullptr)

@@ -19,7 +19,7 @@ constexpr const char* name(Switch state) {
   return nullptr;
 }
 
-/// Whether a start goes on if the operating system refuses a step, or if the host harms real time
+/// Whether a start continues if the operating system refuses a step, or if the host harms real time
 /// by a required setting that no step can change.
 enum class Required : std::uint8_t { kWarn, kRefuse };
 

@@ -9,7 +9,8 @@ namespace tactus {
 
 class SmallFile {
  public:
-  /// Reads the file, at most 8 KiB of it. False: it cannot be read, and error() says why. [init]
+  /// Reads the file, at most 8 KiB of it. False: it cannot be read, and error() has the reason.
+  /// [init]
   bool read(const char* path);
   /// The errno of the last read(); 0 if it succeeded.
   int error() const { return error_; }

@@ -20,14 +20,15 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
 
   /// Opens the device, which starts its timer, and sets the time after which it resets the machine.
-  /// False: `why` says what failed, and the timer does not run. [init]
+  /// False: `why` names what failed, and the timer does not run. [init]
   bool arm(const char* device, int timeout_s, Message& why);
   /// Counts a completed cycle. [cyclic]
   void cycle_completed() { completed_.fetch_add(1, std::memory_order_release); }
   /// Restarts the timer if a cycle has completed since the last call. [any, one thread, not the
   /// cycle's: the device may block]
   void kick();
-  /// Stops the timer by the magic close. False: it cannot be stopped, and `why` says so. [init]
+  /// Stops the timer by the magic close. False: it cannot be stopped, and `why` has the reason.
+  /// [init]
   bool disarm(Message& why);
   bool armed() const { return file_ >= 0; }
 

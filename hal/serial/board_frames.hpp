@@ -37,7 +37,7 @@ struct FaultRecord {
   std::uint32_t pc = 0, lr = 0, sp = 0;
   /// Status of the fault. [Arm, DDI 0403E, B3.2.15, B3.2.16]
   std::uint32_t cfsr = 0, hfsr = 0;
-  std::uint32_t address = 0;  ///< that it concerns, if CFSR says that one is known
+  std::uint32_t address = 0;  ///< faulting address, if valid by CFSR
 };
 
 struct Greeting {

@@ -13,7 +13,7 @@ namespace tactus::serial {
 /// Byte transport: a serial port with its buffers, or a substitute.
 class ByteLink {
  public:
-  /// Takes up to `capacity` bytes that have come; never waits for more. [cyclic]
+  /// Takes up to `capacity` bytes that have arrived; never waits for more. [cyclic]
   virtual std::size_t receive(std::uint8_t* to, std::size_t capacity) = 0;
   /// Sends all of them, or keeps them to be sent. [cyclic]
   virtual void send(const std::uint8_t* bytes, std::size_t size) = 0;
@@ -27,15 +27,15 @@ class BoardLink {
   /// `bytes` outlives the link. [init]
   explicit BoardLink(ByteLink& bytes) : bytes_(bytes) {}
 
-  /// Takes what has come. kState goes to `state`, of which the newest counts. A message waits for
-  /// the background; one that comes before the last is answered is dropped, and comes again.
+  /// Takes what has arrived. kState goes to `state`, of which the newest counts. A message waits
+  /// for the background; one that arrives before the last is answered is dropped, and is repeated.
   /// [cyclic]
   void poll();
-  /// The payload of the newest kState since the last call; empty: none came. [cyclic]
+  /// The payload of the newest kState since the last call; empty: none arrived. [cyclic]
   ByteReader state();
-  /// True once for every kTick that came; `now` is its stamp. [cyclic]
+  /// True once for every kTick received; `now` is its stamp. [cyclic]
   bool tick(CycleTime& now);
-  /// Forgets states and ticks that have come. [cyclic]
+  /// Discards states and ticks that have arrived. [cyclic]
   void forget() {
     state_size_ = 0;
     ticked_ = false;

@@ -7,7 +7,7 @@
 //
 // There are two lanes. Frames of the *cycle* carry the newest value of something; a lost one is
 // replaced by the next and never repeated. *Messages* are sent one at a time: the board answers
-// each with its number, and the computer repeats what is not answered. A message that comes twice
+// each with its number, and the computer repeats what is not answered. A message received twice
 // is answered twice and executed once.
 #pragma once
 
@@ -29,7 +29,7 @@ enum class Kind : std::uint8_t {
   // Cycle, to the board.
   kState = 1,  ///< Order u8, and the robot's state: cycle_frames.hpp
   kTick = 2,   ///< stamp i64, ns: begins a cycle of a board in lock-step
-  // Messages to the board; the answers have what stands behind the arrow.
+  // Messages to the board; the answers contain the fields behind the arrow.
   kHello = 16,       ///< -> version u8, joints u8, robot text, hash of the pipeline's text u64
   kText = 17,        ///< offset u32, bytes of a pipeline's text
   kLoad = 18,        ///< size u32, hash u64 of the text that was sent; 0: the embedded one
@@ -46,7 +46,7 @@ enum class Kind : std::uint8_t {
   kProvoke = 29,     ///< Provocation u8; only test images support it
   // Sent by the board.
   kCommand = 64,  ///< cycle: the command of a cycle
-  kAnswer = 65,   ///< to the message whose number it has: Status u8, and what the message says
+  kAnswer = 65,   ///< to the message whose number it has: Status u8, and the data of the message
 };
 
 /// State that the computer requests of the arm. Every kState repeats it, so a lost one does no
@@ -61,7 +61,7 @@ enum class Pace : std::uint8_t {
   kLockStep,  ///< a kTick does, and the clock is its stamp
 };
 
-/// Faults that a test can ask for.
+/// Faults that a test can provoke.
 enum class Provocation : std::uint8_t {
   kHardFault,
   kStackOverflow,

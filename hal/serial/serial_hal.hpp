@@ -1,5 +1,6 @@
-// SerialHal: a robot at the other end of a link: its states come in frames, and every cycle answers
-// with a command. The board's loop takes the frames off the link and sends what the cycle gave.
+// SerialHal: a robot at the other end of a link: its states arrive in frames, and every cycle
+// answers with a command. The board's loop takes the frames off the link and sends what the cycle
+// gave.
 #pragma once
 
 #include "hal/serial/cycle_frames.hpp"
@@ -12,7 +13,7 @@ class SerialHal final : public Hal {
 
   /// Capabilities of the plant; the computer checks that it is the robot of the pipeline. [any]
   Capabilities capabilities() const override;
-  /// Forgets what came before; the wire is the board's. [init]
+  /// Discards earlier states; the link belongs to the board. [init]
   Status connect(CommandMode mode) override;
   /// Repeats the newest state. Before the first one all drives are kUnknown. [cyclic]
   Status read(const CycleTime& now, RobotState& state) override;

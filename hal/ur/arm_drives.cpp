@@ -1,4 +1,4 @@
-// ArmDrives: what is requested, what goes on in any phase, and how a phase ends.
+// ArmDrives: what is requested, what continues in any phase, and how a phase ends.
 #include "hal/ur/arm_drives.hpp"
 
 namespace tactus::ur {

@@ -12,7 +12,7 @@ class DashboardClient {
  public:
   enum class Answer : std::uint8_t {
     kNone,     ///< no command was given
-    kPending,  ///< the reply has not come
+    kPending,  ///< the reply has not arrived
     kYes,      ///< the reply is the expected one
     kNo,       ///< it is another one
     kLost,     ///< the connection is lost
@@ -22,10 +22,10 @@ class DashboardClient {
   /// kBusTimeout, kRefusedByRobot. [init]
   Status connect(const char* address, int port, const Deadline& deadline, Message& why);
   /// Gives a command whose reply begins with `expected`; both texts must be constants. If the reply
-  /// to the command before has not come, it is passed over. [cyclic]
+  /// to the command before has not arrived, it is skipped. [cyclic]
   void ask(std::string_view command, std::string_view expected);
-  /// Sends the command if it was not sent, and takes what has come of the reply. Returns the answer
-  /// from then on; `why` explains the first kNo or kLost. [cyclic]
+  /// Sends the command if it was not sent, and takes what has arrived of the reply. Returns the
+  /// answer from then on; `why` explains the first kNo or kLost. [cyclic]
   Answer poll(Message& why);
   /// The Status of kLost: kConnectionLost, or kWireFormat for a reply without an end. [cyclic]
   Status loss() const { return endless_ ? Status::kWireFormat : Status::kConnectionLost; }
@@ -40,7 +40,7 @@ class DashboardClient {
   bool send();
   /// Takes bytes unless there is a whole line. False: the connection is lost, or a line has no end.
   bool receive();
-  /// Takes a whole line off the bytes that have come.
+  /// Takes a whole line off the bytes that have arrived.
   bool next_line(Line& line);
   Answer judge(std::string_view reply, Message& why);
   Answer lose(Message& why);
@@ -59,7 +59,7 @@ class DashboardClient {
   bool greeted_ = false;
   bool repeated_ = false;  // the command is
   bool sent_ = false;
-  int unread_ = 0;        // replies that have not come
+  int unread_ = 0;        // replies that have not arrived
   bool endless_ = false;  // a line is longer than any reply
   Answer answer_ = Answer::kNone;
 };

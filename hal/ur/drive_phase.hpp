@@ -14,9 +14,9 @@ namespace tactus::ur {
 
 enum class DrivePhase : std::uint8_t {
   kOff,            ///< no program of ours runs; power and brakes are as people left them
-  kModes,          ///< judges what the robot says of itself
-  kReleaseStop,    ///< asks the dashboard to release a protective stop
-  kPowerOn,        ///< asks it for power
+  kModes,          ///< judges the modes that the robot reports
+  kReleaseStop,    ///< requests the release of a protective stop from the dashboard
+  kPowerOn,        ///< requests power
   kReleaseBrakes,  ///< and to release the brakes
   kOtherProgram,   ///< waits for the end of a program, which may be the last one of ours
   kStandstill,     ///< waits for an arm at rest, and compares its tool and tip with the models

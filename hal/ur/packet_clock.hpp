@@ -1,8 +1,8 @@
 // PacketClock: the robot's packets begin the cycles, one cycle for every period of the robot,
 // whatever the network does to the packets.
 //
-// A packet that does not come in time is bridged: the cycle begins without it, so that the robot
-// does not wait for its set-point. If the packet still comes, it begins no other cycle. Lost
+// A packet that does not arrive in time is bridged: the cycle begins without it, so that the robot
+// does not wait for its set-point. If the packet still arrives, it begins no other cycle. Lost
 // packets show as a jump of the stamp, which the executive judges.
 #pragma once
 
@@ -26,7 +26,7 @@ class PacketClock {
     missed_ = 0;
   }
 
-  /// Takes the time stamp of a packet that has come. [cyclic]
+  /// Takes the time stamp of a packet that has arrived. [cyclic]
   Arrival packet(double timestamp_s) {
     const std::int64_t stamp_ns = to_ns(timestamp_s);
     if (stamp_ns <= packet_ns_)

@@ -1,5 +1,5 @@
 // Frames: cuts a stream of bytes into packets that begin with their own length. TCP preserves only
-// the order of bytes: a packet may come in pieces, or several in one piece.
+// the order of bytes: a packet may arrive in pieces, or several in one piece.
 #pragma once
 
 #include <array>

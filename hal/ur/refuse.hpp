@@ -1,4 +1,4 @@
-// Refusals of what the robot says, in words.
+// Texts of refusals of reported robot properties.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace tactus::ur {
 
-/// Returns `status` and says why. [init]
+/// Returns `status`; sets the reason. [init]
 inline Status refuse(Message& why, Status status, std::string_view text) {
   why = Message(text);
   return status;

@@ -18,19 +18,19 @@ class RobotPort {
   void send();
   bool uploading() const { return !unsent_.empty(); }
 
-  /// Reads at most `kMostBytes` of the bytes that have come. [cyclic]
+  /// Reads at most `kMostBytes` of the bytes that have arrived. [cyclic]
   void receive();
   /// Forgets the last stop. [cyclic]
   void forget_stop();
-  /// Waits until bytes have come. [any]
+  /// Waits until bytes have arrived. [any]
   bool wait(std::int64_t timeout_ns) const { return socket_.wait(timeout_ns); }
 
   /// Code, argument and text of the newest stop, "C153A2: position deviates from the path, joint 3
-  /// (elbow)"; empty if none has come. [any]
+  /// (elbow)"; empty if there was none. [any]
   const Message& stop() const { return stop_; }
-  /// The code alone; 0 if none has come. [any]
+  /// The code alone; 0 if there was none. [any]
   std::uint32_t stop_code() const { return stop_code_; }
-  /// Line, column and text of the newest runtime exception; empty if none has come. [any]
+  /// Line, column and text of the newest runtime exception; empty if there was none. [any]
   const Message& exception() const { return exception_; }
 
   void close() { socket_.close(); }

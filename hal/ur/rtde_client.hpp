@@ -81,10 +81,10 @@ class RtdeClient {
   Status start(const char* address, int port, double rate_hz, bool outputs,
                const Deadline& deadline, Message& why);
 
-  /// Takes all data packages that have come, at most `kMostPackets`, and returns their number in
+  /// Takes all data packages that have arrived, at most `kMostPackets`, and returns their number in
   /// `count`; the newest is in `state`. [cyclic]
   Status receive(UrState& state, int& count, Message& why);
-  /// Waits until bytes have come. [any]
+  /// Waits until bytes have arrived. [any]
   bool wait(std::int64_t timeout_ns) const { return stream_.socket.wait(timeout_ns); }
 
   /// Digital outputs that go with every set-point from now on. [cyclic]

@@ -7,9 +7,9 @@
 //                                when the program has stopped the arm
 //
 // The content of the registers when the program starts is not a set-point. The first set-point must
-// be the arm's position, or the program ends. If no new one comes in a cycle, the target goes on
-// with the speed between the last two, which fades out within `patience` cycles as
-// 1 - (n / (patience + 1))^2; then the program stops the arm and ends.
+// be the arm's position, or the program ends. If no new one arrives in a cycle, the target
+// continues with the speed between the last two, which fades out within `patience` cycles as 1 - (n
+// / (patience + 1))^2; then the program stops the arm and ends.
 //
 // A computer that was away for some cycles continues its own motion, so its next set-point is
 // earlier on the path than the target. The difference d fades out over N = kServoBlend cycles by
@@ -17,9 +17,9 @@
 // squared. If the speed of the set-points is constant, d is below n steps after n cycles, and below
 // N / 1.5 after twelve: the target slows down and never goes back.
 //
-// Set-points may also bunch up: one that is due in the next cycle comes before that of this cycle
-// is read. The target goes on at its speed, and the lead of the bunch fades out in the same way. A
-// robot whose slider stretches time also finds more than one set-point in a cycle, but at an even
+// Set-points may also bunch up: one that is due in the next cycle arrives before that of this cycle
+// is read. The target continues at its speed, and the lead of the bunch fades out in the same way.
+// A robot whose slider stretches time also finds more than one set-point in a cycle, but at an even
 // pace: a bunch has more than 1.75 times as many as each of the last cycles.
 #pragma once
 
@@ -50,8 +50,8 @@ inline constexpr std::string_view kServoProgramName = "tactus_servo";
 inline constexpr int kServoRegister = 24;  ///< the first register, in either direction
 inline constexpr int kServoEnded = -1;
 inline constexpr int kServoBlend = 12;  ///< cycles
-/// Time after which the program ends if no set-point came at all, s: the program that uploaded it
-/// may be gone.
+/// Time after which the program ends if no set-point arrives at all, s: the program that uploaded
+/// it may be gone.
 inline constexpr double kFirstSetPoint_s = 1.0;
 
 inline constexpr std::size_t kServoProgramSize = 4096;

@@ -27,10 +27,10 @@ Capabilities UrHal::capabilities() const {
   return offered;
 }
 
-/// Waits for the packet of the cycle; if it does not come, the cycle begins without it. Without a
+/// Waits for the packet of the cycle; if it does not arrive, the cycle begins without it. Without a
 /// wire the cycles go on at the nominal period.
 Status UrHal::wait(CycleTime& now) {
-  constexpr int kMostWakes = 4;  // a packet may come in up to so many pieces
+  constexpr int kMostWakes = 4;  // most pieces in which a packet may arrive
   if (period_us_ <= 0) return Status::kClock;
   if (fault_ != Status::kOk) pause(std::int64_t{1000} * period_us_);
   Received came = Received::kNothing;
@@ -164,7 +164,7 @@ Status UrHal::check_sensor() {
   return Status::kNotOffered;
 }
 
-/// Finds what arming would refuse. An arm without power may not know where it is, and in motion
+/// Finds what arming would refuse. An arm without power may have no valid position, and in motion
 /// joints and tip may be of different times.
 Status UrHal::check_arm() {
   if (!state_.running() || !state_.at_rest()) return Status::kOk;
@@ -184,7 +184,7 @@ Status UrHal::await_state(const Deadline& deadline) {
   return Status::kBusTimeout;
 }
 
-/// If the negative count does not arrive, the program brakes because no set-points come.
+/// If the negative count does not arrive, the program brakes because no set-points arrive.
 Status UrHal::disconnect() {
   drives_.end_program();
   close();

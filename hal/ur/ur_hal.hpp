@@ -3,7 +3,7 @@
 // switches power on, and the primary port reports why the robot stopped.
 //
 // The robot's clock starts the cycles. A fault of the robot is a fault of all six drives
-// (hal/ur/arm_drives.hpp), shown by the read() of the packet that shows it; the exchange goes on,
+// (hal/ur/arm_drives.hpp), shown by the read() of the packet that shows it; the exchange continues,
 // and the drives can be armed again. read() fails only if the wire does not work any more, and from
 // then on until the next connect(). Neither a stop nor disconnect() changes power and brakes:
 // nothing moves without the program, which only arming uploads.
@@ -31,7 +31,7 @@ class UrHal final : public Hal, public Clock {
   /// Connects and waits for the first state, in all no longer than `connect_ms`. kNotOffered,
   /// kBadValue, kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat;
   /// kMissingKey, kMismatch: hal/ur/reported_tool.hpp, of an arm that is switched on and at rest;
-  /// trouble() says more. [init]
+  /// trouble() has details. [init]
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;

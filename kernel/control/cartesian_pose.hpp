@@ -141,7 +141,7 @@ class CartesianPose {
 
   /// Returns kStateNotFinite (x, J, q), kReferenceFault (x_d, v_d, q_posture, speed_scaling; a
   /// quaternion of no length) or kCommandNotFinite; the command then keeps its position, at rest.
-  /// kPathTolerance: the tip leaves a reference that rests; the command goes on. [cyclic]
+  /// kPathTolerance: the tip leaves a reference that rests; the command continues. [cyclic]
   Status step(double dt_s);
   /// Verdict of the last step() on a reference at rest: kOk, or kPathTolerance with axis 0
   /// (translation) or 3 (rotation), the change of the error (a metre counts as a radian) and
@@ -159,7 +159,7 @@ class CartesianPose {
   /// Lets the joint command go on from where it is; a remaining error fades in again, and the
   /// posture stays that of the start. [init]
   Status resume();
-  /// Changes the tunable parameters: the correction goes on, and its difference fades in
+  /// Changes the tunable parameters: the correction continues, and its difference fades in
   /// kTransfer_s. [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
 

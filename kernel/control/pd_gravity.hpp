@@ -44,7 +44,7 @@ struct PdGravity {
     transfer_.clear();
     return step(0.0);
   }
-  /// The torque goes on, with what is left of a change of the gains. [init]
+  /// The torque continues, with what is left of a change of the gains. [init]
   Status resume() { return step(0.0); }
 
   /// Returns kCommandNotFinite if the torque is not finite. [cyclic]
@@ -61,8 +61,8 @@ struct PdGravity {
   Verdict judge_change(const Params& next, const JointLimits& limits) const {
     return judge_torque(torque(next), torque(params), limits);
   }
-  /// Changes the gains: the torque goes on from the last one, and the difference fades with at most
-  /// half of limits.dtau_max. [between two cycles], after a step
+  /// Changes the gains: the torque continues from the last one, and the difference fades with at
+  /// most half of limits.dtau_max. [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits) {
     const JointVector difference = tau.value - torque(next);
     params = next;

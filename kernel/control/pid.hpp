@@ -136,7 +136,7 @@ class Pid {
   /// [between two cycles], after a step
   Verdict judge_change(const Params& next, const JointLimits& limits) const;
   /// Changes the tunable parameters. The integral keeps its torque, also where the new ki is 0; the
-  /// torque goes on from the last one, and the difference fades with at most half of
+  /// torque continues from the last one, and the difference fades with at most half of
   /// limits.dtau_max. [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
 

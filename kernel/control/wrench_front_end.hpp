@@ -20,9 +20,9 @@
 // and touch nothing: a steady contact becomes part of the bias. The filter then starts from zero:
 // with a time constant, h does not step; without, it steps by up to the tare tolerances.
 //
-// A sensor drifts. begin_tare() asks for a new bias while the block runs, by the same interval.
-// Until it has passed, h comes from the old bias, so that a law goes on to yield. Then the new bias
-// holds, and what h changes by fades in kTransfer_s:
+// A sensor drifts. begin_tare() requests a new bias while the block runs, by the same interval.
+// Until it has passed, h comes from the old bias, so that a law continues to yield. Then the new
+// bias holds, and what h changes by fades in kTransfer_s:
 //
 //   h(t) = contact by the new bias + s(t) (h before - contact by the new bias)     fade.hpp
 //
@@ -92,18 +92,18 @@ class WrenchFrontEnd {
   /// beyond the sensor's range, kSensorStuck if ft is the same to the last bit for stuck_s, and
   /// kSensorNotSteady if there is no tare within tare_timeout_s. [cyclic]
   Status step(double dt_s);
-  /// Refuses a tare that was asked for; nothing else, as the block has no motion of its own.
+  /// Refuses a requested tare; nothing else, as the block has no motion of its own.
   /// [cyclic]
   void brake(Status why, BrakeWay /*way*/) { request_.end({why}); }
   /// Begins a tare while the block runs. Returns kNotOffered if tare_s is 0, kMailboxFull while one
   /// is under way. [between two cycles], after a step
   Status begin_tare();
-  /// True until the tare that was asked for has its result. [between two cycles]
+  /// True until the requested tare has its result. [between two cycles]
   bool tares() const { return request_.runs(); }
   /// The result of the last one: kOk, kTareLimit, kSensorNotSteady, why it was braked, or
   /// kNotStarted if the block was restarted. [between two cycles]
   Verdict tared() const { return request_.verdict(); }
-  /// Changes the tunable parameters: h goes on, and its difference fades in kTransfer_s.
+  /// Changes the tunable parameters: h continues, and its difference fades in kTransfer_s.
   /// [between two cycles], after a step
   void retune(const Params& next, const JointLimits& limits);
 

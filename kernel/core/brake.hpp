@@ -8,7 +8,7 @@
 // resume(), the block brings its own motion to rest within limits and keeps it at rest; a block
 // that only follows its inputs has an empty brake(). A block without brake() does not compile.
 //
-// A block with a motion of its own says when that has come to rest:
+// A block with a motion of its own reports when that has come to rest:
 //
 //   bool at_rest() const;                     // [between two cycles]
 //

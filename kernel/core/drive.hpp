@@ -1,4 +1,4 @@
-// Drive: what the robot says of the drive of one joint, and what it can be asked for. The states
+// Drive: the reported state of the drive of one joint, and the requests that it takes. The states
 // are what the drives of all robots have in common; a Hal maps its own state machine onto them
 // (CiA 402, IEC 61800-7-201: "operation enabled" is kEnabled, "quick stop active" is kStopping).
 #pragma once

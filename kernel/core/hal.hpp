@@ -1,6 +1,6 @@
 // Hal: the only interface to the robot, in SI units: a statement of what the robot offers, a wire
-// that is opened and closed, and one exchange per cycle. The exchange goes on in every rung: drives
-// are armed, stopped and watched by it, and many need it while they are disabled.
+// that is opened and closed, and one exchange per cycle. The exchange continues in every rung:
+// drives are armed, stopped and watched by it, and many need it while they are disabled.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct RobotState {
   bool finite() const { return q.allFinite() && dq.allFinite() && tau.allFinite(); }
 };
 
-/// Command sent at the end of a cycle. The value, in rad, rad/s or N m as the mode says, is for
+/// Command sent at the end of a cycle. The value, in rad, rad/s or N m by the mode, is for
 /// drives that are enabled and requested to follow.
 struct RobotCommand {
   CommandMode mode = CommandMode::kEffort;
@@ -68,29 +68,29 @@ class Hal {
   /// Opens the wire for commands of `mode`. Enables no drive and moves nothing. May block, in all
   /// no longer than the board's settings say. [init]
   virtual Status connect(CommandMode mode) = 0;
-  /// Reads the newest state. If none came since the last cycle, repeats the last with its stamp and
-  /// kOk; the guard judges its age. Any other Status means that the wire does not work any more.
-  /// Bounded; never blocks. [cyclic]
+  /// Reads the newest state. If none arrived since the last cycle, repeats the last with its stamp
+  /// and kOk; the guard judges its age. Any other Status means that the wire does not work any
+  /// more. Bounded; never blocks. [cyclic]
   virtual Status read(const CycleTime& now, RobotState& state) = 0;
   /// Sends a command, and takes every drive one step towards what is requested. From the next
   /// read() on, a drive that is requested to arm is kFault only if arming has failed; while an old
   /// fault is being cleared it is kArming. Bounded; never blocks. [cyclic]
   virtual Status write(const RobotCommand& command) = 0;
   /// Disables the drives and closes the wire; waits for them no longer than the board's settings
-  /// say, if at all. kOk, or why the drives are not known to be disabled; trouble() says more. May
-  /// be called in any state, more than once. [any]
+  /// say, if at all. kOk, or why the drives are not known to be disabled; trouble() has details.
+  /// May be called in any state, more than once. [any]
   virtual Status disconnect() = 0;
 
   /// Returns the wire's clock if it begins the cycles; null: the host's does. [init]
   virtual Clock* clock() { return nullptr; }
   /// Returns the name of a digital output in the robot's own words; null: it has none. [init]
   virtual const char* output_name(int /*output*/) const { return nullptr; }
-  /// Returns the line of the pipeline file that would have more of what the robot says of itself
-  /// compared, with what it says now; empty: there is none. After connect(). [init]
+  /// Returns the line of the pipeline file that would have more of the robot's reported properties
+  /// compared, with their present values; empty: there is none. After connect(). [init]
   virtual Message unstated() { return {}; }
   /// Explains the last Status that was not kOk in the robot's own words. [between two cycles]
   virtual Message trouble() { return {}; }
-  /// Explains a drive's own number of a fault; empty: the number says all. [any]
+  /// Explains a drive's own fault number; empty if there is no explanation. [any]
   virtual Message code_text(std::uint32_t /*code*/) const { return {}; }
 
  protected:

@@ -69,7 +69,7 @@ class Mailbox : public MessageQueue<T, Atomic> {
   Mailbox() : MessageQueue<T, Atomic>(slots_, N) {}
 
  private:
-  T slots_[N]{};  // no std::array, whose data() may not be asked of one that is not yet built
+  T slots_[N]{};  // no std::array, whose data() must not be called before its construction
 };
 
 }  // namespace tactus

@@ -4,7 +4,7 @@
 // log. A board runs it like this:
 //
 //   executive.start();                            // opens the wire
-//   executive.arm();                              // asks for the drives
+//   executive.arm();                              // requests the drives
 //   while (wait for the clock, run) {
 //     const Status status = executive.cycle(now);
 //     if (status == Status::kArming) executive.arm();
@@ -58,7 +58,7 @@ class Executive {
   /// the Status that led there, and after start() kNotStarted, or why it was refused. [cyclic]
   Status cycle(const CycleTime& now);
 
-  /// Leads up to nominal, where the arm is: every old target is void. From disabled it asks for the
+  /// Leads up to nominal, where the arm is: every old target is void. From disabled it requests the
   /// drives; from then on, while it returns kArming, call it after every cycle. The first reference
   /// is the measured state. From a hold, every command continues as it is. Returns kArming until
   /// drives and arm are ready, kNotAtRest on stop, on a hold that moves and while drives are still

@@ -1,4 +1,4 @@
-// Executive: how it gets to nominal, and what a board asks of it between two cycles.
+// Executive: arming, and the requests of a board between two cycles.
 #include "kernel/cycle/executive.hpp"
 
 #include <cmath>
@@ -44,7 +44,7 @@ Status Executive::arm() {
   if (disabling_ > 0) return Status::kNotAtRest;
   if (wire_ != Status::kOk) return refuse(wire_);
   await_rest(0);
-  for (std::size_t i = 0; i < kDof; ++i)  // a warning that stands is in the log
+  for (std::size_t i = 0; i < kDof; ++i)  // a present warning is in the log already
     if (!measured_.drives[i].warns) warned_ &= static_cast<std::uint8_t>(~(1U << i));
   walk(Cause::kArm, Status::kArming);
   return Status::kArming;

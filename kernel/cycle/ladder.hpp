@@ -10,7 +10,7 @@
 //   arming         the drives are becoming enabled and hold their joints; the arm is not commanded
 //   disabled       category 0: the drives are disabled at once
 //
-// A brake is on the path, or at once if the path itself is the danger. The cause says which; a
+// A brake is on the path, or at once if the path itself is the danger. The cause decides which; a
 // brake at once never returns to the path. Below skip_optional only arming leads up again.
 #pragma once
 

@@ -1,7 +1,7 @@
-// libccd proposes, this file proves. Every direction along which libccd asks for the farthest
-// points of the two bodies says how far they are apart at least, whatever libccd makes of it; its
-// verdict is not used. One body is made thicker by what is wanted, so that the search goes on until
-// that is proved.
+// libccd proposes, this file proves. Every direction along which libccd requests the farthest
+// points of the two bodies gives a lower bound of their distance, independent of libccd's own
+// verdict, which is not used. One body is made thicker by what is wanted, so that the search
+// continues until that is proved.
 #include <ccd/ccd.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 /// on bodies of an arm's size that are some mm apart, in mm it does not.
 constexpr double kScale = 1000.0;
 
-/// The data that the callbacks of a search share. libccd asks for the point of the first body
+/// The data that the callbacks of a search share. libccd requests the point of the first body
 /// first.
 struct Search {
   const Solid& one;
@@ -58,8 +58,8 @@ void farthest_of_one(const void* object, const ccd_vec3_t* direction, ccd_vec3_t
   put(search.given, point);
 }
 
-/// libccd asks against the direction n of the first body: what is proved is the gap along n. Once
-/// it is enough, the answer is a point beyond the first body: libccd ends.
+/// libccd requests the point against the direction n of the first body; the gap along n is proved.
+/// Once it is enough, the answer is a point beyond the first body: libccd ends.
 void farthest_of_other(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
   Search& search = search_of(object);
   const Vector3 n = -vector_of(*direction);

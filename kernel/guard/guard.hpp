@@ -122,7 +122,7 @@ class Guard {
   /// True if the arm was braked from a command that could not be followed. [between two cycles]
   bool left_behind() const { return left_behind_; }
   /// Returns a measured state at rest with the positions that were sent last, if positions are
-  /// sent: from there a chain goes on without a step. [between two cycles]
+  /// sent: from there a chain continues without a step. [between two cycles]
   RobotState held(RobotState measured) const;
 
   const Telemetry& telemetry() const { return telemetry_; }

@@ -26,7 +26,8 @@ struct IniSection {
 
 class Ini {
  public:
-  /// Splits `text`. If it is refused, `error` says why, and the table must not be used. [init]
+  /// Splits `text`. If it is refused, `error` has the reason, and the table must not be used.
+  /// [init]
   Status parse(std::string_view text, LoadError& error);
 
   /// Begins a section, and adds an entry to it. `line` is where they are, for the refusal. [init]

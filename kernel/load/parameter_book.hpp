@@ -42,7 +42,7 @@ class ParameterBook {
   const Tuning& tuning() const { return tuning_; }
   /// The cycle has taken the set. [init]
   void commit() { copy(Copy::kNext, Copy::kPresent); }
-  /// The cycle has refused it, or was not asked. [init]
+  /// Discards the new set, which the cycle has refused or was not sent. [init]
   void drop() { copy(Copy::kPresent, Copy::kNext); }
 
   /// Calls visit(name, block) for every section: those of the pipeline, then the blocks. [init]

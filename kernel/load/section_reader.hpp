@@ -94,7 +94,7 @@ class SectionReader {
   void out(const char* port, Out<Q>& out) {
     add_output({Name(section_.name), port, Q, &out.value});
   }
-  /// Gives the board's channel of a space to the first generator that asks for it.
+  /// Gives the board's channel of a space to the first generator that requests it.
   void channel(ReferenceChannel<JointSpace>*& channel) { take(channel, &Channels::joint); }
   void channel(ReferenceChannel<TaskSpace>*& channel) { take(channel, &Channels::task); }
   /// Sets the channels that are left to take; they must outlive the reader.

@@ -19,7 +19,7 @@ namespace tactus {
 
 /// True if parameters may change while the pipeline runs.
 inline constexpr bool kTuning = TACTUS_TUNING != 0;
-/// Time in which a difference fades, if no limit asks for more, s.
+/// Time in which a difference fades, s; longer if a limit requires it.
 inline constexpr double kTransfer_s = 0.5;
 
 template <class Vector, bool kPresent = kTuning>
@@ -66,7 +66,7 @@ inline double transfer_time(const JointVector& difference, const JointLimits& li
       .maxCoeff();
 }
 
-/// Judges the torque that a law would ask for with other parameters. Returns kCommandNotFinite if
+/// Judges the torque that a law would command with other parameters. Returns kCommandNotFinite if
 /// it is not finite, and kEffortLimit if a joint's is beyond its limit and beyond the present one:
 /// the difference would then take long to fade, and the guard would limit what follows. [any]
 inline Verdict judge_torque(const JointVector& next, const JointVector& present,

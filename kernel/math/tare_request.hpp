@@ -1,4 +1,4 @@
-// TareRequest: a tare that was asked for while a block runs, from its begin to its one result; and
+// TareRequest: a tare requested while a block runs, from its begin to its one result; and
 // TareLimits, by how much it may move the zero, from the present one and from that of the start. A
 // steady contact looks like a zero that has moved: the limits keep a contact beyond them from
 // becoming zero, and a law that then presses on from making it zero by and by.

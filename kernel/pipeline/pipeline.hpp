@@ -73,17 +73,17 @@ class Pipeline {
   [[gnu::cold]] Status start(const RobotState& measured);
   /// Steps every block in order and times each. Returns the first Status that is not kOk. [cyclic]
   Status step(const RobotState& measured, Timing* timing = nullptr);
-  /// True if no block has a motion of its own that goes on: see kernel/core/brake.hpp.
+  /// True if no block has a motion of its own that continues: see kernel/core/brake.hpp.
   /// [between two cycles]
   bool at_rest() const;
   /// Returns the motion state of the last reference generator of the chain. [between two
   /// cycles]
   MotionState motion_state() const;
-  /// Lets every block go on after a brake that has come to rest: see kernel/core/brake.hpp. [init]
+  /// Resumes every block after a brake that has come to rest: see kernel/core/brake.hpp. [init]
   [[gnu::cold]] Status resume(const RobotState& measured);
   /// Changes the parameters of all blocks of which `tuning` has a copy, or of none: the first block
   /// that refuses is in the verdict. While the chain `runs`, no command steps
-  /// (kernel/math/bumpless_transfer.hpp), and a law may refuse what it would ask for; otherwise the
+  /// (kernel/math/bumpless_transfer.hpp), and a law may refuse what it would command; otherwise the
   /// next start() begins with the new parameters. [between two cycles]
   TuningVerdict retune(const Tuning& tuning, bool runs);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]

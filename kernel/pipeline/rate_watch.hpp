@@ -29,7 +29,7 @@ class RateWatch {
     ++cycle_;
     if (!bad) return ++clean_cycles_ % clean_ == 0 ? Result::kClean : Result::kNothing;
     clean_cycles_ = 0;
-    // A ring of this bad cycle and the `allowed` before it: the oldest says how long they took.
+    // A ring of this bad cycle and the `allowed` before it: the oldest gives their duration.
     const auto size = static_cast<std::size_t>(allowed_) + 1;
     cycles_[count_ % size] = cycle_;
     const bool full = ++count_ >= size;

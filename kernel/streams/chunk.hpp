@@ -41,7 +41,7 @@ struct ChunkCurve {
   std::uint32_t epoch = 0, sequence = 0;
   std::uint64_t sender = 0;       ///< of a single target, as that of a point
   typename Space::Header header;  ///< joints left out, or frames the knots are given in
-  /// Time in which a disagreement fades; longer if limits ask for it. 0: closed as fast as limits
+  /// Time in which a disagreement fades; longer if limits require it. 0: closed as fast as limits
   /// allow.
   double fade_s = 0.0;
   /// If no chunk follows, path time begins to stop at brake_s, by the generator's clock, with these
@@ -67,12 +67,12 @@ struct StreamState {
   Published<std::uint32_t> trimmed;  ///< targets whose time had passed when their chunk came
   Published<std::uint32_t> late;     ///< chunks of which nothing was left
   Published<std::uint32_t> dropped;  ///< chunks and velocities: duplicate, older, or void
-  Published<std::uint32_t> starved;  ///< stops because no successor came
+  Published<std::uint32_t> starved;  ///< stops because no successor arrived
   Published<std::uint32_t> shaped;   ///< cycles in which limits kept the reference off its curve
   Published<std::uint32_t> epoch;    ///< the least that is not void
   Published<float> seam;             ///< largest component of the last disagreement, rad or m
   Published<float> offset;    ///< largest component of what limits keep off the curve, rad or m
-  Published<float> margin_s;  ///< time until the stop begins if no successor comes; 0: none runs
+  Published<float> margin_s;  ///< time until the stop begins if no successor arrives; 0: none runs
 };
 
 /// The chunk stores of a channel, and their counters.

@@ -85,7 +85,7 @@ class ChunkPlan {
 
   /// True if the base rests at the end of the last chunk. [cyclic]
   bool ended(double now_s) const;
-  /// True if no successor has come and the base is being stopped.
+  /// True if no successor has arrived and the base is being stopped.
   bool stopping() const { return stops_; }
   /// Time until that stop begins; infinite for a chunk that ends at rest. [cyclic]
   double margin_s(double now_s) const;

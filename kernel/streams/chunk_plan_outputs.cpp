@@ -19,7 +19,7 @@ double ahead_s(const ChunkCurve<Space>& chunk) {
 
 }  // namespace
 
-/// The newest chunk whose beginning has come, less its lead, has the outputs; those of the older
+/// The newest chunk that has begun, its lead included, commands the outputs; those of the older
 /// ones that are later than its beginning are void.
 template <class Space>
 void ChunkPlan<Space>::pass_outputs(double now_s) {

@@ -34,8 +34,8 @@ void ReferenceGenerator<Space>::pass_outputs() {
     if (passed.any) stream_.outputs.request(passed.outputs, time_s() + passed.delay_s);
 }
 
-/// Voids the epoch of a request that is refused or canceled whatever it says, and releases its
-/// chunk.
+/// Voids the epoch of a request that is refused or canceled regardless of its contents, and
+/// releases its chunk.
 template <class Space>
 void ReferenceGenerator<Space>::void_request(const Request<Space>& request) {
   if (request.kind == RequestKind::kVelocity) stream_.gate.end(request.velocity.epoch);

@@ -1,4 +1,4 @@
-// BoardClient: the computer's end of the link to a board: asks it for something and waits for the
+// BoardClient: the computer's end of the link to a board: sends it requests and waits for the
 // answer, and takes it through one cycle after the other.
 #pragma once
 
@@ -17,7 +17,7 @@ class BoardClient {
   void begin();
 
   /// Sends a message and waits for its answer, which stays until the next request; answer() reads
-  /// what stands behind the Status. kBusTimeout: none came. [any]
+  /// the data behind the Status. kBusTimeout: none arrived. [any]
   Status request(serial::Kind kind, const ByteWriter& payload);
   Status request(serial::Kind kind);
   ByteReader answer() const {
@@ -27,7 +27,7 @@ class BoardClient {
   Status greet(serial::Greeting& greeting);
 
   /// Hands the board a state and begins a cycle in lock-step; waits for its result. kBusTimeout:
-  /// none came. [any]
+  /// none arrived. [any]
   Status step(serial::Order order, const RobotState& state, std::int64_t stamp_ns);
   /// Lets a board with a timer of its own run to its next exchange, with these bytes for it.
   /// kBusTimeout: it is gone. [any]
@@ -35,7 +35,7 @@ class BoardClient {
   /// Appends a frame with a state to bytes for turn(). [any]
   std::size_t put_state(serial::Order order, const RobotState& state, std::uint8_t* to);
 
-  /// The result of the newest cycle, and how many have come.
+  /// The result of the newest cycle, and their number.
   const serial::CycleResult& result() const { return result_; }
   std::uint32_t results() const { return results_; }
   const serial::LinkHealth& health() const { return reader_.health(); }

@@ -13,7 +13,7 @@ namespace tactus::pil {
 template <class Space>
 class FileFeed {
  public:
-  /// Opens the file and begins its trajectory on the board. False: refused; `why` says by whom.
+  /// Opens the file and begins its trajectory on the board. False: refused; `why` has the source.
   bool begin(BoardClient& board, const char* path, const GatewaySection& gateway,
              const Smoothing& smoothing, Message& why);
   /// Sends what the board takes now. False: it refused. [any]

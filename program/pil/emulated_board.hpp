@@ -27,14 +27,14 @@ class EmulatedBoard {
 
   ~EmulatedBoard() { stop(); }
 
-  /// Starts the emulator with an image. False: `why` says what is missing. [init]
+  /// Starts the emulator with an image. False: `why` names what is missing. [init]
   bool start(const BoardImage& image, Message& why);
   /// Ends it. [any]
   void stop();
   bool running() const { return process_ > 0; }
 
   /// Waits for the board's part of an exchange; returns its size in `to`, which holds kMost, or -1:
-  /// the board is gone, or nothing came for 10 s. [any]
+  /// the board is gone, or nothing arrived for 10 s. [any]
   int receive(std::uint8_t* to);
   /// Ends the exchange with at most kMost bytes. False: the board is gone. [any]
   bool send(const std::uint8_t* bytes, std::size_t size);

@@ -157,7 +157,7 @@ Status PilHal::compare(const RobotCommand& command) {
   return Status::kOk;
 }
 
-/// No result came: the board has started again after a fault, or it is gone.
+/// No result arrived: the board has restarted after a fault, or it is gone.
 Status PilHal::silent() {
   serial::Greeting greeting;
   why_ = Message("the board does not answer any more");

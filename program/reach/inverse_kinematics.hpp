@@ -8,7 +8,7 @@
 
 namespace tactus {
 
-/// How near the tip has come.
+/// Distance of the tip from the target.
 struct Reach {
   double distance_m = 0.0, angle_rad = 0.0;  ///< that remain
   double sigma = 0.0;  ///< distance from a singularity (kernel/math/damped_inverse.hpp)

@@ -26,7 +26,7 @@ class ResultFile {
   /// Closes the file; returns the first errno of open(2), write(2) or close(2), or 0.
   int finish();
   /// Closes the file. False if anything could not be written: prints which file and why, and
-  /// between them `extent`, how far it came.
+  /// between them `extent`, its progress.
   bool close(const char* extent = "");
 
  private:

@@ -1,7 +1,7 @@
 // The folder of a run. Its files are those of one run, whatever ends it. The files of the run
 // before it are set aside in earlier_run/ before the first of its own is written, and removed once
 // summary.json is in place, which is written last, under another name, and only if all others could
-// be. Until then incomplete.txt says what the folder is. Other files of the folder are left alone.
+// be. Until then incomplete.txt explains the folder. Other files of the folder are left alone.
 // See docs/decisions/0019-a-folder-of-one-run.md.
 #pragma once
 

@@ -12,8 +12,8 @@ namespace tactus {
 /// "row.<name>".
 void write_timing(std::FILE* file, const Pipeline& pipeline, const Executive& executive);
 /// Writes `  "rung": ..., "events_lost": ..., "events": [...],`: the rung on which the run ended
-/// and the changes of rung before, each with the time of log.csv at which it came; what is said of
-/// a drive has a "text".
+/// and the changes of rung before, each with the time of log.csv at which it occurred; what is said
+/// of a drive has a "text".
 void write_events(std::FILE* file, Rung rung, const EventLog& events, const Hal& hal,
                   double period_s);
 

@@ -1,4 +1,4 @@
-// `tactus scan`: the nodes of one or several CAN buses, and what each says about itself.
+// `tactus scan`: the nodes of one or several CAN buses, and what each reports.
 #pragma once
 
 #include "program/session/options.hpp"

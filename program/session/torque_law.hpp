@@ -11,7 +11,7 @@ namespace tactus {
 
 struct TorqueLaw {
   const Name* block = nullptr;
-  const JointVector* q_d = nullptr;    ///< rad; null: the torque comes from no law of positions
+  const JointVector* q_d = nullptr;    ///< rad; null: no position law gives the torque
   const JointVector* dq_d = nullptr;   ///< rad/s; null: it takes none
   const JointVector* limit = nullptr;  ///< N m, at which it saturates; null: it does not
   JointVector kp = JointVector::Zero(), kd = JointVector::Zero();  ///< N m/rad, N m s/rad

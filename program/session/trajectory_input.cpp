@@ -59,7 +59,7 @@ bool set_terms(const Session& session, const Options& options, Trajectory<TaskSp
 }
 
 /// Looks where an arm with joints without end is, so that a file is compared with it, and has the
-/// file's angles taken as `wrap` says. False: prints the reason to stderr.
+/// file's angles taken by `wrap`. False: prints the reason to stderr.
 bool take_angles(const Session& session, const Options& options,
                  TrajectoryStream<JointSpace>& stream) {
   const Wrap wrap = session.gateway.wrap;

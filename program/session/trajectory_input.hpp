@@ -39,7 +39,7 @@ struct TrajectoryInput {
   /// Hash of the pipeline's text and the bytes read so far; `none` if there is no file.
   std::uint64_t hash(std::uint64_t none) const;
   bool takes_poses() const { return trajectory.index() == 2; }
-  /// When it ends, slowed down as admission says, if the robot keeps up; s of the run.
+  /// When it ends, slowed down by admission, if the robot keeps up; s of the run.
   double planned_end_s() const { return start_s + duration_s(); }
 };
 

@@ -45,7 +45,7 @@ struct Corners {
 
 /// Returns the sections of the way through the waypoints, of the tip or of joints; none if all
 /// waypoints are the same. A blend takes at most half of the line on either side. The path stops
-/// where it turns back by more than 2.7 rad, too: a blend would nearly stand. [any]
+/// where it turns back by more than 2.7 rad, too: a blend would nearly stop. [any]
 std::vector<PathSection> blend(const std::vector<Numbers>& waypoints, bool tip,
                                const Corners& corners);
 

@@ -9,8 +9,8 @@
 
 namespace tactus::ctl {
 
-/// Returns the waypoints with a rounded corner that is never as near as its tolerance asks, of all
-/// channels that have one at a time. [any]
+/// Returns the waypoints with a rounded corner that is at no time within its tolerance in all
+/// channels that have one. [any]
 std::vector<std::size_t> missed_corners(const PathSection& section,
                                         const std::vector<TimedPoint>& points,
                                         const RetimeSettings& settings);

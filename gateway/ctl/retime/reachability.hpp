@@ -32,7 +32,7 @@ struct PathNode {
 };
 
 /// Returns the nodes of the time-optimal motion along a section, from rest to rest. The section
-/// must outlive them. `steps`: least number of intervals. Empty: the path stands somewhere. [any]
+/// must outlive them. `steps`: least number of intervals. Empty: the path stops somewhere. [any]
 std::vector<PathNode> time_optimal(const PathSection& section, const MotionBounds& bounds,
                                    int steps);
 

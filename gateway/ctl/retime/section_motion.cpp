@@ -10,7 +10,7 @@
 namespace tactus::ctl {
 namespace {
 
-/// Between waypoints. Admission asks for a sixteenth of the period, of 16 ms at most.
+/// Time between waypoints. Admission requires a sixteenth of the period, of 16 ms at most.
 constexpr double kShortestSegment_s = 0.001;
 constexpr int kFewestSteps = 8;
 constexpr double kShortestWindow_s = 0.004;  // four waypoints of 1 ms
@@ -21,7 +21,7 @@ constexpr double kNextWindow = 1.15;
 constexpr double kWaypointsInWindow = 4.0;
 constexpr double kRounding = 1e-9;  // of a bound
 
-/// True if a node says nothing that its neighbours do not: the acceleration goes on along a line.
+/// True if a node is redundant between its neighbours: the acceleration continues along a line.
 bool passed_over(const std::vector<PathNode>& nodes, std::size_t i) {
   if (i == 0 || i + 1 == nodes.size()) return false;
   const PathNode &last = nodes[i - 1], &node = nodes[i];

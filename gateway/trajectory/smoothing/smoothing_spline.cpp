@@ -104,7 +104,7 @@ double SmoothingSpline::unlikelihood(const Axes& squares, double log_variances) 
   double sum = 0.0;
   for (int axis = 0; axis < kMostAxes; ++axis) {
     const double least = least_error[axis] * least_error[axis];
-    if (!(squares[axis] > 0.0)) continue;  // it stands: any curve explains it
+    if (!(squares[axis] > 0.0)) continue;  // constant: any curve fits it
     sum += n * std::log(squares[axis] / n + least) + log_variances;
   }
   return sum;

@@ -64,13 +64,13 @@ enum class Outcome : std::uint8_t {
   kSucceeded,   ///< final: a trajectory reached its end
   kPreempted,   ///< final: a newer trajectory replaced it
   kAborted,     ///< final: an online point replaced it, a tolerance was violated, or the
-                ///< executive brakes; the verdict says why
+                ///< executive brakes; the verdict has the reason
   kCanceled,    ///< final: a client cancelled the trajectory
   kExecuted,    ///< final: a point, a chunk or a velocity took effect; a cancel, override, pause or
                 ///< resume took effect
   kSuperseded,  ///< final: a newer point replaced it before it took effect, or a newer trajectory
                 ///< before its start time; or a cancel voided a point
-  kRefused,     ///< final: not accepted; the verdict says why
+  kRefused,     ///< final: not accepted; the verdict has the reason
   kStarved,   ///< an open trajectory ran out of waypoints, or an executed chunk or velocity was not
               ///< followed by another in time: the arm comes to rest and waits for more
   kReleased,  ///< a store is the client's again, after a final report that did not return it

@@ -20,7 +20,7 @@ struct Admitted {
   typename Space::Point end;
   typename Space::Levels steps{};
   typename Space::Extent extent;
-  double room = 1.0;  ///< least room (admission_room.hpp) that a limit asks for
+  double room = 1.0;  ///< least room (admission_room.hpp) that a limit requires
   Verdict worst;      ///< that limit
 };
 

@@ -4,7 +4,7 @@
 //   online       holding    at rest until the next request
 //                reaching   on the way to a point, or along with a stream of points
 //                tracking   along the curves of chunks
-//                expiring   the same, to rest at the end of the last one: no successor has come
+//                expiring   the same, to rest at the end of the last one: no successor has arrived
 //                driving    at a given velocity, or coming to rest when it is not renewed
 //                stopping   on the fastest way to rest, wherever that ends
 //                braking    on the path of a trajectory that was given up, until it is at rest

@@ -1,4 +1,4 @@
-// PathProgress: how far a trajectory has come.
+// PathProgress: the progress of a trajectory.
 #pragma once
 
 namespace tactus {
@@ -7,7 +7,7 @@ namespace tactus {
 /// streams do not report it.
 struct PathProgress {
   double path_s = 0.0;
-  double path_end_s = 0.0;  ///< of the last waypoint that has come
+  double path_end_s = 0.0;  ///< time of the last waypoint received
 };
 
 }  // namespace tactus

@@ -41,7 +41,7 @@ class PointStream {
   /// Forgets all points. [cyclic]
   void clear() { count_ = 0; }
 
-  /// True if a point has come at most kSlowest_s before `now_s`. [cyclic]
+  /// True if a point has arrived at most kSlowest_s before `now_s`. [cyclic]
   bool recent(double now_s) const { return count_ > 0 && now_s - arrival_s_ <= kSlowest_s; }
   /// True if the points are a stream that has not gone silent at `now_s`. [cyclic]
   bool moves(double now_s) const;

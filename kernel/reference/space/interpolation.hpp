@@ -1,4 +1,4 @@
-// Interpolation between waypoints, by the fields they give or as the goal asks.
+// Interpolation between waypoints, by the fields they give or as the goal requests.
 #pragma once
 
 #include <cstdint>
