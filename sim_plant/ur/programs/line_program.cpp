@@ -12,7 +12,6 @@ void LineProgram::start(std::string_view text, int first_line, bool moves) {
   *this = {};
   text_ = text;
   now_ = here_ = {0, first_line};
-  first_line_ = first_line;
   moves_ = moves;
 }
 
@@ -58,10 +57,9 @@ bool LineProgram::next(std::string_view& line) {
 LineProgram::Line LineProgram::run_line(std::string_view line, Machine& machine) {
   if (line.empty()) return Line::kNext;
   const std::string_view word = leading_name(line);
-  if (word == "end") return run_end(line, machine);
+  if (word == "end") return run_end();
   if (word == "break" || word == "continue") return run_jump(word == "break");
-  if (word == "halt") return Line::kEnded;
-  if (word == "return") return run_return(line, machine);
+  if (word == "halt" || word == "return") return Line::kEnded;
   if (opens_block(line) || word == "elif" || word == "else") return run_block(word, line, machine);
   return run_statement(line, machine);
 }
@@ -79,19 +77,14 @@ bool LineProgram::holds(std::string_view line, Machine& machine) {
 }
 
 LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& machine) {
-  const std::string_view word = leading_name(line);
-  const Scope scope = word == "global"  ? Scope::kGlobal
-                      : word == "local" ? Scope::kLocal
-                                        : Scope::kNearest;
-  if (scope != Scope::kNearest) line = trimmed(line.substr(word.size()));
+  line = without_scope(line);
   Line result = Line::kNext;
-  return assign(line, scope, machine, result) ? result : run_call_line(line, machine);
+  return assign(line, machine, result) ? result : run_call_line(line, machine);
 }
 
 /// Runs "name = value" or "name[index] = value"; "digital_out[n] = b" is the call of versions
-/// before
-/// 3. False: the line is not an assignment.
-bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, Line& result) {
+/// before 3. False: the line is not an assignment.
+bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
   const ScriptScope names = known(machine);
   const std::string_view name = leading_name(line);
   std::string_view rest = trimmed(line.substr(name.size()));
@@ -104,7 +97,6 @@ bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, L
   }
   if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
   rest = trimmed(rest.substr(1));
-  if (!element && call_own(rest, name, scope, machine)) return true;
   std::string_view expression = rest;
   if (!evaluate(expression, names, value)) {
     if (is_emulated_call(leading_name(rest)))
@@ -125,14 +117,13 @@ bool LineProgram::assign(std::string_view line, Scope scope, Machine& machine, L
       whole->elements[static_cast<std::size_t>(index.number)] = value.number;
     else
       fail(line, machine);
-  } else if (!variables_.set(name, value, scope)) {
+  } else if (!variables_.set(name, value)) {
     fail(line, machine, kTooManyVariables);
   }
   return true;
 }
 
 LineProgram::Line LineProgram::run_call_line(std::string_view line, Machine& machine) {
-  if (call_own(line, {}, Scope::kNearest, machine)) return Line::kNext;
   ScriptCall call;
   std::string_view rest = line;
   if (!read_call(rest, known(machine), call)) {
@@ -172,7 +163,7 @@ void LineProgram::fail(std::string_view line, Machine& machine, std::string_view
   machine.messages.runtime_exception(here_.line, 1, {text.data(), size});
 }
 
-// Blocks of plain programs: loops, branches, and the program's own functions.
+// Blocks of plain programs: loops and branches.
 
 /// True if the line opens a block that an `end` closes.
 bool LineProgram::opens_block(std::string_view line) {
@@ -186,12 +177,12 @@ LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view
   if (word == "while") {
     if (!holds(line, machine))
       skip_blocks(1);
-    else if (!enter({Block::kLoop, here_, {}}, machine))
+    else if (!enter({true, here_}, machine))
       return Line::kEnded;
   } else if (word == "if") {
     if (!holds(line, machine))
       find_branch(machine);
-    else if (!enter({Block::kBranch, here_, {}}, machine))
+    else if (!enter({false, here_}, machine))
       return Line::kEnded;
   } else if (word == "elif" || word == "else") {
     if (depth_ > 0) --depth_;  // the branch before was taken
@@ -202,11 +193,10 @@ LineProgram::Line LineProgram::run_block(std::string_view word, std::string_view
   return Line::kNext;
 }
 
-LineProgram::Line LineProgram::run_end(std::string_view line, Machine& machine) {
+LineProgram::Line LineProgram::run_end() {
   if (depth_ == 0) return Line::kEnded;
-  if (blocks_[depth_ - 1].kind == Block::kCall) return run_return(line, machine);
   const Block& block = blocks_[--depth_];
-  if (block.kind == Block::kLoop) now_ = block.next;
+  if (block.loops) now_ = block.begin;
   return Line::kNext;
 }
 
@@ -216,12 +206,11 @@ LineProgram::Line LineProgram::run_jump(bool out) {
   while (depth_ > 0) {
     ++left;
     const Block& block = blocks_[--depth_];
-    if (block.kind == Block::kCall) return Line::kEnded;  // the function has no loop around it
-    if (block.kind != Block::kLoop) continue;
+    if (!block.loops) continue;
     if (out)
       skip_blocks(left);
     else
-      now_ = block.next;
+      now_ = block.begin;
     return Line::kNext;
   }
   return Line::kEnded;  // outside any loop
@@ -237,64 +226,6 @@ bool LineProgram::enter(const Block& block, Machine& machine) {
   return true;
 }
 
-/// Returns from the running function, or ends the program outside of functions.
-LineProgram::Line LineProgram::run_return(std::string_view line, Machine& machine) {
-  std::string_view expression = trimmed(line.substr(leading_name(line).size()));
-  ScriptValue value;
-  const bool has_value = !expression.empty();
-  if (has_value && !evaluate(expression, known(machine), value)) fail(line, machine);
-  while (depth_ > 0 && !ended_) {
-    const Block block = blocks_[--depth_];
-    if (block.kind != Block::kCall) continue;
-    variables_.leave();
-    now_ = block.next;
-    if (block.result.empty()) return Line::kNext;
-    if (!has_value)
-      fail(line, machine);
-    else if (!variables_.set(block.result, value, block.scope))
-      fail(line, machine, kTooManyVariables);
-    return Line::kNext;
-  }
-  return Line::kEnded;
-}
-
-/// Finds the lines after "def name(parameters):". False: the program has no such function.
-bool LineProgram::find_function(std::string_view name, Place& body,
-                                std::string_view& parameters) const {
-  std::string_view rest = text_, line;
-  for (int number = first_line_; next_line(rest, line); ++number) {
-    line = trimmed(without_comment(line));
-    std::string_view found;
-    if (!read_definition(line, found, parameters) || found != name) continue;
-    body = {text_.size() - rest.size(), number + 1};
-    return true;
-  }
-  return false;
-}
-
-/// Calls a function of the program by "name(arguments)"; its result becomes the value of a
-/// variable. False: the line is not such a call.
-bool LineProgram::call_own(std::string_view line, std::string_view result, Scope scope,
-                           Machine& machine) {
-  const std::string_view name = leading_name(line);
-  std::string_view parameters, rest = line;
-  Place body;
-  if (name.empty() || !starts_with(trimmed(line.substr(name.size())), "(")) return false;
-  if (is_urscript_function(name) || !find_function(name, body, parameters)) return false;
-  ScriptCall call;
-  const bool good = read_call(rest, known(machine), call) && trimmed(rest).empty() &&
-                    enter({Block::kCall, now_, result, scope}, machine);
-  if (good) variables_.enter();
-  for (std::size_t i = 0; good && i < call.count; ++i)
-    if (!variables_.set(take_parameter(parameters), call.arguments[i].value, Scope::kLocal))
-      fail(line, machine, kTooManyVariables);
-  if (good)
-    now_ = body;
-  else
-    fail(line, machine);
-  return true;
-}
-
 /// After an `if` that is false, goes on in the branch that is true, or after the end.
 void LineProgram::find_branch(Machine& machine) {
   std::string_view line;
@@ -305,7 +236,7 @@ void LineProgram::find_branch(Machine& machine) {
     } else if (word == "end") {
       return;
     } else if (word == "else" || (word == "elif" && holds(line, machine))) {
-      enter({Block::kBranch, here_, {}}, machine);
+      enter({false, here_}, machine);
       return;
     }
   }

@@ -1,7 +1,6 @@
 // LineProgram: interprets a program of plain lines: calls, assignments, `while` and `if` with
-// conditions, and functions of the program, called by a line of their own or as the whole value of
-// an assignment. Runner refuses a program that has anything else (script_check.hpp). If a value
-// does not exist or fit, the program ends with a runtime exception.
+// conditions. Runner refuses a program that has anything else (script_check.hpp). If a value does
+// not exist or fit, the program ends with a runtime exception.
 #pragma once
 
 #include "sim_plant/ur/parts/machine.hpp"
@@ -22,7 +21,6 @@ class LineProgram {
   ProgramStep command(Machine& machine);
 
  private:
-  using Scope = ScriptVariables::Scope;
   enum class Line : std::uint8_t { kNext, kWait, kEnded };
   /// A line of the text: its beginning and its number.
   struct Place {
@@ -31,28 +29,22 @@ class LineProgram {
   };
   /// A block that is running.
   struct Block {
-    enum Kind : std::uint8_t { kBranch, kLoop, kCall };
-    Kind kind = kBranch;
-    Place next;               ///< after its end: a loop's beginning, or the line after a call
-    std::string_view result;  ///< variable that gets the result of a call; empty: none does
-    Scope scope = Scope::kNearest;
+    bool loops = false;
+    Place begin;
   };
 
   ProgramStep end(const Machine& machine) const;
   bool next(std::string_view& line);
   Line run_line(std::string_view line, Machine& machine);
   Line run_block(std::string_view word, std::string_view line, Machine& machine);
-  Line run_end(std::string_view line, Machine& machine);
+  Line run_end();
   Line run_jump(bool out);
-  Line run_return(std::string_view line, Machine& machine);
-  bool find_function(std::string_view name, Place& body, std::string_view& parameters) const;
-  bool call_own(std::string_view line, std::string_view result, Scope scope, Machine& machine);
   ScriptScope known(const Machine& machine) {
     return {&variables_, &machine, nullptr, &reason_, &work_};
   }
   Line run_statement(std::string_view line, Machine& machine);
   Line run_call_line(std::string_view line, Machine& machine);
-  bool assign(std::string_view line, Scope scope, Machine& machine, Line& result);
+  bool assign(std::string_view line, Machine& machine, Line& result);
   bool holds(std::string_view line, Machine& machine);
   static bool opens_block(std::string_view line);
   bool enter(const Block& block, Machine& machine);
@@ -66,7 +58,6 @@ class LineProgram {
 
   std::string_view text_;
   Place now_, here_;  // the next line, and the running one
-  int first_line_ = 1;
   bool moves_ = true;
   bool ended_ = false;
   int work_ = 0;

@@ -41,10 +41,10 @@ std::string_view ScriptBlocks::close() {
   return {};
 }
 
-/// True if a loop is around the line, within its function.
+/// True if a loop is around the line.
 bool ScriptBlocks::in_loop() const {
-  for (std::size_t i = depth_; i > 0 && blocks_[i - 1].kind != Kind::kFunction; --i)
-    if (blocks_[i - 1].kind == Kind::kLoop) return true;
+  for (std::size_t i = 0; i < depth_; ++i)
+    if (blocks_[i].kind == Kind::kLoop) return true;
   return false;
 }
 
@@ -58,13 +58,6 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 bool is_taken(std::string_view name) {
   return is_urscript_function(name) || is_one_of(name, {"True", "False"}) ||
          (is_urscript_word(name) && name != "p");
-}
-
-/// Returns a statement without "global" or "local".
-std::string_view without_scope(std::string_view line) {
-  for (const std::string_view word : {"global ", "local "})
-    if (starts_with(line, word)) return trimmed(line.substr(word.size()));
-  return line;
 }
 
 /// Returns what follows the name in "name = value" or "name[index] = value", from the first sign
@@ -113,22 +106,11 @@ void ScriptCheck::collect_variables() {
   std::string_view rest = program_, line;
   for (int number = 1; next_line(rest, line); ++number) {
     const std::string_view code = without_scope(trimmed(without_comment(line)));
-    const bool whole = !assigned(code).empty() && assigned(code)[0] == '=';
-    if (whole && !note(leading_name(code), number)) return;
-    std::string_view name, parameters;
-    if (!read_definition(code, name, parameters)) continue;
-    while (!parameters.empty()) {
-      const std::string_view parameter = take_parameter(parameters);
-      if (parameter.empty()) break;  // good_line() finds it
-      if (!note(parameter, number)) return;
-    }
+    if (assigned(code).empty() || assigned(code)[0] != '=') continue;
+    if (variables_.set(leading_name(code), {})) continue;
+    overflow_ = number;
+    return;
   }
-}
-
-bool ScriptCheck::note(std::string_view variable, int number) {
-  if (variables_.set(variable, {})) return true;
-  overflow_ = number;
-  return false;
 }
 
 /// True for a line whose block may have it, and whose variables have room.
@@ -142,36 +124,10 @@ bool ScriptCheck::good_line(std::string_view line) {
   const std::string_view word = leading_name(line);
   if (line.empty() || line == "end" || line == "else:") return true;
   if (is_one_of(word, {"break", "continue", "halt", "return"}) && line == word) return true;
-  if (word == "return") return whole(line.substr(word.size()), "");
-  if (is_one_of(word, {"while", "if", "elif"})) return good_block(word, line);
-  if (word == "def") return good_definition(line);
+  if (is_one_of(word, {"while", "if", "elif"})) return whole(line.substr(word.size()), ":");
   if (is_urscript_word(word) && !is_one_of(word, {"global", "local", "p", "not"}))
     return blame(word);
   return good_statement(without_scope(line));
-}
-
-/// Reads "def name(a, b):"; parameters have no defaults.
-bool ScriptCheck::good_definition(std::string_view line) {
-  std::string_view name, parameters;
-  if (!read_definition(line, name, parameters)) return false;
-  if (is_taken(name)) return blame(name, "is a name of the language");
-  if (defined_before(name)) return blame(name, "is defined twice");
-  while (!parameters.empty()) {
-    const std::string_view parameter = take_parameter(parameters);
-    if (parameter.empty()) return blame(name);
-    if (is_taken(parameter)) return blame(parameter, "is a name of the language");
-    for (std::string_view others = parameters; !others.empty();) {
-      const std::string_view other = take_parameter(others);
-      if (other == parameter) return blame(other, "is a parameter twice");
-      if (other.empty()) break;
-    }
-  }
-  return true;
-}
-
-/// Reads the condition of "while ...:", "if ...:" or "elif ...:".
-bool ScriptCheck::good_block(std::string_view word, std::string_view line) {
-  return whole(line.substr(word.size()), ":");
 }
 
 bool ScriptCheck::good_statement(std::string_view line) {
@@ -197,26 +153,17 @@ bool ScriptCheck::good_assignment(std::string_view rest) {
     if (!starts_with(rest, "=")) return false;
   }
   rest = trimmed(rest.substr(1));
-  const std::string_view name = leading_name(rest);
-  const bool calls = starts_with(trimmed(rest.substr(name.size())), "(");
-  if (calls && !element && defines(name)) return good_call(rest);
-  if (is_emulated_call(name)) return good_call(rest);
+  if (is_emulated_call(leading_name(rest))) return good_call(rest);
   return whole(rest, "");
 }
 
 bool ScriptCheck::good_call(std::string_view line) {
   const std::string_view name = leading_name(line);
   if (name.empty()) return false;
-  const std::size_t parameters = count_parameters(name);
-  const bool own = parameters != kNone;
-  if (!own && !is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
+  if (!is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
   ScriptCall call;
-  if (!read_call(line, {&variables_, nullptr, &strange_, &reason_}, call) || !trimmed(line).empty())
-    return false;
-  if (!own) return true;
-  for (std::size_t i = 0; i < call.count; ++i)
-    if (!call.arguments[i].name.empty()) return blame(name, "takes arguments by position");
-  return call.count == parameters || blame({}, "has another number of parameters");
+  return read_call(line, {&variables_, nullptr, &strange_, &reason_}, call) &&
+         trimmed(line).empty();
 }
 
 /// Reads an expression and, to the end of the text, what follows it.
@@ -233,15 +180,6 @@ bool ScriptCheck::blame(std::string_view name, std::string_view reason) {
   return false;
 }
 
-/// True if a line before the one of this name defines a function of the same name.
-bool ScriptCheck::defined_before(std::string_view name) const {
-  std::string_view rest = body_, line, found, parameters;
-  while (next_line(rest, line) && line.data() + line.size() < name.data())
-    if (read_definition(trimmed(without_comment(line)), found, parameters) && found == name)
-      return true;
-  return false;
-}
-
 /// True for a function or thread that the program defines.
 bool ScriptCheck::defines(std::string_view name) const {
   std::string_view rest = body_, line;
@@ -252,19 +190,6 @@ bool ScriptCheck::defines(std::string_view name) const {
         return true;
   }
   return false;
-}
-
-/// Returns the number of parameters of a function of the program; kNone: there is no such function.
-std::size_t ScriptCheck::count_parameters(std::string_view name) const {
-  std::string_view rest = body_, line, found, parameters;
-  while (next_line(rest, line)) {
-    if (!read_definition(trimmed(without_comment(line)), found, parameters) || found != name)
-      continue;
-    std::size_t count = 0;
-    while (!take_parameter(parameters).empty()) ++count;
-    return count;
-  }
-  return kNone;
 }
 
 ScriptFault::Kind ScriptCheck::kind() const {

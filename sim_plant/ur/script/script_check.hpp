@@ -14,8 +14,8 @@ namespace tactus::ur {
 /// end, branches belong to an `if`, jumps to a loop.
 class ScriptBlocks {
  public:
-  static constexpr std::size_t kDeepest = 32;  ///< blocks and calls that run at a time
-  static constexpr std::string_view kTooDeep = "limit of 32 nested blocks and calls";
+  static constexpr std::size_t kDeepest = 32;  ///< blocks that run at a time
+  static constexpr std::string_view kTooDeep = "limit of 32 nested blocks";
 
   /// Takes the next line, without blanks and comment, and its number. Returns why it may not stand
   /// there; empty: it may. [any]
@@ -56,10 +56,10 @@ struct ScriptFault {
 };
 
 /// ScriptCheck: reads a plain program before it runs, and finds the first place that the
-/// interpreter of lines does not understand: threads, functions of the program within an
-/// expression, functions that are not emulated, names without a value, blocks without end, and what
-/// is no line of URScript. Such a program is refused as a whole, because an arm that does half of a
-/// program is worse than one that stands.
+/// interpreter of lines does not understand: threads, functions of the program's own, functions
+/// that are not emulated, names without a value, blocks without end, and what is no line of
+/// URScript. Such a program is refused as a whole, because an arm that does half of a program is
+/// worse than one that stands.
 class ScriptCheck {
  public:
   /// Takes the whole text: "def name(): ... end", "sec name(): ... end", or a single line.
@@ -70,22 +70,15 @@ class ScriptCheck {
 
  private:
   void collect_variables();
-  bool note(std::string_view variable, int number);
   bool good_line(std::string_view line);
   bool good_place(std::string_view line, int number);
-  bool good_definition(std::string_view line);
-  bool good_block(std::string_view word, std::string_view line);
   bool good_statement(std::string_view line);
   bool good_assignment(std::string_view rest);
   bool good_call(std::string_view line);
   bool whole(std::string_view text, std::string_view after);
   bool blame(std::string_view name, std::string_view reason = {});
-  bool defined_before(std::string_view name) const;
   bool defines(std::string_view name) const;
-  std::size_t count_parameters(std::string_view name) const;
   ScriptFault::Kind kind() const;
-
-  static constexpr std::size_t kNone = ~std::size_t{0};
 
   std::string_view program_, body_;  // the text, and its lines after "def name():"
   ScriptVariables variables_;        // every name that some line assigns

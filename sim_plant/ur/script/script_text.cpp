@@ -104,6 +104,12 @@ std::size_t join_lines(char* text, std::size_t size) {
   return to;
 }
 
+std::string_view without_scope(std::string_view line) {
+  for (const std::string_view word : {"global ", "local "})
+    if (starts_with(line, word)) return trimmed(line.substr(word.size()));
+  return line;
+}
+
 std::string_view leading_name(std::string_view text) {
   std::size_t size = 0;
   while (size < text.size() && is_name(text[size], size == 0)) ++size;
@@ -139,33 +145,19 @@ const ScriptValue* ScriptVariables::find(std::string_view name) const {
 }
 
 ScriptValue* ScriptVariables::find(std::string_view name) {
-  ScriptValue* local = find_at(name, depth_);
-  return local != nullptr ? local : find_at(name, 0);
-}
-
-ScriptValue* ScriptVariables::find_at(std::string_view name, int depth) {
   for (std::size_t i = 0; i < count_; ++i)
-    if (rows_[i].depth == depth && rows_[i].name == name) return &rows_[i].value;
+    if (rows_[i].name == name) return &rows_[i].value;
   return nullptr;
 }
 
-bool ScriptVariables::set(std::string_view name, const ScriptValue& value, Scope scope) {
-  const int depth = scope == Scope::kGlobal ? 0 : depth_;
-  ScriptValue* known = scope == Scope::kNearest ? find(name) : find_at(name, depth);
-  if (known != nullptr) {
+bool ScriptVariables::set(std::string_view name, const ScriptValue& value) {
+  if (ScriptValue* known = find(name)) {
     *known = value;
     return true;
   }
   if (count_ == rows_.size()) return false;
-  rows_[count_++] = {name, value, depth};
+  rows_[count_++] = {name, value};
   return true;
-}
-
-void ScriptVariables::leave() {
-  const auto* const end = std::remove_if(rows_.begin(), rows_.begin() + count_,
-                                         [this](const Row& row) { return row.depth == depth_; });
-  count_ = static_cast<std::size_t>(end - rows_.begin());
-  --depth_;
 }
 
 }  // namespace tactus::ur

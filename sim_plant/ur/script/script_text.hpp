@@ -25,6 +25,8 @@ std::string_view without_comment(std::string_view line);
 /// comments. The ends of lines follow the statement, so that what comes after keeps its number.
 /// Returns the new size, which is not larger.
 std::size_t join_lines(char* text, std::size_t size);
+/// Returns a statement without "global" or "local".
+std::string_view without_scope(std::string_view line);
 /// Returns the identifier at the beginning of a text; empty if there is none.
 std::string_view leading_name(std::string_view text);
 bool starts_with(std::string_view text, std::string_view word);
@@ -64,56 +66,21 @@ struct ScriptCall {
 
 constexpr std::string_view kTooManyVariables = "limit of 64 variables";
 
-/// The variables that were assigned, by name: those of the program, and those of the running
-/// functions. A name means the variable of the innermost function, else that of the program.
+/// The variables that were assigned, by name.
 class ScriptVariables {
  public:
-  enum class Scope : std::uint8_t { kNearest, kLocal, kGlobal };
-
   const ScriptValue* find(std::string_view name) const;
   ScriptValue* find(std::string_view name);
-  /// Assigns a value; a new variable belongs to the innermost function, unless it is global. False:
-  /// too many variables.
-  bool set(std::string_view name, const ScriptValue& value, Scope scope = Scope::kNearest);
-  void enter() { ++depth_; }  ///< a function begins
-  void leave();               ///< it ends, and its variables with it
+  /// Assigns a value. False: too many variables.
+  bool set(std::string_view name, const ScriptValue& value);
 
  private:
   struct Row {
     std::string_view name;
     ScriptValue value;
-    int depth = 0;  // of calls; 0: of the program
   };
-  ScriptValue* find_at(std::string_view name, int depth);
-
   std::array<Row, 64> rows_;
   std::size_t count_ = 0;
-  int depth_ = 0;
 };
-
-// The first line of a function of a program: "def name(a, b):".
-
-/// Takes name and parameters off a line without blanks and comment. False: it defines no function.
-inline bool read_definition(std::string_view line, std::string_view& name,
-                            std::string_view& parameters) {
-  if (leading_name(line) != "def") return false;
-  line = trimmed(line.substr(3));
-  name = leading_name(line);
-  line = trimmed(line.substr(name.size()));
-  const std::size_t end = line.find(')');
-  if (name.empty() || !starts_with(line, "(") || end == std::string_view::npos) return false;
-  parameters = trimmed(line.substr(1, end - 1));
-  return trimmed(line.substr(end + 1)) == ":";
-}
-
-/// Takes the first name off a list of parameters; empty: there is none, or it is not a plain name.
-inline std::string_view take_parameter(std::string_view& parameters) {
-  const std::string_view name = leading_name(parameters);
-  std::string_view rest = trimmed(parameters.substr(name.size()));
-  if (!rest.empty() && rest[0] != ',') return {};
-  if (!rest.empty()) rest = trimmed(rest.substr(1));
-  parameters = rest;
-  return name;
-}
 
 }  // namespace tactus::ur

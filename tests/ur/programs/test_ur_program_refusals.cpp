@@ -25,13 +25,10 @@ struct Row {
 
 // Each would move the arm or set an output if its known lines were run.
 constexpr Row kRows[] = {
-    {"def a():\n  def f(x):\n    return x\n  end\n  set_digital_out(0, True)\n  a = 1 + "
-     "f(3)\nend\n",
-     6, 11, "compile_error_not_emulated:f:"},
-    {"def a():\n  def f(x=1):\n    return 3\n  end\n  set_digital_out(0, True)\nend\n", 2, 7,
+    {"def a():\n  movej([1,0,0,0,0,0])\n  b = f(1)\n  def f(x):\n    sync()\n  end\nend\n", 3, 7,
      "compile_error_not_emulated:f:"},
-    {"def a():\n  movej([1,0,0,0,0,0])\n  b = f(1)\n  def f():\n    sync()\n  end\nend\n", 3, 3,
-     "compile_error_syntax:b = f(1):"},
+    {"def a():\n  set_digital_out(0, True)\n  def f():\n    sync()\n  end\n  f()\nend\n", 3, 3,
+     "compile_error_not_emulated:def:"},
     {"def a():\n  movej([1,0,0,0,0,0])\n  h = run T()\n  thread T():\n    sync()\n  end\nend\n", 3,
      7, "compile_error_not_emulated:run:"},
     {"def a():\n  thread T():\n    sync()\n  end\n  h = run T()\n  movel(p[0,0,0,0,0,0])\nend\n", 2,
@@ -78,15 +75,6 @@ constexpr Row kBlocks[] = {
      "compile_error_syntax:elif True::stands after else:"},
     {"def a():\n  set_digital_out(0, True)\n  if True:\n    break\n  end\nend\n", 4, 5,
      "compile_error_syntax:break:stands outside of a loop:"},
-    {"def a():\n  set_digital_out(0, True)\n  while True:\n    def f():\n      continue\n    end\n"
-     "  end\nend\n",
-     5, 7, "compile_error_syntax:continue:stands outside of a loop:"},
-    {"def a():\n  def f():\n    sync()\n  end\n  def f():\n    sync()\n  end\n  f()\nend\n", 5, 7,
-     "compile_error_syntax:f:is defined twice:"},
-    {"def a():\n  def f(x, y, x):\n    sync()\n  end\n  set_digital_out(0, True)\nend\n", 2, 15,
-     "compile_error_syntax:x:is a parameter twice:"},
-    {"def a():\n  def sin(x):\n    return 7\n  end\n  set_digital_out(0, True)\nend\n", 2, 7,
-     "compile_error_syntax:sin:is a name of the language:"},
     {"def a():\n  set_digital_out(0, True)\n  True = 5\nend\n", 3, 3,
      "compile_error_syntax:True:is a name of the language:"},
     {"def a():\n  set_digital_out(0, True)\n  global movej = 5\nend\n", 3, 10,
@@ -131,8 +119,8 @@ const char* nested(int count, Text<4095>& text) {
 void nesting_is_run_or_refused_as_a_whole(void**) {
   static Text<4095> most, beyond;
   static ProgramBench bench;
-  assert_refused({nested(33, beyond), 35, 3,
-                  "compile_error_limit:if True::limit of 32 nested blocks and calls:"});
+  assert_refused(
+      {nested(33, beyond), 35, 3, "compile_error_limit:if True::limit of 32 nested blocks:"});
   bench.upload(nested(32, most));
   bench.run(5);
   assert_int_equal(bench.machine().io.digital_outputs, 3);
@@ -146,12 +134,9 @@ void what_is_understood_is_not_refused(void**) {
       "  global q = get_actual_joint_positions()\n"
       "  local pose = p[0.1, -0.2, d2r(30), 0, 0, q[5]]\n"
       "  ok = socket_open(\"127.0.0.1\", 50001, \"s\")\n"
-      "  def f():\n"
-      "    n = n + 1\n"
-      "  end\n"
       "  n = 0\n"
       "  while n < 3 and not False:\n"
-      "    f()\n"
+      "    n = n + 1\n"
       "  end\n"
       "  if (n == 3):\n"
       "    digital_out[1] = True\n"
@@ -163,10 +148,6 @@ void what_is_understood_is_not_refused(void**) {
       "  set_analog_inputrange(0, 1)\n"
       "  q[0] = q[0] + norm(get_tcp_force()) * 0\n"
       "  write_output_integer_register(1, n)\n"
-      "  def sum(a, b):\n"
-      "    return a + b\n"
-      "  end\n"
-      "  s = sum(2, 3)\n"
       "end\n");
   bench.run(5);
   assert_false(bench.said.has("compile_error"));
