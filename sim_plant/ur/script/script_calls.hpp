@@ -27,10 +27,6 @@ CallOutcome run_call(const ScriptCall& call, bool moves, Machine& machine);
 /// True for a command that moves the arm or brings it to rest; the program waits until it returns.
 bool is_motion(std::string_view name);
 
-/// Calls a function that returns a value. False: it has no value, or is not emulated with these
-/// arguments.
-bool call_function(const ScriptCall& call, const Machine& machine, ScriptValue& value);
-
 /// Returns the bit of Io that "get_..._digital_in(n)" and the like mean; below 0: none.
 int digital_bit(const ScriptCall& call);
 

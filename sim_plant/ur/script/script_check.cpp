@@ -153,14 +153,14 @@ bool ScriptCheck::good_assignment(std::string_view rest) {
     if (!starts_with(rest, "=")) return false;
   }
   rest = trimmed(rest.substr(1));
-  if (is_emulated_call(leading_name(rest))) return good_call(rest);
+  if (find_call(leading_name(rest)) != nullptr) return good_call(rest);
   return whole(rest, "");
 }
 
 bool ScriptCheck::good_call(std::string_view line) {
   const std::string_view name = leading_name(line);
   if (name.empty()) return false;
-  if (!is_emulated_call(name) && !is_emulated_value(name)) return blame(name);
+  if (find_call(name) == nullptr && find_function(name) == nullptr) return blame(name);
   ScriptCall call;
   return read_call(line, {&variables_, nullptr, &strange_, &reason_}, call) &&
          trimmed(line).empty();

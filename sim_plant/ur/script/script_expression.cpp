@@ -242,13 +242,15 @@ bool ScriptReader::name(ScriptValue& value) {
 /// Reads a call with a value.
 bool ScriptReader::call(std::string_view word, ScriptValue& value) {
   ScriptCall call;
+  const ValueCall* function = find_function(word);
   if (scope_.reads_only()) {
-    if (!is_emulated_value(word)) *scope_.strange = word;
-    return is_emulated_value(word) && read(call);
+    if (function == nullptr) *scope_.strange = word;
+    return function != nullptr && read(call);
   }
   if (starts_with(word, "get_inverse_kin")) work(kHeavyCall);
-  return scope_.machine != nullptr && read(call) && call_function(call, *scope_.machine, value) &&
-         finite(value);
+  if (scope_.machine == nullptr || function == nullptr || !read(call)) return false;
+  value = function->value(call, *scope_.machine);
+  return value.kind != Kind::kNothing && finite(value);
 }
 
 bool ScriptReader::argument(ScriptCall::Argument& argument) {

@@ -1,14 +1,18 @@
+// The functions of URScript that have a value. Parameters as in the script manual of version 3.15.
 #include "sim_plant/ur/script/script_calls.hpp"
 
 #include <cmath>
 
 #include "sim_plant/ur/motion/kinematics.hpp"
-#include "sim_plant/ur/script/script_expression.hpp"
+#include "sim_plant/ur/script/script_signatures.hpp"
 
 namespace tactus::ur {
 namespace {
 
 using Kind = ScriptValue::Kind;
+
+using Call = const ScriptCall&;
+using Of = const Machine&;
 
 ScriptValue six_value(Kind kind, const Vector6& six) {
   ScriptValue value;
@@ -16,132 +20,144 @@ ScriptValue six_value(Kind kind, const Vector6& six) {
   for (const double element : six) value.elements[value.count++] = element;
   return value;
 }
+ScriptValue list(const Vector6& six) {
+  return six_value(Kind::kList, six);
+}
+ScriptValue pose(const Vector6& six) {
+  return six_value(Kind::kPose, six);
+}
+ScriptValue tip(const Joints& q, Of machine) {
+  return pose((forward(q) * machine.motion.tool()).pose());
+}
 
-bool of_registers(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
+ScriptValue of_registers(Call call, Of machine) {
   const bool input = starts_with(call.name, "read_input_");
-  if (!input && !starts_with(call.name, "read_output_")) return false;
   const Registers& registers = input ? machine.io.input : machine.io.output;
   const std::string_view kind = call.name.substr(input ? 11 : 12);
+  const bool bits = kind == "boolean_register";
   const double index = call.number("address", 0, -1.0);
-  if (!(index >= 0.0 && index < (kind == "boolean_register" ? kBitRegisters : kRegisters)))
-    return false;
+  if (!(index >= 0.0 && index < (bits ? kBitRegisters : kRegisters))) return {};
   const auto i = static_cast<std::size_t>(index);
-  if (kind == "boolean_register")
-    value = ScriptValue::of(registers.bit(static_cast<int>(i)));
-  else if (kind == "integer_register")
-    value = ScriptValue::of(static_cast<double>(registers.ints[i]));
-  else if (kind == "float_register")
-    value = ScriptValue::of(registers.doubles[i]);
-  else
-    return false;
-  return true;
+  if (bits) return ScriptValue::of(registers.bit(static_cast<int>(i)));
+  return ScriptValue::of(kind == "float_register" ? registers.doubles[i]
+                                                  : static_cast<double>(registers.ints[i]));
 }
 
-bool of_arm(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
-  const Motion& motion = machine.motion;
-  const std::string_view name = call.name;
-  if (name == "get_actual_joint_positions")
-    value = six_value(Kind::kList, machine.measured_q());
-  else if (name == "get_actual_joint_speeds")
-    value = six_value(Kind::kList, machine.measured_dq());
-  else if (name == "get_target_joint_positions")
-    value = six_value(Kind::kList, motion.q());
-  else if (name == "get_target_joint_speeds")
-    value = six_value(Kind::kList, motion.dq());
-  else if (name == "get_actual_tcp_pose")
-    value = six_value(Kind::kPose, (forward(machine.measured_q()) * motion.tool()).pose());
-  else if (name == "get_target_tcp_pose")
-    value = six_value(Kind::kPose, (forward(motion.q()) * motion.tool()).pose());
-  else if (name == "get_tcp_force")
-    value = six_value(Kind::kPose, machine.measured_wrench());
-  else if (name == "force")
-    value = ScriptValue::of(machine.measured_wrench().head<3>().norm());
-  else if (name == "get_tcp_offset")
-    value = six_value(Kind::kPose, machine.tcp_offset);
-  else if (name == "get_target_payload")
-    value = ScriptValue::of(machine.payload);
-  else if (name == "get_steptime")
-    value = ScriptValue::of(machine.cycle_s());
-  else if (name == "is_steady")
-    value = ScriptValue::of(motion.resting());
-  else
-    return false;
-  return true;
+ScriptValue of_digital(Call call, Of machine) {
+  const int bit = digital_bit(call);
+  if (bit < 0) return {};
+  const bool input = call.name.substr(call.name.size() - 3) == "_in";
+  const std::uint64_t bits = input ? machine.io.digital_inputs : machine.io.digital_outputs;
+  return ScriptValue::of((bits >> bit & 1u) != 0);
 }
 
-bool of_poses(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
-  const ScriptValue* first = call.find("", 0);
-  const ScriptValue* second = call.find("qnear", 1);
-  if (first == nullptr || !first->six()) return false;
-  const Frame& tool = machine.motion.tool();
-  if (call.name == "get_inverse_kin" || call.name == "get_inverse_kin_has_solution") {
-    const bool near = second != nullptr && second->six();
-    Joints q = Joints::Zero();
-    const bool found =
-        inverse(Frame::of(first->vector()), tool, near ? second->vector() : machine.motion.q(), q);
-    const bool asked = call.name != "get_inverse_kin";
-    value = asked ? ScriptValue::of(found) : six_value(Kind::kList, q);
-    return found || asked;
-  }
-  Frame frame;
-  if (call.name == "get_forward_kin") {
-    frame = forward(first->vector()) * tool;
-  } else if (call.name == "pose_inv") {
-    frame = Frame::of(first->vector()).inverse();
-  } else if (call.name == "pose_trans" && second != nullptr && second->six()) {
-    frame = Frame::of(first->vector()) * Frame::of(second->vector());
-  } else {
-    return false;
-  }
-  value = six_value(Kind::kPose, frame.pose());
-  return true;
+/// Finds the argument at this place that is a list of six or a pose; null: there is none.
+const ScriptValue* six_at(Call call, std::string_view name, std::size_t position) {
+  const ScriptValue* value = call.find(name, position);
+  return value != nullptr && value->six() ? value : nullptr;
+}
+
+/// get_inverse_kin and get_inverse_kin_has_solution.
+ScriptValue inverse_kin(Call call, Of machine) {
+  const ScriptValue* goal = six_at(call, "", 0);
+  const ScriptValue* near = six_at(call, "qnear", 1);
+  if (goal == nullptr) return {};
+  Joints q = Joints::Zero();
+  const bool found = inverse(Frame::of(goal->vector()), machine.motion.tool(),
+                             near != nullptr ? near->vector() : machine.motion.q(), q);
+  if (call.name != "get_inverse_kin") return ScriptValue::of(found);
+  return found ? list(q) : ScriptValue();
+}
+
+ScriptValue forward_kin(Call call, Of machine) {
+  const ScriptValue* q = six_at(call, "", 0);
+  return q != nullptr ? tip(q->vector(), machine) : ScriptValue();
+}
+
+ScriptValue pose_inv(Call call, Of) {
+  const ScriptValue* of = six_at(call, "", 0);
+  return of != nullptr ? pose(Frame::of(of->vector()).inverse().pose()) : ScriptValue();
+}
+
+ScriptValue pose_trans(Call call, Of) {
+  const ScriptValue *a = six_at(call, "", 0), *b = six_at(call, "", 1);
+  if (a == nullptr || b == nullptr) return {};
+  return pose((Frame::of(a->vector()) * Frame::of(b->vector())).pose());
 }
 
 /// Returns the length of a list or the magnitude of a number.
-double norm(const ScriptValue& value) {
-  if (value.numeric()) return std::abs(value.number);
+ScriptValue norm(Call call, Of) {
+  const ScriptValue* of = call.find("", 0);
+  if (of == nullptr) return {};
+  if (of->numeric()) return ScriptValue::of(std::abs(of->number));
   double sum = 0.0;
-  for (std::size_t i = 0; i < value.count; ++i) sum += value.elements[i] * value.elements[i];
-  return std::sqrt(sum);
+  for (std::size_t i = 0; i < of->count; ++i) sum += of->elements[i] * of->elements[i];
+  return ScriptValue::of(std::sqrt(sum));
 }
 
-bool of_numbers(const ScriptCall& call, ScriptValue& value) {
-  const ScriptValue* first = call.find("", 0);
-  if (first == nullptr) return false;
-  if (call.name == "norm") {
-    value = ScriptValue::of(norm(*first));
-    return true;
-  }
-  struct Row {
-    std::string_view name;
-    double (*function)(double, double);
-  };
-  constexpr Row kRows[] = {{"d2r", [](double x, double) { return x * kDegree; }},
-                           {"r2d", [](double x, double) { return x / kDegree; }},
-                           {"sqrt", [](double x, double) { return std::sqrt(x); }},
-                           {"sin", [](double x, double) { return std::sin(x); }},
-                           {"cos", [](double x, double) { return std::cos(x); }},
-                           {"tan", [](double x, double) { return std::tan(x); }},
-                           {"floor", [](double x, double) { return std::floor(x); }},
-                           {"ceil", [](double x, double) { return std::ceil(x); }},
-                           {"atan2", [](double x, double y) { return std::atan2(x, y); }},
-                           {"pow", [](double x, double y) { return std::pow(x, y); }}};
-  for (const Row& row : kRows) {
-    if (row.name != call.name || !first->numeric()) continue;
-    value = ScriptValue::of(row.function(first->number, call.number("", 1, 0.0)));
-    return true;
-  }
-  return false;
+template <double (*function)(double)>
+ScriptValue of_one(Call call, Of) {
+  const ScriptValue* x = call.find("", 0);
+  return x != nullptr && x->numeric() ? ScriptValue::of(function(x->number)) : ScriptValue();
+}
+template <double (*function)(double, double)>
+ScriptValue of_two(Call call, Of) {
+  const ScriptValue* x = call.find("", 0);
+  if (x == nullptr || !x->numeric()) return {};
+  return ScriptValue::of(function(x->number, call.number("", 1, 0.0)));
+}
+double radians(double degrees) {
+  return degrees * kDegree;
+}
+double degrees(double radians) {
+  return radians / kDegree;
 }
 
-bool of_digital(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
-  const int bit = digital_bit(call);
-  if (bit < 0) return false;
-  const bool input = call.name.substr(call.name.size() - 3) == "_in";
-  const std::uint64_t bits = input ? machine.io.digital_inputs : machine.io.digital_outputs;
-  value = ScriptValue::of((bits >> bit & 1u) != 0);
-  return true;
-}
+constexpr ValueCall kFunctions[] = {
+    {{"atan2", "1 1", 2}, of_two<std::atan2>},
+    {{"ceil", "1", 1}, of_one<std::ceil>},
+    {{"cos", "1", 1}, of_one<std::cos>},
+    {{"d2r", "1", 1}, of_one<radians>},
+    {{"floor", "1", 1}, of_one<std::floor>},
+    {{"force", "", 0},
+     [](Call, Of m) { return ScriptValue::of(m.measured_wrench().head<3>().norm()); }},
+    {{"get_actual_joint_positions", "", 0}, [](Call, Of m) { return list(m.measured_q()); }},
+    {{"get_actual_joint_speeds", "", 0}, [](Call, Of m) { return list(m.measured_dq()); }},
+    {{"get_actual_tcp_pose", "", 0}, [](Call, Of m) { return tip(m.measured_q(), m); }},
+    {{"get_configurable_digital_in", "1n", 1}, of_digital},
+    {{"get_configurable_digital_out", "1n", 1}, of_digital},
+    {{"get_digital_in", "1n", 1}, of_digital},
+    {{"get_digital_out", "1n", 1}, of_digital},
+    {{"get_forward_kin", "6", 1}, forward_kin},
+    {{"get_inverse_kin", "6 6qnear 1 1", 1}, inverse_kin},
+    {{"get_inverse_kin_has_solution", "6 6qnear 1 1", 1}, inverse_kin},
+    {{"get_standard_digital_in", "1n", 1}, of_digital},
+    {{"get_standard_digital_out", "1n", 1}, of_digital},
+    {{"get_steptime", "", 0}, [](Call, Of m) { return ScriptValue::of(m.cycle_s()); }},
+    {{"get_target_joint_positions", "", 0}, [](Call, Of m) { return list(m.motion.q()); }},
+    {{"get_target_joint_speeds", "", 0}, [](Call, Of m) { return list(m.motion.dq()); }},
+    {{"get_target_payload", "", 0}, [](Call, Of m) { return ScriptValue::of(m.payload); }},
+    {{"get_target_tcp_pose", "", 0}, [](Call, Of m) { return tip(m.motion.q(), m); }},
+    {{"get_tcp_force", "", 0}, [](Call, Of m) { return pose(m.measured_wrench()); }},
+    {{"get_tcp_offset", "", 0}, [](Call, Of m) { return pose(m.tcp_offset); }},
+    {{"get_tool_digital_in", "1n", 1}, of_digital},
+    {{"get_tool_digital_out", "1n", 1}, of_digital},
+    {{"is_steady", "", 0}, [](Call, Of m) { return ScriptValue::of(m.motion.resting()); }},
+    {{"norm", "*", 1}, norm},
+    {{"pose_inv", "6", 1}, pose_inv},
+    {{"pose_trans", "6 6", 2}, pose_trans},
+    {{"pow", "1 1", 2}, of_two<std::pow>},
+    {{"r2d", "1", 1}, of_one<degrees>},
+    {{"read_input_boolean_register", "1address", 1}, of_registers},
+    {{"read_input_float_register", "1address", 1}, of_registers},
+    {{"read_input_integer_register", "1address", 1}, of_registers},
+    {{"read_output_boolean_register", "1address", 1}, of_registers},
+    {{"read_output_float_register", "1address", 1}, of_registers},
+    {{"read_output_integer_register", "1address", 1}, of_registers},
+    {{"sin", "1", 1}, of_one<std::sin>},
+    {{"sqrt", "1", 1}, of_one<std::sqrt>},
+    {{"tan", "1", 1}, of_one<std::tan>},
+};
 
 }  // namespace
 
@@ -162,10 +178,8 @@ int digital_bit(const ScriptCall& call) {
   return -1;
 }
 
-bool call_function(const ScriptCall& call, const Machine& machine, ScriptValue& value) {
-  return of_registers(call, machine, value) || of_arm(call, machine, value) ||
-         of_digital(call, machine, value) || of_poses(call, machine, value) ||
-         of_numbers(call, value);
+const ValueCall* find_function(std::string_view name) {
+  return find_row(kFunctions, name);
 }
 
 }  // namespace tactus::ur
