@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!quits && next_line(text, line)) {
     Reply reply;
     quits = dashboard.run(line, reply);
-    const std::string_view said = reply.text();
+    const std::string_view said = reply;
     MUST(said.size() >= 2 && said.find('\n') == said.size() - 1);
     for (int i = 0; i < 100; ++i) {
       machine.power.tick(kCycle_s);

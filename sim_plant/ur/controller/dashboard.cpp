@@ -1,9 +1,5 @@
 #include "sim_plant/ur/controller/dashboard.hpp"
 
-#include <algorithm>
-#include <cstdio>
-#include <cstring>
-
 namespace tactus::ur {
 namespace {
 
@@ -27,23 +23,10 @@ bool argument(std::string_view line, std::string_view command, std::string_view&
   return true;
 }
 
-template <std::size_t N>
-std::size_t keep(std::string_view text, std::array<char, N>& to) {
-  const std::size_t size = std::min(text.size(), N);
-  if (size > 0) std::memcpy(to.data(), text.data(), size);
-  return size;
-}
-
 }  // namespace
 
-Reply& Reply::operator<<(std::string_view text) {
-  const std::size_t size = std::min(text.size(), text_.size() - 1 - size_);
-  if (size > 0) std::memcpy(text_.data() + size_, text.data(), size);
-  size_ += size;
-  return *this;
-}
-
-bool Dashboard::run(std::string_view line, Reply& reply) {
+bool Dashboard::run(std::string_view line, Reply& whole) {
+  Answer reply;
   line = trimmed(line);
   const bool quits = line == "quit" || line == "shutdown";
   if (quits) {
@@ -52,15 +35,15 @@ bool Dashboard::run(std::string_view line, Reply& reply) {
              !run_other_command(line, reply) && !run_e_series_command(line, reply)) {
     reply << "could not understand: '" << line.substr(0, 200) << "'";
   }
-  reply.end_line();
+  whole = Reply(reply) << "\n";
   return quits;
 }
 
 std::string_view Dashboard::loaded_name() const {
-  return loaded_size_ == 0 ? "<unnamed>" : base_name(loaded());
+  return loaded_.empty() ? "<unnamed>" : base_name(loaded_);
 }
 
-void Dashboard::load(std::string_view path, Reply& reply) {
+void Dashboard::load(std::string_view path, Answer& reply) {
   const std::string_view name = base_name(path);
   const bool has_control = !machine_.settings.external_control_host.empty();
   if (name != kWaitProgram && !(name == kExternalControl && has_control)) {
@@ -68,15 +51,15 @@ void Dashboard::load(std::string_view path, Reply& reply) {
     return;
   }
   runner_.stop(machine_);
-  loaded_size_ = keep(path, loaded_);
+  loaded_ = path;
   reply << "Loading program: " << path;
 }
 
-void Dashboard::play(Reply& reply) {
+void Dashboard::play(Answer& reply) {
   const bool can = machine_.power.running() && machine_.safety.normal();
   if (can && runner_.paused()) {
     runner_.resume();
-  } else if (can && !runner_.running() && loaded_size_ > 0) {
+  } else if (can && !runner_.running() && !loaded_.empty()) {
     if (loaded_name() == kWaitProgram)
       runner_.upload(kWaitScript, machine_);
     else
@@ -85,7 +68,7 @@ void Dashboard::play(Reply& reply) {
   reply << (runner_.playing() ? "Starting program" : "Failed to execute: play");
 }
 
-bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
+bool Dashboard::run_program_command(std::string_view line, Answer& reply) {
   std::string_view rest;
   if (argument(line, "load installation", rest)) {
     reply << (base_name(rest) == kInstallation ? "Loading installation: " : "File not found: ")
@@ -95,7 +78,7 @@ bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
   } else if (line == "play") {
     play(reply);
   } else if (line == "stop") {
-    const bool can = runner_.running() || loaded_size_ > 0 || !runner_.name().empty();
+    const bool can = runner_.running() || !loaded_.empty() || !runner_.name().empty();
     runner_.stop(machine_);
     reply << (can ? "Stopped" : "Failed to execute: stop");
   } else if (line == "pause") {
@@ -104,10 +87,7 @@ bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
   } else if (line == "running") {
     reply << "Program running: " << (runner_.playing() ? "true" : "false");
   } else if (line == "get loaded program") {
-    if (loaded_size_ == 0)
-      reply << "No program loaded";
-    else
-      reply << "Loaded program: " << loaded();
+    reply << (loaded_.empty() ? "No program loaded" : "Loaded program: ") << loaded_;
   } else if (line == "isProgramSaved") {
     reply << "true " << loaded_name();
   } else if (line == "programState") {
@@ -121,7 +101,7 @@ bool Dashboard::run_program_command(std::string_view line, Reply& reply) {
   return true;
 }
 
-bool Dashboard::run_robot_command(std::string_view line, Reply& reply) {
+bool Dashboard::run_robot_command(std::string_view line, Answer& reply) {
   const Version& version = machine_.settings.version;
   if (line == "robotmode") {
     reply << "Robotmode: " << name(machine_.power.mode());
@@ -155,7 +135,7 @@ bool Dashboard::run_robot_command(std::string_view line, Reply& reply) {
   return true;
 }
 
-bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
+bool Dashboard::run_other_command(std::string_view line, Answer& reply) {
   const Version& version = machine_.settings.version;
   struct Row {
     std::string_view command, reply;
@@ -179,15 +159,15 @@ bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
   if (argument(line, "addToLog", rest)) {
     reply << (rest.empty() ? "No log message to add" : "Added log message");
   } else if (line == "PolyscopeVersion") {
-    std::array<char, 96> words;
-    std::snprintf(words.data(), words.size(), "URSoftware %u.%u.%u.%u (Jan 01 2022)", version.major,
-                  version.minor, version.bugfix, version.build);
-    reply << words.data();
+    reply << "URSoftware ";
+    for (const std::size_t part : {version.major, version.minor, version.bugfix})
+      reply << part << ".";
+    reply << std::size_t{version.build} << " (Jan 01 2022)";
   } else if (argument(line, "setUserRole", rest)) {
-    role_size_ = keep(rest, role_);
+    role_ = rest;
     reply << "Setting user role: " << rest;
   } else if (line == "getUserRole") {
-    reply << (role_size_ == 0 ? "PROGRAMMER" : std::string_view(role_.data(), role_size_));
+    reply << (role_.empty() ? "PROGRAMMER" : std::string_view(role_));
   } else if (line == "get serial number" && version.at_least(3, 12)) {
     reply << machine_.settings.serial_number;
   } else {
@@ -198,7 +178,7 @@ bool Dashboard::run_other_command(std::string_view line, Reply& reply) {
 
 /// Runs the commands of an e-Series, which is always in remote control. The operational mode is
 /// kept for the clients; it limits nothing.
-bool Dashboard::run_e_series_command(std::string_view line, Reply& reply) {
+bool Dashboard::run_e_series_command(std::string_view line, Answer& reply) {
   const Version& version = machine_.settings.version;
   std::string_view rest;
   if (!version.at_least(5, 0)) return false;

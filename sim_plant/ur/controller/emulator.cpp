@@ -22,9 +22,8 @@ int Emulator::open(Service service) {
     session.out.clear();
     session.script.clear();
     session.line_size = 0;
-    session.stalled = 0;
     session.writes = false;
-    session.unsent = session.kept = 0;
+    session.kept = 0;
     session.idle = 0;
     session.rtde.open(i);
     greet(session);
@@ -84,7 +83,7 @@ void Emulator::take_lines(Session& session, const std::uint8_t* data, std::size_
     Reply reply;
     session.ended = controller_.dashboard().run({session.line.data(), session.line_size}, reply);
     session.line_size = 0;
-    session.out.put(reply.text());
+    session.out.put(reply);
   }
 }
 
@@ -102,8 +101,7 @@ void Emulator::tick() {
   const bool due = state_is_due();
   for (Session& session : sessions_) {
     if (!session.open) continue;
-    watch_reader(session);
-    watch_idle(session);
+    watch_client(session);
     send_cycle(session);
     const bool state =
         session.service == Service::kPrimary || session.service == Service::kSecondary;
@@ -164,21 +162,12 @@ void Emulator::send_messages() {
   messages.clear();
 }
 
-/// Counts the cycles in which the client has taken no byte; receive() begins the count again.
-void Emulator::watch_idle(Session& session) {
+/// Counts the cycles in which no byte was exchanged, and ends the session of a client for which
+/// packets are dropped meanwhile. One that uploads programs misses packets instead; it is ended
+/// where another needs its place.
+void Emulator::watch_client(Session& session) {
   session.idle = session.out.size() < session.kept ? 0 : session.idle + 1;
-}
-
-/// Ends the session of a client that takes no bytes for too long although some are waiting. One
-/// that uploads programs and reads nothing misses packets instead; it is ended where another needs
-/// its place.
-void Emulator::watch_reader(Session& session) {
-  if (session.writes) return;
-  const std::size_t waiting = session.out.size();
-  const bool stands = waiting > 0 && waiting >= session.unsent && session.out.dropped() > 0;
-  session.stalled = stands ? session.stalled + 1 : 0;
-  session.unsent = waiting;
-  if (session.stalled > kPatience) session.ended = true;
+  session.ended = session.ended || (session.stalled() && !session.writes);
 }
 
 }  // namespace tactus::ur

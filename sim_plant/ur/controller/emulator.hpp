@@ -44,7 +44,7 @@ class Emulator {
   /// True if the session has ended: send the remaining bytes and close it.
   bool ended(int session) { return at(session).ended; }
   /// True if it has because the client took no bytes.
-  bool stalled(int session) { return at(session).stalled > kPatience; }
+  bool stalled(int session) { return at(session).stalled() && !at(session).writes; }
 
   Pace pace() const;
 
@@ -52,7 +52,8 @@ class Emulator {
   Links& links() { return controller_.machine().links; }
 
  private:
-  static constexpr int kPatience = 625;  // cycles in which a client may take nothing
+  static constexpr int kPatience =
+      625;  // cycles in which a client may stand still while packets are dropped for it
 
   struct Session {
     bool open = false, ended = false;
@@ -62,12 +63,12 @@ class Emulator {
     ScriptIntake script;
     std::array<char, 1024> line;  // of the dashboard
     std::size_t line_size = 0;
-    int stalled = 0;  // cycles in which the client has taken nothing
-    std::size_t unsent = 0;
     int idle = 0;          // cycles in which no byte was exchanged
     std::size_t kept = 0;  // bytes that waited at the end of the last cycle
     bool told = false;     // has been sent a whole state
     bool writes = false;   // has sent a program
+
+    bool stalled() const { return idle > kPatience && out.dropped() > 0 && !out.empty(); }
   };
 
   Session& at(int session) { return sessions_[static_cast<std::size_t>(session)]; }
@@ -77,8 +78,7 @@ class Emulator {
   void send_cycle(Session& session);
   void send_state(Session& session);
   void send_messages();
-  void watch_reader(Session& session);
-  void watch_idle(Session& session);
+  void watch_client(Session& session);
   bool state_is_due();
 
   Controller controller_;

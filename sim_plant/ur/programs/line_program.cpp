@@ -1,7 +1,6 @@
 #include "sim_plant/ur/programs/line_program.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "sim_plant/ur/script/script_signatures.hpp"
 #include "sim_plant/ur/script/script_text.hpp"
@@ -152,15 +151,9 @@ void LineProgram::fail(std::string_view line, Machine& machine, std::string_view
   if (ended_) return;
   ended_ = true;
   if (what.empty()) what = reason_.empty() ? "no value" : reason_;
-  std::array<char, 160> text;
-  std::size_t size = 0;
-  for (const std::string_view part : {std::string_view("runtime_error:"), what,
-                                      std::string_view(line.empty() ? "" : ":"), line}) {
-    const std::size_t more = std::min(part.size(), text.size() - size);
-    if (more > 0) std::memcpy(text.data() + size, part.data(), more);
-    size += more;
-  }
-  machine.messages.runtime_exception(here_.line, 1, {text.data(), size});
+  Text<160> text("runtime_error:");
+  text << what << (line.empty() ? "" : ":") << line;
+  machine.messages.runtime_exception(here_.line, 1, text);
 }
 
 // Blocks of plain programs: loops and branches.

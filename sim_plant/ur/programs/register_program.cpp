@@ -1,8 +1,6 @@
 #include "sim_plant/ur/programs/register_program.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "sim_plant/ur/script/script_text.hpp"
 
@@ -138,21 +136,19 @@ RegisterProgram::Outcome RegisterProgram::no_posture(Machine& machine) const {
 /// first line of that branch. A CB3, whose text has no such branch, goes on.
 RegisterProgram::Outcome RegisterProgram::not_emulated(RegisterCommand command,
                                                        Machine& machine) const {
-  std::array<char, 128> words;
   const auto number = static_cast<int>(command);
-  std::snprintf(words.data(), words.size(), "cmd == %d:", number);
-  const std::size_t at = text_.find(words.data());
+  Text<32> branch("cmd == ");
+  const std::size_t at = text_.find(branch << number << ":");
   if (!machine.settings.version.at_least(5, 0) || at == std::string_view::npos)
     return Outcome::kDone;
   const std::string_view before = text_.substr(0, at);
   std::string_view rest = text_.substr(at), line;
   for (int i = 0; i < 2 && next_line(rest, line); ++i) {
   }
-  line = trimmed(line).substr(0, 64);
-  std::snprintf(words.data(), words.size(), "runtime_error:not emulated:command %d:%.*s", number,
-                static_cast<int>(line.size()), line.data());
+  Text<127> words("runtime_error:not emulated:command ");
+  words << number << ":" << trimmed(line).substr(0, 64);
   const auto where = static_cast<std::int32_t>(std::count(before.begin(), before.end(), '\n')) + 2;
-  machine.messages.runtime_exception(where, 1, words.data());
+  machine.messages.runtime_exception(where, 1, words);
   return Outcome::kEnded;
 }
 

@@ -47,14 +47,10 @@ bool compiles(std::string_view text, Machine& machine) {
       : fault.kind == ScriptFault::Kind::kNotEmulated ? "compile_error_not_emulated:"
       : fault.kind == ScriptFault::Kind::kLimit       ? "compile_error_limit:"
                                                       : "compile_error_syntax:";
-  std::array<char, 200> words{};
-  std::size_t size = copy(what, words.data(), words.size()).size();
-  for (const std::string_view part : {fault.name, fault.reason}) {
-    if (part.empty()) continue;
-    size += copy(part, words.data() + size, 72).size();
-    words[size++] = ':';
-  }
-  machine.messages.runtime_exception(fault.line, fault.column, {words.data(), size});
+  Text<200> words(what);
+  for (const std::string_view part : {fault.name, fault.reason})
+    if (!part.empty()) words << part.substr(0, 72) << ":";
+  machine.messages.runtime_exception(fault.line, fault.column, words);
   return false;
 }
 
@@ -72,10 +68,6 @@ ProgramStep step_of(Programs& programs, Step step) {
 }
 
 }  // namespace
-
-void Runner::set_name(std::string_view name) {
-  name_size_ = copy(name, name_.data(), name_.size()).size();
-}
 
 void Runner::upload(std::string_view text, Machine& machine) {
   if (!machine.power.running() || !machine.safety.normal()) return;  // without a message
@@ -101,7 +93,7 @@ void Runner::start(std::string_view text, Machine& machine) {
   paused_ = false;
   braking_ = !machine.motion.resting() && !takes_over(text);
   if (braking_) machine.motion.stop_j(0.0);
-  set_name(program_name(text));
+  name_ = program_name(text);
   machine.messages.program_started(name());
 }
 
@@ -112,10 +104,9 @@ void Runner::start_secondary(std::string_view text, Machine& machine) {
   text = copy(text, secondary_text_.data(), secondary_text_.size());
   int first_line = 1;
   secondary_.start(body_of(text, first_line), first_line, false);
-  const std::string_view name = program_name(text);
-  secondary_name_size_ = copy(name, secondary_name_.data(), secondary_name_.size()).size();
+  secondary_name_ = program_name(text);
   secondary_running_ = true;
-  machine.messages.program_started({secondary_name_.data(), secondary_name_size_});
+  machine.messages.program_started(secondary_name_);
 }
 
 void Runner::stop(Machine& machine) {
@@ -131,7 +122,7 @@ void Runner::stop(Machine& machine) {
 void Runner::fetch(Machine& machine) {
   stop(machine);
   program_.emplace<FetchProgram>();
-  set_name("external_control");
+  name_ = std::string_view("external_control");
   machine.messages.program_started(name());
 }
 
@@ -148,7 +139,7 @@ void Runner::start_fetched(std::string_view text, Machine& machine) {
 void Runner::poll_secondary(Machine& machine) {
   if (!secondary_running_ || secondary_.poll(machine) != ProgramStep::kEnded) return;
   secondary_running_ = false;
-  machine.messages.program_stopped({secondary_name_.data(), secondary_name_size_});
+  machine.messages.program_stopped(secondary_name_);
 }
 
 /// Reports C207 if an input with a watchdog is late.

@@ -77,7 +77,7 @@ class Runner {
            : paused_  ? RuntimeState::kPaused
                       : RuntimeState::kPlaying;
   }
-  std::string_view name() const { return {name_.data(), name_size_}; }
+  std::string_view name() const { return name_; }
 
  private:
   static constexpr std::size_t kLongestName = 31, kLongestSecondary = 8192;
@@ -86,7 +86,6 @@ class Runner {
   void start_secondary(std::string_view text, Machine& machine);
   void poll_secondary(Machine& machine);
   void start_fetched(std::string_view text, Machine& machine);
-  void set_name(std::string_view name);
   void watch_inputs(Machine& machine);
 
   std::variant<std::monostate, LineProgram, ExternalControl, RegisterProgram, FetchProgram>
@@ -94,14 +93,12 @@ class Runner {
   bool paused_ = false;
   bool braking_ = false;  // from the motion of the last program
   std::array<char, kLongestScript> text_;
-  std::array<char, kLongestName> name_{};
-  std::size_t name_size_ = 0;
+  Text<kLongestName> name_;
 
   LineProgram secondary_;
   bool secondary_running_ = false;
   std::array<char, kLongestSecondary> secondary_text_;
-  std::array<char, kLongestName> secondary_name_{};
-  std::size_t secondary_name_size_ = 0;
+  Text<kLongestName> secondary_name_;
 };
 
 /// ScriptIntake: cuts the text that a client sends to a state port into programs and single lines.

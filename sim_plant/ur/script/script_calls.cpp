@@ -2,7 +2,6 @@
 #include "sim_plant/ur/script/script_calls.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "sim_plant/ur/script/script_signatures.hpp"
 
@@ -123,27 +122,20 @@ void set_freedrive(const ScriptCall& call, Machine& machine) {
 }
 
 /// Appends a value as textmsg prints it.
-void append(const ScriptValue& value, char* text, std::size_t capacity, std::size_t& size) {
-  const auto add = [&](const char* format, auto... args) {
-    const int more = std::snprintf(text + size, capacity - size, format, args...);
-    if (more > 0) size = std::min(capacity - 1, size + static_cast<std::size_t>(more));
-  };
-  if (value.kind == Kind::kText)
-    add("%.*s", static_cast<int>(value.text.size()), value.text.data());
-  if (value.kind == Kind::kNumber) add("%.6g", value.number);
-  if (value.kind == Kind::kBool) add("%s", value.number != 0.0 ? "True" : "False");
+void append(const ScriptValue& value, Text<511>& text) {
+  if (value.kind == Kind::kText) text << value.text;
+  if (value.kind == Kind::kNumber) text << value.number;
+  if (value.kind == Kind::kBool) text << (value.number != 0.0 ? "True" : "False");
   if (value.kind != Kind::kList && value.kind != Kind::kPose) return;
-  add("%s", value.kind == Kind::kPose ? "p[" : "[");
-  for (std::size_t i = 0; i < value.count; ++i) add(i > 0 ? ", %.6g" : "%.6g", value.elements[i]);
-  add("]");
+  text << (value.kind == Kind::kPose ? "p[" : "[");
+  for (std::size_t i = 0; i < value.count; ++i) text << (i > 0 ? ", " : "") << value.elements[i];
+  text << "]";
 }
 
 void text_message(const ScriptCall& call, Machine& machine) {
-  std::array<char, 512> text{};
-  std::size_t size = 0;
-  for (std::size_t i = 0; i < call.count; ++i)
-    append(call.arguments[i].value, text.data(), text.size(), size);
-  machine.messages.text({text.data(), size});
+  Text<511> text;
+  for (std::size_t i = 0; i < call.count; ++i) append(call.arguments[i].value, text);
+  machine.messages.text(text);
 }
 
 void write_register(const ScriptCall& call, Machine& machine) {

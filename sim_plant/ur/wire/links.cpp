@@ -4,20 +4,10 @@
 #include <cstring>
 
 namespace tactus::ur {
-namespace {
-
-std::size_t copy(std::string_view from, std::array<char, 64>& to) {
-  const std::size_t size = std::min(from.size(), to.size() - 1);
-  if (size > 0) std::memcpy(to.data(), from.data(), size);
-  to[size] = '\0';
-  return size;
-}
-
-}  // namespace
 
 void Link::want(std::string_view name, std::string_view host, int port) {
-  name_size_ = copy(name, name_);
-  copy(host, host_);
+  name_ = name;
+  host_ = host;
   port_ = port;
   in_size_ = 0;
   out_.clear();

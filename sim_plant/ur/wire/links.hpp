@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hal/ur/protocol.hpp"
+#include "kernel/core/text.hpp"
 #include "sim_plant/ur/wire/outbox.hpp"
 
 namespace tactus::ur {
@@ -20,7 +21,7 @@ class Link {
   // ---- the script's side ----
   void want(std::string_view name, std::string_view host, int port);
   void close() { state_ = State::kClosed; }
-  std::string_view name() const { return {name_.data(), name_size_}; }
+  std::string_view name() const { return name_; }
   /// Reads `count` big-endian integers. False: fewer have come.
   bool read_ints(std::int32_t* values, std::size_t count);
   /// All bytes that have come.
@@ -31,7 +32,7 @@ class Link {
   void send_text(std::string_view text) { out_.put(text); }
 
   // ---- the network's side ----
-  const char* host() const { return host_.data(); }
+  const char* host() const { return host_.c_str(); }
   int port() const { return port_; }
   void connecting() { state_ = State::kConnecting; }
   void connected() { state_ = State::kOpen; }
@@ -47,8 +48,7 @@ class Link {
  private:
   State state_ = State::kClosed;
   bool lost_ = false;
-  std::array<char, 64> name_{}, host_{};
-  std::size_t name_size_ = 0;
+  Text<63> name_, host_;
   int port_ = 0;
   std::array<std::uint8_t, 96 * 1024> in_;
   std::size_t in_size_ = 0;
