@@ -1,17 +1,9 @@
 // Tests the motion commands of the emulated controller against integration in small steps, closed
 // forms and published positions.
-#include "sim_plant/ur/motion/motion.hpp"
-#include "sim_plant/ur/programs/trajectory_points.hpp"
-#include "tests/support/testing.hpp"
+#include "tests/ur/controller/ur_path_bench.hpp"
 
 namespace tactus::ur {
 namespace {
-
-Joints joints(double a, double b, double c, double d, double e, double f) {
-  Joints q;
-  q << a, b, c, d, e, f;
-  return q;
-}
 
 /// Returns the number of cycles until the command has finished.
 int run(Motion& motion, double h_s = 0.008) {
@@ -179,31 +171,6 @@ void speedj_ramps_on_the_leading_axis_and_stopj_to_rest(void**) {
   assert_true(motion.resting());
 }
 
-// Proves URE-13.
-
-void a_quintic_segment_follows_its_polynomial_whatever_the_slider(void**) {
-  for (const double scaling : {1.0, 0.5, 0.3}) {
-    Motion motion;
-    motion.rest(Joints::Zero());
-    SplineRun spline;
-    const double T = 2.0;
-    spline.start(motion.q(), Joints::Constant(0.6), Joints::Zero(), Joints::Zero(), T, true, true);
-    double way = 0.0;
-    for (int k = 0; k < 1000; ++k) {
-      double left = 0.008 * scaling;
-      while (left > 1e-9 && (motion.busy() || spline.command(motion, 0.008))) {
-        const double taken = motion.advance(left);
-        left -= taken;
-        way += taken;
-      }
-      const double s = std::min(way / T, 1.0);
-      const double expected = 0.6 * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s);
-      ASSERT_NEAR(motion.q()[2], expected, 0.002);
-    }
-    ASSERT_NEAR(motion.q()[2], 0.6, 1e-3);
-  }
-}
-
 // Proves URE-20.
 
 void faults_of_the_path_are_told_apart(void**) {
@@ -239,7 +206,6 @@ int main() {
       cmocka_unit_test(a_move_begins_when_the_arm_stands),
       cmocka_unit_test(movel_keeps_the_line),
       cmocka_unit_test(speedj_ramps_on_the_leading_axis_and_stopj_to_rest),
-      cmocka_unit_test(a_quintic_segment_follows_its_polynomial_whatever_the_slider),
       cmocka_unit_test(faults_of_the_path_are_told_apart),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -150,13 +150,9 @@ void movep_movec_and_servoc_of_a_text(void**) {
 
 // Proves URE-14.
 
-void blend_point(ExternalBench& bench, const Vector6& target, std::int32_t type, double radius,
-                 const Vector6& second = Vector6::Zero()) {
+void blend_point(ExternalBench& bench, const Vector6& target, std::int32_t type, double radius) {
   std::array<std::int32_t, 21> ints{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    ints[i] = fixed(target[static_cast<int>(i)]);
-    ints[6 + i] = fixed(second[static_cast<int>(i)]);
-  }
+  for (std::size_t i = 0; i < 6; ++i) ints[i] = fixed(target[static_cast<int>(i)]);
   ints[12] = fixed(0.25);
   ints[13] = fixed(1.2);
   ints[19] = fixed(radius);
@@ -207,27 +203,6 @@ void a_point_that_is_missing_lets_the_arm_stop_at_the_one_before(void**) {
   assert_true((bench.image().target_tcp_pose - corner).head<3>().norm() < 1e-6);
 }
 
-// Proves URE-15.
-
-void the_circle_of_a_trajectory_point(void**) {
-  static ExternalBench bench;
-  bench.start();
-  bench.forward(0);
-  bench.run(2);
-  const Vector6 via = pose_beside(0.0, 0.05, 0.05), to = pose_beside(0.0, 0.1, 0.0);
-  const Vector3 center = pose_beside(0.0, 0.05, 0.0).head<3>();
-  bench.forward(1, 1);
-  blend_point(bench, to, 3, 0.0, via);
-  std::int32_t result = -1;
-  for (int k = 0; k < 1000 && result < 0; ++k) {
-    bench.tick();
-    ASSERT_NEAR((bench.image().target_tcp_pose.head<3>() - center).norm(), 0.05, 2e-6);
-    result = bench.result();
-  }
-  assert_int_equal(result, 0);
-  assert_true((bench.image().target_tcp_pose - to).head<3>().norm() < 2e-6);
-}
-
 }  // namespace
 
 int main() {
@@ -239,7 +214,6 @@ int main() {
       cmocka_unit_test(movep_movec_and_servoc_of_a_text),
       cmocka_unit_test(the_points_of_a_trajectory_are_blended),
       cmocka_unit_test(a_point_that_is_missing_lets_the_arm_stop_at_the_one_before),
-      cmocka_unit_test(the_circle_of_a_trajectory_point),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

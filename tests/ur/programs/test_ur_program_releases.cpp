@@ -55,23 +55,30 @@ void a_spline_has_its_rates_by_the_scale_in_the_text(void**) {
     }
 }
 
-void a_circle_through_joints_and_poses_has_its_end_first_in_the_name(void**) {
+// Proves URE-15, URP-40.
+
+void a_circle_goes_through_joints_and_poses(void**) {
   static ExternalBench bench;
   begin(bench);
-  for (const std::int32_t type : {10, 11}) {
+  constexpr struct {
+    std::int32_t type;
+    bool end_is_joints, via_is_joints;  // the end comes first in the name of the type
+  } kTypes[] = {{3, false, false}, {9, true, true}, {10, true, false}, {11, false, true}};
+  for (const auto& [type, end_is_joints, via_is_joints] : kTypes) {
     const Joints q = bench.target();
-    Vector6 via = forward(q).pose(), end = via;
+    const Vector6 from = forward(q).pose();
+    Vector6 via = from, end = from;
     via[1] += 0.05;
     via[2] += 0.05;
     end[2] += 0.1;
-    Joints as_joints;
-    const bool end_is_joints = type == 10;
-    assert_true(inverse(Frame::of(end_is_joints ? end : via), Frame{}, q, as_joints));
+    const Vector3 center = from.head<3>() + Vector3(0.0, 0.0, 0.05);
+    Joints end_q, via_q;
+    assert_true(inverse(Frame::of(end), {}, q, end_q) && inverse(Frame::of(via), {}, q, via_q));
     std::array<std::int32_t, 21> point{};
     for (std::size_t i = 0; i < 6; ++i) {
       const int k = static_cast<int>(i);
-      point[i] = fixed(end_is_joints ? as_joints[k] : end[k]);
-      point[6 + i] = fixed(end_is_joints ? via[k] : as_joints[k]);
+      point[i] = fixed(end_is_joints ? end_q[k] : end[k]);
+      point[6 + i] = fixed(via_is_joints ? via_q[k] : via[k]);
     }
     point[12] = fixed(0.1);
     point[13] = fixed(0.5);
@@ -80,7 +87,9 @@ void a_circle_through_joints_and_poses_has_its_end_first_in_the_name(void**) {
     bench.point(point);
     double nearest = 1.0;
     const auto watch = [&] {
-      nearest = std::min(nearest, (bench.image().target_tcp_pose - via).head<3>().norm());
+      const Vector3 tip = bench.image().target_tcp_pose.head<3>();
+      nearest = std::min(nearest, (tip - via.head<3>()).norm());
+      ASSERT_NEAR((tip - center).norm(), 0.05, 2e-5);
     };
     assert_int_equal(bench.await_result(1000, watch), 0);
     assert_true(nearest < 2e-3);
@@ -224,7 +233,7 @@ void the_end_of_a_stream_that_failed_says_what_is_left_of_it(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(a_spline_has_its_rates_by_the_scale_in_the_text),
-      cmocka_unit_test(a_circle_through_joints_and_poses_has_its_end_first_in_the_name),
+      cmocka_unit_test(a_circle_goes_through_joints_and_poses),
       cmocka_unit_test(a_point_of_an_unknown_type_is_passed_over),
       cmocka_unit_test(left_on_its_last_point_a_trajectory_says_nothing),
       cmocka_unit_test(left_with_points_to_come_it_says_cancelled),

@@ -101,7 +101,7 @@ void start(ExternalBench& bench, double slider = 1.0) {
 const Knot kRest[] = {knot(0.0, 0.0, 0.0, 0.0), knot(1.0, 0.3, 0.4, 0.2), knot(1.7, 0.6, 0.3, -0.4),
                       knot(3.003, 0.2, 0.0, 0.0)};
 
-// Proves URP-7.
+// Proves URE-13, URP-7.
 
 /// Half the speed is the same path in twice the time.
 void splines_are_followed_at_every_speed(void**) {
