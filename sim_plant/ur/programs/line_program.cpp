@@ -84,39 +84,36 @@ LineProgram::Line LineProgram::run_statement(std::string_view line, Machine& mac
 /// Runs "name = value" or "name[index] = value"; "digital_out[n] = b" is the call of versions
 /// before 3. False: the line is not an assignment.
 bool LineProgram::assign(std::string_view line, Machine& machine, Line& result) {
+  ScriptAssignment found;
+  if (!read_assignment(line, found)) return false;
   const ScriptScope names = known(machine);
-  const std::string_view name = leading_name(line);
-  std::string_view rest = trimmed(line.substr(name.size()));
   ScriptValue index, value;
-  const bool element = starts_with(rest, "[");
-  if (element) {
-    rest.remove_prefix(1);
-    if (!evaluate(rest, names, index) || !starts_with(trimmed(rest), "]")) return false;
-    rest = trimmed(trimmed(rest).substr(1));
+  if (found.element && !evaluate(found.index, names, index)) {
+    fail(line, machine);
+    return true;
   }
-  if (name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
-  rest = trimmed(rest.substr(1));
-  std::string_view expression = rest;
+  std::string_view expression = found.value;
   if (!evaluate(expression, names, value)) {
-    if (find_call(leading_name(rest)) != nullptr)
-      result = run_call_line(rest, machine);  // such as socket_open(), which is taken to succeed
+    if (find_call(leading_name(found.value)) != nullptr)
+      result =
+          run_call_line(found.value, machine);  // such as socket_open(), which is taken to succeed
     else
       fail(line, machine);
     if (ended_) return true;
     value.kind = ScriptValue::Kind::kBool;
     value.number = 1.0;
   }
-  ScriptValue* whole = variables_.find(name);
-  if (element && whole == nullptr && name == "digital_out") {
+  ScriptValue* whole = variables_.find(found.name);
+  if (found.element && whole == nullptr && found.name == "digital_out") {
     run_call({"set_digital_out", {{{"n", index}, {"b", value}}}, 2}, moves_, machine);
-  } else if (element) {
+  } else if (found.element) {
     const bool fits = whole != nullptr && index.numeric() && index.number >= 0.0 &&
                       index.number < static_cast<double>(whole->count);
     if (fits)
       whole->elements[static_cast<std::size_t>(index.number)] = value.number;
     else
       fail(line, machine);
-  } else if (!variables_.set(name, value)) {
+  } else if (!variables_.set(found.name, value)) {
     fail(line, machine, kTooManyVariables);
   }
   return true;

@@ -60,18 +60,6 @@ bool is_taken(std::string_view name) {
          (is_urscript_word(name) && name != "p");
 }
 
-/// Returns what follows the name in "name = value" or "name[index] = value", from the first sign
-/// on; empty: the line is no assignment.
-std::string_view assigned(std::string_view line) {
-  const std::string_view rest = trimmed(line.substr(leading_name(line).size()));
-  if (leading_name(line).empty() || rest.empty()) return {};
-  if (rest[0] == '=') return starts_with(rest, "==") ? std::string_view() : rest;
-  const std::size_t end = rest.find(']');
-  if (rest[0] != '[' || end == std::string_view::npos) return {};
-  const std::string_view behind = trimmed(rest.substr(end + 1));
-  return starts_with(behind, "=") && !starts_with(behind, "==") ? rest : std::string_view();
-}
-
 }  // namespace
 
 ScriptCheck::ScriptCheck(std::string_view program) : program_(program), body_(program) {
@@ -106,8 +94,9 @@ void ScriptCheck::collect_variables() {
   std::string_view rest = program_, line;
   for (int number = 1; next_line(rest, line); ++number) {
     const std::string_view code = without_scope(trimmed(without_comment(line)));
-    if (assigned(code).empty() || assigned(code)[0] != '=') continue;
-    if (variables_.set(leading_name(code), {})) continue;
+    ScriptAssignment assignment;
+    if (!read_assignment(code, assignment) || assignment.element) continue;
+    if (variables_.set(assignment.name, {})) continue;
     overflow_ = number;
     return;
   }
@@ -130,31 +119,16 @@ bool ScriptCheck::good_line(std::string_view line) {
   return good_statement(without_scope(line));
 }
 
+/// The value of a call without one counts as True.
 bool ScriptCheck::good_statement(std::string_view line) {
-  const std::string_view rest = assigned(line);
-  if (rest.empty()) return good_call(line);
-  const std::string_view name = leading_name(line);
-  if (is_taken(name)) return blame(name, "is a name of the language");
-  if (rest[0] == '[' && name != "digital_out" && variables_.find(name) == nullptr)
-    return blame(name);
-  return good_assignment(rest);
-}
-
-/// Reads "= value" or "[index] = value"; the value of a call without one counts as True.
-bool ScriptCheck::good_assignment(std::string_view rest) {
-  const bool element = rest[0] == '[';
-  if (element) {
-    ScriptValue index;
-    rest.remove_prefix(1);
-    if (!evaluate(rest, {&variables_, nullptr, &strange_, &reason_}, index)) return false;
-    rest = trimmed(rest);
-    if (!starts_with(rest, "]")) return false;
-    rest = trimmed(rest.substr(1));
-    if (!starts_with(rest, "=")) return false;
-  }
-  rest = trimmed(rest.substr(1));
-  if (find_call(leading_name(rest)) != nullptr) return good_call(rest);
-  return whole(rest, "");
+  ScriptAssignment found;
+  if (!read_assignment(line, found)) return good_call(line);
+  if (is_taken(found.name)) return blame(found.name, "is a name of the language");
+  if (found.element && found.name != "digital_out" && variables_.find(found.name) == nullptr)
+    return blame(found.name);
+  if (found.element && !whole(found.index, "")) return false;
+  return find_call(leading_name(found.value)) != nullptr ? good_call(found.value)
+                                                         : whole(found.value, "");
 }
 
 bool ScriptCheck::good_call(std::string_view line) {

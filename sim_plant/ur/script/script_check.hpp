@@ -73,7 +73,6 @@ class ScriptCheck {
   bool good_line(std::string_view line);
   bool good_place(std::string_view line, int number);
   bool good_statement(std::string_view line);
-  bool good_assignment(std::string_view rest);
   bool good_call(std::string_view line);
   bool whole(std::string_view text, std::string_view after);
   bool blame(std::string_view name, std::string_view reason = {});

@@ -127,6 +127,22 @@ bool number_after(std::string_view text, std::string_view key, double& value) {
   return read_number(text, value);
 }
 
+bool read_assignment(std::string_view line, ScriptAssignment& found) {
+  found.name = leading_name(line);
+  std::string_view rest = trimmed(line.substr(found.name.size()));
+  found.element = starts_with(rest, "[");
+  if (found.element) {
+    std::size_t end = 1;
+    for (int open = 1; open > 0 && end < rest.size(); ++end)
+      open += rest[end] == '[' ? 1 : rest[end] == ']' ? -1 : 0;
+    found.index = rest.substr(1, end - 2);
+    rest = trimmed(rest.substr(end));
+  }
+  if (found.name.empty() || !starts_with(rest, "=") || starts_with(rest, "==")) return false;
+  found.value = trimmed(rest.substr(1));
+  return true;
+}
+
 const ScriptValue* ScriptCall::find(std::string_view argument, std::size_t position) const {
   for (std::size_t i = 0; i < count; ++i) {
     if (!argument.empty() && arguments[i].name == argument) return &arguments[i].value;

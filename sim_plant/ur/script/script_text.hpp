@@ -33,6 +33,14 @@ bool starts_with(std::string_view text, std::string_view word);
 /// Finds the number after the first `key` in the text. False: there is none.
 bool number_after(std::string_view text, std::string_view key, double& value);
 
+/// "name = value" or, for an element, "name[index] = value".
+struct ScriptAssignment {
+  std::string_view name, index, value;
+  bool element = false;
+};
+/// False: the line is no assignment.
+bool read_assignment(std::string_view line, ScriptAssignment& found);
+
 struct ScriptValue {
   enum class Kind : std::uint8_t { kNothing, kNumber, kBool, kText, kList, kPose };
   Kind kind = Kind::kNothing;
