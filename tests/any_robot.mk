@@ -4,7 +4,7 @@ ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
   arm/test_servo arm/test_sim_drives arm/test_sim_hal arm/test_sim_plant \
   control/test_admittance control/test_cartesian_brake control/test_cartesian_lag control/test_cartesian_pose \
   control/test_cartesian_singularities control/test_pid control/test_retune \
-  gateway/test_joint_turns \
+  gateway/trajectory/test_joint_turns \
   guard/test_collision guard/test_collision_credit guard/test_collision_never guard/test_collision_rules \
   guard/test_collision_spread guard/test_collision_timing \
   guard/test_convex guard/test_convex_scene guard/test_guard_motion guard/test_separation guard/test_stopping \

@@ -7,4 +7,4 @@ LDLIBS += -lmujoco
 # What `make run` runs: pipeline, or pipeline:trajectory.
 RUNS   += gen3_jrg_pdgc
 
-TESTS  := $(ANY_ROBOT) tests/gateway/test_python_turns.cpp
+TESTS  := $(ANY_ROBOT) tests/gateway/python/test_python_turns.cpp

@@ -9,4 +9,4 @@ build/python/tactus/tactus_pb2.py: gateway/tactus.proto
 	$(call say,PY    $@)
 	$(Q)mkdir -p $(@D)
 	$(Q)protoc -I$(<D) --python_out=$(@D) --pyi_out=$(@D) $<
-$(filter $(B)/tests/gateway/test_python%,$(TESTS)): | python
+$(filter $(B)/tests/gateway/python/test_%,$(TESTS)): | python

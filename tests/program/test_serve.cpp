@@ -17,7 +17,8 @@ constexpr const char* kServed =
 void try_server(const char* what) {
   write("served.ini", {kServed, kBusyHost, "[recorder]\nsignals = robot.q pd.tau\n"});
   Line command("cd $R && mkdir -p $S/");
-  command << what << " && tests/gateway/try_server.py $P $S/served.ini $S/" << what << " " << what;
+  command << what << " && tests/gateway/server/try_server.py $P $S/served.ini $S/" << what << " "
+          << what;
   assert_succeeds(command.c_str());
 }
 

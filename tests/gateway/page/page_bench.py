@@ -11,7 +11,7 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(ROOT / "tests/gateway"))
+sys.path.insert(0, str(ROOT / "tests/gateway/server"))
 import try_server  # noqa: E402
 
 FOLDER = pathlib.Path(os.environ["S"])

@@ -1,7 +1,7 @@
 // Tests the digital outputs of points and chunks at the server: what is told, refused and put out.
 #include <cmath>
 
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,7 +1,7 @@
 // Tests trajectories that come through a pipe: only their beginning can be judged before they move.
 #include <fcntl.h>
 
-#include "tests/gateway/stream_bench.hpp"
+#include "tests/gateway/trajectory/stream_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,7 +1,7 @@
 // Tests trajectories through a window over a real TCP socket, which the server's own thread serves.
 // Virtual time waits for the network, or does not.
-#include "tests/gateway/socket_bench.hpp"
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/server/socket_bench.hpp"
+#include "tests/gateway/server/trajectory_parts.hpp"
 #include "tests/support/trials.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // Tests who may slow the arm down and who may make it faster: the table of ownership in
 // docs/gateway.md, for controls.
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 
 namespace tactus {
 namespace {

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "gateway/server/drive_text.hpp"
-#include "tests/gateway/cycle_bench.hpp"
+#include "tests/gateway/server/cycle_bench.hpp"
 
 namespace tactus {
 namespace {

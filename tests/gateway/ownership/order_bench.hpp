@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "tests/gateway/cycle_bench.hpp"
-#include "tests/gateway/order_model.hpp"
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/ownership/order_model.hpp"
+#include "tests/gateway/server/cycle_bench.hpp"
+#include "tests/gateway/server/trajectory_parts.hpp"
 
 namespace tactus {
 

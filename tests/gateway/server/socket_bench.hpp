@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "gateway/sockets/server_thread.hpp"
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 
 namespace tactus {
 

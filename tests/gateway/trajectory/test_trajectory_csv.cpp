@@ -3,7 +3,7 @@
 #include <random>
 
 #include "gateway/trajectory/trajectory_columns.hpp"
-#include "tests/gateway/csv_bench.hpp"
+#include "tests/gateway/trajectory/csv_bench.hpp"
 #include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"
 

@@ -1,7 +1,7 @@
 // Tests the one rule of what is void: what was sent before a cancel, a stop or a takeover is in
 // force does not move the arm, whatever it is, with or without a place, in every order of events.
-#include "tests/gateway/client_bench.hpp"
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/server/client_bench.hpp"
+#include "tests/gateway/server/trajectory_parts.hpp"
 
 namespace tactus {
 namespace {

@@ -1,5 +1,5 @@
 // Tests the connections of the server: greeting, answers, and the clients that it cuts.
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // Tests that a network that stalls costs a stop and nothing else: what it then delivers at once is
 // answered, the newest counts, and the client goes on.
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // Tests in virtual time how soon a message changes the command: one that the server has before a
 // cycle begins counts in that cycle, and the drives get another command in it or in the next.
-#include "tests/gateway/cycle_bench.hpp"
+#include "tests/gateway/server/cycle_bench.hpp"
 
 namespace tactus {
 namespace {

@@ -6,7 +6,7 @@
 #include "kernel/load/loader.hpp"
 #include "program/cycle_endpoint.hpp"
 #include "program/session/host_sections.hpp"
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/armed.hpp"
 
 namespace tactus {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "tests/gateway/csv_bench.hpp"
+#include "tests/gateway/trajectory/csv_bench.hpp"
 
 namespace tactus {
 namespace {

@@ -1,5 +1,5 @@
 // Tests trajectories on their way from a client through the window.
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/server/trajectory_parts.hpp"
 #include "tests/support/testing.hpp"
 #include "tests/support/trials.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "gateway/page/command_gate.hpp"
 #include "gateway/page/page_link.hpp"
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 
 namespace tactus {
 namespace {

@@ -1,5 +1,5 @@
 // Tests two clients in random orders, and clients that die at any moment.
-#include "tests/gateway/trajectory_parts.hpp"
+#include "tests/gateway/server/trajectory_parts.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

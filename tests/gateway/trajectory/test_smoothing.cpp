@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/gateway/stream_bench.hpp"
+#include "tests/gateway/trajectory/stream_bench.hpp"
 #include "tests/support/trials.hpp"
 
 namespace tactus {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cassert>
 
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 
 namespace tactus {
 

@@ -1,7 +1,7 @@
 // Tests the table of ownership in docs/gateway.md, in every order of what can happen.
 #include "gateway/server/generator_clock.hpp"
 #include "gateway/server/lease.hpp"
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

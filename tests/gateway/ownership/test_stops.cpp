@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "gateway/server/lease.hpp"
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 

@@ -2,7 +2,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include "tests/gateway/stream_bench.hpp"
+#include "tests/gateway/trajectory/stream_bench.hpp"
 #include "tests/support/testing.hpp"
 #include "tests/support/trials.hpp"
 

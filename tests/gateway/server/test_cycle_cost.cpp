@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "tests/gateway/cycle_bench.hpp"
+#include "tests/gateway/server/cycle_bench.hpp"
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {

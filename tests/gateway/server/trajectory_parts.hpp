@@ -1,7 +1,7 @@
 // The messages of a trajectory, for tests of the server.
 #pragma once
 
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 
 namespace tactus {
 

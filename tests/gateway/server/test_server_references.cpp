@@ -1,5 +1,5 @@
 // Tests which references of a client move the arm, and when.
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,7 +1,7 @@
 // Tests parameters over the connection: the lease, one report of each set, events, pages, floods.
 #include <string>
 
-#include "tests/gateway/client_bench.hpp"
+#include "tests/gateway/server/client_bench.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // Tests every order in which three clients, faults, cycles and the clock can act on the server,
 // with links that hold messages up, against the rules of docs/gateway.md.
-#include "tests/gateway/order_bench.hpp"
+#include "tests/gateway/ownership/order_bench.hpp"
 #include "tests/support/trials.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 // Tests tares that clients ask for: the server, the cycle's end of the mailboxes, the executive and
 // a pipeline with a front end, in virtual time.
-#include "tests/gateway/cycle_bench.hpp"
+#include "tests/gateway/server/cycle_bench.hpp"
 
 namespace tactus {
 namespace {

@@ -1,8 +1,8 @@
 // Clients of the server's tests, which speak in bytes.
 #pragma once
 
-#include "tests/gateway/raw_messages.hpp"
-#include "tests/gateway/server_bench.hpp"
+#include "tests/gateway/server/raw_messages.hpp"
+#include "tests/gateway/server/server_bench.hpp"
 
 namespace tactus {
 

@@ -39,7 +39,7 @@ bool next(TrajectoryReader<JointSpace>& reader, Waypoint<JointSpace>& waypoint) 
 }
 
 void write_files(int seed) {
-  Line command("$R/tests/gateway/wrapped_files.py $S ");
+  Line command("$R/tests/gateway/trajectory/wrapped_files.py $S ");
   assert_succeeds(
       (command << seed << " " << kDof << " " << static_cast<int>(Robot::kContinuousJoints))
           .c_str());
