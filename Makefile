@@ -32,7 +32,7 @@ SCRIPTED :=
 ARM     = $(call of_robot,sim_plant/arm/*.cpp)
 SIM     = $(ARM) $(wildcard program/sim/*.cpp)
 PIL     = $(wildcard program/pil/*.cpp hal/serial/*.cpp)
-TESTS  := $(filter-out tests/ctl/%,$(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp))
+TESTS  := $(filter-out tests/gateway/ctl/%,$(wildcard tests/*/test_*.cpp tests/*/*/test_*.cpp))
 include tests/any_robot.mk
 robot   = $(shell echo $(ROBOT) | tr A-Z a-z)
 include boards/$(BOARD)/board.mk
@@ -52,7 +52,7 @@ WARNINGS  := -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -
 OPTIMISED ?= $(if $(SANITIZE),-O1,-O3)
 NUMERICS  := $(OPTIMISED) -ffp-contract=off -fno-math-errno -DEIGEN_DONT_VECTORIZE
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all)
-UNJUDGED  := $(if $(findstring undefined,$(SANITIZE)),-fsanitize-ignorelist=tests/eigen.ignore)
+UNJUDGED  := $(if $(findstring undefined,$(SANITIZE)),-fsanitize-ignorelist=tests/support/eigen.ignore)
 # Fuzzers have objects of their own: counting branches for them would make every sanitized test half as fast.
 SANITIZERS := address,undefined,float-cast-overflow
 SANITIZED  := SANITIZE=$(SANITIZERS) CXX=clang++ WARNINGS=

@@ -1,7 +1,7 @@
 # The tests that are valid for any robot; a board whose robot has no tests of its own runs these. The others are written
 # for the FER or the UR10.
 ANY_ROBOT := $(wildcard tests/model/test_*.cpp) $(patsubst %,tests/%.cpp, \
-  arm/test_servo arm/test_sim_drives arm/test_sim_hal arm/test_sim_plant \
+  $(addprefix sim_plant/arm/test_,servo sim_drives sim_hal sim_plant) \
   control/test_admittance control/test_cartesian_brake control/test_cartesian_lag control/test_cartesian_pose \
   control/test_cartesian_singularities control/test_pid control/test_retune \
   gateway/trajectory/test_joint_turns \

@@ -1,8 +1,7 @@
 # The tests. The Makefile includes this file and defines B, O, TESTS and the rest.
 # Tests of scripts run nothing that is compiled, so that a sanitizer has nothing to see in them; nor in what another robot
 # does in the same lines.
-SCRIPT_TESTS := $(patsubst %,tests/program/test_%.cpp,bare check_steps checks expected loop_bounds refuted report report_folders \
-                  report_labels run_all setup static_bounds tools wcet)
+SCRIPT_TESTS := $(wildcard tests/scripts/test_*.cpp)
 OF_THREADS   := $(addprefix tests/,core/test_mailbox.cpp core/test_histogram.cpp pipeline/test_recorder.cpp \
                   reference/generator/test_reference_threads.cpp cycle/test_ladder.cpp)
 UNSEEN       := $(SCRIPT_TESTS) $(if $(filter fer,$(robot)),,$(filter-out $(OF_EACH),$(ANY_ROBOT)))
@@ -62,13 +61,13 @@ build/libfcl_oracle.so: tests/oracles/fcl/fcl.cpp tests/oracles/fcl/fcl.hpp
 $(TESTS): | build/libfcl_oracle.so
 
 OF_PRODUCT := $(O)/liboracles.a $(B)/libprogram.a $(KERNEL_LIB) $(B)/linked
-$(filter-out $(B)/tests/ctl/%,$(SINGLE:%.cpp=$(B)/%)): $(B)/%: $(O)/%.o $(OF_PRODUCT)
+$(filter-out $(B)/tests/gateway/ctl/%,$(SINGLE:%.cpp=$(B)/%)): $(B)/%: $(O)/%.o $(OF_PRODUCT)
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(LIBS)
-$(patsubst %,$(B)/%/tests,$(filter-out tests/ctl,$(JOINED))): %/tests: %/unit.o $(OF_PRODUCT) | build/libfcl_oracle.so
+$(patsubst %,$(B)/%/tests,$(filter-out tests/gateway/ctl,$(JOINED))): %/tests: %/unit.o $(OF_PRODUCT) | build/libfcl_oracle.so
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $(filter %.o %.a,$^) $(TESTLIBS) $(LIBS)
-$(patsubst %,$(B)/%/unit.o,$(filter-out tests/ctl,$(JOINED))): %/unit.o: %/unit.cpp $(O)/flags | $(O)/quick.hpp.gch $(MESSAGES).h
+$(patsubst %,$(B)/%/unit.o,$(filter-out tests/gateway/ctl,$(JOINED))): %/unit.o: %/unit.cpp $(O)/flags | $(O)/quick.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
 $(JOINED:%=$(B)/%/sources): $(B)/%/sources: always

@@ -8,4 +8,4 @@ RUNS   += fer_jrg_pdgc_real
 PACKAGES := vm
 RUNNER := scripts/beside_drives
 
-TESTS  := $(filter tests/can/% tests/cia402/% tests/vm/% tests/program/test_sections.cpp,$(TESTS))
+TESTS  := $(filter tests/hal/can/% tests/hal/cia402/% tests/vm/% tests/program/test_sections.cpp,$(TESTS))

@@ -8,4 +8,4 @@ LDLIBS += -lmujoco
 PARTS  := $(filter-out $(SRCS),$(ARM) $(wildcard sim_plant/drives/*.cpp sim_plant/drives/server/*.cpp \
             hal/cia402/*.cpp hal/can/*.cpp))
 
-TESTS  := $(filter tests/drives/%,$(TESTS))
+TESTS  := $(filter tests/sim_plant/drives/%,$(TESTS))

@@ -10,4 +10,4 @@ RUNNER := scripts/beside_segment
 
 # All other tests are those of fer_segment.
 TESTS    := $(filter tests/program/test_sections.cpp,$(TESTS))
-SCRIPTED := tests/ethercat/over_veth
+SCRIPTED := tests/hal/ethercat/over_veth

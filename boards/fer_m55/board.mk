@@ -8,7 +8,7 @@ LDLIBS += -lmujoco
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
 PACKAGES := m7
 
-TESTS  := tests/serial/test_board_faults.cpp
+TESTS  := tests/hal/serial/test_board_faults.cpp
 
 # The pipeline that the image has when it is switched on.
 PIPELINE ?= fer_jrg_pdgc

@@ -9,9 +9,9 @@ LDLIBS += -lmujoco
 RUNS   += fer_jrg_pdgc fer_jrg_pdgc:fer_five_waypoints fer_trg_cpc fer_trg_ac_cpc_pid
 PACKAGES := m7
 
-TESTS  := $(filter tests/serial/%,$(TESTS)) $(if $(SANITIZE),,tests/trace/test_same_bits.cpp)
+TESTS  := $(filter tests/hal/serial/%,$(TESTS)) $(if $(SANITIZE),,tests/trace/test_same_bits.cpp)
 # Beside those of one board: runs of all boards with a Cortex-M7 against this computer's.
-SCRIPTED := tests/serial/pipelines
+SCRIPTED := tests/hal/serial/pipelines
 
 # The pipeline that the image has when it is switched on.
 PIPELINE ?= fer_jrg_pdgc

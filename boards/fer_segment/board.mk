@@ -8,4 +8,4 @@ LDLIBS += -lmujoco
 PARTS  := $(filter-out $(SRCS),$(ARM) $(wildcard sim_plant/drives/*.cpp sim_plant/ethercat/*.cpp sim_plant/ethercat/server/*.cpp sim_plant/drives/server/fault_text.cpp \
             hal/cia402/*.cpp hal/ethercat/*.cpp))
 
-TESTS  := $(filter tests/ethercat/%,$(TESTS))
+TESTS  := $(filter tests/hal/ethercat/%,$(TESTS))

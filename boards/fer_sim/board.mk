@@ -18,8 +18,8 @@ STACK_BUDGET      := 12288
 HOST_STACK_BUDGET := 32768
 
 # All tests except those of wires and of the Cortex-M7, and those of the Python client, which ur10_sim and gen3_sim run.
-OTHERS := $(addprefix tests/,ur/% can/% ethercat/% cia402/% drives/% vm/% serial/% trace/test_same_bits.cpp \
-            gateway/python/%)
+OTHERS := $(addprefix tests/,ur/% hal/can/% hal/ethercat/% hal/cia402/% hal/serial/% sim_plant/drives/% vm/% \
+            trace/test_same_bits.cpp gateway/python/%)
 TESTS  := $(filter-out $(OTHERS),$(TESTS))
 
 # The core on which `make wcet` judges the bound of a cycle with its rows, with code and data in tightly coupled memory:

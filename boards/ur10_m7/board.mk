@@ -9,7 +9,7 @@ RUNS   += ur10_jrg_pdgc ur10_jrg_pid ur10_jrg_pid:ur10_five_waypoints_quintic
 RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_trg_ac_cpc ur10_trg_ac_cpc_pid
 PACKAGES := m7
 
-TESTS  := tests/serial/test_board_references.cpp
+TESTS  := tests/hal/serial/test_board_references.cpp
 
 # The pipeline that the image has when it is switched on.
 PIPELINE ?= ur10_jrg_pdgc

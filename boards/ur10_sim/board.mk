@@ -9,7 +9,7 @@ RUNS   += ur10_jrg_pdgc ur10_jrg_pid ur10_jrg_pid:ur10_five_waypoints_quintic
 RUNS   += ur10_trg_cpc ur10_trg_cpc:ur10_square_at_rest ur10_trg_cpc_125 ur10_trg_ac_cpc ur10_trg_ac_cpc_pid
 
 # The clients are for all robots; they are tested against this board.
-TESTS  := $(ANY_ROBOT) tests/bench/policies/test_policies.cpp $(wildcard tests/ctl/test_*.cpp) tests/gateway/python/test_python_client.cpp
+TESTS  := $(ANY_ROBOT) tests/bench/policies/test_policies.cpp $(wildcard tests/gateway/ctl/test_*.cpp) tests/gateway/python/test_python_client.cpp
 
 # The kinds of block on a Cortex-M7, where memory is short: those of the longest pipeline.
 KINDS_m7 := RobotModel, Frame, BoxObstacle, TaskReferenceGenerator, WrenchFrontEnd, Admittance, CartesianPose, Pid

@@ -14,7 +14,7 @@ CTL_SEAMFLAGS := $(filter-out $(OF_ROBOT),$(SEAMFLAGS)) -isystem $(CTL)/proto
 CTLFLAGS     := $(CTL_SEAMFLAGS) -fno-exceptions -fno-rtti $(if $(SANITIZE),,-DNDEBUG)
 TACTUSCTL    := build/tactusctl$(HOW)
 
-CTL_TESTS    := $(filter $(B)/tests/ctl/%,$(TESTS:%.cpp=$(B)/%))
+CTL_TESTS    := $(filter $(B)/tests/gateway/ctl/%,$(TESTS:%.cpp=$(B)/%))
 
 $(TACTUSCTL): $(call ctl_obj,gateway/ctl/main.cpp) $(CTL)/libctl.a $(if $(UNITS),$(CTL)/units/shared.o,$(call ctl_obj,$(CTL_SHARED)))
 	$(call say,LD    $@)
@@ -54,11 +54,11 @@ install-tactusctl: setup $(TACTUSCTL)                          ## install tactus
 	$(Q)scripts/completion $(TACTUSCTL) tactusctl > $(SHARE)/bash-completion/completions/tactusctl
 # Its tests judge what it writes by the kernel of their board, for whose robot they and what they call of it are compiled.
 CTL_LIBS := $(CTL)/units/retime.o $(B)/libprogram.a $(KERNEL_LIB)
-$(CTL)/tests/%.o $(CTL)/units/retime.o $(B)/tests/ctl/unit.o: private CTLFLAGS += $(OF_ROBOT)
-$(B)/tests/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
+$(CTL)/tests/%.o $(CTL)/units/retime.o $(B)/tests/gateway/ctl/unit.o: private CTLFLAGS += $(OF_ROBOT)
+$(B)/tests/gateway/ctl/unit.o: %.o: %.cpp $(CTL)/flags $(CTL)/proto/tactus.pb.cc
 	$(call say,CXX   $<)
 	$(ctl_compile)
-$(B)/tests/ctl/tests: $(B)/tests/ctl/unit.o $(CTL_LIBS) | $(TACTUSCTL)
+$(B)/tests/gateway/ctl/tests: $(B)/tests/gateway/ctl/unit.o $(CTL_LIBS) | $(TACTUSCTL)
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(LINK) -o $@ $^ -lcmocka -lprotobuf $(LIBS)
 $(if $(UNITS),,$(CTL_TESTS)): $(B)/%: $(CTL)/%.o $(CTL_LIBS) | $(TACTUSCTL)

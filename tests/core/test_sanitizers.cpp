@@ -1,5 +1,6 @@
-// Tests that a build with sanitizers sees what is planted where tests/eigen.ignore could hide it:
-// in Eigen's headers, and in what a compiler keeps in registers if nothing in them is judged.
+// Tests that a build with sanitizers sees what is planted where tests/support/eigen.ignore could
+// hide it: in Eigen's headers, and in what a compiler keeps in registers if nothing in them is
+// judged.
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -128,7 +128,7 @@ inline Judged judge(const AxisPlan& plan, const AxisState& from, double j) {
   return judged;
 }
 
-/// The FER's joints; see tests/otg/README.md.
+/// The FER's joints; see tests/oracles/otg/README.md.
 constexpr std::array<AxisLimits, 7> kFerAxes{{{-2.175, 2.175, 15.0, 15.0, 7500.0},
                                               {-2.175, 2.175, 7.5, 7.5, 3750.0},
                                               {-2.175, 2.175, 10.0, 10.0, 5000.0},

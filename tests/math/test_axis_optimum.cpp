@@ -1,5 +1,6 @@
 // Tests that the motions of axis_motion.hpp are the shortest: against durations that an independent
-// library computed (tests/otg), and against themselves: no plan from a later state arrives earlier.
+// library computed (tests/oracles/otg), and against themselves: no plan from a later state arrives
+// earlier.
 #include <cstdio>
 #include <cstdlib>
 
@@ -33,18 +34,19 @@ int over_rows(const char* path, Check check) {
 // Proves MOT-1.
 
 void one_axis_takes_as_long_as_the_shortest_motion(void**) {
-  const int rows = over_rows<9>("tests/otg/one_axis.csv", [](const std::array<double, 9>& row) {
-    const auto [v, a, j, p0, v0, a0, pf, vf, optimum] = row;
-    const double duration = plan_to({p0, v0, a0}, pf, vf, {-v, v, a, a, j}).duration();
-    assert_true(duration <= 1.001 * optimum);
-    assert_true(duration >= 0.999 * optimum);
-  });
+  const int rows =
+      over_rows<9>("tests/oracles/otg/one_axis.csv", [](const std::array<double, 9>& row) {
+        const auto [v, a, j, p0, v0, a0, pf, vf, optimum] = row;
+        const double duration = plan_to({p0, v0, a0}, pf, vf, {-v, v, a, a, j}).duration();
+        assert_true(duration <= 1.001 * optimum);
+        assert_true(duration >= 0.999 * optimum);
+      });
   assert_int_equal(rows, 1000);
 }
 
 void seven_axes_arrive_together_after_the_shortest_motion_of_the_slowest(void**) {
   const int rows =
-      over_rows<29>("tests/otg/fer_seven_axes.csv", [](const std::array<double, 29>& row) {
+      over_rows<29>("tests/oracles/otg/fer_seven_axes.csv", [](const std::array<double, 29>& row) {
         const std::size_t axes = kFerAxes.size();
         std::array<AxisPlan, 7> plans;
         double longest = 0.0;

@@ -64,7 +64,7 @@ build/wcet/count_plugin.so: tests/wcet/count_plugin.c
 	$(Q)gcc -O2 -Wall -Wextra -Werror -shared -fPIC -o $@ $<
 # What test_wcet runs.
 .PHONY: tested-images
-tests: $(if $(filter %/tests/program/test_wcet,$(TESTS)),tested-images)
+tests: $(if $(filter %/tests/scripts/test_wcet,$(TESTS)),tested-images)
 tested-images: build/wcet/count_plugin.so
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images
 endif

@@ -1,9 +1,10 @@
 // Motions as planners send them: at the limits, from the measured state, with fields they do not
 // declare; and positions that no arm can follow.
 // Motions as time-optimal planners send them: computed to the limits and sampled, so that the
-// interpolation between the samples exceeds them in places. tests/otg/planner has three motions of
-// the FER from its ready pose, computed by an independent library of time-optimal motions and
-// sampled every 8 and 100 ms as positions and velocities (pv), or with accelerations too (pva).
+// interpolation between the samples exceeds them in places. tests/oracles/otg/planner has three
+// motions of the FER from its ready pose, computed by an independent library of time-optimal
+// motions and sampled every 8 and 100 ms as positions and velocities (pv), or with accelerations
+// too (pva).
 #include <cstdio>
 
 #include "gateway/trajectory/trajectory_reader.hpp"
@@ -194,7 +195,7 @@ std::array<Waypoint<JointSpace>, 128> waypoints;
 
 Trajectory<JointSpace> load(const char* name) {
   std::array<char, 128> path;
-  std::snprintf(path.data(), path.size(), "tests/otg/planner/%s.csv", name);
+  std::snprintf(path.data(), path.size(), "tests/oracles/otg/planner/%s.csv", name);
   Trajectory<JointSpace> trajectory;
   trajectory.waypoints = waypoints.data();
   trajectory.capacity = static_cast<int>(waypoints.size());

@@ -1,0 +1,28 @@
+// The lines `sdo = ...` of [cia402] over CAN.
+#include "tests/hal/cia402/line_cases.hpp"
+#include "tests/sim_plant/drives/fault_bench.hpp"
+
+namespace tactus::can {
+namespace {
+
+struct LineWire {
+  using Bench = MasterBench;
+  static Bench& fresh() { return fresh_bench(); }
+  static const drives::Dictionary& dictionary(Bench& bench, int joint) {
+    return bench.hal.arm.node(joint).dictionary();
+  }
+};
+
+// Proves CAN-20.
+void drives_are_left_as_the_lines_say_or_refused(void**) {
+  cia402::LineCases<LineWire>::try_all();
+}
+
+}  // namespace
+}  // namespace tactus::can
+
+int main() {
+  using namespace tactus::can;
+  const CMUnitTest tests[] = {cmocka_unit_test(drives_are_left_as_the_lines_say_or_refused)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
