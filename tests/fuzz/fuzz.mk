@@ -1,5 +1,6 @@
 # Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
-FUZZ       := $(patsubst tests/fuzz/%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
+FUZZERS    := $(wildcard tests/fuzz/fuzz_*.cpp tests/fuzz/*/fuzz_*.cpp)
+FUZZ       := $(basename $(notdir $(FUZZERS)))
 # The parsers of CAN and EtherCAT are built for fer_can, all others for ur10_emulator.
 FUZZ_CAN   := $(filter fuzz_can_% fuzz_ethercat_%,$(FUZZ))
 FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CAN),$(FUZZ)))
@@ -7,7 +8,7 @@ FUZZ_HERE  := $(if $(filter fer_can,$(BOARD)),$(FUZZ_CAN),$(filter-out $(FUZZ_CA
 # replaces MuJoCo's.
 FUZZED     := $(filter-out hal/ur/ur_%.cpp,$(wildcard hal/ur/*.cpp)) hal/ur/ur_state.cpp \
               $(filter-out sim_plant/ur/server/%,$(wildcard sim_plant/ur/*/*.cpp)) $(GATEWAY) $(KERNEL) \
-              $(wildcard hal/serial/*.cpp) hal/cia402/object_lines.cpp hal/os/cycle_clock.cpp hal/os/ordinary_thread.cpp tests/fuzz/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
+              $(wildcard hal/serial/*.cpp) hal/cia402/object_lines.cpp hal/os/cycle_clock.cpp hal/os/ordinary_thread.cpp tests/fuzz/ur/wire.cpp tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
 ifeq ($(BOARD),fer_can)
 FUZZED     := $(wildcard hal/can/*.cpp hal/ethercat/*.cpp hal/cia402/*.cpp sim_plant/drives/*.cpp sim_plant/ethercat/*.cpp) $(KERNEL) tests/wcet/can/can_cycle.cpp \
               tests/fuzz/light_arm.cpp sim_plant/arm/$(robot)_mjcf.cpp
@@ -26,8 +27,9 @@ ifneq ($(findstring fuzzer-no-link$(comma),$(SANITIZE)),)
 .PHONY: fuzz-targets
 CXXFLAGS += -fsanitize-coverage-ignorelist=tests/fuzz/eigen.uncovered
 fuzz-targets: $(addprefix $(B)/,$(FUZZ_HERE))
+fuzzer = $(filter %/$(1).o,$(call obj,$(FUZZERS)))
 $(eval $(call archive,$(O)/libfuzzed.a,$(call objects,$(FUZZED)) $(if $(filter fer_can,$(BOARD)),,$(O)/gateway/tactus.pb.o)))
-$(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $(O)/tests/fuzz/%.o $(O)/libfuzzed.a
+$(addprefix $(B)/,$(FUZZ_HERE)): $(B)/%: $$(call fuzzer,$$*) $(O)/libfuzzed.a
 	$(call say,LD    $@)
 	$(Q)$(call timed,link) $(CXX) $(subst fuzzer-no-link,fuzzer,$(LINK)) -o $@ $^ $(LIBS)
 endif

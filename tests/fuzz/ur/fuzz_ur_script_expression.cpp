@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim_plant/ur/script/script_check.hpp"
-#include "tests/fuzz/ur_controller.hpp"
+#include "tests/fuzz/ur/ur_controller.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Fuzzes the primary port as the HAL reads it: stops and runtime exceptions in a stream of packets.
 #include "hal/ur/robot_port.hpp"
-#include "tests/fuzz/wire.hpp"
+#include "tests/fuzz/ur/wire.hpp"
 
 using namespace tactus;
 using namespace tactus::ur;

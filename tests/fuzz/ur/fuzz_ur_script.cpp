@@ -1,7 +1,7 @@
 // Fuzzes scripts as a state port takes them, run for some cycles: recognisers, interpreter,
 // sockets.
 #include "sim_plant/ur/programs/runner.hpp"
-#include "tests/fuzz/ur_controller.hpp"
+#include "tests/fuzz/ur/ur_controller.hpp"
 
 using namespace tactus;
 using namespace tactus::ur;

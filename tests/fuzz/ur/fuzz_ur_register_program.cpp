@@ -1,7 +1,7 @@
 // Fuzzes the commands in RTDE's registers, as a client's data packages carry them. A record is one
 // byte, which gives the number of cycles after it and of numbers in it, and a package: command,
 // asynchronous, numbers.
-#include "tests/fuzz/ur_controller.hpp"
+#include "tests/fuzz/ur/ur_controller.hpp"
 
 namespace {
 

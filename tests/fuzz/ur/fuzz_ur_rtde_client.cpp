@@ -1,6 +1,6 @@
 // Fuzzes RTDE as the HAL reads it: the conversation of the start, then data packages.
 #include "hal/ur/rtde_client.hpp"
-#include "tests/fuzz/wire.hpp"
+#include "tests/fuzz/ur/wire.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "tests/fuzz/wire.hpp"
+#include "tests/fuzz/ur/wire.hpp"
 
 #include <cstring>
 

@@ -1,7 +1,7 @@
 // Fuzzes external control's three sockets with arbitrary bytes from the control computer. A record
 // is one byte, which selects the socket and the number of cycles after it, and the bytes of one
 // message.
-#include "tests/fuzz/ur_controller.hpp"
+#include "tests/fuzz/ur/ur_controller.hpp"
 
 namespace {
 

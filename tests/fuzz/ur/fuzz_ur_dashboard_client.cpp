@@ -1,6 +1,6 @@
 // Fuzzes the dashboard's greeting and replies as the HAL reads them, one line each.
 #include "hal/ur/dashboard_client.hpp"
-#include "tests/fuzz/wire.hpp"
+#include "tests/fuzz/ur/wire.hpp"
 
 namespace {
 
