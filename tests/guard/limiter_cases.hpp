@@ -53,4 +53,15 @@ inline double hostile(int kind, int cycle, double at, std::mt19937_64& bits) {
   }
 }
 
+/// A first command beyond `change` is jerky: 7500 rad/s^3 are 7.5 rad/s^2 in a cycle.
+template <class Bench>
+void assert_jerky_from(double change) {
+  Bench b;
+  b.next(0.9 * change);
+  assert_false(b.limiter.jerky());
+  b = Bench();
+  b.next(1.1 * change);
+  assert_true(b.limiter.jerky());
+}
+
 }  // namespace tactus

@@ -111,12 +111,7 @@ void a_motion_at_exactly_all_limits_passes_bit_for_bit(void**) {
 // Proves GRD-7.
 
 void a_start_from_rest_in_one_cycle_is_jerky_and_a_smooth_one_is_not(void**) {
-  Bench b;  // 7500 rad/s^3: 7.5 rad/s^2 per cycle
-  b.next(0.9 * 7.5e-3);
-  assert_false(b.limiter.jerky());
-  b = Bench();
-  b.next(1.1 * 7.5e-3);
-  assert_true(b.limiter.jerky());
+  assert_jerky_from<Bench>(7.5e-3);
 }
 
 }  // namespace

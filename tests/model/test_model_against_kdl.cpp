@@ -91,36 +91,36 @@ void gravity_of_any_mounting_is_that_of_kdl(void**) {
   }
 }
 
-void gravity_is_that_of_kdl_with_and_without_a_tool_however_mounted(void**) {
+/// `difference(state, arm)` is none at random states of every mounted arm.
+template <class Difference>
+void assert_equal_however_mounted(const char* what, Difference difference) {
   RandomStates state;
   double worst = 0.0;
   for (const Mounted& arm : mounted_arms()) {
     for (int n = 0; n < kStates; ++n) {
       state.next();
-      JointVector expected;
-      kdl_gravity(state.q.data(), arm.kdls(), expected.data());
-      worst = std::max(worst, (gravity_at(state.q, arm.ours()) - expected).cwiseAbs().maxCoeff());
+      const JointVector off = difference(state, arm);
+      worst = std::max(worst, off.cwiseAbs().maxCoeff());
     }
   }
-  print_message("gravity: worst difference %.1e N m\n", worst);
+  print_message("%s: worst difference %.1e N m\n", what, worst);
   assert_true(worst < 1e-12);
 }
 
+void gravity_is_that_of_kdl_with_and_without_a_tool_however_mounted(void**) {
+  assert_equal_however_mounted("gravity", [](const RandomStates& state, const Mounted& arm) {
+    JointVector expected;
+    kdl_gravity(state.q.data(), arm.kdls(), expected.data());
+    return JointVector(gravity_at(state.q, arm.ours()) - expected);
+  });
+}
+
 void inverse_dynamics_is_that_of_kdl_with_and_without_a_tool_however_mounted(void**) {
-  RandomStates state;
-  double worst = 0.0;
-  for (const Mounted& arm : mounted_arms()) {
-    for (int n = 0; n < kStates; ++n) {
-      state.next();
-      JointVector expected;
-      kdl_inverse_dynamics(state.q.data(), state.dq.data(), state.ddq.data(), arm.kdls(),
-                           expected.data());
-      const JointVector tau = rnea(state.q, state.dq, state.ddq, arm.ours());
-      worst = std::max(worst, (tau - expected).cwiseAbs().maxCoeff());
-    }
-  }
-  print_message("inverse dynamics: worst difference %.1e N m\n", worst);
-  assert_true(worst < 1e-12);
+  assert_equal_however_mounted("inverse dynamics", [](const RandomStates& at, const Mounted& arm) {
+    JointVector expected;
+    kdl_inverse_dynamics(at.q.data(), at.dq.data(), at.ddq.data(), arm.kdls(), expected.data());
+    return JointVector(rnea(at.q, at.dq, at.ddq, arm.ours()) - expected);
+  });
 }
 
 void mass_matrix_and_coriolis_efforts_are_those_of_kdl(void**) {

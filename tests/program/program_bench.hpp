@@ -42,6 +42,14 @@ inline constexpr const char* kPipeline =
 inline constexpr const char* kBusyHost =
     "[executive]\nmax_slip = 1000\nmax_late = 16\nlate_window = 1\nmax_overruns = 16\n"
     "overrun_window = 1\nrest_ms = 10\n";
+/// The pipeline of a server: slow, and a goal is reached though the arm lags.
+inline constexpr const char* kServed =
+    "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
+    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
+    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
+    "goal_tolerance = 0.2\nstopped_velocity = 0\n"
+    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
+    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
 inline constexpr const char* kWithoutGenerator =
     "[robot]\nname = fer\nperiod_us = 1000\ntau_c = robot.tau\n";
 inline constexpr const char* kHeader = "time_s,q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,q7_rad\n";
@@ -144,6 +152,10 @@ inline bool has(std::string_view text, std::string_view part) {
   std::fprintf(stderr, "'%.*s' is not in\n%.*s\n", static_cast<int>(part.size()), part.data(),
                static_cast<int>(text.size()), text.data());
   return false;
+}
+
+inline void assert_has_all(std::string_view text, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) assert_true(has(text, part));
 }
 
 inline bool exists(const char* name) {

@@ -53,7 +53,7 @@ double largest(const char* column) {
   const Line command =
       Line("python3 -c \"import csv, os; print('largest', max(float(row['")
       << column << "']) for row in csv.DictReader(open(os.environ['S'] + '/at/log.csv'))))\"";
-  assert_int_equal(shell(command.c_str()), 0);
+  assert_succeeds(command.c_str());
   return std::atof(std::string(output().substr(8)).c_str());
 }
 

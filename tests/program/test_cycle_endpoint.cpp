@@ -7,6 +7,7 @@
 #include "kernel/load/loader.hpp"
 #include "program/session/host_sections.hpp"
 #include "sim_plant/arm/sim_hal.hpp"
+#include "tests/support/fresh.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -50,18 +51,10 @@ struct Bench {
   bool post(CycleOrder order) { return mailboxes.orders.post({next++, order}); }
 };
 
-Bench& fresh() {
-  static Bench* bench = nullptr;
-  delete bench;
-  bench = new Bench;
-  bench->start();
-  return *bench;
-}
-
 // Proves GW-10.
 
 void a_cycle_takes_one_order_however_many_wait(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   int posted = 0;
   while (bench.post(CycleOrder::kStop)) ++posted;
   assert_int_equal(posted, 8);
@@ -75,7 +68,7 @@ void a_cycle_takes_one_order_however_many_wait(void**) {
 }
 
 void a_cycle_posts_one_snapshot_and_counts_those_without_space(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   CycleSnapshot told;
   while (bench.mailboxes.snapshots.take(told)) {
   }
@@ -133,7 +126,7 @@ void a_joint_that_does_not_stay_at_its_reference_is_told_with_value_and_limit(vo
 }
 
 void orders_wait_while_nobody_takes_their_results(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   for (int i = 0; i < 40; ++i) {
     bench.post(CycleOrder::kStop);
     bench.cycle();
@@ -153,7 +146,7 @@ void orders_wait_while_nobody_takes_their_results(void**) {
 }
 
 void a_stop_disables_the_arm_and_a_rearm_takes_it_over_again(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   OrderResult result;
   bench.post(CycleOrder::kStop);
   for (int i = 0; i < 3000 && bench.executive.rung() != Rung::kDisabled; ++i) bench.cycle();
@@ -202,7 +195,7 @@ void a_tare_has_one_result_when_it_ends_and_that_of_a_stopped_arm_at_once(void**
 // Proves PAGE-7.
 
 void the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   static PortMailbox ports;
   ports.divisor = 20;
   bench.endpoint->attach(ports);
@@ -232,7 +225,7 @@ void the_values_of_all_outputs_are_posted_now_and_then_and_never_waited_for(void
 /// Sets are taken on every rung but while the arm is braked or armed; each has its verdict in the
 /// same cycle.
 void a_set_is_taken_unless_the_arm_is_braked_or_armed(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   Tuning nothing;
   bool seen[kNames<Rung>.size()] = {};
   const auto verdict_now = [&] {
@@ -266,7 +259,7 @@ void a_set_is_taken_unless_the_arm_is_braked_or_armed(void**) {
 }
 
 void a_cycle_takes_one_set_and_none_without_space_for_its_verdict(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   Tuning nothing;
   for (int i = 0; i < 6; ++i) {
     bench.mailboxes.tunings.post({&nothing});

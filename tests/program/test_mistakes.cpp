@@ -1,14 +1,10 @@
 // Tests the page of mistakes: each is made, and the program prints what the page says.
-#include "tests/program/program_bench.hpp"
+#include "tests/program/page_script.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr const char* kTry = "$R/tests/program/try_mistakes.py ";
-
-int try_page(const char* page) {
-  return shell((Line(kTry) << page).c_str());
-}
+constexpr PageScript kMistakes{"$R/tests/program/try_mistakes.py "};
 
 /// A page with one row for the board of this program.
 void write_page(const char* row) {
@@ -19,9 +15,7 @@ void write_page(const char* row) {
 // Proves DOC-2.
 
 void every_mistake_is_answered_as_the_page_says(void**) {
-  const int code = try_page("docs/mistakes.md");
-  if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
-  assert_int_equal(code, 0);
+  kMistakes.assert_true_of("docs/mistakes.md");
 }
 
 void a_page_that_says_anything_else_is_found(void**) {
@@ -38,11 +32,10 @@ void a_page_that_says_anything_else_is_found(void**) {
   };
   for (const auto& [row, complaint] : kPages) {
     write_page(row);
-    assert_int_equal(try_page("$S/page.md"), 1);
-    assert_true(has(errors(), complaint));
+    kMistakes.assert_finds(complaint);
   }
   write_page("| no pipeline: none | `p.ini: No such file or directory; ...` | |\n");
-  assert_int_equal(try_page("$S/page.md"), 0);
+  kMistakes.assert_true_of("$S/page.md");
 }
 
 }  // namespace

@@ -142,8 +142,7 @@ void help_and_ports_end_with_zero(void**) {
     assert_true(has(output(), "Exit codes: 0 succeeded; 1 ended otherwise; 2 refused before"));
   }
   assert_int_equal(tactus_run({"ports"}), 0);
-  for (const char* part : {"## [robot]", "`period_us`", "## type = pd_gravity", "`kp`"})
-    assert_true(has(output(), part));
+  assert_has_all(output(), {"## [robot]", "`period_us`", "## type = pd_gravity", "`kp`"});
 }
 
 }  // namespace

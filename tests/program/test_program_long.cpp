@@ -55,16 +55,16 @@ void a_long_file_is_accepted_whole_and_run_to_its_end(void**) {
 void a_pipe_is_run_as_its_file_is(void**) {
   quiet_pipeline();
   write_long("long.csv", 1e-4);
-  assert_int_equal(shell("$P run $S/p.ini --trajectory $S/long.csv --no-figure --out $S/a"), 0);
-  assert_int_equal(
-      shell("cat $S/long.csv | $P run $S/p.ini --trajectory /dev/stdin --no-figure --out $S/b"), 0);
+  assert_succeeds("$P run $S/p.ini --trajectory $S/long.csv --no-figure --out $S/a");
+  assert_succeeds(
+      "cat $S/long.csv | $P run $S/p.ini --trajectory /dev/stdin --no-figure --out $S/b");
   // the end of a pipe's run is later by the time in which the goal is found reached
-  assert_int_equal(shell("n=$(wc -l <$S/a/log.csv); test $n -gt 600; head -n $n $S/b/log.csv | "
-                         "cmp - $S/a/log.csv"),
-                   0);
+  assert_succeeds(
+      "n=$(wc -l <$S/a/log.csv); test $n -gt 600; head -n $n $S/b/log.csv | "
+      "cmp - $S/a/log.csv");
   assert_true(number_of("a/summary.json", "\"config_hash\"") ==
               number_of("b/summary.json", "\"config_hash\""));
-  assert_int_equal(shell("cat $S/long.csv | $P check $S/p.ini --trajectory /dev/stdin"), 0);
+  assert_succeeds("cat $S/long.csv | $P check $S/p.ini --trajectory /dev/stdin");
   assert_true(has(output(), "/dev/stdin: accepted, 40000 waypoints, 4.0319 s\n"));
 }
 
@@ -95,9 +95,9 @@ void a_pipe_that_is_refused_on_the_way_leaves_the_arm_at_rest_on_the_path(void**
                   "\"result\": {\"code\": 34, \"name\": \"refused\", "
                   "\"why\": \"line 39002: waypoint 39001 (t = 3.932 s), joint 1 "));
   // in the last hundredth of a second, after a motion of up to 80 mrad/s
-  assert_int_equal(shell("tail -n 2 $S/w/log.csv | cut -d, -f 2 | tr '\\n' ' ' | "
-                         "awk '{d = $1 - $2; exit !(d * d < 4e-8 && $1 > 1e-3)}'"),
-                   0);
+  assert_succeeds(
+      "tail -n 2 $S/w/log.csv | cut -d, -f 2 | tr '\\n' ' ' | "
+      "awk '{d = $1 - $2; exit !(d * d < 4e-8 && $1 > 1e-3)}'");
   assert_int_equal(shell("cat $S/wild.csv | $P check $S/p.ini --trajectory /dev/stdin"), 2);
   assert_true(has(errors(), "/dev/stdin:39002: refused: waypoint 39001 (t = 3.932 s), joint 1 "));
 }

@@ -26,9 +26,9 @@ void a_log_that_cannot_be_written_is_named_with_the_reason_and_its_rows(void**) 
   assert_false(has(output(), "succeeded"));
   assert_false(exists("full/summary.json") || exists("full/summary.json.part"));
   assert_true(exists("full/incomplete.txt"));
-  assert_int_equal(shell("$P run $S/p.ini --no-figure --out $S/whole >$S/said && "
-                         "cmp -n 32768 $S/full/log.csv $S/whole/log.csv"),
-                   0);
+  assert_succeeds(
+      "$P run $S/p.ini --no-figure --out $S/whole >$S/said && "
+      "cmp -n 32768 $S/full/log.csv $S/whole/log.csv");
 }
 
 /// The disk takes 20 000 bytes of all files.
@@ -52,28 +52,26 @@ void a_disk_that_is_full_is_named(void**) {
 void a_trajectory_from_a_pipe_is_read_and_hashed_as_a_file_is(void**) {
   pipeline();
   write("t.csv", {kHeader, kReady});
-  assert_int_equal(
-      shell("run() { timeout 60 $P run $S/p.ini --duration 0.2 --no-figure \"$@\" >$S/said; }\n"
-            "cd $S && mkfifo fifo && run --trajectory t.csv --out one && "
-            "{ cat t.csv >fifo & run --trajectory fifo --out two; } && "
-            "cat t.csv | run --trajectory /dev/stdin --out three && run --out none && "
-            "for o in one two three none; do grep config_hash $o/summary.json >$o/hash; done\n"
-            "cmp one/hash two/hash && cmp one/hash three/hash && ! cmp -s one/hash none/hash"),
-      0);
+  assert_succeeds(
+      "run() { timeout 60 $P run $S/p.ini --duration 0.2 --no-figure \"$@\" >$S/said; }\n"
+      "cd $S && mkfifo fifo && run --trajectory t.csv --out one && "
+      "{ cat t.csv >fifo & run --trajectory fifo --out two; } && "
+      "cat t.csv | run --trajectory /dev/stdin --out three && run --out none && "
+      "for o in one two three none; do grep config_hash $o/summary.json >$o/hash; done\n"
+      "cmp one/hash two/hash && cmp one/hash three/hash && ! cmp -s one/hash none/hash");
 }
 
 // Proves RUN-23.
 
 void a_hangup_does_not_end_a_run_under_nohup(void**) {
   pipeline();
-  assert_int_equal(
-      shell("size() { stat -c %s h/log.csv 2>/dev/null || echo 0; }\n"
-            "grow() { until test $(size) -gt $(($1 + 100000)) -o -e h/summary.json; do sleep 0.01; "
-            "done; }\n"
-            "cd $S && { nohup $P run p.ini --duration 1000000 --no-figure --out h >said 2>&1 & }\n"
-            "grow 0; kill -HUP $!; grow $(size); test ! -e h/summary.json; alive=$?\n"
-            "kill -TERM $!; wait $!; test $? = 1 -a $alive = 0"),
-      0);
+  assert_succeeds(
+      "size() { stat -c %s h/log.csv 2>/dev/null || echo 0; }\n"
+      "grow() { until test $(size) -gt $(($1 + 100000)) -o -e h/summary.json; do sleep 0.01; "
+      "done; }\n"
+      "cd $S && { nohup $P run p.ini --duration 1000000 --no-figure --out h >said 2>&1 & }\n"
+      "grow 0; kill -HUP $!; grow $(size); test ! -e h/summary.json; alive=$?\n"
+      "kill -TERM $!; wait $!; test $? = 1 -a $alive = 0");
 }
 
 }  // namespace

@@ -120,24 +120,23 @@ void a_refused_run_leaves_a_folder_alone_into_which_another_one_writes(void**) {
 
 void a_folder_may_be_a_link_the_present_one_or_in_a_parent_that_cannot_be_written(void**) {
   pipeline();
-  assert_int_equal(
-      shell("run() { $P run $S/p.ini --duration 0.05 --no-figure --out \"$@\" >$S/said || exit; }\n"
-            "cd $S && mkdir -p real ro/out here && ln -sfn real link && chmod a-w ro && "
-            "run link && run link && test -L link && test -f real/summary.json && "
-            "run ro/out && run ro/out && test -f ro/out/summary.json && "
-            "cd here && run . && run . && test -f summary.json && ! test -e earlier_run"),
-      0);
+  assert_succeeds(
+      "run() { $P run $S/p.ini --duration 0.05 --no-figure --out \"$@\" >$S/said || exit; }\n"
+      "cd $S && mkdir -p real ro/out here && ln -sfn real link && chmod a-w ro && "
+      "run link && run link && test -L link && test -f real/summary.json && "
+      "run ro/out && run ro/out && test -f ro/out/summary.json && "
+      "cd here && run . && run . && test -f summary.json && ! test -e earlier_run");
 }
 
 void the_inputs_of_a_run_are_not_taken_for_results(void**) {
   run_before("i");
-  assert_int_equal(shell("cd $S/i && $P run pipeline.ini "
-                         "--duration 0.05 --no-figure --out . && cmp pipeline.ini ../p.ini"),
-                   0);
-  assert_int_equal(shell("cd $S/i && echo '[typing error' >>pipeline.ini && "
-                         "! $P run pipeline.ini --out . && grep -q typing pipeline.ini && "
-                         "test -f earlier_run/summary.json"),
-                   0);
+  assert_succeeds(
+      "cd $S/i && $P run pipeline.ini "
+      "--duration 0.05 --no-figure --out . && cmp pipeline.ini ../p.ini");
+  assert_succeeds(
+      "cd $S/i && echo '[typing error' >>pipeline.ini && "
+      "! $P run pipeline.ini --out . && grep -q typing pipeline.ini && "
+      "test -f earlier_run/summary.json");
   run_before("i");
   assert_int_equal(shell("sed 's/jrg[.]q_d_/q/g; 1s/\\(q[1-7]\\)/\\1_rad/g' $S/i/waypoints.csv "
                          ">$S/w.csv && mv $S/w.csv $S/i/waypoints.csv && $P run $S/p.ini "
@@ -158,7 +157,7 @@ void files_that_no_run_has_written_are_not_replaced(void**) {
     assert_true(has(errors(), Line(name) << ": the run would replace this file, which no run has "
                                             "written; choose another --out\n"));
     look << name << " && test $(ls | wc -l) = 1";
-    assert_int_equal(shell(look.c_str()), 0);
+    assert_succeeds(look.c_str());
   }
 }
 
@@ -168,7 +167,7 @@ void a_run_does_not_remove_what_it_reads(void**) {
                          "$P run $S/e/earlier_run/pipeline.ini --out $S/e"),
                    2);
   assert_true(has(errors(), "which it reads; choose another --out\n"));
-  assert_int_equal(shell("test -s $S/e/earlier_run/pipeline.ini && test -s $S/e/summary.json"), 0);
+  assert_succeeds("test -s $S/e/earlier_run/pipeline.ini && test -s $S/e/summary.json");
 }
 
 }  // namespace

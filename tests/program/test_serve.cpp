@@ -6,14 +6,6 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kServed =
-    "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
-    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
-    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-    "goal_tolerance = 0.2\nstopped_velocity = 0\n"
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
-
 void try_server(const char* what) {
   write("served.ini", {kServed, kBusyHost, "[recorder]\nsignals = robot.q pd.tau\n"});
   Line command("cd $R && mkdir -p $S/");
@@ -85,17 +77,15 @@ void a_file_at_the_path_of_the_socket_is_named(void**) {
 /// 0.2 s and more at 4 ms, in a log of ten rows; port 0 is one that is free.
 void the_log_of_a_session_is_written_where_out_says(void**) {
   write("served.ini", {kServed, kBusyHost, "[recorder]\ntracking = jrg.q_d robot.q\n"});
-  assert_int_equal(
-      shell(
-          "$P serve $S/served.ini --virtual-time --listen tcp:127.0.0.1:0 --out $S/session --rows "
-          "10 >$S/said & pid=$!; n=0; until grep -q serves $S/said; do n=$((n+1)); test $n -lt "
-          "600 || exit 80; sleep 0.1; done; sleep 0.5; kill -INT $pid; wait $pid || exit 81; "
-          "grep -q 'serves tcp:127.0.0.1:[1-9]' $S/said || exit 82; "
-          "test $(wc -l <$S/session/log.csv) = 11 || exit 83; "
-          "grep -q 'has the first 10 rows; [1-9]' $S/said || exit 84; "
-          "test -s $S/session/summary.json && test -s $S/session/pipeline.ini && "
-          "test ! -e $S/session/incomplete.txt"),
-      0);
+  assert_succeeds(
+      "$P serve $S/served.ini --virtual-time --listen tcp:127.0.0.1:0 --out $S/session --rows "
+      "10 >$S/said & pid=$!; n=0; until grep -q serves $S/said; do n=$((n+1)); test $n -lt "
+      "600 || exit 80; sleep 0.1; done; sleep 0.5; kill -INT $pid; wait $pid || exit 81; "
+      "grep -q 'serves tcp:127.0.0.1:[1-9]' $S/said || exit 82; "
+      "test $(wc -l <$S/session/log.csv) = 11 || exit 83; "
+      "grep -q 'has the first 10 rows; [1-9]' $S/said || exit 84; "
+      "test -s $S/session/summary.json && test -s $S/session/pipeline.ini && "
+      "test ! -e $S/session/incomplete.txt");
 }
 
 // Proves GW-22.

@@ -1,23 +1,16 @@
 // Tests the pages whose commands a reader runs: they are run as they stand, in a fresh folder.
-#include "tests/program/program_bench.hpp"
+#include "tests/program/page_script.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr const char* kTry = "$R/tests/program/try_tutorial.py ";
-
-int try_page(const char* page) {
-  return shell((Line(kTry) << page).c_str());
-}
+constexpr PageScript kCommands{"$R/tests/program/try_tutorial.py "};
 
 // Proves DOC-1.
 
 void the_pages_print_what_they_say(void**) {
-  for (const char* page : {"docs/tutorial.md", "docs/commissioning.md"}) {
-    const int code = try_page(page);
-    if (code != 0) print_error("%.*s\n", static_cast<int>(errors().size()), errors().data());
-    assert_int_equal(code, 0);
-  }
+  for (const char* page : {"docs/tutorial.md", "docs/commissioning.md"})
+    kCommands.assert_true_of(page);
 }
 
 void a_page_that_says_anything_else_is_found(void**) {
@@ -32,11 +25,10 @@ void a_page_that_says_anything_else_is_found(void**) {
   };
   for (const auto& [text, complaint] : kPages) {
     write("page.md", {text});
-    assert_int_equal(try_page("$S/page.md"), 1);
-    assert_true(has(errors(), complaint));
+    kCommands.assert_finds(complaint);
   }
   write("page.md", {"```sh\necho 123; echo 4 >&2\n```\n\n```text\n1...3\n4\n```\n"});
-  assert_int_equal(try_page("$S/page.md"), 0);
+  kCommands.assert_true_of("$S/page.md");
 }
 
 }  // namespace

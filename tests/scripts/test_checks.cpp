@@ -121,7 +121,7 @@ void what_only_looks_like_a_test_is_not_complained_of(void**) {
 // Proves CHK-2.
 
 void programs_and_tests_are_counted_and_what_is_skipped_is_named(void**) {
-  assert_int_equal(shell("SKIP=1 scripts/run_tests $S/x $S/x"), 0);
+  assert_succeeds("SKIP=1 scripts/run_tests $S/x $S/x");
   assert_true(has(output(), "/x: 2 tests passed, 1 skipped: may_skip\n"));
   assert_true(
       has(output(), "\nprograms: 2 passed, 0 failed; tests: 4 passed, 0 failed, 2 skipped\n"));
@@ -152,22 +152,19 @@ void a_program_that_is_missing_and_no_program_at_all_fail(void**) {
 
 /// On one processor; a program that is in no row comes first, then what took longest.
 void the_longest_begins_first_and_the_times_of_the_last_run_are_kept(void**) {
-  assert_int_equal(
-      shell(
-          "mkdir -p $S/w/build && cd $S/w && for p in a b c d; do ln -sf ../x $p; done && printf "
-          "'unit,a,7.5\ntest,./a,1.500,1,1\ntest,./b,2.5,1.0,1.0\nsmall\n' "
-          ">build/times.csv && printf 'test,./c,10.000,1.000,0.250\ntest,./a,3.5,1.0,1.0\n' "
-          ">>build/times.csv && taskset -c $(($(nproc) - 1)) $R/scripts/run_tests ./a ./b ./c ./d "
-          "$S/x | grep -o '/[a-d]: 3' | tr -d '\n'"),
-      0);
+  assert_succeeds(
+      "mkdir -p $S/w/build && cd $S/w && for p in a b c d; do ln -sf ../x $p; done && printf "
+      "'unit,a,7.5\ntest,./a,1.500,1,1\ntest,./b,2.5,1.0,1.0\nsmall\n' "
+      ">build/times.csv && printf 'test,./c,10.000,1.000,0.250\ntest,./a,3.5,1.0,1.0\n' "
+      ">>build/times.csv && taskset -c $(($(nproc) - 1)) $R/scripts/run_tests ./a ./b ./c ./d "
+      "$S/x | grep -o '/[a-d]: 3' | tr -d '\n'");
   assert_true(output() == "/d: 3/c: 3/a: 3/b: 3");
   const std::string_view times = file_of("w/build/times.csv");
   assert_true(has(times, "unit,a,7.5\nsmall\ntest,./a,"));
   for (const char* program : {"./a", "./b", "./c", "./d"})
-    assert_int_equal(shell((Line("test 1 = $(grep -cE '^test,")
-                            << program << "(,[0-9]+[.][0-9]{3}){3}$' $S/w/build/times.csv)")
-                               .c_str()),
-                     0);
+    assert_succeeds((Line("test 1 = $(grep -cE '^test,")
+                     << program << "(,[0-9]+[.][0-9]{3}){3}$' $S/w/build/times.csv)")
+                        .c_str());
   assert_true(times.find(scratch) == std::string_view::npos);
 }
 
@@ -175,8 +172,8 @@ void the_longest_begins_first_and_the_times_of_the_last_run_are_kept(void**) {
 void the_processor_time_of_a_program_includes_that_of_its_children(void**) {
   write("w/busy", {"#!/bin/sh\nwork() { i=0; while [ $i -lt 200000 ]; do i=$((i + 1)); done; }\n",
                    "(work)\necho '[==========] Running 1 test'\n", "echo '[       OK ] x'\n"});
-  assert_int_equal(shell("cd $S/w && chmod +x busy && $R/scripts/run_tests ./busy"), 0);
-  assert_int_equal(shell("grep '^test,./busy,' $S/w/build/times.csv"), 0);
+  assert_succeeds("cd $S/w && chmod +x busy && $R/scripts/run_tests ./busy");
+  assert_succeeds("grep '^test,./busy,' $S/w/build/times.csv");
   double wall_s = 0.0, user_s = 0.0, sys_s = 0.0;
   assert_int_equal(
       std::sscanf(Line(output()).c_str(), "test,./busy,%lf,%lf,%lf", &wall_s, &user_s, &sys_s), 3);
@@ -186,7 +183,7 @@ void the_processor_time_of_a_program_includes_that_of_its_children(void**) {
 void make_test_ends_with_one_line_of_totals_over_all_boards(void**) {
   assert_int_equal(make("test"), 0);
   assert_true(output() == "programs: 2 passed, 0 failed; tests: 6 passed, 0 failed, 0 skipped\n");
-  assert_int_equal(shell("grep programs: $S/made | wc -l"), 0);
+  assert_succeeds("grep programs: $S/made | wc -l");
   assert_true(output() == "1\n");
   assert_int_equal(make("BOARD=none tests"), 0);
   assert_true(output().find("programs:") == std::string_view::npos);
@@ -196,7 +193,7 @@ void make_test_fails_if_a_test_of_any_board_fails_and_runs_the_others(void**) {
   assert_int_equal(make("test", "FAIL=1"), 2);
   assert_true(
       has(output(), "programs: 0 passed, 2 failed; tests: 4 passed, 2 failed, 0 skipped\n"));
-  assert_int_equal(shell("sed -i 's/test_x/test_y/' $S/m/boards/one/board.mk"), 0);
+  assert_succeeds("sed -i 's/test_x/test_y/' $S/m/boards/one/board.mk");
   assert_int_equal(make("test"), 2);
   assert_true(has(errors(), "test_y"));
   assert_int_equal(make("test BOARDS=none"), 2);
@@ -206,7 +203,7 @@ void make_test_fails_if_a_test_of_any_board_fails_and_runs_the_others(void**) {
   assert_int_equal(make("BOARD=none tests/core"), 2);
   assert_true(has(errors(), "tests/core: none has no tests there"));
   make("-pn BOARD=one");
-  assert_int_equal(shell("grep -qx '.DEFAULT_GOAL := all' $S/made"), 0);
+  assert_succeeds("grep -qx '.DEFAULT_GOAL := all' $S/made");
   assert_int_equal(make("test BOARDS="), 2);
   assert_true(has(errors(), "BOARDS is empty"));
 }

@@ -78,12 +78,11 @@ void the_report_shows_every_run_and_what_failed(void**) {
 }
 
 void the_images_of_the_report_are_well_formed(void**) {
-  assert_int_equal(
-      shell("/usr/bin/python3 -c \"import base64, os, re, xml.etree.ElementTree as tree\n"
-            "page = open(os.environ['S'] + '/t/out/report.html').read()\n"
-            "for data in re.findall('svg.xml;base64,([^\\\"]*)', page):\n"
-            "    assert tree.fromstring(base64.b64decode(data)).tag.endswith('svg')\""),
-      0);
+  assert_succeeds(
+      "/usr/bin/python3 -c \"import base64, os, re, xml.etree.ElementTree as tree\n"
+      "page = open(os.environ['S'] + '/t/out/report.html').read()\n"
+      "for data in re.findall('svg.xml;base64,([^\\\"]*)', page):\n"
+      "    assert tree.fromstring(base64.b64decode(data)).tag.endswith('svg')\"");
 }
 
 // Proves RUN-6.
@@ -145,7 +144,7 @@ void figure_and_report_say_what_they_lack(void**) {
 // Proves RUN-5.
 
 void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- $P good"), 0);
+  assert_succeeds("cd $S/t && $R/scripts/run_all --no-pictures -- $P good");
   assert_true(has(output(), "\nout/report.html: "));
   const std::string_view page = file_of("t/out/report.html");
   assert_true(has(page, "No real robot moved: 1 run of a robot arm simu"));
@@ -163,7 +162,7 @@ void success_is_0_and_nothing_of_an_earlier_run_is_left(void**) {
 
 void an_interrupt_ends_what_is_under_way_and_begins_nothing_more(void**) {
   write("t/slow", {"#!/bin/sh\necho $$ >>$S/began\nsleep 10 >/dev/null 2>&1\necho >>$S/late\n"});
-  assert_int_equal(shell("chmod +x $S/t/slow"), 0);
+  assert_succeeds("chmod +x $S/t/slow");
   char words[3][96] = {"sh", "-c",
                        "cd $S/t && exec $R/scripts/run_all -- ./slow a b c >$S/out 2>$S/err"};
   char* const arguments[] = {words[0], words[1], words[2], nullptr};
@@ -207,9 +206,9 @@ void an_interrupt_while_figures_are_drawn_is_quiet(void**) {
 // Proves RUN-8.
 
 void the_code_metric_counts_code_and_nothing_else(void**) {
-  assert_int_equal(shell("cd $S && mkdir -p tree/kernel/control tree/kernel/core "
-                         "tree/kernel/reference/motion tree/gateway"),
-                   0);
+  assert_succeeds(
+      "cd $S && mkdir -p tree/kernel/control tree/kernel/core "
+      "tree/kernel/reference/motion tree/gateway");
   write("tree/kernel/control/law.hpp",
         {"// a comment\n#pragma once\n\n/* two\n lines */\nint f(); /* and */ // more\n"});
   write("tree/kernel/control/law.cpp",
@@ -217,7 +216,7 @@ void the_code_metric_counts_code_and_nothing_else(void**) {
          "const char d = '\"'; // \"\n  \t\nint x; /*\n*/ int y;\n"});
   write("tree/kernel/reference/motion/r.cpp", {"int a;\nint b;\nint c; // c\n// d\n"});
   write("tree/kernel/core/mailbox.hpp", {"int m;\n"});
-  assert_int_equal(shell("$R/scripts/code_metric $S/tree | tr -s ' '"), 0);
+  assert_succeeds("$R/scripts/code_metric $S/tree | tr -s ' '");
   assert_true(has(output(), "kernel/control/law 3 8 27 %\n"));
   assert_true(has(output(), "in addition: kernel/core/mailbox.hpp 1 "));
   assert_true(has(output(), "in addition: gateway 0 "));

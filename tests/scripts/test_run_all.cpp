@@ -49,11 +49,11 @@ void only_what_has_changed_is_run_again(void**) {
                               {true, false, false}};
   for (std::size_t i = 0; i < std::size(changes); ++i) {
     Line line("cd $S/t && ");
-    assert_int_equal(shell((line << changes[i]).c_str()), 0);
+    assert_succeeds((line << changes[i]).c_str());
     assert_int_equal(run_all(""), 0);
     assert_true(unchanged(!repeated[i][0], !repeated[i][1], !repeated[i][2]));
   }
-  assert_int_equal(shell("printf x >>$S/t/tactus"), 0);
+  assert_succeeds("printf x >>$S/t/tactus");
   assert_int_equal(run_all(""), 0);
   assert_true(unchanged(false, false, false));
   assert_int_equal(run_all("--always"), 0);
@@ -61,16 +61,16 @@ void only_what_has_changed_is_run_again(void**) {
 }
 
 void a_script_is_repeated_when_a_program_it_names_has_changed(void**) {
-  assert_int_equal(shell("mkdir -p $S/t/build/b && cp $S/t/tactus $S/t/build/b/tactus && "
-                         "printf '#!/bin/sh\\nexec build/b/tactus \"$@\"\\n' >$S/t/beside && chmod "
-                         "+x $S/t/beside"),
-                   0);
+  assert_succeeds(
+      "mkdir -p $S/t/build/b && cp $S/t/tactus $S/t/build/b/tactus && "
+      "printf '#!/bin/sh\\nexec build/b/tactus \"$@\"\\n' >$S/t/beside && chmod "
+      "+x $S/t/beside");
   constexpr const char* kRun = "cd $S/t && $R/scripts/run_all --no-pictures -- ./beside two";
-  assert_int_equal(shell(kRun), 0);
-  assert_int_equal(shell(kRun), 0);
+  assert_succeeds(kRun);
+  assert_succeeds(kRun);
   assert_true(has(output(), "  RUN   two: unchanged, run of "));
-  assert_int_equal(shell("printf x >>$S/t/build/b/tactus"), 0);
-  assert_int_equal(shell(kRun), 0);
+  assert_succeeds("printf x >>$S/t/build/b/tactus");
+  assert_succeeds(kRun);
   assert_true(has(output(), "  RUN   two: succeeded\n"));
 }
 
@@ -83,15 +83,15 @@ void a_run_that_was_not_as_expected_is_always_repeated(void**) {
 
 void the_last_good_run_is_kept_when_the_next_is_refused(void**) {
   assert_int_equal(run_all("--always"), 0);
-  assert_int_equal(shell("cd $S/t && cp pipelines/one.ini one.ini && echo '[typing error' "
-                         ">>pipelines/one.ini"),
-                   0);
+  assert_succeeds(
+      "cd $S/t && cp pipelines/one.ini one.ini && echo '[typing error' "
+      ">>pipelines/one.ini");
   assert_int_equal(run_all("--only one"), 1);
   assert_true(has(output(), "  RUN   one: refused"));
-  assert_int_equal(shell("cd $S/t && mv one.ini pipelines/one.ini; test -f out/one/refused.txt && "
-                         "test -f out/one/earlier_run/summary.json && ! test -e "
-                         "out/one/summary.json"),
-                   0);
+  assert_succeeds(
+      "cd $S/t && mv one.ini pipelines/one.ini; test -f out/one/refused.txt && "
+      "test -f out/one/earlier_run/summary.json && ! test -e "
+      "out/one/summary.json");
 }
 
 // Proves RUN-28.
@@ -111,25 +111,22 @@ void a_run_that_this_computer_cannot_do_is_named_counted_and_no_success(void**) 
       shell(
           "cd $S/t && $R/scripts/run_all --no-pictures --only two -- ./tactus one -- ./skips two"),
       1);
-  assert_int_equal(
-      shell(
-          "cd $S/t && $R/scripts/run_all --no-pictures --only one -- ./tactus one -- ./skips two"),
-      0);
+  assert_succeeds(
+      "cd $S/t && $R/scripts/run_all --no-pictures --only one -- ./tactus one -- ./skips two");
   assert_true(has(output(), "\n1 of 1 runs as expected\n"));
 }
 
 /// Its results are set aside, so that nobody takes them for this run's.
 void a_skipped_run_shows_no_earlier_run_and_is_forgotten_when_it_is_possible(void**) {
-  assert_int_equal(
-      shell("cd $S/t && rm -rf out && $R/scripts/run_all --no-pictures -- ./tactus two"), 0);
+  assert_succeeds("cd $S/t && rm -rf out && $R/scripts/run_all --no-pictures -- ./tactus two");
   assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures --always -- ./skips two"), 1);
   assert_true(has(output(), "\n0 of 1 runs as expected, 1 skipped\n"));
-  assert_int_equal(shell("cd $S/t/out/two && test -f earlier_run/summary.json && ! test -e "
-                         "summary.json && grep -q 'needs a machine' output.txt"),
-                   0);
-  assert_int_equal(shell("cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus two && ! test -e "
-                         "out/two/skipped.txt"),
-                   0);
+  assert_succeeds(
+      "cd $S/t/out/two && test -f earlier_run/summary.json && ! test -e "
+      "summary.json && grep -q 'needs a machine' output.txt");
+  assert_succeeds(
+      "cd $S/t && $R/scripts/run_all --no-pictures -- ./tactus two && ! test -e "
+      "out/two/skipped.txt");
   assert_true(has(output(), "\n1 of 1 runs as expected\n"));
 }
 
@@ -142,22 +139,22 @@ void a_program_that_fails_after_its_summary_has_not_succeeded(void**) {
     assert_int_equal(shell("cd $S/t && chmod +x late && rm -rf out && "
                            "$R/scripts/run_all --no-pictures -- ./late one"),
                      1);
-    assert_int_equal(shell("cd $S/t/out/one && ! test -e stamp.json && ! test -e summary.json"), 0);
+    assert_succeeds("cd $S/t/out/one && ! test -e stamp.json && ! test -e summary.json");
   }
 }
 
 void a_program_that_does_not_start_shows_no_earlier_run(void**) {
   assert_int_equal(run_all("--always"), 0);
-  assert_int_equal(shell("cd $S/t && mv tactus away; mkdir tactus"), 0);
+  assert_succeeds("cd $S/t && mv tactus away; mkdir tactus");
   assert_int_equal(run_all("--only one"), 1);
-  assert_int_equal(shell("cd $S/t && rmdir tactus && mv away tactus && ! test -e "
-                         "out/one/summary.json && test -f out/one/earlier_run/summary.json"),
-                   0);
+  assert_succeeds(
+      "cd $S/t && rmdir tactus && mv away tactus && ! test -e "
+      "out/one/summary.json && test -f out/one/earlier_run/summary.json");
 }
 
 void the_runs_that_are_named_are_run_and_the_report_has_all_there_are(void**) {
   assert_int_equal(run_all(""), 0);
-  assert_int_equal(shell("rm -r $S/t/out/one"), 0);
+  assert_succeeds("rm -r $S/t/out/one");
   assert_int_equal(run_all("--always --only 'two:u'"), 0);
   assert_true(has(output(), "  RUN   two:u: succeeded\n"));
   assert_true(output().find("  RUN   two: ") == std::string_view::npos);

@@ -59,11 +59,11 @@ void an_address_outside_the_graph_is_named(void**) {
   shell("arm-none-eabi-nm $S/fine/planted.elf | awk '$3 == \"planted\" {print $1}' > $S/cover");
   const char* const command =
       "scripts/wcet_bound $S/fine/planted.elf --function '^planted$' --dof 7 --cover $S/cover";
-  assert_int_equal(shell(command), 0);
-  assert_int_equal(shell("sed -i 's/.$/1/' $S/cover"), 0);  // the middle of an instruction
+  assert_succeeds(command);
+  assert_succeeds("sed -i 's/.$/1/' $S/cover");  // the middle of an instruction
   assert_int_equal(shell(command), 1);
   assert_true(has(errors(), "executed, but not in the graph: tests/wcet/planted/fine.cpp:"));
-  assert_int_equal(shell("echo ffff > $S/cover"), 0);
+  assert_succeeds("echo ffff > $S/cover");
   assert_int_equal(shell(command), 1);
   assert_true(
       has(errors(), "/cover: no address is in a function of the cycle; was the cycle executed?"));
@@ -111,10 +111,10 @@ void ram_and_flash_over_the_budget_are_refused(void**) {
   const char* const command =
       "scripts/certificate fine --objects $S/fine --image $S/fine/planted.elf --tools "
       "arm-none-eabi- --roots planted ";
-  assert_int_equal(shell((Text<1023>(command) << "--static-budget 0").c_str()), 0);
+  assert_succeeds((Text<1023>(command) << "--static-budget 0").c_str());
   assert_int_equal(shell((Text<1023>(command) << "--static-budget -1").c_str()), 1);
   assert_true(has(errors(), "0 bytes of RAM exceed the budget of -1"));
-  assert_int_equal(shell((Text<1023>(command) << "--flash-budget 65536").c_str()), 0);
+  assert_succeeds((Text<1023>(command) << "--flash-budget 65536").c_str());
   assert_int_equal(shell((Text<1023>(command) << "--flash-budget 16").c_str()), 1);
   assert_true(has(errors(), " bytes of flash exceed the budget of 16"));
 }

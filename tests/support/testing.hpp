@@ -18,6 +18,7 @@ extern "C" {
 #define ASSERT_STATUS(actual, expected) \
   assert_int_equal(static_cast<int>(actual), static_cast<int>(expected))
 #define ASSERT_OK(status) ASSERT_STATUS(status, 0)
+#define ASSERT_OUTCOME(report, expected) ASSERT_STATUS((report).outcome, expected)
 #define ASSERT_NEAR(actual, expected, tolerance) \
   assert_near((actual), (expected), (tolerance), #actual, __FILE__, __LINE__)
 

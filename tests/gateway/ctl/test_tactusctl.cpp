@@ -17,12 +17,11 @@ void a_square_is_sent_and_succeeds(void**) {
   Text<2047> script(kSquare);
   script << "$T send $S/square.csv --json >$S/all";
   assert_int_equal(served(kTip, script.c_str()), 0);
-  assert_int_equal(shell("tail -1 $S/all | grep '^{\"result\":{.*\"outcome\":\"SUCCEEDED\"'"), 0);
+  assert_succeeds("tail -1 $S/all | grep '^{\"result\":{.*\"outcome\":\"SUCCEEDED\"'");
   // Its last corner, (0.6, 0.16, 0.74) m in base_link, which is turned by pi about z, and which the
   // pipeline file names.
-  assert_int_equal(
-      shell("$R/tests/gateway/ctl/last_values.py $S/all feedback task_actual.pose -0.6 -0.16 0.74"),
-      0);
+  assert_succeeds(
+      "$R/tests/gateway/ctl/last_values.py $S/all feedback task_actual.pose -0.6 -0.16 0.74");
 }
 
 /// 40 000 waypoints, more than the 32 768 of the window; also through a pipe, whose end is not
@@ -48,12 +47,12 @@ void ctrl_c_cancels_on_the_path(void**) {
                           "until_says $S/all feedback && kill -INT $pid; wait $pid; code=$?; "
                           "phase >$S/phase; $T watch --duration 0.1 >$S/rest; exit $code");
   assert_int_equal(code, 1);
-  assert_int_equal(shell("tail -1 $S/all | grep '\"result\":{.*\"outcome\":\"CANCELED\"'"), 0);
-  assert_int_equal(shell("grep -qx holding $S/phase"), 0);
+  assert_succeeds("tail -1 $S/all | grep '\"result\":{.*\"outcome\":\"CANCELED\"'");
+  assert_succeeds("grep -qx holding $S/phase");
   // On its path: between the ends, and no joint but the first has moved.
-  assert_int_equal(shell("tail -1 $S/rest | awk '{exit !($6 >= 0 && $6 < 0.6 && "
-                         "($7+1.67)^2 < 1e-4 && ($8-1.87)^2 < 1e-4)}'"),
-                   0);
+  assert_succeeds(
+      "tail -1 $S/rest | awk '{exit !($6 >= 0 && $6 < 0.6 && "
+      "($7+1.67)^2 < 1e-4 && ($8-1.87)^2 < 1e-4)}'");
 }
 
 // Proves CTL-3.

@@ -127,12 +127,7 @@ void the_override_is_whole_again_after_a_rearm(void**) {
   TwoClients& two = fresh_clients();
   two.a.lease(5, 60000);
   two.a.send(ask::kOverride, RawMessage().real(1, 0.2));
-  two.b.send(ask::kStop);
-  two.run(3);
-  two.a.send(ask::kPing);
-  two.run(1);
-  two.a.send(ask::kRearm);
-  two.run(3);
+  two.stop_and_rearm();
   const std::uint32_t lower = two.b.send(ask::kOverride, RawMessage().real(1, 0.9));
   two.run(2);
   assert_int_equal(two.b.status[lower], 0);

@@ -185,6 +185,15 @@ class BrowserTest(unittest.TestCase):
         self.page.until("streams.length > 1 && document.getElementById('lost').hidden")
         self.page.until(NOMINAL)
 
+    def assert_stopped_by_escape(self, served):
+        """The page's stop reaches this server, which then ends well."""
+        client = served.client()
+        client.ready()
+        self.page.press("Escape", 27)
+        client.until(lambda: client.state.rung == 5)
+        self.assertEqual(served.end(), 0)
+        self.page.said.clear()
+
     def test_stop_reaches_a_server_that_was_started_anew_unnoticed(self):
         self.page.call("Page.addScriptToEvaluateOnNewDocument", source=FIRST_IS_MUTE + "setInterval = () => 0;")
         self.page.go(self.served.page_address)
@@ -193,12 +202,7 @@ class BrowserTest(unittest.TestCase):
         self.served.program.wait()
         again = Served("browser", self.served.port)
         again.page()
-        client = again.client()
-        client.ready()
-        self.page.press("Escape", 27)
-        client.until(lambda: client.state.rung == 5)
-        self.assertEqual(again.end(), 0)
-        self.page.said.clear()
+        self.assert_stopped_by_escape(again)
 
     def test_the_slider_raises_the_override_unless_another_owns_the_motion(self):
         swing(self.client)
@@ -253,12 +257,7 @@ class BrowserTest(unittest.TestCase):
         again.page()
         self.page.until("document.getElementById('lost').hidden")
         self.page.until(NOMINAL)
-        client = again.client()
-        client.ready()
-        self.page.press("Escape", 27)
-        client.until(lambda: client.state.rung == 5)
-        self.assertEqual(again.end(), 0)
-        self.page.said.clear()
+        self.assert_stopped_by_escape(again)
 
 
 if __name__ == "__main__":

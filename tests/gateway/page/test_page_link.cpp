@@ -7,6 +7,7 @@
 #include "gateway/page/command_gate.hpp"
 #include "gateway/page/page_link.hpp"
 #include "tests/gateway/server/client_bench.hpp"
+#include "tests/support/fresh.hpp"
 
 namespace tactus {
 namespace {
@@ -65,18 +66,10 @@ struct PageBench {
   }
 };
 
-PageBench& fresh() {
-  static PageBench* bench = nullptr;
-  delete bench;
-  bench = new PageBench;
-  bench->start();
-  return *bench;
-}
-
 // Proves PAGE-5.
 
 void a_command_leaves_the_lease_as_free_as_it_was(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   const std::uint32_t number = bench.ask(PageCommand::kOverride, 0.25);
   for (int i = 0; i < 100; ++i) bench.turn();
   for (std::uint32_t i = number - 1; i <= number + 1; ++i) assert_int_equal(bench.statuses[i], 0);
@@ -84,7 +77,7 @@ void a_command_leaves_the_lease_as_free_as_it_was(void**) {
 }
 
 void another_clients_lease_is_not_taken_away(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   bench.other.lease(0, 60'000);
   bench.turn();
   const auto status_of = [&](PageCommand command, double rate) {
@@ -108,7 +101,7 @@ void another_clients_lease_is_not_taken_away(void**) {
 /// The page's own commands count as known, before a browser has seen a state of after them.
 void what_a_browser_sent_before_it_saw_anothers_stop_is_refused(void**) {
   for (const bool others : {false, true}) {
-    PageBench& bench = fresh();
+    PageBench& bench = fresh<PageBench>();
     const std::uint32_t seen = bench.stops;
     if (others)
       bench.other.send(ask::kPause);
@@ -125,7 +118,7 @@ void what_a_browser_sent_before_it_saw_anothers_stop_is_refused(void**) {
 }
 
 void stop_needs_no_lease(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   bench.other.lease(255, 60'000);
   bench.turn();
   const std::uint32_t number = bench.ask(PageCommand::kStop, 0.0);
@@ -137,7 +130,7 @@ void stop_needs_no_lease(void**) {
 // Proves PAGE-8.
 
 void stops_in_flight_are_one_and_a_stop_behind_another_command_is_a_new_one(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   const std::uint32_t first = bench.ask(PageCommand::kStop, 0.0);
   for (int i = 0; i < 10'000; ++i) assert_int_equal(bench.ask(PageCommand::kStop, 0.0), first);
   for (int i = 0; i < 100; ++i) bench.turn();
@@ -151,7 +144,7 @@ void stops_in_flight_are_one_and_a_stop_behind_another_command_is_a_new_one(void
 }
 
 void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   CommandGate gate;
   const std::uint32_t begin = bench.ask(PageCommand::kPause, 0.0);
   constexpr int kTurns = 5000, kTries = 12;
@@ -172,7 +165,7 @@ void the_share_of_the_page_does_not_come_near_what_the_server_takes(void**) {
 // Proves PAGE-5.
 
 void the_page_is_not_cut_as_silent_and_notices_a_server_that_ends(void**) {
-  PageBench& bench = fresh();
+  PageBench& bench = fresh<PageBench>();
   for (int i = 0; i < 20'000; ++i) bench.turn();  // 20 s
   assert_true(bench.link.there());
   close(bench.theirs);

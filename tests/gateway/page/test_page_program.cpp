@@ -5,13 +5,8 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kServed =
-    "[robot]\nname = fer\nperiod_us = 4000\ntau_c = pd.tau\n"
-    "[model]\ntype = robot_model\nq = robot.q\ndq = robot.dq\n"
-    "[jrg]\ntype = joint_reference_generator\nq = robot.q\n"
-    "goal_tolerance = 0.2\nstopped_velocity = 0\n"
-    "[pd]\ntype = pd_gravity\nq_d = jrg.q_d\nq = robot.q\ndq = robot.dq\ng = model.g\n"
-    "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n"
+/// What the page shows beside the arm: a sensor, and bodies in the base, in a frame and on the tip.
+constexpr const char* kShown =
     "[sensor]\ntype = wrench_front_end\nft = robot.ft\nx = model.x\ntool = robot.tool\n"
     "max_force = 300\nmax_moment = 30\n"
     "[cell]\ntype = frame\nposition = 1 0 0\nrotation = 0 0 1.5707963267948966\n"
@@ -20,7 +15,7 @@ constexpr const char* kServed =
 
 /// Runs a test class; $P is the program that serves.
 void run_class(const char* name) {
-  write("served.ini", {kServed, kBusyHost});
+  write("served.ini", {kServed, kShown, kBusyHost});
   Line command("PYTHONPATH=$R/tests/gateway/page /usr/bin/python3 -B -W ignore -m unittest ");
   assert_succeeds((command << name).c_str());
 }
@@ -38,7 +33,7 @@ void the_page_comes_with_a_key_and_goes_without_a_port(void**) {
 }
 
 void an_address_of_the_network_is_refused(void**) {
-  const Line pipeline = write("served.ini", {kServed, kBusyHost});
+  const Line pipeline = write("served.ini", {kServed, kShown, kBusyHost});
   assert_int_equal(tactus_run({"serve", pipeline.c_str(), "--http", "0.0.0.0:7380"}), 2);
   assert_true(
       has(errors(), "--http: refused: '0.0.0.0:7380': the page is served at 127.0.0.1 alone"));

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import time
+import unittest
 
 import numpy as np
 import tactus
@@ -15,10 +16,23 @@ TASK_PIPELINE = ROOT / "pipelines" / f"{ROBOT}_trg_cpc.ini"
 SENSOR_PIPELINE = ROOT / "pipelines" / {"ur10": "ur10_trg_ac_cpc.ini"}.get(ROBOT, f"{ROBOT}_trg_ac_cpc_pid.ini")
 DISABLED = 5  # rung of the ladder; the reference stands still, whatever velocity it had
 home = np.zeros(0)  # rad; the test module sets it
+address = ""  # of the server of the test module
 
 
 def serve(pipeline=JOINT_PIPELINE):
     return tactus.serve(pipeline, program=PROGRAM)
+
+
+def serve_module():
+    """Serves the joint pipeline for all tests of a module, whose setUpModule this is."""
+    global address, home
+    address = unittest.enterModuleContext(serve())
+    with connect() as arm:
+        home = arm.state().q_d
+
+
+def connect(**settings):
+    return tactus.connect(address, **settings)
 
 
 def moved(dof):

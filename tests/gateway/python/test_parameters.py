@@ -6,17 +6,10 @@ import unittest
 import numpy as np
 import served
 import tactus
+from served import connect
 
 
-def setUpModule():
-    global address
-    address = unittest.enterModuleContext(served.serve())
-    with connect() as arm:
-        served.home = arm.state().q_d
-
-
-def connect(**settings):
-    return tactus.connect(address, **settings)
+setUpModule = served.serve_module
 
 
 class Parameters(unittest.TestCase):

@@ -9,21 +9,14 @@ import unittest
 import numpy as np
 import served
 import tactus
+from served import connect
 from tactus import Outcome
 
 NOT_OFFERED = 11
 GENERATOR = "jrg"  # of the joint pipelines
 
 
-def setUpModule():
-    global address
-    address = unittest.enterModuleContext(served.serve())
-    with connect() as arm:
-        served.home = arm.state().q_d
-
-
-def connect(**settings):
-    return tactus.connect(address, **settings)
+setUpModule = served.serve_module
 
 
 class OnRobot(unittest.TestCase):

@@ -252,6 +252,15 @@ struct TwoClients {
       if (b.reads) b.read();
     }
   }
+  /// B stops the arm; A hears of it and rearms.
+  void stop_and_rearm() {
+    b.send(ask::kStop);
+    run(3);
+    a.send(ask::kPing);
+    run(1);
+    a.send(ask::kRearm);
+    run(3);
+  }
 };
 
 inline TwoClients& fresh_clients() {

@@ -1,6 +1,7 @@
 // Tests in virtual time how soon a message changes the command: one that the server has before a
 // cycle begins counts in that cycle, and the drives get another command in it or in the next.
 #include "tests/gateway/server/cycle_bench.hpp"
+#include "tests/support/fresh.hpp"
 
 namespace tactus {
 namespace {
@@ -41,14 +42,6 @@ struct Bench {
   }
 };
 
-Bench& fresh() {
-  static Bench* bench = nullptr;
-  delete bench;
-  bench = new Bench;
-  bench->start();
-  return *bench;
-}
-
 // Proves GW-13.
 
 void a_point_a_velocity_a_chunk_and_a_trajectory_move_the_arm_within_two_cycles(void**) {
@@ -58,7 +51,7 @@ void a_point_a_velocity_a_chunk_and_a_trajectory_move_the_arm_within_two_cycles(
   constexpr auto kJoints = static_cast<std::size_t>(kDof);
   const double now_s = 0.0, later_s = 2.0;
   for (int kind = 0; kind < 4; ++kind) {
-    Bench& bench = fresh();
+    Bench& bench = fresh<Bench>();
     if (kind == 0) bench.client.point(far);
     if (kind == 1)
       bench.client.send(ask::kVelocity,
@@ -93,7 +86,7 @@ void a_pause_a_cancel_and_a_stop_slow_the_arm_down_within_two_cycles(void**) {
     const double whole_s = 4.0;
     static Bench untouched;  // the same motion without the message
     static Bench* twin = nullptr;
-    Bench& bench = fresh();
+    Bench& bench = fresh<Bench>();
     twin = &untouched;
     new (twin) Bench;
     twin->start();

@@ -209,33 +209,33 @@ void names_for_people_are_printable(void**) {
   assert_string_equal(last_log, "?[31mred? has joined");
 }
 
-void a_collision_is_an_event_that_says_with_what(void**) {
+/// Client A hears of events, among them that the cycle has stopped the arm as `told` says.
+TwoClients& stopped_clients(CycleSnapshot told) {
   TwoClients& two = fresh_clients();
   two.a.send(ask::kSubscribe, RawMessage().number(3, 1));
   two.run(2);
-  CycleSnapshot told;
   told.stamp_ns = two.bench.now_ns;
   told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
+  assert_true(two.bench.mail.snapshots.post(told));
+  two.run(1);
+  return two;
+}
+
+void a_collision_is_an_event_that_says_with_what(void**) {
+  CycleSnapshot told;
   told.status = Status::kCollision;
   told.fault = told.status;
   told.first = "hand";
   told.second = "wall";
-  assert_true(two.bench.mailboxes.snapshots.post(told));
-  two.run(1);
+  TwoClients& two = stopped_clients(told);
   assert_string_equal(two.a.event, "stop: collision (77): hand with wall");
 }
 
 void a_fault_of_a_joint_is_an_event_with_joint_value_and_limit(void**) {
-  TwoClients& two = fresh_clients();
-  two.a.send(ask::kSubscribe, RawMessage().number(3, 1));
-  two.run(2);
   CycleSnapshot told;
-  told.stamp_ns = two.bench.now_ns;
-  told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
   told.status = Status::kPathTolerance;
   told.fault = FaultVerdict({told.status, -1, 3, 0.25, 0.125});
-  assert_true(two.bench.mailboxes.snapshots.post(told));
-  two.run(1);
+  TwoClients& two = stopped_clients(told);
   const Line said = Line("stop: joint 4 (")
                     << Robot::kJointNames[3] << "): path error 0.25 rad exceeds 0.125 rad (49)";
   assert_string_equal(two.a.event, said.c_str());

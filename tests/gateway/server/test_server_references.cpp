@@ -63,12 +63,7 @@ void what_a_stop_voids_does_not_move_the_arm(void**) {
   two.a.lease();
   two.run(1);
   const std::uint32_t before = two.a.epoch;
-  two.b.send(ask::kStop);
-  two.run(3);
-  two.a.send(ask::kPing);
-  two.run(1);
-  two.a.send(ask::kRearm);
-  two.run(3);
+  two.stop_and_rearm();
   assert_true(two.bench.rung == Rung::kNominal);
   JointVector q = ServerBench::home().q;
   q[0] += 0.1;

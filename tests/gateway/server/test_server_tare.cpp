@@ -1,6 +1,7 @@
 // Tests tares that clients ask for: the server, the cycle's end of the mailboxes, the executive and
 // a pipeline with a front end, in virtual time.
 #include "tests/gateway/server/cycle_bench.hpp"
+#include "tests/support/fresh.hpp"
 
 namespace tactus {
 namespace {
@@ -18,7 +19,7 @@ struct Bench {
   Random random{5};
   bool shakes = false;
 
-  void start(std::string_view blocks) {
+  void start(std::string_view blocks = kSensor) {
     cycles.hal.state.ft = zero();
     cycles.start(blocks);
     cycles.welcome(a, "A");
@@ -46,14 +47,6 @@ struct Bench {
   }
   Rung rung() const { return cycles.executive.rung(); }
 };
-
-Bench& fresh(std::string_view blocks = kSensor) {
-  static Bench* bench = nullptr;
-  delete bench;
-  bench = new Bench;
-  bench->start(blocks);
-  return *bench;
-}
 Status answered(const TestClient& client, std::uint32_t number) {
   assert_int_equal(client.answers[number], 1);
   return static_cast<Status>(client.status[number]);
@@ -69,7 +62,7 @@ void assert_report(const TestClient& client, std::uint32_t number, int outcome, 
 // Proves GW-21.
 
 void a_tare_is_reported_with_its_zero_when_that_holds_and_everybody_is_told(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   assert_true((bench.front().bias.value - Bench::zero()).norm() < 1e-12);
   bench.cycles.hal.state.ft[0] += 4.0;
   const std::uint32_t number = bench.a.send(ask::kTare);
@@ -89,7 +82,7 @@ void a_tare_is_reported_with_its_zero_when_that_holds_and_everybody_is_told(void
 }
 
 void what_may_be_a_contact_is_refused_with_the_figures(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   bench.cycles.hal.state.ft[2] += 12.0;
   const std::uint32_t number = bench.a.send(ask::kTare);
   bench.run(60);
@@ -108,7 +101,7 @@ void what_may_be_a_contact_is_refused_with_the_figures(void**) {
 }
 
 void a_sensor_that_is_shaken_is_refused_and_the_arm_goes_on(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   bench.shakes = true;
   const std::uint32_t number = bench.a.send(ask::kTare);
   bench.run(210);
@@ -117,7 +110,7 @@ void a_sensor_that_is_shaken_is_refused_and_the_arm_goes_on(void**) {
 }
 
 void only_the_owner_tares_and_one_tare_is_under_way(void**) {
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   const std::uint32_t other = bench.b.send(ask::kTare), first = bench.a.send(ask::kTare);
   bench.run(10);
   const std::uint32_t second = bench.a.send(ask::kTare);
@@ -132,13 +125,13 @@ void only_the_owner_tares_and_one_tare_is_under_way(void**) {
 }
 
 void without_a_front_end_or_its_tare_it_is_refused_by_name(void**) {
-  Bench& none = fresh("");
+  Bench& none = fresh<Bench>("");
   const std::uint32_t number = none.a.send(ask::kTare);
   none.run(5);
   ASSERT_STATUS(answered(none.a, number), Status::kNotOffered);
   assert_non_null(std::strstr(none.a.text, "no wrench_front_end"));
   assert_false(none.a.offers_tare);
-  Bench& untared = fresh();
+  Bench& untared = fresh<Bench>();
   assert_true(untared.a.offers_tare);
   const_cast<WrenchFrontEnd&>(untared.front()).params.tare_s = 0.0;
   const std::uint32_t later = untared.a.send(ask::kTare);
@@ -151,7 +144,7 @@ void without_a_front_end_or_its_tare_it_is_refused_by_name(void**) {
 /// On every rung below skip_optional, and at every moment of a tare.
 void a_stop_ends_a_tare_and_a_stopped_arm_takes_none(void**) {
   for (int moment = 0; moment < 60; moment += 3) {
-    Bench& bench = fresh();
+    Bench& bench = fresh<Bench>();
     bench.cycles.hal.state.ft[0] += 4.0;
     const std::uint32_t tare = bench.a.send(ask::kTare);
     bench.run(moment);
@@ -175,7 +168,7 @@ void a_stop_ends_a_tare_and_a_stopped_arm_takes_none(void**) {
 /// Two clients in a random order of tares, stops, rearms, takeovers and shaken sensors.
 void whatever_the_order_every_tare_is_answered_and_reported_once(void**) {
   int count[256] = {};
-  Bench& bench = fresh();
+  Bench& bench = fresh<Bench>();
   for (int k = 0; k < 6000; ++k) {
     TestClient& client = bench.random.below(2) == 0 ? bench.a : bench.b;
     const int what = bench.random.below(12);

@@ -9,6 +9,7 @@
 
 #include "gateway/trajectory/trajectory_columns.hpp"
 #include "gateway/trajectory/trajectory_reader.hpp"
+#include "tests/gateway/trajectory/column_order.hpp"
 #include "tests/support/testing.hpp"
 
 namespace tactus {
@@ -140,12 +141,9 @@ const char* refusal_with(const char* columns) {
 void columns_in_any_order_come_back_to_the_last_bit(void**) {
   std::mt19937_64 random(4180);
   for (int trial = 0; trial < 20; ++trial) {
-    int columns[kColumns];
-    for (int c = 0; c < kColumns; ++c) columns[c] = c;
-    for (int c = kColumns - 1; c > 0; --c)
-      std::swap(columns[c], columns[random() % static_cast<unsigned>(c + 1)]);
+    const auto columns = any_order<kColumns>(random);
     randomize(random);
-    assert_true(write_and_read(columns, kColumns));
+    assert_true(write_and_read(columns.data(), kColumns));
     assert_int_equal(trajectory.count, kCapacity);
     assert_int_equal(trajectory.fields, kVelocityField | kAccelerationField | kEffortField);
     for (std::size_t i = 0; i < written.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "gateway/trajectory/trajectory_columns.hpp"
+#include "tests/gateway/trajectory/column_order.hpp"
 #include "tests/gateway/trajectory/csv_bench.hpp"
 #include "tests/support/cases.hpp"
 #include "tests/support/testing.hpp"
@@ -90,12 +91,9 @@ void columns_in_any_order_by_number_or_name_come_back_to_the_last_bit(void**) {
   constexpr int kColumns = 1 + 4 * kDof;
   std::mt19937_64 random(4180);
   for (int trial = 0; trial < 20; ++trial) {
-    int columns[kColumns];
-    for (int c = 0; c < kColumns; ++c) columns[c] = c;
-    for (int c = kColumns - 1; c > 0; --c)
-      std::swap(columns[c], columns[random() % static_cast<unsigned>(c + 1)]);
+    const auto columns = any_order<kColumns>(random);
     randomize(random, 50);
-    assert_true(write_and_read(columns, kColumns, 50, trial % 2 == 0));
+    assert_true(write_and_read(columns.data(), kColumns, 50, trial % 2 == 0));
     assert_same_bits(50);
     assert_int_equal(g_trajectory.fields, kAllFields);
   }

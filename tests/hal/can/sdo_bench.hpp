@@ -37,6 +37,38 @@ struct SdoBench {
     client.receive(frame_of(text), now_ns);
     client.advance(now_ns);
   }
+  /// Begins to read the name of node 2.
+  void ask_name() {
+    client.upload(2, 0x1008, 0, 0);
+    expect("602 40 08 10 00 00 00 00 00");
+  }
+  /// Node 2 sends so many whole segments of its name.
+  void take_segments(int count) {
+    for (int i = 0; i < count; ++i) {
+      expect(i % 2 == 0 ? "602 60 00 00 00 00 00 00 00" : "602 70 00 00 00 00 00 00 00");
+      answer(i % 2 == 0 ? "582 00 31 32 33 34 35 36 37" : "582 10 31 32 33 34 35 36 37");
+    }
+  }
+  /// Begins to read the device type of node 1.
+  void ask_type() {
+    client.upload(1, 0x1000, 0, 0);
+    expect("601 40 00 10 00 00 00 00 00");
+  }
+  /// Begins to write mode 10 to node 1.
+  void write_mode() {
+    client.download(1, 0x6060, 0, 10, 1, 0);
+    expect("601 2F 60 60 00 0A 00 00 00");
+  }
+  /// Writes two whole segments to node 4; the answer to the second is missing.
+  void write_fourteen_bytes() {
+    const char* const text = "0123456789ABCD";
+    client.download_bytes(4, 0x2000, 1, reinterpret_cast<const std::uint8_t*>(text), 14, 0);
+    expect("604 21 00 20 01 0E 00 00 00");
+    answer("584 60 00 20 01 00 00 00 00");
+    expect("604 00 30 31 32 33 34 35 36");
+    answer("584 20 00 00 00 00 00 00 00");
+    expect("604 11 37 38 39 41 42 43 44");
+  }
   static CanFrame frame_of(const char* text) {
     CanFrame frame;
     unsigned id = 0, b[8] = {};

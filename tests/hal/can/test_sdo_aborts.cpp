@@ -41,8 +41,7 @@ void silence_ends_a_transfer_with_an_abort(void**) {
 
 void every_answer_has_its_own_time(void**) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.now_ns = 400 * SdoBench::kMs_ns;
   bench.answer("582 41 08 10 00 03 00 00 00");
   bench.expect("602 60 00 00 00 00 00 00 00");
@@ -54,8 +53,7 @@ void every_answer_has_its_own_time(void**) {
 void the_whole_transfer_has_a_time_too(void**) {
   SdoBench bench;
   bench.client.set_times({500 * SdoBench::kMs_ns, 1000 * SdoBench::kMs_ns});
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer("582 40 08 10 00 00 00 00 00");
   for (int i = 0; i < 9; ++i) {  // segments without data, which would never end
     bench.now_ns += 100 * SdoBench::kMs_ns;
@@ -80,8 +78,7 @@ struct Refusal {
 };
 void assert_refused(const Refusal& row) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer(row.first);
   if (row.second != nullptr) {
     bench.expect("602 60 00 00 00 00 00 00 00");
@@ -117,39 +114,27 @@ void an_answer_that_breaks_the_protocol_is_aborted(void**) {
 
 void an_object_longer_than_the_buffer_is_aborted(void**) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer("582 40 08 10 00 00 00 00 00");
-  for (int i = 0; i < 19; ++i) {
-    bench.expect(i % 2 == 0 ? "602 60 00 00 00 00 00 00 00" : "602 70 00 00 00 00 00 00 00");
-    bench.answer(i % 2 == 0 ? "582 00 31 32 33 34 35 36 37" : "582 10 31 32 33 34 35 36 37");
-  }
+  bench.take_segments(19);
   bench.expect("602 80 08 10 00 05 00 04 05");
   bench.assert_progress(Progress::kAborted);
 }
 
 void answers_to_a_write_are_checked_likewise(void**) {
   SdoBench bench;
-  bench.client.download(1, 0x6060, 0, 10, 1, 0);
-  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  bench.write_mode();
   bench.answer("581 40 60 60 00 00 00 00 00");
   bench.expect("601 80 60 60 00 01 00 04 05");
   bench.assert_progress(Progress::kAborted);
-  bench.client.download(1, 0x6060, 0, 10, 1, 0);
-  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  bench.write_mode();
   bench.answer("581 43 60 60 00 00 00 00 00");
   bench.expect("601 80 60 60 00 01 00 04 05");
 }
 
 void acknowledged_segments_must_alternate(void**) {
   SdoBench bench;
-  bench.client.download_bytes(4, 0x2000, 1, reinterpret_cast<const std::uint8_t*>("0123456789ABCD"),
-                              14, 0);
-  bench.expect("604 21 00 20 01 0E 00 00 00");
-  bench.answer("584 60 00 20 01 00 00 00 00");
-  bench.expect("604 00 30 31 32 33 34 35 36");
-  bench.answer("584 20 00 00 00 00 00 00 00");
-  bench.expect("604 11 37 38 39 41 42 43 44");
+  bench.write_fourteen_bytes();
   bench.answer("584 20 00 00 00 00 00 00 00");
   bench.expect("604 80 00 20 01 00 00 03 05");
   bench.assert_aborted(
@@ -168,8 +153,7 @@ void what_does_not_fit_is_not_written(void**) {
 
 void a_transfer_that_is_given_up_is_aborted_before_the_next_begins(void**) {
   SdoBench bench;
-  bench.client.upload(1, 0x1000, 0, 0);
-  bench.expect("601 40 00 10 00 00 00 00 00");
+  bench.ask_type();
   bench.client.upload(2, 0x1008, 0, 0);
   bench.expect("601 80 00 10 00 00 00 00 08");
   bench.expect("602 40 08 10 00 00 00 00 00");
@@ -184,8 +168,7 @@ void answers_on_other_objects_are_ignored_until_the_time_is_over_which_names_the
                                      "581 00 54 69 6E 79 20 4E 6F", "581 20 00 00 00 00 00 00 00",
                                      "581 80 60 60 00 00 00 02 06"};
   SdoBench bench;
-  bench.client.upload(1, 0x1000, 0, 0);
-  bench.expect("601 40 00 10 00 00 00 00 00");
+  bench.ask_type();
   for (const char* other : kOthers) bench.answer(other);
   bench.assert_progress(Progress::kBusy);
   bench.expect_silence();

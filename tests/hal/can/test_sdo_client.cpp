@@ -10,8 +10,7 @@ namespace {
 // A trace of other implementations: master and slave of python-canopen.
 void reading_the_device_type_is_the_known_trace(void**) {
   SdoBench bench;
-  bench.client.upload(1, 0x1000, 0, 0);
-  bench.expect("601 40 00 10 00 00 00 00 00");
+  bench.ask_type();
   bench.expect_silence();
   bench.assert_progress(Progress::kBusy);
   bench.answer("581 43 00 10 00 92 01 02 00");
@@ -23,8 +22,7 @@ void reading_the_device_type_is_the_known_trace(void**) {
 
 void writing_the_mode_is_the_known_trace(void**) {
   SdoBench bench;
-  bench.client.download(1, 0x6060, 0, 10, 1, 0);
-  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  bench.write_mode();
   bench.answer("581 60 60 60 00 00 00 00 00");
   bench.assert_progress(Progress::kDone);
 }
@@ -78,8 +76,7 @@ void bytes_of_an_earlier_object_are_forgotten(void**) {
 
 void a_text_is_read_in_segments(void**) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer("582 41 08 10 00 10 00 00 00");
   bench.expect("602 60 00 00 00 00 00 00 00");
   bench.answer("582 00 54 69 6E 79 20 4E 6F");
@@ -95,8 +92,7 @@ void a_text_is_read_in_segments(void**) {
 
 void a_text_is_read_without_its_size_too(void**) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer("582 40 08 10 00 00 00 00 00");
   bench.expect("602 60 00 00 00 00 00 00 00");
   bench.answer("582 09 41 42 43 00 00 00 00");
@@ -124,13 +120,7 @@ void more_than_four_bytes_are_written_in_segments(void**) {
 
 void fourteen_bytes_are_two_whole_segments(void**) {
   SdoBench bench;
-  bench.client.download_bytes(4, 0x2000, 1, reinterpret_cast<const std::uint8_t*>("0123456789ABCD"),
-                              14, 0);
-  bench.expect("604 21 00 20 01 0E 00 00 00");
-  bench.answer("584 60 00 20 01 00 00 00 00");
-  bench.expect("604 00 30 31 32 33 34 35 36");
-  bench.answer("584 20 00 00 00 00 00 00 00");
-  bench.expect("604 11 37 38 39 41 42 43 44");
+  bench.write_fourteen_bytes();
   bench.answer("584 30 00 00 00 00 00 00 00");
   bench.assert_progress(Progress::kDone);
 }
@@ -147,13 +137,9 @@ void an_empty_text_is_written_as_one_empty_segment(void**) {
 
 void an_object_as_long_as_the_buffer_is_read(void**) {
   SdoBench bench;
-  bench.client.upload(2, 0x1008, 0, 0);
-  bench.expect("602 40 08 10 00 00 00 00 00");
+  bench.ask_name();
   bench.answer("582 41 08 10 00 80 00 00 00");
-  for (int i = 0; i < 18; ++i) {
-    bench.expect(i % 2 == 0 ? "602 60 00 00 00 00 00 00 00" : "602 70 00 00 00 00 00 00 00");
-    bench.answer(i % 2 == 0 ? "582 00 31 32 33 34 35 36 37" : "582 10 31 32 33 34 35 36 37");
-  }
+  bench.take_segments(18);
   bench.expect("602 60 00 00 00 00 00 00 00");
   bench.answer("582 0B 38 39 00 00 00 00 00");
   bench.assert_progress(Progress::kDone);
@@ -184,12 +170,10 @@ void frames_that_are_not_for_the_client_are_ignored(void**) {
 /// A frame whose end one node did not see as the others did is sent again (ISO 11898-1).
 void an_answer_that_the_bus_repeats_belongs_to_no_later_transfer(void**) {
   SdoBench bench;
-  bench.client.upload(1, 0x1000, 0, 0);
-  bench.expect("601 40 00 10 00 00 00 00 00");
+  bench.ask_type();
   bench.answer("581 43 00 10 00 92 01 02 00");
   bench.assert_progress(Progress::kDone);
-  bench.client.download(1, 0x6060, 0, 10, 1, 0);
-  bench.expect("601 2F 60 60 00 0A 00 00 00");
+  bench.write_mode();
   bench.answer("581 43 00 10 00 92 01 02 00");
   bench.assert_progress(Progress::kBusy);
   bench.answer("581 60 60 60 00 00 00 00 00");

@@ -100,4 +100,20 @@ struct LoopBench : LoopRig {
   }
 };
 
+/// A start tells the serial numbers of the drives as a line for the file; none if the file has
+/// them.
+template <class Fresh>
+void assert_serials_are_told_until_stated(Fresh fresh) {
+  auto& bench = fresh();
+  ASSERT_OK(bench.load());
+  ASSERT_OK(bench.start());
+  assert_string_equal(bench.hal.master.unstated().c_str(),
+                      "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
+  auto& stated = fresh();
+  stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
+  ASSERT_OK(stated.load());
+  ASSERT_OK(stated.start());
+  assert_true(stated.hal.master.unstated().empty());
+}
+
 }  // namespace tactus::cia402

@@ -142,4 +142,14 @@ struct SegmentBench {
   }
 };
 
+/// A bench with this many slaves; there is one at a time.
+inline SegmentBench& fresh_segment(int slaves = kDof) {
+  static SegmentBench bench;
+  bench.settings = {};
+  bench.settings.slaves = slaves;
+  bench.now_ns = 0;
+  bench.load();
+  return bench;
+}
+
 }  // namespace tactus::segment

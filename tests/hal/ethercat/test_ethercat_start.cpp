@@ -197,16 +197,7 @@ void a_wrong_drive_is_named_with_what_it_says(void**) {
 }
 
 void the_serial_numbers_of_a_segment_are_told_until_the_file_has_them(void**) {
-  MasterBench& bench = fresh_bench();
-  ASSERT_OK(bench.load());
-  ASSERT_OK(bench.start());
-  assert_string_equal(bench.hal.master.unstated().c_str(),
-                      "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
-  MasterBench& stated = fresh_bench();
-  stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
-  ASSERT_OK(stated.load());
-  ASSERT_OK(stated.start());
-  assert_true(stated.hal.master.unstated().empty());
+  cia402::assert_serials_are_told_until_stated([]() -> MasterBench& { return fresh_bench(); });
 }
 
 void an_eeprom_that_cannot_be_read_is_refused_with_the_reason(void**) {

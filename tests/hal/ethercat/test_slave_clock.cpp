@@ -4,19 +4,10 @@
 namespace tactus::segment {
 namespace {
 
-SegmentBench& fresh(int slaves = kDof) {
-  static SegmentBench bench;
-  bench.settings = {};
-  bench.settings.slaves = slaves;
-  bench.now_ns = 0;
-  bench.load();
-  return bench;
-}
-
 // Proves ECAT-2.
 /// Masters ask in two ways: 6 bytes at 0502h and the data apart, or 4 bytes and all together.
 void the_eeprom_is_read_in_both_usual_ways(void**) {
-  SegmentBench& bench = fresh(3);
+  SegmentBench& bench = fresh_segment(3);
   bench.give_stations();
   std::uint8_t request[6] = {};
   put<std::uint16_t>(request, kEepromRead);
@@ -48,7 +39,7 @@ void the_checksum_of_the_eeprom_is_right(void**) {
 }
 
 void clocks_follow_the_reference_clock(void**) {
-  SegmentBench& bench = fresh(3);
+  SegmentBench& bench = fresh_segment(3);
   bench.settings.drift_ppb = 50'000;
   bench.load();
   bench.give_stations();

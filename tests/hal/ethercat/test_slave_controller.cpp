@@ -4,18 +4,9 @@
 namespace tactus::segment {
 namespace {
 
-SegmentBench& fresh(int slaves = kDof) {
-  static SegmentBench bench;
-  bench.settings = {};
-  bench.settings.slaves = slaves;
-  bench.now_ns = 0;
-  bench.load();
-  return bench;
-}
-
 // Proves ECAT-2.
 void a_broadcast_counts_the_slaves_and_joins_what_they_read(void**) {
-  SegmentBench& bench = fresh(5);
+  SegmentBench& bench = fresh_segment(5);
   assert_int_equal(bench.send(Command::kBrd, 0, nullptr, 1), 5);
   assert_int_equal(bench.data[0], 0x11);
   assert_int_equal(bench.position, 5);
@@ -25,7 +16,7 @@ void a_broadcast_counts_the_slaves_and_joins_what_they_read(void**) {
 }
 
 void a_position_addresses_one_slave_and_is_counted_up_by_all(void**) {
-  SegmentBench& bench = fresh();
+  SegmentBench& bench = fresh_segment();
   bench.give_stations();
   for (int i = 0; i < kDof; ++i) {
     assert_int_equal(
@@ -40,7 +31,7 @@ void a_position_addresses_one_slave_and_is_counted_up_by_all(void**) {
 }
 
 void reading_and_writing_counts_three(void**) {
-  SegmentBench& bench = fresh();
+  SegmentBench& bench = fresh_segment();
   bench.give_stations();
   const std::uint16_t value = 0x1234;
   const std::uint32_t at = address_of(0x1002, kRam + 0x800);
@@ -51,7 +42,7 @@ void reading_and_writing_counts_three(void**) {
 }
 
 void one_slave_reads_and_the_others_write(void**) {
-  SegmentBench& bench = fresh();
+  SegmentBench& bench = fresh_segment();
   bench.give_stations();
   assert_int_equal(bench.write<std::uint16_t>(2, kRam + 0x800, 77), 1);
   assert_int_equal(bench.send(Command::kFrmw, address_of(0x1003, kRam + 0x800), nullptr, 2), kDof);
@@ -63,7 +54,7 @@ void one_slave_reads_and_the_others_write(void**) {
 }
 
 void registers_of_the_controller_are_not_written(void**) {
-  SegmentBench& bench = fresh();
+  SegmentBench& bench = fresh_segment();
   bench.give_stations();
   bench.write<std::uint8_t>(0, 0x0000, 0x99);
   bench.write<std::uint16_t>(0, kAlStatusReg, 0x0008);
@@ -75,7 +66,7 @@ void registers_of_the_controller_are_not_written(void**) {
 }
 
 void a_mailbox_takes_one_message_at_a_time_and_only_in_its_direction(void**) {
-  SegmentBench& bench = fresh(1);
+  SegmentBench& bench = fresh_segment(1);
   bench.give_stations();
   bench.write_sm(0, 0, 0x1000, 16, kMailboxOutControl);
   std::uint8_t message[16] = {};
@@ -100,7 +91,7 @@ void a_mailbox_takes_one_message_at_a_time_and_only_in_its_direction(void**) {
 }
 
 void an_enabled_sync_manager_keeps_its_place(void**) {
-  SegmentBench& bench = fresh(1);
+  SegmentBench& bench = fresh_segment(1);
   bench.give_stations();
   bench.write_sm(0, 2, 0x1200, 8, kOutputsControl);
   bench.write<std::uint16_t>(0, kSmReg + 16, 0x1500);
@@ -110,7 +101,7 @@ void an_enabled_sync_manager_keeps_its_place(void**) {
 
 /// The image of two slaves, each with 2 bytes of outputs and 4 of inputs.
 SegmentBench& mapped() {
-  SegmentBench& bench = fresh(2);
+  SegmentBench& bench = fresh_segment(2);
   bench.give_stations();
   for (int i = 0; i < 2; ++i) {
     bench.write_fmmu(i, 0, 0x10000U + 2U * static_cast<unsigned>(i), 2, 0x1800, kFmmuWrite);
@@ -148,7 +139,7 @@ void inputs_of_a_missing_slave_are_the_bytes_that_were_sent(void**) {
 }
 
 void overlapping_areas_write_what_was_received(void**) {
-  SegmentBench& bench = fresh(1);
+  SegmentBench& bench = fresh_segment(1);
   bench.give_stations();
   bench.write_fmmu(0, 0, 0x100, 2, 0x1800, kFmmuRead);
   bench.write_fmmu(0, 1, 0x100, 2, 0x1900, kFmmuWrite);
@@ -161,7 +152,7 @@ void overlapping_areas_write_what_was_received(void**) {
 }
 
 void a_bit_of_a_register_is_mapped(void**) {
-  SegmentBench& bench = fresh(1);
+  SegmentBench& bench = fresh_segment(1);
   bench.give_stations();
   bench.write_sm(0, 0, 0x1000, 8, kMailboxOutControl);
   std::uint8_t fmmu[kFmmuBytes] = {};

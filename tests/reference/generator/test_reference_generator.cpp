@@ -9,9 +9,6 @@ using namespace tactus;
 constexpr Fields kCubic = kVelocityField;
 constexpr Fields kQuintic = kVelocityField | kAccelerationField;
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 // Proves EXE-2.
 
 void the_first_reference_is_the_measured_position_at_rest(void**) {

@@ -11,9 +11,6 @@ using namespace tactus;
 constexpr Fields kQuintic = kVelocityField | kAccelerationField;
 constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 /// Steps at a constant scaling until the trajectory has ended; returns the number of cycles.
 int cycles_until_success(ReferenceBench& bench, std::uint32_t id, double scaling) {
   int cycles = 0;

@@ -10,9 +10,6 @@ using namespace tactus;
 constexpr Fields kCubic = kVelocityField, kQuintic = kVelocityField | kAccelerationField;
 constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 /// Sends a quintic from rest by `offset` in two seconds that begins at `start_s`.
 std::uint32_t go_at(ReferenceBench& bench, double start_s, double offset, bool joinable = true) {
   Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);

@@ -13,9 +13,6 @@ namespace {
 
 constexpr Fields kQuintic = kVelocityField | kAccelerationField;
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 /// From home to 0.3 rad beside it in two seconds.
 Trajectory<JointSpace>* motion(ReferenceBench& bench) {
   Trajectory<JointSpace>* motion = bench.trajectory(kQuintic);

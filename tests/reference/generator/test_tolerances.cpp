@@ -9,9 +9,6 @@
 namespace tactus {
 namespace {
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 /// Sends a goal of 0.2 rad in one second on a bench with these tolerances.
 std::uint32_t begin(ReferenceBench& bench, const Tolerances<JointSpace>& tolerances) {
   bench.params.tolerances = tolerances;

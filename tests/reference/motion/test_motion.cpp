@@ -12,9 +12,6 @@ using namespace tactus;
 constexpr Fields kQuintic = kVelocityField | kAccelerationField;
 constexpr double kPeriod_s = ReferenceBench::kPeriod_s;
 
-#define ASSERT_OUTCOME(report, expected) \
-  assert_int_equal(static_cast<int>((report).outcome), static_cast<int>(expected))
-
 /// Asserts that the reference is on its path: all joints move by the same offset from home.
 void assert_on_path(const ReferenceBench& bench) {
   for (int j = 1; j < kDof; ++j)

@@ -30,6 +30,15 @@ void append_quick_part(CheckedJoints& bench, const Trajectory<JointSpace>& motio
   }
 }
 
+/// Lets the arm begin the slow part, asks for a stop, and appends the quick part on the way to it.
+void grow_while_slowing(CheckedJoints& bench) {
+  Trajectory<JointSpace>* motion = send_slow_start(bench);
+  bench.run(0.05);
+  static_cast<void>(bench.set_override(0.0));
+  bench.run(0.006);
+  append_quick_part(bench, *motion);
+}
+
 /// Asserts that the reference is on the part that was sent first, between its ends.
 void assert_on_slow_part(const CheckedJoints& bench) {
   const JointVector way = bench.out().q - bench.home.q;
@@ -42,11 +51,7 @@ void assert_on_slow_part(const CheckedJoints& bench) {
 
 void a_stop_while_the_path_grows_stays_on_the_path(void**) {
   static CheckedJoints bench;
-  Trajectory<JointSpace>* motion = send_slow_start(bench);
-  bench.run(0.05);
-  static_cast<void>(bench.set_override(0.0));
-  bench.run(0.006);
-  append_quick_part(bench, *motion);
+  grow_while_slowing(bench);
   static_cast<void>(bench.set_override(0.0));
   for (int k = 0; k < 2000; ++k) {
     bench.cycle();
@@ -57,11 +62,7 @@ void a_stop_while_the_path_grows_stays_on_the_path(void**) {
 
 void the_executives_brake_while_the_path_grows_stays_on_the_path(void**) {
   static CheckedJoints bench;
-  Trajectory<JointSpace>* motion = send_slow_start(bench);
-  bench.run(0.05);
-  static_cast<void>(bench.set_override(0.0));
-  bench.run(0.006);
-  append_quick_part(bench, *motion);
+  grow_while_slowing(bench);
   bench.run(0.001);
   for (int k = 0; k < 2000; ++k) {
     bench.brake(Status::kCollision);

@@ -58,6 +58,15 @@ class DrivesBench {
     }
   }
 
+  /// Makes the nodes of the first bus operational.
+  void start() { send(0x000, {0x01, 0x00}); }
+  /// Passes a millisecond with a SYNC on the first bus at its end.
+  void sync_cycle() {
+    now_ns += 1'000'000;
+    send(0x080, {});
+    arm.advance(now_ns);
+  }
+
   void send(unsigned id, std::initializer_list<unsigned> bytes, std::size_t bus = 0) {
     arm.receive(bus, make_frame(id, bytes), now_ns);
   }
@@ -216,6 +225,12 @@ inline DrivesBench& fresh(const DriveArmSettings& settings = one_bus()) {
   bench.~DrivesBench();
   new (&bench) DrivesBench;
   bench.load(settings);
+  return bench;
+}
+/// The same, and the drives have booted.
+inline DrivesBench& booted(const DriveArmSettings& settings = one_bus()) {
+  DrivesBench& bench = fresh(settings);
+  bench.boot();
   return bench;
 }
 

@@ -4,21 +4,6 @@
 namespace tactus::drives {
 namespace {
 
-DrivesBench& booted(const DriveArmSettings& settings = one_bus()) {
-  DrivesBench& bench = fresh(settings);
-  bench.boot();
-  return bench;
-}
-void start(DrivesBench& bench) {
-  bench.send(0x000, {0x01, 0x00});
-}
-/// Passes a millisecond with a SYNC at its end.
-void cycle(DrivesBench& bench) {
-  bench.now_ns += 1'000'000;
-  bench.send(0x080, {});
-  bench.arm.advance(bench.now_ns);
-}
-
 // Proves DRV-1.
 void a_mapping_is_refused_with_the_code_of_the_standard(void**) {
   struct Row {
@@ -58,7 +43,7 @@ void a_pdo_changes_only_while_it_is_invalid_and_not_in_operation(void**) {
   assert_int_equal(bench.write(1, 0x1800, 3, 10, 2), 0x08000022);
   bench.put(1, 0x1400, 1, 0x80000222LL, 4);
   bench.put(1, 0x1600, 0, 0, 1);
-  start(bench);
+  bench.start();
   assert_int_equal(bench.write(1, 0x1600, 0, 1, 1), 0x08000022);
   assert_int_equal(bench.write(1, 0x1400, 1, 0x222, 4), 0x08000022);
   bench.send(0x000, {0x80, 0x00});
@@ -83,9 +68,9 @@ void a_broadcast_command_is_shared_with_dummies(void**) {
   bench.map(1, 0x1401, 0x220, 1, {0x60710010, 0x00070020, 0x00060010});
   bench.map(2, 0x1401, 0x220, 1, {0x00060010, 0x60710010, 0x00070020});
   bench.map(3, 0x1401, 0x220, 1, {0x00070020, 0x60710010, 0x00060010});
-  start(bench);
+  bench.start();
   bench.send(0x220, {0x11, 0x01, 0x22, 0x02, 0x33, 0x03, 0x44, 0x04});
-  cycle(bench);
+  bench.sync_cycle();
   assert_int_equal(bench.get(1, 0x6071, 0), 0x0111);
   assert_int_equal(bench.get(2, 0x6071, 0), 0x0222);
   assert_int_equal(bench.get(3, 0x6071, 0), 0x0333);
@@ -101,12 +86,12 @@ void can_fd_carries_long_pdos(void**) {
   bench.map(2, 0x1400, 0x200, 1,
             {0x00070020, 0x60400010, 0x60710010, 0x00070020, 0x00070020, 0x00070020, 0x00070020,
              0x00070020});
-  start(bench);
+  bench.start();
   can::CanFrame command = make_frame(0x200, {0, 0, 0, 0, 0x06, 0x00, 0x39, 0x05});
   command.fd = true;
   command.size = 32;
   bench.arm.receive(0, command, bench.now_ns);
-  cycle(bench);
+  bench.sync_cycle();
   assert_true(bench.take(0x181));
   assert_int_equal(bench.frame.size, 12);
   assert_true(bench.frame.fd);

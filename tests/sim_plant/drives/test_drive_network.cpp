@@ -4,12 +4,6 @@
 namespace tactus::drives {
 namespace {
 
-DrivesBench& booted() {
-  DrivesBench& bench = fresh();
-  bench.boot();
-  return bench;
-}
-
 // Proves DRV-3.
 void a_drive_says_boot_up_and_is_pre_operational(void**) {
   DrivesBench& bench = fresh();

@@ -4,32 +4,17 @@
 namespace tactus::drives {
 namespace {
 
-DrivesBench& booted() {
-  DrivesBench& bench = fresh();
-  bench.boot();
-  return bench;
-}
-void start(DrivesBench& bench) {
-  bench.send(0x000, {0x01, 0x00});
-}
-/// Passes a millisecond with a SYNC at its end.
-void cycle(DrivesBench& bench) {
-  bench.now_ns += 1'000'000;
-  bench.send(0x080, {});
-  bench.arm.advance(bench.now_ns);
-}
-
 // Proves DRV-4.
 void synchronous_commands_act_at_sync_and_others_at_once(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1400, 0x201, 1, {0x60400010});
   bench.map(2, 0x1400, 0x202, 255, {0x60400010});
-  start(bench);
+  bench.start();
   bench.send(0x201, {0x06, 0x00});
   bench.send(0x202, {0x06, 0x00});
   assert_int_equal(bench.get(1, 0x6041, 0), 0x0250);
   assert_int_equal(bench.get(2, 0x6041, 0), 0x0231);
-  cycle(bench);
+  bench.sync_cycle();
   assert_int_equal(bench.get(1, 0x6041, 0), 0x0231);
 }
 
@@ -38,7 +23,7 @@ void there_are_no_pdos_outside_operation(void**) {
   bench.map(1, 0x1400, 0x201, 255, {0x60400010});
   bench.map(1, 0x1800, 0x181, 1, {0x60410010});
   bench.send(0x201, {0x06, 0x00});
-  cycle(bench);
+  bench.sync_cycle();
   bench.expect_nothing(0x181);
   assert_int_equal(bench.get(1, 0x6041, 0), 0x0250);
 }
@@ -46,10 +31,10 @@ void there_are_no_pdos_outside_operation(void**) {
 void every_nth_sync_has_its_tpdo(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1800, 0x181, 3, {0x60410010});
-  start(bench);
+  bench.start();
   int count = 0;
   for (int i = 1; i <= 9; ++i) {
-    cycle(bench);
+    bench.sync_cycle();
     while (bench.take(0x181)) ++count;
     assert_int_equal(count, i / 3);
   }
@@ -58,14 +43,14 @@ void every_nth_sync_has_its_tpdo(void**) {
 void a_tpdo_of_type_0_is_sent_at_sync_after_a_change(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1800, 0x181, 0, {0x60410010});
-  start(bench);
-  cycle(bench);
+  bench.start();
+  bench.sync_cycle();
   bench.expect(0x181, {0x50, 0x02});
-  cycle(bench);
+  bench.sync_cycle();
   bench.expect_nothing(0x181);
   bench.put(1, 0x6040, 0, 6, 2);
   bench.expect_nothing(0x181);
-  cycle(bench);
+  bench.sync_cycle();
   bench.expect(0x181, {0x31, 0x02});
 }
 
@@ -75,7 +60,7 @@ void an_event_is_sent_on_change_not_within_the_inhibit_time(void**) {
   bench.put(1, 0x1800, 3, 100, 2);  // 10 ms
   bench.put(1, 0x1800, 5, 50, 2);
   bench.put(1, 0x1800, 1, 0x181, 4);
-  start(bench);
+  bench.start();
   bench.run_ms(1);
   bench.expect(0x181, {0x50, 0x02});
   bench.put(1, 0x6040, 0, 6, 2);
@@ -94,7 +79,7 @@ void a_tpdo_answers_a_remote_request_where_it_is_allowed(void**) {
   bench.map(1, 0x1800, 0x181, 253, {0x60410010});
   bench.map(2, 0x1800, 0x182, 253, {0x60410010});
   bench.put(2, 0x1800, 1, 0x40000182, 4);
-  start(bench);
+  bench.start();
   for (const unsigned id : {0x181U, 0x182U}) {
     can::CanFrame request = make_frame(id, {});
     request.remote = true;
@@ -107,7 +92,7 @@ void a_tpdo_answers_a_remote_request_where_it_is_allowed(void**) {
 void a_command_that_is_too_short_is_ignored_and_one_too_long_is_taken(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1400, 0x201, 255, {0x60400010, 0x60710010});
-  start(bench);
+  bench.start();
   bench.send(0x201, {0x06, 0x00, 0x01});
   bench.expect(0x081, {0x10, 0x82, 0x11, 0, 0, 0, 0, 0});
   assert_int_equal(bench.get(1, 0x6041, 0), 0x02D0);  // with a warning
@@ -124,7 +109,7 @@ void a_command_that_stays_away_is_a_fault(void**) {
   DrivesBench& bench = booted();
   bench.map(1, 0x1400, 0x201, 255, {0x60400010});
   bench.put(1, 0x1400, 5, 20, 2);
-  start(bench);
+  bench.start();
   bench.run_ms(100);
   bench.expect_nothing(0x081);  // the first one begins the watch
   bench.send(0x201, {0x06, 0x00});
@@ -139,8 +124,8 @@ void a_sync_that_stays_away_is_a_fault(void**) {
   DrivesBench& bench = booted();
   bench.put(1, 0x1006, 0, 1000, 4);
   bench.put(1, 0x1007, 0, 3000, 4);
-  start(bench);
-  for (int i = 0; i < 5; ++i) cycle(bench);
+  bench.start();
+  for (int i = 0; i < 5; ++i) bench.sync_cycle();
   bench.run_ms(3);
   bench.expect_nothing(0x081);
   bench.run_ms(1);
@@ -154,7 +139,7 @@ void the_sync_counter_decides_when_a_tpdo_begins(void**) {
   bench.put(1, 0x1800, 1, 0x80000181LL, 4);
   bench.put(1, 0x1800, 6, 3, 1);
   bench.map(1, 0x1800, 0x181, 1, {0x60410010});
-  start(bench);
+  bench.start();
   for (unsigned counter = 1; counter <= 4; ++counter) {
     bench.send(0x080, {counter});
     if (counter < 3)

@@ -175,7 +175,7 @@ int main(int, char** argv) {
   // The program is two folders above that of this test.
   const char* name = std::strrchr(argv[0], '/');
   const int folder = name != nullptr ? static_cast<int>(name - argv[0]) : 0;
-  std::snprintf(g_program, sizeof g_program, "%.*s/../../fer_drives", folder, argv[0]);
+  std::snprintf(g_program, sizeof g_program, "%.*s/../../../fer_drives", folder, argv[0]);
   const CMUnitTest tests[] = {
       cmocka_unit_test(buses_and_nodes_are_read),
       cmocka_unit_test(a_wrong_command_line_is_refused),

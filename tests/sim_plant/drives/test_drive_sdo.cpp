@@ -4,12 +4,6 @@
 namespace tactus::drives {
 namespace {
 
-DrivesBench& booted() {
-  DrivesBench& bench = fresh();
-  bench.boot();
-  return bench;
-}
-
 // Proves DRV-1.
 void the_device_type_reads_as_in_the_worked_trace(void**) {
   DrivesBench& bench = booted();

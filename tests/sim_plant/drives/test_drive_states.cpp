@@ -6,9 +6,8 @@ namespace {
 
 constexpr unsigned kNode = 4;  // carries much gravity
 
-DrivesBench& booted() {
-  DrivesBench& bench = fresh();
-  bench.boot();
+DrivesBench& in_torque_mode() {
+  DrivesBench& bench = booted();
   bench.put(kNode, 0x6060, 0, 10, 1);
   return bench;
 }
@@ -50,7 +49,7 @@ void every_state_has_its_statusword(void**) {
   };
   for (const Row& row : {Row{"", kDisabled}, Row{"6", kReady}, Row{"67", kOn}, Row{"67F", kEnabled},
                          Row{"67Fq", kQuick}, Row{"f", kFaulty}}) {
-    DrivesBench& bench = booted();
+    DrivesBench& bench = in_torque_mode();
     bring(bench, row.way);
     assert_int_equal(status(bench), row.word);
   }
@@ -75,7 +74,7 @@ void every_command_leads_where_the_standard_says(void**) {
     const unsigned expected[] = {row.disable_voltage, row.quick_stop, row.shutdown,
                                  row.switch_on,       row.enable,     row.reset};
     for (int i = 0; i < 6; ++i) {
-      DrivesBench& bench = booted();
+      DrivesBench& bench = in_torque_mode();
       bring(bench, row.way);
       bench.put(kNode, 0x605A, 0, 6, 2);
       control(bench, words[i]);
@@ -87,7 +86,7 @@ void every_command_leads_where_the_standard_says(void**) {
 }
 
 void bits_that_do_not_matter_do_not_matter(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   control(bench, 0xFF5E);  // shutdown with every free bit set: x 1 1 0, and bit 7 clear
   assert_int_equal(status(bench), kReady);
   control(bench, 0x0087);  // switch on with fault reset set: no command
@@ -97,7 +96,7 @@ void bits_that_do_not_matter_do_not_matter(void**) {
 }
 
 void a_fault_is_reset_by_a_rising_edge_only(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   control(bench, 0x0080);
   trip(bench);
   control(bench, 0x0080);  // it has been set all the time
@@ -108,7 +107,7 @@ void a_fault_is_reset_by_a_rising_edge_only(void**) {
 }
 
 void the_mode_changes_only_while_operation_is_not_enabled(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   bring(bench, "67F");
   bench.put(kNode, 0x6060, 0, 9, 1);
   assert_int_equal(bench.get(kNode, 0x6061, 0), 10);
@@ -118,7 +117,7 @@ void the_mode_changes_only_while_operation_is_not_enabled(void**) {
 }
 
 void bit_12_and_the_brake_object_show_when_the_brake_is_open(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   bring(bench, "67F");
   bench.run_ms(148);
   assert_int_equal(bench.get(kNode, 0x6041, 0) & 0x1000, 0);
@@ -140,7 +139,7 @@ void every_option_of_a_stop_is_honoured(void**) {
         Row{0x605A, 5, 0x02, kQuick, kQuick}, Row{0x605A, 6, 0x02, kQuick, kQuick},
         Row{0x605B, 0, 0x06, kReady, kReady}, Row{0x605B, 1, 0x06, kEnabled, kReady},
         Row{0x605C, 0, 0x07, kOn, kOn}, Row{0x605C, 1, 0x07, kEnabled, kOn}}) {
-    DrivesBench& bench = booted();
+    DrivesBench& bench = in_torque_mode();
     bench.put(kNode, row.object, 0, row.option, 2);
     bring(bench, "67F");
     bench.run_ms(200);
@@ -154,7 +153,7 @@ void every_option_of_a_stop_is_honoured(void**) {
 }
 
 void a_stop_that_leads_out_can_be_taken_back(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   bring(bench, "67F");
   bench.run_ms(200);
   control(bench, 0x0007);
@@ -164,7 +163,7 @@ void a_stop_that_leads_out_can_be_taken_back(void**) {
 }
 
 void a_fault_in_motion_brakes_before_the_power_goes(void**) {
-  DrivesBench& bench = booted();
+  DrivesBench& bench = in_torque_mode();
   bring(bench, "67F");
   bench.run_ms(200);
   trip(bench);

@@ -57,8 +57,8 @@ void assert_refused(MasterBench& bench, int joint, Status expected) {
   heal(bench);
 }
 
-// Proves CAN-9.
-void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
+/// A fault at any step of any drive refuses the start and names the object; then the arm starts.
+void assert_every_step_refuses(FaultKind kind, std::uint32_t code, Status expected) {
   MasterBench& bench = fresh_bench();
   bench.hal.logs = true;
   ASSERT_OK(bench.load());
@@ -70,25 +70,21 @@ void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
       if (index == last || needs_lines(setup.step(i))) continue;
       last = index;
       bench.hal.log.clear();
-      refuse_object(bench, joint, FaultKind::kSdoAbort, index, kGeneralError);
-      assert_refused(bench, joint, Status::kRefusedByRobot);
+      refuse_object(bench, joint, kind, index, code);
+      assert_refused(bench, joint, expected);
       assert_true(says(bench, cia402::hex(index).c_str()));
     }
   }
   ASSERT_OK(bench.start());
 }
 
+// Proves CAN-9.
+void an_abort_of_any_step_refuses_the_start_and_names_the_object(void**) {
+  assert_every_step_refuses(FaultKind::kSdoAbort, kGeneralError, Status::kRefusedByRobot);
+}
+
 void the_serial_numbers_of_a_bus_are_told_until_the_file_has_them(void**) {
-  MasterBench& bench = fresh_bench();
-  ASSERT_OK(bench.load());
-  ASSERT_OK(bench.start());
-  assert_string_equal(bench.hal.master.unstated().c_str(),
-                      "[cia402] serial = 1001 1002 1003 1004 1005 1006 1007");
-  MasterBench& stated = fresh_bench();
-  stated.drive.serial << 1001, 1002, 1003, 1004, 1005, 1006, 1007;
-  ASSERT_OK(stated.load());
-  ASSERT_OK(stated.start());
-  assert_true(stated.hal.master.unstated().empty());
+  cia402::assert_serials_are_told_until_stated([]() -> MasterBench& { return fresh_bench(); });
 }
 
 int downloads(const std::vector<CanFrame>& log) {
@@ -120,23 +116,7 @@ void no_drive_is_written_to_before_all_have_said_who_they_are(void**) {
 }
 
 void a_drive_that_answers_no_request_is_a_time_out(void**) {
-  MasterBench& bench = fresh_bench();
-  bench.hal.logs = true;
-  ASSERT_OK(bench.load());
-  for (const int joint : kJoints) {
-    const NodeSetup setup = steps_of(bench, joint);
-    std::uint32_t last = 0;
-    for (int i = 0; i < setup.count(); ++i) {
-      const std::uint32_t index = setup.step(i).index;
-      if (index == last || needs_lines(setup.step(i))) continue;
-      last = index;
-      bench.hal.log.clear();
-      refuse_object(bench, joint, FaultKind::kSdoSilence, index, 0);
-      assert_refused(bench, joint, Status::kBusTimeout);
-      assert_true(says(bench, cia402::hex(index).c_str()));
-    }
-  }
-  ASSERT_OK(bench.start());
+  assert_every_step_refuses(FaultKind::kSdoSilence, 0, Status::kBusTimeout);
 }
 
 // Those that only add a time-out or a reaction: what a drive does without them is its own. Those of
