@@ -5,7 +5,7 @@ EXCEPTION := 108
 .PHONY: wcet-bound wcet-refute certificate certificate-host certificate-m7
 wcet-bound:                                   ## bound the cycle of the longest pipeline of BOARD, without running it
 	$(Q)$(MAKE) --no-print-directory ARCH=m7 wcet-images $(WCET_PIPELINES:%=build/wcet/%/bounds.json)
-build/wcet/%/bounds.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*) scripts/wcet_bound
+build/wcet/%/bounds.json: build/$(BOARD)-m7/wcet-%.elf $(wildcard scripts/wcet/*.* scripts/wcet/bound/*.*) scripts/wcet_bound
 	@mkdir -p $(@D)
 	$(Q)scripts/wcet_bound $< pipelines/$*.ini --out $@ --claims $(@D)/claims.json > $(@:.json=.txt)
 	@cat $(@:.json=.txt)

@@ -16,7 +16,7 @@ source line.
 
 import re
 
-from wcet.image import Unbounded
+from wcet.bound.image import Unbounded
 
 KINDS = {"loop": 3, "words": 2, "calls": 3, "reaches": 4, "targets": 3, "assume": 3}
 

@@ -3,7 +3,7 @@
 import pathlib
 import re
 
-from wcet.image import ROOT, Unbounded
+from wcet.bound.image import ROOT, Unbounded
 from wcet.kinds import kinds
 
 POSITIONS = 10  # that a collision check looks at: kCheckedPositions

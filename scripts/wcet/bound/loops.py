@@ -1,6 +1,6 @@
 """The loops of a graph: its strongly connected parts, and those that remain inside each without its head."""
 
-from wcet.image import Unbounded
+from wcet.bound.image import Unbounded
 
 
 class Loop:

@@ -5,7 +5,7 @@ import re
 import subprocess
 import tempfile
 
-from wcet.image import Unbounded
+from wcet.bound.image import Unbounded
 
 
 class Program:

@@ -3,8 +3,8 @@
 The branches of the loop say which loop of the source it is, by their lines.
 """
 
-from wcet.image import Unbounded, source_line
-from wcet.source_loops import Loop
+from wcet.bound.image import Unbounded, source_line
+from wcet.bound.source_loops import Loop
 
 REMEDY = "count it by a constant step to a constant end, or give it a LoopBound"
 

@@ -4,7 +4,7 @@ import re
 
 from capstone.arm import ARM_CC_AL, ARM_CC_INVALID, ARM_OP_IMM, ARM_OP_REG, ARM_REG_LR, ARM_REG_PC
 
-from wcet.image import Unbounded
+from wcet.bound.image import Unbounded
 
 CONDITION = "eq ne cs hs cc lo mi pl vs vc hi ls ge lt gt le".split()
 BRANCHES = {"b"} | {"b" + condition for condition in CONDITION}

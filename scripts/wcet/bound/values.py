@@ -5,7 +5,7 @@ that makes it: ("v", address, register) of an instruction, ("phi", head, name) o
 values, or of a loop that changes it. So two values with one base differ by a constant in every run.
 """
 
-from wcet import walk
+from wcet.bound import walk
 
 CORE = [*(f"r{n}" for n in range(9)), "sb", "sl", "fp", "ip", "lr"]
 LOST_IN_CALLS = ("r0", "r1", "r2", "r3", "ip", "lr")

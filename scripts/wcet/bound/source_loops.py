@@ -13,7 +13,7 @@ import functools
 import operator
 import re
 
-from wcet.image import ROOT, Unbounded
+from wcet.bound.image import ROOT, Unbounded
 
 INTEGER = r"(?:std::size_t|std::int32_t|std::uint32_t|int|Eigen::Index)"
 CONSTANT = re.compile(rf"constexpr\s+{INTEGER}\s+(k\w+)\s*=\s*([^;]+);")

@@ -5,7 +5,7 @@ way compares it with something that the loop does not change, and leaves the loo
 entered, the step and the comparison are read from the instructions alone, so no line of the source is believed.
 """
 
-from wcet import walk
+from wcet.bound import walk
 MOST_RUNS = 1 << 16
 SIGN = 1 << 31
 TESTS = walk.TESTS | {

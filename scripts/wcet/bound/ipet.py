@@ -7,13 +7,13 @@ Callees are bounded first. Code without a bound is an error that names the place
 
 import re
 
-from wcet import counters, walk
-from wcet.graph import Graph
-from wcet.image import Unbounded, source_line
-from wcet.loops import loops
-from wcet.program import Program
-from wcet.stated import Stated
-from wcet.values import Values
+from wcet.bound import counters, walk
+from wcet.bound.graph import Graph
+from wcet.bound.image import Unbounded, source_line
+from wcet.bound.loops import loops
+from wcet.bound.program import Program
+from wcet.bound.stated import Stated
+from wcet.bound.values import Values
 
 
 WORD = 4  # bytes

@@ -11,7 +11,7 @@ from elftools.elf.elffile import ELFFile
 
 from wcet.kinds import as_written
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 NOWHERE = 0xFFFFFFFF
 
 
