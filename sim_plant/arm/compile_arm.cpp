@@ -3,11 +3,36 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cstring>
+#include <string>
 
 #include "sim_plant/arm/robot_mjcf.hpp"
 
 namespace tactus {
 namespace {
+
+/// What every arm has around its bodies: the payload at the flange, and a motor for each joint.
+constexpr const char* kBegin = R"(
+<mujoco model="arm">
+  <compiler angle="degree" inertiafromgeom="false" balanceinertia="false"/>
+  <option timestep="0.001" gravity="0 0 -9.81" integrator="RK4">
+    <flag constraint="disable" contact="disable" energy="enable"/>
+  </option>
+  <size nuser_body="6" nuser_jnt="3"/>
+  <default><joint user="0 1 0"/></default>
+  <worldbody>
+)";
+constexpr const char* kPayload = R"(
+    <body name="payload"><inertial mass="0" pos="0 0 0" diaginertia="0 0 0"/></body>
+)";
+
+std::string arm_text() {
+  std::string text = std::string(kBegin) + robot_mjcf().bodies + kPayload;
+  for (int body = 0; body <= kDof; ++body) text += "</body>";  // the links and the flange
+  text += "</worldbody><actuator>";
+  for (int joint = 1; joint <= kDof; ++joint)
+    text += "<motor joint=\"joint" + std::to_string(joint) + "\"/>";
+  return text + "</actuator></mujoco>";
+}
 
 /// Replaces the unit inertia of each link by its published tensor. MuJoCo's attribute fullinertia
 /// is not used: version 2.2.2 ends its search for the principal axes so early that the tensor of
@@ -32,12 +57,12 @@ void set_inertia(mjModel* model, mjData* scratch) {
 }  // namespace
 
 mjModel* compile_arm() {
-  const char* text = robot_mjcf().text;
-  const int size = static_cast<int>(std::strlen(text));
+  const std::string text = arm_text();
+  const int size = static_cast<int>(text.size());
   static mjVFS files;  // 2 MB, too large for a stack
   mj_defaultVFS(&files);
   if (mj_makeEmptyFileVFS(&files, "arm.xml", size) != 0) return nullptr;
-  std::memcpy(files.filedata[0], text, static_cast<std::size_t>(size));
+  std::memcpy(files.filedata[0], text.data(), text.size());
   char error[256] = "";
   mjModel* model = mj_loadXML("arm.xml", &files, error, sizeof(error));
   mj_deleteVFS(&files);

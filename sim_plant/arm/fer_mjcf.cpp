@@ -24,14 +24,7 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kText = R"(
-<mujoco model="fer">
-  <compiler angle="degree" inertiafromgeom="false" balanceinertia="false"/>
-  <option timestep="0.001" gravity="0 0 -9.81" integrator="RK4">
-    <flag constraint="disable" contact="disable" energy="enable"/>
-  </option>
-  <size nuser_body="6" nuser_jnt="3"/>
-  <worldbody>
+constexpr const char* kBodies = R"(
     <body name="link1" pos="0 0 0.333"
           user="0.70337 0.70661 0.009117 -0.000139 0.006772 0.019169">
       <inertial mass="4.970684" pos="0.003875 0.002081 -0.04762" diaginertia="1 1 1"/>
@@ -61,20 +54,11 @@ constexpr const char* kText = R"(
       <inertial mass="0.735522" pos="0.010517 -0.004252 0.061597" diaginertia="1 1 1"/>
       <joint name="joint7" user="0.56489 10.336 0.0035526"/>
     <body name="flange" pos="0 0 0.107">
-    <body name="payload">
-      <inertial mass="0" pos="0 0 0" diaginertia="0 0 0"/>
-    </body></body></body></body></body></body></body></body></body>
-  </worldbody>
-  <actuator>
-    <motor joint="joint1"/> <motor joint="joint2"/> <motor joint="joint3"/> <motor joint="joint4"/>
-    <motor joint="joint5"/> <motor joint="joint6"/> <motor joint="joint7"/>
-  </actuator>
-</mujoco>
 )";
 
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr RobotMjcf kFer = {kText,
+constexpr RobotMjcf kFer = {kBodies,
                             // Elbow up, flange pointing down, away from every limit.
                             {0.0, -kPi / 4.0, 0.0, -3.0 * kPi / 4.0, 0.0, kPi / 2.0, kPi / 4.0},
                             0.0,

@@ -16,15 +16,7 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kText = R"(
-<mujoco model="gen3">
-  <compiler angle="degree" inertiafromgeom="false" balanceinertia="false"/>
-  <option timestep="0.001" gravity="0 0 -9.81" integrator="RK4">
-    <flag constraint="disable" contact="disable" energy="enable"/>
-  </option>
-  <size nuser_body="6" nuser_jnt="3"/>
-  <default><joint user="0 1 0"/></default>
-  <worldbody>
+constexpr const char* kBodies = R"(
     <body name="link1" pos="0 0 0.15643"
           user="0.00457 0.004831 0.001409 -1e-6 -2e-6 0.000448">
       <inertial mass="1.3773" pos="-2.3e-5 0.010364 0.07336" diaginertia="1 1 1"/>
@@ -54,21 +46,12 @@ constexpr const char* kText = R"(
       <inertial mass="0.364" pos="-9.3e-5 -0.000132 0.022905" diaginertia="1 1 1"/>
       <joint name="joint7" axis="0 0 -1"/>
     <body name="flange" pos="0 0 0.061525">
-    <body name="payload">
-      <inertial mass="0" pos="0 0 0" diaginertia="0 0 0"/>
-    </body></body></body></body></body></body></body></body></body>
-  </worldbody>
-  <actuator>
-    <motor joint="joint1"/> <motor joint="joint2"/> <motor joint="joint3"/> <motor joint="joint4"/>
-    <motor joint="joint5"/> <motor joint="joint6"/> <motor joint="joint7"/>
-  </actuator>
-</mujoco>
 )";
 
 constexpr double kPi = 3.14159265358979323846;
 
 constexpr RobotMjcf kGen3 = {
-    kText,
+    kBodies,
     // The manufacturer's home position: 0 15 180 -130 0 55 90 degrees.
     {0.0, kPi / 12.0, kPi, -13.0 * kPi / 18.0, 0.0, 11.0 * kPi / 36.0, kPi / 2.0},
     0.0,

@@ -10,9 +10,10 @@
 namespace tactus {
 
 struct RobotMjcf {
-  /// MJCF with the bodies and joints that compile_arm.hpp names. The tensor of a link is
-  /// user data of its body, the friction a, b, c user data of its joint.
-  const char* text;
+  /// MJCF of the bodies that compile_arm.hpp names, from link1 to flange, each with its joint and
+  /// none closed. The tensor of a link is user data of its body, the friction a, b, c user data of
+  /// its joint; a joint without it has none.
+  const char* bodies;
 
   std::array<double, kDof>
       ready_pose;  ///< joint positions at start unless a file gives others, rad

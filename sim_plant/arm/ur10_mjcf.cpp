@@ -24,15 +24,7 @@
 namespace tactus {
 namespace {
 
-constexpr const char* kText = R"(
-<mujoco model="ur10">
-  <compiler angle="degree" inertiafromgeom="false" balanceinertia="false"/>
-  <option timestep="0.001" gravity="0 0 -9.81" integrator="RK4">
-    <flag constraint="disable" contact="disable" energy="enable"/>
-  </option>
-  <size nuser_body="6" nuser_jnt="3"/>
-  <default><joint user="0 1 0"/></default>
-  <worldbody>
+constexpr const char* kBodies = R"(
     <body name="link1" pos="0 0 0.1273" euler="90 0 0"
           user="0.03408 0.03529 0.02156 0.00002 -0.00425 0.00008">
       <inertial mass="7.1" pos="0.021 0 0.027" diaginertia="1 1 1"/>
@@ -58,19 +50,10 @@ constexpr const char* kText = R"(
       <inertial mass="0.365" pos="0 0 -0.026" diaginertia="1 1 1"/>
       <joint name="joint6" pos="0 0 -0.0922" axis="0 0 1"/>
     <body name="flange">
-    <body name="payload">
-      <inertial mass="0" pos="0 0 0" diaginertia="0 0 0"/>
-    </body></body></body></body></body></body></body></body>
-  </worldbody>
-  <actuator>
-    <motor joint="joint1"/> <motor joint="joint2"/> <motor joint="joint3"/>
-    <motor joint="joint4"/> <motor joint="joint5"/> <motor joint="joint6"/>
-  </actuator>
-</mujoco>
 )";
 
 constexpr RobotMjcf kUr10 = {
-    kText,
+    kBodies,
     // Where the paper's UR10 pipelines begin: upper arm nearly upright, flange in front.
     {0.0, -1.67, 1.87, 2.94, -1.57, 0.0},
     3.14159265358979323846,
