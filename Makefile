@@ -114,7 +114,7 @@ KERNEL   := $(filter-out $(if $(BARE),$(if $(LIBCCD),,kernel/guard/convex%)),$(w
 # What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
 GATEWAY  := $(wildcard gateway/*.cpp $(addsuffix /*.cpp,$(addprefix gateway/,trajectory trajectory/smoothing page server sockets)))
-PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/session program/results program/reach hal/os)) $(GATEWAY) $(PARTS)
+PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/host program/session program/results program/reach hal/os)) $(GATEWAY) $(PARTS)
 ORACLES  := $(call of_robot,tests/oracles/*.cpp)
 # The tests of threads take the kernel and the frames of references, no more.
 ifeq ($(SANITIZE),thread)

@@ -6,7 +6,7 @@
 
 #include "gateway/verdict_text.hpp"
 #include "program/board_memory.hpp"
-#include "program/doctor.hpp"
+#include "program/host/doctor.hpp"
 #include "program/ports.hpp"
 #include "program/results/run_folder.hpp"
 #include "program/session/files.hpp"

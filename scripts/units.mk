@@ -13,7 +13,7 @@ SOURCES_reference := $(call in_folders,kernel/reference/space kernel/reference/m
 SOURCES_gateway   := $(call in_folders,gateway gateway/trajectory gateway/trajectory/smoothing gateway/sockets)
 SOURCES_server    := $(call in_folders,gateway/server gateway/page)
 # A program whose malloc is that of heap_count.cpp takes its object, which is therefore its own.
-SOURCES_program   := $(filter-out program/heap_count.cpp,$(call in_folders,program program/session program/results hal/os))
+SOURCES_program   := $(filter-out program/heap_count.cpp,$(call in_folders,program program/host program/session program/results hal/os))
 SOURCES_reach     := $(call in_folders,program/reach)
 SOURCES_arm       := $(call in_folders,sim_plant/arm)
 SOURCES_pil       := $(call in_folders,program/pil)

@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-#include "program/cyclictest.hpp"
+#include "program/host/cyclictest.hpp"
 #include "tests/program/program_bench.hpp"
 
 namespace tactus {

@@ -1,4 +1,4 @@
-#include "program/load_generator.hpp"
+#include "program/host/load_generator.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -12,7 +12,7 @@
 #include <ctime>
 #include <initializer_list>
 
-#include "program/shell.hpp"
+#include "program/host/shell.hpp"
 
 namespace tactus {
 namespace {

@@ -1,4 +1,4 @@
-#include "program/doctor.hpp"
+#include "program/host/doctor.hpp"
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include "program/cyclictest.hpp"
+#include "program/host/cyclictest.hpp"
 
 #include <sys/wait.h>
 
@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "hal/os/small_file.hpp"
-#include "program/shell.hpp"
+#include "program/host/shell.hpp"
 
 namespace tactus {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "gateway/verdict_text.hpp"
 #include "hal/os/cycle_clock.hpp"
-#include "program/cyclictest.hpp"
-#include "program/doctor.hpp"
-#include "program/load_generator.hpp"
+#include "program/host/cyclictest.hpp"
+#include "program/host/doctor.hpp"
+#include "program/host/load_generator.hpp"
 #include "program/results/realtime_result.hpp"
 
 namespace tactus {
