@@ -1,4 +1,4 @@
-# Every parser under libFuzzer: docs/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
+# Every parser under libFuzzer: docs/robots/ur10_emulator.md. The Makefile includes this file and defines B, O and obj.
 FUZZERS    := $(wildcard tests/fuzz/fuzz_*.cpp tests/fuzz/*/fuzz_*.cpp)
 FUZZ       := $(basename $(notdir $(FUZZERS)))
 # The parsers of CAN and EtherCAT are built for fer_can, all others for ur10_emulator.

@@ -1,5 +1,5 @@
 // Faults while the drives are armed and while they follow: every row of the table of
-// docs/fer-ethercat.md, for the first, a middle and the last joint, in every phase.
+// docs/robots/fer-ethercat.md, for the first, a middle and the last joint, in every phase.
 #include "tests/hal/cia402/fault_table.hpp"
 #include "tests/hal/ethercat/fault_bench.hpp"
 

@@ -1,6 +1,6 @@
 // Tests the reaction of a UR's HAL to every fault of a robot in motion: Status, rung, cycles until
 // the reaction, and the recovery; and to a robot that does not take its set-points. The table is
-// that of docs/ur10.md. A cycle never allocates, whatever arrives over the wire.
+// that of docs/robots/ur10.md. A cycle never allocates, whatever arrives over the wire.
 #include <cstdlib>
 
 #include "program/heap_count.hpp"

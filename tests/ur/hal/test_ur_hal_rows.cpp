@@ -1,6 +1,6 @@
-// Tests the rows of docs/ur10.md's table of faults that arrive as bytes: the cycle of the packet
-// that shows the fault ends the motion, and the recovered arm stays where it is; and packets that
-// are late, missing, repeated or skipped.
+// Tests the rows of docs/robots/ur10.md's table of faults that arrive as bytes: the cycle of the
+// packet that shows the fault ends the motion, and the recovered arm stays where it is; and packets
+// that are late, missing, repeated or skipped.
 #include <functional>
 #include <limits>
 
