@@ -216,7 +216,7 @@ TwoClients& stopped_clients(CycleSnapshot told) {
   two.run(2);
   told.stamp_ns = two.bench.now_ns;
   told.rung = static_cast<std::uint8_t>(two.bench.rung = Rung::kStop);
-  assert_true(two.bench.mail.snapshots.post(told));
+  assert_true(two.bench.mailboxes.snapshots.post(told));
   two.run(1);
   return two;
 }
