@@ -198,12 +198,13 @@ void parameters_are_listed_checked_and_changed_while_the_arm_moves(void**) {
 
 /// The tare of the start is under way at first (44); a stopped arm takes none.
 void a_new_zero_is_taken_and_told(void**) {
-  assert_int_equal(served("ur10_trg_ac_cpc",
-                          "n=0; until $T tare --json >$S/all; do n=$((n+1)); sleep 0.1; "
-                          "test $n -lt 100 || exit 81; done; "
-                          "grep -q '^{\"result\":{.*\"zero\":\\[3' $S/all || exit 82; "
-                          "$T tare || exit 83; $T stop || exit 84; $T tare; test $? = 2"),
-                   0);
+  assert_int_equal(
+      served("ur10_trg_ac_cpc",
+             "n=0; until $T tare --json >$S/all; do n=$((n+1)); sleep 0.1; "
+             "test $n -lt 100 || exit 81; done; "
+             "grep -qE '^[{]\"result\":{.*\"zero\":\\[(2[.]99|3[.]00)' $S/all || exit 82; "
+             "$T tare || exit 83; $T stop || exit 84; $T tare; test $? = 2"),
+      0);
   assert_true(has(output(), "executed: [sensor] the zero moved by "));
   assert_true(has(output(), "Rearm takes a new zero (82)\n"));
 }
