@@ -119,8 +119,8 @@ Verdict ReferenceIntake<Space>::control(const Origin& from, ControlKind kind, do
 
 template <class Space>
 Verdict ReferenceIntake<Space>::begin(const Origin& from, const TrajectoryTerms& terms) {
-  // There is space to queue_report what is given up, and what this one may end as before it is
-  // sent.
+  // Two reports must find space: of the one that is given up, and of this one, which may end before
+  // it is sent.
   if (report_count_ + 2 > static_cast<int>(reports_.size())) return {Status::kMailboxFull};
   if (terms.check && coming_ && !comes(from)) return {Status::kNoFreeStore};
   if (coming_) give_up(origin_.session);

@@ -157,8 +157,8 @@ class ReferenceIntake {
   int first_ = 0, count_ = 0;
   JointTurns turns_;
   bool warned_ = false;
-  std::array<ClientReport, 2 * kMessagesPerTurn>
-      reports_;  // on references that ended before the generator received them
+  // On references that ended before the generator received them.
+  std::array<ClientReport, 2 * kMessagesPerTurn> reports_;
   int report_count_ = 0;
 };
 

@@ -44,7 +44,8 @@ class Drives {
   /// Cycles in a row in which the positions must agree before the drives are enabled.
   static constexpr int kSteady = 5;
   static constexpr int kConfirming = 3;
-  /// Cycles after which missing feedback is forgotten. Until then, feedback may be one cycle older.
+  /// Cycles after which one missing feedback is no longer counted; what arrives from then on may be
+  /// older by one cycle.
   static constexpr int kForgotten = 1000;
 
   /// Takes the settings, which must outlive the use of the drives, the period and the longest time

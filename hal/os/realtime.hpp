@@ -1,5 +1,5 @@
 // Realtime: requests from Linux what a cycle needs, step by step, and reads every step back, so
-// that the report has what was granted, not what was requested.
+// that the report says what was granted, not what was requested.
 #pragma once
 
 #include <sched.h>

@@ -8,8 +8,8 @@
 //
 // The content of the registers when the program starts is not a set-point. The first set-point must
 // be the arm's position, or the program ends. If no new one arrives in a cycle, the target
-// continues with the speed between the last two, which fades out within `patience` cycles as 1 - (n
-// / (patience + 1))^2; then the program stops the arm and ends.
+// continues with the speed between the last two, which fades out within `patience` cycles as
+// 1 - (n / (patience + 1))^2; then the program stops the arm and ends.
 //
 // A computer that was away for some cycles continues its own motion, so its next set-point is
 // earlier on the path than the target. The difference d fades out over N = kServoBlend cycles by

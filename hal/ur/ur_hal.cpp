@@ -116,7 +116,7 @@ Message UrHal::trouble() {
 }
 
 void UrHal::configure(const UrSettings& settings, const Tool& given, int period_us, bool outputs) {
-  puts_out_ = outputs;
+  sends_outputs_ = outputs;
   settings_ = &settings;
   given_ = given;
   period_us_ = period_us;
@@ -143,7 +143,7 @@ Status UrHal::open(CommandMode mode) {
   TRY(check_rate());
   const UrSettings& set = *settings_;
   const Deadline deadline(set.connect_ms);
-  TRY(session_.start(set.address.c_str(), set.rtde_port, 1e6 / period_us_, puts_out_, deadline,
+  TRY(session_.start(set.address.c_str(), set.rtde_port, 1e6 / period_us_, sends_outputs_, deadline,
                      why_));
   TRY(check_sensor());
   TRY(await_state(deadline));

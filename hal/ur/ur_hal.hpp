@@ -68,7 +68,7 @@ class UrHal final : public Hal, public Clock {
   const UrSettings* settings_ = nullptr;
   Tool given_;  // NaN: not given
   int period_us_ = 0;
-  bool puts_out_ = false;
+  bool sends_outputs_ = false;
 
   Message why_;
   RtdeClient session_;

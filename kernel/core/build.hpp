@@ -9,10 +9,6 @@
 #ifndef TACTUS_ROBOT
 #error "name the robot: -DTACTUS_ROBOT=Fer, which a board.mk says by ROBOT := Fer"
 #endif
-#ifndef EIGEN_DONT_VECTORIZE
-#error \
-    "compile with -DEIGEN_DONT_VECTORIZE: elsewhere Eigen's types are aligned otherwise, and every struct has another layout"
-#endif
 
 // Most targets of a chunk. 0: no streams of chunks and velocities and no digital outputs, neither
 // their code nor their memory.

@@ -16,7 +16,8 @@ class OutputDelay {
   /// Most pending changes. With more, the one before the newest is lost; the last state is not.
   static constexpr std::size_t kMostWaiting = 32;
 
-  /// Requests outputs from `due_s` on. They replace every change that is due later. [cyclic]
+  /// Requests outputs from `due_s` on. Changes that were due later take effect with them, at
+  /// `due_s`; an output that both set follows this request. [cyclic]
   void request(const DigitalOutputs& outputs, double due_s) {
     requested_.set(outputs);
     LoopBound<kMostWaiting> later;

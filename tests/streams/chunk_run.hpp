@@ -14,7 +14,7 @@ inline constexpr double kRun_s = 6.0;
 inline constexpr std::size_t kMostIds = 8192;
 
 /// Counts of what became of the messages of one run.
-struct Told {
+struct ReportCounts {
   int sent = 0, finals = 0, executed = 0, superseded = 0, refused = 0, starved = 0;
 };
 
@@ -41,7 +41,7 @@ class ChunkRun {
     }
     return settles();
   }
-  const Told& told() const { return told_; }
+  const ReportCounts& told() const { return told_; }
   std::uint64_t sum() const { return sum_; }
   void print() const {
     print_error("TACTUS_SEED=%llu, %g ms, %.4f s, %s, track %d: %s: %.17g, limit %.17g\n",
@@ -184,7 +184,7 @@ class ChunkRun {
   MotionOracle<Space> oracle_;
   static Chunk<Space> chunk_;                // large
   static std::array<int, kMostIds> finals_;  // of each number
-  Told told_;
+  ReportCounts told_;
   bool disturbs_ = false;
   int braking_ = 0, track_ = -1;
   double value_ = 0.0, limit_ = 0.0;

@@ -23,7 +23,7 @@ template <class Space>
 void check() {
   const char* wanted = std::getenv("TACTUS_SEED");
   Dice seeds{20261123};
-  Told all;
+  ReportCounts all;
   int failed = 0;
   static std::aligned_storage_t<sizeof(ChunkRun<Space>), alignof(ChunkRun<Space>)> place, other;
   for (int i = 0; i < runs(); ++i) {

@@ -52,8 +52,8 @@ class Emulator {
   Links& links() { return controller_.machine().links; }
 
  private:
-  static constexpr int kPatience =
-      625;  // cycles in which a client may stand still while packets are dropped for it
+  // Cycles in which a client may be idle while packets are dropped for it.
+  static constexpr int kPatience = 625;
 
   struct Session {
     bool open = false, ended = false;

@@ -52,17 +52,17 @@ class Claims {
  public:
   bool free_for(const InputField& field, int owner) const {
     const int holder = owner_[field.variable()];
-    return holder == kNobody || holder == owner;
+    return holder == kNoOwner || holder == owner;
   }
   void claim(const InputField& field, int owner) { owner_[field.variable()] = owner; }
   void release(int owner) {
     for (int& holder : owner_)
-      if (holder == owner) holder = kNobody;
+      if (holder == owner) holder = kNoOwner;
   }
-  Claims() { owner_.fill(kNobody); }
+  Claims() { owner_.fill(kNoOwner); }
 
  private:
-  static constexpr int kNobody = -1;
+  static constexpr int kNoOwner = -1;
   std::array<int, kInputVariables> owner_;
 };
 

@@ -205,7 +205,7 @@ class OrderBench {
     world.model.end_turn(now_ns());
     for (OrderClient& client : world.clients)
       if (client.there()) read(client);
-    int owner = OrderModel::kNobody;
+    int owner = OrderModel::kNoOwner;
     for (const OrderClient& client : world.clients)
       if (client.there() && client.slot == cycles.server->owner()) owner = client.session;
     assert_int_equal(owner, world.model.owner);
@@ -213,7 +213,7 @@ class OrderBench {
   }
   void read(OrderClient& its) {
     const Bytes waiting = cycles.server->waiting(its.slot);
-    assert_true(waiting.size < kMostTold);
+    assert_true(waiting.size < kMostReports);
     const std::uint8_t *at = waiting.data, *const end = at + waiting.size;
     while (at != end) {
       std::size_t length = 0;
@@ -327,7 +327,7 @@ class OrderBench {
     for (int slot = 0; slot < kMostClients; ++slot) {
       auto* const out = reinterpret_cast<std::byte*>(
           const_cast<std::uint8_t*>(cycles.server->waiting(slot).data));
-      without.push_back({slot < OrderWorld::kClients ? out + kMostTold : end, out + kOutputBytes});
+      without.push_back({slot < OrderWorld::kClients ? out + kMostReports : end, out + kOutputBytes});
       end = out + sizeof(OutputBytes);
     }
     std::sort(without.begin(), without.end(),
@@ -346,7 +346,7 @@ class OrderBench {
     return {begin, begin + sizeof object};
   }
 
-  static constexpr std::size_t kMostTold = 4096;
+  static constexpr std::size_t kMostReports = 4096;
   RawMessage whole_, body_;
   const OrderClient* expected_ = nullptr;  // who is answered in this turn
   Status expected_status_ = Status::kOk;

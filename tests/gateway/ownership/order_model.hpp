@@ -16,13 +16,13 @@ struct Asked {
 };
 
 struct OrderModel {
-  static constexpr int kNobody = -1;
+  static constexpr int kNoOwner = -1;
   static constexpr std::int64_t kLease_ns = 1000 * kMillisecond_ns;
 
-  int owner = kNobody;  // by session
+  int owner = kNoOwner;  // by session
   int priority = 0;
   std::int64_t heard_ns = 0;
-  std::array<int, 64> by{};     // by[k]: session that made stop k; kNobody: a fault, a lost lease
+  std::array<int, 64> by{};     // by[k]: session that made stop k; kNoOwner: a fault, a lost lease
   std::uint32_t newest = 1;     // stop
   double seen_override = 1.0;   // as the server was told of it last
   double cycle_override = 1.0;  // as the cycle told it last
@@ -49,7 +49,7 @@ struct OrderModel {
   }
   /// The server has its turn: it is told of what the cycles have done.
   void begin_turn() {
-    for (; faults > 0; --faults) add_stop(kNobody);
+    for (; faults > 0; --faults) add_stop(kNoOwner);
     seen_override = cycle_override;
   }
   /// The answer to a message whose client was told of stop `told`, and its effects.
@@ -80,23 +80,23 @@ struct OrderModel {
   Status take_lease(int session, const Asked& asked, std::int64_t now_ns) {
     if (asked.rate < 0.0) {
       if (owner != session) return Status::kNotOwner;
-      owner = kNobody;
+      owner = kNoOwner;
       return Status::kOk;
     }
     const int wish = static_cast<int>(asked.rate);
-    if (owner != kNobody && owner != session && wish <= priority) return Status::kNotOwner;
+    if (owner != kNoOwner && owner != session && wish <= priority) return Status::kNotOwner;
     owner = session;
     priority = wish;
     heard_ns = now_ns;
     return Status::kOk;
   }
   void end_turn(std::int64_t now_ns) {
-    if (owner != kNobody && now_ns - heard_ns > kLease_ns) leave(owner);
+    if (owner != kNoOwner && now_ns - heard_ns > kLease_ns) leave(owner);
   }
   void leave(int session) {
     if (owner != session) return;
-    owner = kNobody;
-    add_stop(kNobody);
+    owner = kNoOwner;
+    add_stop(kNoOwner);
   }
   /// Nobody is told any more of a control that was taken.
   void forget() {

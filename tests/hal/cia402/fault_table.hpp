@@ -153,7 +153,7 @@ void arm_drives_that_fall(Bench& (*fresh)(), void (*weaken)(Bench& bench, int jo
     }
     ++refused;
     ASSERT_STATUS(status, Status::kDriveFault);
-    const std::string named = told_of(bench, Cause::kDrive).joints;
+    const std::string named = detail_of(bench, Cause::kDrive).joints;
     assert_int_equal(named.size(), 1);
     assert_true(weak.find(named) != std::string::npos);
     const std::string why = bench.hal.trouble().c_str();

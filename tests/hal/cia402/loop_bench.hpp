@@ -21,13 +21,13 @@ inline constexpr const char* kHoldingPipeline =
     "kp = 500 400 400 300 20 20 10\nkd = 50 40 40 5 2 2 1\n";
 
 /// What the log says of drives since event `from`: joints and codes of a cause.
-struct Told {
+struct Detail {
   std::string joints;  ///< as digits, from 1
   std::uint32_t code = 0;
 };
 template <class Bench>
-Told told_of(const Bench& bench, Cause cause, std::uint32_t from = 0) {
-  Told told;
+Detail detail_of(const Bench& bench, Cause cause, std::uint32_t from = 0) {
+  Detail told;
   Event event;
   for (std::uint32_t i = from; bench.executive.events().read(i, event); ++i) {
     if (event.cause != cause) continue;

@@ -110,10 +110,10 @@ void faults_that_stood_before_are_told_with_their_codes_and_cleared(void**) {
   if (status != Status::kOk) print_error("%s\n", bench.hal.trouble().c_str());
   ASSERT_OK(status);
   ASSERT_OK(bench.cycles(100));
-  const cia402::Told fault = told_of(bench, Cause::kOldFault);
+  const cia402::Detail fault = detail_of(bench, Cause::kOldFault);
   assert_string_equal(fault.joints.c_str(), "7");
   assert_int_equal(fault.code, 0x7500);
-  const cia402::Told warning = told_of(bench, Cause::kWarning);
+  const cia402::Detail warning = detail_of(bench, Cause::kWarning);
   assert_string_equal(warning.joints.c_str(), "2");
   assert_int_equal(warning.code, 0x4210);
 }

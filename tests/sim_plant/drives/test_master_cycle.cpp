@@ -99,7 +99,7 @@ void faults_that_stood_before_are_told_with_their_codes_and_cleared(void**) {
   const Status status = bench.start();
   explain(bench, status);
   ASSERT_OK(status);
-  const cia402::Told first = told_of(bench, Cause::kOldFault);
+  const cia402::Detail first = detail_of(bench, Cause::kOldFault);
   assert_string_equal(first.joints.c_str(), "27");
   assert_int_equal(first.code, 0x7500);
 
@@ -110,7 +110,7 @@ void faults_that_stood_before_are_told_with_their_codes_and_cleared(void**) {
   for (int i = 0; i < 10; ++i) (void)bench.cycle();
   heal(bench);
   ASSERT_OK(bench.arm());
-  const cia402::Told second = told_of(bench, Cause::kOldFault, from);
+  const cia402::Detail second = detail_of(bench, Cause::kOldFault, from);
   assert_string_equal(second.joints.c_str(), "4");
   assert_int_equal(second.code, 0x4310);
 }
@@ -128,13 +128,13 @@ void warnings_stop_nothing_and_are_told_with_their_codes(void**) {
   ASSERT_OK(bench.start());
   assert_int_equal(bench.hal.master.node(4).feedback.error_code, 0);
   ASSERT_OK(bench.cycles(100));
-  const cia402::Told told = told_of(bench, Cause::kWarning);
+  const cia402::Detail told = detail_of(bench, Cause::kWarning);
   assert_string_equal(told.joints.c_str(), "3");
   assert_int_equal(told.code, 0x4210);
   heal(bench);
   ASSERT_OK(bench.cycles(10));
   assert_int_equal(bench.hal.master.node(2).feedback.error_code, 0);
-  assert_string_equal(told_of(bench, Cause::kOldFault).joints.c_str(), "");
+  assert_string_equal(detail_of(bench, Cause::kOldFault).joints.c_str(), "");
 }
 
 constexpr int kFeedbackOf2 = 0x182;

@@ -189,7 +189,7 @@ void a_value_out_of_range_writes_no_text(void**) {
   assert_int_equal(write_servo_program(script, text).size(), 0);
 }
 
-void no_placeholder_is_left_and_every_line_ends(void**) {
+void every_setting_is_filled_in_and_every_line_ends(void**) {
   static ServoProgramText text;
   const std::string_view program = write_servo_program({}, text);
   assert_true(program.find('@') == std::string_view::npos);
@@ -360,7 +360,7 @@ int main() {
       cmocka_unit_test(tool_payload_and_zeroing_are_in_the_text),
       cmocka_unit_test(what_is_left_to_the_controller_is_not_in_the_text),
       cmocka_unit_test(a_value_out_of_range_writes_no_text),
-      cmocka_unit_test(no_placeholder_is_left_and_every_line_ends),
+      cmocka_unit_test(every_setting_is_filled_in_and_every_line_ends),
       cmocka_unit_test(after_a_stall_the_target_slows_down_and_never_goes_back),
       cmocka_unit_test(after_a_stall_that_ends_in_a_halt_the_way_back_is_slow),
       cmocka_unit_test(stalls_in_a_row_do_not_add_up),
