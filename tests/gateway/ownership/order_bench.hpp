@@ -327,7 +327,8 @@ class OrderBench {
     for (int slot = 0; slot < kMostClients; ++slot) {
       auto* const out = reinterpret_cast<std::byte*>(
           const_cast<std::uint8_t*>(cycles.server->waiting(slot).data));
-      without.push_back({slot < OrderWorld::kClients ? out + kMostReports : end, out + kOutputBytes});
+      without.push_back(
+          {slot < OrderWorld::kClients ? out + kMostReports : end, out + kOutputBytes});
       end = out + sizeof(OutputBytes);
     }
     std::sort(without.begin(), without.end(),
