@@ -53,7 +53,7 @@ struct NodeReport {
   using Label = Text<SdoClient::kCapacity>;
 
   bool answers = false;  ///< to SDO requests
-  bool heard = false;       ///< a heartbeat or the boot-up message arrived; `nmt` is of the last one
+  bool heard = false;    ///< a heartbeat or the boot-up message arrived; `nmt` is of the last one
   bool sends_pdos = false;  ///< with its identifiers of the predefined connection set
   NmtState nmt = NmtState::kBootUp;
   std::array<std::uint32_t, kItems> items{};

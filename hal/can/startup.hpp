@@ -1,7 +1,8 @@
 // Startup: takes the drives from power-on to cyclic operation, one stage after the other:
 //
 //   reset     NMT reset communication; every node answers with its boot-up message
-//   identify  NMT pre-operational; the identity of every node is read by SDO. No drive is written to
+//   identify  NMT pre-operational; the identity of every node is read by SDO. No drive is written
+//   to
 //             before all of them are those of the file
 //   setup     the other steps of NodeSetup for one node after the other, by SDO
 //   start     NMT start; every node's heartbeat reports "operational"
