@@ -230,6 +230,7 @@ $(B)/bench: $(call obj,$(wildcard tests/bench/*.cpp) $(CAN_BENCH) $(CAN_LINK)) $
 	$(Q)$(CXX) $(LINK) -o $@ $^ -lbenchmark -lorocos-kdl -lpthread $(LIBS)
 
 include program/install.mk
+include program/library/library.mk
 include gateway/ctl/ctl.mk
 include program/package/package.mk
 include tests/tests.mk

@@ -4,13 +4,13 @@
 //   while (found - before > 1) {
 //     halvings.tick();
 //
-// A release build compiles it to nothing. With assertions on, as in the sanitized tests, one run
+// Without sanitizers it compiles to nothing. With them, as in the sanitized tests, one run
 // too many aborts the program and names the place of the tick. scripts/wcet reads the number for
 // the static bound, so the bound uses only numbers that the tests have checked. It asks that the
 // tick is the first statement of the body, on a line of its own.
 #pragma once
 
-#ifndef NDEBUG
+#ifdef TACTUS_SANITIZED
 #include <cassert>
 #endif
 
@@ -23,7 +23,7 @@ class LoopBound {
   static_assert(most > 0);
 
  public:
-#ifdef NDEBUG
+#ifndef TACTUS_SANITIZED
   constexpr void tick() {}
 #else
   /// Counts one run of the loop's body. [any]
