@@ -119,7 +119,9 @@ Status PilHal::read(const CycleTime& now, RobotState& state) {
 Status PilHal::write(const RobotCommand& command) {
   if (parted_) return plant_.write(command);  // which disables the drives
   if (command.request == DriveRequest::kArm) order_ = serial::Order::kArmed;
-  if (!feed_.feed(board_, why_)) return Status::kRefusedByRobot;
+  // A stop has ended the trajectory on both machines, and the board refuses further waypoints.
+  if (!refuses(session_->executive.rung()) && !feed_.feed(board_, why_))
+    return Status::kRefusedByRobot;
   if (board_.step(order_, state_, now_ns_) != Status::kOk) return silent();
   stepped_ = true;
   TRY(plant_.write(board_.result().command));
