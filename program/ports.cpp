@@ -17,9 +17,11 @@ void print_board(const char* board, const Capabilities& offered) {
   std::printf(" Period %d to %d us.\n", static_cast<int>(offered.min_period_us),
               static_cast<int>(offered.max_period_us));
   std::printf(
-      "A number per joint may be given once for all joints. What is tunable may change while the\n"
-      "pipeline runs (gateway.md). Limits and defaults are this\n"
-      "robot's, sections this board's: `build/<board>/tactus ports` prints another's.\n");
+      "A number per joint may be given once for all joints. A tunable setting may change while\n"
+      "the pipeline runs (gateway.md). An input with the default *neutral* may stay unwired and\n"
+      "then has no effect; a setting with the default *none* may be left out. Limits and defaults\n"
+      "are those of this robot, sections those of this board; `build/<board>/tactus ports` prints\n"
+      "those of another.\n");
 }
 
 void print_blocks() {

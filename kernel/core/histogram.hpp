@@ -1,4 +1,4 @@
-// Histogram: distribution of execution times in 1.6 KB of fixed memory. Every doubling of the value
+// Histogram: distribution of execution times in 1.6 kB of fixed memory. Every doubling of the value
 // has 17 buckets, so a percentile is known to within 1/34, which is below 3 %. One writer, the
 // cycle; any thread may read, without a lock and without disturbing it.
 //
