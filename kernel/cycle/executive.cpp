@@ -53,7 +53,7 @@ void Executive::check_clock(const CycleTime& now) {
 void Executive::read() {
   RobotState state;
   wire_ = hal_.read(now_, state);
-  if (walk_unless_ok(Cause::kWire, wire_)) {
+  if (ok_or_walk(Cause::kWire, wire_)) {
     if (state.finite())
       measured_ = state;
     else
@@ -62,13 +62,13 @@ void Executive::read() {
     log_drives();
     watch_drives();
     const Status status = commands(rung()) ? guard_.check(state, now_) : Status::kOk;
-    walk_unless_ok(Cause::kState, status, tripped());
+    ok_or_walk(Cause::kState, status, tripped());
   }
   timing_.lap(Stage::kRead);
 }
 
-/// Logs every fault that was there before the request to arm, which clears it, and the warning of a
-/// drive once in an arming. Neither changes anything else.
+/// Logs every fault that stood before the request to arm (the request clears it), and the warning
+/// of a drive once in an arming. Neither changes anything else.
 void Executive::log_drives() {
   const bool before = rung() == Rung::kArming && requested_ != DriveRequest::kArm;
   LoopBound<kDof> joints;
@@ -103,7 +103,7 @@ void Executive::step() {
   if (!commands(rung()) || !chain_) return;
   const std::uint64_t begin_ns = timing_.marked();
   const Status status = pipeline_.step(measured_, &timing_);
-  walk_unless_ok(cause_of_stage(status), status);
+  ok_or_walk(cause_of_stage(status), status);
   timing_.close(Stage::kStep, begin_ns);
 }
 
@@ -112,8 +112,7 @@ RobotCommand Executive::guarded() {
   RobotCommand command = pipeline_.robot.command();
   if (chain_ && commands(rung())) {
     const Status status = guard_.limit(measured_, command, brakes(rung()));
-    if (walk_unless_ok(Cause::kCommand, status, tripped()) &&
-        limiting_.add(guard_.telemetry().limited))
+    if (ok_or_walk(Cause::kCommand, status, tripped()) && limiting_.add(guard_.telemetry().limited))
       walk(Cause::kLimiting, Status::kLimiting, {pipeline_.guard.limiting_share});
   }
   if (!chain_ && commands(rung())) command = guard_.brake(measured_);
@@ -133,7 +132,7 @@ void Executive::write(const RobotCommand& command) {
   requested_ = sent.request;
   const Status status = hal_.write(sent);
   if (wire_ == Status::kOk) wire_ = status;
-  walk_unless_ok(Cause::kWire, status);
+  ok_or_walk(Cause::kWire, status);
   timing_.lap(Stage::kWrite);
 }
 
@@ -147,7 +146,7 @@ void Executive::run_rows() {
     const Row& row = pipeline_.schedule[i];
     const std::uint64_t begin_ns = timing_.marked();
     if (row.run == nullptr || (row.optional && skips_) || !row.due(number)) continue;
-    walk_unless_ok(Cause::kRow, row.run(row.context, measured_, time_s));
+    ok_or_walk(Cause::kRow, row.run(row.context, measured_, time_s));
     timing_.end_row(i, row, begin_ns);
   }
   timing_.close(Stage::kRows, rows_begin_ns);
@@ -168,7 +167,8 @@ void Executive::watch_rest() {
   if (found == RestWatch::Result::kMoved) walk(Cause::kMoved, Status::kMoved);
 }
 
-/// Ends an arming that takes too long, and the wait for drives that are disabled, or will not be.
+/// Ends an arming that takes too long. Ends the wait for disabled drives once they are disabled,
+/// the wire has failed, or disabling_ms have passed.
 void Executive::watch_times() {
   if (arming_ > 0 && --arming_ == 0) give_up_arming();
   if (disabling_ == 0) return;
@@ -191,7 +191,7 @@ void Executive::watch_overruns(std::uint64_t took_ns) {
 }
 
 /// Walks the ladder for every Status but kOk, and returns whether it is kOk.
-bool Executive::walk_unless_ok(Cause cause, Status status, const Finding& found) {
+bool Executive::ok_or_walk(Cause cause, Status status, const Finding& found) {
   if (status == Status::kOk) return true;
   walk(cause, status, found);
   return false;

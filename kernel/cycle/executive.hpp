@@ -58,12 +58,11 @@ class Executive {
   /// the Status that led there, and after start() kNotStarted, or why it was refused. [cyclic]
   Status cycle(const CycleTime& now);
 
-  /// Leads up to nominal, where the arm is: every old target is void. From disabled it requests the
-  /// drives; from then on, while it returns kArming, call it after every cycle. The first reference
-  /// is the measured state. From a hold, every command continues as it is. Returns kArming until
-  /// drives and arm are ready, kNotAtRest on stop, on a hold that moves and while drives are still
-  /// being disabled, and otherwise why it refuses; that is also in the event log. [between two
-  /// cycles]
+  /// Goes to nominal; every old target is void. From disabled it requests the drives; from then on,
+  /// while it returns kArming, call it after every cycle. The first reference is then the measured
+  /// state. From a hold, every command continues as it is. Returns kArming until drives and arm are
+  /// ready, kNotAtRest on stop, on a hold that moves and while drives are still being disabled, and
+  /// otherwise why it refuses; that is also in the event log. [between two cycles]
   [[gnu::cold]] Status arm();
 
   /// Brakes on the path, then disables the drives; cycle() returns kHalted, or a fault latched
@@ -116,10 +115,8 @@ class Executive {
   Status refuse(Status why) { return refuse(why, Finding()); }
   Finding tripped() const;
   [[gnu::cold]] void watch_anew();
-  bool walk_unless_ok(Cause cause, Status status, const Finding& found);
-  bool walk_unless_ok(Cause cause, Status status) {
-    return walk_unless_ok(cause, status, Finding());
-  }
+  bool ok_or_walk(Cause cause, Status status, const Finding& found);
+  bool ok_or_walk(Cause cause, Status status) { return ok_or_walk(cause, status, Finding()); }
   void walk(Cause cause, Status status, const Finding& found);
   void walk(Cause cause, Status status) { walk(cause, status, Finding()); }
   void log(Cause cause, Status status, const Finding& found, Rung from, Rung to);

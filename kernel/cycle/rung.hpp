@@ -1,5 +1,5 @@
-// Rung: a level of the degrade ladder (ladder.hpp), apart from it for those that read a robot's
-// state and do not have its table.
+// Rung: a level of the degrade ladder (ladder.hpp). It has a header of its own for code that reads
+// the rung and does not need the table.
 #pragma once
 
 #include <cstdint>

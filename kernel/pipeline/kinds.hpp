@@ -39,7 +39,7 @@ struct KindList {
 #ifdef TACTUS_KINDS
 using Kinds = KindList<TACTUS_KINDS>;
 #else
-/// A new controller is one line here. Each kind has its word in "type = ..." as kType.
+/// A new controller is one line here and an #include above. kType is its word in "type = ...".
 using Kinds = KindList<RobotModel,               //
                        Frame,                    //
                        BoxObstacle,              //
@@ -60,7 +60,7 @@ using Kinds = KindList<RobotModel,               //
 
 static_assert(Kinds::words_differ(), "two kinds have the same kType: the second would never run");
 
-/// True for a law: it turns an input q_d into an output tau.
+/// True for a torque law: a kind with an input q_d and an output tau.
 template <class Kind, class = void>
 inline constexpr bool kIsTorqueLaw = false;
 template <class Kind>

@@ -88,7 +88,7 @@ class Pipeline {
   TuningVerdict retune(const Tuning& tuning, bool runs);
   /// Ends the own motion of every block: see kernel/core/brake.hpp. [cyclic]
   void brake(Status why, BrakeWay way);
-  /// Tells the limits of references to every block that moves the joints by itself. [init]
+  /// Sets the limits of references in every block that moves the joints by itself. [init]
   [[gnu::cold]] void keep_within(const JointLimits& limits);
   /// Returns the deceleration of every joint in a brake at once, rad/s^2: the guard's limit, or a
   /// block's own. [init]

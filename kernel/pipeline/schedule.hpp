@@ -25,7 +25,7 @@ struct Row {
   int divisor = 1, offset = 0;
   int budget_us = 0;      ///< intended longest time
   bool optional = false;  ///< skipped while there are too many overruns
-  Run run = nullptr;      ///< null: nothing runs yet, but the budget counts
+  Run run = nullptr;  ///< null: only its budget counts; "control" is run by the executive itself
   void* context = nullptr;
 
   constexpr bool due(std::int64_t cycle) const { return cycle % divisor == offset; }

@@ -1,6 +1,6 @@
 // JRG: the joint-space reference generator as a block with its ports and parameters; the generator
-// itself is in reference_generator.hpp. The block also gives its reference as pose and twist of
-// the tool tip, for a chain of Cartesian blocks.   [Risi et al. 2026, section II]
+// itself is ReferenceGenerator (kernel/reference/generator/). The block also gives its reference as
+// pose and twist of the tool tip, for a chain of Cartesian blocks.   [Risi et al. 2026, section II]
 #pragma once
 
 #include "kernel/core/port.hpp"

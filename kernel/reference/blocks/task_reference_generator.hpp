@@ -1,5 +1,5 @@
 // TRG: the task-space reference generator as a block with its ports and parameters; the generator
-// itself is in reference_generator.hpp.   [Risi et al. 2026, section II]
+// itself is ReferenceGenerator (kernel/reference/generator/).   [Risi et al. 2026, section II]
 #pragma once
 
 #include "kernel/core/port.hpp"

@@ -4,7 +4,9 @@
 //
 // Its state is the phase of its motion (motion_phase.hpp), a trajectory that may wait for its start
 // time, and the reason for which it refuses everything while the executive brakes. On a board with
-// streams, kernel/streams completes it: requests of streams, and what they leave behind.
+// streams, kernel/streams completes it: requests of streams, and what they leave behind. Its
+// functions are in reference_generator_members.hpp, those of controls and requests in
+// reference_requests_members.hpp.
 #pragma once
 
 #include "kernel/core/brake.hpp"

@@ -93,8 +93,8 @@ typename Space::Point Motion<Space>::end_path(const Point& last) {
   return rest;
 }
 
-/// Tells what it means that the reference is at its base; `was` is the phase before. The end of a
-/// path that was to be left for a point is no arrival at that point.
+/// Handles the arrival of the reference at its base; `was` is the phase before. The end of a path
+/// that was to be left for a point is no arrival at that point.
 template <class Space>
 void Motion<Space>::arrive(MotionPhase was) {
   if (phase_ == MotionPhase::kJoining) handle(MotionEvent::kJoined);

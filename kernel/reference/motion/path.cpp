@@ -33,8 +33,8 @@ int Path<Space>::waypoint_from(double s, int before) const {
   return found;
 }
 
-/// Returns the waypoint at which the segment of path time s ends: most often the present or the
-/// next one.
+/// Returns the waypoint at which the segment that contains path time s ends. Most often that is the
+/// present segment or the next one.
 template <class Space>
 int Path<Space>::target_at(double s) const {
   const int last = trajectory_->count - 1, present = present_.target;
