@@ -1,6 +1,7 @@
 # The Python client with its generated module, in one folder that can be copied anywhere. pip takes gateway/python itself (setup.py).
 CLIENT := $(wildcard gateway/python/tactus/*.py) gateway/python/tactus/py.typed
-.PHONY: python
+WHEEL  := build/wheel/tactus-$(firstword $(subst -, ,$(VERSION)))-py3-none-any.whl
+.PHONY: python wheel
 python: $(CLIENT:gateway/%=build/%) build/python/tactus/tactus_pb2.py      ## write the Python client into build/python
 build/python/tactus/%: gateway/python/tactus/%
 	$(call say,PY    $@)
@@ -9,4 +10,8 @@ build/python/tactus/tactus_pb2.py: gateway/tactus.proto
 	$(call say,PY    $@)
 	$(Q)mkdir -p $(@D)
 	$(Q)protoc -I$(<D) --python_out=$(@D) --pyi_out=$(@D) $<
-$(filter $(B)/tests/gateway/python/test_%,$(TESTS)): | python
+wheel: setup-wheel $(WHEEL)                   ## pack the Python client for pip, without a network: build/wheel
+$(WHEEL): $(CLIENT) gateway/tactus.proto $(addprefix gateway/python/,pyproject.toml setup.py)
+	$(call say,PIP   $@)
+	$(Q)/usr/bin/python3 -m pip --isolated wheel --quiet --no-index --no-deps --no-build-isolation --wheel-dir $(@D) gateway/python
+$(filter $(B)/tests/gateway/python/test_%,$(TESTS)): | python $(WHEEL)

@@ -105,7 +105,9 @@ void help_lists_the_words_and_any_other_is_refused(void**) {
   assert_int_equal(setup("--help", "make\n"), 0);
   assert_has_all(output(), {"setup check ", "setup wcet ", "setup report ", "`make film`"});
   assert_int_equal(setup("everything", "make\n"), 2);
-  assert_true(has(errors(), "setup: 'everything' is none of test, check, wcet, report, vm, "));
+  assert_true(has(errors(),
+                  "setup: 'everything' is none of test, check, wcet, wheel, report, "
+                  "vm, "));
   assert_true(file_of("words").empty());
 }
 

@@ -68,7 +68,7 @@ void every_example_runs(void**) {
   run_module("test_examples");
 }
 
-// Proves PYT-13.
+// Proves PYT-13, PYT-14.
 
 void the_package_is_installed_by_pip_or_copied(void**) {
   run_module("test_package");
