@@ -31,15 +31,16 @@ except ImportError as error:
 
 from .arm import Arm, connect
 from .errors import Aborted, Error, Lost, Refused, Stopped
-from .messages import Event, Feedback, Joint, Result, Robot, Sample, State
+from .messages import Event, Feedback, Joint, Result, RobotDescription, Sample, State
 from .parameters import Parameter
 from .protocol import Code, Outcome, Phase, Rung
+from .robot import Robot
 from .simulation import serve, sim
 from .streams import Chunks, Stream
 from .trajectories import Motion
 
 __all__ = [
     "Aborted", "Arm", "Chunks", "Code", "Error", "Event", "Feedback", "Joint", "Lost", "Motion", "Outcome",
-    "Parameter", "Phase", "Refused", "Result", "Robot", "Rung", "Sample", "State", "Stopped", "Stream",
-    "connect", "serve", "sim"
+    "Parameter", "Phase", "Refused", "Result", "Robot", "RobotDescription", "Rung", "Sample", "State", "Stopped",
+    "Stream", "connect", "serve", "sim"
 ]

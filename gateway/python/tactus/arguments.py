@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import tactus_pb2 as pb
-from .messages import Robot
+from .messages import RobotDescription
 from .protocol import LONGEST_FRAME, LONGEST_MESSAGE, Array
 
 TASK_WIDTHS = {"pose": 7, "twist": 6, "acceleration": 6, "wrench": 6}
@@ -71,7 +71,11 @@ class Targets:
     """Checks the targets of one trajectory or stream: what is wrong is a ValueError."""
 
     def __init__(
-        self, robot: Robot, joints: Sequence[str] | None = None, motion_frame: str = "", wrench_frame: str = ""
+        self,
+        robot: RobotDescription,
+        joints: Sequence[str] | None = None,
+        motion_frame: str = "",
+        wrench_frame: str = "",
     ):
         self._robot = robot
         names = [joint.name for joint in robot.joints]

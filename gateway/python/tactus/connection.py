@@ -12,7 +12,7 @@ from .arguments import Path, whole
 from .clock import Clock
 from .errors import Error, Lost, Refused
 from .link import Link
-from .messages import Event, Feedback, Robot, event_of, feedback_of, robot_of
+from .messages import Event, Feedback, RobotDescription, event_of, feedback_of, robot_of
 from .protocol import LATEST_NS, Outcome
 
 T = TypeVar("T")
@@ -63,7 +63,7 @@ class Call:
 class Session:
     """One connection: numbers, answers, states, and the thread that reads them and keeps the lease alive."""
 
-    robot: Robot
+    robot: RobotDescription
 
     def __init__(self, address: str, name: str, timeout_s: float, key: Path | None, lease: pb.Lease):
         self.address = address

@@ -25,7 +25,7 @@ class Joint:
 
 
 @dataclasses.dataclass(frozen=True)
-class Robot:
+class RobotDescription:
     """What the server said when the connection was made."""
 
     board: str
@@ -140,11 +140,11 @@ class State:
     outputs: Mapping[int, bool]  # digital outputs as commanded; those that were left alone are not in it
 
 
-def robot_of(welcome: pb.Welcome) -> Robot:
+def robot_of(welcome: pb.Welcome) -> RobotDescription:
     joints = tuple(copied(Joint, joint) for joint in welcome.joints)
     offered = [i for i in range(32) if welcome.outputs >> i & 1]
     outputs = dict(zip(offered, list(welcome.output_names) or [""] * len(offered)))
-    return copied(Robot, welcome, name=welcome.robot, joints=joints, outputs=outputs)
+    return copied(RobotDescription, welcome, name=welcome.robot, joints=joints, outputs=outputs)
 
 
 def _array(numbers: Sequence[float]) -> Array | None:

@@ -40,21 +40,36 @@ class Examples(unittest.TestCase):
             said = {path.name: self.run_example(path, address) for path in EXAMPLES}
         self.assertEqual(said["minimum_jerk.py"].count("succeeded"), 2)
         self.assertRegex(said["chunked_policy.py"], "chunks taken, 0 late")
+        self.assertLess(float(said["diffusion_policy.py"].split()[0]), 10)
         self.assertTrue(said["jog.py"].endswith("\n"))
 
     @unittest.skipIf(served.ROBOT != "ur10", "the examples simulate a UR10")
     def test_without_an_address_they_run_a_simulated_ur10(self):
         self.assertIn("succeeded", self.run_example(EXAMPLES[-1]))
 
-    @unittest.skipIf(served.ROBOT != "ur10", "the page simulates a UR10")
-    def test_the_ten_lines_of_the_page_run(self):
+    @unittest.skipIf(served.ROBOT != "fer", "the example simulates a FER")
+    def test_without_an_address_a_policy_runs_on_a_simulated_fer_in_thirty_lines(self):
+        (example,) = (path for path in EXAMPLES if path.name == "diffusion_policy.py")
+        self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 30)
+        self.assertLess(float(self.run_example(example).split()[0]), 10)
+
+    def run_of_the_page(self, number, before="", after=""):
+        """Runs a program of the page, by its number, and returns its lines."""
         page = (served.ROOT / "docs/python.md").read_text(encoding="utf-8")
-        program = re.search(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
-        self.assertLessEqual(len([line for line in program.splitlines() if line]), 10)
+        program = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)[number]
         done = subprocess.run(
-            [sys.executable, "-c", program + AFTERWARDS], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
+            [sys.executable, "-c", before + program + after], cwd=served.ROOT, capture_output=True, text=True, timeout=120, check=False
         )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return [line for line in program.splitlines() if line]
+
+    @unittest.skipIf(served.ROBOT != "ur10", "the page simulates a UR10")
+    def test_the_ten_lines_of_the_page_run(self):
+        self.assertLessEqual(len(self.run_of_the_page(0, after=AFTERWARDS)), 10)
+
+    def test_the_lines_of_the_page_for_a_policy_run(self):
+        with served.serve() as address:
+            self.run_of_the_page(1, before=f"import tactus\naddress, policy = {address!r}, lambda q: [q] * 9\n")
 
 
 if __name__ == "__main__":
