@@ -208,6 +208,7 @@ int run(Session& session, const Options& options) {
   const Recording& recording = session.pipeline.recording;
   if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
+  result.overrides = &options.overrides;
   result.seed = options.seed;
   result.realtime.asked = options.realtime;
   result.realtime.report = realtime.report();

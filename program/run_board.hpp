@@ -64,7 +64,8 @@ int run_board(int argc, char** argv, const Board<Sections>& board) {
   if (options.verb == Verb::kPorts) return print_ports(board.name, offered, pipeline, sections);
   Loader loader(memory.channels(), offered, sections);
   std::string_view text;
-  if (!load_pipeline(options.pipeline, loader, pipeline, text)) return refused(options);
+  if (!load_pipeline(options.pipeline, loader, pipeline, text, options.overrides))
+    return refused(options);
   const Following loop =
       following(pipeline, board.servo_s != nullptr ? board.servo_s(sections) : 0.0);
   if (!settle_lateness(options.pipeline, text, loop, pipeline)) return refused(options);

@@ -102,6 +102,7 @@ bool begin_log(Session& session, const Options& options, RunFolder& folder, RunL
 /// Writes what a folder holds beside the log. False: prints why it could not.
 bool end_log(const Session& session, const Options& options, const RunLoop& loop, RunFolder& folder,
              RunLog& log, RunResult& result) {
+  result.overrides = &options.overrides;
   result.seed = options.seed;
   result.config_hash = fnv1a(session.text);
   result.simulated_s = loop.time_s();

@@ -24,6 +24,15 @@ void write_numbers(std::FILE* file, const char* key, const TrackingError& error,
   std::fprintf(file, "]");
 }
 
+void write_overrides(std::FILE* file, const OverrideOptions& overrides) {
+  std::fprintf(file, "  \"overrides\": [");
+  for (int i = 0; i < overrides.count; ++i) {
+    if (i > 0) std::fprintf(file, ", ");
+    write_json_string(file, overrides.texts[i]);
+  }
+  std::fprintf(file, "],\n");
+}
+
 void write_tracking(std::FILE* file, const RunResult& result) {
   std::fprintf(file, "  \"tracking\": [");
   for (int i = 0; i < result.tracking_count; ++i) {
@@ -118,6 +127,7 @@ bool write_summary(const char* path, std::string_view pipeline, const Session& s
                Robot::kName, session.board, session.simulated ? "true" : "false");
   std::fprintf(file, "  \"rate_hz\": %.9g,\n  \"cycles\": %" PRId64 ",\n  \"seed\": %" PRIu64 ",\n",
                1.0 / session.pipeline.robot.period_s(), result.cycles, result.seed);
+  write_overrides(file, *result.overrides);
   std::fprintf(file, "  \"config_hash\": \"%016" PRIx64 "\",\n", result.config_hash);
   std::fprintf(file, "  \"result\": {\"code\": %d, \"name\": \"%s\"", result.code, result.name);
   if (!result.why.empty()) {

@@ -16,6 +16,7 @@ struct RunResult {
   Status fault = Status::kOk;   ///< the Status that ended the run, if one did
   Reason why;                   ///< of a goal that was not reached, in words
   Rung rung = Rung::kDisabled;  ///< after the last cycle
+  const OverrideOptions* overrides = nullptr;
   std::uint64_t seed = 0, config_hash = 0, heap_allocations = 0;
   int starved = 0;           ///< times that the arm waited on its path for the trajectory file
   double stretch = 0.0;      ///< time added to the trajectory, as a fraction

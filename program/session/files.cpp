@@ -6,18 +6,20 @@
 #include <cstdio>
 #include <cstring>
 
+#include "program/session/overrides.hpp"
+
 namespace tactus {
 namespace {
 
-std::array<char, kMaxPipelineBytes + 1> pipeline_text;
+PipelineText pipeline_text;
 
-bool read_text(const char* path, std::string_view& text) {
+bool read_text(const char* path, PipelineText& text) {
   std::FILE* file = std::fopen(path, "rb");
   if (file == nullptr) {
     std::fprintf(stderr, "%s: %s; give the path of a pipeline file\n", path, std::strerror(errno));
     return false;
   }
-  const std::size_t size = std::fread(pipeline_text.data(), 1, pipeline_text.size(), file);
+  text.size = std::fread(text.bytes.data(), 1, text.bytes.size(), file);
   const int failure = std::ferror(file) != 0 ? errno : 0;
   std::fclose(file);
   if (failure != 0) {
@@ -25,21 +27,26 @@ bool read_text(const char* path, std::string_view& text) {
                  std::strerror(failure));
     return false;
   }
-  if (size > kMaxPipelineBytes) {
+  if (text.size > kMaxPipelineBytes) {
     std::fprintf(stderr, "%s: the file is larger than %zu bytes\n", path, kMaxPipelineBytes);
     return false;
   }
-  text = std::string_view(pipeline_text.data(), size);
   return true;
 }
 
 }  // namespace
 
-bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::string_view& text) {
-  if (!read_text(path, text)) return false;
+bool load_pipeline(const char* path, Loader& loader, Pipeline& pipeline, std::string_view& text,
+                   const OverrideOptions& options) {
+  Overrides overrides;
+  if (!read_text(path, pipeline_text) || !overrides.write(options, pipeline_text)) return false;
+  text = pipeline_text.view();
   LoadError error;
   if (loader.load(text, pipeline, error) == Status::kOk) return true;
-  std::fprintf(stderr, "%s:%s%s\n", path, error.line > 0 ? "" : " ", error.message().c_str());
+  if (const char* option = overrides.place(error))
+    std::fprintf(stderr, "--set %s: %s\n", option, error.message().c_str());
+  else
+    std::fprintf(stderr, "%s:%s%s\n", path, error.line > 0 ? "" : " ", error.message().c_str());
   return false;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/version.hpp"
+#include "kernel/load/ini.hpp"
 
 namespace tactus {
 namespace {
@@ -47,6 +48,19 @@ CLI::Validator decimal(Number lowest, Number highest, const char* expected) {
         const auto [stop, code] = std::from_chars(text.data(), end, value);
         const bool good = code == std::errc() && stop == end && value >= lowest && value <= highest;
         return good ? std::string() : "'" + text + "' is not " + expected;
+      },
+      "");
+}
+
+/// Accepts section.key=value; the loader judges the three.
+CLI::Validator assignment() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::size_t equals = text.find('='), dot = text.find('.');
+        const bool good = dot < equals && equals < text.size() && is_text(text) &&
+                          text.size() < sizeof OverrideOptions::texts[0];
+        return good ? std::string()
+                    : "'" + text + "' is not section.key=value of at most 255 characters";
       },
       "");
 }
@@ -125,7 +139,7 @@ void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& 
 bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
                    int& exit_code) {
   std::string pipeline, trajectory, out, root, interface, listen, key, http;
-  std::vector<std::string> load, buses;
+  std::vector<std::string> load, buses, overrides;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + kVersion + ", board " + board);
   app.set_help_all_flag("--help-all", "Print the help of every verb and exit");
@@ -148,6 +162,12 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   add_run_options(*run, out, options);
   CLI::App* serve = app.add_subcommand("serve", "run a pipeline for clients until Ctrl-C");
   add_serve_options(*serve, pipeline, listen, key, http, out, options);
+  for (CLI::App* verb : {run, check, serve}) {
+    verb->add_option("--set", overrides,
+                     "section.key=value: replaces or adds a key of the pipeline file; repeatable")
+        ->allow_extra_args(false)
+        ->check(assignment());
+  }
   CLI::App* doctor = app.add_subcommand("doctor", "list settings of this host that hurt real time");
   doctor->add_option("--root", root, "folder that contains proc and sys (default /)")
       ->check(path());
@@ -182,6 +202,12 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
     exit_code = kRefused;
     return false;
   }
+  if (overrides.size() > OverrideOptions::kMost) {
+    std::fprintf(stderr, "tactus: --set is given %zu times, at most %d; edit the pipeline file\n",
+                 overrides.size(), OverrideOptions::kMost);
+    exit_code = kRefused;
+    return false;
+  }
   copy(pipeline, options.pipeline);
   copy(trajectory, options.trajectory);
   copy(out, options.out);
@@ -195,6 +221,8 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
     options.load.memory |= kind == "memory";
     options.load.disk |= kind == "disk";
   }
+  for (const std::string& text : overrides)
+    copy(text, options.overrides.texts[options.overrides.count++]);
   for (const std::string& bus : buses) copy(bus, options.buses[options.bus_count++]);
   options.verb = has_bus && *scan ? Verb::kScan
                  : *ports         ? Verb::kPorts

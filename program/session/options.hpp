@@ -18,6 +18,13 @@ struct Load {
   bool any() const { return cpu || memory || disk; }
 };
 
+/// The options --set: keys that replace or extend those of the pipeline file.
+struct OverrideOptions {
+  static constexpr int kMost = 32;
+  char texts[kMost][256] = {};  ///< "section.key=value"
+  int count = 0;
+};
+
 struct Options {
   Verb verb = Verb::kRun;
   char pipeline[512] = "";
@@ -25,6 +32,7 @@ struct Options {
   char out[512] = "";         ///< empty: out/<pipeline>
   double duration_s = 0.0;    ///< 0: the default of the verb
   std::uint64_t seed = 1;
+  OverrideOptions overrides;
   bool figure = true;
   bool realtime = false;          ///< cycles by the wall clock
   char listen[128] = "";          ///< of `serve`: the address; empty: a Unix socket of the user
