@@ -206,7 +206,7 @@ int run(Session& session, const Options& options) {
   if (!folder.begin(inputs_of(options, input), session.text)) return kRefused;
   print_long_way(input);
   const Recording& recording = session.pipeline.recording;
-  if (!log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
+  if (options.log && !log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
   result.overrides = &options.overrides;
   result.seed = options.seed;
@@ -216,7 +216,7 @@ int run(Session& session, const Options& options) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
     result.tracking[i].start(recording.tracking[i]);
   }
-  start_recorder(session.recorder, session.pipeline);
+  if (options.log) start_recorder(session.recorder, session.pipeline);
   if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
   execute(session, options, input, feed, log, writer, watchdog, result);
@@ -226,7 +226,8 @@ int run(Session& session, const Options& options) {
   realtime.release();  // or the program that draws the figure would inherit it
 
   judge(session, options, result);
-  const bool written = log.close() && write_results(folder, session, input, pipeline, result);
+  const bool written =
+      (!options.log || log.close()) && write_results(folder, session, input, pipeline, result);
   if (!written && result.code == 0) end_with(result, kEndedOtherwise, "not recorded");
   print_table(pipeline, session, result);
   if (options.figure && written) draw_figure(folder.path().c_str());

@@ -75,6 +75,9 @@ void add_run_options(CLI::App& run, std::string& out, Options& options) {
       ->check(decimal(std::uint64_t{0}, kLargestSeed, "a whole number of up to 64 bits"));
   run.add_flag_callback(
       "--no-figure", [&options] { options.figure = false; }, "do not draw the figure");
+  run.add_flag_callback(
+      "--no-log", [&options] { options.log = options.figure = false; },
+      "write neither log.csv nor the figure");
   run.add_flag("--realtime", options.realtime,
                "run one cycle per period of the wall clock instead of as fast as possible");
 }

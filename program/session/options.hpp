@@ -33,7 +33,7 @@ struct Options {
   double duration_s = 0.0;    ///< 0: the default of the verb
   std::uint64_t seed = 1;
   OverrideOptions overrides;
-  bool figure = true;
+  bool figure = true, log = true;
   bool realtime = false;          ///< cycles by the wall clock
   char listen[128] = "";          ///< of `serve`: the address; empty: a Unix socket of the user
   char http[64] = "";             ///< of `serve`: where the page is; empty: there is none
