@@ -9,7 +9,7 @@ namespace {
 
 void frame(const JointFrame& given, Json& to) {
   to.open('[').number(given.x).number(given.y).number(given.z);
-  to.integer(given.roll_quarter_turns).close(']');
+  to.integer(given.roll_quarter_turns).number(given.turn).close(']');
 }
 
 void joints(const JointLimits& limits, Json& to) {

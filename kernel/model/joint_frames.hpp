@@ -1,6 +1,6 @@
 // Changes of frame along the arm, specialised by the compiler for one robot table. Frame i is fixed
 // to link i and joint i turns about its z; frame -1 is the base, frame kDof the flange:
-//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(q_i).
+//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(turn_i + q_i).
 // RotX by quarter turns only permutes components and signs, so a change of frame costs one planar
 // rotation. Vectors are TypedVectors; their zeros cost nothing.
 #pragma once

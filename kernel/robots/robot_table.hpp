@@ -5,11 +5,12 @@
 namespace tactus {
 
 /// Placement of joint frame i in joint frame i-1 at q = 0; the joint turns about its own z.
-/// T(i-1, i) = Trans(x, y, z) * RotX(roll) * RotZ(q_i), which describes every arm whose axes are
-/// parallel or perpendicular.
+/// T(i-1, i) = Trans(x, y, z) * RotX(roll) * RotZ(turn + q_i), which describes every arm whose
+/// neighbouring axes are parallel or perpendicular. The flange has no turn.
 struct JointFrame {
   double x, y, z;          ///< m, in frame i-1
   int roll_quarter_turns;  ///< roll about x in units of pi/2: -1, 0, 1 or 2
+  double turn = 0.0;       ///< about z, at q_i = 0, rad
 };
 
 /// Mass distribution of a link in the axes of its joint frame, with the tensor about the centre of

@@ -20,9 +20,10 @@ def rotation_matrix(quaternion):
 
 
 def fixed(frame):
-    """Returns the matrix of a frame x, y, z, quarter turns about x."""
+    """Returns the matrix of a frame x, y, z, quarter turns about x, turn about z."""
     c, s = QUARTER_TURNS[frame[3]]
-    return np.array([[1, 0, 0, frame[0]], [0, c, -s, frame[1]], [0, s, c, frame[2]], [0, 0, 0, 1]], float)
+    rolled = np.array([[1, 0, 0, frame[0]], [0, c, -s, frame[1]], [0, s, c, frame[2]], [0, 0, 0, 1]], float)
+    return rolled @ turn([frame[4]])[0]
 
 
 def turn(angles):

@@ -16,6 +16,7 @@ double potential_energy(const JointVector& q, const Tool& tool) {
   const auto go_to = [&frame](const JointFrame& next) {
     frame.translate(Vector3(next.x, next.y, next.z));
     frame.rotate(Eigen::AngleAxisd(next.roll_quarter_turns * kHalfPi, Vector3::UnitX()));
+    frame.rotate(Eigen::AngleAxisd(next.turn, Vector3::UnitZ()));
   };
   double energy = 0.0;
   for (std::size_t i = 0; i < kDof; ++i) {

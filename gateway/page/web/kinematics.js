@@ -8,10 +8,10 @@ export function multiply(a, b) {
   return to;
 }
 
-/** Trans(x, y, z) RotX(quarters pi/2). */
-function fixedFrame([x, y, z, quarters]) {
+/** Trans(x, y, z) RotX(quarters pi/2) RotZ(angle). */
+function placed([x, y, z, quarters], angle) {
   const c = Math.round(Math.cos(quarters * Math.PI / 2)), s = Math.round(Math.sin(quarters * Math.PI / 2));
-  return new Float32Array([1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, x, y, z, 1]);
+  return multiply(new Float32Array([1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, x, y, z, 1]), turn(angle));
 }
 
 function turn(angle) {
@@ -21,11 +21,11 @@ function turn(angle) {
 
 /** Returns the frames of the links, the base first, and behind them that of the flange. */
 export function linkFrames(robot, q) {
-  const frames = [fixedFrame([0, 0, 0, 0])];
+  const frames = [turn(0)];
   robot.frames.forEach((joint, i) => {
-    frames.push(multiply(multiply(frames[i], fixedFrame(joint)), turn(q[i])));
+    frames.push(multiply(frames[i], placed(joint, joint[4] + q[i])));
   });
-  frames.push(multiply(frames[frames.length - 1], fixedFrame(robot.flange_frames[0])));
+  frames.push(multiply(frames[frames.length - 1], placed(robot.flange_frames[0], 0)));
   return frames;
 }
 

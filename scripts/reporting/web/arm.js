@@ -26,11 +26,11 @@ function capsule(a, b, radius, material) {
   return group;
 }
 
-/** Returns a frame x, y, z, quarter turns about x of scene.json. */
-function fixedFrame([x, y, z, quarters]) {
+/** Returns a frame x, y, z, quarter turns about x, turn about z of scene.json. */
+function fixedFrame([x, y, z, quarters, turn]) {
   const frame = new THREE.Group();
   frame.position.set(x, y, z);
-  frame.rotation.x = quarters * Math.PI / 2;
+  frame.rotation.set(quarters * Math.PI / 2, 0, turn);  // RotX RotZ: Three.js turns in the order XYZ
   return frame;
 }
 

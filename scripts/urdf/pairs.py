@@ -1,0 +1,157 @@
+"""Which capsules touch by construction, which can never meet, and a home pose clear of all others."""
+
+import itertools
+import math
+
+import numpy as np
+
+from mechanics import gravity_and_mass, tip_jacobian
+from reading import turn
+
+SAMPLES, TOUCHING = 4000, 0.15  # of random positions
+BEYOND, NEVER = 0.05, 0.0101  # rad beyond the limits; m
+MOST_REGIONS = 40000  # of a proof
+TOOL = 0.1, 0.02  # length and radius of the tool that the tests assume, m
+HOMES, CLEAR, INSIDE = 3000, 0.022, 0.25  # candidates; m between capsules; rad from the limits, at most a quarter of the range
+TURN = 1.5  # rad: where a candidate is sought
+
+
+def frames_of(table, q, first=0, last=None):
+    """Returns rotations [n, 3, 3] and origins [n, 3] of the links `first` to `last` in link `first`, at positions q [n, joints]."""
+    count = len(q)
+    frames = [(np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3)))]
+    for i in range(first, len(table.rows) if last is None else last):
+        row, (rotation, origin) = table.rows[i], frames[-1]
+        c, s = np.cos(q[:, i] + row.turn), np.sin(q[:, i] + row.turn)
+        about_z = np.zeros((count, 3, 3))
+        about_z[:, 0, 0], about_z[:, 0, 1], about_z[:, 1, 0], about_z[:, 1, 1], about_z[:, 2, 2] = c, -s, s, c, 1.0
+        fixed = turn((1, 0, 0), row.roll * math.pi / 2)
+        frames.append((rotation @ fixed @ about_z, origin + rotation @ row.offset))
+    return frames
+
+
+def segment_distance(p, p_end, q, q_end):
+    """Returns the distances of segments [n, 3]: the least of the inner solution, if there is one, and of the ends."""
+    u, v, w = p_end - p, q_end - q, p - q
+    a, b, c, d, e = ((u * u).sum(1), (u * v).sum(1), (v * v).sum(1), (u * w).sum(1), (v * w).sum(1))
+    least = np.full(len(p), np.inf)
+    for point, start, way in ((p, q, v), (p_end, q, v), (q, p, u), (q_end, p, u)):
+        share = np.clip(((point - start) * way).sum(1) / np.maximum((way * way).sum(1), 1e-15), 0.0, 1.0)
+        least = np.minimum(least, np.linalg.norm(start + share[:, None] * way - point, axis=1))
+    det = a * c - b * b
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s, t = (b * e - c * d) / det, (a * e - b * d) / det
+        inner = (det > 1e-12) & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+        across = np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=1)
+    return np.where(inner, np.minimum(least, across), least)
+
+
+def distances(one, other, frames, first=0):
+    """Returns the distances of two capsules, each (link, a, b, radius); `frames` begin with link `first`."""
+    ends = []
+    for link, a, b, _ in (one, other):
+        rotation, origin = frames[link - first]
+        ends += [origin + rotation @ a, origin + rotation @ b]
+    return segment_distance(*ends) - one[3] - other[3]
+
+
+def positions(chain, count, seed=7):
+    low, high = (np.array([joint.limits[key] for joint in chain.joints]) for key in ("lower", "upper"))
+    return np.random.default_rng(seed).uniform(low, high, (count, len(low)))
+
+
+def tool_capsule(table):
+    """Returns the capsule of the tests' tool, as one of the last link."""
+    flange, last = table.flange.matrix(), len(table.rows)
+    return last + 1, flange[:3, 3], flange[:3, 3] + TOOL[0] * flange[:3, 2], TOOL[1]
+
+
+def not_neighbours(chain, capsules, table):
+    """Returns the pairs of links that are no neighbours, the tool behind the last, with their capsules."""
+    all_of = capsules + [tool_capsule(table)]
+    for first, second in itertools.combinations(range(len(chain.joints) + 2), 2):
+        if second - first > 1:
+            ones, others = ([c for c in all_of if c[0] == link] for link in (first, second))
+            if ones and others:
+                yield first, second, ones, others
+
+
+def with_tool(frames):
+    return frames + [frames[-1]]
+
+
+def touching(chain, table, capsules):
+    """Returns the pairs of links that touch in a good share of all positions, and that share."""
+    frames = with_tool(frames_of(table, positions(chain, SAMPLES)))
+    found = {}
+    for first, second, ones, others in not_neighbours(chain, capsules, table):
+        near = np.min([distances(one, other, frames) for one in ones for other in others], axis=0)
+        share = float((near <= 0.0).mean())
+        if share > TOUCHING:
+            found[first, second] = share
+    return found
+
+
+def never_meet(chain, table, one, other):
+    """True if a proof by branch and bound over the joints between two capsules shows that they stay apart."""
+    joints = range(one[0], other[0])
+    own = max(np.linalg.norm(other[1]), np.linalg.norm(other[2])) + other[3]
+    reach = np.array([own + sum(np.linalg.norm(table.rows[i].offset) for i in range(joint + 1, other[0])) for joint in joints])
+    low, high = (np.array([chain.joints[i].limits[key] for i in joints]) for key in ("lower", "upper"))
+    middle, half = np.array([0.5 * (low + high)]), np.array([0.5 * (high - low) + BEYOND])
+    regions = 0
+    while len(middle):
+        regions += len(middle)
+        if regions > MOST_REGIONS:
+            return False
+        q = np.zeros((len(middle), other[0]))
+        q[:, one[0]:] = middle
+        apart = distances(one, other, frames_of(table, q, one[0], other[0]), one[0])
+        if not (apart > NEVER).all():
+            return False
+        left = apart <= NEVER + half @ reach
+        middle, half = middle[left], half[left]
+        rows, widest = np.arange(len(middle)), (half * reach).argmax(axis=1)
+        half[rows, widest] *= 0.5
+        step = np.zeros_like(half)
+        step[rows, widest] = half[rows, widest]
+        middle, half = np.vstack([middle - step, middle + step]), np.vstack([half, half])
+    return True
+
+
+def never(chain, table, capsules, listed):
+    """Returns the pairs of capsules, by number, that can never meet."""
+    frames = frames_of(table, positions(chain, SAMPLES))
+    found = []
+    for first, second in itertools.combinations(range(len(capsules)), 2):
+        one, other = capsules[first], capsules[second]
+        if other[0] - one[0] < 2 or (one[0], other[0]) in listed or distances(one, other, frames).min() <= NEVER:
+            continue
+        if never_meet(chain, table, one, other):
+            found.append((first, second))
+    return found
+
+
+def clearance(chain, table, capsules, listed, q):
+    """Returns the least distance of the pairs that are checked, at positions q [n, joints]."""
+    frames = with_tool(frames_of(table, q))
+    near = [distances(one, other, frames) for first, second, ones, others in not_neighbours(chain, capsules, table)
+            if (first, second) not in listed for one in ones for other in others]
+    return np.min(near, axis=0) if near else np.full(len(q), np.inf)
+
+
+def home_pose(chain, table, capsules, listed):
+    """Returns positions clear of limits and collisions, at which the tip moves well in every direction; None if there are none."""
+    low, high = (np.array([joint.limits[key] for joint in chain.joints]) for key in ("lower", "upper"))
+    inside = np.minimum(INSIDE, 0.25 * (high - low))
+    near_zero = np.clip(0.0, low + inside, high - inside)
+    q = np.random.default_rng(3).uniform(np.maximum(low + inside, near_zero - TURN), np.minimum(high - inside, near_zero + TURN),
+                                         (HOMES, len(low))).round(2)
+    q = q[clearance(chain, table, capsules, listed, q) > CLEAR]
+
+    def dexterity(position):
+        return np.linalg.svd(tip_jacobian(chain, position), compute_uv=False)[min(5, len(low) - 1)]
+
+    effort = np.array([joint.limits["effort"] for joint in chain.joints])
+    q = [one for one in q if (np.abs(gravity_and_mass(chain, one)[0]) < 0.7 * effort).all()]
+    return max(q, key=dexterity, default=None)

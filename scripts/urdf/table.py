@@ -1,0 +1,99 @@
+"""The joint frames of a robot's table: T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn + q)."""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from errors import Refused
+from reading import Body, turn
+
+SAME = 1e-9  # rad: axes within this are parallel or perpendicular
+ROLLS = {0: (0, 1), 1: (-1, 0), -1: (1, 0), 2: (0, -1)}  # y and z of the axis in the frame before
+X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+@dataclasses.dataclass
+class Row:
+    offset: np.ndarray
+    roll: int
+    turn: float
+
+    def matrix(self):
+        frame = np.eye(4)
+        frame[:3, :3] = turn(X, self.roll * math.pi / 2) @ turn(Z, self.turn)
+        frame[:3, 3] = self.offset
+        return frame
+
+
+@dataclasses.dataclass
+class Table:
+    rows: list  # of the joints
+    flange: Row
+    bodies: list  # in the joint frames
+    links: list  # frame of each URDF link in its joint frame, the base first
+
+
+def rounded(values):
+    """Returns numbers without the last digits of a computation in double precision, and no -0."""
+    return np.round(values, 15) + 0.0
+
+
+def roll_of(before, axis):
+    """Returns the roll from a frame to a frame whose z is the axis, or None."""
+    y, z = before[:, 1] @ axis, before[:, 2] @ axis
+    for roll, (of_y, of_z) in ROLLS.items():
+        if abs(before[:, 0] @ axis) < SAME and math.hypot(y - of_y, z - of_z) < SAME:
+            return roll
+    return None
+
+
+def angle_between(a, b):
+    return math.degrees(math.atan2(np.linalg.norm(np.cross(a, b)), a @ b))
+
+
+def x_axis(x, axis, following, joint):
+    """Returns x of the frame about `axis`: perpendicular to the axis that follows, as near to the given x as it can be."""
+    across = np.cross(axis, following)
+    if np.linalg.norm(across) < SAME:
+        return x
+    if abs(axis @ following) > SAME:
+        raise Refused(f"joint {joint.name}: its axis is at {angle_between(axis, following):.6g} degrees to that of the joint before; the"
+                      " table has neighbouring axes that are parallel or perpendicular; take the nominal, not a calibrated URDF")
+    across /= np.linalg.norm(across)
+    return across if across @ x > -SAME else -across
+
+
+def table_of(chain):
+    """Returns the joint frames that describe the chain, and the inertias in them."""
+    frames, frame = [], np.eye(4)
+    for joint in chain.joints:
+        frame = frame @ joint.origin
+        frames.append(frame)
+    tip = frame @ chain.flange
+    axes = [place[:3, :3] @ joint.axis for place, joint in zip(frames, chain.joints)]
+    rows, links, before = [], [np.eye(4)], np.eye(4)
+    for i, (joint, place) in enumerate(zip(chain.joints, frames)):
+        roll = roll_of(before[:3, :3], axes[i])
+        if roll is None:  # of the first joint only: the x of every other frame is chosen for the axis that follows
+            raise Refused(f"joint {joint.name}: its axis is at {angle_between(axes[i], np.array(X)):.6g} degrees to x of {chain.base} and at"
+                          f" {angle_between(axes[i], Z):.6g} to z; that of the first joint is along y or z of the base; give another --base")
+        x = before[:3, 0]
+        x_next = tip[:3, 0] if i + 1 == len(axes) else x_axis(x, axes[i], axes[i + 1], chain.joints[i + 1])
+        if abs(x_next @ axes[i]) > SAME:
+            raise Refused(f"link {chain.tip}: its x is at {angle_between(axes[i], x_next):.6g} degrees to the axis of joint {joint.name}; the"
+                          " x of the flange is perpendicular to the last axis; give another --tip, as tool0 of ROS-Industrial")
+        angle = math.atan2(axes[i] @ np.cross(x, x_next), x @ x_next)
+        quarters = round(angle / (math.pi / 2))
+        if abs(angle - quarters * math.pi / 2) < SAME:
+            angle = quarters * math.pi / 2
+        rows.append(Row(rounded(before[:3, :3].T @ (place[:3, 3] - before[:3, 3])), roll, angle))
+        before = before @ rows[-1].matrix()
+        links.append(np.linalg.inv(before) @ place)
+    roll = roll_of(before[:3, :3], tip[:3, 2])
+    if roll is None:
+        raise Refused(f"link {chain.tip}: its z is at {angle_between(axes[-1], tip[:3, 2]):.6g} degrees to the axis of joint"
+                      f" {chain.joints[-1].name}; it must be parallel or perpendicular; give another --tip")
+    flange = Row(rounded(before[:3, :3].T @ (tip[:3, 3] - before[:3, 3])), roll, 0.0)
+    bodies = [joint.body.moved(link) for joint, link in zip(chain.joints, links[1:])]
+    return Table(rows, flange, [Body(b.mass, rounded(b.com), rounded(b.tensor)) for b in bodies], links)
