@@ -25,6 +25,13 @@ $(CTL)/proto/tactus.pb.cc: gateway/tactus.proto
 	$(Q)protoc -Igateway --cpp_out=$(@D) $<
 $(CTL)/proto/tactus.pb.o: $(CTL)/proto/tactus.pb.cc
 	$(Q)$(call timed,compile) $(CXX) -std=c++17 $(SANITIZER) -O1 -c $< -o $@
+# The tables of all robots, for `retime --robot`.
+CTL_ROBOTS = { printf '\#include "kernel/robots/%s.hpp"\n' $(ROBOTS); echo 'namespace tactus::ctl {'; \
+  echo '/// True if use(robot) is, of one of the robots.'; echo 'template <class Use> bool any_robot(Use use) { return false'; \
+  printf ' || use(%s{})' $(shell printf '%s\n' $(ROBOTS) | sed 's/^./\U&/'); echo '; } }'; }
+$(CTL)/proto/robots.hpp: always
+	$(call kept,$(CTL_ROBOTS))
+$(CTL)/units/client.o $(call ctl_obj,gateway/ctl/retime/retime_limits.cpp): $(CTL)/proto/robots.hpp
 $(CTL)/flags: always
 	$(call kept,echo $(call quote,$(CXX) $(CTLFLAGS) $(OPTION)))
 $(CTL)/units/client.cpp: always

@@ -67,7 +67,7 @@ void pairs_that_are_left_out_cannot_meet(void**) {
     const ArmCapsule one(RobotCapsules::kCapsules[first]), other(RobotCapsules::kCapsules[second]);
     assert_true(never_meet(one, other, 0.01, regions));
     int tried = 0;
-    assert_false(never_meet(one, other, 0.5, tried));  // the proof can fail
+    assert_false(never_meet(one, other, kWorkspace_m, tried));  // the proof can fail
     ++pairs;
   }
   print_message("%d pairs in %d regions; %d pairs of the arm are checked\n", pairs, regions,

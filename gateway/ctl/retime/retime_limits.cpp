@@ -1,9 +1,8 @@
 #include "gateway/ctl/retime/retime_limits.hpp"
 
+#include <robots.hpp>
+
 #include "gateway/ctl/verbs.hpp"
-#include "kernel/robots/fer.hpp"
-#include "kernel/robots/gen3.hpp"
-#include "kernel/robots/ur10.hpp"
 
 namespace tactus::ctl {
 namespace {
@@ -21,9 +20,8 @@ Numbers two(double translation, double rotation) {
 }
 
 template <class Robot>
-bool use_table(const std::string& name, RobotLimits& limits) {
-  if (name != Robot::kName) return false;
-  limits.robot = name;
+void use_table(RobotLimits& limits) {
+  limits.robot = Robot::kName;
   resize_joints(limits, Robot::kDof);
   for (std::size_t i = 0; i < Robot::kLimits.size(); ++i) {
     const JointLimit& limit = Robot::kLimits[i];
@@ -38,7 +36,6 @@ bool use_table(const std::string& name, RobotLimits& limits) {
   const TaskLimit& tip = Robot::kTaskLimit;
   limits.tip = {two(tip.v_max, tip.w_max), two(tip.a_max, tip.alpha_max),
                 two(tip.j_max, tip.dalpha_max)};
-  return true;
 }
 
 int ask_server(const Options& options, Output& output, RobotLimits& limits) {
@@ -68,12 +65,18 @@ int ask_server(const Options& options, Output& output, RobotLimits& limits) {
 
 int find_limits(const Options& options, Output& output, RobotLimits& limits) {
   if (options.robot.empty() && !options.connect.empty()) return ask_server(options, output, limits);
-  if (use_table<Fer>(options.robot, limits) || use_table<Gen3>(options.robot, limits) ||
-      use_table<Ur10>(options.robot, limits))
-    return kSucceeded;
+  std::string known;
+  const auto is_given = [&](auto robot) {
+    using Robot = decltype(robot);
+    known += (known.empty() ? "" : ", ") + std::string(Robot::kName);
+    if (options.robot != Robot::kName) return false;
+    use_table<Robot>(limits);
+    return true;
+  };
+  if (any_robot(is_given)) return kSucceeded;
   output.error(options.robot.empty()
-                   ? "retime needs limits; give --robot fer, gen3 or ur10, or --connect"
-                   : "--robot " + options.robot + ": unknown robot; write fer, gen3 or ur10",
+                   ? "retime needs limits; give --robot, one of " + known + ", or --connect"
+                   : "--robot " + options.robot + ": unknown robot; expected one of " + known,
                kRefused);
   return kRefused;
 }
