@@ -140,14 +140,25 @@ def clearance(chain, table, capsules, listed, q):
     return np.min(near, axis=0) if near else np.full(len(q), np.inf)
 
 
+def lowest(table, capsules, q):
+    """Returns the height of the lowest point of the links that move, and of the tool, above the base."""
+    frames = with_tool(frames_of(table, q))
+    heights = [frames[link][0][:, 2] @ end + frames[link][1][:, 2] - radius
+               for link, *ends, radius in capsules + [tool_capsule(table)] if link > 0 for end in ends]
+    return np.min(heights, axis=0)
+
+
 def home_pose(chain, table, capsules, listed):
-    """Returns positions clear of limits and collisions, at which the tip moves well in every direction; None if there are none."""
+    """Returns positions clear of limits and collisions, above the base if there are such, at which the tip moves well in every direction;
+    None if there are none."""
     low, high = (np.array([joint.limits[key] for joint in chain.joints]) for key in ("lower", "upper"))
     inside = np.minimum(INSIDE, 0.25 * (high - low))
     near_zero = np.clip(0.0, low + inside, high - inside)
     q = np.random.default_rng(3).uniform(np.maximum(low + inside, near_zero - TURN), np.minimum(high - inside, near_zero + TURN),
                                          (HOMES, len(low))).round(2)
     q = q[clearance(chain, table, capsules, listed, q) > CLEAR]
+    above = lowest(table, capsules, q) > CLEAR
+    q = q[above] if above.any() else q
 
     def dexterity(position):
         return np.linalg.svd(tip_jacobian(chain, position), compute_uv=False)[min(5, len(low) - 1)]

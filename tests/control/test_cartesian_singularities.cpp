@@ -64,9 +64,16 @@ void it_passes_through_singularities(void**) {
   assert_true(passed >= 50);
 }
 
+/// True if a joint is at an end of its range.
+bool at_a_stop(const JointVector& q) {
+  return (q - kLimits.q_min).cwiseMin(kLimits.q_max - q).minCoeff() < 0.03;
+}
+
+/// An arm that bends to both sides may come back bent to the other side, and there a joint may
+/// reach its stop, or the arm a singularity along which the tip is missing, before the tip is back.
 void it_goes_out_of_reach_along_the_edge_and_comes_back(void**) {
   RandomVectors random;
-  int edges = 0;
+  int edges = 0, back = 0;
   for (int number = 0; number < 60; ++number) {
     PoseBench bench;
     bench.dt_s = number % 2 == 0 ? 1e-3 : 8e-3;
@@ -85,10 +92,13 @@ void it_goes_out_of_reach_along_the_edge_and_comes_back(void**) {
     }
     if (nearest > 0.05) continue;
     ++edges;
-    assert_true(bench.position_error().norm() < 0.01 && bench.rotation_error().norm() < 0.01);
+    const bool is_back =
+        bench.position_error().norm() < 0.01 && bench.rotation_error().norm() < 0.01;
+    assert_true(is_back || at_a_stop(bench.true_q) || bench.law.sigma.value < 1e-3);
+    back += is_back;
   }
-  print_message("%d edges\n", edges);
-  assert_true(edges >= 10);
+  print_message("%d edges, back from %d\n", edges, back);
+  assert_true(back >= 10 && 2 * back > edges);
 }
 
 void out_of_reach_it_comes_to_rest(void**) {
