@@ -56,7 +56,7 @@ class SmoothedReader {
 
   /// Fields of the waypoints; known once one was taken.
   Fields fields() const;
-  void note_left_out(typename Space::Header& header) const { reader_.note_left_out(header); }
+  void note_terms(typename Space::Header& header) const { reader_.note_terms(header); }
   const LineReader& lines() const { return reader_.lines(); }
   /// Line of the waypoint that was taken last.
   int line() const { return line_; }

@@ -12,12 +12,17 @@ struct GroupWords {
 };
 
 // In the order of the groups, from the positions on; the joint is between prefix and suffix.
-constexpr std::array<GroupWords, 4> kGroupWords = {{
+using JointWords = std::array<GroupWords, 4>;
+constexpr JointWords kGroupWords = {{
     {"q", "_rad"},
     {"dq", "_rad_s"},
     {"ddq", "_rad_s2"},
     {"tau", "_Nm"},
 }};
+// The outputs of a reference generator, as a log names them.
+constexpr JointWords kLoggedWords = {{{"q_d_", ""}, {"dq_d_", ""}, {"ddq_d_", ""}, {"tau_d_", ""}}};
+constexpr std::array<std::string_view, 6> kLoggedOutputs = {"",     "x_d_", "x_d_",
+                                                            "v_d_", "a_d_", "h_d_"};
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -35,6 +40,28 @@ int joint_of(std::string_view word) {
     if (word == std::string_view(number) || word == std::string_view(named)) return i;
   }
   return -1;
+}
+
+/// Returns "output_component" of a cell of a log, "block.output_component"; empty if it is none.
+std::string_view logged_output(std::string_view header) {
+  const std::size_t dot = header.find('.');
+  const bool logged = dot < header.size() && header.find('_', dot) < header.size();
+  return logged ? header.substr(dot + 1) : std::string_view();
+}
+
+/// Finds the group and the joint that a header names in these words.
+bool find_joint(const JointWords& all, std::string_view header, ColumnPlace& place) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const GroupWords& words = all[i];
+    if (!starts_with(header, words.prefix) || !ends_with(header, words.suffix)) continue;
+    std::string_view word = header;
+    word.remove_prefix(words.prefix.size());
+    if (word.size() < words.suffix.size()) continue;
+    word.remove_suffix(words.suffix.size());
+    place = {static_cast<int>(i) + 1, joint_of(word)};
+    if (place.index >= 0) return true;
+  }
+  return false;
 }
 
 struct TaskColumn {
@@ -61,17 +88,21 @@ template <class Space>
 bool Columns<Space>::add(std::string_view header, Message& reason) {
   Column column;
   column.name = Name(header);
-  const Name si = in_si(header, column.scale);
-  if (std::string_view(si) != "time_s" && !Table::find(si, column.place)) {
+  column.cell = ++cells_;
+  if (const std::string_view output = logged_output(header); !output.empty()) {
+    logged_ = true;
+    if (!Table::find_logged(output, column.place)) return true;
+  } else if (const Name si = in_si(header, column.scale);
+             std::string_view(si) != "time_s" && !Table::find(si, column.place)) {
     reason << not_a_column(header) << "; expected one of time_s, ";
     Table::name_them(reason);
     reason << "; or with deg, mm, ms";
     return false;
   }
   for (int i = 0; i < count_; ++i) {
-    const ColumnPlace& earlier = columns_[static_cast<std::size_t>(i)].place;
-    if (earlier.group == column.place.group && earlier.index == column.place.index) {
-      reason << "already given in column " << i + 1;
+    const Column& earlier = columns_[static_cast<std::size_t>(i)];
+    if (earlier.place.group == column.place.group && earlier.place.index == column.place.index) {
+      reason << "already given in column " << earlier.cell;
       return false;
     }
   }
@@ -104,6 +135,8 @@ bool Columns<Space>::complete(Message& reason) const {
       reason << "one for each given position";
     else
       reason << group.width;
+    if (logged_ && count == 0)
+      reason << "; the log has no reference: name it in [recorder] signals, jrg.q_d for example";
     return false;
   }
   if ((fields() & kAccelerationField) && !(fields() & kVelocityField)) {
@@ -132,17 +165,11 @@ template class Columns<JointSpace>;
 template class Columns<TaskSpace>;
 
 bool ColumnTable<JointSpace>::find(std::string_view header, ColumnPlace& place) {
-  for (std::size_t i = 0; i < kGroupWords.size(); ++i) {
-    const GroupWords& words = kGroupWords[i];
-    if (!starts_with(header, words.prefix) || !ends_with(header, words.suffix)) continue;
-    std::string_view word = header;
-    word.remove_prefix(words.prefix.size());
-    if (word.size() < words.suffix.size()) continue;
-    word.remove_suffix(words.suffix.size());
-    place = {static_cast<int>(i) + 1, joint_of(word)};
-    if (place.index >= 0) return true;
-  }
-  return false;
+  return find_joint(kGroupWords, header, place);
+}
+
+bool ColumnTable<JointSpace>::find_logged(std::string_view output, ColumnPlace& place) {
+  return find_joint(kLoggedWords, output, place);
 }
 
 double& ColumnTable<JointSpace>::value(const ColumnPlace& place, JointSpace::Point& point) {
@@ -157,6 +184,17 @@ void ColumnTable<JointSpace>::name_them(Message& message) {
 bool ColumnTable<TaskSpace>::find(std::string_view header, ColumnPlace& place) {
   for (const TaskColumn& column : kColumns) {
     if (column.header != header) continue;
+    place = column.place;
+    return true;
+  }
+  return false;
+}
+
+bool ColumnTable<TaskSpace>::find_logged(std::string_view output, ColumnPlace& place) {
+  for (const TaskColumn& column : kColumns) {
+    Name logged(kLoggedOutputs[static_cast<std::size_t>(column.place.group)]);
+    logged << column.header.substr(0, column.header.find('_'));
+    if (output != std::string_view(logged)) continue;
     place = column.place;
     return true;
   }

@@ -27,9 +27,11 @@ struct ColumnPlace {
 
 /// The columns of one space: kGroups, of which the first is the time, and
 ///   find(header, place)     finds the place of a column; false if the space has none of that name
+///   find_logged(output, place) does so for a column of a log, by its output: q_d_1 of jrg.q_d_1
 ///   value(place, point)     returns the number at a place that is not the time
 ///   name_them(message)      appends the allowed headers
 ///   leave_out(bits, header) writes the joints that are not given into the header, if kPartial
+///   in_base(header)         has the header name no frames
 template <class Space>
 struct ColumnTable;
 
@@ -44,9 +46,11 @@ struct ColumnTable<JointSpace> {
       {"effort", kDof, false, kEffortField},
   }};
   static bool find(std::string_view header, ColumnPlace& place);
+  static bool find_logged(std::string_view output, ColumnPlace& place);
   static double& value(const ColumnPlace& place, JointSpace::Point& point);
   static void name_them(Message& message);
   static void leave_out(std::uint32_t joints, JointSpace::Header& header) { header.held = joints; }
+  static void in_base(JointSpace::Header&) {}
 };
 
 template <>
@@ -61,9 +65,11 @@ struct ColumnTable<TaskSpace> {
       {"wrench", 6, false, kEffortField},
   }};
   static bool find(std::string_view header, ColumnPlace& place);
+  static bool find_logged(std::string_view output, ColumnPlace& place);
   static double& value(const ColumnPlace& place, TaskSpace::Point& point);
   static void name_them(Message& message);
   static void leave_out(std::uint32_t, TaskSpace::Header&) {}
+  static void in_base(TaskSpace::Header& header) { header = {}; }
 };
 
 template <class Space>
@@ -80,7 +86,9 @@ class Columns {
   explicit Columns(bool partial) : partial_(partial) {}
 
   /// Adds the next header cell; false with the reason if it is unknown or repeated. Degrees,
-  /// millimetres and milliseconds are units too: q1_deg, vx_mm_s, time_ms.
+  /// millimetres and milliseconds are units too: q1_deg, vx_mm_s, time_ms. Of the log of a run,
+  /// whose cells are called block.output_component, the columns of the reference are added and the
+  /// others are skipped.
   bool add(std::string_view header, Message& reason);
   /// Checks the header after its last cell: time and positions are given, every other group is
   /// whole or absent; else false with the reason. With partial positions, a whole group has the
@@ -88,6 +96,12 @@ class Columns {
   bool complete(Message& reason) const;
 
   int count() const { return count_; }
+  /// Cells of the header, those that are skipped too.
+  int cells() const { return cells_; }
+  /// Returns true if a column is that of a cell, which counts from 1.
+  bool is_at(int column, int cell) const {
+    return column < count_ && columns_[static_cast<std::size_t>(column)].cell == cell;
+  }
   std::string_view name(int column) const {
     return columns_[static_cast<std::size_t>(column)].name;
   }
@@ -97,9 +111,11 @@ class Columns {
   double scale(int column) const { return columns_[static_cast<std::size_t>(column)].scale; }
   /// Returns the fields that are given.
   Fields fields() const;
-  /// Writes the joints that the positions leave out into the header; call after complete().
-  void note_left_out(typename Space::Header& header) const {
+  /// Writes the joints that the positions leave out into the header, and that a log, whose poses
+  /// are those of the base, has no frames; call after complete().
+  void note_terms(typename Space::Header& header) const {
     Table::leave_out(whole(kPositions) & ~given(kPositions), header);
+    if (logged_) Table::in_base(header);
   }
 
  private:
@@ -108,6 +124,7 @@ class Columns {
     Name name;
     ColumnPlace place;
     double scale = 1.0;
+    int cell = 0;
   };
 
   static constexpr std::size_t kPositions = 1;  // the group of the positions
@@ -118,8 +135,8 @@ class Columns {
   std::uint32_t given(std::size_t group) const;
 
   std::array<Column, kMost> columns_;
-  int count_ = 0;
-  bool partial_;
+  int count_ = 0, cells_ = 0;
+  bool partial_, logged_ = false;
 };
 
 }  // namespace tactus

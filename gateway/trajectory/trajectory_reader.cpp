@@ -39,25 +39,26 @@ bool read_row(Cells cells, int line, const Columns<Space>& columns, Digits* digi
               Waypoint<Space>& waypoint, CsvError& error) {
   waypoint = {};
   std::string_view cell;
-  int column = 0;
+  int number = 0, column = 0;
   while (cells.take(cell)) {
-    if (++column > columns.count()) {
-      return refuse(error, line, column, {},
-                    Message("more cells than the ") << columns.count()
+    if (++number > columns.cells()) {
+      return refuse(error, line, number, {},
+                    Message("more cells than the ") << columns.cells()
                                                     << " columns of the header; "
                                                        "decimals are written with a point");
     }
-    const std::string_view header = columns.name(column - 1);
-    if (cell.empty()) return refuse(error, line, column, header, "the cell is empty");
-    double& value = columns.value(column - 1, waypoint);
-    if (!read_number(cell, value)) return refuse(error, line, column, header, not_a_number(cell));
-    value *= columns.scale(column - 1);
-    digits[column - 1].note(cell);
+    if (!columns.is_at(column, number)) continue;
+    const std::string_view header = columns.name(column);
+    if (cell.empty()) return refuse(error, line, number, header, "the cell is empty");
+    double& value = columns.value(column, waypoint);
+    if (!read_number(cell, value)) return refuse(error, line, number, header, not_a_number(cell));
+    value *= columns.scale(column);
+    digits[column++].note(cell);
   }
-  if (column == columns.count()) return true;
+  if (number == columns.cells()) return true;
   return refuse(
       error, line, 0, {},
-      Message("") << column << " cells, but the header has " << columns.count() << " columns");
+      Message("") << number << " cells, but the header has " << columns.cells() << " columns");
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ RowResult TrajectoryReader<Space>::next(Waypoint<Space>& waypoint, CsvError& err
     separator_ = separator_of(row);
     if (!read_header(Cells(row, separator_), line, columns_, error)) return RowResult::kRefused;
     JointSpace::Header header;
-    if constexpr (std::is_same_v<Space, JointSpace>) columns_.note_left_out(header);
+    if constexpr (std::is_same_v<Space, JointSpace>) columns_.note_terms(header);
     turns_.leave_out(header);
   }
 }
@@ -172,7 +173,7 @@ bool read_trajectory(const char* path, bool partial, Trajectory<Space>& trajecto
     trajectory.set(trajectory.count++, waypoint);
   }
   trajectory.fields = reader.fields();
-  reader.note_left_out(trajectory.header);
+  reader.note_terms(trajectory.header);
   return taken == RowResult::kEnd;
 }
 

@@ -12,7 +12,8 @@
 //   [, ax_m_s2, ay_m_s2, az_m_s2, alphax_rad_s2, alphay_rad_s2, alphaz_rad_s2]
 //   [, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm]
 //
-// A group in brackets is given completely or left out.
+// A group in brackets is given completely or left out. The log of a run is such a file too, by the
+// outputs of the reference generator in it: jrg.q_d_1, jrg.dq_d_1, trg.x_d_x, trg.v_d_vx, ...
 #pragma once
 
 #include "gateway/joint_turns.hpp"
@@ -60,8 +61,9 @@ class TrajectoryReader {
 
   /// Fields that are given; known once a waypoint was taken.
   Fields fields() const { return columns_.fields(); }
-  /// Writes the joints that are left out into the header; once a waypoint was taken.
-  void note_left_out(typename Space::Header& header) const { columns_.note_left_out(header); }
+  /// Writes the joints that are left out, and that a log has no frames, into the header; once a
+  /// waypoint was taken.
+  void note_terms(typename Space::Header& header) const { columns_.note_terms(header); }
   /// Returns half of a unit in the last digit of each number of a waypoint, in SI units, by the
   /// digits of all rows that were taken since the file was opened. [any]
   Waypoint<Space> half_units(const Waypoint<Space>& waypoint) const;

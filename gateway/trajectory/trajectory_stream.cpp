@@ -33,7 +33,7 @@ bool TrajectoryStream<Space>::fill_window() {
   }
   if (taken == RowResult::kRefused) return false;
   window_->fields = reader_.fields();
-  reader_.note_left_out(window_->header);
+  reader_.note_terms(window_->header);
   window_->open = longer_ = taken == RowResult::kWaypoint;
   sender_.begin(window_->count);
   state_ = longer_ ? FeedResult::kMore : FeedResult::kIdle;

@@ -60,7 +60,7 @@ bool FileFeed<Space>::begin(BoardClient& board, const char* path, const GatewayS
   fill();
   TrajectoryTerms terms;
   typename Space::Header header{};
-  reader_.note_left_out(header);
+  reader_.note_terms(header);
   note_held(terms, header);
   terms.poses = std::is_same_v<Space, TaskSpace>;
   terms.fields = fields_;

@@ -135,6 +135,28 @@ void the_signals_of_the_summary_have_the_columns_of_the_log(void**) {
   assert_int_equal(std::system(command.c_str()), 0);
 }
 
+// Proves CSV-11.
+
+/// Every output is recorded, every tenth cycle, so that the reference is joined between them.
+void a_log_is_a_trajectory_with_the_same_reference(void**) {
+  write("p.ini", {kPipeline});
+  write("t.csv", {kHeader, "0.3,0.05,-0.785398,0,-2.4,0,1.6,0.785398\n",
+                  "0.6,0,-0.785398,0,-2.356194,0,1.570796,0.785398\n"});
+  assert_succeeds(
+      "cd $S; $P run p.ini --no-figure --trajectory t.csv --set gateway.interpolation=monotone "
+      "--out log1 "
+      "&& $P run p.ini --no-figure --trajectory log1/log.csv --out log2 && "
+      "$P run p.ini --no-log --trajectory log1/log.csv --out log3 && "
+      "[ ! -e log3/log.csv -a -e log3/summary.json ] && "
+      "python3 -c 'import csv; a, b = (list(csv.DictReader(open(f\"log{i}/log.csv\"))) for i in "
+      "(1, 2)); "
+      "names = [f\"jrg.q_d_{i}\" for i in range(1, 8)]; "
+      "worst = max(abs(float(x[n]) - float(y[n])) for x, y in zip(a, b) for n in names); "
+      "assert len(a) > 100 and worst < 1e-9, (len(a), worst)'");
+}
+
+// Proves RUN-1.
+
 void a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished(void**) {
   const Line pipeline = write("p.ini", {kPipeline});
   const Line trajectory = write("t.csv", {kHeader, kReady});
@@ -227,6 +249,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_run_writes_a_summary_that_is_json_with_every_key_that_is_promised),
       cmocka_unit_test(a_summary_is_json_whatever_the_pipeline_is_called),
       cmocka_unit_test(the_signals_of_the_summary_have_the_columns_of_the_log),
+      cmocka_unit_test(a_log_is_a_trajectory_with_the_same_reference),
       cmocka_unit_test(a_trajectory_that_ends_in_time_succeeds_and_one_that_does_not_is_unfinished),
       cmocka_unit_test(a_fault_ends_the_run_with_its_code_and_the_files_are_written),
       cmocka_unit_test(a_folder_that_cannot_be_made_is_refused),

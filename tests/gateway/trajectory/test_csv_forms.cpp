@@ -1,6 +1,8 @@
-// Tests the forms of a trajectory file: units other than SI's, and separators other than commas.
+// Tests the forms of a trajectory file: units other than SI's, separators other than commas, and
+// the log of a run.
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 #include "tests/gateway/trajectory/csv_bench.hpp"
 
@@ -39,6 +41,31 @@ void semicolons_and_tabs_separate_too(void**) {
   assert_string_equal(g_error.message().c_str(), "2:1: time_s: the cell is empty");
 }
 
+// Proves CSV-11.
+
+void of_a_log_the_columns_of_the_reference_are_read_and_no_others(void**) {
+  constexpr const char* kLog =
+      "time_s,robot.q_1,ms_mm.dq_d_1,j.q_d_1,j.q_d_2,j.q_d_3,j.q_d_4,j.q_d_5,j.q_d_6,j.q_d_7,"
+      "ms_mm.dq_d_2,j.dq_d_3,j.dq_d_4,j.dq_d_5,j.dq_d_6,j.dq_d_7,pd.tau_1,j.x_d_x,ac.limited_on\n";
+  std::string text(kLog);
+  assert_true(read_text(text + "0.5,nan,8,1,2,3,4,5,6,7,9,10,11,12,13,14,x,,1\n"));
+  const Waypoint<JointSpace>& read = storage[0];
+  assert_true(read.time_s == 0.5 && g_trajectory.fields == kVelocityField);
+  for (int i = 0; i < kDof; ++i)
+    assert_true(read.point.q[i] == 1.0 + i && read.point.dq[i] == 8.0 + i);
+  assert_false(read_text(text + "0.5,0,8,1,2,3,4,5,6,z,9,10,11,12,13,14,0,0,1\n"));
+  assert_string_equal(g_error.message().c_str(),
+                      "2:10: j.q_d_7: 'z' is not a finite number; write a number such as -0.5");
+  assert_false(read_text(text + "0.5,0,8\n"));
+  assert_string_equal(g_error.message().c_str(), "2: 3 cells, but the header has 19 columns");
+  assert_false(read_text("time_s,robot.q_1,model.x_x\n0,0,0\n"));
+  assert_string_equal(g_error.message().c_str(),
+                      "1: position: 0 columns, expected 7; the log has no reference: name it in "
+                      "[recorder] signals, jrg.q_d for example");
+  assert_false(read_text("time_s,a.q_d_1,b.q_d_1\n0,0,0\n"));
+  assert_string_equal(g_error.message().c_str(), "1:3: b.q_d_1: already given in column 2");
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -47,6 +74,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(degrees_and_milliseconds_are_converted),
       cmocka_unit_test(semicolons_and_tabs_separate_too),
+      cmocka_unit_test(of_a_log_the_columns_of_the_reference_are_read_and_no_others),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_csv_file);
 }

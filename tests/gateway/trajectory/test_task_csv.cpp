@@ -219,6 +219,32 @@ void a_cell_that_is_no_finite_number_is_refused_with_its_column(void**) {
   assert_string_equal(error.message().c_str(), "2:7: qy: the cell is empty");
 }
 
+// Proves CSV-11.
+
+/// A log has poses in the base frame, whatever frame the pipeline names for its trajectory.
+void a_log_gives_pose_twist_and_wrench_in_the_base_frame(void**) {
+  std::FILE* file = std::fopen(scratch(), "wb");
+  assert_non_null(file);
+  std::fputs(
+      "time_s,model.x_x,t.x_d_x,t.x_d_y,t.x_d_z,t.x_d_qw,t.x_d_qx,t.x_d_qy,t.x_d_qz,t.v_d_vx,"
+      "t.v_d_vy,t.v_d_vz,t.v_d_wx,t.v_d_wy,t.v_d_wz,t.h_d_fx,t.h_d_fy,t.h_d_fz,t.h_d_mx,"
+      "t.h_d_my,t.h_d_mz,t.dh_d_dfx\n"
+      "2,99,0.1,0.2,0.3,0,1,0,0,1,2,3,4,5,6,7,8,9,10,11,12,99\n",
+      file);
+  std::fclose(file);
+  const Pose frame;
+  trajectory = {};
+  trajectory.waypoints = storage.data();
+  trajectory.capacity = kCapacity;
+  trajectory.header = {&frame, &frame};
+  assert_true(read_trajectory(scratch(), false, trajectory, error));
+  assert_true(trajectory.header.motion == nullptr && trajectory.header.wrench == nullptr);
+  assert_int_equal(trajectory.fields, kVelocityField | kEffortField);
+  const TaskSpace::Point& point = storage[0].point;
+  assert_true(point.x.p == Vector3(0.1, 0.2, 0.3) && point.x.r.x() == 1.0 && point.x.r.w() == 0.0);
+  for (int i = 0; i < 6; ++i) assert_true(point.v[i] == 1.0 + i && point.h[i] == 7.0 + i);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -231,6 +257,7 @@ int main() {
       cmocka_unit_test(a_column_twice_is_refused_with_the_place_of_the_first),
       cmocka_unit_test(an_unknown_column_is_refused_with_those_there_are),
       cmocka_unit_test(a_cell_that_is_no_finite_number_is_refused_with_its_column),
+      cmocka_unit_test(a_log_gives_pose_twist_and_wrench_in_the_base_frame),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_scratch);
 }
