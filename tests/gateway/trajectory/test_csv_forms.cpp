@@ -66,6 +66,20 @@ void of_a_log_the_columns_of_the_reference_are_read_and_no_others(void**) {
   assert_string_equal(g_error.message().c_str(), "1:3: b.q_d_1: already given in column 2");
 }
 
+void every_output_of_a_reference_is_read_from_a_log(void**) {
+  std::string header("time_s"), row("0");
+  int number = 0;
+  for (const char* output : {"q_d", "dq_d", "ddq_d", "tau_d"})
+    for (int joint = 1; joint <= kDof; ++joint) {
+      header += "," + (std::string("jrg.") + output) + "_" + std::to_string(joint);
+      row += "," + std::to_string(++number);
+    }
+  assert_true(read_text(header + "\n" + row + "\n"));
+  const JointSpace::Point& point = storage[0].point;
+  assert_true(point.q[0] == 1.0 && point.dq[0] == kDof + 1.0 && point.ddq[0] == 2.0 * kDof + 1.0);
+  assert_true(point.tau[kDof - 1] == 4.0 * kDof);
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -75,6 +89,7 @@ int main() {
       cmocka_unit_test(degrees_and_milliseconds_are_converted),
       cmocka_unit_test(semicolons_and_tabs_separate_too),
       cmocka_unit_test(of_a_log_the_columns_of_the_reference_are_read_and_no_others),
+      cmocka_unit_test(every_output_of_a_reference_is_read_from_a_log),
   };
   return cmocka_run_group_tests(tests, nullptr, remove_csv_file);
 }
