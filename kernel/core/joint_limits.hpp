@@ -17,15 +17,6 @@ struct JointLimits {
   /// Largest velocity step between two straight segments, rad/s; a quarter of the velocity limit.
   JointVector velocity_step;
 
-  /// Returns these limits with velocity, acceleration and jerk multiplied by `share`. [any]
-  JointLimits scaled(double share) const {
-    JointLimits limits = *this;
-    limits.dq_max *= share;
-    limits.ddq_max *= share;
-    limits.dddq_max *= share;
-    return limits;
-  }
-
   /// Returns these limits with velocities of at most `speed`, rad/s. [any]
   JointLimits slowed(double speed) const {
     JointLimits limits = *this;

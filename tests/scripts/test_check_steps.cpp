@@ -23,7 +23,8 @@ int plant_tree(void**) {
       "printf '#!/bin/sh\\necho ports\\n' > build/fer_sim/tactus && "
       "chmod +x build/fer_sim/tactus && echo ports > docs/ports.md && "
       "for name in kernel gateway hal program sim_plant boards; do "
-      "mkdir $name && touch $name/x.cpp || exit; done");
+      "mkdir $name && touch $name/x.cpp || exit; done; mkdir kernel/core && touch "
+      "kernel/core/build.hpp");
 }
 
 /// Runs a step of the planted tree's check after the command `before`.

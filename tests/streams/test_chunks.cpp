@@ -238,6 +238,14 @@ void relative_targets_count_from_the_observation(void**) {
   }
 }
 
+/// From rest a quintic leads to the first target, if half of every limit is enough, from 50 ms on.
+void a_near_first_target_is_met_at_its_stamp(void**) {
+  ChunkBench<JointSpace> bench;
+  bench.send_targets(0.06, 0.05, 10, [](double) { return 1e-4; });
+  bench.run(0.08);
+  ASSERT_NEAR(bench.way_now(), 1e-4, 1e-9);
+}
+
 }  // namespace
 
 int main() {
@@ -250,6 +258,7 @@ int main() {
       cmocka_unit_test(a_short_chunk_from_rest_is_reached_neither_backwards_nor_from_beyond),
       cmocka_unit_test(disagreement_costs_little_jerk),
       cmocka_unit_test(relative_targets_count_from_the_observation),
+      cmocka_unit_test(a_near_first_target_is_met_at_its_stamp),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

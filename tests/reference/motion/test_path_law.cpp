@@ -224,6 +224,24 @@ void an_open_path_is_never_run_to_its_end(void**) {
   }
 }
 
+/// Where room is short only at a waypoint the rate falls to what that leaves, and no lower.
+void a_rate_falls_no_lower_than_the_least_room_ahead(void**) {
+  Random random{5};
+  for (int n = 20; n > 0; --n) {
+    Runner runner(PathKind::kSmooth, random);
+    runner.open_until(RandomPath::kPieces - 1);
+    for (Waypoint<JointSpace>& waypoint : runner.waypoints) waypoint.room = waypoint.halfway = 1.0F;
+    runner.waypoints[2].room = 0.25F;
+    runner.start(0.0, 1.0);
+    double lowest = 1.0;
+    for (int k = 0; k < 20000 && runner.law.s() < runner.own.time_s(3); ++k) {
+      runner.step(1.0);
+      lowest = std::fmin(lowest, runner.law.rate());
+    }
+    assert_true(lowest > 0.5 - 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace tactus
 
@@ -233,6 +251,7 @@ int main() {
       cmocka_unit_test(a_stop_keeps_limits_and_is_nearly_as_quick_as_acceleration_allows),
       cmocka_unit_test(a_path_keeps_limits_whatever_rate_is_asked_for_and_when),
       cmocka_unit_test(an_open_path_is_never_run_to_its_end),
+      cmocka_unit_test(a_rate_falls_no_lower_than_the_least_room_ahead),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
