@@ -50,6 +50,7 @@ void set_inertia(mjModel* model, mjData* scratch) {
     const Eigen::Quaterniond turn(axes);
     Eigen::Map<Eigen::Vector3d>(model->body_inertia + 3 * body) = principal.eigenvalues();
     Eigen::Map<Eigen::Vector4d>(model->body_iquat + 4 * body) << turn.w(), turn.vec();
+    model->body_sameframe[body] = 0;  // set where the centre of mass is the origin: iquat is unread
   }
   mj_setConst(model, scratch);
 }

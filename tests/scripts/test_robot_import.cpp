@@ -8,7 +8,7 @@ namespace {
 /// Writes arm.urdf, an arm whose frames and axes point anywhere.
 int write_urdf(void**) {
   setenv("OPTIONS",
-         "--name odd --root $S/tree --acceleration 8 --jerk 800 --torque-rate 1000 "
+         "--name odd --root $S/tree --acceleration 8 --jerk 800 --torque-rate 2500 "
          "--tip-limits 1 5 500 2 8 800 100 20",
          1);
   return shell("mkdir $S/tree && /usr/bin/python3 tests/scripts/odd_arm.py $S");

@@ -84,13 +84,13 @@ void a_free_swing_without_friction_keeps_its_energy(void**) {
   }
 }
 
-/// Joint positions after a fall of 64 ms with the robot's friction, integrated in steps of dt_s.
+/// Joint positions after a fall of 256 ms with the robot's friction, integrated in steps of dt_s.
 JointVector fall(double dt_s) {
   static Arm arm;
   PlantParams params = bare();
   params.friction = 1.0;
   ASSERT_OK(arm.load(params));
-  for (int k = 0; k < std::lround(0.064 / dt_s); ++k) arm.step(JointVector::Zero(), dt_s);
+  for (int k = 0; k < std::lround(0.256 / dt_s); ++k) arm.step(JointVector::Zero(), dt_s);
   return arm.q();
 }
 
