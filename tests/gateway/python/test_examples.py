@@ -47,12 +47,6 @@ class Examples(unittest.TestCase):
     def test_without_an_address_they_run_a_simulated_ur10(self):
         self.assertIn("succeeded", self.run_example(EXAMPLES[-1]))
 
-    @unittest.skipIf(served.ROBOT != "fer", "the example simulates a FER")
-    def test_without_an_address_a_policy_runs_on_a_simulated_fer_in_thirty_lines(self):
-        (example,) = (path for path in EXAMPLES if path.name == "diffusion_policy.py")
-        self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 30)
-        self.assertLess(float(self.run_example(example).split()[0]), 10)
-
     def run_of_the_page(self, number, before="", after=""):
         """Runs a program of the page, by its number, and returns its lines."""
         page = (served.ROOT / "docs/python.md").read_text(encoding="utf-8")

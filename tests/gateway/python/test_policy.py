@@ -1,5 +1,7 @@
 """The class Robot: what it sends, against raw protobuf, and what it does with the simulated robot of this board."""
 
+import subprocess
+import sys
 import time
 import unittest
 
@@ -74,6 +76,14 @@ class OnRobot(unittest.TestCase):
             robot.arm.rearm()
             robot.act(goal)
             self.assertLess(np.abs(served.at_rest(robot.arm).q_d - goal).max(), 1e-6)
+
+
+class Example(unittest.TestCase):
+    def test_thirty_lines_denoise_chunks_and_move_a_simulated_fer_to_the_goal(self):
+        example = served.ROOT / "gateway/python/examples/diffusion_policy.py"
+        self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 30)
+        said = subprocess.run([sys.executable, example], capture_output=True, text=True, timeout=120, check=True).stdout
+        self.assertLess(float(said.split()[0]), 10)
 
 
 if __name__ == "__main__":

@@ -62,12 +62,6 @@ void parameters_change_while_the_arm_moves(void**) {
   run_module("test_parameters");
 }
 
-// Proves PYT-15.
-
-void a_policy_observes_and_acts(void**) {
-  run_module("test_policy");
-}
-
 // Proves PYT-7.
 
 void every_example_runs(void**) {
@@ -100,7 +94,6 @@ int main(int, char** argv) {
       cmocka_unit_test(a_simulated_robot_is_moved_in_all_ways),
       cmocka_unit_test(a_server_is_started_with_a_key_and_in_virtual_time),
       cmocka_unit_test(parameters_change_while_the_arm_moves),
-      cmocka_unit_test(a_policy_observes_and_acts),
       cmocka_unit_test(every_example_runs),
       cmocka_unit_test(the_package_is_installed_by_pip_or_copied),
       cmocka_unit_test(a_client_that_is_killed_leaves_the_arm_at_rest_and_free),
