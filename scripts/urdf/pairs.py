@@ -12,7 +12,7 @@ SAMPLES, TOUCHING = 4000, 0.15  # of random positions
 BEYOND, NEVER = 0.05, 0.0101  # rad beyond the limits; m
 MOST_REGIONS = 40000  # of a proof
 TOOL = 0.1, 0.02  # length and radius of the tool that the tests assume, m
-HOMES, CLEAR, INSIDE = 3000, 0.022, 0.25  # candidates; m between capsules; rad from the limits, at most a quarter of the range
+HOMES, CLEAR, INSIDE = 3000, (0.1, 0.05, 0.022), 0.25  # candidates; m between capsules, the most that enough have; rad from the limits, at most a quarter of the range
 TURN = 1.5  # rad: where a candidate is sought
 
 
@@ -156,9 +156,9 @@ def home_pose(chain, table, capsules, listed):
     near_zero = np.clip(0.0, low + inside, high - inside)
     q = np.random.default_rng(3).uniform(np.maximum(low + inside, near_zero - TURN), np.minimum(high - inside, near_zero + TURN),
                                          (HOMES, len(low))).round(2)
-    q = q[clearance(chain, table, capsules, listed, q) > CLEAR]
-    above = lowest(table, capsules, q) > CLEAR
-    q = q[above] if above.any() else q
+    apart, above = clearance(chain, table, capsules, listed, q), lowest(table, capsules, q)
+    rows = [np.minimum(apart, above) > clear for clear in CLEAR] + [apart > CLEAR[-1]]
+    q = q[next((row for row in rows if row.sum() > HOMES // 100), rows[-1])]
 
     def dexterity(position):
         return np.linalg.svd(tip_jacobian(chain, position), compute_uv=False)[min(5, len(low) - 1)]
