@@ -49,6 +49,12 @@ class SmoothedReader {
   void run_up_within(const typename Space::Peaks& limits) { limits_ = limits; }
   /// Returns to the first waypoint of a regular file, to read it so. False: refused. [init]
   bool restart(const Smoothing& smoothing, CsvError& error);
+  /// The same, to read it as another reader of the file does: smoothed by as much, and with its
+  /// run-up. [init]
+  bool restart_as(const SmoothedReader& other, CsvError& error) {
+    limits_ = other.limits_;
+    return restart(other.smoothing_, error);
+  }
   /// The same, to read it as before. [init]
   bool rewind(CsvError& error);
   /// As TrajectoryReader::next(). Refuses also what no smooth curve is near to. [any, not cyclic]

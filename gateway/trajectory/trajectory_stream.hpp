@@ -71,6 +71,7 @@ class TrajectoryStream {
   /// How far positions were moved at most, to smooth them.
   const SmoothingTolerance& moved() const { return reader_.moved(); }
   const Smoothing& smoothing() const { return reader_.smoothing(); }
+  const SmoothedReader<Space>& reader() const { return reader_; }
   /// Returns the time of a waypoint, or infinity if it is not in the window.
   double time_s(int waypoint) const;
 

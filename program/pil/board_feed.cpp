@@ -47,12 +47,12 @@ void FileFeed<Space>::fill() {
 
 template <class Space>
 bool FileFeed<Space>::begin(BoardClient& board, const char* path, const GatewaySection& gateway,
-                            const Smoothing& smoothing, Message& why) {
+                            const SmoothedReader<Space>& host, Message& why) {
   const bool partial = gateway.partial_joints == PartialJoints::kHold;
   count_ = 0;
   at_end_ = whole_ = false;
   if (!reader_.open(path, partial, 0, error_) || !reader_.lines().regular() ||
-      !reader_.restart(smoothing, error_)) {
+      !reader_.restart_as(host, error_)) {
     why = Message(path);
     why << ": cannot be read a second time, for the board";
     return false;
@@ -103,11 +103,12 @@ bool FileFeed<Space>::feed(BoardClient& board, Message& why) {
   return true;
 }
 
-bool BoardFeed::begin(bool poses, BoardClient& board, const char* path,
-                      const GatewaySection& gateway, const Smoothing& smoothing, Message& why) {
-  if (poses)
-    return file_.emplace<FileFeed<TaskSpace>>().begin(board, path, gateway, smoothing, why);
-  return file_.emplace<FileFeed<JointSpace>>().begin(board, path, gateway, smoothing, why);
+bool BoardFeed::begin(BoardClient& board, const TrajectoryInput& input,
+                      const GatewaySection& gateway, Message& why) {
+  const char* const path = input.path.c_str();
+  if (const auto* poses = std::get_if<2>(&input.file))
+    return file_.emplace<2>().begin(board, path, gateway, poses->reader(), why);
+  return file_.emplace<1>().begin(board, path, gateway, std::get_if<1>(&input.file)->reader(), why);
 }
 
 bool BoardFeed::feed(BoardClient& board, Message& why) {

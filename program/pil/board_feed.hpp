@@ -7,15 +7,17 @@
 #include "gateway/reference_frames.hpp"
 #include "gateway/trajectory/smoothed_reader.hpp"
 #include "program/pil/board_client.hpp"
+#include "program/session/trajectory_input.hpp"
 
 namespace tactus::pil {
 
 template <class Space>
 class FileFeed {
  public:
-  /// Opens the file and begins its trajectory on the board. False: refused; `why` has the source.
+  /// Opens the file, reads it as `host` does, and begins its trajectory on the board. False:
+  /// refused; `why` has the source.
   bool begin(BoardClient& board, const char* path, const GatewaySection& gateway,
-             const Smoothing& smoothing, Message& why);
+             const SmoothedReader<Space>& host, Message& why);
   /// Sends what the board takes now. False: it refused. [any]
   bool feed(BoardClient& board, Message& why);
 
@@ -37,8 +39,9 @@ class FileFeed {
 /// A trajectory of either space; idle until a trajectory begins.
 class BoardFeed {
  public:
-  bool begin(bool poses, BoardClient& board, const char* path, const GatewaySection& gateway,
-             const Smoothing& smoothing, Message& why);
+  /// Begins a trajectory that this computer has read and judged. False: refused.
+  bool begin(BoardClient& board, const TrajectoryInput& input, const GatewaySection& gateway,
+             Message& why);
   bool feed(BoardClient& board, Message& why);
 
  private:

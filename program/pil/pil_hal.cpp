@@ -6,7 +6,6 @@
 #include "gateway/fnv1a.hpp"
 #include "program/pil/fault_text.hpp"
 #include "program/pil/row_hash.hpp"
-#include "program/session/trajectory_input.hpp"
 
 namespace tactus::pil {
 
@@ -170,9 +169,7 @@ Status PilHal::silent() {
 
 bool PilHal::begin(const TrajectoryInput& input) {
   if (!input.given()) return true;
-  if (feed_.begin(input.takes_poses(), board_, input.path.c_str(), session_->gateway,
-                  input.smoothing(), why_))
-    return true;
+  if (feed_.begin(board_, input, session_->gateway, why_)) return true;
   std::fprintf(stderr, "%s: %s\n", input.path.c_str(), why_.c_str());
   return false;
 }
