@@ -9,4 +9,4 @@ RUNNER := scripts/beside_emulator
 
 # All other tests need a controller: they are those of ur10_emulator.
 SCRIPTED := tests/ur/served
-TESTS  := $(addprefix tests/program/,test_mistakes.cpp test_sections.cpp test_virtual_time.cpp)
+TESTS  := $(addprefix tests/program/,pages/test_mistakes.cpp test_sections.cpp test_virtual_time.cpp)

@@ -1,10 +1,10 @@
 // Tests the kernel as an installed library: programs of others that see nothing but the prefix.
-#include "tests/program/page_script.hpp"
+#include "tests/program/pages/page_script.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr PageScript kCommands{"$R/tests/program/try_tutorial.py "};
+constexpr PageScript kCommands{"$R/tests/program/pages/try_tutorial.py "};
 
 /// Installs the kernel of the FER for this computer and for a Cortex-M7.
 int install(void**) {

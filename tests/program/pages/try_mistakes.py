@@ -22,7 +22,7 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 ROW = re.compile(r"^\| ([^:|]+): ([^|]+) \| `([^|]+)` \|", re.MULTILINE)
 COMMAND = re.compile(r"`(tactus [^`]+)`")
 BOARD = re.compile(r"board `(\w+)`")

@@ -1,10 +1,10 @@
 // Tests the page of mistakes: each is made, and the program prints what the page says.
-#include "tests/program/page_script.hpp"
+#include "tests/program/pages/page_script.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr PageScript kMistakes{"$R/tests/program/try_mistakes.py "};
+constexpr PageScript kMistakes{"$R/tests/program/pages/try_mistakes.py "};
 
 /// A page with one row for the board of this program.
 void write_page(const char* row) {

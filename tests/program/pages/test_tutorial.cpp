@@ -1,10 +1,10 @@
 // Tests the pages whose commands a reader runs: they are run as they stand, in a fresh folder.
-#include "tests/program/page_script.hpp"
+#include "tests/program/pages/page_script.hpp"
 
 namespace tactus {
 namespace {
 
-constexpr PageScript kCommands{"$R/tests/program/try_tutorial.py "};
+constexpr PageScript kCommands{"$R/tests/program/pages/try_tutorial.py "};
 
 // Proves DOC-1.
 
