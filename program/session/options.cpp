@@ -58,6 +58,7 @@ CLI::Validator assignment() {
       [](std::string& text) {
         const std::size_t equals = text.find('='), dot = text.find('.');
         const bool good = dot < equals && equals < text.size() && is_text(text) &&
+                          text.find_first_of("#[") > equals &&
                           text.size() < sizeof OverrideOptions::texts[0];
         return good ? std::string()
                     : "'" + text + "' is not section.key=value of at most 255 characters";

@@ -47,19 +47,26 @@ def mesh(document, element, where):
         raise Refused(f"{where}: {path}: its points are in one plane") from reason
 
 
+def size_of(element, attribute, default, where):
+    values = numbers(element, attribute, default, where)
+    if not (values > 0.0).all():
+        raise Refused(f"{where}: {attribute}=\"{element.get(attribute, '')}\"; it must be positive")
+    return values
+
+
 def shape_of(document, geometry, where):
     """Returns the points of a shape in its own frame, the radius around them, and what it is."""
     sphere, cylinder, box, file = (geometry.find(kind) if geometry is not None else None for kind in ("sphere", "cylinder", "box", "mesh"))
     if sphere is not None:
-        return np.zeros((1, 3)), numbers(sphere, "radius", (0,), where)[0], "sphere"
+        return np.zeros((1, 3)), size_of(sphere, "radius", (0,), where)[0], "sphere"
     if cylinder is not None:
-        radius, half = numbers(cylinder, "radius", (0,), where)[0], 0.5 * numbers(cylinder, "length", (0,), where)[0]
+        radius, half = size_of(cylinder, "radius", (0,), where)[0], 0.5 * size_of(cylinder, "length", (0,), where)[0]
         return np.vstack([rim(radius, -half), rim(radius, half)]), 0.0, "cylinder"
     if box is not None:
         corners = np.array(np.meshgrid(*3 * [[-0.5, 0.5]])).reshape(3, -1).T
-        return corners * numbers(box, "size", (0, 0, 0), where), 0.0, "box"
+        return corners * size_of(box, "size", (0, 0, 0), where), 0.0, "box"
     if file is not None:
-        return mesh(document, file, where), 0.0, f"mesh {file.get('filename')}"
+        return mesh(document, file, where), 0.0, f"mesh {' '.join(file.get('filename').split())}"
     raise Refused(f"{where}: it has none of sphere, cylinder, box, mesh")
 
 

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import pathlib
+import re
 import xml.etree.ElementTree as xml
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from errors import Refused
 
 MOST_JOINTS = 8
+PLAIN = re.compile(r"[A-Za-z0-9_./+-]+")  # a name
 SNAP = 1e-3  # rad: an angle this near to a quarter turn is a rounded quarter turn
 TURNS = 4.0 * math.pi  # rad: the range of a joint without stops, to either side
 LIMITS = {"lower": "rad", "upper": "rad", "velocity": "rad/s", "effort": "N m"}
@@ -125,6 +127,19 @@ def body_of(link, name):
     return body.moved(frame_of(inertial, where))
 
 
+def named(root, kind):
+    """Returns the links or joints by name."""
+    found = {}
+    for element in root.findall(kind):
+        name = element.get("name", "")
+        if not PLAIN.fullmatch(name):
+            raise Refused(f"{kind} {name!r}: its name is written into sources; take letters, digits and _ . / + -")
+        if name in found:
+            raise Refused(f"{kind} {name}: there are two of this name; rename one")
+        found[name] = element
+    return found
+
+
 class Document:
     """The elements of a URDF by name, and the joints that are held fixed by option."""
 
@@ -136,8 +151,7 @@ class Document:
             raise Refused(f"{path}: {error}") from error
         if root.tag != "robot":
             raise Refused(f"{path}: the root is <{root.tag}>, not <robot>; expand xacro first: xacro {path} > robot.urdf")
-        self.links = {link.get("name"): link for link in root.findall("link")}
-        self.joints = {joint.get("name"): joint for joint in root.findall("joint")}
+        self.links, self.joints = named(root, "link"), named(root, "joint")
         self.fixed = set(fixed)
         for name in self.fixed - set(self.joints):
             raise Refused(f"--fix {name}: the URDF has no such joint; it has {', '.join(sorted(self.joints))}")

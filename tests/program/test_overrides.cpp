@@ -66,7 +66,7 @@ void a_mistake_of_the_file_keeps_its_line(void**) {
 }
 
 void what_is_no_assignment_is_refused(void**) {
-  for (const char* text : {"pd.kp", "kp=3", "=", "", "a.b=1\n[c]"}) {
+  for (const char* text : {"pd.kp", "kp=3", "=", "", "a.b=1\n[c]", "pd.#kp=3", "[pd.kp=3"}) {
     assert_int_equal(tactus_run({"check", "a.ini", "--set", text}), 2);
     assert_true(has(errors(), "--set: '"));
     assert_true(has(errors(), "' is not section.key=value"));

@@ -76,6 +76,7 @@ void a_mistake_in_the_file_of_a_sweep_is_named(void**) {
       "[ $code = 2 ] && grep -q \"$2\" said; }; "
       "try 's/^pipeline.*//' '.sweep. pipeline: missing' && "
       "try 's/^pipeline.*/pipeline = b.ini/' '.sweep. pipeline: there is no file b.ini' && "
+      "try 's/^seeds.*/seeds = 4..1/' \"seeds: '4..1' are 0; give 1 to 1000000\" && "
       "try 's/^seeds.*/seeds = 1-4/' \"seeds: '1-4' is neither a whole number nor a range\" && "
       "try 's/^seeds/sedes/' '.sweep. sedes: there is no such key; it has duration_s, ' && "
       "try 's/^.set./[sets]/' '.sets. is none of .sweep., .set.' && "

@@ -25,16 +25,22 @@ class Robot:
     arm to rest on its path. `arm` is the same connection, for everything else. Errors are those of `Arm` and `Chunks`.
     """
 
-    arm: Arm  # once it is connected
-
     def __init__(
         self, address: str | None = None, *, rate_hz: float = 30.0, relative_to: str | None = None, **settings: Any
     ):
         """address, settings -- as of `tactus.connect`; rate_hz, relative_to -- as of `Arm.chunks`. Connects to nothing."""
         self._address, self._settings = address, settings
         self._chunks = dict(rate_hz=rate_hz, relative_to=relative_to)
+        self._arm: Arm | None = None
         self._references: Chunks | Stream | None = None
         self._observed_ns: int | None = None
+
+    @property
+    def arm(self) -> Arm:
+        """The connection; RuntimeError before it is made."""
+        if self._arm is None:
+            raise RuntimeError("there is no connection; call connect(), or use `with`")
+        return self._arm
 
     def __enter__(self) -> Self:
         self.connect()
@@ -45,8 +51,9 @@ class Robot:
             if kind is None:
                 self._end()
         finally:
-            self._references = None
-            self.arm.__exit__(kind, error, trace)
+            arm, self._arm, self._references = self._arm, None, None
+            if arm is not None:
+                arm.__exit__(kind, error, trace)
 
     def _end(self) -> None:
         """Ends the stream or the chunks of `act`, and raises what the server has refused of them."""
@@ -56,7 +63,9 @@ class Robot:
 
     def connect(self) -> None:
         """Connects to the server. Nothing moves, and another client may own the arm, until the first `act`."""
-        self.arm = connect(self._address, **self._settings)
+        if self._arm is not None:
+            raise RuntimeError("there is a connection already; disconnect() first")
+        self._arm = connect(self._address, **self._settings)
 
     def disconnect(self) -> None:
         """Gives the lease back and ends the connection; the arm goes on to the last target and rests there."""

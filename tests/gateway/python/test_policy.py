@@ -49,6 +49,15 @@ class Sent(unittest.TestCase):
         self.assertEqual(list(sent(self.peers[0], "point")[0].joint.q), list(range(JOINTS)))
         self.assertEqual(len(sent(self.peers[0], "point")) + len(sent(self.peers[0], "chunk")), 1)
 
+    def test_without_a_connection_and_with_a_second_one_it_says_so(self):
+        robot = tactus.Robot(self.address)
+        robot.disconnect()
+        with self.assertRaisesRegex(RuntimeError, "call connect"):
+            robot.observe()
+        with robot, self.assertRaisesRegex(RuntimeError, "disconnect\\(\\) first"):
+            robot.connect()
+        self.assertEqual(len(self.peers), 1)
+
     def test_an_exception_cancels_and_disconnect_does_not(self):
         with self.assertRaises(KeyboardInterrupt), tactus.Robot(self.address) as robot:
             robot.act(np.ones((2, JOINTS)))
