@@ -47,8 +47,7 @@ struct UrArmBench {
       std::abort();
     }
     settings.address = Value("127.0.0.1");
-    settings.connect_ms = 2000;  // however late on a host that is busy
-    settings.program_ms = settings.power_ms = 300;
+    settings.connect_ms = settings.program_ms = settings.power_ms = 300;
   }
 
   Status run_cycle() {
