@@ -31,6 +31,7 @@ void assert_arms_now(UrHalBench& bench, bool reconnects) {
 
 /// Arms against one fault of the robot; its Status and reason.
 void assert_refused(UrHalBench& bench, Status expected, const char* reason) {
+  bench.settings.connect_ms = 2000;  // however late on a host that is busy
   ASSERT_OK(bench.connect());
   ASSERT_STATUS(bench.arm(), expected);
   assert_true(bench.says(reason));
