@@ -1,9 +1,8 @@
 // Startup: takes the drives from power-on to cyclic operation, one stage after the other:
 //
 //   reset     NMT reset communication; every node answers with its boot-up message
-//   identify  NMT pre-operational; the identity of every node is read by SDO. No drive is written
-//   to
-//             before all of them are those of the file
+//   identify  NMT pre-operational; the identity of every node is read by SDO. All must be those of
+//             the file before anything is written to a drive
 //   setup     the other steps of NodeSetup for one node after the other, by SDO
 //   start     NMT start; every node's heartbeat reports "operational"
 //   sync      a SYNC in every period, until all nodes have sent feedback in kSteady cycles in a row
