@@ -13,12 +13,13 @@ extern "C" bool wire_exchange(const double* command, bool enable, double* q, dou
 
 struct WireHal final : Hal {
   RobotState state;
+  Status wire = Status::kOk;
   Capabilities capabilities() const override { return {true, false, false, 1000, 10000}; }
   Status connect(CommandMode) override { return Status::kOk; }
   Status read(const CycleTime& now, RobotState& measured) override {
     state.stamp_ns = now.stamp_ns;
     measured = state;
-    return state.drives[0].valid ? Status::kOk : Status::kBusTimeout;
+    return wire;
   }
   Status write(const RobotCommand& command) override {
     const bool enable = command.request != DriveRequest::kDisable;
@@ -26,15 +27,16 @@ struct WireHal final : Hal {
     const double* const value = follow ? command.value.data() : nullptr;
     const bool valid = wire_exchange(value, enable, state.q.data(), state.dq.data());
     state.drives.fill({enable ? DriveState::kEnabled : DriveState::kDisabled, valid});
-    return valid ? Status::kOk : Status::kBusTimeout;
+    return wire = valid ? Status::kOk : Status::kBusTimeout;
   }
   Status disconnect() override { return write({}); }
 };
 
 WireHal hal;
 ChannelMemory<JointSpace, 4, 32, 2> channel;
-PipelineMemory<4096> pipeline;
+PipelineMemory<12'000> pipeline;  // the generator takes most of it
 Executive executive(hal, pipeline);
+LoadError error;                              // for the debugger: why the file was refused
 ReferenceClient<JointSpace> client(channel);  // another task, of lower priority, sends by it
 
 constexpr char kFile[] =
@@ -42,7 +44,6 @@ constexpr char kFile[] =
     "[jrg]\ntype = joint_reference_generator\nq = robot.q\n";
 
 extern "C" void control_task(void*) {
-  LoadError error;
   Loader loader({&channel}, hal.capabilities());
   if (loader.load(kFile, pipeline, error) != Status::kOk || executive.start() != Status::kOk)
     return;

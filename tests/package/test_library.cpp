@@ -55,6 +55,31 @@ void an_rtos_needs_to_give_nothing_but_its_own_functions(void**) {
       "! arm-none-eabi-nm $S/rtos.elf | grep -E ' (malloc|_sbrk|__cxa_throw)$'");
 }
 
+/// The same source on this computer, with a wire whose robot is where it was commanded to be, and
+/// the other task in the place where the cycle's task sleeps.
+void the_task_of_an_rtos_moves_the_arm(void**) {
+  write("rtos_host.cpp",
+        {"#include <tactus/fer.hpp>\n#include <tactus/reference.hpp>\n#include <cstdio>\n"
+         "#include <cstdlib>\nusing namespace tactus;\n"
+         "extern ReferenceClient<JointSpace> client;\n"
+         "static std::uint32_t tick;\nstatic double now[7] = {0, -0.8, 0, -2.4, 0, 1.6, 0.8};\n"
+         "extern \"C\" {\nvoid control_task(void*);\n"
+         "std::uint32_t xTaskGetTickCount() { return tick; }\n"
+         "void vTaskDelay(std::uint32_t ticks) {\n  tick += ticks;\n  std::uint32_t id;\n"
+         "  JointSpace::Point goal;\n  goal.q << 0.3, -0.8, 0, -2.4, 0, 1.6, 0.8;\n"
+         "  if (tick == 1000 && !client.send(goal, id).ok()) std::exit(2);\n"
+         "  if (tick == 3000) std::exit(std::printf(\"%.6f\\n\", now[0]) > 0 ? 0 : 1);\n}\n"
+         "bool wire_exchange(const double* command, bool, double* q, double* dq) {\n"
+         "  for (int i = 0; i < 7; ++i) {\n    if (command != nullptr) now[i] = command[i];\n"
+         "    q[i] = now[i];\n    dq[i] = 0;\n  }\n  return true;\n}\n}\n"
+         "int main() { control_task(nullptr); return 3; }\n"});
+  assert_succeeds(
+      "export PKG_CONFIG_PATH=$PREFIX/lib/pkgconfig; g++ -std=c++17 -O1 -Wall -Wextra -Werror "
+      "examples/rtos.cpp $S/rtos_host.cpp $(pkg-config --cflags --libs tactus-kernel-fer) "
+      "-o $S/rtos && $S/rtos");
+  assert_true(output() == "0.300000\n");
+}
+
 void cmake_names_the_robot_that_is_not_installed(void**) {
   write("CMakeLists.txt", {"cmake_minimum_required(VERSION 3.18)\nproject(own CXX)\n"
                            "find_package(Tactus REQUIRED COMPONENTS gen3)\n"});
@@ -73,6 +98,7 @@ int main(int, char** argv) {
       cmocka_unit_test(without_the_robot_the_header_says_which_one_is_missing),
       cmocka_unit_test(only_what_the_layers_include_is_installed),
       cmocka_unit_test(an_rtos_needs_to_give_nothing_but_its_own_functions),
+      cmocka_unit_test(the_task_of_an_rtos_moves_the_arm),
       cmocka_unit_test(cmake_names_the_robot_that_is_not_installed),
   };
   return run_program_tests(argv[0], tests);
