@@ -1,5 +1,6 @@
 # The version, and `make install`. The Makefile includes this file and defines B, O, NAME and obj.
-VERSION := 0.1$(shell git describe --always --dirty 2>/dev/null | sed 's/^/-/')
+SEMVER  := $(shell sed -n 's/^.define TACTUS_VERSION_[MP][A-Z]* //p' program/library/tactus_version.h | paste -sd.)
+VERSION := $(basename $(SEMVER))$(shell git describe --always --dirty 2>/dev/null | sed 's/^/-/')
 PREFIX  ?= /usr/local
 ROOT    := $(call quote,$(DESTDIR)$(PREFIX))
 LIB     := $(ROOT)/lib/tactus

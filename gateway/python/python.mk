@@ -1,6 +1,6 @@
 # The Python client with its generated module, in one folder that can be copied anywhere. pip takes gateway/python itself (setup.py).
 CLIENT := $(wildcard gateway/python/tactus/*.py) gateway/python/tactus/py.typed
-WHEEL  := build/wheel/tactus-$(firstword $(subst -, ,$(VERSION)))-py3-none-any.whl
+WHEEL  := build/wheel/tactus-$(SEMVER)-py3-none-any.whl
 .PHONY: python wheel
 python: $(CLIENT:gateway/%=build/%) build/python/tactus/tactus_pb2.py      ## write the Python client into build/python
 build/python/tactus/%: gateway/python/tactus/%

@@ -9,7 +9,8 @@ import setuptools
 from setuptools.command.build_py import build_py
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-VERSION = re.search(r"^VERSION := ([\d.]+)", (ROOT / "program/install.mk").read_text(encoding="utf-8"), re.MULTILINE)
+HEADER = ROOT / "program/library/tactus_version.h"
+VERSION = re.findall(r"^#define TACTUS_VERSION_[A-Z]+ (\d+)$", HEADER.read_text(encoding="utf-8"), re.MULTILINE)
 
 
 class Build(build_py):
@@ -22,7 +23,7 @@ class Build(build_py):
 
 with tempfile.TemporaryDirectory() as scratch:
     setuptools.setup(
-        version=VERSION[1],
+        version=".".join(VERSION),
         cmdclass={"build_py": Build},
         options={"build": {"build_base": scratch}, "egg_info": {"egg_base": scratch}},
     )

@@ -11,8 +11,7 @@ AS_CALLER  = $(CXX) -std=c++17 $(CALLERS) -I. -Iprogram/library -isystem /usr/in
 WITH       = $(filter -DTACTUS_CHUNK% -DTACTUS_TUNING% -DTACTUS_CONVEX%,$(CXXFLAGS))
 HEADERS    = $(ROOT)/include/tactus
 CMAKE      = $(ROOT)/lib/cmake/Tactus
-VERSION_OF = $(subst $(eval ) ,.,$(shell sed -n 's/^#define TACTUS_VERSION_[MP][A-Z]* //p' program/library/tactus_version.h))
-filled     = sed -e 's,@prefix@,$(PREFIX),; s/@robot@/$(robot)/g; s/@version@/$(VERSION_OF)/; s/@flags@/$(CALLERS)/; s/@libs@/$(PRIVATE)/'
+filled     = sed -e 's,@prefix@,$(PREFIX),; s/@robot@/$(robot)/g; s/@version@/$(SEMVER)/; s/@flags@/$(CALLERS)/; s/@libs@/$(PRIVATE)/'
 
 .PHONY: install-kernel
 install-kernel: setup $(LIBRARY) $(B)/library.headers         ## install the kernel for BOARD's robot as a library below PREFIX
