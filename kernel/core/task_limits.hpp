@@ -50,17 +50,6 @@ struct TaskLimits {
     return limits;
   }
 
-  /// Returns these limits with velocities, accelerations and jerks multiplied by `share`. [any]
-  TaskLimits scaled(double share) const {
-    TaskLimits limits = *this;
-    for (double TaskLimits::*limit :
-         {&TaskLimits::v_max, &TaskLimits::a_max, &TaskLimits::j_max, &TaskLimits::w_max,
-          &TaskLimits::alpha_max, &TaskLimits::dalpha_max}) {
-      limits.*limit *= share;
-    }
-    return limits;
-  }
-
  private:
   static constexpr Range up_to(double maximum) { return {kPositive.lo, maximum}; }
 };

@@ -164,18 +164,6 @@ void limits_may_be_tightened_and_not_widened(void**) {
   }
 }
 
-// Proves RG-11.
-
-void a_share_of_the_limits_is_of_all_that_moves_and_of_nothing_else(void**) {
-  const TaskLimits half = kLimits.scaled(0.5);
-  for (double TaskLimits::*limit :
-       {&TaskLimits::v_max, &TaskLimits::a_max, &TaskLimits::j_max, &TaskLimits::w_max,
-        &TaskLimits::alpha_max, &TaskLimits::dalpha_max})
-    assert_true(half.*limit == 0.5 * kLimits.*limit);
-  assert_true(half.p_min == kLimits.p_min && half.p_max == kLimits.p_max);
-  assert_true(half.force_max == kLimits.force_max && half.moment_max == kLimits.moment_max);
-}
-
 }  // namespace
 }  // namespace tactus
 
@@ -189,7 +177,6 @@ int main() {
       cmocka_unit_test(whoever_arrives_at_the_end_must_stand),
       cmocka_unit_test(near_is_a_distance_and_an_angle),
       cmocka_unit_test(limits_may_be_tightened_and_not_widened),
-      cmocka_unit_test(a_share_of_the_limits_is_of_all_that_moves_and_of_nothing_else),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -90,7 +90,8 @@ TaskLimits limits_of(int i) {
                                            &TaskLimits::alpha_max, &TaskLimits::dalpha_max};
   const int one = i % 7;
   if (one == 6) return kLimits;
-  TaskLimits limits = kLimits.scaled(1e3);
+  TaskLimits limits = kLimits;
+  for (double TaskLimits::*each : kOnes) limits.*each *= 1e3;
   limits.*kOnes[one] = one == 2 || one == 5 ? 100.0 : 1e-3 * limits.*kOnes[one];
   return limits;
 }
@@ -167,7 +168,7 @@ void acceleration_and_jerk_are_judged_against_their_share(void**) {
   TaskEnds ends;  // from rest to rest over 1 m in T: peaks 5.7735 / T^2 and 60 / T^3
   ends.to.x.p = {1.0, 0.0, 0.0};
   ends.T = std::sqrt(5.7735 / 12.0);
-  TaskLimits limits = kLimits.scaled(1.0);
+  TaskLimits limits = kLimits;
   limits.v_max = 3.0;
   const TaskSegment segment = ends.join(Interpolation::kQuintic);
   assert_true(judge(segment, limits, 1.0).ok());
