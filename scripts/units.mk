@@ -53,7 +53,8 @@ $(1): $(2) $(1).members
 $(1).members: private MEMBERS := $(2)
 endef
 
-compile = $(Q)$(call timed,compile) $(CXX) $(CXXFLAGS) $(PCH:%=-include %) -c $< -o $@
+# The precompiled header comes first: clang ignores it behind another -include.
+compile = $(Q)$(call timed,compile) $(CXX) $(PCH:%=-include %) $(CXXFLAGS) -c $< -o $@
 # A word of the shell, whatever it contains.
 quote   = '$(subst ','\'',$(1))'
 $(O)/flags: always
