@@ -26,11 +26,25 @@ struct Measured {
   Status status;
   Relation relation;
   bool vector;
+  /// The unit of a translation is also that of a prismatic joint.
   const char *quantity, *joint_unit, *translation_unit, *rotation_unit;
+
+  const char* unit(VerdictAxes axes, int axis) const {
+    if (axes == VerdictAxes::kTip) return axis < 3 ? translation_unit : rotation_unit;
+    return axis >= 0 && is_prismatic(axis) ? translation_unit : joint_unit;
+  }
 };
 
-/// A position in radians that is this far beyond its range is one in degrees.
-constexpr double kOneTurn = 6.28;
+/// A position that is this far beyond its range is one in degrees, or in millimetres.
+constexpr double kFarBeyond = 6.28;
+
+const char* remedy_of_position(const Verdict& verdict) {
+  if (!(std::abs(verdict.value - verdict.limit) > kFarBeyond))
+    return "; keep within the range of the joint";
+  return verdict.axis >= 0 && is_prismatic(verdict.axis)
+             ? "; keep within the range of the joint: are these millimetres?"
+             : "; keep within the range of the joint: are these degrees?";
+}
 
 constexpr Relation kExceeds = Relation::kExceeds, kOutside = Relation::kOutside;
 
@@ -55,9 +69,9 @@ constexpr Measured kMeasured[] = {
     {Status::kBadOverride, Relation::kNotUpTo, true, "override", "", "", ""},
     {Status::kStateNotFinite, Relation::kNotFinite, false, "measured value", "", "", ""},
     {Status::kCommandNotFinite, Relation::kNotFinite, false, "command", "", "", ""},
-    {Status::kMeasuredPositionLimit, kOutside, false, "measured position", " rad", "", ""},
-    {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", "", ""},
-    {Status::kFollowingError, kExceeds, false, "following error", " rad", "", ""},
+    {Status::kMeasuredPositionLimit, kOutside, false, "measured position", " rad", " m", ""},
+    {Status::kMeasuredVelocityLimit, kExceeds, false, "measured velocity", " rad/s", " m/s", ""},
+    {Status::kFollowingError, kExceeds, false, "following error", " rad", " m", ""},
     {Status::kChunkLate, kExceeds, true, "delay behind the last target", " s", " s", " s"},
     {Status::kPointStep, kExceeds, true, "distance from the reference", " rad", " m", " rad"},
     {Status::kSaturated, kOutside, false, "position", " rad", " m", " rad"},
@@ -151,10 +165,7 @@ Message& add_code(Message& text, Status status) {
 
 const char* remedy(const Verdict& verdict) {
   switch (verdict.status) {
-    case Status::kPositionLimit:
-      return std::abs(verdict.value - verdict.limit) > kOneTurn
-                 ? "; keep within the range of the joint: are these degrees?"
-                 : "; keep within the range of the joint";
+    case Status::kPositionLimit: return remedy_of_position(verdict);
     case Status::kSaturated: return ": the reference stays there until points come back";
     case Status::kPointStep: return "; begin nearer to it, or raise max_step";
     case Status::kCannotLeave: return "; send it again a little later";
@@ -219,10 +230,7 @@ Message describe(const Verdict& verdict, VerdictAxes axes, double time_s) {
     text << describe(verdict.status);
     return text;
   }
-  const char* const tip_unit =
-      verdict.axis < 3 ? measured->translation_unit : measured->rotation_unit;
-  add_numbers(text, verdict, *measured,
-              axes == VerdictAxes::kJoints ? measured->joint_unit : tip_unit);
+  add_numbers(text, verdict, *measured, measured->unit(axes, verdict.axis));
   return add_code(text, verdict.status);
 }
 

@@ -25,8 +25,12 @@ void begin_at_once(TrajectoryInput& input) {
 /// So that signs, gears and offsets can be compared with the arm.
 void print_place(const char* path, const JointVector& q) {
   std::printf("%s: the arm stands at", path);
-  for (const double position : q) std::printf(" %.4f", position);
-  std::printf(" rad\n");
+  for (int i = 0; i < kDof; ++i) {
+    const char* const unit = position_unit(i);
+    const bool last = i + 1 == kDof || unit != position_unit(i + 1);
+    std::printf(" %.4f%s%s", q[i], last ? " " : "", last ? unit : "");
+  }
+  std::printf("\n");
 }
 
 /// Homing moves the arm before a reference or the guard does.

@@ -17,7 +17,7 @@ FLASH_BUDGET      := 206848
 STACK_BUDGET      := 12288
 HOST_STACK_BUDGET := 32768
 
-# All tests except those of wires and of the Cortex-M7, and those of the Python client that ur10_sim and gen3_sim run.
+# All tests except those of wires and of the Cortex-M7, and those of the Python client that ur10_sim and lift6_sim run.
 OTHERS := $(addprefix tests/,ur/% hal/can/% hal/ethercat/% hal/cia402/% hal/serial/% sim_plant/drives/% vm/% \
             trace/test_same_bits.cpp gateway/python/test_python_client.cpp gateway/python/test_python_turns.cpp)
 TESTS  := $(filter-out $(OTHERS),$(TESTS))

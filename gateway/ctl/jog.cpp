@@ -62,7 +62,8 @@ void Jogger::show() {
   if (joint >= state_.q_size()) return;
   s_.output.progress("joint " + std::to_string(joint + 1) + " " +
                      printed(s_.client.welcome().joints(joint).name()) +
-                     formatted("  %.4f rad", state_.q(joint)) +
+                     formatted("  %.4f ", state_.q(joint)) +
+                     (s_.client.welcome().joints(joint).prismatic() ? "m" : "rad") +
                      formatted("  speed %.3g %%  ", speed_ * 100.0) + phase_name(state_.phase()));
 }
 

@@ -150,7 +150,8 @@ int send_point(Session& session) {
   }
   std::vector<double> numbers = options.numbers;
   if (options.degrees && !options.pose)
-    for (double& number : numbers) number *= kDegree_rad;
+    for (int i = 0; i < form.joints; ++i)
+      if (!welcome.joints(i).prismatic()) numbers[static_cast<std::size_t>(i)] *= kDegree_rad;
   ToServer request;
   fill_terms(session, 0, *request.mutable_point()->mutable_terms());
   fill_target(form, numbers, *request.mutable_point());

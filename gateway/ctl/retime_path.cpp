@@ -45,12 +45,14 @@ bool judge_options(PathFile& file) {
 
 bool judge_joints(PathFile& file, const Numbers& q) {
   const RobotLimits& limits = file.limits;
-  for (Eigen::Index k = 0; k < q.size(); ++k)
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    const JointName& joint = limits.joints[static_cast<std::size_t>(k)];
     if (!(q[k] >= limits.lowest[k] && q[k] <= limits.highest[k]))
-      return file.refuse_row(
-          limits.joints[static_cast<std::size_t>(k)] + formatted(": %.6g rad is not", q[k]) +
-          formatted(" from %.6g", limits.lowest[k]) +
-          formatted(" to %.6g rad; plan inside of the range", limits.highest[k]));
+      return file.refuse_row(joint.name + formatted(": %.6g is not", q[k]) +
+                             formatted(" from %.6g", limits.lowest[k]) +
+                             formatted(" to %.6g ", limits.highest[k]) +
+                             (joint.prismatic ? "m" : "rad") + "; plan inside of the range");
+  }
   return true;
 }
 
@@ -115,10 +117,14 @@ void write_header(std::FILE* out, const PathFile& file) {
     std::fputs(",x_m,y_m,z_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s", out);
     if (jerk) std::fputs(",ax_m_s2,ay_m_s2,az_m_s2,alphax_rad_s2,alphay_rad_s2,alphaz_rad_s2", out);
   } else {
-    const int count = static_cast<int>(file.limits.joints.size());
-    for (int k = 1; k <= count; ++k) std::fprintf(out, ",q%d_rad", k);
-    for (int k = 1; k <= count; ++k) std::fprintf(out, ",dq%d_rad_s", k);
-    for (int k = 1; k <= count && jerk; ++k) std::fprintf(out, ",ddq%d_rad_s2", k);
+    const auto group = [&](const char* prefix, const char* suffix) {
+      int number = 0;
+      for (const JointName& joint : file.limits.joints)
+        std::fprintf(out, ",%s%d_%s%s", prefix, ++number, joint.prismatic ? "m" : "rad", suffix);
+    };
+    group("q", "");
+    group("dq", "_s");
+    if (jerk) group("ddq", "_s2");
   }
   std::fputc('\n', out);
 }

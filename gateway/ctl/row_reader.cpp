@@ -15,10 +15,13 @@ constexpr std::array<const char*, kGroups> kMeanings = {"time", "position", "vel
                                                         "acceleration", "effort"};
 
 struct Words {
-  const char *prefix, *suffix;
+  const char *prefix, *suffix, *prismatic;  // the last in place of the suffix
 };
-constexpr std::array<Words, kGroups> kJointWords = {
-    {{"", ""}, {"q", "_rad"}, {"dq", "_rad_s"}, {"ddq", "_rad_s2"}, {"tau", "_Nm"}}};
+constexpr std::array<Words, kGroups> kJointWords = {{{"", "", ""},
+                                                     {"q", "_rad", "_m"},
+                                                     {"dq", "_rad_s", "_m_s"},
+                                                     {"ddq", "_rad_s2", "_m_s2"},
+                                                     {"tau", "_Nm", "_N"}}};
 
 using Headers = std::array<const char*, 7>;
 constexpr std::array<Headers, kGroups> kTipHeaders = {{
@@ -47,7 +50,7 @@ bool RowReader::refuse(int line, int column, std::string_view header, std::strin
   return false;
 }
 
-bool RowReader::open(const std::string& path, const std::vector<std::string>& joints,
+bool RowReader::open(const std::string& path, const std::vector<JointName>& joints,
                      const Allow& allow) {
   const bool input = path == "-";
   path_ = input ? "standard input" : path;
@@ -109,8 +112,9 @@ bool RowReader::find(const std::string& si, Column& column) const {
     const Words& words = kJointWords[group];
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       column.index = static_cast<int>(i);
-      if (si == words.prefix + std::to_string(i + 1) + words.suffix) return true;
-      if (si == words.prefix + ("_" + joints_[i]) + words.suffix) return true;
+      const char* const suffix = joints_[i].prismatic ? words.prismatic : words.suffix;
+      if (si == words.prefix + std::to_string(i + 1) + suffix) return true;
+      if (si == words.prefix + ("_" + joints_[i].name) + suffix) return true;
     }
     for (std::size_t i = 0; i < kTipHeaders[group].size(); ++i) {
       column.index = kTip + static_cast<int>(i);
@@ -129,7 +133,8 @@ bool RowReader::add(std::string_view header) {
     return refuse(line, number, header,
                   std::string(not_a_column(header)) +
                       "; write time_s, q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " +
-                      std::to_string(joints_.size()) + ", or x_m .. qz of the tip");
+                      std::to_string(joints_.size()) +
+                      ", of a prismatic one q1_m and so on; or x_m .. qz of the tip");
   for (const Column& earlier : columns_)
     if (earlier.group == column.group && earlier.index == column.index)
       return refuse(line, number, header, "the column is given twice; remove one");

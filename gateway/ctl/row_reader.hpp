@@ -25,6 +25,11 @@ struct RowForm {
   }
 };
 
+struct JointName {
+  std::string name;
+  bool prismatic = false;
+};
+
 /// SI units; the numbers are the position, then the groups that are given, in the order velocity,
 /// acceleration, effort. Joints that are left out are zero.
 struct Row {
@@ -48,7 +53,7 @@ class RowReader {
 
   /// Opens a file and reads its header; "-" is standard input. Waits for the header of a pipe.
   /// False: refused.
-  bool open(const std::string& path, const std::vector<std::string>& joints, const Allow& allow);
+  bool open(const std::string& path, const std::vector<JointName>& joints, const Allow& allow);
   /// Takes the next row. Waits for a pipe at most `wait_ms`; negative: until it has a row.
   RowResult next(Row& row, int wait_ms = -1);
   /// Returns to the first row; only of a regular file. False: refused.
@@ -79,7 +84,7 @@ class RowReader {
 
   std::unique_ptr<LineReader> lines_ = std::make_unique<LineReader>();
   std::string path_, error_;
-  std::vector<std::string> joints_;
+  std::vector<JointName> joints_;
   std::vector<Column> columns_;
   Allow allow_;
   RowForm form_;

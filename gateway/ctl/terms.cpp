@@ -2,9 +2,9 @@
 
 namespace tactus::ctl {
 
-std::vector<std::string> joint_names(const Welcome& welcome) {
-  std::vector<std::string> names;
-  for (const Joint& joint : welcome.joints()) names.push_back(joint.name());
+std::vector<JointName> joint_names(const Welcome& welcome) {
+  std::vector<JointName> names;
+  for (const Joint& joint : welcome.joints()) names.push_back({joint.name(), joint.prismatic()});
   return names;
 }
 

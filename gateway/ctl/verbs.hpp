@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gateway/ctl/client.hpp"
+#include "gateway/ctl/row_reader.hpp"
 
 namespace tactus::ctl {
 
@@ -30,6 +31,6 @@ void fill_terms(Session& session, std::uint32_t held_joints, Terms& terms);
 /// True if the server offers a feature.
 bool offers(const Welcome& welcome, Feature feature);
 /// Returns the names of the robot's joints.
-std::vector<std::string> joint_names(const Welcome& welcome);
+std::vector<JointName> joint_names(const Welcome& welcome);
 
 }  // namespace tactus::ctl

@@ -80,7 +80,8 @@ std::string whole_view(const Welcome& welcome, const State& state, double cycle_
                         formatted(" %9.2f", (state.q_d(i) - state.q(i)) * 1e3)
                   : std::string("           -         -");
     text += i < state.dq_size() ? formatted("   %9.4f", state.dq(i)) : "           -";
-    text += i < state.tau_size() ? formatted("   %9.2f\n", state.tau(i)) : "           -\n";
+    text += i < state.tau_size() ? formatted("   %9.2f", state.tau(i)) : "           -";
+    text += i < welcome.joints_size() && welcome.joints(i).prismatic() ? "  m, N\n" : "\n";
   }
   if (state.pose_size() == 7) text += "\ntip  " + per_joint(" %8.4f", state.pose()) + "\n";
   return text + "\nCtrl-C ends this view; the arm goes on.\n";
@@ -109,10 +110,10 @@ class Recorder {
  public:
   Recorder(std::FILE* file, bool trajectory) : file_(file), trajectory_(trajectory) {}
 
-  void take(const ToClient& message) {
+  void take(const ToClient& message, const Welcome& welcome) {
     if (!message.has_state()) return;
     const State& state = message.state();
-    if (rows_ == 0) begin(state);
+    if (rows_ == 0) begin(state, welcome);
     if (state.server_ns() == last_ns_) return;
     last_ns_ = state.server_ns();
     ++rows_;
@@ -130,24 +131,24 @@ class Recorder {
   bool failed() const { return failed_; }
 
  private:
-  void begin(const State& state) {
+  void begin(const State& state, const Welcome& welcome) {
     first_ns_ = state.server_ns();
     std::fputs("time_s", file_);
-    header("q%d_rad", state.q_size());
+    const auto header = [&](const char* prefix, int count, const char* of, const char* prismatic) {
+      for (int i = 0; i < count; ++i) {
+        const bool slides = i < welcome.joints_size() && welcome.joints(i).prismatic();
+        std::fprintf(file_, ",%s%d_%s", prefix, i + 1, slides ? prismatic : of);
+      }
+    };
+    header("q", state.q_size(), "rad", "m");
     if (!trajectory_) {
-      header("dq%d_rad_s", state.dq_size());
-      header("tau%d_Nm", state.tau_size());
-      header("q_d%d_rad", state.q_d_size());
-      header("dq_d%d_rad_s", state.dq_d_size());
+      header("dq", state.dq_size(), "rad_s", "m_s");
+      header("tau", state.tau_size(), "Nm", "N");
+      header("q_d", state.q_d_size(), "rad", "m");
+      header("dq_d", state.dq_d_size(), "rad_s", "m_s");
       std::fputs(",rung,phase,override", file_);
     }
     std::fputc('\n', file_);
-  }
-  void header(const char* format, int count) {
-    for (int i = 1; i <= count; ++i) {
-      std::fputc(',', file_);
-      std::fprintf(file_, format, i);
-    }
   }
   void numbers(const google::protobuf::RepeatedField<double>& values) {
     for (const double value : values) std::fprintf(file_, ",%.17g", value);
@@ -188,7 +189,8 @@ int record(Session& session) {
     return session.client.exit_code();
   }
   Recorder recorder(file, session.options.trajectory);
-  each_state(session, 10, false, [&](const ToClient& message) { recorder.take(message); });
+  each_state(session, 10, false,
+             [&](const ToClient& message) { recorder.take(message, session.client.welcome()); });
   const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
   if (!closed || recorder.failed())
     session.client.refuse(out + ": " + std::strerror(errno) + "; rows are missing");
@@ -222,7 +224,9 @@ int info(Session& session) {
     std::snprintf(line, sizeof line, "%-20.20s %10.4f %10.4f %10.4g %10.4g %10.4g %10.4g",
                   printed(joint.name()).c_str(), joint.min_rad(), joint.max_rad(), joint.velocity(),
                   joint.acceleration(), joint.jerk(), joint.effort());
-    session.output.say(line + std::string(joint.continuous() ? "  without end" : ""));
+    session.output.say(line + std::string(joint.continuous()  ? "  without end"
+                                          : joint.prismatic() ? "  in m and N"
+                                                              : ""));
   }
   return kSucceeded;
 }

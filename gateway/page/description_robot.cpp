@@ -9,7 +9,8 @@ namespace {
 
 void frame(const JointFrame& given, Json& to) {
   to.open('[').number(given.x).number(given.y).number(given.z);
-  to.integer(given.roll_quarter_turns).number(given.turn).close(']');
+  to.integer(given.roll_quarter_turns).number(given.turn);
+  to.integer(given.type == JointType::kPrismatic ? 1 : 0).close(']');
 }
 
 void joints(const JointLimits& limits, Json& to) {

@@ -8,19 +8,20 @@ namespace tactus {
 namespace {
 
 struct GroupWords {
-  std::string_view prefix, suffix;
+  std::string_view prefix, suffix, prismatic;  // the last in place of the suffix
 };
 
 // In the order of the groups, from the positions on; the joint is between prefix and suffix.
 using JointWords = std::array<GroupWords, 4>;
 constexpr JointWords kGroupWords = {{
-    {"q", "_rad"},
-    {"dq", "_rad_s"},
-    {"ddq", "_rad_s2"},
-    {"tau", "_Nm"},
+    {"q", "_rad", "_m"},
+    {"dq", "_rad_s", "_m_s"},
+    {"ddq", "_rad_s2", "_m_s2"},
+    {"tau", "_Nm", "_N"},
 }};
 // The outputs of a reference generator, as a log names them.
-constexpr JointWords kLoggedWords = {{{"q_d_", ""}, {"dq_d_", ""}, {"ddq_d_", ""}, {"tau_d_", ""}}};
+constexpr JointWords kLoggedWords = {
+    {{"q_d_", "", ""}, {"dq_d_", "", ""}, {"ddq_d_", "", ""}, {"tau_d_", "", ""}}};
 constexpr std::array<std::string_view, 6> kLoggedOutputs = {"",     "x_d_", "x_d_",
                                                             "v_d_", "a_d_", "h_d_"};
 
@@ -49,17 +50,23 @@ std::string_view logged_output(std::string_view header) {
   return logged ? header.substr(dot + 1) : std::string_view();
 }
 
-/// Finds the group and the joint that a header names in these words.
+/// Returns the joint that a header names between prefix and suffix; -1 if it names none.
+int joint_between(std::string_view header, std::string_view prefix, std::string_view suffix) {
+  if (!starts_with(header, prefix) || !ends_with(header, suffix)) return -1;
+  if (header.size() < prefix.size() + suffix.size()) return -1;
+  return joint_of(header.substr(prefix.size(), header.size() - prefix.size() - suffix.size()));
+}
+
+/// Finds the group and the joint that a header names in these words, with the unit of the joint.
 bool find_joint(const JointWords& all, std::string_view header, ColumnPlace& place) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const GroupWords& words = all[i];
-    if (!starts_with(header, words.prefix) || !ends_with(header, words.suffix)) continue;
-    std::string_view word = header;
-    word.remove_prefix(words.prefix.size());
-    if (word.size() < words.suffix.size()) continue;
-    word.remove_suffix(words.suffix.size());
-    place = {static_cast<int>(i) + 1, joint_of(word)};
-    if (place.index >= 0) return true;
+    for (const std::string_view suffix : {words.suffix, words.prismatic}) {
+      const int joint = joint_between(header, words.prefix, suffix);
+      if (joint < 0 || suffix != (is_prismatic(joint) ? words.prismatic : words.suffix)) continue;
+      place = {static_cast<int>(i) + 1, joint};
+      return true;
+    }
   }
   return false;
 }
@@ -179,6 +186,8 @@ double& ColumnTable<JointSpace>::value(const ColumnPlace& place, JointSpace::Poi
 
 void ColumnTable<JointSpace>::name_them(Message& message) {
   message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " << kDof;
+  for (int i = 0; i < kDof; ++i)
+    if (is_prismatic(i)) message << "; q" << i + 1 << "_m, which is prismatic";
 }
 
 bool ColumnTable<TaskSpace>::find(std::string_view header, ColumnPlace& place) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kernel/core/loop_bound.hpp"
+#include "kernel/guard/guard.hpp"
 
 namespace tactus {
 namespace {
@@ -13,22 +14,29 @@ Vector3 vector_of(const double (&v)[3]) {
   return {v[0], v[1], v[2]};
 }
 
+/// How far beyond a limit the guard lets a joint be at most, rad or m.
+constexpr double kMostBeyond = Guard::kLedBack + Guard::kPositionTolerance;
+
 /// Returns a bound of the distance between the origins of joint frame `joint`, counted from 1, and
 /// of `link`, at any position of the joints between them, m.
 double longest_way(int joint, int link) {
   double sum = 0.0;
   for (int i = joint; i < link; ++i) {
     const JointFrame& next = Robot::kJoints[static_cast<std::size_t>(i)];
+    const JointLimit& limit = Robot::kLimits[static_cast<std::size_t>(i)];
     sum += Vector3(next.x, next.y, next.z).norm();
+    if (is_prismatic(i)) sum += std::max(-limit.q_min, limit.q_max) + kMostBeyond;
   }
   return sum;
 }
 
-/// Bounds the distance from axis k by that from the origin of its frame.
+/// Returns how far a point of the shape moves at most with each joint, m/rad: its distance from the
+/// axis, bounded by that from the origin of the frame. With a prismatic joint it moves alike.
 JointVector reach_of(const Capsule& shape, int link) {
   const double own = std::max(shape.a.norm(), shape.b.norm()) + shape.radius;
   JointVector reach = JointVector::Zero();
-  for (int joint = 1; joint <= link; ++joint) reach[joint - 1] = longest_way(joint, link) + own;
+  for (int joint = 1; joint <= link; ++joint)
+    reach[joint - 1] = is_prismatic(joint - 1) ? 1.0 : longest_way(joint, link) + own;
   return reach;
 }
 
@@ -198,7 +206,9 @@ JointVector Collision::sag_at(const JointVector& q, const Vector3& gravity) cons
     bool settled = true;
     for (int i = 0; i < kDof; ++i) {
       const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
-      const double next = section_->compliance[i] * weight.dot(joint.r.col(2).cross(tip - joint.p));
+      const Vector3 axis = joint.r.col(2);
+      const Vector3 way = is_prismatic(i) ? axis : axis.cross(tip - joint.p);
+      const double next = section_->compliance[i] * weight.dot(way);
       settled = settled && std::abs(next - sag[i]) < kSettled;
       sag[i] = next;
     }

@@ -22,6 +22,8 @@ class Guard {
  public:
   /// How far beyond a limit a measured position, rad, and velocity, as a fraction, may be.
   static constexpr double kPositionTolerance = 0.01, kVelocityTolerance = 0.1;
+  /// How far beyond a position limit an arm may start, to be led back inside, rad.
+  static constexpr double kLedBack = 0.1;
 
   /// The [guard] section. Limits can be tightened below the robot table's, not widened.
   struct Params {
@@ -129,7 +131,6 @@ class Guard {
 
  private:
   static constexpr double kFading_s = 1.0;  // so that small errors of a velocity do not add up
-  static constexpr double kLedBack = 0.1;   // rad
 
   Status trip(Status status, int joint, double value, double limit);
   Status check_age(const RobotState& state, const CycleTime& now);

@@ -1,8 +1,9 @@
 // Forward kinematics and geometric Jacobian of the tool tip, in the base frame. One sweep outwards
 // gives the joint axes, one sweep back the lever arms (Siciliano et al., Robotics, 2.8 and 3.1):
 //   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)
-//   d_i = d_(i+1) + R_i offset_(i+1)       from the origin of frame i to the tip
-//   J_i = [z_i x d_i; z_i]                 column of revolute joint i
+//   d_i = d_(i+1) + R_i origin_(i+1)       from the origin of frame i to the tip
+//   J_i = [z_i x d_i; z_i]                 column of a revolute joint i
+//   J_i = [z_i; 0]                         column of a prismatic joint i
 #pragma once
 
 #include "kernel/core/types.hpp"
@@ -73,8 +74,12 @@ auto tip_from(const A& parent, const JointTrig<R>& trig, const Pose& tip, Pose& 
   } else {
     const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
     const auto d = tip_from<R, i + 1>(link, trig, tip, x, J);
-    J.col(i) << dense(cross(link.z, d)), dense(link.z);
-    return rotated(parent, offset<R, i>()) + d;
+    if constexpr (is_prismatic<R, i>()) {
+      J.col(i) << dense(link.z), Vector3::Zero();
+    } else {
+      J.col(i) << dense(cross(link.z, d)), dense(link.z);
+    }
+    return rotated(parent, origin<R, i>(trig)) + d;
   }
 }
 

@@ -1,7 +1,8 @@
 // Joint efforts that hold the arm against gravity, from composite first moments:
 //   a_i = R^T a_(i-1)                                   a_(-1) = -gravity, base frame
-//   h_i = m_i c_i + R h_(i+1) + M_(i+1) offset_(i+1)
-//   g_i = e_z . (h_i x a_i)
+//   h_i = m_i c_i + R h_(i+1) + M_(i+1) origin_(i+1)
+//   g_i = e_z . (h_i x a_i)                             revolute joint
+//   g_i = e_z . (M_i a_i)                               prismatic joint
 // h_i is the first moment of link i and all it carries about the origin of frame i, and M_i their
 // mass; the tool is a point mass on the last link. Vectors are in the axes of their link.
 #pragma once
@@ -27,9 +28,13 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
   } else {
     const auto a = to_child<R, i>(trig[i], a_parent);
     const auto h = first_moment<R, i>() + composite_moment<R, i + 1>(a, trig, tool, g);
-    g[i] = cross(h, a).z;
     const double mass = carried_mass<R, i>() + tool.mass_kg;
-    return to_parent<R, i>(trig[i], h) + mass * offset<R, i>();
+    if constexpr (is_prismatic<R, i>()) {
+      g[i] = mass * a.z;
+    } else {
+      g[i] = cross(h, a).z;
+    }
+    return to_parent<R, i>(trig[i], h) + mass * origin<R, i>(trig);
   }
 }
 

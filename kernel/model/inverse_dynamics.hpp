@@ -37,15 +37,20 @@ auto swing(const M& link, const P& p) {
   return cross(link.dw, p) + cross(link.w, cross(link.w, p));
 }
 
-/// Returns the motion of link i from that of link i-1 and the rates of joint i.
+/// Returns the motion of link i from that of link i-1 and the rates of joint i. A prismatic joint
+/// adds its acceleration and that of Coriolis, 2 w x z dq.
 template <class R, int i, class M>
-auto motion_of_link(const M& parent, const SinCos& q, double dq, double ddq) {
+auto motion_of_link(const M& parent, const JointTrig<R>& trig, double dq, double ddq) {
   const TypedVector z_dq{Zero{}, Zero{}, dq}, z_ddq{Zero{}, Zero{}, ddq};
+  const SinCos& q = trig[i];
   const auto w_parent = to_child<R, i>(q, parent.w);
-  const auto w = w_parent + z_dq;
-  const auto dw = to_child<R, i>(q, parent.dw) + z_ddq + cross(w_parent, z_dq);
-  const auto a = to_child<R, i>(q, parent.a + swing(parent, offset<R, i>()));
-  return LinkMotion{w, dw, a};
+  const auto dw_parent = to_child<R, i>(q, parent.dw);
+  const auto a = to_child<R, i>(q, parent.a + swing(parent, origin<R, i>(trig)));
+  if constexpr (is_prismatic<R, i>()) {
+    return LinkMotion{w_parent, dw_parent, a + z_ddq + 2.0 * cross(w_parent, z_dq)};
+  } else {
+    return LinkMotion{w_parent + z_dq, dw_parent + z_ddq + cross(w_parent, z_dq), a};
+  }
 }
 
 /// Returns the load by Newton, f = m a_com, and Euler, n = I dw + w x I w, about the origin of the
@@ -85,13 +90,18 @@ auto newton_euler(const M& parent, const JointRates<R>& joints, const Tool& tool
     return load_of_tool<R>(parent, tool);
   } else {
     const SinCos& q = joints.trig[i];
-    const auto link = motion_of_link<R, i>(parent, q, joints.dq[i], joints.ddq[i]);
+    const auto link = motion_of_link<R, i>(parent, joints.trig, joints.dq[i], joints.ddq[i]);
     const auto own = load_of_link<R, i>(link);
     const auto carried = newton_euler<R, i + 1>(link, joints, tool, tau);
     const auto n = own.n + carried.n;
-    tau[i] = n.z;
-    const auto f = to_parent<R, i>(q, own.f + carried.f);
-    return LinkLoad{f, to_parent<R, i>(q, n) + cross(offset<R, i>(), f)};
+    const auto f = own.f + carried.f;
+    if constexpr (is_prismatic<R, i>()) {
+      tau[i] = f.z;
+    } else {
+      tau[i] = n.z;
+    }
+    const auto f_parent = to_parent<R, i>(q, f);
+    return LinkLoad{f_parent, to_parent<R, i>(q, n) + cross(origin<R, i>(joints.trig), f_parent)};
   }
 }
 

@@ -1,6 +1,7 @@
 // Changes of frame along the arm, specialised by the compiler for one robot table. Frame i is fixed
-// to link i and joint i turns about its z; frame -1 is the base, frame kDof the flange:
-//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(turn_i + q_i).
+// to link i, and its z is the axis of joint i; frame -1 is the base, frame kDof the flange:
+//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(turn_i + q_i)              revolute
+//   T(i-1, i) = Trans(offset) RotX(k pi/2) RotZ(turn_i) Trans(0, 0, q_i)   prismatic
 // RotX by quarter turns only permutes components and signs, so a change of frame costs one planar
 // rotation. Vectors are TypedVectors; their zeros cost nothing.
 #pragma once
@@ -27,7 +28,13 @@ constexpr JointFrame joint_frame() {
   }
 }
 
-/// Returns the origin of frame i in the axes of frame i-1, m. [any]
+/// True if joint i moves along its axis. [any]
+template <class R, int i>
+constexpr bool is_prismatic() {
+  return joint_frame<R, i>().type == JointType::kPrismatic;
+}
+
+/// Returns the origin of frame i in the axes of frame i-1, m; of a prismatic joint at q = 0. [any]
 template <class R, int i>
 constexpr auto offset() {
   return TypedVector{typed([] { return joint_frame<R, i>().x; }),

@@ -1,8 +1,9 @@
-// Sine and cosine of every joint angle, with the turn of its frame: computed once per cycle, used
-// by every algorithm.
+// Sine and cosine of every joint angle, with the turn of its frame, and the travel of prismatic
+// joints: computed once per cycle, used by every algorithm.
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "kernel/core/loop_bound.hpp"
 #include "kernel/math/sincos.hpp"
@@ -10,32 +11,67 @@
 
 namespace tactus {
 
-template <class R>
-using JointTrig = std::array<SinCos, R::kDof>;
+/// True if some joint of the table fulfils a condition.
+template <class R, class Condition>
+constexpr bool any_joint(Condition condition) {
+  for (const JointFrame& joint : R::kJoints)
+    if (condition(joint)) return true;
+  return false;
+}
 
 /// True if a joint frame of the table is turned at q = 0.
 template <class R>
 constexpr bool has_turns() {
-  for (const JointFrame& joint : R::kJoints)
-    if (joint.turn != 0.0) return true;
-  return false;
+  return any_joint<R>([](const JointFrame& joint) { return joint.turn != 0.0; });
 }
 
-/// Takes q in rad; NaN for a joint whose angle sincos() refuses. [cyclic]
+/// True if a joint of the table is prismatic.
+template <class R>
+constexpr bool has_prismatic() {
+  return any_joint<R>([](const JointFrame& joint) { return joint.type == JointType::kPrismatic; });
+}
+
+/// Positions of the joints, of which those of prismatic ones are read.
+template <class R>
+struct Travel {
+  JointsOf<R> q;
+};
+struct NoTravel {};
+
+template <class R>
+struct JointTrig : std::array<SinCos, R::kDof>,
+                   std::conditional_t<has_prismatic<R>(), Travel<R>, NoTravel> {};
+
+/// Takes q in rad, of prismatic joints in m; NaN for a joint whose angle sincos() refuses. [cyclic]
 template <class R>
 JointTrig<R> joint_trig(const JointsOf<R>& q) {
   JointTrig<R> trig;
+  if constexpr (has_prismatic<R>()) trig.q = q;
   LoopBound<R::kDof> joints;
   for (int i = 0; i < R::kDof; ++i) {
     joints.tick();
     const auto k = static_cast<std::size_t>(i);
-    if constexpr (has_turns<R>()) {
+    if constexpr (has_prismatic<R>()) {
+      const bool turns = R::kJoints[k].type == JointType::kRevolute;
+      trig[k] = sincos(R::kJoints[k].turn + (turns ? q[i] : 0.0));
+    } else if constexpr (has_turns<R>()) {
       trig[k] = sincos(R::kJoints[k].turn + q[i]);
     } else {
       trig[k] = sincos(q[i]);
     }
   }
   return trig;
+}
+
+/// Returns the origin of frame i in the axes of frame i-1, m. [any]
+template <class R, int i>
+auto origin([[maybe_unused]] const JointTrig<R>& trig) {
+  if constexpr (is_prismatic<R, i>()) {
+    const TypedVector travel{Zero{}, Zero{}, trig.q[i]};
+    return offset<R, i>() + quarter_turns<joint_frame<R, i>().roll_quarter_turns>(travel);
+  } else {
+    return offset<R, i>();
+  }
 }
 
 }  // namespace tactus

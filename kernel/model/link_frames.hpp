@@ -1,6 +1,6 @@
 // Frames of all links in the base frame: the outward sweep of forward_kinematics.hpp, recorded at
 // every joint.
-//   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)      p_i = p_(i-1) + R_(i-1) offset_i
+//   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)      p_i = p_(i-1) + R_(i-1) origin_i
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ void frames_from(const A& parent, const JointTrig<R>& trig, LinkFrames<R>& frame
   if constexpr (i < R::kDof) {
     const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
     frames[i + 1].r << dense(link.x), dense(link.y), dense(link.z);
-    frames[i + 1].p = frames[i].p + dense(rotated(parent, offset<R, i>()));
+    frames[i + 1].p = frames[i].p + dense(rotated(parent, origin<R, i>(trig)));
     frames_from<R, i + 1>(link, trig, frames);
   }
 }

@@ -4,13 +4,19 @@
 
 namespace tactus {
 
-/// Placement of joint frame i in joint frame i-1 at q = 0; the joint turns about its own z.
-/// T(i-1, i) = Trans(x, y, z) * RotX(roll) * RotZ(turn + q_i), which describes every arm whose
-/// neighbouring axes are parallel or perpendicular. The flange has no turn.
+/// A revolute joint turns about its own z, a prismatic one moves along it.
+enum class JointType { kRevolute, kPrismatic };
+
+/// Placement of joint frame i in joint frame i-1:
+///   T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn + q_i)                 revolute
+///   T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn) Trans(0, 0, q_i)      prismatic
+/// This describes every arm whose neighbouring axes are parallel or perpendicular. The flange has
+/// no turn.
 struct JointFrame {
   double x, y, z;          ///< m, in frame i-1
   int roll_quarter_turns;  ///< roll about x in units of pi/2: -1, 0, 1 or 2
   double turn = 0.0;       ///< about z, at q_i = 0, rad
+  JointType type = JointType::kRevolute;
 };
 
 /// Mass distribution of a link in the axes of its joint frame, with the tensor about the centre of
@@ -21,7 +27,8 @@ struct LinkInertia {
   double xx, xy, xz, yy, yz, zz;  ///< kg m^2
 };
 
-/// Bounds of one joint. The torque rate is that of the commanded torque.
+/// Bounds of one joint. The torque rate is that of the commanded torque. Of a prismatic joint, read
+/// m for rad and N for N m, here and wherever a quantity of joints is said.
 struct JointLimit {
   double q_min, q_max;  ///< rad
   double dq_max;        ///< rad/s

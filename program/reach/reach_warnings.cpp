@@ -63,13 +63,16 @@ Words words_of(const Finding& found) {
       text << "too fast for the arm: ";
       add_place(text, found);
       add_joint(text, found.joint);
-      add(text, " turns at %.4g rad/s, its limit is %.4g", found.value, found.limit);
+      add(text, " %s at %.4g %s/s, its limit is %.4g",
+          is_prismatic(found.joint) ? "moves" : "turns", found.value, position_unit(found.joint),
+          found.limit);
       return text << "; give the path more time, or lead it past the singularity";
     case Finding::kNearLimit:
       text << "near a joint limit: ";
       add_place(text, found);
       add_joint(text, found.joint);
-      add(text, " is at %.5g rad, its limit is %.5g", found.value, found.limit);
+      add(text, " is at %.5g %s, its limit is %.5g", found.value, position_unit(found.joint),
+          found.limit);
       return text << "; start in another posture, or move the path";
   }
   return text;

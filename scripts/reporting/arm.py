@@ -20,7 +20,7 @@ def rotation_matrix(quaternion):
 
 
 def fixed(frame):
-    """Returns the matrix of a frame x, y, z, quarter turns about x, turn about z."""
+    """Returns the matrix of a frame x, y, z, quarter turns about x, turn about z; prismatic or not."""
     c, s = QUARTER_TURNS[frame[3]]
     rolled = np.array([[1, 0, 0, frame[0]], [0, c, -s, frame[1]], [0, s, c, frame[2]], [0, 0, 0, 1]], float)
     return rolled @ turn([frame[4]])[0]
@@ -35,11 +35,23 @@ def turn(angles):
     return matrices
 
 
+def prismatic(joint):
+    """Returns whether a joint of scene.json moves along its axis."""
+    return bool(joint[5])
+
+
+def travels(ways):
+    """Returns the travels along z [rows, 4, 4]."""
+    matrices = np.tile(np.eye(4), (len(ways), 1, 1))
+    matrices[:, 2, 3] = ways
+    return matrices
+
+
 def link_frames(scene, q):
     """Returns the frames of base, links and flange at joint positions [rows, joints]: [rows, 4, 4] each."""
     frames = [np.tile(np.eye(4), (len(q), 1, 1))]
-    for joint, angles in zip(scene["joints"], q.T):
-        frames.append(frames[-1] @ fixed(joint) @ turn(angles))
+    for joint, values in zip(scene["joints"], q.T):
+        frames.append(frames[-1] @ fixed(joint) @ (travels if prismatic(joint) else turn)(values))
     return frames + [frames[-1] @ fixed(scene["flange"])]
 
 

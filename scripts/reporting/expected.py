@@ -209,10 +209,11 @@ def judge_contact(found):
     return Judgement("mean force", words(seen, "N"), *around(seen, expected, FORCE_SHARE * expected, "N", SPRING))
 
 
-def judge_lag(predicted, error, tolerance):
+def judge_lag(scene, predicted, error, tolerance):
     seen, expected = np.abs(error).max(), np.abs(predicted).max()
     band = max(LAG_SHARE * expected, tolerance)
-    return Judgement("max joint error", words(seen, "rad"), *around(seen, expected, band, "rad", LAG))
+    unit = "m" if arm.prismatic(scene["joints"][np.abs(error).max(axis=0).argmax()]) else "rad"
+    return Judgement("max joint error", words(seen, unit), *around(seen, expected, band, unit, LAG))
 
 
 def judge_stated(run, what, unit):
@@ -270,6 +271,6 @@ def judge(run):
     bound = tolerance(run, entry["reference"], is_pose) if panels.from_generator(run, entry["reference"]) else 0.0
     predicted = None if is_pose else lag(run, entry)
     if predicted is not None:
-        return judge_lag(predicted, error, bound)
+        return judge_lag(run.scene, predicted, error, bound)
     largest = np.linalg.norm(error, axis=1).max() if is_pose else np.abs(error).max()
     return Judgement(what, words(largest, unit), f"0 ± {words(bound, unit)}", *FOLLOWED, bool(largest <= bound))

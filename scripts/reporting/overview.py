@@ -11,7 +11,7 @@ KINDS = {
     "real": "with a <b>real robot</b>",
     "": "<b>unknown</b>, for which no file says whether a real robot moved",
 }
-ARMS = {"fer": "Franka FER", "gen3": "Kinova Gen3", "ur10": "Universal Robots UR10"}
+ARMS = {"fer": "Franka FER", "lift6": "Lift6, of our own making", "ur10": "Universal Robots UR10"}
 HEADS = ("", "run", "robot", "touched", "seen", "expected", "verdict")
 LEGEND = (
     "JRG, TRG: reference generator of joints, of the task space; PDGC: PD with gravity compensation; CPC: Cartesian pose"

@@ -1,68 +1,8 @@
 """The texts of a robot's files, by their paths."""
 
-import math
-
 import numpy as np
 
-LINE = 100  # columns
-
-
-def number(value):
-    return repr(float(value) + 0.0)
-
-
-def row(values):
-    return ", ".join(number(value) for value in values)
-
-
-def quoted(names):
-    return ", ".join(f'"{name}"' for name in names)
-
-
-def rows_of(lines):
-    return "\n".join(f"      {{{line}}}," for line in lines)
-
-
-def comment(text):
-    """Returns paragraphs as lines of a comment."""
-    lines = []
-    for paragraph in text.strip().split("\n\n"):
-        lines += ["//"] if lines else []
-        line = "//"
-        for word in paragraph.split():
-            if len(line) + 1 + len(word) > LINE:
-                lines.append(line)
-                line = "//"
-            line += " " + word
-        lines.append(line)
-    return "\n".join(lines)
-
-
-def euler(rotation):
-    """Returns roll, pitch and yaw of a rotation matrix."""
-    pitch = math.atan2(-rotation[2, 0], math.hypot(rotation[0, 0], rotation[1, 0]))
-    if abs(rotation[2, 0]) > 1.0 - 1e-14:
-        return math.atan2(-rotation[1, 2], rotation[1, 1]), pitch, 0.0
-    return math.atan2(rotation[2, 1], rotation[2, 2]), pitch, math.atan2(rotation[1, 0], rotation[0, 0])
-
-
-def quaternion(rotation):
-    """Returns w, x, y, z of a rotation matrix: of its four forms the one that loses no digits."""
-    trace, d = rotation.trace(), rotation.diagonal()
-    squares = np.array([1 + trace, *(1 + 2 * d - trace)])
-    k = int(squares.argmax())
-    x, y, z = rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]
-    if k == 0:
-        parts = np.array([squares[0], x, y, z])
-    else:
-        sums = rotation[k - 1] + rotation[:, k - 1]
-        sums[k - 1] = squares[k]
-        parts = np.array([(x, y, z)[k - 1], *sums])
-    return parts / np.linalg.norm(parts)
-
-
-def tensor_row(t):
-    return row((t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2]))
+from text import comment, direction, euler, number, plain, quaternion, quoted, row, rows_of, tensor_row
 
 
 class Files:
@@ -76,11 +16,12 @@ class Files:
         """kernel/robots/NAME.hpp"""
         chain, table, options = self.chain, self.table, self.options
         joints = chain.joints
-        frames = [f"{row(r.offset)}, {r.roll}" + (f", {number(r.turn)}" if r.turn else "") for r in table.rows]
+        frames = [f"{row(r.offset)}, {r.roll}" + (f", {number(r.turn)}" if r.turn or r.prismatic else "") +
+                  (", JointType::kPrismatic" if r.prismatic else "") for r in table.rows]
         links = [row((b.mass, *b.com, *b.tensor[0], *b.tensor[1, 1:], b.tensor[2, 2])) for b in table.bodies]
         limits = [row((j.limits["lower"], j.limits["upper"], j.limits["velocity"], options.acceleration[i], options.jerk[i],
                        j.limits["effort"], options.torque_rate[i])) for i, j in enumerate(joints)]
-        endless = sum(1 << i for i, j in enumerate(joints) if j.endless)
+        endless = sum(1 << i for i, j in enumerate(joints) if j.kind == "continuous")
         about = comment(f"""{self.type}: the table of constants, written by scripts/robot-import from {self.source}.
 
 Base {chain.base}, flange {chain.tip}. Kinematics, inertias, position, velocity and torque are those of the URDF; acceleration, jerk,
@@ -178,7 +119,7 @@ struct Capsules<{self.type}> {{
             bodies.append(f"""    <body name="link{i}" pos="{plain(place[:3, 3])}" quat="{plain(quaternion(place[:3, :3]))}"
           user="{tensor_row(body.tensor).replace(',', '')}">
       <inertial mass="{number(body.mass)}" pos="{plain(body.com)}" diaginertia="1 1 1"/>
-      <joint name="joint{i}" axis="{plain(joint.axis)}"/>""")
+      <joint name="joint{i}"{' type="slide"' if joint.prismatic else ''} axis="{plain(joint.axis)}"/>""")
         flange = self.chain.flange
         bodies.append(f'    <body name="flange" pos="{plain(flange[:3, 3])}" quat="{plain(quaternion(flange[:3, :3]))}">')
         joints = self.chain.joints
@@ -220,7 +161,8 @@ const RobotMjcf& robot_mjcf() {{
         origins = [joint.origin for joint in chain.joints] + [chain.flange]
         ends = [np.linalg.inv(link) for link in places[1:]] + [np.eye(4)]
         frames = [places[i] @ origins[i] @ ends[i] for i in range(count + 1)]
-        joints = [f"{{{row(f[:3, 3])}}}, {{{row(euler(f[:3, :3]))}}}" for f in frames]
+        kinds = [f", KDL::Joint::{'TransZ' if joint.prismatic else 'RotZ'}" for joint in chain.joints] + [", KDL::Joint::Fixed"]
+        joints = [f"{{{row(f[:3, 3])}}}, {{{row(euler(f[:3, :3]))}}}{kind}" for f, kind in zip(frames, kinds)]
         bodies = [joint.body.moved(link) for joint, link in zip(chain.joints, places[1:])]
         links = [f"{number(b.mass)}, {{{row(b.com)}}}, {{{tensor_row(b.tensor)}}}" for b in bodies]
         about = comment(f"""{self.type} for KDL, written by scripts/robot-import from {self.source}: position, and roll, pitch and yaw of each joint
@@ -234,7 +176,8 @@ namespace {{
 constexpr int kJoints = {count};
 
 struct Place {{
-  double p[3], rpy[3];  // m, rad
+  double p[3], rpy[3];           // m, rad
+  KDL::Joint::JointType joint;  // about or along z of this frame
 }};
 
 struct Link {{
@@ -270,7 +213,7 @@ KDL::Chain kdl_arm(const KDL::RigidBodyInertia& tool) {{
                                      KDL::RotationalInertia(t[0], t[1], t[2], t[3], t[4], t[5]));
     KDL::RigidBodyInertia at_end = place(i + 1).Inverse() * link;
     if (i == kJoints - 1) at_end = at_end + tool;
-    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::RotZ), place(i + 1), at_end));
+    chain.addSegment(KDL::Segment(KDL::Joint(kPlaces[i].joint), place(i + 1), at_end));
   }}
   return chain;
 }}
@@ -364,7 +307,8 @@ tracking = jrg.q_d robot.q
     def trajectory(self, times, q, dq):
         """pipelines/trajectories/NAME_five_waypoints.csv"""
         count = range(1, q.shape[1] + 1)
-        head = ["time_s", *(f"q{i}_rad" for i in count), *(f"dq{i}_rad_s" for i in count)]
+        units = [joint.unit for joint in self.chain.joints]
+        head = ["time_s", *(f"q{i}_{unit}" for i, unit in zip(count, units)), *(f"dq{i}_{unit}_s" for i, unit in zip(count, units))]
         lines = [",".join(f"{value + 0.0:.6g}" for value in (time, *place, *speed)) for time, place, speed in zip(times, q, dq)]
         return f"# {self.type}, five waypoints from the home position back to it, on a cubic spline. Written by scripts/robot-import.\n" + \
             ",".join(head) + "\n" + "\n".join(lines) + "\n"
@@ -388,11 +332,3 @@ int main(int argc, char** argv) {{
   return tactus::run_sim_board(argc, argv, "{self.name}_sim");
 }}
 """
-
-
-def plain(values):
-    return " ".join(number(value) for value in values)
-
-
-def direction(a, b):
-    return b - a if np.linalg.norm(b - a) > 0.0 else np.array([0.0, 0.0, 1.0])

@@ -10,9 +10,12 @@ GRAVITY = 9.81  # m/s^2, as the kernel's
 def places(chain, q):
     """Returns the frames of the URDF's links that move, and that of the tip."""
     frames, frame = [], np.eye(4)
-    for joint, angle in zip(chain.joints, q):
+    for joint, position in zip(chain.joints, q):
         frame = frame @ joint.origin
-        frame[:3, :3] = frame[:3, :3] @ turn(joint.axis, angle)
+        if joint.prismatic:
+            frame[:3, 3] += frame[:3, :3] @ joint.axis * position
+        else:
+            frame[:3, :3] = frame[:3, :3] @ turn(joint.axis, position)
         frames.append(frame.copy())
     return frames, frame @ chain.flange
 
@@ -22,12 +25,15 @@ def jacobian(chain, frames, point, count):
     J = np.zeros((6, len(chain.joints)))
     for k in range(count):
         axis = frames[k][:3, :3] @ chain.joints[k].axis
-        J[:3, k], J[3:, k] = np.cross(axis, point - frames[k][:3, 3]), axis
+        if chain.joints[k].prismatic:
+            J[:3, k] = axis
+        else:
+            J[:3, k], J[3:, k] = np.cross(axis, point - frames[k][:3, 3]), axis
     return J
 
 
 def gravity_and_mass(chain, q):
-    """Returns g(q), N m, and M(q), kg m^2."""
+    """Returns g(q), N m, and M(q), kg m^2; N and kg of prismatic joints."""
     frames, _ = places(chain, q)
     g, M = np.zeros(len(q)), np.zeros((len(q), len(q)))
     for i, (joint, frame) in enumerate(zip(chain.joints, frames)):

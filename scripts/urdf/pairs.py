@@ -9,7 +9,7 @@ from mechanics import gravity_and_mass, tip_jacobian
 from reading import turn
 
 SAMPLES, TOUCHING = 4000, 0.15  # of random positions
-BEYOND, NEVER = 0.05, 0.0101  # rad beyond the limits; m
+BEYOND, NEVER = 0.05, 0.0101  # rad or m beyond the limits; m
 MOST_REGIONS = 40000  # of a proof
 TOOL = 0.1, 0.02  # length and radius of the tool that the tests assume, m
 HOMES, CLEAR, INSIDE = 3000, (0.1, 0.05, 0.022), 0.25  # candidates; m between capsules, the most that enough have; rad from the limits, at most a quarter of the range
@@ -22,11 +22,15 @@ def frames_of(table, q, first=0, last=None):
     frames = [(np.tile(np.eye(3), (count, 1, 1)), np.zeros((count, 3)))]
     for i in range(first, len(table.rows) if last is None else last):
         row, (rotation, origin) = table.rows[i], frames[-1]
-        c, s = np.cos(q[:, i] + row.turn), np.sin(q[:, i] + row.turn)
+        angle = row.turn + (0.0 if row.prismatic else q[:, i])
+        c, s = np.cos(angle), np.sin(angle)
         about_z = np.zeros((count, 3, 3))
         about_z[:, 0, 0], about_z[:, 0, 1], about_z[:, 1, 0], about_z[:, 1, 1], about_z[:, 2, 2] = c, -s, s, c, 1.0
         fixed = turn((1, 0, 0), row.roll * math.pi / 2)
         frames.append((rotation @ fixed @ about_z, origin + rotation @ row.offset))
+        if row.prismatic:
+            rotation, origin = frames[-1]
+            frames[-1] = rotation, origin + rotation[:, :, 2] * q[:, i:i + 1]
     return frames
 
 
@@ -96,8 +100,9 @@ def never_meet(chain, table, one, other):
     """True if a proof by branch and bound over the joints between two capsules shows that they stay apart."""
     joints = range(one[0], other[0])
     own = max(np.linalg.norm(other[1]), np.linalg.norm(other[2])) + other[3]
-    reach = np.array([own + sum(np.linalg.norm(table.rows[i].offset) for i in range(joint + 1, other[0])) for joint in joints])
     low, high = (np.array([chain.joints[i].limits[key] for i in joints]) for key in ("lower", "upper"))
+    links = [np.linalg.norm(table.rows[i].offset) + table.rows[i].prismatic * (max(-a, b) + BEYOND) for i, a, b in zip(joints, low, high)]
+    reach = np.array([1.0 if table.rows[i].prismatic else own + sum(links[k + 1:]) for k, i in enumerate(joints)])
     middle, half = np.array([0.5 * (low + high)]), np.array([0.5 * (high - low) + BEYOND])
     regions = 0
     while len(middle):

@@ -1,4 +1,4 @@
-"""Reads a URDF as one chain of revolute joints from a base link to a tip; what is fixed to a link is merged into it."""
+"""Reads a URDF as one chain of moving joints from a base link to a tip; what is fixed to a link is merged into it."""
 
 import dataclasses
 import math
@@ -15,6 +15,7 @@ PLAIN = re.compile(r"[A-Za-z0-9_./+-]+")  # a name
 SNAP = 1e-3  # rad: an angle this near to a quarter turn is a rounded quarter turn
 TURNS = 4.0 * math.pi  # rad: the range of a joint without stops, to either side
 LIMITS = {"lower": "rad", "upper": "rad", "velocity": "rad/s", "effort": "N m"}
+METRES = {"lower": "m", "upper": "m", "velocity": "m/s", "effort": "N"}  # of a prismatic joint
 
 
 @dataclasses.dataclass
@@ -51,10 +52,22 @@ class Joint:
     origin: np.ndarray  # frame of its link in that of the link before, at q = 0
     axis: np.ndarray  # in its own frame
     limits: dict  # lower, upper, velocity, effort
-    endless: bool
+    kind: str  # revolute, continuous or prismatic
     link: str
     body: Body = None
     shapes: list = None
+
+    @property
+    def prismatic(self):
+        return self.kind == "prismatic"
+
+    @property
+    def unit(self):
+        return "m" if self.prismatic else "rad"
+
+    @property
+    def effort_unit(self):
+        return "N" if self.prismatic else "N m"
 
 
 @dataclasses.dataclass
@@ -215,6 +228,9 @@ class Document:
                               f" at zero by --fix {name}, or give another --tip")
         return body, shapes, places
 
+    def units(self, name):
+        return METRES if self.joints[name].get("type") == "prismatic" else LIMITS
+
     def limit(self, name, attribute):
         """Returns a limit of a joint, from an option before the file."""
         key = f"{name}.{attribute}"
@@ -222,12 +238,11 @@ class Document:
             return self.overrides[key]
         element = self.joints[name].find("limit")
         if element is None or element.get(attribute) is None:
-            raise Refused(f"joint {name}: <limit> has no {attribute}; give it as --limit {key}=VALUE, {LIMITS[attribute]}")
+            raise Refused(f"joint {name}: <limit> has no {attribute}; give it as --limit {key}=VALUE, {self.units(name)[attribute]}")
         return numbers(element, attribute, (0,), f"joint {name}, limit")[0]
 
 
 REFUSED_TYPES = {
-    "prismatic": "the kernel's tables have joints that turn only",
     "floating": "the base of an arm does not move",
     "planar": "a joint has one axis",
 }
@@ -237,8 +252,8 @@ def joint_of(document, name, before):
     """Returns a moving joint; `before` is the frame of its parent in the link of the joint before."""
     element = document.joints[name]
     kind = element.get("type")
-    if kind not in ("revolute", "continuous"):
-        reason = REFUSED_TYPES.get(kind, "revolute, continuous and fixed joints are known")
+    if kind not in ("revolute", "continuous", "prismatic"):
+        reason = REFUSED_TYPES.get(kind, "revolute, continuous, prismatic and fixed joints are known")
         raise Refused(f"joint {name}, type {kind}: {reason}; hold it at zero by --fix {name}")
     if element.find("mimic") is not None:
         raise Refused(f"joint {name}, mimic: a joint that follows another cannot be represented; hold it at zero by --fix {name}")
@@ -252,12 +267,13 @@ def joint_of(document, name, before):
         limits[key] = document.limit(name, key) if given else sign * TURNS
     for key in ("velocity", "effort"):
         if not limits[key] > 0.0:
-            raise Refused(f"joint {name}: {key} {limits[key]:g} is not more than 0; give --limit {name}.{key}=VALUE, {LIMITS[key]}")
+            raise Refused(f"joint {name}: {key} {limits[key]:g} is not more than 0; give --limit {name}.{key}=VALUE,"
+                          f" {document.units(name)[key]}")
     if not limits["lower"] < limits["upper"]:
         raise Refused(f"joint {name}: lower {limits['lower']:g} is not less than upper {limits['upper']:g}; give --limit"
-                      f" {name}.lower=VALUE or {name}.upper=VALUE, rad")
+                      f" {name}.lower=VALUE or {name}.upper=VALUE, {document.units(name)['lower']}")
     origin = before @ document.origin(name)
-    return Joint(name, origin, axis / np.linalg.norm(axis), limits, endless, document.child(name))
+    return Joint(name, origin, axis / np.linalg.norm(axis), limits, kind, document.child(name))
 
 
 def read_chain(document, base, tip, shapes_of):

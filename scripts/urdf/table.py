@@ -1,4 +1,4 @@
-"""The joint frames of a robot's table: T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn + q)."""
+"""The joint frames of a robot's table: T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn + q), or with Trans(0, 0, q) behind."""
 
 import dataclasses
 import math
@@ -18,6 +18,7 @@ class Row:
     offset: np.ndarray
     roll: int
     turn: float
+    prismatic: bool = False
 
     def matrix(self):
         frame = np.eye(4)
@@ -87,7 +88,8 @@ def table_of(chain):
         quarters = round(angle / (math.pi / 2))
         if abs(angle - quarters * math.pi / 2) < SAME:
             angle = quarters * math.pi / 2
-        rows.append(Row(rounded(before[:3, :3].T @ (place[:3, 3] - before[:3, 3])), roll, angle))
+        rows.append(Row(rounded(before[:3, :3].T @ (place[:3, 3] - before[:3, 3])), roll, angle,
+                        joint.prismatic))
         before = before @ rows[-1].matrix()
         links.append(np.linalg.inv(before) @ place)
     roll = roll_of(before[:3, :3], tip[:3, 2])

@@ -13,7 +13,7 @@ JointVector singular_joints(RandomVectors& random) {
   while (reach > 1e-6 && sigma > 1e-5) {
     JointVector tried = q;
     for (int i = 0; i < kDof; ++i) tried[i] += reach * random.unit();
-    const JointVector margin = 0.05 * (kLimits.q_max - kLimits.q_min);
+    const JointVector margin = (0.05 * (kLimits.q_max - kLimits.q_min)).cwiseMax(0.15);
     tried = tried.cwiseMax(kLimits.q_min + margin).cwiseMin(kLimits.q_max - margin);
     const double now = sigma_at(tried);
     reach *= now < sigma ? 1.5 : 0.97;

@@ -1,6 +1,7 @@
 // Tests the latest moment of the collision check: where it just lets the arm go, the arm stays
 // outside the margin but comes near it, by the oracles KDL and FCL.
 #include "tests/guard/collision_bench.hpp"
+#include "tests/support/middle_of_range.hpp"
 #include "tests/support/model_cases.hpp"
 #include "tests/support/testing.hpp"
 
@@ -68,7 +69,7 @@ JointVector stretched_out(CollisionBench& bench) {
 /// Where the check just lets it go, the arm ends outside the margin, and near it: for the first
 /// joint, which turns the whole arm, and for the last, which turns the tool alone.
 void just_in_time_is_in_time(void**) {
-  for (const int joint : {0, kDof - 1}) {
+  for (const int joint : {kFirstRevolute, kDof - 1}) {
     CollisionBench& bench = fresh();
     Turn turn{bench, stretched_out(bench), joint};
     turn.place();
@@ -101,7 +102,7 @@ void until_the_brake_begins_the_cycles_of_two_checks_count_and_no_more(void**) {
 void a_contact_is_reported_within_the_cycles_of_two_checks(void**) {
   for (const int cycles : {1, 2, 5}) {
     CollisionBench& bench = fresh();
-    Turn turn{bench, stretched_out(bench), 0};
+    Turn turn{bench, stretched_out(bench), kFirstRevolute};
     bench.section.cycles = cycles;
     turn.place();
     bench.start();
@@ -110,8 +111,8 @@ void a_contact_is_reported_within_the_cycles_of_two_checks(void**) {
     while (status == Status::kOk && cycle < 100) {
       const double t_s = ++cycle * CollisionBench::kPeriod_s;
       JointVector q = turn.q, dq = turn.dq;
-      q[0] += turn.way(t_s);
-      dq[0] += turn.acceleration() * t_s;
+      q[kFirstRevolute] += turn.way(t_s);
+      dq[kFirstRevolute] += turn.acceleration() * t_s;
       status = bench.step(q, dq);
     }
     ASSERT_STATUS(status, Status::kCollision);

@@ -22,7 +22,12 @@ double potential_energy(const JointVector& q, const Tool& tool) {
   for (std::size_t i = 0; i < kDof; ++i) {
     const LinkInertia& link = Robot::kLinks[i];
     go_to(Robot::kJoints[i]);
-    frame.rotate(Eigen::AngleAxisd(q[static_cast<int>(i)], Vector3::UnitZ()));
+    const double position = q[static_cast<int>(i)];
+    if (Robot::kJoints[i].type == JointType::kPrismatic) {
+      frame.translate(position * Vector3::UnitZ());
+    } else {
+      frame.rotate(Eigen::AngleAxisd(position, Vector3::UnitZ()));
+    }
     energy += link.mass * kGravity_m_s2 * (frame * Vector3(link.cx, link.cy, link.cz)).z();
   }
   go_to(Robot::kFlange);

@@ -52,9 +52,9 @@ struct Teaching {
   }
 };
 
-std::string columns(const char* prefix, const char* unit) {
+std::string columns() {
   std::string header;
-  for (int j = 1; j <= kDof; ++j) header += "," + std::string(prefix) + std::to_string(j) + unit;
+  for (int j = 0; j < kDof; ++j) header += ",q" + std::to_string(j + 1) + "_" + position_unit(j);
   return header;
 }
 
@@ -89,8 +89,7 @@ void recordings_of_joints_are_followed_and_nothing_is_limited(void**) {
       JointVector way;
       for (double& each : way) each = random.uniform(-0.3, 0.3);
       how.write_file(
-          columns("q", "_rad").c_str(), [&](double s) { return JointVector(from + s * way); },
-          random);
+          columns().c_str(), [&](double s) { return JointVector(from + s * way); }, random);
       follow(pipeline, how);
     }
   }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """odd_arm.py FOLDER [SEED]: writes arm.urdf of an arm of six joints whose link frames and axes point anywhere, while neighbouring axes are
-parallel or perpendicular; with a hand that is fixed to it, and collision shapes of every kind, a mesh among them.
+parallel or perpendicular; the third is prismatic, the fourth has no stops; with a hand that is fixed to it, and collision shapes of every kind, a mesh among them.
 """
 
 import pathlib
@@ -75,9 +75,10 @@ def main():
         middle = frame_of(along(way, random), place + 0.5 * way)
         collision = f"    <collision>{origin(np.linalg.inv(frame) @ middle)}<geometry>{shape}</geometry></collision>\n"
         parent = "base" if number == 1 else f"link{number - 1}"
-        parts.append(f"""  <joint name="joint{number}" type="{"continuous" if number == 4 else "revolute"}">
+        kind, ends = {3: ("prismatic", 'lower="-0.1" upper="0.3"'), 4: ("continuous", "")}.get(number, ("revolute", 'lower="-2.6" upper="2.5"'))
+        parts.append(f"""  <joint name="joint{number}" type="{kind}">
     {origin(np.linalg.inv(before) @ frame)}<parent link="{parent}"/><child link="link{number}"/>
-    <axis xyz="{text(frame[:3, :3].T @ axis)}"/><limit {'' if number == 4 else 'lower="-2.6" upper="2.5"'} velocity="2" effort="120"/>
+    <axis xyz="{text(frame[:3, :3].T @ axis)}"/><limit {ends} velocity="2" effort="120"/>
   </joint>
 """)
         before = frame

@@ -40,7 +40,7 @@ void the_home_pose_is_that_of_the_srdf(void**) {
                      "<joint name=\"joint5\" value=\"-0.3\"/><joint name=\"joint6\" value=\"0\"/>",
                      "</group_state></robot>"});
   assert_succeeds("eval scripts/robot-import $S/arm.urdf --srdf $S/arm.srdf $OPTIONS --force");
-  assert_true(has(output(), "home, group_state home: 0.1 0 0.2 0 -0.3 0 rad"));
+  assert_true(has(output(), "home, group_state home: 0.1 0 0.2 0 -0.3 0 rad or m"));
   assert_succeeds("grep '{0.1, 0.0, 0.2, 0.0, -0.3, 0.0}' $S/tree/sim_plant/arm/odd_mjcf.cpp");
 }
 
@@ -65,9 +65,10 @@ constexpr Refusal kRefusals[] = {
      "joint joint2: <limit> has no effort; give it as --limit joint2.effort=VALUE, N m"},
     {"s/upper=\"2.5\"/upper=\"nan\"/", "", "joint joint1, limit: upper=\"nan\""},
     {"s/upper=\"2.5\"/upper=\"-3\"/", "", "joint joint1: lower -2.6 is not less than upper -3"},
-    {"/\"joint3\"/s/revolute/prismatic/", "", "joint joint3, type prismatic: "},
-    {"/\"joint3\"/s/revolute/floating/", "", "joint joint3, type floating: "},
-    {"/\"joint3\"/s/revolute/planar/", "", "hold it at zero by --fix joint3"},
+    {"/\"joint2\"/s/revolute/floating/", "", "joint joint2, type floating: "},
+    {"/\"joint2\"/s/revolute/planar/", "", "hold it at zero by --fix joint2"},
+    {"s/ velocity=\"2\"//", "--limit joint1.velocity=2 --limit joint2.velocity=2",
+     "joint joint3: <limit> has no velocity; give it as --limit joint3.velocity=VALUE, m/s"},
     {"/\"joint3\"/s/$/<mimic joint=\"joint2\"\\/>/", "", "joint joint3, mimic: "},
     {"", "--tip link4", "joint joint5, type revolute: it moves, and is not between base and tip"},
     {"", "--tip nowhere", "--tip nowhere: the URDF has no such link; it has base, link1"},

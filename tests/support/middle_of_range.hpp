@@ -1,4 +1,4 @@
-// Where the joints have room on both sides, for tests.
+// Where the joints have room on both sides, and which turn, for tests.
 #pragma once
 
 #include "kernel/core/joint_limits.hpp"
@@ -9,5 +9,9 @@ inline JointVector middle_of_range() {
   const JointLimits limits;
   return 0.5 * (limits.q_min + limits.q_max);
 }
+
+/// The first joint that turns.
+inline constexpr int kFirstRevolute = is_prismatic(0) ? 1 : 0;
+static_assert(!is_prismatic(kFirstRevolute), "choose another joint for the tests that turn one");
 
 }  // namespace tactus

@@ -8,12 +8,13 @@
 #include "gateway/ctl/options.hpp"
 #include "gateway/ctl/output.hpp"
 #include "gateway/ctl/retime/numbers.hpp"
+#include "gateway/ctl/row_reader.hpp"
 
 namespace tactus::ctl {
 
 struct RobotLimits {
   std::string robot;
-  std::vector<std::string> joints;
+  std::vector<JointName> joints;
   MotionBounds joint, tip;  ///< tip: empty if the pipeline that is served takes no poses
   Numbers lowest, highest;  ///< of the joints, rad
 };

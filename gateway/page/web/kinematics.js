@@ -8,10 +8,12 @@ export function multiply(a, b) {
   return to;
 }
 
-/** Trans(x, y, z) RotX(quarters pi/2) RotZ(angle). */
-function placed([x, y, z, quarters], angle) {
+/** A frame of the robot's table at a joint position: Trans(x, y, z) RotX(quarters pi/2) RotZ(turn + q), or Trans(0, 0, q) behind. */
+function placed([x, y, z, quarters, angle, prismatic], q) {
   const c = Math.round(Math.cos(quarters * Math.PI / 2)), s = Math.round(Math.sin(quarters * Math.PI / 2));
-  return multiply(new Float32Array([1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, x, y, z, 1]), turn(angle));
+  const to = turn(prismatic ? angle : angle + q);
+  if (prismatic) to[14] = q;
+  return multiply(new Float32Array([1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, x, y, z, 1]), to);
 }
 
 function turn(angle) {
@@ -23,7 +25,7 @@ function turn(angle) {
 export function linkFrames(robot, q) {
   const frames = [turn(0)];
   robot.frames.forEach((joint, i) => {
-    frames.push(multiply(frames[i], placed(joint, joint[4] + q[i])));
+    frames.push(multiply(frames[i], placed(joint, q[i])));
   });
   frames.push(multiply(frames[frames.length - 1], placed(robot.flange_frames[0], 0)));
   return frames;

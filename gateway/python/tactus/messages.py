@@ -12,7 +12,7 @@ from .protocol import Array, Code, Outcome, Phase, Rung, copied, named
 
 @dataclasses.dataclass(frozen=True)
 class Joint:
-    """A joint and its limits: rad, rad/s, rad/s^2, rad/s^3, N m."""
+    """A joint and its limits: rad, rad/s, rad/s^2, rad/s^3, N m; of a prismatic one m, m/s, m/s^2, m/s^3, N."""
 
     name: str
     min_rad: float
@@ -22,6 +22,7 @@ class Joint:
     jerk: float
     effort: float
     continuous: bool = False  # it has no end: angles that differ by whole turns are the same place
+    prismatic: bool = False  # it moves along its axis
 
 
 @dataclasses.dataclass(frozen=True)

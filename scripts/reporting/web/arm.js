@@ -26,7 +26,7 @@ function capsule(a, b, radius, material) {
   return group;
 }
 
-/** Returns a frame x, y, z, quarter turns about x, turn about z of scene.json. */
+/** Returns a frame x, y, z, quarter turns about x, turn about z of scene.json; prismatic or not. */
 function fixedFrame([x, y, z, quarters, turn]) {
   const frame = new THREE.Group();
   frame.position.set(x, y, z);
@@ -38,14 +38,15 @@ function fixedFrame([x, y, z, quarters, turn]) {
 class Arm {
   constructor(scene, look) {
     this.root = new THREE.Group();
-    this.turns = [];
+    this.joints = [];
     const links = [this.root];
     for (const joint of scene.joints) {
-      const frame = fixedFrame(joint), turn = new THREE.Group();
+      const frame = fixedFrame(joint), moving = new THREE.Group();
+      moving.prismatic = joint[5];
       links[links.length - 1].add(frame);
-      frame.add(turn);
-      this.turns.push(turn);
-      links.push(turn);
+      frame.add(moving);
+      this.joints.push(moving);
+      links.push(moving);
     }
     this.flange = fixedFrame(scene.flange);
     links[links.length - 1].add(this.flange);
@@ -63,9 +64,9 @@ class Arm {
     this.last = links[links.length - 1];
   }
 
-  /** Turns the joints and returns where the tip is. */
+  /** Moves the joints and returns where the tip is. */
   place(q) {
-    this.turns.forEach((turn, i) => { turn.rotation.z = q[i]; });
+    this.joints.forEach((joint, i) => { (joint.prismatic ? joint.position : joint.rotation).z = q[i]; });
     this.root.updateMatrixWorld(true);
     return new THREE.Vector3().setFromMatrixPosition(this.tip.matrixWorld);
   }

@@ -42,7 +42,7 @@ class Run {
       if (this.joints) desired.push(this.ghost.place(this.row(this.joints, i, n, 0)));
       if (this.pose) desired.push(new THREE.Vector3(...this.row(this.pose, i, 7, 0)));
       if (i % 25 > 0) continue;
-      for (const turn of this.arm.turns) this.corners.push(new THREE.Vector3().setFromMatrixPosition(turn.matrixWorld));
+      for (const joint of this.arm.joints) this.corners.push(new THREE.Vector3().setFromMatrixPosition(joint.matrixWorld));
     }
     this.corners.push(...measured);
     const wanted = path(desired, 0.0018, COLOURS.desired);

@@ -11,16 +11,18 @@ import served
 import tactus
 
 TURN = 2 * np.pi
-HOME = np.array([0, 15, 180, -130, 0, 55, 90]) * np.pi / 180  # of the Gen3, where a server and a run begin
-CONTINUOUS = [0, 2, 4, 6]
+HOME = np.array([0.6, -0.62, -1.5, 1.42, 0.27, -0.56])  # of lift6, where a server and a run begin; m, then rad
+UNITS = ["m"] + ["rad"] * 5
+ROLL = 5  # the joint without end
+CONTINUOUS = [ROLL]
 CTL = served.ROOT / "build/tactusctl"
 
 
 def across(seconds):
-    """Rows of a motion of joint 1 from 170 to 190 degrees, which a recorder writes as -170; at rest at both."""
+    """Rows of a motion of the roll from 140 to 220 degrees, which a recorder writes as -140; at rest at both."""
     q = np.tile(HOME, (2, 1))
-    q[:, 0] = np.radians([170, -170])
-    return dict(t=[10.0, 10.0 + seconds], q=q, dq=np.zeros((2, 7)))
+    q[:, ROLL] = np.radians([140, -140])
+    return dict(t=[10.0, 10.0 + seconds], q=q, dq=np.zeros((2, 6)))
 
 
 def lines(seconds):
@@ -28,12 +30,12 @@ def lines(seconds):
     return {name: values for name, values in across(seconds).items() if name != "dq"}
 
 
-def recording(seed, way=2.0, rows=600, dt=0.02):
-    """Returns times and positions of a smooth motion of all joints from home; those of CONTINUOUS go on beyond a turn."""
+def recording(seed, way=4.0, rows=600, dt=0.02):
+    """Returns times and positions of a smooth motion of all joints from home; those of CONTINUOUS go on by `way`."""
     random = np.random.default_rng(seed)
     s = np.linspace(0, 1, rows)[:, None]
     s = 10 * s**3 - 15 * s**4 + 6 * s**5
-    ways = np.where(np.isin(np.arange(7), CONTINUOUS), way, 0.2) * random.choice([-1, 1], 7)
+    ways = np.where(np.isin(np.arange(6), CONTINUOUS), way, 0.2) * random.choice([-1, 1], 6)
     return 2.0 + dt * np.arange(rows), HOME + s * ways
 
 
@@ -51,8 +53,8 @@ class Turns(unittest.TestCase):
         (self.folder / "nearest.ini").write_text(text.replace("[gateway]", "[gateway]\nwrap = nearest"))
 
     def file(self, t, q, dq=None):
-        names = ["time_s", *(f"q{i}_rad" for i in range(1, 8))]
-        names += [] if dq is None else [f"dq{i}_rad_s" for i in range(1, 8)]
+        names = ["time_s", *(f"q{i}_{unit}" for i, unit in enumerate(UNITS, 1))]
+        names += [] if dq is None else [f"dq{i}_{unit}_s" for i, unit in enumerate(UNITS, 1)]
         rows = np.column_stack([t, q] if dq is None else [t, q, dq])
         path = self.folder / "t.csv"
         np.savetxt(path, rows, fmt="%.9f", delimiter=",", header=",".join(names), comments="")
@@ -67,7 +69,7 @@ class Turns(unittest.TestCase):
         done = self.program("run", wrap, file, "--no-figure", "--out", self.folder / "out")
         self.assertEqual(done.returncode, 0, done.stderr)
         log = np.genfromtxt(self.folder / "out/log.csv", delimiter=",", names=True)
-        names = [name for name in log.dtype.names if name.startswith("robotq")][:7]
+        names = [name for name in log.dtype.names if name.startswith("robotq")][:6]
         return done, np.column_stack([log[name] for name in names])
 
     # Proves CSV-9.
@@ -75,14 +77,14 @@ class Turns(unittest.TestCase):
     def test_a_run_takes_the_short_way(self):
         done, q = self.run_of("nearest", self.file(**across(10)))
         self.assertNotIn("warning", done.stderr)
-        self.assertGreater(q[:, 0].min(), -0.02)
-        self.assertAlmostEqual(q[-1, 0], np.radians(190), delta=0.02)
+        self.assertGreater(q[:, ROLL].min(), HOME[ROLL] - 0.02)
+        self.assertAlmostEqual(q[-1, ROLL], np.radians(220), delta=0.02)
 
     def test_a_recording_runs_as_if_it_were_not_wrapped(self):
         for seed in range(3):
             t, way = recording(seed)
-            turns = np.zeros(7)
-            turns[CONTINUOUS] = TURN * np.random.default_rng(seed).integers(-3, 4, 4)
+            turns = np.zeros(6)
+            turns[CONTINUOUS] = TURN * np.random.default_rng(seed).integers(-3, 4, 1)
             _, taken = self.run_of("nearest", self.file(t, wrapped(way + turns, CONTINUOUS)))
             _, plain = self.run_of("as_given", self.file(t, way))
             np.testing.assert_allclose(taken, plain, atol=1e-4)
@@ -92,7 +94,7 @@ class Turns(unittest.TestCase):
         q[:, 1] += TURN
         done = self.program("check", "nearest", self.file([5, 10], q))
         self.assertEqual(done.returncode, 2)
-        self.assertRegex(done.stderr, r"joint 2 \(joint_2\): position 6\.54\d* rad exceeds 2\.\d* rad \(34\)")
+        self.assertRegex(done.stderr, r"joint 2 \(shoulder\): position 5\.66\d* rad exceeds 2\.\d* rad \(34\)")
 
     def test_a_pipeline_of_poses_refuses_the_setting(self):
         text = (self.folder / "nearest.ini").read_text()
@@ -104,24 +106,24 @@ class Turns(unittest.TestCase):
 
     def test_what_is_refused_names_the_turn_and_the_setting(self):
         t, way = recording(0)
-        for rows in (lines(10), dict(t=t, q=wrapped(way, CONTINUOUS))):
+        for rows in (lines(3), dict(t=t, q=wrapped(way, CONTINUOUS))):
             done = self.program("check", "as_given", self.file(**rows))
             self.assertEqual(done.returncode, 2)
-            self.assertRegex(done.stderr, r"joint_\d goes by \S+ rad to waypoint \d+, where \S+ rad lead .*2 pi: wrap = nearest")
+            self.assertRegex(done.stderr, r"wrist_roll goes by \S+ rad to waypoint \d+, where \S+ rad lead .*2 pi: wrap = nearest")
             self.assertEqual(done.stderr.count("\n"), 1)
             for wrong in ("more time", "degrees", "smoothing"):
                 self.assertNotIn(wrong, done.stderr)
 
     def test_a_turn_from_the_arm_to_the_first_waypoint_is_named(self):
-        q = np.tile(HOME + [TURN, 0, 0, 0, 0, 0, 0], (2, 1))
+        q = np.tile(HOME + [0, 0, 0, 0, 0, TURN], (2, 1))
         for t, status in (((0.0, 3.0), r"\(40\)"), ((1.0, 4.0), r"\(36\)")):
             done = self.program("check", "as_given", self.file(t, q, 0 * q))
-            self.assertRegex(done.stderr, status + r"; joint_1 goes by 6\.28319 rad to waypoint 1, .*wrap = nearest")
+            self.assertRegex(done.stderr, status + r"; wrist_roll goes by 6\.28319 rad to waypoint 1, .*wrap = nearest")
             self.assertEqual(self.program("check", "nearest", self.file(t, q, 0 * q)).returncode, 0)
 
     def test_degrees_are_still_taken_for_degrees(self):
-        q = np.tile(np.degrees(HOME), (2, 1))
-        q[:, 0] = [170, -170]
+        q = np.tile(np.hstack([HOME[:1], np.degrees(HOME[1:])]), (2, 1))
+        q[:, ROLL] = [140, -140]
         self.assertIn("are these degrees?", self.program("check", "as_given", self.file([5, 10], q)).stderr)
         self.assertEqual(self.program("check", "nearest", self.file([5, 10], q)).returncode, 2)
 
@@ -132,7 +134,7 @@ class Turns(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertRegex(
                 done.stderr,
-                r"warning: joint_1 turns by -5\.93412 rad to waypoint 2, where 0\.349066 rad .*wrap = nearest",
+                r"warning: wrist_roll turns by -4\.88692 rad to waypoint 2, where 1\.39626 rad .*wrap = nearest",
             )
 
     # Proves CSV-9, CSV-10.
@@ -141,14 +143,14 @@ class Turns(unittest.TestCase):
         with served.serve() as address, tactus.connect(address) as arm:
             self.assertEqual([i for i, joint in enumerate(arm.robot.joints) if joint.continuous], CONTINUOUS)
             with self.assertRaisesRegex(tactus.Refused, "wrap = nearest") as refused:
-                arm.check(**lines(10))
+                arm.check(**lines(3))
             self.assertNotIn("more time", str(refused.exception))
-            with self.assertWarnsRegex(UserWarning, r"joint_1 turns by -5\.934.* 0\.349066 rad"):
+            with self.assertWarnsRegex(UserWarning, r"wrist_roll turns by -4\.886.* 1\.39626 rad"):
                 arm.check(**across(20))
             with self.assertRaises(ValueError):
                 arm.check(wrap="shortest", **across(10))
             near = across(10)
-            near["q"][:, 0] += 3 * TURN
+            near["q"][:, ROLL] += 3 * TURN
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 arm.move(wrap="nearest", **near)
@@ -158,7 +160,7 @@ class Turns(unittest.TestCase):
                 arm.check(wrap="nearest", **streamed)
             with self.assertRaisesRegex(tactus.Refused, "wrap = nearest"):
                 arm.check(**streamed)
-            self.assertAlmostEqual(arm.state().q_d[0], np.radians(190), delta=1e-6)
+            self.assertAlmostEqual(arm.state().q_d[ROLL], np.radians(220), delta=1e-6)
 
     def test_tactusctl_asks_for_the_short_way(self):
         def ctl(verb, file, *options):
@@ -166,17 +168,17 @@ class Turns(unittest.TestCase):
             return subprocess.run(command, capture_output=True, text=True, check=False)
 
         with served.serve() as address:
-            refused = ctl("check", self.file(**lines(10)))
+            refused = ctl("check", self.file(**lines(3)))
             self.assertEqual(refused.returncode, 2)
             self.assertIn("wrap = nearest", refused.stdout + refused.stderr)
             told = ctl("check", self.file(**across(20)))
             self.assertEqual(told.returncode, 0)
-            self.assertRegex(told.stdout, r"(?m)^warning: joint_1 turns by -5\.93412 rad")
+            self.assertRegex(told.stdout, r"(?m)^warning: wrist_roll turns by -4\.88692 rad")
             sent = ctl("send", self.file(**across(10)), "--wrap", "nearest")
             self.assertEqual(sent.returncode, 0, sent.stdout + sent.stderr)
             self.assertNotIn("warning", sent.stdout)
             with tactus.connect(address) as arm:
-                self.assertAlmostEqual(arm.state().q_d[0], np.radians(190), delta=1e-6)
+                self.assertAlmostEqual(arm.state().q_d[ROLL], np.radians(220), delta=1e-6)
 
 
 if __name__ == "__main__":

@@ -40,9 +40,9 @@ bool next(TrajectoryReader<JointSpace>& reader, Waypoint<JointSpace>& waypoint) 
 
 void write_files(int seed) {
   Line command("$R/tests/gateway/trajectory/wrapped_files.py $S ");
-  assert_succeeds(
-      (command << seed << " " << kDof << " " << static_cast<int>(Robot::kContinuousJoints))
-          .c_str());
+  command << seed << " " << static_cast<int>(Robot::kContinuousJoints);
+  for (int i = 0; i < kDof; ++i) command << " " << position_unit(i);
+  assert_succeeds(command.c_str());
 }
 
 bool same(const JointVector& a, const JointVector& b) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""wrapped_files.py FOLDER SEED JOINTS CONTINUOUS: writes a random trajectory as a recorder writes it, and unwrapped.
+"""wrapped_files.py FOLDER SEED CONTINUOUS UNIT...: writes a random trajectory as a recorder writes it, and unwrapped.
 
 The angles of wrapped.csv are within one turn, here and there by some turns more. unwrapped.csv has what numpy.unwrap makes
 of those of the joints whose bits are in CONTINUOUS, from the first row on, which is the reference and may be some turns
@@ -11,7 +11,8 @@ import sys
 
 import numpy as np
 
-folder, seed, joints, continuous = pathlib.Path(sys.argv[1]), *map(int, sys.argv[2:])
+folder, seed, continuous, units = pathlib.Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]), sys.argv[4:]
+joints = len(units)
 random = np.random.default_rng(seed)
 rows = 400
 steps = random.uniform(-0.999 * np.pi, 0.999 * np.pi, (rows, joints)) * random.uniform(0, 1, (rows, 1)) ** 2
@@ -25,8 +26,7 @@ rates = random.normal(size=(rows, 2 * joints))
 nearest = np.unwrap(wrapped, axis=0)
 others = [i for i in range(joints) if not continuous >> i & 1]
 nearest[:, others] = wrapped[:, others]
-names = [f"q{i + 1}_rad" for i in range(joints)]
-names += [f"dq{i + 1}_rad_s" for i in range(joints)] + [f"ddq{i + 1}_rad_s2" for i in range(joints)]
+names = [f"{prefix}{i + 1}_{unit}{suffix}" for prefix, suffix in (("q", ""), ("dq", "_s"), ("ddq", "_s2")) for i, unit in enumerate(units)]
 times = 0.1 * np.arange(rows)[:, None]
 for name, q in {"wrapped": wrapped, "unwrapped": nearest}.items():
     np.savetxt(
