@@ -7,7 +7,7 @@ comma := ,
 ARCH  ?= host
 JOBS  ?= $(shell nproc)
 HOW   := $(if $(filter-out host,$(ARCH)),-$(ARCH))$(if $(SANITIZE),-$(subst $(comma),-,$(SANITIZE)))$(VARIANT:%=-%)$(LIBCCD:%=-convex)$(if $(filter command,$(origin UNITS)),$(if $(UNITS),,-single))
-B     := build/$(BOARD)$(HOW)
+B     := build/$(BOARD)$(HOW)$(if $(LAWS),-laws)
 
 # Of the files named after a robot, only those of the board's robot are compiled.
 ROBOTS   := $(patsubst kernel/robots/%_capsules.hpp,%,$(wildcard kernel/robots/*_capsules.hpp))
@@ -41,6 +41,11 @@ robot := $(robot)
 O     := build/$(robot)$(HOW)
 # The kinds of block that the board has, if not all.
 KINDS := $(KINDS_$(ARCH))$(if $(and $(KINDS_$(ARCH)),$(LIBCCD)),$(comma) SphereObstacle$(comma) CapsuleObstacle$(comma) CylinderObstacle$(comma) ConvexObstacle)
+
+# Laws that were compiled elsewhere, NAME=OBJECT (docs/library.md).
+$(foreach law,$(LAWS),$(if $(filter 2,$(words $(subst =, ,$(law)))),,$(error LAWS: '$(law)' is not NAME=OBJECT)))
+LAW_NAMES   := $(foreach law,$(LAWS),$(firstword $(subst =, ,$(law))))
+LAW_OBJECTS := $(foreach law,$(LAWS),$(lastword $(subst =, ,$(law))))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.
 # CLI11 takes three times as long to optimise as to compile, for what runs once.
@@ -111,7 +116,7 @@ NOT_CYCLIC := $(wildcard kernel/load/*.cpp kernel/reference/motion/admission*.cp
               kernel/core/status.cpp kernel/model/mounting.cpp kernel/pipeline/schedule.cpp kernel/reference/motion/monotone.cpp \
               gateway/reference_client.cpp tests/bare_metal/board.cpp
 KERNEL   := $(filter-out $(if $(BARE),$(if $(LIBCCD),,kernel/guard/convex%)),$(wildcard kernel/*/*.cpp kernel/reference/*/*.cpp))
-# What sees the kinds of block. A board that has not all of them shares the rest of the kernel with other boards.
+# What sees the kinds of block. A board that has not all of them, or laws compiled elsewhere, shares the rest with other boards.
 OF_KINDS := $(addprefix kernel/,load/loader.cpp load/parameter_book.cpp pipeline/pipeline.cpp pipeline/pipeline_tuning.cpp)
 GATEWAY  := $(wildcard gateway/*.cpp $(addsuffix /*.cpp,$(addprefix gateway/,trajectory trajectory/smoothing page server sockets)))
 PROGRAM  := $(wildcard $(addsuffix /*.cpp,program program/host program/session program/results program/reach hal/os)) $(GATEWAY) $(PARTS)

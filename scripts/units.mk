@@ -38,14 +38,16 @@ endif
 # $(call objects,SOURCES): the units that are among them as a whole, and an object for each other source.
 units_in = $(foreach unit,$(UNITS),$(if $(SOURCES_$(unit)),$(if $(filter-out $(1),$(SOURCES_$(unit))),,$(unit))))
 objects  = $(call joined,$(1),$(call units_in,$(1)))
-joined   = $(2:%=$(O)/units/%.o) $(call obj,$(filter-out $(foreach unit,$(2),$(SOURCES_$(unit))),$(1)))
+joined   = $(foreach unit,$(2),$(if $(filter $(unit),$(OF_LAWS)),$(B),$(O))/units/$(unit).o) $(call obj,$(filter-out $(foreach unit,$(2),$(SOURCES_$(unit))),$(1)))
 
-# A board without all kinds of block has its own objects of what sees them, and a kernel of its own.
-KERNEL_LIB     := $(if $(KINDS),$(B),$(O))/libkernel.a
+# A board without all kinds of block, or with laws compiled elsewhere, has its own objects of what sees them, and a kernel
+# of its own.
+OF_LAWS        := $(if $(LAWS),executive gateway server program)
+KERNEL_LIB     := $(if $(KINDS)$(LAWS),$(B),$(O))/libkernel.a
 kernel_objects  = $(if $(KINDS),$(foreach source,$(1),$(patsubst %.cpp,$(if $(filter $(OF_KINDS),$(source)),$(B),$(O))/%.o,$(source))),$(call objects,$(1)))
 
 # Of a function that several objects have, the linker takes the first: the cycle's, not one that is compiled for size.
-KERNEL_OBJECTS := $(call kernel_objects,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL)))
+KERNEL_OBJECTS := $(call kernel_objects,$(filter-out $(NOT_CYCLIC),$(KERNEL)) $(filter $(NOT_CYCLIC),$(KERNEL))) $(LAW_OBJECTS)
 
 # $(call archive,FILE,OBJECTS): it is made anew when it has other members, too.
 define archive
@@ -67,14 +69,23 @@ $(UNITS:%=$(O)/units/%.o): %.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(ME
 $(O)/%.o: %.cpp $(O)/flags | $(O)/precompiled.hpp.gch $(MESSAGES).h
 	$(call say,CXX   $<)
 	$(compile)
-$(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): private CXXFLAGS += -DTACTUS_KINDS='$(KINDS)'
+$(OF_LAWS:%=$(B)/units/%.o): $(B)/units/%.o: $(O)/units/%.cpp $(O)/flags $(B)/laws.hpp | $(O)/precompiled.hpp.gch $(MESSAGES).h
+	$(call say,CXX   $<)
+	$(compile)
+$(if $(LAWS),$(B)/kinds): $(B)/laws.hpp
+$(B)/laws.hpp: always
+	$(call kept,{ echo '#include "kernel/control/c_law.hpp"'; $(foreach law,$(LAW_NAMES),\
+	  echo 'extern "C" const tactus_law $(law);'; echo 'namespace tactus { inline constexpr char $(law)_word[] = "$(law)"; }';) \
+	  echo '#define TACTUS_LAW_KINDS' $(foreach law,$(LAW_NAMES),'$(comma) CLaw<$(law)$(comma) $(law)_word>'); })
+OWN_KINDS := $(OF_LAWS:%=$(B)/units/%.o) $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o))
+$(OWN_KINDS): private CXXFLAGS += $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(LAWS),-DTACTUS_LAWS='"$(B)/laws.hpp"')
 $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): $(B)/%.o: %.cpp $(O)/flags $(B)/kinds | $(O)/precompiled.hpp.gch
 	$(call say,CXX   $<)
 	$(compile)
 $(B)/kinds: always
 	$(call kept,echo $(call quote,$(KINDS)))
-$(if $(KINDS),$(KERNEL_LIB)): | $(B)/kinds_checked
-$(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS))
+$(if $(KINDS)$(LAWS),$(KERNEL_LIB)): | $(B)/kinds_checked
+$(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS) $(if $(LAWS),$(call objects,$(SRCS) $(PROGRAM))))
 	$(Q)! grep -l 'kernel/pipeline/kinds[.]hpp' $(^:.o=.d) || { echo '$@: these see the kinds of block; name them in OF_KINDS' >&2; exit 1; }
 	$(Q)mkdir -p $(@D) && touch $@
 # Eigen and the standard library, parsed once for what is shipped, once for what is small, and once for tests, which need

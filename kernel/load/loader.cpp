@@ -38,17 +38,50 @@ bool find_kind(std::string_view type, std::size_t& kind) {
   return false;
 }
 
+/// Bytes of a block; of a law compiled elsewhere, with its state behind it.
+template <class Kind>
+std::size_t bytes_of() {
+  if constexpr (kIsForeign<Kind>)
+    return Kind::size();
+  else
+    return sizeof(Kind);
+}
+
 /// Puts a default block of its kind at the next place in the memory; false if there is none.
 bool place(Block& block, Arena& memory) {
   return with_kind(block.kind, [&](auto kind) {
     using Kind = typename decltype(kind)::Type;
-    block.place = memory.take(sizeof(Kind), alignof(Kind));
+    block.place = memory.take(bytes_of<Kind>(), alignof(Kind));
     return block.place != nullptr && new (block.place) Kind() != nullptr;
   });
 }
 
 std::size_t size_of(const Block& block) {
-  return with_kind(block.kind, [](auto kind) { return sizeof(typename decltype(kind)::Type); });
+  return with_kind(block.kind, [](auto kind) { return bytes_of<typename decltype(kind)::Type>(); });
+}
+
+/// Judges what a law that was compiled elsewhere says of itself.
+Status judge_description(const Block& block, const IniEntry& type, LoadError& error) {
+  Message why;
+  const Status status = with_kind(block.kind, [&why](auto kind) {
+    using Kind = typename decltype(kind)::Type;
+    if constexpr (kIsForeign<Kind>) return Kind::judge_description(why);
+    return Status::kOk;
+  });
+  return status == Status::kOk ? status : error.refuse(status, type.line, block.name, "type", why);
+}
+
+/// The time that the laws compiled elsewhere state for a step of theirs, us.
+int stated_us(const Pipeline& pipeline) {
+  int sum_us = 0;
+  for (int i = 0; i < pipeline.count(); ++i) {
+    sum_us += with_kind(pipeline[i].kind, [](auto kind) {
+      using Kind = typename decltype(kind)::Type;
+      if constexpr (kIsForeign<Kind>) return Kind::bound_us();
+      return 0;
+    });
+  }
+  return sum_us;
 }
 
 void describe_block(const Block& block, SectionReader& reader) {
@@ -60,6 +93,18 @@ void describe_block(const Block& block, SectionReader& reader) {
 int line_of(const Ini& ini, const IniSection& section, const char* key) {
   const IniEntry* entry = ini.find(section, key);
   return entry ? entry->line : section.line;
+}
+
+/// Refuses a budget of the control chain that is less than the laws of the chain state.
+Status check_stated(const Ini& ini, const Pipeline& pipeline, LoadError& error) {
+  const int budget_us = pipeline.executive.budget(pipeline.robot.period_us);
+  const int sum_us = stated_us(pipeline);
+  if (sum_us <= budget_us) return Status::kOk;
+  const IniSection* section = ini.find("executive");
+  return error.refuse(Status::kOverBudget, section ? line_of(ini, *section, "budget_us") : 0,
+                      "executive", "budget_us",
+                      Message("") << budget_us << " us; the laws of LAWS alone state " << sum_us
+                                  << " us for a cycle; raise the budget, or the period");
 }
 
 Message block_types() {
@@ -87,6 +132,7 @@ Status Loader::load(std::string_view text, Pipeline& pipeline, LoadError& error,
   TRY(read_recording(ini, pipeline, error));
   TRY(read_collision(ini, pipeline, error));
   TRY(read_schedule(ini, pipeline, error));
+  if constexpr (Kinds::kHasForeign) TRY(check_stated(ini, pipeline, error));
   const double period_s = pipeline.robot.period_s(), reserve = pipeline.guard.stop_reserve;
   const double stretch = pipeline.guard.max_stretch;
   pipeline.takes_joints = channels_.joint != nullptr && left_.joint == nullptr;
@@ -129,6 +175,7 @@ Status Loader::load_block(const Ini& ini, const IniSection& section, Pipeline& p
     return error.refuse(Status::kUnknownType, type.line, section.name, "type",
                         Message("unknown type '")
                             << type.value << "'; expected one of " << block_types());
+  if constexpr (Kinds::kHasForeign) TRY(judge_description(block, type, error));
   const std::size_t left = pipeline.memory.left();
   if (!place(block, pipeline.memory))
     return error.refuse(Status::kTooLarge, type.line, section.name, "type",

@@ -19,13 +19,26 @@
 #include "kernel/reference/blocks/joint_reference_generator.hpp"
 #include "kernel/reference/blocks/task_reference_generator.hpp"
 
+#ifdef TACTUS_LAWS
+#include TACTUS_LAWS  // the kinds that the build makes of LAWS, TACTUS_LAW_KINDS
+#else
+#define TACTUS_LAW_KINDS
+#endif
+
 namespace tactus {
+
+/// True for a law that was compiled elsewhere: what it says of itself is judged at load.
+template <class Kind, class = void>
+inline constexpr bool kIsForeign = false;
+template <class Kind>
+inline constexpr bool kIsForeign<Kind, std::void_t<decltype(&Kind::judge_description)>> = true;
 
 template <class... Each>
 struct KindList {
   static constexpr std::size_t kCount = sizeof...(Each);
   /// The word of each kind in "type = ...".
   static constexpr std::array<const char*, kCount> kTypes = {Each::kType...};
+  static constexpr bool kHasForeign = (... || kIsForeign<Each>);
 
   static constexpr bool words_differ() {
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -37,7 +50,7 @@ struct KindList {
 };
 
 #ifdef TACTUS_KINDS
-using Kinds = KindList<TACTUS_KINDS>;
+using Kinds = KindList<TACTUS_KINDS TACTUS_LAW_KINDS>;
 #else
 /// A new controller is one line here and an #include above. kType is its word in "type = ...".
 using Kinds = KindList<RobotModel,               //
@@ -55,7 +68,7 @@ using Kinds = KindList<RobotModel,               //
                        Pid,                      //
                        WrenchFrontEnd,           //
                        Admittance,               //
-                       CartesianPose>;
+                       CartesianPose TACTUS_LAW_KINDS>;
 #endif
 
 static_assert(Kinds::words_differ(), "two kinds have the same kType: the second would never run");

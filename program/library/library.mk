@@ -18,6 +18,7 @@ install-kernel: setup $(LIBRARY) $(B)/library.headers         ## install the ker
 	$(Q)install -D -m 644 -t $(ROOT)/lib $(LIBRARY)
 	$(Q)for header in $$(cat $(B)/library.headers); do install -D -m 644 $$header $(HEADERS)/$${header#program/library/}; done
 	$(Q)install -D -m 644 -t $(HEADERS)/tactus $(B)/library/$(robot).hpp
+	$(Q)install -m 644 -t $(HEADERS) kernel/core/tactus_law.h
 	$(Q)install -d $(CMAKE)/robots $(ROOT)/lib/pkgconfig
 	$(Q)$(filled) program/library/tactus-kernel.pc.in > $(ROOT)/lib/pkgconfig/tactus-kernel-$(robot).pc
 	$(Q)$(filled) program/library/kernel.cmake.in > $(CMAKE)/robots/$(robot).cmake
