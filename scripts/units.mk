@@ -42,7 +42,7 @@ joined   = $(foreach unit,$(2),$(if $(filter $(unit),$(OF_LAWS)),$(B),$(O))/unit
 
 # A board without all kinds of block, or with laws compiled elsewhere, has its own objects of what sees them, and a kernel
 # of its own.
-OF_LAWS        := $(if $(LAWS),executive gateway server program)
+OF_LAWS        := $(if $(LAWS),$(filter executive gateway server program,$(UNITS)))
 KERNEL_LIB     := $(if $(KINDS)$(LAWS),$(B),$(O))/libkernel.a
 kernel_objects  = $(if $(KINDS),$(foreach source,$(1),$(patsubst %.cpp,$(if $(filter $(OF_KINDS),$(source)),$(B),$(O))/%.o,$(source))),$(call objects,$(1)))
 
@@ -76,7 +76,7 @@ $(if $(LAWS),$(B)/kinds): $(B)/laws.hpp
 $(B)/laws.hpp: always
 	$(call kept,{ echo '#include "kernel/control/c_law.hpp"'; $(foreach law,$(LAW_NAMES),\
 	  echo 'extern "C" const tactus_law $(law);'; echo 'namespace tactus { inline constexpr char $(law)_word[] = "$(law)"; }';) \
-	  echo '#define TACTUS_LAW_KINDS' $(foreach law,$(LAW_NAMES),'$(comma) CLaw<$(law)$(comma) $(law)_word>'); })
+	  echo '#define TACTUS_LAW_KINDS' $(foreach law,$(LAW_NAMES),'$(comma) CLaw<::$(law)$(comma) $(law)_word>'); })
 OWN_KINDS := $(OF_LAWS:%=$(B)/units/%.o) $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o))
 $(OWN_KINDS): private CXXFLAGS += $(if $(KINDS),-DTACTUS_KINDS='$(KINDS)') $(if $(LAWS),-DTACTUS_LAWS='"$(B)/laws.hpp"')
 $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): $(B)/%.o: %.cpp $(O)/flags $(B)/kinds | $(O)/precompiled.hpp.gch
@@ -85,8 +85,8 @@ $(if $(KINDS),$(OF_KINDS:%.cpp=$(B)/%.o)): $(B)/%.o: %.cpp $(O)/flags $(B)/kinds
 $(B)/kinds: always
 	$(call kept,echo $(call quote,$(KINDS)))
 $(if $(KINDS)$(LAWS),$(KERNEL_LIB)): | $(B)/kinds_checked
-$(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS) $(if $(LAWS),$(call objects,$(SRCS) $(PROGRAM))))
-	$(Q)! grep -l 'kernel/pipeline/kinds[.]hpp' $(^:.o=.d) || { echo '$@: these see the kinds of block; name them in OF_KINDS' >&2; exit 1; }
+$(B)/kinds_checked: $(filter $(O)/%,$(KERNEL_OBJECTS) $(if $(OF_LAWS),$(call objects,$(SRCS) $(PROGRAM))))
+	$(Q)! grep -l 'kernel/pipeline/kinds[.]hpp' $(^:.o=.d) || { echo '$@: these see the kinds of block; name them in OF_KINDS or OF_LAWS' >&2; exit 1; }
 	$(Q)mkdir -p $(@D) && touch $@
 # Eigen and the standard library, parsed once for what is shipped, once for what is small, and once for tests, which need
 # not be fast.

@@ -88,6 +88,11 @@ inline Status judge_ports(const tactus_law& law, Message& why) {
   TRY(judge_names("key", law.parameter_count + law.input_count, key, why));
   TRY(judge_names(
       "output", law.output_count, [&law](std::uint32_t i) { return law.outputs[i].name; }, why));
+  for (std::uint32_t i = 0; i < law.parameter_count; ++i) {
+    if (law.parameters[i].unit != nullptr) continue;
+    why << "parameter '" << law.parameters[i].name << "' of the law has no unit; give it one, or 1";
+    return Status::kBadValue;
+  }
   TRY(judge_quantities(law.inputs, law.input_count, why));
   return judge_quantities(law.outputs, law.output_count, why);
 }
