@@ -113,6 +113,10 @@ inline Status judge_ports(const tactus_law& law, Message& why) {
     why << "the law has more than " << TACTUS_LAW_PARAMETERS << " parameters, " << TACTUS_LAW_INPUTS
         << " inputs or " << TACTUS_LAW_OUTPUTS << " outputs; leave some out";
     status = Status::kTooLarge;
+  } else if ((law.parameters == nullptr && law.parameter_count > 0) ||
+             (law.inputs == nullptr && law.input_count > 0) ||
+             (law.outputs == nullptr && law.output_count > 0)) {
+    why << "the law counts parameters or ports of which it has no list; give the list";
   } else if (law.name == nullptr || law.name != word) {
     why << "the law is called '" << (law.name != nullptr ? law.name : "") << "' by its object, and "
         << word << " by LAWS; give both the same name";

@@ -3,8 +3,8 @@
 //
 //   make BOARD=fer_sim LAWS="NAME=law.o"
 //
-// The object defines the constant NAME, a tactus_law with external linkage. Pipeline files have the
-// law as a block with `type = NAME`.
+// The object defines the constant NAME: `const tactus_law NAME = {...};`, in C++ behind extern "C".
+// Pipeline files have the law as a block with `type = NAME`.
 //
 // Rules. The board checks those marked with *, and refuses the law or stops the arm.
 //   - * Description. It is constant. Names are words of letters, digits and _, at most 31
@@ -14,8 +14,9 @@
 //     takes no heap, and its stack is small.
 //   - Calls. One thread calls, in the order start, step, step, ...; brake and resume as described
 //     there. No call blocks, locks, reads a clock, asks the operating system, throws, or loops
-//     without a bound. * A step takes no more than `bound_us`; its sum over the laws of a file is
-//     checked against the budget of the control chain, and cycles against their period.
+//     without a bound.
+//   - * A step takes no more than `bound_us`. The sum of these over the blocks of a file fits the
+//     budget of the control chain; a cycle that takes longer than its period is an overrun.
 //   - Time is `dt_s`, the nominal period, the same in all calls.
 //   - Inputs are finite. * Outputs are finite after start, step and resume, if these return
 //     TACTUS_OK; all outputs are written.
@@ -103,8 +104,8 @@ typedef struct tactus_law {
   // Sets the outputs, in every cycle.
   int32_t (*step)(void* state, const tactus_law_data* data, double dt_s);
   // Begins to end the motion that the law makes by itself, within limits, until the next start or
-  // resume: along its path, or at once. Called before every step while the arm brakes or is held.
-  // Null: the law only follows its inputs.
+  // resume: along its path, or at once. Called before every step while the arm brakes or is held,
+  // and without steps while the drives are not enabled. Null: the law only follows its inputs.
   void (*brake)(void* state, uint32_t at_once);
   // Called in place of start for an arm that was braked and rests: the outputs continue from where
   // they are. Null: start does that.

@@ -237,6 +237,7 @@ void a_description_that_is_wrong_is_refused_with_the_remedy(void**) {
   refused([](Law& law) { law.input_count = 17; }, Status::kTooLarge, "16 inputs or 8 outputs");
   refused([](Law& law) { law.output_count = UINT32_MAX; }, Status::kTooLarge, "leave some out");
   refused([](Law& law) { law.parameter_count = 17; }, Status::kTooLarge, "16 parameters");
+  refused([](Law& law) { law.inputs = nullptr; }, kBad, "of which it has no list; give the list");
   refused([](Law& law) { law.name = "other"; }, kBad, "'other' by its object, and law by LAWS");
   refused([](Law& law) { law.name = nullptr; }, kBad, "give both the same name");
   refused([](Law& law) { law.step = nullptr; }, kBad, "no start or no step; give it both");

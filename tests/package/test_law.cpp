@@ -87,6 +87,9 @@ void a_law_that_describes_itself_wrongly_is_refused_at_load(void**) {
              "[executive] budget_us: 500 us; the laws of LAWS alone state 501 us for a cycle; "
              "raise the budget, or the period\n");
   assert_int_equal(run_law("slow_law", "tau_c = own.tau", "[executive]\nbudget_us = 600\n"), 0);
+  is_refused(run_law("good_law", "tau_c = own.tau",
+                     "[too]\ntype = good_law\ng = own.tau\nq_d = own.q_c\n"),
+             "state 600 us for a cycle");
 }
 
 /// A torque cannot be braked without its law: the drives are disabled in the same cycle.
