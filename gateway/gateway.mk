@@ -8,9 +8,12 @@ GATEWAY_LIBS := -l:libprotobuf-nanopb.a -l:libsodium.a
 $(O)/gateway/tactus.pb.o: $(MESSAGES).c
 	$(call say,CC    $<)
 	$(Q)$(CROSS_$(ARCH))gcc -std=c11 -O2 -g1 -Ibuild/generated -c $< -o $@
-$(MESSAGES).c $(MESSAGES).h &: gateway/tactus.proto gateway/tactus.options
+$(MESSAGES).c $(MESSAGES).h $(MESSAGES:.pb=.schema) &: gateway/tactus.proto gateway/tactus.options
 	$(call say,PROTO $<)
-	$(Q)mkdir -p build/generated && protoc -I. --nanopb_out=build/generated $<
+	$(Q)mkdir -p build/generated && protoc -I. --nanopb_out=build/generated --descriptor_set_out=$(MESSAGES:.pb=.schema) $<
+
+# It copies the schema of the messages into the program.
+$(call obj,program/results/run_recording.cpp) $(O)/units/program.o: $(MESSAGES:.pb=.schema)
 
 # It copies the page into the program.
 $(call obj,gateway/page/page_files.cpp) $(O)/units/server.o: $(wildcard gateway/page/web/*)

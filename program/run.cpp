@@ -8,6 +8,7 @@
 #include "program/heap_count.hpp"
 #include "program/results/figure.hpp"
 #include "program/results/run_folder.hpp"
+#include "program/results/run_recording.hpp"
 #include "program/results/scene_file.hpp"
 #include "program/results/waypoint_log.hpp"
 #include "program/run_loop.hpp"
@@ -35,7 +36,8 @@ std::int64_t cycles_of(double duration_s, double period_s) {
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
-             RunLog& log, LogWriter& writer, WatchdogThread& watchdog, RunResult& result) {
+             RunRecording* recording, RunLog& log, LogWriter& writer, WatchdogThread& watchdog,
+             RunResult& result) {
   const double duration_s = planned_duration(session, options, input);
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
@@ -44,6 +46,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   if (duration_s < kInfinity)
     length.cycles = cycles_of(duration_s, session.pipeline.robot.period_s());
   RunLoop loop(session, input, feed, watchdog, result, length);
+  if (recording != nullptr) loop.record(*recording);
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   const bool started = loop.start();
   print_written(options.pipeline, session);
@@ -189,6 +192,7 @@ int run(Session& session, const Options& options) {
   RunFolder folder(options);
   static RunResult result;
   static TrajectoryInput input;  // too large for a stack that is locked in memory
+  static RunRecording recorded;
   RunLog log;
   LogWriter writer(log);
   TrajectoryFeed feed(session, input);
@@ -208,6 +212,10 @@ int run(Session& session, const Options& options) {
   const Recording& recording = session.pipeline.recording;
   if (options.log && !log.open(folder.file("log.csv").c_str(), recording)) return kRefused;
 
+  const bool records = options.record[0] != '\0';
+  if (records && !recorded.open(options.record, session)) return kRefused;
+  if (records) log.record(recorded);
+
   result.overrides = &options.overrides;
   result.seed = options.seed;
   result.realtime.asked = options.realtime;
@@ -216,18 +224,19 @@ int run(Session& session, const Options& options) {
     const auto i = static_cast<std::size_t>(result.tracking_count);
     result.tracking[i].start(recording.tracking[i]);
   }
-  if (options.log) start_recorder(session.recorder, session.pipeline);
+  if (options.log || records) start_recorder(session.recorder, session.pipeline);
   if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
-  execute(session, options, input, feed, log, writer, watchdog, result);
+  execute(session, options, input, feed, records ? &recorded : nullptr, log, writer, watchdog,
+          result);
   result.stretch = input.stretch();
   result.moved = input.moved();
   result.config_hash = input.hash(fnv1a(session.text));
   realtime.release();  // or the program that draws the figure would inherit it
 
   judge(session, options, result);
-  const bool written =
-      (!options.log || log.close()) && write_results(folder, session, input, pipeline, result);
+  const bool written = (!options.log || log.close()) && (!records || recorded.close(result)) &&
+                       write_results(folder, session, input, pipeline, result);
   if (!written && result.code == 0) end_with(result, kEndedOtherwise, "not recorded");
   print_table(pipeline, session, result);
   if (options.figure && written) draw_figure(folder.path().c_str());

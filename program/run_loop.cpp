@@ -42,6 +42,7 @@ bool RunLoop::follow() {
   if (!planned_end_) goal_.follow();
   Report report;
   while (feed_.poll(report)) {
+    if (recording_ != nullptr) recording_->watch(report);
     if (report.id != input_.id || planned_end_) continue;
     if (report.outcome == Outcome::kStarved) count_starving();
     if (!is_final(report.outcome)) continue;
@@ -146,6 +147,7 @@ bool RunLoop::cycle(const CycleTime& now) {
     status = session_.executive.cycle(time_of(now));
   }
   watchdog_.cycle_completed();
+  if (recording_ != nullptr) recording_->watch(session_.pipeline.motion_state());
   halted_ = interrupted != 0;  // a later signal counts in the next cycle, which brakes
   unarmed_ = unarmed_ || (halted_ && session_.executive.rung() == Rung::kArming);
   if (halted_ && session_.executive.rung() != Rung::kDisabled) halt();

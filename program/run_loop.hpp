@@ -8,6 +8,7 @@
 #include "program/results/log_writer.hpp"
 #include "program/results/progress.hpp"
 #include "program/results/run_log.hpp"
+#include "program/results/run_recording.hpp"
 #include "program/results/summary.hpp"
 #include "program/trajectory_feed.hpp"
 #include "program/watchdog_thread.hpp"
@@ -46,6 +47,8 @@ class RunLoop {
   /// Serves clients instead of following a trajectory: faults end no cycles, as a client may rearm;
   /// only a signal does. [init]
   void serve(CycleEndpoint& endpoint) { endpoint_ = &endpoint; }
+  /// Notes phases of the reference and reports in a recording. [init]
+  void record(RunRecording& recording) { recording_ = &recording; }
   /// Advances the executive's time by one period in every cycle, so that late cycles are no fault.
   /// [init]
   void in_virtual_time() { virtual_ = true; }
@@ -111,6 +114,7 @@ class RunLoop {
   RunLength length_;
   GoalWatch goal_;
   CycleEndpoint* endpoint_ = nullptr;  // of a server; null: none
+  RunRecording* recording_ = nullptr;  // null: none
   bool virtual_ = false;
   std::int64_t virtual_ns_ = 0;
   std::int64_t began_ns_ = 0;  // the present cycle, by the monotonic clock, whatever triggers it

@@ -4,7 +4,7 @@ CTL          := build/ctl$(HOW)
 CTL_SEAM     := gateway/ctl/options.cpp
 CTL_CLIENT   := $(filter-out $(CTL_SEAM) %/main.cpp,$(wildcard gateway/ctl/*.cpp gateway/ctl/retime/*.cpp))
 # What it shares with the programs of robots.
-CTL_SHARED   := gateway/trajectory/csv_cells.cpp gateway/trajectory/line_reader.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp \
+CTL_SHARED   := gateway/trajectory/csv_cells.cpp gateway/trajectory/line_reader.cpp gateway/mcap_writer.cpp gateway/sockets/address.cpp gateway/sockets/key_file.cpp \
                 kernel/core/text.cpp kernel/core/status.cpp kernel/load/ini.cpp kernel/math/so3.cpp \
                 $(addprefix kernel/reference/space/,polynomial.cpp rotation_segment.cpp vector_bounds.cpp)
 ctl_obj       = $(patsubst %.cpp,$(CTL)/%.o,$(1))

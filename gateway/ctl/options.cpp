@@ -155,7 +155,11 @@ void add_retime(CLI::App& verb, Options& o) {
 }
 
 void add_views(CLI::App& watch, CLI::App& record, Options& o) {
-  record.add_option("out", o.out, "CSV file to write; - is standard output")->required();
+  record
+      .add_option(
+          "out", o.out,
+          "file to write: states as CSV; FILE.mcap: events too, as MCAP; - is standard output")
+      ->required();
   record.add_flag("--trajectory", o.trajectory, "only times and positions, as send reads them");
   for (CLI::App* verb : {&watch, &record}) {
     verb->add_option("--every-ms", o.every_ms, "time between two states (default 100; record 10)")
@@ -184,7 +188,7 @@ constexpr VerbHelp kVerbs[] = {
     {Verb::kRearm, "rearm", "take the arm over after a stop"},
     {Verb::kTare, "tare", "take a new zero of the force/torque sensor, without a stop"},
     {Verb::kWatch, "watch", "show the state of the arm"},
-    {Verb::kRecord, "record", "write states into a CSV file"},
+    {Verb::kRecord, "record", "write states into a CSV or MCAP file"},
     {Verb::kParams, "params", "list parameters of the pipeline, or change them, all in one cycle"},
     {Verb::kInfo, "info", "print what the server says of robot and limits"},
     {Verb::kRetime, "retime", "turn a path without times into the fastest trajectory"},

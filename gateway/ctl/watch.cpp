@@ -1,4 +1,5 @@
 // The verbs watch, record and info: states, events and description of the arm.
+#include <google/protobuf/descriptor.pb.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,6 +8,8 @@
 
 #include "gateway/ctl/interrupt.hpp"
 #include "gateway/ctl/verbs.hpp"
+#include "gateway/mcap_writer.hpp"
+#include "gateway/version.hpp"
 #include "kernel/core/nanoseconds.hpp"
 
 namespace tactus::ctl {
@@ -125,10 +128,9 @@ class Recorder {
       std::fprintf(file_, ",%s,%s,%.17g", rung_name(state.rung()).c_str(),
                    phase_name(state.phase()).c_str(), state.override());
     }
-    failed_ |= std::fputc('\n', file_) == EOF;
+    std::fputc('\n', file_);
   }
   int rows() const { return rows_; }
-  bool failed() const { return failed_; }
 
  private:
   void begin(const State& state, const Welcome& welcome) {
@@ -155,10 +157,53 @@ class Recorder {
   }
 
   std::FILE* file_;
-  bool trajectory_, failed_ = false;
+  bool trajectory_;
   int rows_ = 0;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
 };
+
+/// Writes states and events into an MCAP file, at the times of the server.
+class MessageRecorder {
+ public:
+  explicit MessageRecorder(std::FILE* file) {
+    google::protobuf::FileDescriptorSet files;
+    State::descriptor()->file()->CopyTo(files.add_file());
+    const std::string schema = files.SerializeAsString();
+    writer_.begin(file, std::string("tactusctl ") + kVersion);
+    const auto add = [&](const char* message, const char* topic) {
+      return writer_.add_channel(writer_.add_schema(message, schema), topic);
+    };
+    state_ = add("tactus.State", "/state");
+    event_ = add("tactus.Event", "/event");
+  }
+
+  void take(const ToClient& message) {
+    if (message.has_state()) write(state_, message.state());
+    if (message.has_event()) write(event_, message.event());
+  }
+  /// Returns the number of messages.
+  int end() {
+    writer_.end();
+    return messages_;
+  }
+
+ private:
+  template <class Told>
+  void write(McapWriter::Id channel, const Told& message) {
+    writer_.write(channel, message.server_ns(), message.SerializeAsString());
+    ++messages_;
+  }
+
+  McapWriter writer_;
+  McapWriter::Id state_, event_;
+  int messages_ = 0;
+};
+
+bool is_mcap(const std::string& path) {
+  constexpr std::string_view kEnding = ".mcap";
+  return path.size() > kEnding.size() &&
+         path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+}
 
 }  // namespace
 
@@ -183,19 +228,32 @@ int watch(Session& session) {
 
 int record(Session& session) {
   const std::string& out = session.options.out;
+  if (is_mcap(out) && session.options.trajectory) {
+    session.client.refuse(out + ": --trajectory writes CSV; leave it out, or name a file .csv");
+    return session.client.exit_code();
+  }
   std::FILE* file = out == "-" ? stdout : std::fopen(out.c_str(), "wb");
   if (file == nullptr) {
     session.client.refuse(out + ": " + std::strerror(errno) + "; give a file that can be written");
     return session.client.exit_code();
   }
-  Recorder recorder(file, session.options.trajectory);
-  each_state(session, 10, false,
-             [&](const ToClient& message) { recorder.take(message, session.client.welcome()); });
+  std::string count;
+  if (is_mcap(out)) {
+    MessageRecorder recorder(file);
+    each_state(session, 10, true, [&](const ToClient& message) { recorder.take(message); });
+    count = std::to_string(recorder.end()) + " messages";
+  } else {
+    Recorder recorder(file, session.options.trajectory);
+    each_state(session, 10, false,
+               [&](const ToClient& message) { recorder.take(message, session.client.welcome()); });
+    count = std::to_string(recorder.rows()) + " states";
+  }
+  const bool failed = std::ferror(file) != 0;
   const bool closed = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0;
-  if (!closed || recorder.failed())
+  if (!closed || failed)
     session.client.refuse(out + ": " + std::strerror(errno) + "; rows are missing");
   else if (out != "-")
-    session.output.say(out + ": " + std::to_string(recorder.rows()) + " states");
+    session.output.say(out + ": " + count);
   return session.client.exit_code();
 }
 

@@ -49,8 +49,8 @@ int ResultFile::finish() {
 bool ResultFile::close(const char* extent) {
   const int error = finish();
   if (error == 0) return true;
-  std::fprintf(stderr, "%s: %s%s; make room or choose another --out\n", path_.c_str(),
-               std::strerror(error), extent);
+  std::fprintf(stderr, "%s: %s%s; make room or choose another %s\n", path_.c_str(),
+               std::strerror(error), extent, option_);
   return false;
 }
 

@@ -12,7 +12,8 @@ namespace tactus {
 
 class ResultFile {
  public:
-  ResultFile() = default;
+  /// `option` of the command line chooses another place for the file.
+  explicit ResultFile(const char* option = "--out") : option_(option) {}
   ~ResultFile() { finish(); }
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
@@ -33,6 +34,7 @@ class ResultFile {
   static ssize_t write(void* file, const char* bytes, std::size_t size);
   bool begin_stream();
 
+  const char* option_;
   FilePath path_;
   int file_ = -1;
   int error_ = 0;

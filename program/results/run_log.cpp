@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "kernel/load/ini.hpp"
+#include "program/results/run_recording.hpp"
 
 namespace tactus {
 namespace {
@@ -57,7 +58,11 @@ bool RunLog::open(const char* path, const Recording& recording) {
 }
 
 void RunLog::drain(Recorder& recorder) {
-  while (recorder.take(row_.data())) write_row(row_.data());
+  while (recorder.take(row_.data())) {
+    if (file_.stream() != nullptr) write_row(row_.data());
+    if (recording_ != nullptr) recording_->write_row(row_.data());
+  }
+  if (recording_ != nullptr) recording_->write_events();
 }
 
 void RunLog::write_row(const double* row) {

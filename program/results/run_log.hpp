@@ -20,15 +20,19 @@ void write_names(std::FILE* file, const PortEntry& port);
 /// Lets the recorder record rows from the first cycle on. [init]
 void start_recorder(Recorder& recorder, Pipeline& pipeline);
 
+class RunRecording;
+
 class RunLog {
  public:
   /// Opens `path` and writes the header row. False: prints the reason to stderr.
   bool open(const char* path, const Recording& recording);
+  /// Has every row written to a recording, too, or to it alone if no file is opened.
+  void record(RunRecording& recording) { recording_ = &recording; }
   /// Writes no more rows than these; later ones are counted.
   void limit(std::int64_t rows) { most_ = rows; }
   /// Rows that were left out.
   std::int64_t left_out() const { return left_out_; }
-  /// Writes all rows that the recorder holds.
+  /// Writes all rows that the recorder holds, and to a recording the events since the last call.
   void drain(Recorder& recorder);
   /// Closes the file. False if a row could not be written: prints the reason to stderr, and how
   /// many rows the file holds of those that were recorded.
@@ -39,6 +43,7 @@ class RunLog {
   void write_row(const double* row);
 
   ResultFile file_;
+  RunRecording* recording_ = nullptr;  // null: none
   std::size_t width_ = 0;
   std::int64_t rows_ = 0, left_out_ = 0;
   std::int64_t most_ = std::numeric_limits<std::int64_t>::max();

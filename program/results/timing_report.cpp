@@ -84,21 +84,22 @@ void print_timing(const Pipeline& pipeline, const Executive& executive) {
   });
 }
 
+Message describe(const Event& event, const Hal& hal) {
+  const Message of_drive = describe_drive(hal, event);
+  if (!of_drive.empty() && event.from == event.to) return of_drive;
+  Message text(name(event.from));
+  text << " -> " << name(event.to) << ": " << name(event.cause) << ": ";
+  text << describe(event.status).c_str();
+  if (event.joint >= 0) text << ", joint " << event.joint + 1;
+  return text << describe_code(hal, event.code).c_str();
+}
+
 void print_events(const EventLog& events, const Hal& hal, double period_s) {
   Event event;
   for (std::uint32_t i = events.lost(); events.read(i, event); ++i) {
     if (event.cause == Cause::kArm || event.cause == Cause::kRearm || event.cause == Cause::kOff)
       continue;
-    std::printf("  %.3f s: ", event.commanded * period_s);
-    const Message of_drive = describe_drive(hal, event);
-    if (!of_drive.empty() && event.from == event.to) {
-      std::printf("%s\n", of_drive.c_str());
-      continue;
-    }
-    std::printf("%s -> %s: %s: %s", name(event.from), name(event.to), name(event.cause),
-                describe(event.status).c_str());
-    if (event.joint >= 0) std::printf(", joint %d", event.joint + 1);
-    std::printf("%s\n", describe_code(hal, event.code).c_str());
+    std::printf("  %.3f s: %s\n", event.commanded * period_s, describe(event, hal).c_str());
   }
   if (events.lost() > 0)
     std::printf("  %" PRIu32 " earlier events are overwritten\n", events.lost());

@@ -18,6 +18,8 @@ void write_events(std::FILE* file, Rung rung, const EventLog& events, const Hal&
                   double period_s);
 
 void print_timing(const Pipeline& pipeline, const Executive& executive);
+/// "nominal -> stop: state: ...", or the words on a drive if the rung stays.
+Message describe(const Event& event, const Hal& hal);
 /// Prints a line for every event but rearms and the switching off, with the same time.
 void print_events(const EventLog& events, const Hal& hal, double period_s);
 

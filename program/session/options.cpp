@@ -66,9 +66,22 @@ CLI::Validator assignment() {
       "");
 }
 
-void add_run_options(CLI::App& run, std::string& out, Options& options) {
+/// Accepts only what is named as a recording, since the file is replaced.
+CLI::Validator recording() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool named = text.size() > 5 && text.compare(text.size() - 5, 5, ".mcap") == 0;
+        return named ? std::string() : "'" + text + "' does not end with .mcap";
+      },
+      "");
+}
+
+void add_run_options(CLI::App& run, std::string& out, std::string& record, Options& options) {
   constexpr std::uint64_t kLargestSeed = ~std::uint64_t{0};
   run.add_option("--out", out, "folder to write into (default out/<pipeline>)")->check(path());
+  run.add_option("--record", record, "MCAP file to write rows and events to (default: none)")
+      ->check(path())
+      ->check(recording());
   run.add_option("--duration", options.duration_s,
                  "length of the run, s (default: until the trajectory has settled)")
       ->check(decimal(1e-3, 1e6, "a number from 0.001 to 1000000"));
@@ -142,7 +155,7 @@ void add_scan_options(CLI::App& scan, std::vector<std::string>& buses, Options& 
 
 bool parse_options(int argc, char** argv, const char* board, bool has_bus, Options& options,
                    int& exit_code) {
-  std::string pipeline, trajectory, out, root, interface, listen, key, http;
+  std::string pipeline, trajectory, out, record, root, interface, listen, key, http;
   std::vector<std::string> load, buses, overrides;
   CLI::App app{std::string("Tactus on the board ") + board, "tactus"};
   app.set_version_flag("--version", std::string("tactus ") + kVersion + ", board " + board);
@@ -163,7 +176,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
                      "trajectory file (.csv); replaces the one named in the pipeline")
         ->check(path());
   }
-  add_run_options(*run, out, options);
+  add_run_options(*run, out, record, options);
   CLI::App* serve = app.add_subcommand("serve", "run a pipeline for clients until Ctrl-C");
   add_serve_options(*serve, pipeline, listen, key, http, out, options);
   for (CLI::App* verb : {run, check, serve}) {
@@ -215,6 +228,7 @@ bool parse_options(int argc, char** argv, const char* board, bool has_bus, Optio
   copy(pipeline, options.pipeline);
   copy(trajectory, options.trajectory);
   copy(out, options.out);
+  copy(record, options.record);
   copy(listen, options.listen);
   copy(key, options.key);
   copy(http, options.http);

@@ -29,6 +29,7 @@ struct Options {
   Verb verb = Verb::kRun;
   char pipeline[512] = "";
   char trajectory[512] = "";  ///< empty: the one named in the pipeline file
+  char record[512] = "";      ///< of `run`: the MCAP file; empty: none
   char out[512] = "";         ///< empty: out/<pipeline>
   double duration_s = 0.0;    ///< 0: the default of the verb
   std::uint64_t seed = 1;
