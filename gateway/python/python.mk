@@ -15,3 +15,4 @@ $(WHEEL): $(CLIENT) gateway/tactus.proto $(addprefix gateway/python/,pyproject.t
 	$(call say,PIP   $@)
 	$(Q)/usr/bin/python3 -m pip --isolated wheel --quiet --no-index --no-deps --no-build-isolation --wheel-dir $(@D) gateway/python
 $(filter $(B)/tests/gateway/python/test_%,$(TESTS)): | python $(WHEEL)
+$(filter $(B)/tests/program/test_recording $(B)/tests/program/pages/test_tutorial $(B)/tests/gateway/ctl/test_%,$(TESTS)): | python

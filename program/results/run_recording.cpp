@@ -125,6 +125,7 @@ void RunRecording::watch(const MotionState& motion) {
 }
 
 void RunRecording::watch(const Report& report) {
+  if (report.outcome == Outcome::kReleased) return;  // of a store, not of the motion
   static_cast<void>(
       notes_.post({report.time_s, "report", name(report.outcome), report.verdict.status}));
 }

@@ -161,8 +161,10 @@ def main() -> None:
         recording = Recording(sys.argv[1])
         for row in rows(recording):
             print(",".join(row))
-    except (Error, OSError) as error:
+    except Error as error:
         sys.exit(str(error))
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}; give one of tactus run --record or tactusctl record")
     except IndexError:
         sys.exit("usage: python3 -m tactus.recording FILE.mcap > FILE.csv")
     if not recording.whole:

@@ -132,6 +132,24 @@ void states_are_recorded_as_a_file_that_can_be_read(void**) {
   assert_succeeds("test $(wc -l <$S/r.csv) -gt 20");
 }
 
+// Proves CTL-24, PYT-16.
+
+void a_recorded_server_is_judged_and_gives_a_trajectory(void**) {
+  assert_int_equal(served(kJoints,
+                          "export PYTHONPATH=$R/build/python; "
+                          "{ sleep 0.3; $T point 0.1 -1.67 1.87 2.94 -1.57 0; } & "
+                          "$T record $S/r.mcap --duration 2 || exit 81; wait $!; "
+                          "$T record $S/none.mcap --trajectory; test $? = 2 || exit 82; "
+                          "test ! -e $S/none.mcap || exit 83; "
+                          "$R/tests/program/judge_recording.py $S/r.mcap || exit 84; "
+                          "/usr/bin/python3 -m tactus.recording $S/r.mcap >$S/r.csv || exit 85; "
+                          "$P check $R/pipelines/ur10_jrg_pid.ini --trajectory $S/r.csv"),
+                   0);
+  assert_has_all(output(), {" joined 0 ", " lease 0 ", "r.csv: accepted, "});
+  assert_true(has(errors(), "--trajectory writes CSV; leave it out"));
+  assert_succeeds("test $(wc -l <$S/r.csv) -gt 20 && head -1 $S/r.csv | grep -q ,dq6_rad_s$");
+}
+
 // Proves CTL-14.
 
 void an_installed_program_has_a_man_page_and_a_completion(void**) {
@@ -160,6 +178,7 @@ int main(int, char** argv) {
       cmocka_unit_test(a_path_of_the_tip_that_cannot_be_passed_is_refused_with_what_to_do),
       cmocka_unit_test(an_address_that_is_given_counts_and_not_the_usual_one),
       cmocka_unit_test(states_are_recorded_as_a_file_that_can_be_read),
+      cmocka_unit_test(a_recorded_server_is_judged_and_gives_a_trajectory),
       cmocka_unit_test(an_installed_program_has_a_man_page_and_a_completion),
   };
   return run_program_tests(argv[0], tests);

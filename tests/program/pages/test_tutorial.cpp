@@ -9,7 +9,7 @@ constexpr PageScript kCommands{"$R/tests/program/pages/try_tutorial.py "};
 // Proves DOC-1.
 
 void the_pages_print_what_they_say(void**) {
-  for (const char* page : {"docs/tutorial.md", "docs/commissioning.md"})
+  for (const char* page : {"docs/tutorial.md", "docs/commissioning.md", "docs/recordings.md"})
     kCommands.assert_true_of(page);
 }
 

@@ -33,6 +33,7 @@ def prepare(folder, program):
     """Makes the folder look like that of the project after make."""
     (folder / "build").mkdir()
     (folder / "build/fer_sim").symlink_to(pathlib.Path(program).resolve().parent)
+    (folder / "build/python").symlink_to(ROOT / "build/python")
     for name in ("pipelines", "scripts", "examples"):
         (folder / name).symlink_to(ROOT / name)
 
