@@ -106,6 +106,8 @@ class Recording:
     def _add_channel(self, content: bytes) -> None:
         channel, schema = struct.unpack_from("<HH", content)
         self._topics[channel] = topic = strings(content, 4, 1)[0].decode()
+        if schema not in self._kinds:
+            raise Error(f"{self.path}: {topic} has no schema; only protobuf is read")
         self.channels[topic] = self._kinds[schema]
 
 
