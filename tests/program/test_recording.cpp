@@ -88,6 +88,10 @@ void a_file_that_is_no_recording_is_refused_with_what_is_missing(void**) {
   assert_true(has(errors(), "a.csv: no MCAP file; give one of tactus run --record"));
   assert_int_equal(recorded("printf '\\211MCAP0\\r\\n' >empty.mcap; csv empty.mcap"), 1);
   assert_true(has(errors(), "empty.mcap: no trajectory: it has neither outputs of a run"));
+  assert_int_equal(recorded("printf '\\211MCAP0\\r\\n\\4\\21\\0\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0"
+                            "\\1\\0\\0\\0a\\0\\0\\0\\0\\0\\0\\0\\0' >bare.mcap; csv bare.mcap"),
+                   1);
+  assert_true(has(errors(), "bare.mcap: a has no schema; only protobuf is read"));
   assert_int_equal(recorded("csv none.mcap"), 1);
   assert_true(has(errors(), "none.mcap: No such file or directory; give one of tactus run"));
   assert_int_equal(
