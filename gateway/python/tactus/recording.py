@@ -18,6 +18,7 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from .errors import Error
 
 MAGIC = b"\x89MCAP0\r\n"
+POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
 SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F  # the records that are read; mcap.dev/spec
 
 
@@ -131,7 +132,7 @@ def rows_of_run(recording: Recording) -> Iterator[list[str]]:
 
 
 def rows_of_server(recording: Recording) -> Iterator[list[str]]:
-    """Yields a header, and the references of the States, from time 0 on."""
+    """Yields a header, as of a log, and the references of the States, from time 0 on."""
     begin_ns = last_ns = None
     for topic, time_ns, state in recording:
         if topic != "/state" or time_ns == last_ns:
@@ -140,8 +141,8 @@ def rows_of_server(recording: Recording) -> Iterator[list[str]]:
         if begin_ns is None:
             begin_ns = time_ns
             joints = range(1, len(state.q_d) + 1)
-            yield ["time_s", *([f"q{i}_rad" for i in joints] + [f"dq{i}_rad_s" for i in joints] or
-                               ["x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"])]
+            names = [f"{name}_{i}" for name in ("q_d", "dq_d") for i in joints] or [f"x_d_{axis}" for axis in POSE]
+            yield ["time_s", *(f"state.{name}" for name in names)]
         last_ns = time_ns
         yield [repr((time_ns - begin_ns) * 1e-9), *map(repr, numbers)]
 
