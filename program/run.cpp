@@ -36,8 +36,7 @@ std::int64_t cycles_of(double duration_s, double period_s) {
 /// Connects, runs the loop, stops the executive, and takes times and counters. The watchdog runs
 /// from the first cycle on, because connecting may take longer than its timeout.
 void execute(Session& session, const Options& options, TrajectoryInput& input, TrajectoryFeed& feed,
-             RunRecording* recording, RunLog& log, LogWriter& writer, WatchdogThread& watchdog,
-             RunResult& result) {
+             RunLog& log, LogWriter& writer, WatchdogThread& watchdog, RunResult& result) {
   const double duration_s = planned_duration(session, options, input);
   Progress progress(stem(options.pipeline), duration_s);
   const double begin_s = wall_s();
@@ -46,7 +45,7 @@ void execute(Session& session, const Options& options, TrajectoryInput& input, T
   if (duration_s < kInfinity)
     length.cycles = cycles_of(duration_s, session.pipeline.robot.period_s());
   RunLoop loop(session, input, feed, watchdog, result, length);
-  if (recording != nullptr) loop.record(*recording);
+  if (log.recording() != nullptr) loop.record(*log.recording());
   if (input.given()) end_with(result, kEndedOtherwise, "unfinished");
   const bool started = loop.start();
   print_written(options.pipeline, session);
@@ -227,8 +226,7 @@ int run(Session& session, const Options& options) {
   if (options.log || records) start_recorder(session.recorder, session.pipeline);
   if (!options.realtime) session.executive.in_virtual_time();
   catch_interrupts();
-  execute(session, options, input, feed, records ? &recorded : nullptr, log, writer, watchdog,
-          result);
+  execute(session, options, input, feed, log, writer, watchdog, result);
   result.stretch = input.stretch();
   result.moved = input.moved();
   result.config_hash = input.hash(fnv1a(session.text));

@@ -28,6 +28,7 @@ class RunLog {
   bool open(const char* path, const Recording& recording);
   /// Has every row written to a recording, too, or to it alone if no file is opened.
   void record(RunRecording& recording) { recording_ = &recording; }
+  RunRecording* recording() const { return recording_; }
   /// Writes no more rows than these; later ones are counted.
   void limit(std::int64_t rows) { most_ = rows; }
   /// Rows that were left out.

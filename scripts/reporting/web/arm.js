@@ -11,13 +11,15 @@ function decode(text) {
   return new Float32Array(bytes.buffer);
 }
 
-/** Returns a rod with round ends from a to b. */
+/** Returns a rod with round ends from a to b; a ball if they are the same: of a cylinder without length Three.js makes one of 1 m. */
 function capsule(a, b, radius, material) {
   const from = new THREE.Vector3(...a), along = new THREE.Vector3(...b).sub(from), group = new THREE.Group();
-  const tube = new THREE.Mesh(new THREE.CylinderBufferGeometry(radius, radius, along.length(), 40, 1, true), material);
-  tube.position.copy(from).addScaledVector(along, 0.5);
-  tube.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.clone().normalize());
-  group.add(tube);
+  if (along.length() > 0) {
+    const tube = new THREE.Mesh(new THREE.CylinderBufferGeometry(radius, radius, along.length(), 40, 1, true), material);
+    tube.position.copy(from).addScaledVector(along, 0.5);
+    tube.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.clone().normalize());
+    group.add(tube);
+  }
   for (const end of [a, b]) {
     const ball = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 40, 20), material);
     ball.position.set(...end);
