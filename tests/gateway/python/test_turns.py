@@ -89,6 +89,21 @@ class Turns(unittest.TestCase):
             _, plain = self.run_of("as_given", self.file(t, way))
             np.testing.assert_allclose(taken, plain, atol=1e-4)
 
+    # Proves IMP-3.
+
+    def test_a_column_has_the_unit_of_its_joint(self):
+        file = self.file(**across(10))
+        whole = file.read_text()
+        for name, wrong in (("q1_m", "q1_rad"), ("q1_m", "q1_deg"), ("dq1_m_s", "dq1_rad_s"), ("q6_rad", "q6_m")):
+            file.write_text(whole.replace(name, wrong, 1))
+            done = self.program("check", "as_given", file)
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, rf"{wrong}: unknown column; expected .*; q1_m, which is prismatic")
+        file.write_text(whole.replace("q1_m", "q1_mm", 1).replace(",0.600000000,", ",600,"))
+        self.assertEqual(self.program("check", "as_given", file).returncode, 0)
+
+    # Proves CSV-9.
+
     def test_joints_with_stops_are_left_alone(self):
         q = np.tile(HOME, (2, 1))
         q[:, 1] += TURN
