@@ -44,7 +44,7 @@ enum {
 // The quantity of a port: an array of doubles in SI units. Pose, twist, acceleration and wrench are
 // those of the tool tip in the base frame; a wrench is exerted on the tool.
 enum {
-  TACTUS_JOINT_POSITION = 1,      // one number per joint, rad
+  TACTUS_JOINT_POSITION = 1,      // one number per joint, rad; m and N of a prismatic joint
   TACTUS_JOINT_VELOCITY = 2,      // rad/s
   TACTUS_JOINT_ACCELERATION = 3,  // rad/s^2
   TACTUS_JOINT_EFFORT = 4,        // N m
