@@ -50,7 +50,7 @@ def mesh(document, element, where):
 def size_of(element, attribute, default, where):
     values = numbers(element, attribute, default, where)
     if not (values > 0.0).all():
-        raise Refused(f"{where}: {attribute}=\"{element.get(attribute, '')}\"; it must be positive")
+        raise Refused(f"{where}: {attribute}=\"{element.get(attribute, '')}\"; it must be positive, or the shape removed")
     return values
 
 

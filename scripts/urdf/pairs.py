@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from errors import Refused
 from mechanics import gravity_and_mass, tip_jacobian
 from reading import turn
 
@@ -12,8 +13,8 @@ SAMPLES, TOUCHING = 4000, 0.15  # of random positions
 BEYOND, NEVER = 0.05, 0.0101  # rad or m beyond the limits; m
 MOST_REGIONS = 40000  # of a proof
 TOOL = 0.1, 0.02  # length and radius of the tool that the tests assume, m
-HOMES, CLEAR, INSIDE = 3000, (0.1, 0.05, 0.022), 0.25  # candidates; m between capsules, the most that enough have; rad from the limits, at most a quarter of the range
-TURN = 1.5  # rad: where a candidate is sought
+HOMES, CLEAR, INSIDE = 3000, (0.1, 0.05, 0.022, 0.012), 0.25  # candidates; m between capsules, the most that enough have; rad from the limits, at most a quarter of the range
+TURN, HELD = 1.5, 0.7  # rad: where a candidate is sought; of the effort, at most, against its weight
 
 
 def frames_of(table, q, first=0, last=None):
@@ -84,16 +85,17 @@ def with_tool(frames):
     return frames + [frames[-1]]
 
 
+def gaps(chain, table, capsules, q):
+    """Returns the pairs of links that are no neighbours, the tool behind the last, with their distances at positions q [n, joints]."""
+    frames = with_tool(frames_of(table, q))
+    return {(first, second): np.min([distances(one, other, frames) for one in ones for other in others], axis=0)
+            for first, second, ones, others in not_neighbours(chain, capsules, table)}
+
+
 def touching(chain, table, capsules):
     """Returns the pairs of links that touch in a good share of all positions, and that share."""
-    frames = with_tool(frames_of(table, positions(chain, SAMPLES)))
-    found = {}
-    for first, second, ones, others in not_neighbours(chain, capsules, table):
-        near = np.min([distances(one, other, frames) for one in ones for other in others], axis=0)
-        share = float((near <= 0.0).mean())
-        if share > TOUCHING:
-            found[first, second] = share
-    return found
+    shares = {pair: float((gap <= 0.0).mean()) for pair, gap in gaps(chain, table, capsules, positions(chain, SAMPLES)).items()}
+    return {pair: share for pair, share in shares.items() if share > TOUCHING}
 
 
 def never_meet(chain, table, one, other):
@@ -139,9 +141,7 @@ def never(chain, table, capsules, listed):
 
 def clearance(chain, table, capsules, listed, q):
     """Returns the least distance of the pairs that are checked, at positions q [n, joints]."""
-    frames = with_tool(frames_of(table, q))
-    near = [distances(one, other, frames) for first, second, ones, others in not_neighbours(chain, capsules, table)
-            if (first, second) not in listed for one in ones for other in others]
+    near = [gap for pair, gap in gaps(chain, table, capsules, q).items() if pair not in listed]
     return np.min(near, axis=0) if near else np.full(len(q), np.inf)
 
 
@@ -154,20 +154,27 @@ def lowest(table, capsules, q):
 
 
 def home_pose(chain, table, capsules, listed):
-    """Returns positions clear of limits and collisions, above the base if there are such, at which the tip moves well in every direction;
-    None if there are none."""
+    """Returns positions clear of limits and collisions, above the base if there are such, at which the tip moves well in every direction."""
     low, high = (np.array([joint.limits[key] for joint in chain.joints]) for key in ("lower", "upper"))
     inside = np.minimum(INSIDE, 0.25 * (high - low))
     near_zero = np.clip(0.0, low + inside, high - inside)
     q = np.random.default_rng(3).uniform(np.maximum(low + inside, near_zero - TURN), np.minimum(high - inside, near_zero + TURN),
                                          (HOMES, len(low))).round(2)
     apart, above = clearance(chain, table, capsules, listed, q), lowest(table, capsules, q)
-    rows = [np.minimum(apart, above) > clear for clear in CLEAR] + [apart > CLEAR[-1]]
+    rows = [np.minimum(apart, above) > clear for clear in CLEAR] + [apart > clear for clear in CLEAR]
+    if not rows[-1].any():
+        gap, pair = min((gap.max(), pair) for pair, gap in gaps(chain, table, capsules, q).items() if pair not in listed)
+        raise Refused(f"no home pose is clear of collisions: {' and '.join(chain.names[link] for link in pair)} are at most {1e3 * gap:.0f} mm apart"
+                      f" where more than {1e3 * CLEAR[-1]:g} are sought; make their collision shapes smaller, or give a home pose by --srdf")
     q = q[next((row for row in rows if row.sum() > HOMES // 100), rows[-1])]
 
     def dexterity(position):
         return np.linalg.svd(tip_jacobian(chain, position), compute_uv=False)[min(5, len(low) - 1)]
 
-    effort = np.array([joint.limits["effort"] for joint in chain.joints])
-    q = [one for one in q if (np.abs(gravity_and_mass(chain, one)[0]) < 0.7 * effort).all()]
-    return max(q, key=dexterity, default=None)
+    load = np.abs([gravity_and_mass(chain, one)[0] for one in q]) / [joint.limits["effort"] for joint in chain.joints]
+    least = load[load.max(axis=1).argmin()]
+    if least.max() >= HELD:
+        name = chain.joints[least.argmax()].name
+        raise Refused(f"no home pose can be held: at best the weight takes {100 * least.max():.0f} % of the effort of joint {name}, where less than"
+                      f" {100 * HELD:.0f} % is sought; correct the <inertial> of what it carries, or give --limit {name}.effort=VALUE")
+    return max(q[load.max(axis=1) < HELD], key=dexterity)

@@ -79,6 +79,11 @@ class Chain:
     base_shapes: list
     snapped: list  # what was taken for a quarter turn
 
+    @property
+    def names(self):
+        """Of the links by number: the base, what moves, and the tool."""
+        return [self.base, *(joint.link for joint in self.joints), "tool"]
+
 
 def steiner(c):
     return c @ c * np.eye(3) - np.outer(c, c)

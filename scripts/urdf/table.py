@@ -7,6 +7,7 @@ import numpy as np
 
 from errors import Refused
 from reading import Body, turn
+from text import euler, plain
 
 SAME = 1e-9  # rad: axes within this are parallel or perpendicular
 ROLLS = {0: (0, 1), 1: (-1, 0), -1: (1, 0), 2: (0, -1)}  # y and z of the axis in the frame before
@@ -53,6 +54,14 @@ def angle_between(a, b):
     return math.degrees(math.atan2(np.linalg.norm(np.cross(a, b)), a @ b))
 
 
+def other_tip(tip, axis):
+    """Returns the remedy for a tip frame that does not fit the last axis: the least rotation that turns its z to the axis."""
+    along = tip[:3, :3].T @ axis
+    about = np.cross(Z, along)
+    rotation = turn(about / np.linalg.norm(about), math.atan2(np.linalg.norm(about), along[2]))
+    return f"give another --tip, or add one: a link that is fixed to it with <origin rpy=\"{plain(euler(rotation))}\"/>"
+
+
 def x_axis(x, axis, following, joint):
     """Returns x of the frame about `axis`: perpendicular to the axis that follows, as near to the given x as it can be."""
     across = np.cross(axis, following)
@@ -60,7 +69,8 @@ def x_axis(x, axis, following, joint):
         return x
     if abs(axis @ following) > SAME:
         raise Refused(f"joint {joint.name}: its axis is at {angle_between(axis, following):.6g} degrees to that of the joint before; the"
-                      " table has neighbouring axes that are parallel or perpendicular; take the nominal, not a calibrated URDF")
+                      " table has neighbouring axes that are parallel or perpendicular; take the nominal, not a calibrated URDF; an arm"
+                      " with oblique axes cannot be imported")
     across /= np.linalg.norm(across)
     return across if across @ x > -SAME else -across
 
@@ -83,7 +93,7 @@ def table_of(chain):
         x_next = tip[:3, 0] if i + 1 == len(axes) else x_axis(x, axes[i], axes[i + 1], chain.joints[i + 1])
         if abs(x_next @ axes[i]) > SAME:
             raise Refused(f"link {chain.tip}: its x is at {angle_between(axes[i], x_next):.6g} degrees to the axis of joint {joint.name}; the"
-                          " x of the flange is perpendicular to the last axis; give another --tip, as tool0 of ROS-Industrial")
+                          f" x of the flange is perpendicular to the last axis; {other_tip(tip, axes[i])}")
         angle = math.atan2(axes[i] @ np.cross(x, x_next), x @ x_next)
         quarters = round(angle / (math.pi / 2))
         if abs(angle - quarters * math.pi / 2) < SAME:
@@ -95,7 +105,7 @@ def table_of(chain):
     roll = roll_of(before[:3, :3], tip[:3, 2])
     if roll is None:
         raise Refused(f"link {chain.tip}: its z is at {angle_between(axes[-1], tip[:3, 2]):.6g} degrees to the axis of joint"
-                      f" {chain.joints[-1].name}; it must be parallel or perpendicular; give another --tip")
+                      f" {chain.joints[-1].name}; it must be parallel or perpendicular; {other_tip(tip, axes[-1])}")
     flange = Row(rounded(before[:3, :3].T @ (tip[:3, 3] - before[:3, 3])), roll, 0.0)
     bodies = [joint.body.moved(link) for joint, link in zip(chain.joints, links[1:])]
     return Table(rows, flange, [Body(b.mass, rounded(b.com), rounded(b.tensor)) for b in bodies], links)

@@ -44,6 +44,30 @@ void the_home_pose_is_that_of_the_srdf(void**) {
   assert_succeeds("grep '{0.1, 0.0, 0.2, 0.0, -0.3, 0.0}' $S/tree/sim_plant/arm/odd_mjcf.cpp");
 }
 
+void a_home_pose_need_not_be_clearer_than_the_arm_can_be(void**) {
+  assert_succeeds(
+      "sed 's/<sphere radius=\"[^\"]*\"/<sphere radius=\"0.08\"/' $S/arm.urdf > $S/thick.urdf && "
+      "eval scripts/robot-import $S/thick.urdf $OPTIONS --force");
+  assert_true(has(output(), " 15 mm clear"));
+}
+
+void the_tip_that_a_refusal_proposes_is_imported(void**) {
+  assert_succeeds(
+      "sed '/\"grip\"/,/origin/s/rpy=\"[^\"]*\"/rpy=\"0.5 0.4 0.3\"/' $S/arm.urdf > $S/askew.urdf; "
+      "eval scripts/robot-import $S/askew.urdf $OPTIONS --force 2> $S/refusal; "
+      "origin=$(grep -o '<origin.*/>' $S/refusal) && sed \"s|</robot>|<link name='tool0'/>"
+      "<joint name='turn' type='fixed'>$origin<parent link='hand'/><child link='tool0'/></joint>"
+      "</robot>|\" $S/askew.urdf > $S/turned.urdf && "
+      "eval scripts/robot-import $S/turned.urdf $OPTIONS --force");
+}
+
+void an_inertia_that_no_body_has_is_warned_of(void**) {
+  assert_succeeds(
+      "sed '0,/izz=\"[^\"]*\"/s//izz=\"9\"/' $S/arm.urdf > $S/unreal.urdf && "
+      "eval scripts/robot-import $S/unreal.urdf $OPTIONS --force");
+  assert_true(has(output(), "warning: link link1, inertia: its principal moments "));
+}
+
 /// A URDF that is changed by sed, the options, and what the refusal says.
 struct Refusal {
   const char *change, *options, *said;
@@ -84,6 +108,12 @@ constexpr Refusal kRefusals[] = {
     {"s/joint1/a\\&quot;b/", "", "joint 'a\"b': its name is written into sources"},
     {"s/\"joint2\"/\"joint1\"/", "", "joint joint1: there are two of this name"},
     {"s/radius=\"[^\"]*\"/radius=\"-1\"/", "", "radius=\"-1\"; it must be positive"},
+    {"s/<sphere radius=\"[^\"]*\"/<sphere radius=\"0.09\"/", "",
+     "no home pose is clear of collisions: link5 and tool are at most 5 mm apart"},
+    {"s/<sphere radius=\"[^\"]*\"/<sphere radius=\"0.09\"/", "--srdf $S/arm.srdf",
+     "mm apart, less than 12 mm; give another group_state"},
+    {"s/effort=\"[^\"]*\"/effort=\"0.5\"/", "",
+     "no home pose can be held: at best the weight takes"},
     {"", "--rotor-inertia -1", "--rotor-inertia -1.0: a finite number"},
     {"", "--root . --name status", "core/status.hpp has a type Status; choose another name"},
     {"s/<robot/<xacro/;s/robot>/xacro>/", "", "expand xacro first"},
@@ -119,6 +149,9 @@ int main(int, char** argv) {
       cmocka_unit_test_setup(the_example_of_the_page_imports, write_urdf),
       cmocka_unit_test(the_model_is_what_mujoco_reads_from_the_urdf),
       cmocka_unit_test(the_home_pose_is_that_of_the_srdf),
+      cmocka_unit_test(a_home_pose_need_not_be_clearer_than_the_arm_can_be),
+      cmocka_unit_test(the_tip_that_a_refusal_proposes_is_imported),
+      cmocka_unit_test(an_inertia_that_no_body_has_is_warned_of),
       cmocka_unit_test(what_cannot_be_represented_is_refused_with_its_remedy),
       cmocka_unit_test(what_a_urdf_never_states_is_asked_for),
   };
