@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kBar = 24;
 
-TrackingError error_of(const Feedback& feedback) {
+TrackingError error_of(const Feedback& feedback, const Welcome& welcome) {
   TrackingError error;
   const auto &q_d = feedback.joint_desired().q(), &q = feedback.joint_actual().q();
   for (int i = 0; i < std::min(q_d.size(), q.size()); ++i) {
@@ -16,6 +16,7 @@ TrackingError error_of(const Feedback& feedback) {
     if (!(difference > error.joint_rad)) continue;
     error.joint_rad = difference;
     error.joint = i;
+    error.prismatic = i < welcome.joints_size() && welcome.joints(i).prismatic();
   }
   const auto &x_d = feedback.task_desired().pose(), &x = feedback.task_actual().pose();
   if (x_d.size() != 7 || x.size() != 7) return error;
@@ -31,7 +32,8 @@ TrackingError error_of(const Feedback& feedback) {
 std::string TrackingError::text() const {
   if (tip_m > 0.0 || tip_rad > 0.0)
     return formatted("%.2f mm, ", tip_m * 1e3) + formatted("%.2f mrad", tip_rad * 1e3);
-  return formatted("%.2f mrad", joint_rad * 1e3) + formatted(" (joint %.0f)", joint + 1.0);
+  return formatted(prismatic ? "%.2f mm" : "%.2f mrad", joint_rad * 1e3) +
+         formatted(" (joint %.0f)", joint + 1.0);
 }
 
 void GoalView::take(const ToClient& message) {
@@ -69,7 +71,7 @@ void GoalView::take_report(const Report& report) {
 void GoalView::take_feedback(const Feedback& feedback) {
   output_.object("feedback", feedback);
   if (!moves()) return;
-  now_ = error_of(feedback);
+  now_ = error_of(feedback, welcome_);
   if (now_.joint_rad >= largest_.joint_rad) {
     largest_.joint_rad = now_.joint_rad;
     largest_.joint = now_.joint;

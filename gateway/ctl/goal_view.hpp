@@ -8,7 +8,8 @@ namespace tactus::ctl {
 
 /// The largest difference between desired and actual position: of a joint, or of the tip.
 struct TrackingError {
-  double joint_rad = 0.0;
+  double joint_rad = 0.0;  ///< m of a prismatic joint
+  bool prismatic = false;
   int joint = 0;  ///< from 0
   double tip_m = 0.0, tip_rad = 0.0;
 
@@ -17,7 +18,7 @@ struct TrackingError {
 
 class GoalView {
  public:
-  explicit GoalView(Output& output) : output_(output) {}
+  GoalView(Output& output, const Welcome& welcome) : output_(output), welcome_(welcome) {}
 
   /// Time of the last waypoint; 0: not known.
   void set_length(double length_s) { length_s_ = length_s; }
@@ -42,6 +43,7 @@ class GoalView {
   void show();
 
   Output& output_;
+  const Welcome& welcome_;
   double length_s_ = 0.0;
   std::uint32_t number_ = 0;
   Report report_;

@@ -110,7 +110,8 @@ void add_trajectory(CLI::App& verb, Options& o) {
 }
 
 void add_point(CLI::App& verb, Options& o) {
-  verb.add_option("numbers", o.numbers, "position of every joint, rad; or a pose")
+  verb.add_option("numbers", o.numbers,
+                  "position of every joint, rad, of a prismatic one m; or a pose")
       ->required()
       ->check(finite());
   verb.add_flag("--pose", o.pose, "the numbers are x y z, m, and qw qx qy qz of the tip");

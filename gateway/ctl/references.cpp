@@ -37,7 +37,7 @@ void fill_target(const RowForm& form, const std::vector<double>& numbers, Point&
 
 /// Waits until the arm holds the point, or was stopped.
 void wait_at_rest(Session& session, std::uint32_t number) {
-  GoalView view(session.output);
+  GoalView view(session.output, session.client.welcome());
   view.follow(number);
   session.client.on_message = [&](const ToClient& message) { view.take(message); };
   ToServer subscription;

@@ -43,7 +43,10 @@ bool judge_options(PathFile& file) {
   return true;
 }
 
-bool judge_joints(PathFile& file, const Numbers& q) {
+/// Also moves positions at an end of the range inside by up to kRoom: between the waypoints of a
+/// rounded path its polynomials are beyond its positions by less than that.
+bool judge_joints(PathFile& file, Numbers& q) {
+  constexpr double kRoom = 1e-6;  // rad or m
   const RobotLimits& limits = file.limits;
   for (Eigen::Index k = 0; k < q.size(); ++k) {
     const JointName& joint = limits.joints[static_cast<std::size_t>(k)];
@@ -53,6 +56,7 @@ bool judge_joints(PathFile& file, const Numbers& q) {
                              formatted(" to %.6g ", limits.highest[k]) +
                              (joint.prismatic ? "m" : "rad") + "; plan inside of the range");
   }
+  q = q.max(limits.lowest + kRoom).min(limits.highest - kRoom);
   return true;
 }
 

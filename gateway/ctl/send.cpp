@@ -51,7 +51,7 @@ class Sender {
 
   Session& s_;
   RowReader reader_;
-  GoalView view_{s_.output};
+  GoalView view_{s_.output, s_.client.welcome()};
   std::uint32_t credit_ = 0;
   bool check_ = s_.options.verb == Verb::kCheck;
   bool all_sent_ = false, canceled_ = false, unreadable_ = false;

@@ -185,9 +185,12 @@ double& ColumnTable<JointSpace>::value(const ColumnPlace& place, JointSpace::Poi
 }
 
 void ColumnTable<JointSpace>::name_them(Message& message) {
-  message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " << kDof;
-  for (int i = 0; i < kDof; ++i)
-    if (is_prismatic(i)) message << "; q" << i + 1 << "_m, which is prismatic";
+  if constexpr (kSomePrismatic) {
+    for (int i = 0; i < kDof; ++i) message << "q" << i + 1 << "_" << position_unit(i) << ", ";
+    message << "or with dq, ddq, tau and _s, _s2, Nm, N";
+  } else {
+    message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " << kDof;
+  }
 }
 
 bool ColumnTable<TaskSpace>::find(std::string_view header, ColumnPlace& place) {

@@ -102,7 +102,7 @@ class alignas(std::max_align_t) CLaw {
   }
 
  private:
-  static constexpr std::size_t kMostState = SIZE_MAX / 2;
+  static constexpr std::size_t kMostState = 1U << 30;
   static constexpr std::uint32_t kMostBound_us = 1000000;
 
   template <class Port>

@@ -71,7 +71,8 @@ using Kinds = KindList<RobotModel,               //
                        CartesianPose TACTUS_LAW_KINDS>;
 #endif
 
-static_assert(Kinds::words_differ(), "two kinds have the same kType: the second would never run");
+static_assert(Kinds::words_differ(),
+              "two kinds have the same word in `type =`: rename one, or a law of LAWS");
 
 /// True for a torque law: a kind with an input q_d and an output tau.
 template <class Kind, class = void>

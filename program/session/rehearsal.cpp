@@ -150,7 +150,7 @@ bool TrajectoryRehearsal::in_part() const {
 /// Returns why a rehearsal would be useless; null: it is useful.
 const char* TrajectoryRehearsal::unrehearsed() const {
   if (session_.pipeline.robot.mode() == CommandMode::kEffort && law_.q_d == nullptr)
-    return "no block with an input q_d gives the torque";
+    return "neither pd_gravity nor pid gives the torque";
   return presses(input_) ? "what its wrenches do depends on the contact" : nullptr;
 }
 

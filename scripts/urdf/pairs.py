@@ -159,7 +159,7 @@ def home_pose(chain, table, capsules, listed):
     inside = np.minimum(INSIDE, 0.25 * (high - low))
     near_zero = np.clip(0.0, low + inside, high - inside)
     q = np.random.default_rng(3).uniform(np.maximum(low + inside, near_zero - TURN), np.minimum(high - inside, near_zero + TURN),
-                                         (HOMES, len(low))).round(2)
+                                         (HOMES, len(low))).round(2).clip(low + 0.5 * inside, high - 0.5 * inside)
     apart, above = clearance(chain, table, capsules, listed, q), lowest(table, capsules, q)
     rows = [np.minimum(apart, above) > clear for clear in CLEAR] + [apart > clear for clear in CLEAR]
     if not rows[-1].any():

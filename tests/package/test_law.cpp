@@ -127,7 +127,7 @@ void a_name_of_ours_and_a_word_without_an_object_are_refused_by_the_build(void**
                     "-DTACTUS_ROBOT_TABLES='\"kernel/robots/fer_capsules.hpp\"' "
                     "-DTACTUS_LAWS=\"\\\"$S/laws.hpp\\\"\" -include kernel/core/build.hpp -I. "
                     "-isystem /usr/include/eigen3 kernel/pipeline/pipeline_tuning.cpp") != 0);
-  assert_true(has(errors(), "two kinds have the same kType"));
+  assert_true(has(errors(), "two kinds have the same word"));
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 
 Every record, check sum, index and number of the summary is computed anew from the bytes of the file; messages are
 decoded by the schemas in it. With LOG, the log.csv of the same run, values are compared bit for bit. Then the file is
-cut at 30 random places, and tactus.recording must read exactly the messages of the whole chunks that are left.
+cut at 30 random places, and tactus.recording must read exactly the messages of the whole chunks that are left; then
+bytes are changed, and a chunk is taken out.
 """
 
 import collections
@@ -15,7 +16,8 @@ import tempfile
 import zlib
 
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
-from tactus.recording import Recording
+from tactus.errors import Error
+from tactus.recording import Recording, rows
 
 MAGIC = bytes([0x89]) + b"MCAP0\r\n"
 HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, INDEX, CHUNK_INDEX, STATISTICS, OFFSET, DATA_END = (
@@ -172,10 +174,28 @@ def cut(judge, data):
             assert found == expected[:left] and recording.whole == (size == len(data)), f"cut at {size} of {len(data)}"
 
 
+def damaged(judge, data):
+    """Bytes that are changed, and a chunk that is taken out, give messages or an Error, and nothing else."""
+    chance = random.Random(2)
+    ends = [end for end, _ in judge.ends]
+    files = [data[: ends[0]] + data[ends[1] :]] if len(ends) > 1 else []
+    for place in [*(chance.randrange(8, 3000) for _ in range(40)), *(chance.randrange(8, len(data)) for _ in range(10))]:
+        files.append(data[:place] + bytes([data[place] ^ 1 << chance.randrange(8)]) + data[place + 1 :])
+    with tempfile.NamedTemporaryFile(suffix=".mcap") as file:
+        for number, changed in enumerate(files):
+            pathlib.Path(file.name).write_bytes(changed)
+            try:
+                collections.deque(rows(Recording(file.name)), maxlen=0)
+                assert number > 0 or len(ends) < 2, "a chunk is missing, and nobody says so"
+            except Error:
+                pass
+
+
 def main():
     data = pathlib.Path(sys.argv[1]).read_bytes()
     judge = Judge(data)
     cut(judge, data)
+    damaged(judge, data)
     if len(sys.argv) > 2:
         print(f"{compare(judge.messages, sys.argv[2])} rows, {len(judge.chunks)} chunks")
     for topic, time, event in judge.messages:

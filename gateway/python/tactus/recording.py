@@ -6,6 +6,7 @@ prints the trajectory of a recording, which `tactus run --trajectory` takes: of 
 a log is a trajectory; of a server the references of its States.
 """
 
+import math
 import pathlib
 import re
 import struct
@@ -13,13 +14,15 @@ import sys
 import zlib
 from typing import Any, Iterator, NamedTuple
 
-from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+from google.protobuf import descriptor_pb2, descriptor_pool, message, message_factory
 
 from .errors import Error
 
 MAGIC = b"\x89MCAP0\r\n"
 POSE = ("x", "y", "z", "qw", "qx", "qy", "qz")
-SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0F  # the records that are read; mcap.dev/spec
+SCHEMA, CHANNEL, MESSAGE, CHUNK, STATISTICS, DATA_END = 0x03, 0x04, 0x05, 0x06, 0x0B, 0x0F  # what is read; mcap.dev/spec
+# What decoding damaged or foreign records raises.
+DAMAGED = struct.error, KeyError, IndexError, TypeError, ValueError, message.DecodeError
 
 
 class Message(NamedTuple):
@@ -67,10 +70,20 @@ class Recording:
             raise Error(f"{path}: no MCAP file; give one of tactus run --record or tactusctl record")
 
     def __iter__(self) -> Iterator[Message]:
+        try:
+            yield from self._messages()
+        except DAMAGED as error:
+            raise Error(f"{self.path}: damaged, or not written by tactus: {type(error).__name__}: {error}") from error
+
+    def _messages(self) -> Iterator[Message]:
+        count = 0
         for op, content in records(self._data, len(MAGIC)):
             if op == DATA_END:
                 self.whole = True
-                return
+            elif op == STATISTICS and struct.unpack_from("<Q", content)[0] != count:
+                raise Error(f"{self.path}: holds {count} of {struct.unpack_from('<Q', content)[0]} messages; a part was taken out")
+            if self.whole:
+                continue
             inside = records(self._chunk(content), 0) if op == CHUNK else [(op, content)]
             for each, body in inside:
                 if each == SCHEMA:
@@ -80,6 +93,7 @@ class Recording:
                 elif each == MESSAGE:
                     channel, _, time_ns, _ = struct.unpack_from("<HIQQ", body)
                     topic = self._topics[channel]
+                    count += 1
                     yield Message(topic, time_ns, self.channels[topic].FromString(body[22:]))
 
     def _chunk(self, content: bytes) -> bytes:
@@ -112,23 +126,35 @@ class Recording:
         self.channels[topic] = self._kinds[schema]
 
 
+def is_output(kind: Any) -> bool:
+    """Returns whether messages are a time_s and other single numbers."""
+    fields = kind.DESCRIPTOR.fields
+    return fields[0].name == "time_s" and all(f.type == f.TYPE_DOUBLE and f.label != f.LABEL_REPEATED for f in fields) if fields else False
+
+
 def rows_of_run(recording: Recording) -> Iterator[list[str]]:
     """Yields the lines of log.csv as cells: the header, and one row for each time at which outputs were recorded."""
     names: list[str] = []
     row: list[str] = []
+    time_s = last_s = -math.inf
     for message in recording:
         if not names:
-            outputs = {topic: kind for topic, kind in recording.channels.items() if topic != "/event"}
+            outputs = {topic: kind for topic, kind in recording.channels.items() if is_output(kind)}
             columns = {topic: [field.name for field in kind.DESCRIPTOR.fields][1:] for topic, kind in outputs.items()}
             names = [f"{topic}_{re.sub('^joint', '', name)}" for topic in columns for name in columns[topic]]
             yield ["time_s", *names]
         if message.topic not in columns:
             continue
-        row = row or [repr(message.value.time_s)]
+        if not row:
+            time_s = message.value.time_s
+            row = [repr(time_s)]
+        if message.value.time_s != time_s or not last_s < time_s < math.inf:
+            raise Error(f"{recording.path}: {message.topic} at {message.value.time_s} s, after {last_s} s: rows are incomplete, or "
+                        "not in order; a part was taken out or moved")
         row += [repr(getattr(message.value, name)) for name in columns[message.topic]]
         if len(row) > len(names):
             yield row
-            row = []
+            row, last_s = [], time_s
 
 
 def rows_of_server(recording: Recording) -> Iterator[list[str]]:
@@ -150,9 +176,10 @@ def rows_of_server(recording: Recording) -> Iterator[list[str]]:
 def rows(recording: Recording) -> Iterator[list[str]]:
     """Yields the trajectory of a recording as the cells of a CSV file, its header first."""
     next(iter(recording), None)
-    if "/state" in recording.channels:
+    state = recording.channels.get("/state")
+    if state is not None and state.DESCRIPTOR.full_name == "tactus.State":
         return rows_of_server(recording)
-    if any("time_s" in kind.DESCRIPTOR.fields_by_name for kind in recording.channels.values()):
+    if any(map(is_output, recording.channels.values())):
         return rows_of_run(recording)
     raise Error(f"{recording.path}: no trajectory: it has neither outputs of a run, topics like jrg.q_d whose messages "
                 "have time_s, nor /state of a server; record with tactus run --record or tactusctl record")

@@ -147,7 +147,7 @@ void a_recorded_server_is_judged_and_gives_a_trajectory(void**) {
                    0);
   assert_has_all(output(), {" joined 0 ", " lease 0 ", "r.csv: accepted, "});
   assert_true(has(errors(), "--trajectory writes CSV; leave it out"));
-  assert_succeeds("test $(wc -l <$S/r.csv) -gt 20 && head -1 $S/r.csv | grep -q ,dq6_rad_s$");
+  assert_succeeds("test $(wc -l <$S/r.csv) -gt 20 && head -1 $S/r.csv | grep -q ,state.dq_d_6$");
 }
 
 // Proves CTL-14.

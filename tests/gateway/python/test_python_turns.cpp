@@ -5,7 +5,7 @@
 namespace tactus {
 namespace {
 
-// Proves CSV-9, CSV-10, IMP-3.
+// Proves CSV-9, CSV-10, IMP-3, CTL-18.
 
 void recorded_angles_are_taken_as_it_is_asked_for(void**) {
   assert_succeeds(

@@ -98,9 +98,19 @@ class Turns(unittest.TestCase):
             file.write_text(whole.replace(name, wrong, 1))
             done = self.program("check", "as_given", file)
             self.assertEqual(done.returncode, 2)
-            self.assertRegex(done.stderr, rf"{wrong}: unknown column; expected .*; q1_m, which is prismatic")
+            self.assertRegex(done.stderr, rf"{wrong}: unknown column; expected one of time_s, q1_m, q2_rad, ")
         file.write_text(whole.replace("q1_m", "q1_mm", 1).replace(",0.600000000,", ",600,"))
         self.assertEqual(self.program("check", "as_given", file).returncode, 0)
+
+    # Proves CTL-18.
+
+    def test_a_rounded_path_along_an_end_is_admitted(self):
+        path, timed = self.folder / "path.csv", self.folder / "timed.csv"
+        places = [(0.6, -0.62, -1.5), (1.0, -0.3, -1.5), (1.0, 0.0, -1.0), (0.6, 0.0, -1.0)]
+        path.write_text("q1_m,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n" + "".join("%g,%g,%g,1.42,0.27,-0.56\n" % place for place in places))
+        for how in ("--tolerance", "0.02"), ("--tolerance", "0.002"), ("--radius", "0.1"):
+            subprocess.run([CTL, "retime", path, "--robot", "lift6", *how, "--out", timed], check=True, capture_output=True)
+            self.assertEqual(self.program("check", "as_given", timed).returncode, 0)
 
     # Proves CSV-9.
 
