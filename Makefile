@@ -45,6 +45,7 @@ KINDS := $(KINDS_$(ARCH))$(if $(and $(KINDS_$(ARCH)),$(LIBCCD)),$(comma) SphereO
 # Laws that were compiled elsewhere, NAME=OBJECT (docs/library.md).
 $(foreach law,$(LAWS),$(if $(filter 2,$(words $(subst =, ,$(law)))),,$(error LAWS: '$(law)' is not NAME=OBJECT)))
 LAW_NAMES   := $(foreach law,$(LAWS),$(firstword $(subst =, ,$(law))))
+$(foreach law,$(LAW_NAMES),$(if $(shell echo '$(law)' | grep -xE '[A-Za-z_][A-Za-z0-9_]*'),,$(error LAWS: '$(law)' is no name of C)))
 LAW_OBJECTS := $(foreach law,$(LAWS),$(lastword $(subst =, ,$(law))))
 
 # All our sources are compiled alike, except the seams to libraries that need exceptions; they include no Eigen header.

@@ -74,8 +74,8 @@ Status check_braking(const JointVector& most, const CollisionPlace& place, Joint
     if (braking[i] <= most[i]) continue;
     return place.refuse(Status::kBadValue, "braking",
                         Message("joint ")
-                            << i + 1 << ": " << braking[i]
-                            << " rad/s^2 is out of range; it brakes with at most " << most[i]);
+                            << i + 1 << ": " << braking[i] << " " << position_unit(i)
+                            << "/s^2 is out of range; it brakes with at most " << most[i]);
   }
   return Status::kOk;
 }

@@ -18,7 +18,7 @@ extern "C" const char proto_schema[], proto_schema_end[];
 namespace tactus {
 namespace {
 
-constexpr int kMostComponents = 7;
+constexpr int kMostComponents = 8;
 constexpr int kTimeField = 1, kFirstField = 2;
 static_assert(kDof <= kMostComponents && kFirstField + kMostComponents <= 16);  // tags of one byte
 

@@ -276,7 +276,7 @@ void a_size_or_a_bound_beyond_all_numbers_stays_one(void**) {
     return law;
   }();
   using Law = CLaw<kHuge, kWord>;
-  assert_true(Law::size() > SIZE_MAX / 2 && Law::bound_us() >= 100000);
+  assert_true(Law::size() > (std::size_t{1} << 30) && Law::bound_us() >= 100000);
 }
 
 }  // namespace

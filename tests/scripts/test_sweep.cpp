@@ -81,7 +81,11 @@ void a_mistake_in_the_file_of_a_sweep_is_named(void**) {
       "try 's/^seeds/sedes/' '.sweep. sedes: there is no such key; it has duration_s, ' && "
       "try 's/^.set./[sets]/' '.sets. is none of .sweep., .set.' && "
       "try 's/0.5, 1.5/low, high/' 'write uniform(LOW, HIGH)' && "
-      "echo a,b >wrong.csv && try '' 'has the rows of another sweep, or of none'");
+      "echo a,b >wrong.csv && try '' 'has the rows of another sweep, or of none' && "
+      "{ flock held.csv $R/scripts/sweep gains.sweep --out held.csv 2>said; [ $? = 2 ]; } && "
+      "grep -q 'held.csv: another sweep writes its rows; wait for its end' said && "
+      "{ $R/scripts/sweep gains.sweep --out . 2>said; [ $? = 2 ]; } && "
+      "grep -q 'sweep: .*: Is a directory' said");
 }
 
 void the_file_of_the_page_is_that_of_the_example(void**) {

@@ -41,7 +41,7 @@ class Plot {
     let low = Infinity, high = -Infinity;
     for (const pair of points) for (const y of pair) if (Number.isFinite(y)) { low = Math.min(low, y); high = Math.max(high, y); }
     if (low > high) return [-1, 1];
-    const least = this.unit === "N m" ? 5 : 0.05, middle = (low + high) / 2, half = Math.max(high - low, least) * 0.6;
+    const least = this.unit[0] === "N" ? 5 : 0.05, middle = (low + high) / 2, half = Math.max(high - low, least) * 0.6;
     return [middle - half, middle + half];
   }
 
@@ -140,6 +140,7 @@ const JOINT = {
   dq: { desired: "dq_d", unit: "rad/s", limits: (joint) => [-joint.velocity, joint.velocity] },
   tau: { desired: "tau_d", unit: "N m", limits: (joint) => [-joint.effort, joint.effort] },
 };
+const OF_PRISMATIC = { rad: "m", "rad/s": "m/s", "N m": "N" };
 const POSE = [["x", "m"], ["y", "m"], ["z", "m"], ["qw", ""], ["qx", ""], ["qy", ""], ["qz", ""]];
 
 /** All plots of the page. */
@@ -168,7 +169,8 @@ export class Plots {
   choose() {
     const key = document.querySelector("#quantity :checked").value, { desired, unit, limits } = JOINT[key];
     this.robot.joints.forEach((joint, i) => {
-      this.joints[i].set(`${i + 1} ${joint.name}`, unit, (s) => [s[key][i], s[desired][i]], limits(joint));
+      const own = this.robot.frames[i][5] ? OF_PRISMATIC[unit] : unit;
+      this.joints[i].set(`${i + 1} ${joint.name}`, own, (s) => [s[key][i], s[desired][i]], limits(joint));
     });
   }
 
