@@ -76,6 +76,11 @@ struct Summary {
 
 }  // namespace
 
+bool is_mcap(std::string_view path) {
+  constexpr std::string_view kEnding = ".mcap";
+  return path.size() > kEnding.size() && path.substr(path.size() - kEnding.size()) == kEnding;
+}
+
 void McapWriter::Times::add(std::uint64_t time_ns) {
   begin_ns = std::min(begin_ns, time_ns);
   end_ns = std::max(end_ns, time_ns);

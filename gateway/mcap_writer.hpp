@@ -13,6 +13,9 @@
 
 namespace tactus {
 
+/// True if the name of a file ends with ".mcap".
+bool is_mcap(std::string_view path);
+
 class McapWriter {
  public:
   /// Of a schema or a channel, from 1.

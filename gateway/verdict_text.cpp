@@ -31,7 +31,7 @@ struct Measured {
 
   const char* unit(VerdictAxes axes, int axis) const {
     if (axes == VerdictAxes::kTip) return axis < 3 ? translation_unit : rotation_unit;
-    return axis >= 0 && is_prismatic(axis) ? translation_unit : joint_unit;
+    return axis >= 0 && is_prismatic<Robot>(axis) ? translation_unit : joint_unit;
   }
 };
 
@@ -41,7 +41,7 @@ constexpr double kFarBeyond = 6.28;
 const char* remedy_of_position(const Verdict& verdict) {
   if (!(std::abs(verdict.value - verdict.limit) > kFarBeyond))
     return "; keep within the range of the joint";
-  return verdict.axis >= 0 && is_prismatic(verdict.axis)
+  return verdict.axis >= 0 && is_prismatic<Robot>(verdict.axis)
              ? "; keep within the range of the joint: are these millimetres?"
              : "; keep within the range of the joint: are these degrees?";
 }

@@ -26,9 +26,9 @@ void begin_at_once(TrajectoryInput& input) {
 void print_place(const char* path, const JointVector& q) {
   std::printf("%s: the arm stands at", path);
   for (int i = 0; i < kDof; ++i) {
-    const char* const unit = position_unit(i);
-    const bool last = i + 1 == kDof || unit != position_unit(i + 1);
-    std::printf(" %.4f%s%s", q[i], last ? " " : "", last ? unit : "");
+    std::printf(" %.4f", q[i]);
+    if (i + 1 == kDof || is_prismatic<Robot>(i) != is_prismatic<Robot>(i + 1))
+      std::printf(" %s", position_unit(i));
   }
   std::printf("\n");
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kBar = 24;
 
-TrackingError error_of(const Feedback& feedback, const Welcome& welcome) {
+TrackingError error_of(const Feedback& feedback) {
   TrackingError error;
   const auto &q_d = feedback.joint_desired().q(), &q = feedback.joint_actual().q();
   for (int i = 0; i < std::min(q_d.size(), q.size()); ++i) {
@@ -16,7 +16,6 @@ TrackingError error_of(const Feedback& feedback, const Welcome& welcome) {
     if (!(difference > error.joint_rad)) continue;
     error.joint_rad = difference;
     error.joint = i;
-    error.prismatic = i < welcome.joints_size() && welcome.joints(i).prismatic();
   }
   const auto &x_d = feedback.task_desired().pose(), &x = feedback.task_actual().pose();
   if (x_d.size() != 7 || x.size() != 7) return error;
@@ -29,9 +28,10 @@ TrackingError error_of(const Feedback& feedback, const Welcome& welcome) {
 
 }  // namespace
 
-std::string TrackingError::text() const {
+std::string TrackingError::text(const Welcome& welcome) const {
   if (tip_m > 0.0 || tip_rad > 0.0)
     return formatted("%.2f mm, ", tip_m * 1e3) + formatted("%.2f mrad", tip_rad * 1e3);
+  const bool prismatic = joint < welcome.joints_size() && welcome.joints(joint).prismatic();
   return formatted(prismatic ? "%.2f mm" : "%.2f mrad", joint_rad * 1e3) +
          formatted(" (joint %.0f)", joint + 1.0);
 }
@@ -71,7 +71,7 @@ void GoalView::take_report(const Report& report) {
 void GoalView::take_feedback(const Feedback& feedback) {
   output_.object("feedback", feedback);
   if (!moves()) return;
-  now_ = error_of(feedback, welcome_);
+  now_ = error_of(feedback);
   if (now_.joint_rad >= largest_.joint_rad) {
     largest_.joint_rad = now_.joint_rad;
     largest_.joint = now_.joint;
@@ -98,7 +98,7 @@ void GoalView::show() {
            formatted("%3.0f %%  ", part * 100.0) + formatted("%.1f of ", part * length_s_) +
            formatted("%.1f s  ", length_s_) + line;
   }
-  line += "  error " + now_.text();
+  line += "  error " + now_.text(welcome_);
   if (state_.override() < 1.0) line += formatted("  override %.0f %%", state_.override() * 100.0);
   output_.progress(line);
 }
@@ -106,7 +106,8 @@ void GoalView::show() {
 void GoalView::print() const {
   output_.result(report_);
   if (started_ && elapsed_s_ > 0.0)
-    output_.say("largest tracking error " + largest_.text() + formatted(" in %.1f s", elapsed_s_));
+    output_.say("largest tracking error " + largest_.text(welcome_) +
+                formatted(" in %.1f s", elapsed_s_));
 }
 
 }  // namespace tactus::ctl

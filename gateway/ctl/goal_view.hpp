@@ -9,11 +9,10 @@ namespace tactus::ctl {
 /// The largest difference between desired and actual position: of a joint, or of the tip.
 struct TrackingError {
   double joint_rad = 0.0;  ///< m of a prismatic joint
-  bool prismatic = false;
-  int joint = 0;  ///< from 0
+  int joint = 0;           ///< from 0
   double tip_m = 0.0, tip_rad = 0.0;
 
-  std::string text() const;
+  std::string text(const Welcome& welcome) const;
 };
 
 class GoalView {

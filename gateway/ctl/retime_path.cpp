@@ -53,8 +53,8 @@ bool judge_joints(PathFile& file, Numbers& q) {
     if (!(q[k] >= limits.lowest[k] && q[k] <= limits.highest[k]))
       return file.refuse_row(joint.name + formatted(": %.6g is not", q[k]) +
                              formatted(" from %.6g", limits.lowest[k]) +
-                             formatted(" to %.6g ", limits.highest[k]) +
-                             (joint.prismatic ? "m" : "rad") + "; plan inside of the range");
+                             formatted(" to %.6g ", limits.highest[k]) + joint.unit() +
+                             "; plan inside of the range");
   }
   q = q.max(limits.lowest + kRoom).min(limits.highest - kRoom);
   return true;
@@ -124,7 +124,7 @@ void write_header(std::FILE* out, const PathFile& file) {
     const auto group = [&](const char* prefix, const char* suffix) {
       int number = 0;
       for (const JointName& joint : file.limits.joints)
-        std::fprintf(out, ",%s%d_%s%s", prefix, ++number, joint.prismatic ? "m" : "rad", suffix);
+        std::fprintf(out, ",%s%d_%s%s", prefix, ++number, joint.unit(), suffix);
     };
     group("q", "");
     group("dq", "_s");

@@ -28,6 +28,8 @@ struct RowForm {
 struct JointName {
   std::string name;
   bool prismatic = false;
+
+  const char* unit() const { return prismatic ? "m" : "rad"; }  ///< of a position
 };
 
 /// SI units; the numbers are the position, then the groups that are given, in the order velocity,

@@ -188,8 +188,8 @@ class MessageRecorder {
   }
 
  private:
-  template <class Told>
-  void write(McapWriter::Id channel, const Told& message) {
+  template <class Timed>
+  void write(McapWriter::Id channel, const Timed& message) {
     writer_.write(channel, message.server_ns(), message.SerializeAsString());
     ++messages_;
   }
@@ -198,12 +198,6 @@ class MessageRecorder {
   McapWriter::Id state_, event_;
   int messages_ = 0;
 };
-
-bool is_mcap(const std::string& path) {
-  constexpr std::string_view kEnding = ".mcap";
-  return path.size() > kEnding.size() &&
-         path.compare(path.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
-}
 
 }  // namespace
 

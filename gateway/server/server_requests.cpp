@@ -55,7 +55,7 @@ void write_joints(const Pipeline& pipeline, tactus_Welcome& to) {
     joint.jerk = limits.dddq_max[i];
     joint.effort = limits.tau_max[i];
     joint.continuous = (Robot::kContinuousJoints >> i & 1U) != 0;
-    joint.prismatic = is_prismatic(i);
+    joint.prismatic = is_prismatic<Robot>(i);
   }
 }
 

@@ -63,7 +63,8 @@ bool find_joint(const JointWords& all, std::string_view header, ColumnPlace& pla
     const GroupWords& words = all[i];
     for (const std::string_view suffix : {words.suffix, words.prismatic}) {
       const int joint = joint_between(header, words.prefix, suffix);
-      if (joint < 0 || suffix != (is_prismatic(joint) ? words.prismatic : words.suffix)) continue;
+      if (joint < 0 || suffix != (is_prismatic<Robot>(joint) ? words.prismatic : words.suffix))
+        continue;
       place = {static_cast<int>(i) + 1, joint};
       return true;
     }
@@ -185,9 +186,10 @@ double& ColumnTable<JointSpace>::value(const ColumnPlace& place, JointSpace::Poi
 }
 
 void ColumnTable<JointSpace>::name_them(Message& message) {
-  if constexpr (kSomePrismatic) {
+  if constexpr (has_prismatic<Robot>()) {
     for (int i = 0; i < kDof; ++i) message << "q" << i + 1 << "_" << position_unit(i) << ", ";
-    message << "or with dq, ddq, tau and _s, _s2, Nm, N";
+    message << "dq1_" << position_unit(0) << "_s, ddq1_" << position_unit(0) << "_s2, tau1_"
+            << (is_prismatic<Robot>(0) ? "N" : "Nm") << " and so on";
   } else {
     message << "q1_rad, dq1_rad_s, ddq1_rad_s2, tau1_Nm, up to joint " << kDof;
   }

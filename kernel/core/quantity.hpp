@@ -43,10 +43,10 @@ struct QuantityInfo {
 /// force/torque sensor at the flange: about the flange's origin, in its axes, including the weight
 /// of the tool.
 inline constexpr std::array<QuantityInfo, 16> kQuantities = {{
-    {"joint position", kSomePrismatic ? "rad, m" : "rad", "", kDof},
-    {"joint velocity", kSomePrismatic ? "rad/s, m/s" : "rad/s", "", kDof},
-    {"joint acceleration", kSomePrismatic ? "rad/s^2, m/s^2" : "rad/s^2", "", kDof},
-    {"joint effort", kSomePrismatic ? "N m, N" : "N m", "", kDof},
+    {"joint position", has_prismatic<Robot>() ? "rad, m" : "rad", "", kDof},
+    {"joint velocity", has_prismatic<Robot>() ? "rad/s, m/s" : "rad/s", "", kDof},
+    {"joint acceleration", has_prismatic<Robot>() ? "rad/s^2, m/s^2" : "rad/s^2", "", kDof},
+    {"joint effort", has_prismatic<Robot>() ? "N m, N" : "N m", "", kDof},
     {"pose", "m, quaternion", "x y z qw qx qy qz", 7},
     {"twist", "m/s, rad/s", "vx vy vz wx wy wz", 6},
     {"task acceleration", "m/s^2, rad/s^2", "ax ay az alphax alphay alphaz", 6},

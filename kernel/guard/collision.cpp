@@ -25,7 +25,7 @@ double longest_way(int joint, int link) {
     const JointFrame& next = Robot::kJoints[static_cast<std::size_t>(i)];
     const JointLimit& limit = Robot::kLimits[static_cast<std::size_t>(i)];
     sum += Vector3(next.x, next.y, next.z).norm();
-    if (is_prismatic(i)) sum += std::max(-limit.q_min, limit.q_max) + kMostBeyond;
+    if (is_prismatic<Robot>(i)) sum += std::max(-limit.q_min, limit.q_max) + kMostBeyond;
   }
   return sum;
 }
@@ -36,7 +36,7 @@ JointVector reach_of(const Capsule& shape, int link) {
   const double own = std::max(shape.a.norm(), shape.b.norm()) + shape.radius;
   JointVector reach = JointVector::Zero();
   for (int joint = 1; joint <= link; ++joint)
-    reach[joint - 1] = is_prismatic(joint - 1) ? 1.0 : longest_way(joint, link) + own;
+    reach[joint - 1] = is_prismatic<Robot>(joint - 1) ? 1.0 : longest_way(joint, link) + own;
   return reach;
 }
 
@@ -207,7 +207,7 @@ JointVector Collision::sag_at(const JointVector& q, const Vector3& gravity) cons
     for (int i = 0; i < kDof; ++i) {
       const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
       const Vector3 axis = joint.r.col(2);
-      const Vector3 way = is_prismatic(i) ? axis : axis.cross(tip - joint.p);
+      const Vector3 way = is_prismatic<Robot>(i) ? axis : axis.cross(tip - joint.p);
       const double next = section_->compliance[i] * weight.dot(way);
       settled = settled && std::abs(next - sag[i]) < kSettled;
       sag[i] = next;

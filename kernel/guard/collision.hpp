@@ -16,8 +16,9 @@
 // Every pair has a credit: the distance that was proved last, plus the way that its second body can
 // have made until then. That way is the sum over the joints k between the bodies of (reach_k times
 // the angle that joint k has travelled, to and fro), where reach_k is the largest distance of the
-// body's points from axis k. While the credit exceeds the margin plus the way until now plus the
-// farthest way until rest, the pair stays apart, and its shapes are not looked at.
+// body's points from axis k, and 1 for a prismatic joint and its travel. While the credit exceeds
+// the margin plus the way until now plus the farthest way until rest, the pair stays apart, and its
+// shapes are not looked at.
 //
 // A pair without that credit is looked at: now, where its credit begins anew, and if that does not
 // last until rest, in nine sections of the way to rest. These ten positions of the arm follow from

@@ -74,7 +74,7 @@ auto tip_from(const A& parent, const JointTrig<R>& trig, const Pose& tip, Pose& 
   } else {
     const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
     const auto d = tip_from<R, i + 1>(link, trig, tip, x, J);
-    if constexpr (is_prismatic<R, i>()) {
+    if constexpr (is_prismatic<R>(i)) {
       J.col(i) << dense(link.z), Vector3::Zero();
     } else {
       J.col(i) << dense(cross(link.z, d)), dense(link.z);

@@ -29,7 +29,7 @@ auto composite_moment(const A& a_parent, const JointTrig<R>& trig, const Tool& t
     const auto a = to_child<R, i>(trig[i], a_parent);
     const auto h = first_moment<R, i>() + composite_moment<R, i + 1>(a, trig, tool, g);
     const double mass = carried_mass<R, i>() + tool.mass_kg;
-    if constexpr (is_prismatic<R, i>()) {
+    if constexpr (is_prismatic<R>(i)) {
       g[i] = mass * a.z;
     } else {
       g[i] = cross(h, a).z;

@@ -46,7 +46,7 @@ auto motion_of_link(const M& parent, const JointTrig<R>& trig, double dq, double
   const auto w_parent = to_child<R, i>(q, parent.w);
   const auto dw_parent = to_child<R, i>(q, parent.dw);
   const auto a = to_child<R, i>(q, parent.a + swing(parent, origin<R, i>(trig)));
-  if constexpr (is_prismatic<R, i>()) {
+  if constexpr (is_prismatic<R>(i)) {
     return LinkMotion{w_parent, dw_parent, a + z_ddq + 2.0 * cross(w_parent, z_dq)};
   } else {
     return LinkMotion{w_parent + z_dq, dw_parent + z_ddq + cross(w_parent, z_dq), a};
@@ -95,7 +95,7 @@ auto newton_euler(const M& parent, const JointRates<R>& joints, const Tool& tool
     const auto carried = newton_euler<R, i + 1>(link, joints, tool, tau);
     const auto n = own.n + carried.n;
     const auto f = own.f + carried.f;
-    if constexpr (is_prismatic<R, i>()) {
+    if constexpr (is_prismatic<R>(i)) {
       tau[i] = f.z;
     } else {
       tau[i] = n.z;

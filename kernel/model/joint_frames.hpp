@@ -28,12 +28,6 @@ constexpr JointFrame joint_frame() {
   }
 }
 
-/// True if joint i moves along its axis. [any]
-template <class R, int i>
-constexpr bool is_prismatic() {
-  return joint_frame<R, i>().type == JointType::kPrismatic;
-}
-
 /// Returns the origin of frame i in the axes of frame i-1, m; of a prismatic joint at q = 0. [any]
 template <class R, int i>
 constexpr auto offset() {

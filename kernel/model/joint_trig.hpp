@@ -11,24 +11,12 @@
 
 namespace tactus {
 
-/// True if some joint of the table fulfils a condition.
-template <class R, class Condition>
-constexpr bool any_joint(Condition condition) {
-  for (const JointFrame& joint : R::kJoints)
-    if (condition(joint)) return true;
-  return false;
-}
-
 /// True if a joint frame of the table is turned at q = 0.
 template <class R>
 constexpr bool has_turns() {
-  return any_joint<R>([](const JointFrame& joint) { return joint.turn != 0.0; });
-}
-
-/// True if a joint of the table is prismatic.
-template <class R>
-constexpr bool has_prismatic() {
-  return any_joint<R>([](const JointFrame& joint) { return joint.type == JointType::kPrismatic; });
+  for (const JointFrame& joint : R::kJoints)
+    if (joint.turn != 0.0) return true;
+  return false;
 }
 
 /// Positions of the joints, of which those of prismatic ones are read.
@@ -52,8 +40,7 @@ JointTrig<R> joint_trig(const JointsOf<R>& q) {
     joints.tick();
     const auto k = static_cast<std::size_t>(i);
     if constexpr (has_prismatic<R>()) {
-      const bool turns = R::kJoints[k].type == JointType::kRevolute;
-      trig[k] = sincos(R::kJoints[k].turn + (turns ? q[i] : 0.0));
+      trig[k] = sincos(R::kJoints[k].turn + (is_prismatic<R>(i) ? 0.0 : q[i]));
     } else if constexpr (has_turns<R>()) {
       trig[k] = sincos(R::kJoints[k].turn + q[i]);
     } else {
@@ -66,7 +53,7 @@ JointTrig<R> joint_trig(const JointsOf<R>& q) {
 /// Returns the origin of frame i in the axes of frame i-1, m. [any]
 template <class R, int i>
 auto origin([[maybe_unused]] const JointTrig<R>& trig) {
-  if constexpr (is_prismatic<R, i>()) {
+  if constexpr (is_prismatic<R>(i)) {
     const TypedVector travel{Zero{}, Zero{}, trig.q[i]};
     return offset<R, i>() + quarter_turns<joint_frame<R, i>().roll_quarter_turns>(travel);
   } else {

@@ -19,6 +19,20 @@ struct JointFrame {
   JointType type = JointType::kRevolute;
 };
 
+/// True if joint i of robot R is prismatic. [any]
+template <class R>
+constexpr bool is_prismatic(int i) {
+  return R::kJoints[static_cast<unsigned>(i)].type == JointType::kPrismatic;
+}
+
+/// True if some joint of robot R is prismatic. [any]
+template <class R>
+constexpr bool has_prismatic() {
+  for (const JointFrame& joint : R::kJoints)
+    if (joint.type == JointType::kPrismatic) return true;
+  return false;
+}
+
 /// Mass distribution of a link in the axes of its joint frame, with the tensor about the centre of
 /// mass.
 struct LinkInertia {
@@ -28,7 +42,7 @@ struct LinkInertia {
 };
 
 /// Bounds of one joint. The torque rate is that of the commanded torque. Of a prismatic joint, read
-/// m for rad and N for N m, here and wherever a quantity of joints is said.
+/// m for rad and N for N m, here and wherever a unit of joints is stated.
 struct JointLimit {
   double q_min, q_max;  ///< rad
   double dq_max;        ///< rad/s

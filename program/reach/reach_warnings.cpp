@@ -64,8 +64,8 @@ Words words_of(const Finding& found) {
       add_place(text, found);
       add_joint(text, found.joint);
       add(text, " %s at %.4g %s/s, its limit is %.4g",
-          is_prismatic(found.joint) ? "moves" : "turns", found.value, position_unit(found.joint),
-          found.limit);
+          is_prismatic<Robot>(found.joint) ? "moves" : "turns", found.value,
+          position_unit(found.joint), found.limit);
       return text << "; give the path more time, or lead it past the singularity";
     case Finding::kNearLimit:
       text << "near a joint limit: ";

@@ -95,7 +95,7 @@ JointVector largest_inertia(const Tool& tool, double payload_kg) {
       const LinkFrame& joint = frames[static_cast<std::size_t>(i) + 1];
       const Vector3 arm = frames[kDof].at(tip) - joint.p;
       const Vector3 axis = joint.r.col(2);
-      const double lever = is_prismatic(i) ? 1.0 : axis.cross(arm).norm();
+      const double lever = is_prismatic<Robot>(i) ? 1.0 : axis.cross(arm).norm();
       const double loaded = own + payload_kg * lever * lever;
       largest[i] = std::max(largest[i], kReserve * loaded + kRotorInertia);
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/mcap_writer.hpp"
 #include "gateway/version.hpp"
 #include "kernel/load/ini.hpp"
 
@@ -70,8 +71,7 @@ CLI::Validator assignment() {
 CLI::Validator recording() {
   return CLI::Validator(
       [](std::string& text) {
-        const bool named = text.size() > 5 && text.compare(text.size() - 5, 5, ".mcap") == 0;
-        return named ? std::string() : "'" + text + "' does not end with .mcap";
+        return is_mcap(text) ? std::string() : "'" + text + "' does not end with .mcap";
       },
       "");
 }

@@ -262,6 +262,9 @@ const PublishedArm& published() {{
     def pipeline(self, rotor, kp, kd):
         """pipelines/NAME_jrg_pdgc.ini"""
         gains = [" ".join(f"{value:.3g}" for value in values) for values in (kp, kd)]
+        prismatic = any(joint.prismatic for joint in self.chain.joints)
+        of_kp, of_kd, of_rotor, of_q = ("N m/rad or N/m", "N m s/rad or N s/m", "kg m^2 or kg", "rad or m") if prismatic else (
+            "N m/rad", "N m s/rad", "kg m^2", "rad")
         return f"""# JRG -> PD with gravity compensation -> {self.type}, torque, 1 kHz. Written by scripts/robot-import.
 # Gains: about 3 Hz at every joint with its rotor and the most inertia of random positions, critically damped.
 
@@ -271,14 +274,14 @@ period_us = 1000
 tau_c     = pd.tau
 
 [plant]                             # simulated boards only
-rotor_inertia = {rotor:g}                 # kg m^2, on every joint
+rotor_inertia = {rotor:g}                 # {of_rotor}, on every joint
 
 [gateway]
 trajectory = trajectories/{self.name}_five_waypoints.csv
 
 [guard]
 velocity_allowance = 0.09           # of the limit
-position_allowance = 0.01           # rad
+position_allowance = 0.01           # {of_q}
 
 [model]
 type = robot_model
@@ -296,8 +299,8 @@ q_d  = jrg.q_d
 q    = robot.q
 dq   = robot.dq
 g    = model.g
-kp   = {gains[0]}   # N m/rad
-kd   = {gains[1]}   # N m s/rad
+kp   = {gains[0]}   # {of_kp}
+kd   = {gains[1]}   # {of_kd}
 
 [recorder]
 signals  = robot.q robot.dq jrg.q_d jrg.dq_d pd.tau

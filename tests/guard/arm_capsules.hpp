@@ -24,13 +24,13 @@ struct ArmCapsule {
   }
   /// No point is farther from axis `joint`, from 0, at any position, m; 1 for a prismatic one.
   double reach(int joint) const {
-    if (is_prismatic(joint)) return 1.0;
+    if (is_prismatic<Robot>(joint)) return 1.0;
     double sum = shape.radius + std::max(shape.a.norm(), shape.b.norm());
     for (int i = joint + 1; i < link; ++i) {
       const JointFrame& next = Robot::kJoints[static_cast<std::size_t>(i)];
       sum += Vector3(next.x, next.y, next.z).norm();
       const JointLimit& limit = Robot::kLimits[static_cast<std::size_t>(i)];
-      if (is_prismatic(i)) sum += std::max(-limit.q_min, limit.q_max);
+      if (is_prismatic<Robot>(i)) sum += std::max(-limit.q_min, limit.q_max);
     }
     return sum;
   }

@@ -23,7 +23,7 @@ double potential_energy(const JointVector& q, const Tool& tool) {
     const LinkInertia& link = Robot::kLinks[i];
     go_to(Robot::kJoints[i]);
     const double position = q[static_cast<int>(i)];
-    if (Robot::kJoints[i].type == JointType::kPrismatic) {
+    if (is_prismatic<Robot>(static_cast<int>(i))) {
       frame.translate(position * Vector3::UnitZ());
     } else {
       frame.rotate(Eigen::AngleAxisd(position, Vector3::UnitZ()));

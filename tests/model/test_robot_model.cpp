@@ -96,7 +96,7 @@ void an_input_that_is_not_finite_is_reported(void**) {
   Bench bench;
   ASSERT_OK(bench.model.start());
   for (int i = 0; i < kDof; ++i) {
-    for (const double bad : {kNan, is_prismatic(i) ? kInfinity : 2.0 * kSinCosMax_rad}) {
+    for (const double bad : {kNan, is_prismatic<Robot>(i) ? kInfinity : 2.0 * kSinCosMax_rad}) {
       bench.q[i] = bad;
       ASSERT_STATUS(bench.model.step(1e-3), Status::kStateNotFinite);
       ASSERT_STATUS(bench.model.start(), Status::kStateNotFinite);

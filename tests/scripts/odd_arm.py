@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """odd_arm.py FOLDER [SEED]: writes arm.urdf of an arm of six joints whose link frames and axes point anywhere, while neighbouring axes are
-parallel or perpendicular; the third is prismatic, the fourth has no stops; with a hand that is fixed to it, and collision shapes of every kind, a mesh among them.
+parallel or perpendicular; the third is prismatic, the fourth has no stops; with a hand that is fixed to it, and collision shapes of every
+kind, a mesh among them.
 """
 
 import pathlib

@@ -11,7 +11,8 @@ inline JointVector middle_of_range() {
 }
 
 /// The first joint that turns.
-inline constexpr int kFirstRevolute = is_prismatic(0) ? 1 : 0;
-static_assert(!is_prismatic(kFirstRevolute), "choose another joint for the tests that turn one");
+inline constexpr int kFirstRevolute = is_prismatic<Robot>(0) ? 1 : 0;
+static_assert(!is_prismatic<Robot>(kFirstRevolute),
+              "choose another joint for the tests that turn one");
 
 }  // namespace tactus

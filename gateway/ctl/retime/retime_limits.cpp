@@ -26,8 +26,7 @@ void use_table(RobotLimits& limits) {
   for (std::size_t i = 0; i < Robot::kLimits.size(); ++i) {
     const JointLimit& limit = Robot::kLimits[i];
     const auto k = static_cast<Eigen::Index>(i);
-    limits.joints.push_back(
-        {Robot::kJointNames[i], Robot::kJoints[i].type == JointType::kPrismatic});
+    limits.joints.push_back({Robot::kJointNames[i], is_prismatic<Robot>(static_cast<int>(i))});
     limits.lowest[k] = limit.q_min;
     limits.highest[k] = limit.q_max;
     limits.joint.v[k] = limit.dq_max;

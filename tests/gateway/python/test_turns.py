@@ -102,6 +102,18 @@ class Turns(unittest.TestCase):
         file.write_text(whole.replace("q1_m", "q1_mm", 1).replace(",0.600000000,", ",600,"))
         self.assertEqual(self.program("check", "as_given", file).returncode, 0)
 
+    def test_a_lift_is_told_in_metres(self):
+        rows = across(10)
+        for place, said in ((1.5, r"joint 1 \(lift\): position 1\.5 m exceeds 1 m \(34\); keep within the range of the joint$"),
+                            (600, r"exceeds 1 m \(34\); .*: are these millimetres\?$")):
+            rows["q"][1, 0] = place
+            self.assertRegex(self.program("check", "nearest", self.file(**rows)).stderr.strip(), said)
+        lifted = dict(t=[3, 8], q=np.vstack([HOME, HOME + [0.3, 0, 0, 0, 0, 0]]), dq=np.zeros((2, 6)))
+        with served.serve() as address:
+            command = [CTL, "send", "--connect", address, self.file(**lifted)]
+            sent = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        self.assertRegex(sent, r"largest tracking error [\d.]+ mm \(joint 1\)")
+
     # Proves CTL-18.
 
     def test_a_rounded_path_along_an_end_is_admitted(self):

@@ -93,7 +93,7 @@ JointVector fall(double dt_s) {
   params.friction = 1.0;
   ASSERT_OK(arm.load(params));
   // On a lifting column gravity turns no joint.
-  const JointVector tau = (is_prismatic(0) ? 0.01 : 0.0) * JointLimits().tau_max;
+  const JointVector tau = (is_prismatic<Robot>(0) ? 0.01 : 0.0) * JointLimits().tau_max;
   for (int k = 0; k < std::lround(0.256 / dt_s); ++k) arm.step(tau, dt_s);
   return arm.q();
 }
