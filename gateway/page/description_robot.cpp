@@ -9,7 +9,7 @@ namespace {
 
 void frame(const JointFrame& given, Json& to) {
   to.open('[').number(given.x).number(given.y).number(given.z);
-  to.integer(given.roll_quarter_turns).number(given.turn);
+  to.number(given.roll()).number(given.turn);
   to.integer(given.type == JointType::kPrismatic ? 1 : 0).close(']');
 }
 

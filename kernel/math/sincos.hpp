@@ -33,7 +33,7 @@ inline double double_of(std::uint64_t bits) {
 
 /// Returns sin(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative
 /// error of x - x^3 P(x^2)), error 2^-57.9 before rounding; they are close to 1/3!, 1/5!, ...
-inline double sin_on_octant(double r, double r_low) {
+constexpr double sin_on_octant(double r, double r_low) {
   const double z = r * r, r3 = z * r;
   const double p =
       0x1.111111110f7d0p-7 +
@@ -45,7 +45,7 @@ inline double sin_on_octant(double r, double r_low) {
 /// Returns cos(r + r_low) for |r| <= pi/4. Minimax coefficients (Remez exchange for the relative
 /// error of 1 - x^2/2 + x^4 P(x^2)), error 2^-63.9 before rounding; they are close to 1/4!, 1/6!,
 /// ...
-inline double cos_on_octant(double r, double r_low) {
+constexpr double cos_on_octant(double r, double r_low) {
   const double z = r * r, half_z = 0.5 * z;
   const double p = 0x1.555555555554bp-5 +
                    z * (-0x1.6c16c16c14f91p-10 +

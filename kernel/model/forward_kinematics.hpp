@@ -1,6 +1,6 @@
 // Forward kinematics and geometric Jacobian of the tool tip, in the base frame. One sweep outwards
 // gives the joint axes, one sweep back the lever arms (Siciliano et al., Robotics, 2.8 and 3.1):
-//   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)
+//   R_i = R_(i-1) RotX(roll_i) RotZ(q_i)
 //   d_i = d_(i+1) + R_i origin_(i+1)       from the origin of frame i to the tip
 //   J_i = [z_i x d_i; z_i]                 column of a revolute joint i
 //   J_i = [z_i; 0]                         column of a prismatic joint i
@@ -26,7 +26,7 @@ FrameAxes(X, Y, Z) -> FrameAxes<X, Y, Z>;
 
 /// Returns R RotX(k pi/2).
 template <int k, class X, class Y, class Z>
-auto rolled(const FrameAxes<X, Y, Z>& r) {
+auto quarter_turns(const FrameAxes<X, Y, Z>& r) {
   if constexpr (k == 0) {
     return r;
   } else if constexpr (k == 1) {
@@ -35,6 +35,18 @@ auto rolled(const FrameAxes<X, Y, Z>& r) {
     return FrameAxes{r.x, -r.z, r.y};
   } else {
     return FrameAxes{r.x, -r.y, -r.z};
+  }
+}
+
+/// Returns R RotX(roll_i).
+template <class R, int i, class A>
+auto rolled_axes(const A& r) {
+  const auto u = quarter_turns<joint_frame<R, i>().roll_quarter_turns>(r);
+  if constexpr (joint_frame<R, i>().tilt == 0.0) {
+    return u;
+  } else {
+    constexpr SinCos kTilt = tilt<R, i>();
+    return FrameAxes{u.x, kTilt.cos * u.y + kTilt.sin * u.z, kTilt.cos * u.z - kTilt.sin * u.y};
   }
 }
 
@@ -58,7 +70,7 @@ Vector3 dense(const TypedVector<X, Y, Z>& v) {
 /// Fills the orientation of the tip; returns the lever from the origin of frame kDof-1 to it, m.
 template <class R, class A>
 auto tip_from_last_link(const A& link, const Pose& tip, Pose& x) {
-  const auto flange = rolled<R::kFlange.roll_quarter_turns>(link);
+  const auto flange = rolled_axes<R, R::kDof>(link);
   Matrix3 rotation;
   rotation << dense(flange.x), dense(flange.y), dense(flange.z);
   x.r = Eigen::Quaterniond(rotation) * tip.r;
@@ -72,7 +84,7 @@ auto tip_from(const A& parent, const JointTrig<R>& trig, const Pose& tip, Pose& 
   if constexpr (i == R::kDof) {
     return tip_from_last_link<R>(parent, tip, x);
   } else {
-    const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
+    const auto link = turned(rolled_axes<R, i>(parent), trig[i]);
     const auto d = tip_from<R, i + 1>(link, trig, tip, x, J);
     if constexpr (is_prismatic<R>(i)) {
       J.col(i) << dense(link.z), Vector3::Zero();

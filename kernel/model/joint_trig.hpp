@@ -55,7 +55,7 @@ template <class R, int i>
 auto origin([[maybe_unused]] const JointTrig<R>& trig) {
   if constexpr (is_prismatic<R>(i)) {
     const TypedVector travel{Zero{}, Zero{}, trig.q[i]};
-    return offset<R, i>() + quarter_turns<joint_frame<R, i>().roll_quarter_turns>(travel);
+    return offset<R, i>() + rolled<R, i>(travel);
   } else {
     return offset<R, i>();
   }

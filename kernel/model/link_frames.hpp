@@ -1,6 +1,6 @@
 // Frames of all links in the base frame: the outward sweep of forward_kinematics.hpp, recorded at
 // every joint.
-//   R_i = R_(i-1) RotX(k pi/2) RotZ(q_i)      p_i = p_(i-1) + R_(i-1) origin_i
+//   R_i = R_(i-1) RotX(roll_i) RotZ(q_i)      p_i = p_(i-1) + R_(i-1) origin_i
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ using LinkFrames = std::array<LinkFrame, R::kDof + 1>;
 template <class R, int i, class A>
 void frames_from(const A& parent, const JointTrig<R>& trig, LinkFrames<R>& frames) {
   if constexpr (i < R::kDof) {
-    const auto link = turned(rolled<joint_frame<R, i>().roll_quarter_turns>(parent), trig[i]);
+    const auto link = turned(rolled_axes<R, i>(parent), trig[i]);
     frames[i + 1].r << dense(link.x), dense(link.y), dense(link.z);
     frames[i + 1].p = frames[i].p + dense(rotated(parent, origin<R, i>(trig)));
     frames_from<R, i + 1>(link, trig, frames);

@@ -10,13 +10,17 @@ enum class JointType { kRevolute, kPrismatic };
 /// Placement of joint frame i in joint frame i-1:
 ///   T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn + q_i)                 revolute
 ///   T(i-1, i) = Trans(x, y, z) RotX(roll) RotZ(turn) Trans(0, 0, q_i)      prismatic
-/// This describes every arm whose neighbouring axes are parallel or perpendicular. The flange has
-/// no turn.
+/// where roll is a number of quarter turns, and a tilt where neighbouring axes are neither parallel
+/// nor perpendicular. The flange has no turn.
 struct JointFrame {
   double x, y, z;          ///< m, in frame i-1
   int roll_quarter_turns;  ///< roll about x in units of pi/2: -1, 0, 1 or 2
   double turn = 0.0;       ///< about z, at q_i = 0, rad
   JointType type = JointType::kRevolute;
+  double tilt = 0.0;  ///< what the roll has beside its quarter turns, rad, within +-pi/4
+
+  /// Returns the whole roll about x, rad. [any]
+  constexpr double roll() const { return roll_quarter_turns * 1.57079632679489661923 + tilt; }
 };
 
 /// True if joint i of robot R is prismatic. [any]

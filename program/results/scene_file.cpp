@@ -14,8 +14,8 @@ void write_numbers(std::FILE* file, const char* key, const double* numbers, long
 }
 
 void write_frame(std::FILE* file, const JointFrame& frame) {
-  std::fprintf(file, "[%.9g, %.9g, %.9g, %d, %.9g, %d]", frame.x, frame.y, frame.z,
-               frame.roll_quarter_turns, frame.turn, frame.type == JointType::kPrismatic);
+  std::fprintf(file, "[%.9g, %.9g, %.9g, %.9g, %.9g, %d]", frame.x, frame.y, frame.z, frame.roll(),
+               frame.turn, frame.type == JointType::kPrismatic);
 }
 
 void write_arm(std::FILE* file) {

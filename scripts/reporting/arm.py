@@ -3,8 +3,6 @@
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-QUARTER_TURNS = {-1: (0, -1), 0: (1, 0), 1: (0, 1), 2: (-1, 0)}  # cosine and sine
-
 THIN_M = 1e-4  # what is shown of a body without thickness
 
 
@@ -20,8 +18,8 @@ def rotation_matrix(quaternion):
 
 
 def fixed(frame):
-    """Returns the matrix of a frame x, y, z, quarter turns about x, turn about z; prismatic or not."""
-    c, s = QUARTER_TURNS[frame[3]]
+    """Returns the matrix of a frame x, y, z, roll about x, turn about z; prismatic or not."""
+    c, s = np.cos(frame[3]), np.sin(frame[3])
     rolled = np.array([[1, 0, 0, frame[0]], [0, c, -s, frame[1]], [0, s, c, frame[2]], [0, 0, 0, 1]], float)
     return rolled @ turn([frame[4]])[0]
 

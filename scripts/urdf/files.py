@@ -5,6 +5,13 @@ import numpy as np
 from text import comment, direction, euler, number, plain, quaternion, quoted, row, rows_of, tensor_row
 
 
+def frame(each):
+    """Returns the members of a JointFrame, up to the last that is not the default."""
+    rest = [number(each.turn), f"JointType::k{'Prismatic' if each.prismatic else 'Revolute'}", number(each.tilt)]
+    told = 3 if each.tilt else 2 if each.prismatic else 1 if each.turn else 0
+    return ", ".join([row(each.offset), str(each.quarters), *rest[:told]])
+
+
 class Files:
     """What the importer found, and the texts that state it."""
 
@@ -16,8 +23,7 @@ class Files:
         """kernel/robots/NAME.hpp"""
         chain, table, options = self.chain, self.table, self.options
         joints = chain.joints
-        frames = [f"{row(r.offset)}, {r.roll}" + (f", {number(r.turn)}" if r.turn or r.prismatic else "") +
-                  (", JointType::kPrismatic" if r.prismatic else "") for r in table.rows]
+        frames = [frame(each) for each in table.rows]
         links = [row((b.mass, *b.com, *b.tensor[0], *b.tensor[1, 1:], b.tensor[2, 2])) for b in table.bodies]
         limits = [row((j.limits["lower"], j.limits["upper"], j.limits["velocity"], options.acceleration[i], options.jerk[i],
                        j.limits["effort"], options.torque_rate[i])) for i, j in enumerate(joints)]
@@ -43,11 +49,11 @@ struct {self.type} {{
   static constexpr std::array<const char*, kDof> kJointNames = {{{quoted(j.name for j in joints)}}};
 
   // clang-format off
-  //   x, y, z, roll, turn
+  //   x, y, z, quarter turns, turn, type, tilt
   static constexpr std::array<JointFrame, kDof> kJoints = {{{{
 {rows_of(frames)}
   }}}};
-  static constexpr JointFrame kFlange = {{{row(table.flange.offset)}, {table.flange.roll}}};
+  static constexpr JointFrame kFlange = {{{frame(table.flange)}}};
 
   //   mass, cx, cy, cz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz
   static constexpr std::array<LinkInertia, kDof> kLinks = {{{{

@@ -1,7 +1,6 @@
 """Which capsules touch by construction, which can never meet, and a home pose clear of all others."""
 
 import itertools
-import math
 
 import numpy as np
 
@@ -27,8 +26,7 @@ def frames_of(table, q, first=0, last=None):
         c, s = np.cos(angle), np.sin(angle)
         about_z = np.zeros((count, 3, 3))
         about_z[:, 0, 0], about_z[:, 0, 1], about_z[:, 1, 0], about_z[:, 1, 1], about_z[:, 2, 2] = c, -s, s, c, 1.0
-        fixed = turn((1, 0, 0), row.roll * math.pi / 2)
-        frames.append((rotation @ fixed @ about_z, origin + rotation @ row.offset))
+        frames.append((rotation @ row.rolled() @ about_z, origin + rotation @ row.offset))
         if row.prismatic:
             rotation, origin = frames[-1]
             frames[-1] = rotation, origin + rotation[:, :, 2] * q[:, i:i + 1]
@@ -164,7 +162,7 @@ def home_pose(chain, table, capsules, listed):
     rows = [np.minimum(apart, above) > clear for clear in CLEAR] + [apart > clear for clear in CLEAR]
     if not rows[-1].any():
         gap, pair = min((gap.max(), pair) for pair, gap in gaps(chain, table, capsules, q).items() if pair not in listed)
-        raise Refused(f"no home pose is clear of collisions: {' and '.join(chain.names[link] for link in pair)} are at most {1e3 * gap:.0f} mm apart"
+        raise Refused(f"no home pose is clear of collisions: {' and '.join(chain.names[link] for link in pair)} are at most {1e3 * gap:.1f} mm apart"
                       f" where more than {1e3 * CLEAR[-1]:g} are sought; make their collision shapes smaller, or give a home pose by --srdf")
     q = q[next((row for row in rows if row.sum() > HOMES // 100), rows[-1])]
 

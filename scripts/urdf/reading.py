@@ -161,8 +161,8 @@ def named(root, kind):
 class Document:
     """The elements of a URDF by name, and the joints that are held fixed by option."""
 
-    def __init__(self, path, fixed, overrides, packages):
-        self.path, self.overrides, self.packages, self.snapped = path, overrides, packages, []
+    def __init__(self, path, fixed, overrides, packages, exact):
+        self.path, self.overrides, self.packages, self.exact, self.snapped = path, overrides, packages, exact, []
         try:
             root = xml.parse(path).getroot()
         except (OSError, xml.ParseError) as error:
@@ -194,7 +194,7 @@ class Document:
         return name in self.fixed or self.joints[name].get("type") == "fixed"
 
     def origin(self, name):
-        return frame_of(self.joints[name], f"joint {name}, origin", self.snapped)
+        return frame_of(self.joints[name], f"joint {name}, origin", None if self.exact else self.snapped)
 
     def path_to(self, base, tip):
         """Returns the names of the joints from base to tip."""

@@ -9,21 +9,24 @@ from errors import Refused
 from reading import Body, turn
 from text import euler, plain
 
-SAME = 1e-9  # rad: axes within this are parallel or perpendicular
-ROLLS = {0: (0, 1), 1: (-1, 0), -1: (1, 0), 2: (0, -1)}  # y and z of the axis in the frame before
+SAME = 1e-9  # rad: an angle within this of a quarter turn is one
 X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 @dataclasses.dataclass
 class Row:
     offset: np.ndarray
-    roll: int
+    quarters: int  # of the roll, and what it has beside them
+    tilt: float
     turn: float
     prismatic: bool = False
 
+    def rolled(self):
+        return turn(X, self.quarters * math.pi / 2) @ turn(X, self.tilt)
+
     def matrix(self):
         frame = np.eye(4)
-        frame[:3, :3] = turn(X, self.roll * math.pi / 2) @ turn(Z, self.turn)
+        frame[:3, :3] = self.rolled() @ turn(Z, self.turn)
         frame[:3, 3] = self.offset
         return frame
 
@@ -41,13 +44,18 @@ def rounded(values):
     return np.round(values, 15) + 0.0
 
 
+def in_quarters(angle):
+    """Returns the quarter turns nearest to an angle within a half turn, -1 to 2, and the rest of it."""
+    quarters = round(angle / (math.pi / 2))
+    rest = angle - quarters * math.pi / 2
+    return 2 if quarters == -2 else quarters, 0.0 if abs(rest) < SAME else rest
+
+
 def roll_of(before, axis):
-    """Returns the roll from a frame to a frame whose z is the axis, or None."""
-    y, z = before[:, 1] @ axis, before[:, 2] @ axis
-    for roll, (of_y, of_z) in ROLLS.items():
-        if abs(before[:, 0] @ axis) < SAME and math.hypot(y - of_y, z - of_z) < SAME:
-            return roll
-    return None
+    """Returns quarter turns and tilt from a frame to a frame whose z is the axis, or None."""
+    if abs(before[:, 0] @ axis) > SAME:
+        return None
+    return in_quarters(math.atan2(-before[:, 1] @ axis, before[:, 2] @ axis))
 
 
 def angle_between(a, b):
@@ -62,15 +70,11 @@ def other_tip(tip, axis):
     return f"give another --tip, or add one: a link that is fixed to it with <origin rpy=\"{plain(euler(rotation))}\"/>"
 
 
-def x_axis(x, axis, following, joint):
+def x_axis(x, axis, following):
     """Returns x of the frame about `axis`: perpendicular to the axis that follows, as near to the given x as it can be."""
     across = np.cross(axis, following)
     if np.linalg.norm(across) < SAME:
         return x
-    if abs(axis @ following) > SAME:
-        raise Refused(f"joint {joint.name}: its axis is at {angle_between(axis, following):.6g} degrees to that of the joint before; the"
-                      " table has neighbouring axes that are parallel or perpendicular; take the nominal, not a calibrated URDF; an arm"
-                      " with oblique axes cannot be imported")
     across /= np.linalg.norm(across)
     return across if across @ x > -SAME else -across
 
@@ -88,24 +92,19 @@ def table_of(chain):
         roll = roll_of(before[:3, :3], axes[i])
         if roll is None:  # of the first joint only: the x of every other frame is chosen for the axis that follows
             raise Refused(f"joint {joint.name}: its axis is at {angle_between(axes[i], np.array(X)):.6g} degrees to x of {chain.base} and at"
-                          f" {angle_between(axes[i], Z):.6g} to z; that of the first joint is along y or z of the base; give another --base")
+                          f" {angle_between(axes[i], Z):.6g} to z; that of the first joint is perpendicular to x of the base; give another --base")
         x = before[:3, 0]
-        x_next = tip[:3, 0] if i + 1 == len(axes) else x_axis(x, axes[i], axes[i + 1], chain.joints[i + 1])
+        x_next = tip[:3, 0] if i + 1 == len(axes) else x_axis(x, axes[i], axes[i + 1])
         if abs(x_next @ axes[i]) > SAME:
             raise Refused(f"link {chain.tip}: its x is at {angle_between(axes[i], x_next):.6g} degrees to the axis of joint {joint.name}; the"
                           f" x of the flange is perpendicular to the last axis; {other_tip(tip, axes[i])}")
         angle = math.atan2(axes[i] @ np.cross(x, x_next), x @ x_next)
-        quarters = round(angle / (math.pi / 2))
-        if abs(angle - quarters * math.pi / 2) < SAME:
-            angle = quarters * math.pi / 2
-        rows.append(Row(rounded(before[:3, :3].T @ (place[:3, 3] - before[:3, 3])), roll, angle,
+        quarters, rest = in_quarters(angle)
+        rows.append(Row(rounded(before[:3, :3].T @ (place[:3, 3] - before[:3, 3])), *roll, quarters * math.pi / 2 + rest,
                         joint.prismatic))
         before = before @ rows[-1].matrix()
         links.append(np.linalg.inv(before) @ place)
     roll = roll_of(before[:3, :3], tip[:3, 2])
-    if roll is None:
-        raise Refused(f"link {chain.tip}: its z is at {angle_between(axes[-1], tip[:3, 2]):.6g} degrees to the axis of joint"
-                      f" {chain.joints[-1].name}; it must be parallel or perpendicular; {other_tip(tip, axes[-1])}")
-    flange = Row(rounded(before[:3, :3].T @ (tip[:3, 3] - before[:3, 3])), roll, 0.0)
+    flange = Row(rounded(before[:3, :3].T @ (tip[:3, 3] - before[:3, 3])), *roll, 0.0)
     bodies = [joint.body.moved(link) for joint, link in zip(chain.joints, links[1:])]
     return Table(rows, flange, [Body(b.mass, rounded(b.com), rounded(b.tensor)) for b in bodies], links)

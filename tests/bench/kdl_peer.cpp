@@ -15,9 +15,7 @@ namespace {
 constexpr unsigned kJoints = Fer::kDof;
 
 KDL::Frame frame_of(const JointFrame& frame) {
-  constexpr double kHalfPi = 1.57079632679489661923;
-  return KDL::Frame(KDL::Rotation::RotX(frame.roll_quarter_turns * kHalfPi),
-                    KDL::Vector(frame.x, frame.y, frame.z));
+  return KDL::Frame(KDL::Rotation::RotX(frame.roll()), KDL::Vector(frame.x, frame.y, frame.z));
 }
 
 /// The shortest chain KDL can build from the table: one segment per joint, from it to the next.

@@ -7,15 +7,13 @@
 namespace tactus {
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
-
 /// Potential energy, J, from a product of homogeneous transforms; it shares only the table with the
 /// algorithms.
 double potential_energy(const JointVector& q, const Tool& tool) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
   const auto go_to = [&frame](const JointFrame& next) {
     frame.translate(Vector3(next.x, next.y, next.z));
-    frame.rotate(Eigen::AngleAxisd(next.roll_quarter_turns * kHalfPi, Vector3::UnitX()));
+    frame.rotate(Eigen::AngleAxisd(next.roll(), Vector3::UnitX()));
     frame.rotate(Eigen::AngleAxisd(next.turn, Vector3::UnitZ()));
   };
   double energy = 0.0;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""odd_arm.py FOLDER [SEED]: writes arm.urdf of an arm of six joints whose link frames and axes point anywhere, while neighbouring axes are
-parallel or perpendicular; the third is prismatic, the fourth has no stops; with a hand that is fixed to it, and collision shapes of every
+"""odd_arm.py FOLDER [SEED]: writes arm.urdf of an arm of six joints whose link frames and axes point anywhere; neighbouring axes are parallel
+and perpendicular, and once neither; the third is prismatic, the fourth has no stops; with a hand that is fixed to it, and collision shapes of every
 kind, a mesh among them.
 """
 
@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 # Of each joint: the angle to the axis before, degrees, and where the axis is, m, in the axes of the base at q = 0.
 ARM = ((0, (0.02, -0.01, 0.21)), (90, (0.03, 0.02, 0.11)), (180, (0.05, -0.02, 0.33)), (90, (0.04, 0.03, 0.19)), (90, (0.01, 0.0, 0.21)),
-       (90, (0.02, 0.05, 0.09)))
+       (71, (0.02, 0.05, 0.09)))
 MASSES = 3.1, 4.2, 2.9, 1.7, 1.2, 0.8  # kg
 SHAPES = ('<cylinder radius="0.06" length="0.14"/>', '<box size="0.08 0.09 0.2"/>', '<mesh filename="link.stl" scale="0.001 0.001 0.001"/>',
           '<cylinder radius="0.04" length="0.1"/>', '<sphere radius="0.045"/>', '<box size="0.05 0.06 0.04"/>')

@@ -8,9 +8,9 @@ export function multiply(a, b) {
   return to;
 }
 
-/** A frame of the robot's table at a joint position: Trans(x, y, z) RotX(quarters pi/2) RotZ(turn + q), or Trans(0, 0, q) behind. */
-function placed([x, y, z, quarters, angle, prismatic], q) {
-  const c = Math.round(Math.cos(quarters * Math.PI / 2)), s = Math.round(Math.sin(quarters * Math.PI / 2));
+/** A frame of the robot's table at a joint position: Trans(x, y, z) RotX(roll) RotZ(turn + q), or Trans(0, 0, q) behind. */
+function placed([x, y, z, roll, angle, prismatic], q) {
+  const c = Math.cos(roll), s = Math.sin(roll);
   const to = turn(prismatic ? angle : angle + q);
   if (prismatic) to[14] = q;
   return multiply(new Float32Array([1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, x, y, z, 1]), to);

@@ -28,11 +28,11 @@ function capsule(a, b, radius, material) {
   return group;
 }
 
-/** Returns a frame x, y, z, quarter turns about x, turn about z of scene.json; prismatic or not. */
-function fixedFrame([x, y, z, quarters, turn]) {
+/** Returns a frame x, y, z, roll about x, turn about z of scene.json; prismatic or not. */
+function fixedFrame([x, y, z, roll, turn]) {
   const frame = new THREE.Group();
   frame.position.set(x, y, z);
-  frame.rotation.set(quarters * Math.PI / 2, 0, turn);  // RotX RotZ: Three.js turns in the order XYZ
+  frame.rotation.set(roll, 0, turn);  // RotX RotZ: Three.js turns in the order XYZ
   return frame;
 }
 
