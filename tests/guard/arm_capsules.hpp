@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kernel/guard/guard.hpp"
 #include "kernel/guard/separation.hpp"
 #include "kernel/model/link_frames.hpp"
 
@@ -30,7 +31,9 @@ struct ArmCapsule {
       const JointFrame& next = Robot::kJoints[static_cast<std::size_t>(i)];
       sum += Vector3(next.x, next.y, next.z).norm();
       const JointLimit& limit = Robot::kLimits[static_cast<std::size_t>(i)];
-      if (is_prismatic<Robot>(i)) sum += std::max(-limit.q_min, limit.q_max);
+      // The guard lets a joint be that far beyond a limit.
+      constexpr double kBeyond = Guard::kLedBack + Guard::kPositionTolerance;
+      if (is_prismatic<Robot>(i)) sum += std::max(-limit.q_min, limit.q_max) + kBeyond;
     }
     return sum;
   }

@@ -84,14 +84,19 @@ void keep_bounds(std::vector<TimedPoint>& points, const RetimeSettings& settings
   }
 }
 
-/// Removes inner waypoints that are too near to another; false: there are none.
+/// Removes inner waypoints that are too near to another; false: there are none. Of two, that beside
+/// the longer segment stays: on a straight piece a velocity from inside of a bend would overshoot.
 bool thinned(std::vector<TimedPoint>& points) {
   const double end_s = points.back().time_s;
   std::vector<TimedPoint> apart = {points.front()};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const double to_next_s =
-        std::min(points[i].time_s - apart.back().time_s, end_s - points[i].time_s);
-    if (to_next_s >= kShortestSegment_s) apart.push_back(points[i]);
+    const double time_s = points[i].time_s, last_s = apart.back().time_s;
+    if (end_s - time_s < kShortestSegment_s) continue;
+    if (time_s - last_s >= kShortestSegment_s)
+      apart.push_back(points[i]);
+    else if (apart.size() > 1 &&
+             points[i + 1].time_s - time_s > last_s - apart[apart.size() - 2].time_s)
+      apart.back() = points[i];
   }
   apart.push_back(points.back());
   apart.swap(points);
