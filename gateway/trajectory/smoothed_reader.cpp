@@ -44,7 +44,10 @@ Axes velocity_of(const TaskSpace::Point& point) {
 }
 
 Axes tolerances(const JointSpace&, const SmoothingTolerance& tolerance) {
-  return Axes::Constant(tolerance.rad);
+  Axes all = Axes::Constant(tolerance.rad);
+  for (int i = 0; i < kDof; ++i)
+    if (is_prismatic<Robot>(i)) all[i] = tolerance.m;
+  return all;
 }
 Axes tolerances(const TaskSpace&, const SmoothingTolerance& tolerance) {
   Axes all = Axes::Constant(tolerance.rad);
@@ -53,7 +56,10 @@ Axes tolerances(const TaskSpace&, const SmoothingTolerance& tolerance) {
 }
 
 void note_moved(const JointSpace&, const Axes& moved, SmoothingTolerance& most) {
-  most.rad = std::max(most.rad, moved.maxCoeff());
+  for (int i = 0; i < kDof; ++i) {
+    double& of_kind = is_prismatic<Robot>(i) ? most.m : most.rad;
+    of_kind = std::max(of_kind, moved[i]);
+  }
 }
 void note_moved(const TaskSpace&, const Axes& moved, SmoothingTolerance& most) {
   most.m = std::max(most.m, moved.head<3>().maxCoeff());

@@ -49,6 +49,14 @@ inline bool is_key(const char* name) {
          });
 }
 
+/// True for a unit that fits into a cell of the table of `tactus ports`.
+inline bool is_unit(const char* unit) {
+  const std::string_view text(unit != nullptr ? unit : "");
+  return !text.empty() && text.size() <= kMaxNameLength &&
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return c >= ' ' && c <= '~' && c != '|'; });
+}
+
 /// Judges `count` names, each of them name_of(i).
 template <class NameOf>
 Status judge_names(const char* what, std::uint32_t count, NameOf name_of, Message& why) {
@@ -89,8 +97,9 @@ inline Status judge_ports(const tactus_law& law, Message& why) {
   TRY(judge_names(
       "output", law.output_count, [&law](std::uint32_t i) { return law.outputs[i].name; }, why));
   for (std::uint32_t i = 0; i < law.parameter_count; ++i) {
-    if (law.parameters[i].unit != nullptr) continue;
-    why << "parameter '" << law.parameters[i].name << "' of the law has no unit; give it one, or 1";
+    if (is_unit(law.parameters[i].unit)) continue;
+    why << "parameter '" << law.parameters[i].name << "' of the law has no unit of 1 to "
+        << kMaxNameLength << " printable characters without |; give it one, or 1";
     return Status::kBadValue;
   }
   TRY(judge_quantities(law.inputs, law.input_count, why));

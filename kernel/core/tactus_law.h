@@ -75,7 +75,7 @@ typedef struct tactus_law_port {
 } tactus_law_port;
 
 typedef struct tactus_law_parameter {
-  const char *name, *unit;  // unit "1": none
+  const char *name, *unit;  // unit "1": none; printable ASCII without |
   double lower, upper;      // the values allowed, both ends included; infinite: no bound
   double initial;           // NaN: the pipeline file must give the value
   uint32_t per_joint;       // 1: one number per joint; 0: one number

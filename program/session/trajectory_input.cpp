@@ -165,7 +165,9 @@ void print_verdict(TrajectoryInput& input, const Verdict& verdict, int line) {
   FilePath place = input.path;
   if (line > 0) place << ":" << line;
   const bool rough = of_derivatives(verdict.status) && input.smoothing().tolerance.allows();
-  const char* const key = axes == VerdictAxes::kTip ? "smoothing_m" : "smoothing_rad";
+  const bool in_m =
+      axes == VerdictAxes::kTip || (verdict.axis >= 0 && is_prismatic<Robot>(verdict.axis));
+  const char* const key = in_m ? "smoothing_m" : "smoothing_rad";
   // Waypoints have a place; the time of none of them is that of the start.
   const bool late = verdict.status == Status::kReferenceTime && verdict.waypoint < 0;
   const TurnStep* const none = nullptr;

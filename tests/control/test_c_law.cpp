@@ -231,6 +231,8 @@ void a_description_that_is_wrong_is_refused_with_the_remedy(void**) {
   static constexpr tactus_law_port kNone[] = {{"q", 0, 0}, {"p", TACTUS_SCALAR, 0}};
   static constexpr tactus_law_parameter kNoUnit[] = {{"a", nullptr, 0, 1, 0, 0},
                                                      {"b", "1", 0, 1, 0, 0}};
+  static constexpr tactus_law_parameter kBar[] = {{"a", "1 | 2", 0, 1, 0, 0},
+                                                  {"b", "1", 0, 1, 0, 0}};
   using Law = tactus_law;
   constexpr Status kBad = Status::kBadValue, kTwice = Status::kDuplicate;
   refused([](Law& law) { law.abi = 7; }, kBad, "version 7 of tactus_law.h, the board version 1;");
@@ -253,7 +255,8 @@ void a_description_that_is_wrong_is_refused_with_the_remedy(void**) {
   refused([](Law& law) { law.outputs = kComma; }, kBad, "output 1 of the law has no name");
   refused([](Law& law) { law.inputs = kWhat; }, Status::kWrongQuantity, "'p' of the law has quan");
   refused([](Law& law) { law.outputs = kNone; }, Status::kWrongQuantity, "1 to 12");
-  refused([](Law& law) { law.parameters = kNoUnit; }, kBad, "'a' of the law has no unit; give");
+  refused([](Law& law) { law.parameters = kNoUnit; }, kBad, "'a' of the law has no unit of 1 to");
+  refused([](Law& law) { law.parameters = kBar; }, kBad, "'a' of the law has no unit of 1 to");
 }
 
 /// `tactus ports` describes a block that no loader has judged.

@@ -11,7 +11,7 @@ int install(void**) {
   setenv("PREFIX", in_folder("host").c_str(), 1);
   setenv("PREFIX_M7", in_folder("m7").c_str(), 1);
   return shell(
-      "make=\"env -u MAKEFLAGS make -s install-kernel\"; $make BOARD=fer_sim PREFIX=$PREFIX && "
+      "make=\"make -s install-kernel\"; $make BOARD=fer_sim PREFIX=$PREFIX && "
       "$make BOARD=fer_m7 ARCH=m7 PREFIX=$PREFIX_M7 || { cat $S/err $S/out; exit 1; }");
 }
 

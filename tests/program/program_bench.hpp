@@ -191,6 +191,7 @@ inline int shell(const char* command) {
   setenv("S", scratch, 1);
   setenv("R", root, 1);
   setenv("P", program, 1);
+  unsetenv("MAKEFLAGS");  // of a make that runs the tests
   Text<4095> line("{ ");
   line << command << "; } >" << in_folder("out") << " 2>" << in_folder("err");
   return WEXITSTATUS(std::system(line.c_str()));

@@ -197,9 +197,10 @@ void a_folder_holds_one_run_and_what_is_needed_to_draw_it(void**) {
   assert_int_equal(run_into("one", pipeline.c_str()), 0);
   for (const char* name : {"one/waypoints.csv", "one/figure.png"}) assert_false(exists(name));
   assert_true(file_of("one/pipeline.ini") == kPipeline);
-  assert_has_all(file_of("one/scene.json"), {"\"robot\": \"fer\"", "[0.0825, 0, 0, 1, 0, 0],",
-                                             "\"flange\": [0, 0, 0.107, 0, 0, 0]", "{\"link\": 7, ",
-                                             "\"boxes\": [", "\"tau_max\": [87, 87, 87, 87, 12, "});
+  assert_has_all(file_of("one/scene.json"),
+                 {"\"robot\": \"fer\"", "[0.0825, 0, 0, 1.57079633, 0, 0],",
+                  "\"flange\": [0, 0, 0.107, 0, 0, 0]", "{\"link\": 7, ", "\"boxes\": [",
+                  "\"tau_max\": [87, 87, 87, 87, 12, "});
 }
 
 void a_folder_is_of_one_run_until_an_interrupt_ends_it_with_its_files_written(void**) {
