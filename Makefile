@@ -251,7 +251,7 @@ include boards/bare_metal/image.mk
 include gateway/python/python.mk
 
 # What boards of several robots take.
-SHARED = $(MESSAGES).h $(if $(filter all tests,$(GOALS)),trajectories $(TACTUSCTL)) $(if $(filter tests,$(GOALS)),python $(WHEEL) build/libfcl_oracle.so)
+SHARED = $(MESSAGES).h $(if $(filter all tests,$(GOALS)),trajectories $(TACTUSCTL)) $(if $(filter tests,$(GOALS)),python $(WHEELS) build/libfcl_oracle.so)
 shared: $(SHARED)
 
 .PRECIOUS: $(O)/%.o $(O)/units/%.cpp

@@ -1,5 +1,6 @@
 """The arm as policies expect it, in the manner of gym and LeRobot: observations and actions are numpy arrays."""
 
+import math
 import time
 from typing import Any, Self
 
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from .arguments import real
 from .arm import Arm, connect
 from .errors import Stopped
+from .protocol import Phase
 from .streams import Chunks, Stream
 
 _OBSERVED = ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench", "margin_s", "stamp_ns")
@@ -71,6 +73,24 @@ class Robot:
         """Gives the lease back and ends the connection; the arm goes on to the last target and rests there."""
         self.__exit__(None, None, None)
 
+    def settle(self) -> None:
+        """Waits until the server has reported on all that `act` has sent, and raises what it has refused."""
+        if self._references is not None:
+            self._references.settle()
+
+    def rest(self, within_s: float = 5.0) -> None:
+        """Waits until the arm rests on the last target, or another moves it; after `within_s` cancels what still runs."""
+        if self._references is None:
+            return
+        self.settle()
+        end, epoch = time.monotonic() + within_s, self.arm.state().epoch
+        for state in self.arm.watch():
+            if state.phase == Phase.HOLDING or state.epoch != epoch:
+                return
+            if time.monotonic() > end:
+                self.arm.cancel()
+                end, epoch = math.inf, self.arm.state().epoch
+
     def observe(self) -> dict[str, NDArray[Any]]:
         """Returns the latest state; what the pipeline does not have is left out.
 
@@ -84,12 +104,15 @@ class Robot:
         values = {name: getattr(state, name) for name in _OBSERVED}
         return {name: np.asarray(value) for name, value in values.items() if value is not None}
 
-    def act(self, action: ArrayLike, *, first: int = 0, ends: bool = False) -> None:
+    def act(
+        self, action: ArrayLike, *, observed_ns: int | None = None, first: int = 0, ends: bool = False
+    ) -> None:
         """Sends a chunk, [n, joints], or one target, [joints]; poses, [n, 7] or [7], if the pipeline takes poses.
 
         Target k of a chunk is for (first + k) / rate_hz after the latest observation. The time between is measured:
         targets that have passed are trimmed, so do not drop any. One target is for now, whatever `relative_to` is.
         Returns at once; what the server refuses is raised by the next call. After Stopped and `arm.rearm()` go on.
+        observed_ns -- time of the observation from which a chunk counts; None: of the latest
         first, ends -- as of `Chunks.send`
         """
         kind = Chunks if real("action", action).ndim > 1 else Stream
@@ -99,7 +122,8 @@ class Robot:
         target: dict[str, Any] = {"q" if self.arm.robot.takes_joints else "pose": action}
         try:
             if isinstance(self._references, Chunks):
-                self._references.send(**target, observed_ns=self._observed_ns, first=first, ends=ends)
+                observed_ns = self._observed_ns if observed_ns is None else observed_ns
+                self._references.send(**target, observed_ns=observed_ns, first=first, ends=ends)
             else:
                 self._references.send(**target, sent_ns=time.monotonic_ns())
         except Stopped:

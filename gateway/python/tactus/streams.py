@@ -37,9 +37,13 @@ class References:
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         if kind is None:
-            self._collect(0)
+            self.settle()
         elif self._epoch is not None:
             self._session.cancel()
+
+    def settle(self) -> None:
+        """Waits until the server has reported on all that was sent, and raises what it has refused."""
+        self._collect(0)
 
     def _send(self, kind: str, request: Any) -> None:
         self._open()

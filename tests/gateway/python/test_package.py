@@ -66,7 +66,7 @@ class Package(unittest.TestCase):
 
     @unittest.skipUnless(PIP, "python3-pip is missing; scripts/setup test installs it")
     def test_the_wheel_drives_an_arm_from_an_empty_folder_of_a_virtual_environment(self):
-        (wheel,) = WHEELS.glob("*.whl")
+        (wheel,) = WHEELS.glob("tactus-*.whl")
         environment, empty = self.scratch / "environment", self.scratch / "empty"
         empty.mkdir()
         # numpy and protobuf are Debian's, and so is pip: there is no network to fetch others from.
