@@ -101,4 +101,7 @@ enum class ReportLevel : std::int32_t {
 
 inline constexpr std::int32_t kRobotTypeUr10 = 2;
 
+/// Of a kinematics part: what its parameters are.
+enum CalibrationStatus : std::uint32_t { kNotCalibrated = 0, kNotLinearised = 1, kLinearised = 2 };
+
 }  // namespace tactus::ur

@@ -147,8 +147,8 @@ void Emulator::send_cycle(Session& session) {
 void Emulator::send_state(Session& session) {
   std::array<std::uint8_t, 2048> bytes;
   ByteWriter writer(bytes.data(), bytes.size());
-  write_robot_state(controller_.image(), controller_.machine().settings.version, !session.told,
-                    writer);
+  const Settings& settings = controller_.machine().settings;
+  write_robot_state(controller_.image(), settings.version, settings.dh, !session.told, writer);
   if (session.out.put(writer.data(), writer.size())) session.told = true;
 }
 

@@ -16,7 +16,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 Frame link(int i, double theta, const DhTable& dh = kDh) {
   const auto k = static_cast<std::size_t>(i);
-  const double c = std::cos(theta), s = std::sin(theta);
+  const double c = std::cos(dh.theta[k] + theta), s = std::sin(dh.theta[k] + theta);
   const double ca = std::cos(dh.alpha[k]), sa = std::sin(dh.alpha[k]);
   Frame frame;
   frame.r << c, -s * ca, s * sa, s, c * ca, -c * sa, 0.0, sa, ca;

@@ -21,6 +21,8 @@ struct DhTable {
   std::array<double, 6> d = {0.1273, 0.0, 0.0, 0.163941, 0.1157, 0.0922};        ///< m
   std::array<double, 6> alpha = {1.5707963267948966,  0, 0, 1.5707963267948966,  // rad
                                  -1.5707963267948966, 0};
+  std::array<double, 6> theta = {};  ///< rad, added to the joint's position
+  bool calibrated = false;           ///< the numbers of one arm, not those of its type
 };
 inline constexpr DhTable kDh;
 /// The same article's table of the UR10e.

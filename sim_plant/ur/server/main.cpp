@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "hal/os/cycle_clock.hpp"
+#include "sim_plant/ur/motion/calibration.hpp"
 #include "sim_plant/ur/scene/scene_reader.hpp"
 #include "sim_plant/ur/server/cycle_grid.hpp"
 #include "sim_plant/ur/server/options.hpp"
@@ -27,6 +28,7 @@ Settings settings_of(const EmulatorOptions& options) {
                       options.version[3]};
   settings.initial_q = Joints(options.initial_q);
   if (options.ur10e) settings.dh = kDhOfUr10e;
+  if (options.calibration != 0) settings.dh = draw_calibration(options.calibration);
   settings.tcp_offset = Vector6(options.tcp);
   settings.payload_kg = options.payload[0];
   settings.payload_cog = Vector3(options.payload + 1);

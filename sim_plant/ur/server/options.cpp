@@ -78,7 +78,11 @@ bool parse_emulator_options(int argc, char** argv, EmulatorOptions& options, int
   app.add_option("--tcp", tcp, "TCP on the pendant: m, and a rotation vector")
       ->expected(6)
       ->check(finite(-100.0, 100.0));
-  app.add_flag("--ur10e", options.ur10e, "report the poses of a UR10e");
+  CLI::Option* ur10e = app.add_flag("--ur10e", options.ur10e, "report the poses of a UR10e");
+  app.add_option("--calibration", options.calibration,
+                 "seed of a calibration, by which it reports its poses (default: none)")
+      ->check(CLI::Range(1u, 0xffffffffu))
+      ->excludes(ur10e);
   app.add_option("--external-control", host,
                  "address from which external_control.urp fetches its script (default: no program)")
       ->check(shorter_than(sizeof options.address));

@@ -17,6 +17,7 @@ struct EmulatorOptions {
   double payload[4] = {};      ///< of the pendant: kg, centre of mass in m
   double tcp[6] = {};          ///< likewise: m, rotation vector
   bool ur10e = false;          ///< reports the poses of that arm
+  unsigned calibration = 0;    ///< seed of the kinematics that it reports; 0: those of its type
   bool sensor_errors = false;  ///< force and speeds are as uncertain as a robot's
   unsigned seed = 1;           ///< of these errors
   char scene[512] = "";        ///< pipeline file with what the arm carries and can touch

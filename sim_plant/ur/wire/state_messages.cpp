@@ -1,7 +1,5 @@
 #include "sim_plant/ur/wire/state_messages.hpp"
 
-#include "sim_plant/ur/motion/kinematics.hpp"
-
 namespace tactus::ur {
 namespace {
 
@@ -12,6 +10,16 @@ void put(const Values& values, ByteWriter& writer) {
 
 void put_zeros(int count, ByteWriter& writer) {
   for (int i = 0; i < count; ++i) writer.f64(0.0);
+}
+
+/// FNV-1a over the bytes of a joint's parameters: the manufacturer's own rule is not published.
+std::uint32_t checksum(const DhTable& dh, std::size_t joint) {
+  std::array<std::uint8_t, 32> bytes;
+  ByteWriter numbers(bytes.data(), bytes.size());
+  put(std::array{dh.theta[joint], dh.a[joint], dh.d[joint], dh.alpha[joint]}, numbers);
+  std::uint32_t sum = 0x811c9dc5u;
+  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x01000193u;
+  return sum;
 }
 
 enum Control : std::uint8_t { kPosition = 0, kTeach = 1, kForce = 2 };
@@ -156,14 +164,15 @@ void write_realtime(const Image& image, const Version& version, ByteWriter& writ
   }
 }
 
-void write_robot_state(const Image& image, const Version& version, bool whole, ByteWriter& writer) {
+void write_robot_state(const Image& image, const Version& version, const DhTable& dh, bool whole,
+                       ByteWriter& writer) {
   const std::size_t at = writer.size();
   writer.u32(0);
   writer.i8(static_cast<std::int8_t>(StateType::kRobotState));
   write_mode(image, version, writer);
   write_joints(image, writer);
   write_cartesian(image, version, writer);
-  if (whole && version.at_least(3, 6)) write_kinematics(writer);
+  if (whole && version.at_least(3, 6)) write_kinematics(dh, writer);
   if (whole) write_configuration(writer);
   write_masterboard(image, version, writer);
   write_tool(image, writer);
@@ -172,15 +181,14 @@ void write_robot_state(const Image& image, const Version& version, bool whole, B
   writer.set_u32(at, writer.size() - at);
 }
 
-void write_kinematics(ByteWriter& writer) {
+void write_kinematics(const DhTable& dh, ByteWriter& writer) {
   const std::size_t at = begin_part(StatePart::kKinematics, writer);
-  // A checksum of each joint's parameters, made up: the kinematics are not calibrated.
-  for (std::uint32_t i = 0; i < 6; ++i) writer.u32(0x10c30000u + i);
-  put_zeros(6, writer);
-  put(kDh.a, writer);
-  put(kDh.d, writer);
-  put(kDh.alpha, writer);
-  writer.u32(0);  // not calibrated
+  for (std::size_t i = 0; i < 6; ++i) writer.u32(checksum(dh, i));
+  put(dh.theta, writer);
+  put(dh.a, writer);
+  put(dh.d, writer);
+  put(dh.alpha, writer);
+  writer.u32(dh.calibrated ? kLinearised : kNotCalibrated);
   end_part(at, writer);
 }
 

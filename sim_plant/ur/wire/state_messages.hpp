@@ -9,11 +9,13 @@ namespace tactus::ur {
 void write_realtime(const Image& image, const Version& version, ByteWriter& writer);
 
 /// Writes the state of the robot for ports 30001 and 30002, ten times a second. `whole`: includes
-/// the parts that do not change, for a client that has just connected.
-void write_robot_state(const Image& image, const Version& version, bool whole, ByteWriter& writer);
+/// the parts that do not change, for a client that has just connected; `dh` is what it tells of the
+/// kinematics.
+void write_robot_state(const Image& image, const Version& version, const DhTable& dh, bool whole,
+                       ByteWriter& writer);
 
 /// Write the parts of the state that describe the arm: kinematics; limits and type.
-void write_kinematics(ByteWriter& writer);
+void write_kinematics(const DhTable& dh, ByteWriter& writer);
 void write_configuration(ByteWriter& writer);
 
 /// Begins a part of a robot state; end_part() writes its length.
