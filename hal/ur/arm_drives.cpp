@@ -53,6 +53,11 @@ void ArmDrives::close() {
   dashboard_.close();
 }
 
+Status ArmDrives::compare_arm(const UrState& state) {
+  if (settings_->calibration == Calibration::kAny) return Status::kOk;
+  return check_calibration(robot_.calibration(), tip_distance(state), why_);
+}
+
 void ArmDrives::end_program() {
   if (end_sent_ || !session_.running()) return;
   const Message why = why_;

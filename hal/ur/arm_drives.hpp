@@ -33,6 +33,9 @@ class ArmDrives {
   /// Commands a running program to end, unless that was done. [any]
   void end_program();
   void close();
+  /// Compares the calibration that the primary port has told, unless the file accepts any:
+  /// hal/ur/arm_calibration.hpp. [cyclic]
+  Status compare_arm(const UrState& state);
 
   /// Takes messages of the robot, and finds a fault of enabled drives in the newest state. [cyclic]
   void watch(const UrState& state);

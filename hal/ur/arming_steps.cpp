@@ -84,7 +84,8 @@ Status ArmDrives::take_answer(bool& yes) {
 
 /// Refuses a tool or an arm that is not the one of the models, before anything is sent.
 void ArmDrives::compare_tool(const UrState& state) {
-  const Status status = check_before_program(given_, state, settings_->tip_tolerance, why_);
+  Status status = check_before_program(given_, state, settings_->tip_tolerance, why_);
+  if (status == Status::kOk) status = compare_arm(state);
   if (status == Status::kOk)
     enter(DrivePhase::kRegister);
   else

@@ -97,12 +97,17 @@ Tips tips_of(const UrState& state, const Pose& tcp) {
   return tips;
 }
 
+Message apart(const Tips& tips) {
+  Message text;
+  text << rounded(tips.distance_m) << " m and " << rounded(tips.angle_rad) << " rad";
+  return text;
+}
+
 void describe(const Tips& tips, double tip_tolerance_m, Message& why) {
   why = Message("the controller has the tip at ");
   why << place(tips.said.p) << ", the model of a " << Robot::kName << " at " << place(tips.model.p)
-      << ", " << rounded(tips.distance_m) << " m and " << rounded(tips.angle_rad)
-      << " rad apart; limits " << tip_tolerance_m << " m ([ur] tip_tolerance) and " << kTipAngle_rad
-      << " rad";
+      << ", " << apart(tips) << " apart; limits " << tip_tolerance_m
+      << " m ([ur] tip_tolerance) and " << kTipAngle_rad << " rad";
 }
 
 /// The difference may be a TCP that the controller software does not report.
@@ -120,7 +125,7 @@ Status check_tip(const UrState& state, const Tcp& tcp, double tip_tolerance_m, M
   if (tips.distance_m <= tip_tolerance_m && tips.angle_rad <= kTipAngle_rad) return Status::kOk;
   describe(tips, tip_tolerance_m, why);
   if (tcp.known)
-    why << "; is the arm a UR10 of a CB3, and its calibration right?";
+    why << "; is the arm a UR10 of a CB3? Its own calibration is taken by scripts/robot-calibrate";
   else
     suggest_tip(tips, why);
   return tcp.known ? Status::kMismatch : Status::kMissingKey;
@@ -145,6 +150,11 @@ Status check_before_program(const Tool& given, const UrState& state, double tip_
   const Tcp tcp = reported(state);
   if (gives_tcp(given) && !tcp.known) return Status::kOk;  // it is known when the program runs
   return check_tip(state, tcp, tip_tolerance_m, why);
+}
+
+Message tip_distance(const UrState& state) {
+  const Tcp tcp = reported(state);
+  return tcp.known && state.running() ? apart(tips_of(state, tcp.frame)) : Message();
 }
 
 Status check_with_program(const Tool& given, const UrState& state, double tip_tolerance_m,

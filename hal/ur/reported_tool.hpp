@@ -30,6 +30,10 @@ inline bool gives_tcp(const Tool& given) {
 Status check_before_program(const Tool& given, const UrState& state, double tip_tolerance_m,
                             Message& why);
 
+/// Returns how far the reported tip is from the computed one, with the TCP that the controller
+/// reports; empty if it reports none, or the arm has no power. [cyclic]
+Message tip_distance(const UrState& state);
+
 /// Compares the tip while the program, which has set the TCP if `given` has it, runs. kMissingKey,
 /// kMismatch. [cyclic]
 Status check_with_program(const Tool& given, const UrState& state, double tip_tolerance_m,

@@ -18,6 +18,7 @@ Status RobotPort::connect(const char* address, int port, const Deadline& deadlin
   unsent_ = {};
   broken_ = false;
   exception_ = Message();
+  calibration_ = {};
   forget_stop();
   const Status status = socket_.connect(address, port, deadline, why);
   if (status != Status::kOk) why << "; the robot answers at rtde_port, so check primary_port";
@@ -61,12 +62,27 @@ void RobotPort::receive() {
 void RobotPort::take(const Packet& packet) {
   ByteReader in(packet.data, packet.size);
   in.i32();
-  if (in.i8() != static_cast<std::int8_t>(StateType::kRobotMessage)) return;
+  const auto state = static_cast<StateType>(in.i8());
+  if (state == StateType::kRobotState) take_state(in);
+  if (state != StateType::kRobotMessage) return;
   in.u64();  // time stamp
   in.i8();   // source
   const auto type = static_cast<MessageType>(in.u8());
   if (type == MessageType::kErrorCode) take_stop(in);
   if (type == MessageType::kRuntimeException) take_exception(in);
+}
+
+/// A part is at least as long as its head, so the packet bounds their number.
+void RobotPort::take_state(ByteReader& parts) {
+  constexpr std::uint32_t kHead = 5;
+  while (parts.left() >= kHead) {
+    const std::uint32_t size = parts.u32();
+    const auto part = static_cast<StatePart>(parts.u8());
+    if (size < kHead) return;
+    const std::string_view body = parts.text(size - kHead);
+    if (part == StatePart::kKinematics)
+      calibration_.take({reinterpret_cast<const std::uint8_t*>(body.data()), body.size()});
+  }
 }
 
 void RobotPort::take_stop(ByteReader& body) {

@@ -1,9 +1,9 @@
-// RobotPort: the primary port, 30001. It uploads the program and receives the reason why the robot
-// has stopped or does not run the program.
+// RobotPort: the primary port, 30001. It uploads the program and receives the calibration of the
+// arm and the reason why the robot has stopped or does not run the program.
 #pragma once
 
 #include "hal/net/socket.hpp"
-#include "hal/ur/protocol.hpp"
+#include "hal/ur/arm_calibration.hpp"
 
 namespace tactus::ur {
 
@@ -32,6 +32,8 @@ class RobotPort {
   std::uint32_t stop_code() const { return stop_code_; }
   /// Line, column and text of the newest runtime exception; empty if there was none. [any]
   const Message& exception() const { return exception_; }
+  /// That which was told last in this connection. [any]
+  const ArmCalibration& calibration() const { return calibration_; }
 
   void close() { socket_.close(); }
   bool connected() const { return socket_.connected(); }
@@ -42,6 +44,7 @@ class RobotPort {
   static constexpr std::size_t kMostBytes = 4096;
 
   void take(const Packet& packet);
+  void take_state(ByteReader& parts);
   void take_stop(ByteReader& body);
   void take_exception(ByteReader& body);
 
@@ -49,6 +52,7 @@ class RobotPort {
   StateFrames frames_;
   std::string_view unsent_;
   Message stop_, exception_;
+  ArmCalibration calibration_;
   std::uint32_t stop_code_ = 0;
   bool broken_ = false;
 };

@@ -1,6 +1,7 @@
 // UrHal: the cycle, then connecting and disconnecting.
 #include "hal/ur/ur_hal.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include "hal/ur/flange_wrench.hpp"
@@ -148,7 +149,8 @@ Status UrHal::open(CommandMode mode) {
   TRY(check_sensor());
   TRY(await_state(deadline));
   TRY(check_arm());
-  return drives_.connect(deadline);
+  TRY(drives_.connect(deadline));
+  return await_calibration(deadline);
 }
 
 Status UrHal::check_rate() {
@@ -182,6 +184,19 @@ Status UrHal::await_state(const Deadline& deadline) {
   why_ = Message("RTDE: no data package within ");
   why_ << deadline.whole_ms() << " ms; check the network or raise connect_ms";
   return Status::kBusTimeout;
+}
+
+/// A controller tells it within a second; the state is received meanwhile.
+Status UrHal::await_calibration(const Deadline& deadline) {
+  if (settings_->calibration == Calibration::kAny) return Status::kOk;
+  RobotPort& robot = drives_.robot();
+  while (robot.connected() && !robot.calibration().told && deadline.left_ns() > 0) {
+    robot.wait(std::min<std::int64_t>(deadline.left_ns(), std::int64_t{1000} * period_us_));
+    robot.receive();
+    int count = 0;
+    TRY(session_.receive(state_, count, why_));
+  }
+  return drives_.compare_arm(state_);
 }
 
 /// If the negative count does not arrive, the program brakes because no set-points arrive.

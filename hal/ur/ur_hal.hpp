@@ -31,7 +31,7 @@ class UrHal final : public Hal, public Clock {
   /// Connects and waits for the first state, in all no longer than `connect_ms`. kNotOffered,
   /// kBadValue, kConnectionLost, kBusTimeout, kRefusedByRobot, kRegistersInUse, kWireFormat;
   /// kMissingKey, kMismatch: hal/ur/reported_tool.hpp, of an arm that is switched on and at rest;
-  /// trouble() has details. [init]
+  /// kMismatch: hal/ur/arm_calibration.hpp; trouble() has details. [init]
   Status connect(CommandMode mode) override;
   Status read(const CycleTime& now, RobotState& state) override;
   Status write(const RobotCommand& command) override;
@@ -60,6 +60,7 @@ class UrHal final : public Hal, public Clock {
   Status check_sensor();
   Status check_arm();
   Status await_state(const Deadline& deadline);
+  Status await_calibration(const Deadline& deadline);
   Received receive();
   Status judge_silence();
   void show(RobotState& state);

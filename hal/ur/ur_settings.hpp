@@ -38,6 +38,17 @@ constexpr const char* name(ZeroForce zero) {
   return nullptr;
 }
 
+/// The arms that are accepted: that of the program's table, or one with any calibration.
+enum class Calibration : std::uint8_t { kTable, kAny };
+
+constexpr const char* name(Calibration calibration) {
+  switch (calibration) {
+    case Calibration::kTable: return "table";
+    case Calibration::kAny: return "any";
+  }
+  return nullptr;
+}
+
 struct UrSettings {
   Value address;  ///< IPv4; must be given
   int rtde_port = 30004, primary_port = 30001, dashboard_port = 29999;
@@ -53,6 +64,7 @@ struct UrSettings {
   ZeroForce zero_force = ZeroForce::kOff;  ///< zero the sensor when arming (e-Series)
   OnProtectiveStop on_protective_stop = OnProtectiveStop::kRefuse;
   OnPowerOff on_power_off = OnPowerOff::kRefuse;
+  Calibration calibration = Calibration::kTable;
   double tip_tolerance = 0.01;  ///< largest distance of the reported from the computed tip, m
 
   template <class Visitor>
@@ -73,6 +85,7 @@ struct UrSettings {
     visit.choice("zero_force", zero_force);
     visit.choice("on_protective_stop", on_protective_stop);
     visit.choice("on_power_off", on_power_off);
+    visit.choice("calibration", calibration);
     visit.param("tip_tolerance", tip_tolerance, Range{1e-4, 0.1}, "m");
   }
 };

@@ -3,8 +3,8 @@
 // Kinematics: the manufacturer's DH table in its URDF form, as in Universal_Robots_ROS2_Description
 // 2.4.5, config/ur10/default_kinematics.yaml, without its rounding errors of 1e-9. The base is the
 // frame `base` of the controller; ROS's base_link is that frame turned by pi about z. The flange is
-// frame 6 of the DH table, which ROS calls tool0. A real arm has its own calibration, which differs
-// by some millimetres at the flange.
+// frame 6 of the DH table, which ROS calls tool0. A real arm has a calibration of its own
+// (scripts/robot-calibrate).
 //
 // Inertias: the same package, config/ur10/physical_parameters.yaml, given there in DH axes and
 // turned here into the axes of the joint frames.
@@ -24,6 +24,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "kernel/robots/robot_table.hpp"
 
@@ -32,6 +33,8 @@ namespace tactus {
 struct Ur10 {
   static constexpr int kDof = 6;
   static constexpr const char* kName = "ur10";
+  /// The controller's checksums of its joints' kinematics; none: the nominal arm.
+  static constexpr std::array<std::uint32_t, kDof> kCalibration = {};
 
   static constexpr std::array<const char*, kDof> kJointNames = {
       "shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint",

@@ -1,8 +1,29 @@
 """The texts of a robot's files, by their paths."""
 
+import pathlib
+import shutil
+import subprocess
+
 import numpy as np
 
+from errors import Refused
 from text import comment, direction, euler, number, plain, quaternion, quoted, row, rows_of, tensor_row
+
+
+def write(files, root, force):
+    """Writes texts by their paths, formatted; nothing if one exists."""
+    taken = [path for path in files if (root / path).exists()]
+    if taken and not force:
+        raise Refused(f"{root / taken[0]} exists; give --force to replace the robot's files, or another --name")
+    style = pathlib.Path(__file__).resolve().parents[2] / ".clang-format"
+    for path, text in files.items():
+        if path.endswith("pp") and shutil.which("clang-format"):
+            command = ["clang-format", f"--style=file:{style}", f"--assume-filename={path}"]
+            text = subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+        if path in taken and (root / path).read_text() == text:
+            continue  # so that nothing is compiled anew
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text)
 
 
 def frame(each):

@@ -220,6 +220,7 @@ void an_arm_is_compared_when_it_has_power(void**) {
   settings.dh = kDhOfUr10e;
   UrArmBench& bench = arm_with(nothing(), settings);
   bench.settings.on_power_off = OnPowerOff::kPowerOn;
+  bench.settings.calibration = Calibration::kAny;
   ASSERT_OK(bench.executive.start());
   const Vector6 q = bench.hal.state().q;
   ASSERT_STATUS(arm(bench), Status::kMismatch);
@@ -234,6 +235,7 @@ void with_the_tcp_of_the_program_the_tip_is_compared_before_motion(void**) {
   ASSERT_OK(start(arm_with(short_handle(), settings)));
   settings.dh = kDhOfUr10e;
   UrArmBench& bench = arm_with(short_handle(), settings);
+  bench.settings.calibration = Calibration::kAny;
   ASSERT_OK(bench.executive.start());
   const Vector6 q = bench.hal.state().q;
   ASSERT_STATUS(arm(bench), Status::kMismatch);
@@ -258,9 +260,11 @@ void the_tolerance_is_that_of_the_file(void**) {
   Settings settings;
   settings.initial_q << 0.0, -kHalfPi, kHalfPi, -kHalfPi, -kHalfPi, 0.0;
   settings.dh.a[1] -= 0.009;
-  ASSERT_OK(start(arm_with(nothing(), settings)));
+  arm_with(nothing(), settings).settings.calibration = Calibration::kAny;
+  ASSERT_OK(start(*g_arm));
   settings.dh.a[1] -= 0.002;
   UrArmBench& bench = arm_with(nothing(), settings);
+  bench.settings.calibration = Calibration::kAny;
   ASSERT_STATUS(start(bench), Status::kMismatch);
   bench.settings.tip_tolerance = 0.012;
   ASSERT_OK(start(bench));

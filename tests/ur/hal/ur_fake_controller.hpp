@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "sim_plant/ur/wire/state_messages.hpp"
 #include "tests/ur/hal/ur_fake_image.hpp"
 
 namespace tactus::ur {
@@ -82,6 +83,16 @@ class FakeController {
     out.set_u32(0, out.size());
     listeners_[1].send(out.data(), out.size());
   }
+  void tell_kinematics() {
+    std::array<std::uint8_t, 256> bytes;
+    ByteWriter out(bytes.data(), bytes.size());
+    out.u32(0);
+    out.i8(16);
+    write_kinematics(faults.kinematics, out);
+    out.set_u32(0, out.size());
+    out.set_u32(5, faults.kinematics_length);
+    listeners_[1].send(out.data(), out.size());
+  }
   void drop_rtde() { drop(0); }
   void drop_primary() { drop(1); }
   void drop_dashboard() { drop(2); }
@@ -133,6 +144,7 @@ class FakeController {
         started_ = false;
         protocol_ = 1;
       }
+      if (i == 1) tell_kinematics();
       if (i == 2) made_in_local_ = faults.local;
       if (i == 2 && !faults.silent_dashboard)
         listener.say("Connected: Universal Robots Dashboard Server\n");

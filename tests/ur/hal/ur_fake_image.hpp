@@ -64,8 +64,10 @@ struct FakeFaults {
   bool local = false;         ///< an e-Series that is not in remote control
   bool does_nothing = false;  ///< the dashboard says yes
   bool uses_no_set_points = false;
-  std::size_t dribbling_port = 3;  ///< 0 RTDE, 1 primary, 2 dashboard: one byte in 2 ms
-  int begins_late = 0;             ///< packages until a program runs
+  std::size_t dribbling_port = 3;       ///< 0 RTDE, 1 primary, 2 dashboard: one byte in 2 ms
+  int begins_late = 0;                  ///< packages until a program runs
+  DhTable kinematics;                   ///< that it tells on the primary port
+  std::size_t kinematics_length = 225;  ///< 0: it cannot be read
 };
 
 /// The program on the robot, as far as the state shows it.
