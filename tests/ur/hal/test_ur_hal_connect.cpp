@@ -61,7 +61,7 @@ void a_reset_and_silence_in_any_phase_are_named(void**) {
       FakeFaults faults;
       (silent ? faults.silent_at : faults.reset_at) = row.type;
       Message reason("phase ");
-      reason << row.phase << (silent ? ": no reply within 300 ms" : ": the connection was closed");
+      reason << row.phase << (silent ? ": no reply within 1000 ms" : ": the connection was closed");
       refuses(faults, silent ? Status::kBusTimeout : Status::kConnectionLost, reason.c_str());
     }
 }

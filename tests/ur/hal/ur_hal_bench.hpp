@@ -47,7 +47,8 @@ struct UrArmBench {
       std::abort();
     }
     settings.address = Value("127.0.0.1");
-    settings.connect_ms = settings.program_ms = settings.power_ms = 300;
+    settings.connect_ms = 1000;  // however busy the host is
+    settings.program_ms = settings.power_ms = 300;
   }
 
   Status run_cycle() {
