@@ -205,10 +205,43 @@ void ChunkPlan<Space>::fade_in(double before_s, double lasts_s, const Point& ref
   jump_s_ = before_s;
   seam_ = jump_.x.cwiseAbs().maxCoeff();
   fade_s_ = fades ? std::min(now().chunk->fade_s, lasts_s) : 0.0;
+  const double least_s = fade_s_;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
-  if (fade_s_ > lasts_s) fade_s_ = 0.0;
-  bounded_ = fade_s_ == 0.0 && lasts_s < kInfinity;
+  const bool strays = fade_s_ > least_s && !stops_ && this->strays(reference, limits);
+  if (fade_s_ > lasts_s || strays) fade_s_ = 0.0;
+  bounded_ = fade_s_ == 0.0 && (lasts_s < kInfinity || strays);
   if (bounded_) bound(reference, limits);
+}
+
+/// True if the base, while the difference fades, would leave what the knots ahead and the way in
+/// which the reference can stop span, and a little more. Looks at some of the knots.
+template <class Space>
+bool ChunkPlan<Space>::strays(const Point& reference, const Limits& limits) const {
+  constexpr int kLooks = 32;
+  constexpr double kMore = 0.1, kLeast = 1e-3;
+  constexpr double kFarthest = 1.0 / 3.0;  // of the time, of a difference of velocities
+  using Way = decltype(jump_.x);
+  const ChunkCurve<Space>& chunk = *now().chunk;
+  const Way stop = Space::difference(Space::rest_of(reference, limits), reference).x;
+  Way lowest = stop.cwiseMin(0.0), highest = stop.cwiseMax(0.0);
+  Way least = Way::Zero(), most = Way::Zero();
+  const int first = std::max(target_, 0), step = (chunk.count - first + kLooks - 1) / kLooks;
+  LoopBound<kLooks> looks;
+  for (int i = chunk.count - 1; i >= first; i -= step) {
+    looks.tick();
+    const Way way = Space::difference(now().knot(i), reference).x;
+    lowest = lowest.cwiseMin(way);
+    highest = highest.cwiseMax(way);
+    const double after_s = now().zero_s + chunk.knots[static_cast<std::size_t>(i)].time_s - jump_s_;
+    // The curve rests at its last knot while what is left goes farthest.
+    const double x = std::max(after_s / fade_s_, i == chunk.count - 1 ? kFarthest : 0.0);
+    if (!(x < 1.0)) continue;
+    const Way base = way + faded(jump_, x, fade_s_).x;
+    least = least.cwiseMin(base);
+    most = most.cwiseMax(base);
+  }
+  const Way more = (kMore * (highest - lowest)).array() + kLeast;
+  return !((least - lowest + more).minCoeff() >= 0.0 && (highest + more - most).minCoeff() >= 0.0);
 }
 
 /// Takes the places of the reference, of where it can stop and of the knots ahead, and a little

@@ -7,7 +7,9 @@
 // come, the state-to-state law brings its rate to zero at the last knot, so that the base never
 // turns back. At a seam, the difference of the commanded position, velocity and acceleration from
 // those of the new curve fades by a quintic in the chunk's time, or in the longer one that keeps
-// half of every limit free.
+// half of every limit free. One whose fade would stray from where the targets are, as it does from
+// a curve that passes the seam faster than the limits allow, is no part of the base: the reference
+// approaches the curve within the limits.
 //
 // Digital outputs of the targets keep time with path time: they stop where it stops.
 #pragma once
@@ -127,6 +129,7 @@ class ChunkPlan {
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
   void bound(const Point& reference, const Limits& limits);
+  bool strays(const Point& reference, const Limits& limits) const;
   void fade_in(double before_s, double lasts_s, const Point& reference, const Point& base,
                const Limits& limits, bool fades);
 

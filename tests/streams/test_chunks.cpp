@@ -246,6 +246,43 @@ void a_near_first_target_is_met_at_its_stamp(void**) {
   ASSERT_NEAR(bench.way_now(), 1e-4, 1e-9);
 }
 
+// Proves RG-40.
+
+/// Of each chunk the first targets are those of the plan before, and the others are on either side
+/// in turn: steps that no arm can follow, and seams in the middle of them.
+template <class Space>
+void steps_behind_a_prefix(double period_s) {
+  constexpr double kSpacing_s = 1.0 / 30.0;
+  constexpr int kCount = 20, kSteps = 500;
+  Dice dice{17};
+  for (const double side : {0.015, 0.06, 0.2}) {
+    ChunkBench<Space> bench(period_s);
+    std::array<double, kSteps> plan{};
+    double farthest = 0.0;
+    for (int i = 0, wait = 0; bench.now_s() < 12.0; --wait) {
+      bench.cycle();
+      farthest = std::max(farthest, std::abs(bench.way_now()));
+      if (wait > 0) continue;
+      wait = bench.cycles(dice.uniform(0.15, 0.3));
+      const int first = static_cast<int>(bench.now_s() / kSpacing_s) + 1;
+      const double to = ++i % 2 == 0 ? side : -side;
+      std::fill(plan.begin() + first + 8, plan.begin() + first + kCount, to);
+      bench.send_targets(first * kSpacing_s, kSpacing_s, kCount, [&](double t) {
+        return plan[static_cast<std::size_t>(t / kSpacing_s + 0.5)];
+      });
+    }
+    assert_true(farthest > 0.5 * side);
+    if (!(farthest < 1.3 * side + 0.03)) print_error("%g of %g\n", farthest, side);
+    assert_true(farthest < 1.3 * side + 0.03);
+  }
+}
+void steps_that_nothing_can_follow_do_not_lead_away(void**) {
+  for (const double period_s : {1e-3, 8e-3}) {
+    steps_behind_a_prefix<JointSpace>(period_s);
+    steps_behind_a_prefix<TaskSpace>(period_s);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -259,6 +296,7 @@ int main() {
       cmocka_unit_test(disagreement_costs_little_jerk),
       cmocka_unit_test(relative_targets_count_from_the_observation),
       cmocka_unit_test(a_near_first_target_is_met_at_its_stamp),
+      cmocka_unit_test(steps_that_nothing_can_follow_do_not_lead_away),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
