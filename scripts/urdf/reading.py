@@ -285,6 +285,9 @@ def read_chain(document, base, tip, shapes_of):
     """Returns the chain of the URDF from base to tip."""
     base, tip = document.ends(base, tip)
     moving = [name for name in document.path_to(base, tip) if not document.is_fixed(name)]
+    if len(moving) == 3:
+        raise Refused(f"3 joints move between {base} and {tip}; such an arm cannot be built: its joint vectors would be of the type of points;"
+                      " hold one by --fix, or describe one more")
     if not 1 <= len(moving) <= MOST_JOINTS:
         raise Refused(f"{len(moving)} joints move between {base} and {tip} ({', '.join(moving)}); an arm has 1 to {MOST_JOINTS}: give"
                       " other ends by --base and --tip, or hold joints by --fix")

@@ -53,7 +53,7 @@ def in_quarters(angle):
 
 def roll_of(before, axis):
     """Returns quarter turns and tilt from a frame to a frame whose z is the axis, or None."""
-    if abs(before[:, 0] @ axis) > SAME:
+    if abs(before[:, 0] @ axis) > 2.0 * SAME:
         return None
     return in_quarters(math.atan2(-before[:, 1] @ axis, before[:, 2] @ axis))
 
@@ -74,7 +74,8 @@ def x_axis(x, axis, following):
     """Returns x of the frame about `axis`: perpendicular to the axis that follows, as near to the given x as it can be."""
     across = np.cross(axis, following)
     if np.linalg.norm(across) < SAME:
-        return x
+        across = x
+    across = across - across @ axis * axis  # of nearly parallel axes the rounding is as large
     across /= np.linalg.norm(across)
     return across if across @ x > -SAME else -across
 
@@ -92,7 +93,8 @@ def table_of(chain):
         roll = roll_of(before[:3, :3], axes[i])
         if roll is None:  # of the first joint only: the x of every other frame is chosen for the axis that follows
             raise Refused(f"joint {joint.name}: its axis is at {angle_between(axes[i], np.array(X)):.6g} degrees to x of {chain.base} and at"
-                          f" {angle_between(axes[i], Z):.6g} to z; that of the first joint is perpendicular to x of the base; give another --base")
+                          f" {angle_between(axes[i], Z):.6g} to z; that of the first joint is perpendicular to x of the base; give another"
+                          " --base, or add one: a root link to which this is fixed with an <origin> that turns it")
         x = before[:3, 0]
         x_next = tip[:3, 0] if i + 1 == len(axes) else x_axis(x, axes[i], axes[i + 1])
         if abs(x_next @ axes[i]) > SAME:

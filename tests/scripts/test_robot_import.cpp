@@ -95,6 +95,7 @@ constexpr Refusal kRefusals[] = {
      "joint joint3: <limit> has no velocity; give it as --limit joint3.velocity=VALUE, m/s"},
     {"/\"joint3\"/s/$/<mimic joint=\"joint2\"\\/>/", "", "joint joint3, mimic: "},
     {"", "--tip link4", "joint joint5, type revolute: it moves, and is not between base and tip"},
+    {"", "--fix joint4 --fix joint5 --fix joint6", "3 joints move between base and hand; such"},
     {"", "--tip nowhere", "--tip nowhere: the URDF has no such link; it has base, link1"},
     {kTwoEnds, "", "2 links carry nothing: hand, end; give the end of the chain as --tip"},
     {kClosed, "", "joint bar: link link4 is already the child of joint joint4; a closed chain"},

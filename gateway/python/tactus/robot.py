@@ -7,12 +7,13 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .arguments import real
+from .arguments import number, real
 from .arm import Arm, connect
 from .errors import Stopped
 from .protocol import Phase
 from .streams import Chunks, Stream
 
+_AT_REST = 0.05  # rad/s or m/s
 _OBSERVED = ("q", "dq", "tau", "q_d", "dq_d", "pose", "pose_d", "wrench", "margin_s", "stamp_ns")
 
 
@@ -32,7 +33,7 @@ class Robot:
     ):
         """address, settings -- as of `tactus.connect`; rate_hz, relative_to -- as of `Arm.chunks`. Connects to nothing."""
         self._address, self._settings = address, settings
-        self._chunks = dict(rate_hz=rate_hz, relative_to=relative_to)
+        self._chunks = dict(rate_hz=number("rate_hz", rate_hz, 1e-3, 1e6), relative_to=relative_to)
         self._arm: Arm | None = None
         self._references: Chunks | Stream | None = None
         self._observed_ns: int | None = None
@@ -79,17 +80,26 @@ class Robot:
             self._references.settle()
 
     def rest(self, within_s: float = 5.0) -> None:
-        """Waits until the arm rests on the last target, or another moves it; after `within_s` cancels what still runs."""
+        """Waits until the arm rests on the last target, or another moves it; after `within_s` cancels what still runs.
+
+        An arm that still moves a second after its reference has come to rest is not waited for.
+        """
         if self._references is None:
             return
         self.settle()
-        end, epoch = time.monotonic() + within_s, self.arm.state().epoch
+        end_s, epoch = time.monotonic() + within_s, self.arm.state().epoch
+        held_s = math.inf
         for state in self.arm.watch():
-            if state.phase == Phase.HOLDING or state.epoch != epoch:
+            now_s = time.monotonic()
+            if state.epoch != epoch:
                 return
-            if time.monotonic() > end:
+            if state.phase == Phase.HOLDING:
+                held_s = min(held_s, now_s)
+                if np.abs(state.dq).max() < _AT_REST or now_s > held_s + 1.0:
+                    return
+            elif now_s > end_s:
                 self.arm.cancel()
-                end, epoch = math.inf, self.arm.state().epoch
+                end_s, epoch = math.inf, self.arm.state().epoch
 
     def observe(self) -> dict[str, NDArray[Any]]:
         """Returns the latest state; what the pipeline does not have is left out.

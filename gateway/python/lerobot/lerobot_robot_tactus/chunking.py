@@ -10,6 +10,7 @@ import collections
 import math
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .robot import TactusRobot
@@ -59,6 +60,9 @@ class RealTimeChunking:
         targets -- [n, joints] rad
         actions -- the same as the policy gave them, n rows to be handed back; None: the targets
         """
+        targets = np.array(targets, float)
+        if targets.ndim != 2 or (actions is not None and len(actions) != len(targets)):
+            raise ValueError(f"targets {targets.shape} of {'no' if actions is None else len(actions)} actions; expected [n, joints], n alike")
         with self._robot.connection() as robot:
             robot.act(targets, observed_ns=round(self.first_ns))
         self._sent = self.first_ns, targets if actions is None else actions

@@ -74,8 +74,11 @@ class TactusRobot(Robot):
     @functools.cached_property
     def _joints(self) -> dict[str, tactus.Joint]:
         """The joints by feature. LeRobot asks for features before it connects: then the server is asked for them."""
-        with self._open() if self._robot is None else contextlib.nullcontext(self._robot) as robot:
-            return {f"{joint.name}.pos": joint for joint in robot.arm.robot.joints}
+        try:
+            with self._open() if self._robot is None else contextlib.nullcontext(self._robot) as robot:
+                return {f"{joint.name}.pos": joint for joint in robot.arm.robot.joints}
+        except tactus.Lost as error:
+            raise DeviceNotConnectedError(f"{self}: {error}") from error
 
     @property
     def observation_features(self) -> dict[str, Any]:
