@@ -145,15 +145,12 @@ struct Refusal {
 };
 
 constexpr Refusal kRefusals[] = {
-    {"/theta/d", "--force", "changed.txt: 'theta'; expected are six numbers of each of theta, a"},
-    {"s/^d .*/d = 1 2 x/", "--force",
-     "changed.txt: could not convert string to float: 'x'; expected are six"},
-    {"s/0x/0x1/", "--force", " requires 0 <= number <= 4294967295; expected are six numbers"},
-    {"s/^a .*/a = nan 0 0 0 0 0/", "--force",
-     "changed.txt: a of joint 1 is nan, which is not finite"},
+    {"/theta/d", "--force", "changed.txt: its crc32 is not that of the lines above, which were"},
+    {"/crc32/d", "--force", "changed.txt: its crc32 is not that of the lines above, which were"},
+    {"/crc32/s/=.*/= x/", "--force", "changed.txt: invalid literal for int() with base 16: 'x"},
     {"", "", "ur10_left.hpp exists; give --force to replace the robot's files, or another --name"},
-    {"", "--force --save $S/ur10_left.txt --name ur10_more",
-     "ur10_left.txt exists; give another --save"},
+    {"", "--save $S/ur10_left.txt --name ur10_more", "ur10_left.txt exists; give another --save"},
+    {"", "--port 70000", "--port 70000: 1 to 65535"},
     {"", "--force --name ur10_mine", "ur10_mine.hpp exists and is not of this script; choose"},
     {"", "--force --name ur10_capsules", "--name ur10_capsules: ur10_ and small letters and"},
     {"", "--force --name ../ur10_x", "--name ../ur10_x: ur10_ and small letters and digits"},
