@@ -41,7 +41,7 @@ bool ArmCalibration::take(ByteReader body) {
   taken.told = true;
   for (std::uint32_t& sum : taken.checksums) sum = body.u32();
   for (double& parameter : taken.parameters) parameter = body.f64();
-  body.u32();  // status: an arm that was not calibrated has the parameters of its type
+  taken.in_force = body.u32() == kLinearised;
   if (!body.done()) return false;
   *this = taken;
   return true;
@@ -66,8 +66,11 @@ Status check_calibration(const ArmCalibration& calibration, const Message& off, 
   why = Message("the arm has a calibration of its own, and this program the table of ");
   why << (is_nominal() ? "the nominal UR10" : "another arm");
   if (!off.empty()) why << ": the tip is " << off << " from where the table has it";
-  why << "; scripts/robot-calibrate --address ADDRESS --name ur10_NAME writes the table and the"
-         " board of this arm; or [ur] calibration = any takes it as it is";
+  if (calibration.in_force)
+    why << "; scripts/robot-calibrate --address ADDRESS --name ur10_NAME writes the table and the"
+           " board of this arm; or [ur] calibration = any takes it as it is";
+  else
+    why << ", but none in force; [ur] calibration = any takes it as it is";
   return Status::kMismatch;
 }
 

@@ -17,7 +17,7 @@ namespace tactus::ur {
 
 /// A kinematics part of the robot's state. Not told: the checksums are zero, and fit no arm.
 struct ArmCalibration {
-  bool told = false;
+  bool told = false, in_force = false;
   std::array<std::uint32_t, 6> checksums{};
   std::array<double, 24> parameters{};  ///< theta, a, d, alpha of six joints: rad, m, m, rad
 

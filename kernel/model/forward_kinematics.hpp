@@ -24,30 +24,12 @@ struct FrameAxes {
 template <class X, class Y, class Z>
 FrameAxes(X, Y, Z) -> FrameAxes<X, Y, Z>;
 
-/// Returns R RotX(k pi/2).
-template <int k, class X, class Y, class Z>
-auto quarter_turns(const FrameAxes<X, Y, Z>& r) {
-  if constexpr (k == 0) {
-    return r;
-  } else if constexpr (k == 1) {
-    return FrameAxes{r.x, r.z, -r.y};
-  } else if constexpr (k == -1) {
-    return FrameAxes{r.x, -r.z, r.y};
-  } else {
-    return FrameAxes{r.x, -r.y, -r.z};
-  }
-}
-
-/// Returns R RotX(roll_i).
+/// Returns R RotX(roll_i): the columns are exchanged and turned as the components of a vector by
+/// the inverse.
 template <class R, int i, class A>
 auto rolled_axes(const A& r) {
-  const auto u = quarter_turns<joint_frame<R, i>().roll_quarter_turns>(r);
-  if constexpr (joint_frame<R, i>().tilt == 0.0) {
-    return u;
-  } else {
-    constexpr SinCos kTilt = tilt<R, i>();
-    return FrameAxes{u.x, kTilt.cos * u.y + kTilt.sin * u.z, kTilt.cos * u.z - kTilt.sin * u.y};
-  }
+  const auto u = rolled_back<R, i>(TypedVector{r.x, r.y, r.z});
+  return FrameAxes{u.x, u.y, u.z};
 }
 
 /// Returns R RotZ(q).

@@ -207,7 +207,7 @@ void ChunkPlan<Space>::fade_in(double before_s, double lasts_s, const Point& ref
   fade_s_ = fades ? std::min(now().chunk->fade_s, lasts_s) : 0.0;
   const double least_s = fade_s_;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
-  const bool strays = fade_s_ > least_s && !stops_ && this->strays(reference, limits);
+  const bool strays = fade_s_ > least_s && !stops_ && fade_strays(reference, limits);
   if (fade_s_ > lasts_s || strays) fade_s_ = 0.0;
   bounded_ = fade_s_ == 0.0 && (lasts_s < kInfinity || strays);
   if (bounded_) bound(reference, limits);
@@ -216,7 +216,7 @@ void ChunkPlan<Space>::fade_in(double before_s, double lasts_s, const Point& ref
 /// True if the base, while the difference fades, would leave what the knots ahead and the way in
 /// which the reference can stop span, and a little more. Looks at some of the knots.
 template <class Space>
-bool ChunkPlan<Space>::strays(const Point& reference, const Limits& limits) const {
+bool ChunkPlan<Space>::fade_strays(const Point& reference, const Limits& limits) const {
   constexpr int kLooks = 32;
   constexpr double kMore = 0.1, kLeast = 1e-3;
   constexpr double kFarthest = 1.0 / 3.0;  // of the time, of a difference of velocities

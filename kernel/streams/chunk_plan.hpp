@@ -129,7 +129,7 @@ class ChunkPlan {
   PathTime path_time(double now_s) const;
   Point curve(const PathTime& time) const;
   void bound(const Point& reference, const Limits& limits);
-  bool strays(const Point& reference, const Limits& limits) const;
+  bool fade_strays(const Point& reference, const Limits& limits) const;
   void fade_in(double before_s, double lasts_s, const Point& reference, const Point& base,
                const Limits& limits, bool fades);
 

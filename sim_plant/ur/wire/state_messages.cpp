@@ -1,5 +1,8 @@
 #include "sim_plant/ur/wire/state_messages.hpp"
 
+#include <functional>
+#include <string_view>
+
 namespace tactus::ur {
 namespace {
 
@@ -12,14 +15,13 @@ void put_zeros(int count, ByteWriter& writer) {
   for (int i = 0; i < count; ++i) writer.f64(0.0);
 }
 
-/// FNV-1a over the bytes of a joint's parameters: the manufacturer's own rule is not published.
+/// Returns a checksum of a joint's parameters: the manufacturer's own rule is not published.
 std::uint32_t checksum(const DhTable& dh, std::size_t joint) {
   std::array<std::uint8_t, 32> bytes;
   ByteWriter numbers(bytes.data(), bytes.size());
   put(std::array{dh.theta[joint], dh.a[joint], dh.d[joint], dh.alpha[joint]}, numbers);
-  std::uint32_t sum = 0x811c9dc5u;
-  for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x01000193u;
-  return sum;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return static_cast<std::uint32_t>(std::hash<std::string_view>()(text));
 }
 
 enum Control : std::uint8_t { kPosition = 0, kTeach = 1, kForce = 2 };

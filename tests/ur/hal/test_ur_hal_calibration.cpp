@@ -71,6 +71,7 @@ void every_arming_compares(void**) {
     bench.robot.tell_kinematics();
   });
   ASSERT_STATUS(bench.arm(), Status::kMismatch);
+  assert_true(bench.says(", but none in force; [ur] calibration = any takes it"));
   assert_int_equal(bench.robot.uploads(), 0);
   bench.settings.calibration = Calibration::kAny;
   ASSERT_OK(bench.arm());
