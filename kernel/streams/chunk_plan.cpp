@@ -207,7 +207,7 @@ void ChunkPlan<Space>::fade_in(double before_s, double lasts_s, const Point& ref
   fade_s_ = fades ? std::min(now().chunk->fade_s, lasts_s) : 0.0;
   const double least_s = fade_s_;
   if (fade_s_ > 0.0) fade_s_ = fading_time_s<Space>(jump_, limits, fade_s_);
-  const bool strays = fade_s_ > least_s && !stops_ && fade_strays(reference, limits);
+  const bool strays = fade_s_ > least_s && fade_strays(reference, limits);
   if (fade_s_ > lasts_s || strays) fade_s_ = 0.0;
   bounded_ = fade_s_ == 0.0 && (lasts_s < kInfinity || strays);
   if (bounded_) bound(reference, limits);

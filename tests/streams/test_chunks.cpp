@@ -283,6 +283,33 @@ void steps_that_nothing_can_follow_do_not_lead_away(void**) {
   }
 }
 
+/// Chunks of four targets, of which the last alone is new, every 50 ms: their plan runs out at
+/// once, and the fade of the joint that steps by more takes longer than that of the other would.
+void a_small_step_beside_a_large_one_does_not_lead_away(void**) {
+  constexpr double kSpacing_s = 1.0 / 30.0, kLarge = 0.124, kSmall = 0.02;
+  ChunkBench<JointSpace> bench(1e-3);
+  std::array<double, 500> plan{};
+  double farthest = 0.0;
+  for (int k = 0; k < bench.cycles(10.0); ++k) {
+    bench.cycle();
+    farthest = std::max(farthest, std::abs(bench.out().q[5] - bench.home.q[5]));
+    if (k % 50 != 0) continue;
+    const auto first = static_cast<std::size_t>(bench.now_s() / kSpacing_s) + 1;
+    plan[first + 3] = k % 100 == 0 ? 1.0 : -1.0;
+    bench.chunk.count = 0;
+    ++bench.chunk.sequence;
+    for (std::size_t i = first; i < first + 4; ++i) {
+      JointSpace::Point target = moved_by(bench.home, kLarge * plan[i]);
+      target.q[5] += kSmall * plan[i];
+      bench.chunk.add(static_cast<double>(i) * kSpacing_s, target);
+    }
+    bench.send_again();
+  }
+  assert_true(farthest > 0.5 * kSmall);
+  if (!(farthest < 1.3 * kSmall + 0.01)) print_error("%g of %g\n", farthest, kSmall);
+  assert_true(farthest < 1.3 * kSmall + 0.01);
+}
+
 }  // namespace
 
 int main() {
@@ -297,6 +324,7 @@ int main() {
       cmocka_unit_test(relative_targets_count_from_the_observation),
       cmocka_unit_test(a_near_first_target_is_met_at_its_stamp),
       cmocka_unit_test(steps_that_nothing_can_follow_do_not_lead_away),
+      cmocka_unit_test(a_small_step_beside_a_large_one_does_not_lead_away),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
